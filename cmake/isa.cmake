@@ -1,0 +1,25 @@
+# The instruction sets that kernels are built for.  Every unit built for one of them sees its name as SLIDEWAY_ISA,
+# the inline namespace of kernels/real.hpp, so that no two of them share a function.
+
+# `scalar` is one member per Real on a machine with AVX2 and FMA: the reference that avx2 and avx512 must meet bit for
+# bit.  `sse2` runs on every x86-64 but rounds each multiply-add twice.
+set(SLIDEWAY_ISAS scalar sse2 avx2 avx512)
+
+# slideway_isa_flags(<isa> <out_var>): compile options for a unit of that instruction set.
+function(slideway_isa_flags isa out_var)
+    set(flags -DSLIDEWAY_ISA=${isa})
+    if(isa STREQUAL "scalar" OR isa STREQUAL "avx2")
+        list(APPEND flags -mavx2 -mfma)
+    elseif(isa STREQUAL "avx512")
+        list(APPEND flags -mavx512f -mavx512dq -mavx512cd -mavx512bw -mavx512vl -mfma -mprefer-vector-width=512)
+        # g++ 12 warns about its own intrinsic headers.
+        if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+            list(APPEND flags -Wno-uninitialized -Wno-maybe-uninitialized)
+        endif()
+    elseif(isa STREQUAL "sse2")
+        list(APPEND flags -DSLIDEWAY_NO_FMA)
+    else()
+        message(FATAL_ERROR "slideway_isa_flags: unknown instruction set '${isa}' (one of: ${SLIDEWAY_ISAS})")
+    endif()
+    set(${out_var} ${flags} PARENT_SCOPE)
+endfunction()

@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# Sets up, builds and runs all tests but those labelled slow.  Exit code 0 only when everything passed.
+# The last line is `N passed, N failed`, with `, N skipped` when tests were skipped.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+cd "$root"
+exec </dev/null
+
+build=build/release
+jobs=$(nproc)
+log=$build/ctest.log
+# Threads of tests that share the cores must sleep, not spin, while they wait for each other.
+export OMP_WAIT_POLICY=passive
+
+# A failure before the first test counts as one failed test, so that the last line always tells the truth.
+stop() {
+    echo "test.sh: $1"
+    echo "0 passed, 1 failed"
+    exit 1
+}
+
+bash scripts/setup.sh || stop "the set-up failed, no test ran"
+
+SECONDS=0
+cmake --preset release --log-level=WARNING || stop "the configuration failed, no test ran"
+cmake --build "$build" --parallel "$jobs" || stop "the build failed, no test ran"
+echo "build: $SECONDS s"
+
+SECONDS=0
+code=0
+ctest --test-dir "$build" --label-exclude '^slow$' --parallel "$jobs" --timeout 600 --no-tests=error \
+    --output-on-failure | tee "$log" || code=$?
+echo "tests: $SECONDS s on $jobs cores"
+
+# ctest's summary: `P% tests passed, F tests failed out of N`, where N leaves out the disabled tests and counts the
+# skipped ones as passed; after it both are listed by name.
+summary=$(sed -n '/^[0-9]*% tests passed, /h; /^[0-9]*% tests passed, /!H; ${x;p}' "$log")
+[[ $summary =~ ^[0-9]+%\ tests\ passed,\ ([0-9]+)\ tests\ failed\ out\ of\ ([0-9]+) ]] ||
+    stop "ctest ended with code $code and without a summary"
+failed=${BASH_REMATCH[1]}
+total=${BASH_REMATCH[2]}
+skipped=$(grep -c '(Skipped)$' <<<"$summary" || true)
+disabled=$(grep -c '(Disabled)$' <<<"$summary" || true)
+
+line="$((total - failed - skipped)) passed, $failed failed"
+((skipped + disabled > 0)) && line+=", $((skipped + disabled)) skipped"
+echo "$line"
+exit "$code"
