@@ -1,0 +1,38 @@
+// The machine code of one instruction set, law and damping: compiled once per combination with its own flags and
+// names (see CMakeLists.txt here).  Nothing from the host is included, so that no unit shares code with another.
+#include "kernels/integrate.hpp"
+#include "kernels/mechanisms/probe.hpp"
+#include "kernels/mechanisms/slider_crank.hpp"
+#include "kernels/laws/conservative.hpp"
+#include "kernels/laws/paper.hpp"
+#include "host/backend/instance_table.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+namespace {
+
+#if SLIDEWAY_LANES == 8
+using Real = Batch<xsimd::avx512dq>;
+#elif SLIDEWAY_LANES == 4
+using Real = Batch<xsimd::fma3<xsimd::avx2>>;
+#elif SLIDEWAY_LANES == 2
+using Real = Batch<xsimd::sse2>;
+#else
+using Real = double;
+#endif
+
+template <class Friction, class Way> constexpr KernelInstance instance() {
+    using Model = SliderCrank<SLIDEWAY_LAW, Friction, Way, SLIDEWAY_DAMPING>;
+    return {&integrate<Model, Real>, &probe<Model, Real>};
+}
+
+}  // namespace
+}  // namespace slideway::inline SLIDEWAY_ISA
+
+namespace slideway {
+
+extern constinit InstanceTable const SLIDEWAY_TABLE = {{
+    {instance<NoFriction, AlignedWay>(), instance<NoFriction, MisalignedWay>()},
+    {instance<StickSlipFriction, AlignedWay>(), instance<StickSlipFriction, MisalignedWay>()},
+}};
+
+}  // namespace slideway

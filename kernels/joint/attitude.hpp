@@ -1,0 +1,45 @@
+#pragma once
+
+#include "kernels/math/trigonometry.hpp"
+#include "kernels/math/vec3.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// The slider's axes in some frame, and how far the Y and Z axes fall short of that frame's, without cancellation: a resting
+/// penetration of 1e-10 m keeps ten digits only so (model.md 3).
+template <class Real> struct Axes {
+    Vec3<Real> x, y, z;
+    Real y_shortfall;  // y.y − 1
+    Real z_shortfall;  // z.z − 1
+};
+
+/// Sines and cosines of roll φ, yaw ϑ and pitch ψ.
+template <class Real> struct Attitude {
+    SinCos<Real> roll, yaw, pitch;
+};
+
+template <class Real> SLIDEWAY_FN Attitude<Real> attitude(Real roll, Real yaw, Real pitch) {
+    return {sincos(roll), sincos(yaw), sincos(pitch)};
+}
+
+/// Columns of A_k = Rz(ψ) Ry(ϑ) Rx(φ) in the inertial frame.  Source: Qian et al. 2020 (3)–(4), angles as in model.md 1.
+template <class Real> SLIDEWAY_FN Axes<Real> axes(Attitude<Real> const& a) {
+    Real const& sr = a.roll.sin;
+    Real const& cr = a.roll.cos;
+    Real const& sy = a.yaw.sin;
+    Real const& cy = a.yaw.cos;
+    Real const& sp = a.pitch.sin;
+    Real const& cp = a.pitch.cos;
+    Axes<Real> e;
+    e.x = {cp * cy, sp * cy, -sy};
+    Real const sy_sr = sy * sr, sy_cr = sy * cr;
+    e.y = {fms(cp, sy_sr, sp * cr), fma(sp, sy_sr, cp * cr), cy * sr};
+    e.z = {fma(cp, sy_cr, sp * sr), fms(sp, sy_cr, cp * sr), cy * cr};
+    // cos a cos b − 1 = −(va + vb − va vb) with v = 1 − cos.
+    e.y_shortfall = fms(sp, sy_sr, fnma(a.pitch.versine, a.roll.versine, a.pitch.versine + a.roll.versine));
+    e.z_shortfall = -fnma(a.yaw.versine, a.roll.versine, a.yaw.versine + a.roll.versine);
+    return e;
+}
+
+}  // namespace slideway::inline SLIDEWAY_ISA

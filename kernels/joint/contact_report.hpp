@@ -1,0 +1,72 @@
+#pragma once
+
+#include "kernels/laws/face.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+inline constexpr int face_count = 4;  // Y+, Y−, Z+, Z−
+
+/// v0 of restitution: per apex–face pair the δ' of its last touch [m/s], at least `least_impact_speed`.
+template <class Real> struct ImpactMemory {
+    Quad<Real> speeds[face_count];
+};
+inline constexpr double least_impact_speed = 1e-4;
+
+/// Apex numbers P1…P8 (from 0) of a face's a, b, c, d.  Source: Qian et al. 2020, Table 2: top {1,4,8,5}, bottom {2,3,7,6},
+/// front {1,2,6,5}, back {4,3,7,8}.
+inline constexpr int face_apices[face_count][4] = {{0, 3, 7, 4}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 2, 6, 7}};
+
+/// All that the joint knows of one state, for observers and probes.
+template <class Real> struct ContactReport {
+    Quad<Real> penetration[face_count];  // [m]
+    Quad<Real> rate[face_count];         // [m/s]; filled where restitution needs it
+    Quad<Real> normal_force[face_count]; // [N]
+    Real surfaces, lines, points;        // how many
+    Real potential;                      // U of the contacts [J]
+    Real friction_power;                 // Σ μ F V [W]
+    Real damping_power;                  // Σ (F − F_elastic) δ' [W]
+
+    SLIDEWAY_FN void clear() {
+        Real const zero(0.0);
+        for (auto& force : normal_force) force = {zero, zero, zero, zero};
+        surfaces = lines = points = potential = friction_power = damping_power = zero;
+    }
+
+    SLIDEWAY_FN void set_penetrations(int face, Quad<Real> const& depth) { penetration[face] = depth; }
+    SLIDEWAY_FN void set_rates(int face, Quad<Real> const& r) { rate[face] = r; }
+
+    SLIDEWAY_FN void add_face(int face, FaceMotion<Real> const& m, FaceForces<Real> const& f) {
+        normal_force[face] = f.normal;
+        potential = potential + f.potential;
+        Real const front = fma(f.normal.a - f.elastic.a, m.rate.a, (f.normal.b - f.elastic.b) * m.rate.b);
+        Real const rear = fma(f.normal.c - f.elastic.c, m.rate.c, (f.normal.d - f.elastic.d) * m.rate.d);
+        damping_power = damping_power + (front + rear);
+        auto const modes = face_modes<Real>(m.touching);
+        surfaces = surfaces + count<Real>(modes.surface);
+        lines = lines + ((count<Real>(modes.ab) + count<Real>(modes.bc)) +
+                         (count<Real>(modes.cd) + count<Real>(modes.da)));
+        points = points + ((count<Real>(modes.point.a) + count<Real>(modes.point.b)) +
+                           (count<Real>(modes.point.c) + count<Real>(modes.point.d)));
+    }
+
+    /// Sum of all normal forces [N].
+    SLIDEWAY_FN Real total_force() const {
+        return (sum(normal_force[0]) + sum(normal_force[1])) + (sum(normal_force[2]) + sum(normal_force[3]));
+    }
+
+    /// Normal force of one apex, its Y and its Z face summed [N].
+    SLIDEWAY_FN Real apex_force(int apex) const {
+        Real force(0.0);
+        for (int face = 0; face < face_count; ++face) {
+            auto const& q = normal_force[face];
+            if (face_apices[face][0] == apex) force = force + q.a;
+            if (face_apices[face][1] == apex) force = force + q.b;
+            if (face_apices[face][2] == apex) force = force + q.c;
+            if (face_apices[face][3] == apex) force = force + q.d;
+        }
+        return force;
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

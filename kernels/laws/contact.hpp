@@ -1,0 +1,27 @@
+#pragma once
+
+#include "kernels/laws/damping.hpp"
+#include "kernels/laws/line.hpp"
+#include "kernels/laws/point.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// What the laws need to know of a face, beside its motion.
+template <class Real> struct FaceContact {
+    Real surface_stiffness;    // k = E_s A/l of all four apices [N/m]
+    LineContact<Real> across;  // edges a–b and c–d
+    LineContact<Real> along;   // edges b–c and d–a
+};
+
+template <class Real> struct ContactParameters {
+    PointContact<Real> point;
+    DampingParameters<Real> damping;
+    LineContact<Real> along;           // edges along X, both kinds of face
+    LineContact<Real> across_y_face;   // edges of the Y faces along Z
+    LineContact<Real> across_z_face;   // edges of the Z faces along Y
+    Real surface_stiffness_y;
+    Real surface_stiffness_z;
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

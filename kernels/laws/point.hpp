@@ -1,0 +1,25 @@
+#pragma once
+
+#include "kernels/math/exponential.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// A point contact: F = K δⁿ + C δ δ'.  Source: Qian et al. 2020 (16)–(18), with the two-body E* in K = 4/3 E* √R_p.
+template <class Real> struct PointContact {
+    Real stiffness;        // K [N/m^n]
+    Real exponent;         // n
+    Real damping;          // C = η K [N s/m²]
+    Real potential_share;  // 1/(n + 1)
+};
+
+/// Elastic force K δⁿ [N] for δ > 0 [m].  Hertz's n = 3/2 needs no logarithm; the general power runs only where a lane has
+/// another exponent, and changes no bit of those that do not.
+template <class Real> SLIDEWAY_FN Real point_load(Real depth, PointContact<Real> const& point) {
+    Real const hertz = depth * sqrt(depth);
+    auto const general = point.exponent != Real(1.5);
+    Real const raised = any(general) ? select(general, power(depth, point.exponent), hertz) : hertz;
+    return point.stiffness * raised;
+}
+
+}  // namespace slideway::inline SLIDEWAY_ISA

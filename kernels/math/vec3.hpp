@@ -1,0 +1,36 @@
+#pragma once
+
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+template <class Real> struct Vec3 {
+    Real x, y, z;
+};
+
+template <class Real> SLIDEWAY_FN Vec3<Real> operator+(Vec3<Real> const& a, Vec3<Real> const& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+template <class Real> SLIDEWAY_FN Vec3<Real> operator-(Vec3<Real> const& a, Vec3<Real> const& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+template <class Real> SLIDEWAY_FN Vec3<Real> operator*(Real factor, Vec3<Real> const& a) {
+    return {factor * a.x, factor * a.y, factor * a.z};
+}
+
+/// factor·a + b.
+template <class Real> SLIDEWAY_FN Vec3<Real> fma(Real factor, Vec3<Real> const& a, Vec3<Real> const& b) {
+    return {fma(factor, a.x, b.x), fma(factor, a.y, b.y), fma(factor, a.z, b.z)};
+}
+
+template <class Real> SLIDEWAY_FN Real dot(Vec3<Real> const& a, Vec3<Real> const& b) {
+    return fma(a.z, b.z, fma(a.y, b.y, a.x * b.x));
+}
+
+template <class Real> SLIDEWAY_FN Vec3<Real> cross(Vec3<Real> const& a, Vec3<Real> const& b) {
+    return {fms(a.y, b.z, a.z * b.y), fms(a.z, b.x, a.x * b.z), fms(a.x, b.y, a.y * b.x)};
+}
+
+}  // namespace slideway::inline SLIDEWAY_ISA

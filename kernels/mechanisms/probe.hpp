@@ -1,0 +1,69 @@
+#pragma once
+
+#include "kernels/block.hpp"
+#include "kernels/mechanisms/slider_crank.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Evaluates a table of states, a pack at a time; the last pack is filled up with the last row.
+template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& table) {
+    constexpr int width = lanes<Real>;
+    constexpr int size = Model::size;
+    typename Model::template Parameters<Real> p;
+    typename Model::template Report<Real> report;
+    ImpactMemory<Real> memory;
+    for (auto& face : memory.speeds) face.a = face.b = face.c = face.d = Real(least_impact_speed);
+    for (std::size_t first = 0; first < table.rows; first += width) {
+        Real t, state[size], rates[size];
+        for (int i = 0; i < width; ++i) {
+            std::size_t const row = first + i < table.rows ? first + i : table.rows - 1;
+            auto const parameters = Model::parameters(table.inputs[row]);
+            auto const* from = reinterpret_cast<double const*>(&parameters);
+            auto* to = reinterpret_cast<Real*>(&p);
+            for (std::size_t j = 0; j < sizeof(parameters) / sizeof(double); ++j) set_lane(to[j], i, from[j]);
+            double start[size];
+            Model::initial_state(table.inputs[row], start);
+            for (int j = 0; j < size; ++j) set_lane(state[j], i, start[j]);
+            set_lane(t, i, table.times[row]);
+        }
+        auto const faults = Model::template derivative<true>(t, state, p, memory, rates, &report);
+        for (int i = 0; i < width && first + i < table.rows; ++i) {
+            auto& result = table.results[first + i];
+            bool finite = true;
+            for (int j = 0; j < size; ++j) {
+                result.derivative[j] = lane(rates[j], i);
+                finite = finite && result.derivative[j] - result.derivative[j] == 0;
+            }
+            auto const& c = report.contact;
+            for (int face = 0; face < face_count; ++face) {
+                auto* const depth = face < 2 ? result.penetration_y : result.penetration_z;
+                auto* const force = face < 2 ? result.normal_force_y : result.normal_force_z;
+                auto const& apex = face_apices[face];
+                auto const put = [&](double* to, Quad<Real> const& q) {
+                    to[apex[0]] = lane(q.a, i);
+                    to[apex[1]] = lane(q.b, i);
+                    to[apex[2]] = lane(q.c, i);
+                    to[apex[3]] = lane(q.d, i);
+                };
+                put(depth, c.penetration[face]);
+                put(force, c.normal_force[face]);
+            }
+            result.power_crank = lane(report.crank_power, i);
+            result.power_friction = lane(c.friction_power, i);
+            result.power_damping = lane(c.damping_power, i);
+            result.surfaces = static_cast<int>(lane(c.surfaces, i));
+            result.lines = static_cast<int>(lane(c.lines, i));
+            result.points = static_cast<int>(lane(c.points, i));
+            result.energy = lane(report.energy, i);
+            result.contact_potential = lane(c.potential, i);
+            result.crank_torque = lane(report.crank_torque, i);
+            result.status = holds(faults.geometry, i)         ? Status::geometry
+                            : holds(faults.contact_domain, i) ? Status::contact_domain
+                            : finite                          ? Status::finished
+                                                              : Status::nonfinite;
+        }
+    }
+}
+
+}  // namespace slideway::inline SLIDEWAY_ISA

@@ -1,0 +1,130 @@
+#pragma once
+
+#include "kernels/block.hpp"
+#include "kernels/joint/attitude.hpp"
+#include "kernels/joint/joint.hpp"
+#include "kernels/mechanisms/faults.hpp"
+#include "kernels/mechanisms/slider_crank_parameters.hpp"
+#include "kernels/mechanisms/slider_crank_report.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// The spatial slider-crank with clearance in its translational joint.  State: y z vy vz φ ϑ ψ ωx ωy ωz (SI, model.md 1); the
+/// crank turns at constant speed, x follows from the rod.  Source: Qian et al. 2020, section 4; equations as in model.md 6.
+/// What a scene does not need is not in its instance: law, friction, pose of the way and damping are template arguments.
+template <class Law, class Friction, class Way, class Damping> struct SliderCrank {
+    using Contact = Joint<Law, Friction, Damping>;
+    static constexpr int size = state_size;
+    static constexpr bool has_memory = Contact::has_memory;
+    template <class Real> using Parameters = SliderCrankParameters<Real>;
+    template <class Real> using Report = SliderCrankReport<Real>;
+
+    /// Time derivative of the state.
+    /// @param t time [s]; @param s the state, `size` values; @param rates their derivatives, NaN where a fault is set.
+    /// @param report filled if Full; the derivative has the same bits without.
+    template <bool Full, class Real>
+    SLIDEWAY_NOINLINE static Faults<Real> derivative(Real t, Real const* s, SliderCrankParameters<Real> const& p,
+                                                     ImpactMemory<Real> const& memory, Real* rates,
+                                                     SliderCrankReport<Real>* report) {
+        Real const y = s[0], z = s[1], vy = s[2], vz = s[3];
+        Vec3<Real> const omega{s[7], s[8], s[9]};
+        Real const zero(0.0), one(1.0);
+        Faults<Real> faults;
+
+        // Crank pin A and its motion.
+        auto const crank = sincos(fma(p.crank_speed, t, p.start_angle));
+        Real const ax = p.crank_length * crank.cos, ay = p.crank_length * crank.sin;
+        Real const vax = -p.crank_speed * ay, vay = p.crank_speed * ax;
+        Real const speed_squared = p.crank_speed * p.crank_speed;
+        Real const aax = -speed_squared * ax, aay = -speed_squared * ay;
+
+        // Rod: D² + (y − y_A)² + z² = L² gives x and its rates.
+        Real const dy = y - ay;
+        Real const reach = fnma(z, z, fnma(dy, dy, p.rod_length * p.rod_length));
+        faults.geometry = !(reach > zero);
+        Real const d = sqrt(reach);
+        Real const inverse_d = one / d;
+        Real const ky = -dy * inverse_d, kz = -z * inverse_d;
+        Real const dvy = vy - vay;
+        Real const dd = fma(ky, dvy, kz * vz);
+        Real const gamma = -fma(dvy, dvy, fma(vz, vz, dd * dd)) * inverse_d;
+        Real const x = ax + d, vx = vax + dd;
+
+        // Slider's attitude and its kinematic equations.
+        auto const angles = attitude(s[4], s[5], s[6]);
+        auto const slider = axes(angles);
+        Real const turn = fma(omega.y, angles.roll.sin, omega.z * angles.roll.cos);
+        Real const pitch_rate = turn / angles.yaw.cos;
+        auto const spin = fma(omega.x, slider.x, fma(omega.y, slider.y, omega.z * slider.z));
+
+        // The joint, in way coordinates.
+        auto const& way = p.joint.way;
+        auto const motion = Way::motion(slider, Vec3<Real>{x, y, z}, Vec3<Real>{vx, vy, vz}, spin, way);
+        auto const wrench = Contact::template wrench<Full>(motion, memory, p.joint, Full ? &report->contact : nullptr,
+                                                           faults.contact_domain);
+        auto const contact_force = Way::to_inertial(wrench.force, way);
+
+        // m a_B + m_AB a_A − F = λ(B − A), the X row eliminated: a symmetric 2×2 system with determinant m²(1 + κy² + κz²).
+        Vec3<Real> const force{fma(p.weighing_mass, p.gravity_x, contact_force.x),
+                               fma(p.weighing_mass, p.gravity_y, contact_force.y), contact_force.z};
+        // a_Bx = aAx − κy aAy + γ + κy y'' + κz z''
+        Real const bias = fnma(ky, aay, aax) + gamma;
+        Real const pull = fnma(p.m_ab, aax, fnma(p.mass, bias, force.x));
+        Real const fy = fma(ky, pull, fnma(p.m_ab, aay, force.y));
+        Real const fz = fma(kz, pull, force.z);
+        Real const ky2 = fma(ky, ky, one), kz2 = fma(kz, kz, one), kyz = ky * kz;
+        Real const scale = one / (p.mass * fma(kz, kz, ky2));
+        Real const ay_b = fms(kz2, fy, kyz * fz) * scale;
+        Real const az_b = fms(ky2, fz, kyz * fy) * scale;
+
+        // I ω' = A_kᵀ τ − ω × I ω
+        Vec3<Real> const torque{dot(motion.axes.x, wrench.torque), dot(motion.axes.y, wrench.torque),
+                                dot(motion.axes.z, wrench.torque)};
+        Vec3<Real> const momentum{p.inertia.x * omega.x, p.inertia.y * omega.y, p.inertia.z * omega.z};
+        auto const moment = torque - cross(omega, momentum);
+
+        rates[0] = vy;
+        rates[1] = vz;
+        rates[2] = ay_b;
+        rates[3] = az_b;
+        rates[4] = fma(pitch_rate, angles.yaw.sin, omega.x);
+        rates[5] = fms(omega.y, angles.roll.cos, omega.z * angles.roll.sin);
+        rates[6] = pitch_rate;
+        rates[7] = moment.x * p.inverse_inertia.x;
+        rates[8] = moment.y * p.inverse_inertia.y;
+        rates[9] = moment.z * p.inverse_inertia.z;
+
+        if constexpr (Full) {
+            CrankState<Real> const pin{{ax, ay, zero}, {vax, vay, zero}, {aax, aay, zero}};
+            CrankState<Real> const end{{x, y, z}, {vx, vy, vz}, {fma(ky, ay_b, fma(kz, az_b, bias)), ay_b, az_b}};
+            report->fill(pin, end, d, omega, contact_force, p);
+        }
+        return faults;
+    }
+
+    /// Sizes against which integrator.atol is meant: c, c·ω, 2c/L_k, 2c/L_k·ω (contract: scene, [integrator]).
+    template <class Real> SLIDEWAY_FN static void scales(SliderCrankParameters<Real> const& p, Real* scale) {
+        scale[0] = p.length_scale_y;
+        scale[1] = p.length_scale_z;
+        scale[2] = p.length_scale_y * p.rate_scale;
+        scale[3] = p.length_scale_z * p.rate_scale;
+        scale[4] = scale[5] = scale[6] = p.tilt_scale;
+        scale[7] = scale[8] = scale[9] = p.tilt_scale * p.rate_scale;
+    }
+
+    /// Energy of the slider at the scale of its velocity, M (c ω)² [J], against which the audit's absolute tolerance is meant.
+    template <class Real> SLIDEWAY_FN static Real energy_scale(SliderCrankParameters<Real> const& p) {
+        Real const speed = max(p.length_scale_y, p.length_scale_z) * p.rate_scale;
+        return p.slider_mass * speed * speed;
+    }
+
+    SLIDEWAY_HD static SliderCrankParameters<double> parameters(Inputs const& inputs) { return slider_crank_parameters(inputs); }
+
+    SLIDEWAY_HD static void initial_state(Inputs const& in, double* s) {
+        double const start[size] = {in.y, in.z, in.vy, in.vz, in.roll, in.yaw, in.pitch, in.wx, in.wy, in.wz};
+        for (int i = 0; i < size; ++i) s[i] = start[i];
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

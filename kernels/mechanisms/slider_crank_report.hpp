@@ -1,0 +1,73 @@
+#pragma once
+
+#include "kernels/joint/contact_report.hpp"
+#include "kernels/math/vec3.hpp"
+#include "kernels/mechanisms/slider_crank_parameters.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// One end of the rod.
+template <class Real> struct CrankState {
+    Vec3<Real> position, velocity, acceleration;
+};
+
+/// All that a state of the slider-crank tells beside its derivative.
+template <class Real> struct SliderCrankReport {
+    ContactReport<Real> contact;
+    Real x, vx;                 // slider's centre along the way
+    Real crank_power;           // F_A · v_A [W]
+    Real crank_torque;          // (A × F_A)_z [N m]
+    Real drive_torque;          // the crank's own weight included [N m]
+    Real energy;                // E of model.md 8, contact potential included [J]
+    Real position_error;        // distance of the slider's centre from the ideal mechanism's [m]
+    Real rod_spin;              // rod's angular velocity, magnitude [rad/s]
+    Real rod_spin_z;            // its component about Z
+
+    SLIDEWAY_FN void fill(CrankState<Real> const& a, CrankState<Real> const& b, Real d, Vec3<Real> const& omega,
+                          Vec3<Real> const& contact_force, SliderCrankParameters<Real> const& p) {
+        Real const zero(0.0), half(0.5), one(1.0);
+        x = b.position.x;
+        vx = b.velocity.x;
+        Vec3<Real> const gravity{p.gravity_x, p.gravity_y, zero};
+
+        // Force of the crank pin on the rod: F_A = m_AA a_A + m_AB a_B − m_r (1 − f_r) g⃗ + Λ with
+        // Λ = M a_B − F_c − M g⃗ + m_BB a_B + m_AB a_A − m_r f_r g⃗ (model.md 6).
+        auto const rod_end = p.mass * b.acceleration + p.m_ab * a.acceleration - contact_force;
+        auto const pin_force = p.m_aa * a.acceleration + p.m_ab * b.acceleration + rod_end -
+                               (p.slider_mass + p.rod_mass) * gravity;
+        crank_power = dot(pin_force, a.velocity);
+        crank_torque = fms(a.position.x, pin_force.y, a.position.y * pin_force.x);
+        // m_c g (r/2) cos(θ + β) = −(m_c r/2)(g_y cos θ − g_x sin θ)
+        Real const inverse_r = one / p.crank_length;
+        Real const lever = fms(p.gravity_y, a.position.x, p.gravity_x * a.position.y) * inverse_r;
+        drive_torque = fnma(p.crank_moment, lever, crank_torque);
+
+        // E = ½M|u'|² + ½m_r|(1−f_r)v_A + f_r v_B|² + ½(J/L²)|v_B−v_A|² + ½ωᵀIω − M g⃗·u − m_r g⃗·((1−f_r)A + f_r B) + U.
+        auto const center = p.rod_mass_center;
+        auto const rod_velocity = (one - center) * a.velocity + center * b.velocity;
+        auto const rod_position = (one - center) * a.position + center * b.position;
+        auto const relative = b.velocity - a.velocity;
+        Vec3<Real> const momentum{p.inertia.x * omega.x, p.inertia.y * omega.y, p.inertia.z * omega.z};
+        Real const kinetic = half * (p.slider_mass * dot(b.velocity, b.velocity) +
+                                     p.rod_mass * dot(rod_velocity, rod_velocity) +
+                                     p.rod_spin_mass * dot(relative, relative) + dot(omega, momentum));
+        Real const height = p.slider_mass * dot(gravity, b.position) + p.rod_mass * dot(gravity, rod_position);
+        energy = kinetic - height + contact.potential;
+
+        // x − x_ideal = (D² − D0²)/(D + D0) with D0² = L² − y_A²: no difference of lengths.
+        Real const y = b.position.y, z = b.position.z, ya = a.position.y;
+        Real const ideal = sqrt(max(fnma(ya, ya, p.rod_length * p.rod_length), zero));
+        Real const shift = fnma(z, z, y * (ya + ya - y)) / (d + ideal);
+        position_error = sqrt(fma(shift, shift, fma(y, y, z * z)));
+
+        // No spin about the rod's own axis: ω = e × (v_B − v_A)/L, e the rod's direction.
+        Real const inverse_l = one / p.rod_length;
+        auto const along = b.position - a.position;
+        auto const turning = inverse_l * inverse_l * cross(along, relative);
+        rod_spin = sqrt(dot(turning, turning));
+        rod_spin_z = turning.z;
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

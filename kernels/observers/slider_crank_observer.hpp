@@ -1,0 +1,146 @@
+#pragma once
+
+#include "kernels/block.hpp"
+#include "kernels/mechanisms/slider_crank_report.hpp"
+#include "kernels/observers/quantities.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// The scalar quantities of a pack of slider-cranks.  Only the energy audit has a say in the steps:
+/// its integrals meet the tolerance too. Integrals run over the stages with the stepper's own weights, so they have its order; peaks, mode times and onsets go by
+/// the accepted steps.
+template <class Real> class SliderCrankObserver {
+public:
+    /// Integrands: crank, friction and damping power, total force, torque², error², rod spin², eight apex forces.
+    static constexpr int integrals = 15;
+    /// The first of them are the energy audit's.
+    static constexpr int audit_integrals = 3;
+
+    SLIDEWAY_HD static constexpr bool needs_stages(Selection q) {
+        for (auto const i : {Quantity::mean_normal_force, Quantity::mean_apex_force, Quantity::energy_residual,
+                             Quantity::crank_work, Quantity::friction_loss, Quantity::damping_loss,
+                             Quantity::rms_crank_torque, Quantity::rms_position_error,
+                             Quantity::rms_rod_angular_velocity}) {
+            if (selects(q, i)) return true;
+        }
+        return false;
+    }
+    /// Whether the audit's integrals are asked for and must meet the tolerance themselves.
+    SLIDEWAY_HD static constexpr bool audits(Selection q) {
+        return selects(q, Quantity::energy_residual) || selects(q, Quantity::crank_work) ||
+               selects(q, Quantity::friction_loss) || selects(q, Quantity::damping_loss);
+    }
+    /// Whether a report is needed at the accepted steps.
+    SLIDEWAY_HD static constexpr bool needs_reports(Selection q) { return q != 0; }
+
+    SLIDEWAY_FN static void integrands(SliderCrankReport<Real> const& r, Real* values) {
+        values[0] = r.crank_power;
+        values[1] = r.contact.friction_power;
+        values[2] = r.contact.damping_power;
+        values[3] = r.contact.total_force();
+        values[4] = r.drive_torque * r.drive_torque;
+        values[5] = r.position_error * r.position_error;
+        values[6] = r.rod_spin * r.rod_spin;
+        for (int apex = 0; apex < 8; ++apex) values[7 + apex] = r.contact.apex_force(apex);
+    }
+
+    /// Begins the members in the lanes of the mask.
+    SLIDEWAY_FN void start(Mask<Real> fresh, SliderCrankReport<Real> const& r, Real const* state) {
+        Real const zero(0.0);
+        for (auto* value : {&force_, &torque_, &error_, &spin_, &roll_, &yaw_, &pitch_, &onsets_}) {
+            *value = select(fresh, zero, *value);
+        }
+        for (auto& value : integral_) value = select(fresh, zero, value);
+        for (auto& value : apex_) value = select(fresh, zero, value);
+        for (auto& value : mode_time_) value = select(fresh, zero, value);
+        start_energy_ = select(fresh, r.energy, start_energy_);
+        energy_ = select(fresh, r.energy, energy_);
+        mode_ = select(fresh, mode_class(r), mode_);
+        take_peaks(fresh, r, state);
+    }
+
+    /// One accepted step of the lanes in the mask.  @param integral Σ b_s · integrand of the step's stages.
+    SLIDEWAY_FN void accept(Mask<Real> accepted, Real h, Real const* integral, SliderCrankReport<Real> const& r,
+                            Real const* state) {
+        Real const zero(0.0), half(0.5);
+        for (int i = 0; i < integrals; ++i) {
+            integral_[i] = select(accepted, fma(h, integral[i], integral_[i]), integral_[i]);
+        }
+        energy_ = select(accepted, r.energy, energy_);
+        Real const mode = mode_class(r);
+        // A step between two modes is shared by halves; contact ends such steps within a small part of an impact.
+        Real const share = select(accepted, half * h, zero);
+        for (int i = 0; i < 4; ++i) {
+            Real const number(static_cast<double>(i));
+            mode_time_[i] = mode_time_[i] + select(mode_ == number, share, zero) + select(mode == number, share, zero);
+        }
+        auto const onset = accepted & (mode_ == zero) & (mode > zero);
+        onsets_ = onsets_ + count<Real>(onset);
+        mode_ = select(accepted, mode, mode_);
+        take_peaks(accepted, r, state);
+    }
+
+    /// Integral of an integrand up to the last accepted step.
+    SLIDEWAY_FN Real integral(int i) const { return integral_[i]; }
+
+    /// Writes the selected quantities of one lane.  @param time [s] the member was integrated.
+    SLIDEWAY_HD void finish(int index, double time, Selection selected, double* row) const {
+        auto const put = [&](Quantity q, int column, double value) {
+            if (selects(selected, q)) row[quantity_column(q) + column] = value;
+        };
+        double const mean = time > 0 ? 1 / time : 0;
+        auto const total = [&](int i) { return lane(integral_[i], index); };
+        double const change = lane(energy_, index) - lane(start_energy_, index);
+        put(Quantity::peak_normal_force, 0, lane(force_, index));
+        put(Quantity::mean_normal_force, 0, total(3) * mean);
+        for (int apex = 0; apex < 8; ++apex) {
+            put(Quantity::peak_apex_force, apex, lane(apex_[apex], index));
+            put(Quantity::mean_apex_force, apex, total(7 + apex) * mean);
+        }
+        for (int i = 0; i < 4; ++i) put(Quantity::mode_time, i, lane(mode_time_[i], index));
+        put(Quantity::contact_onsets, 0, lane(onsets_, index));
+        put(Quantity::energy_residual, 0, change - total(0) + total(1) + total(2));
+        put(Quantity::energy_change, 0, change);
+        put(Quantity::crank_work, 0, total(0));
+        put(Quantity::friction_loss, 0, total(1));
+        put(Quantity::damping_loss, 0, total(2));
+        put(Quantity::peak_crank_torque, 0, lane(torque_, index));
+        put(Quantity::rms_crank_torque, 0, sqrt(total(4) * mean));
+        put(Quantity::peak_position_error, 0, lane(error_, index));
+        put(Quantity::rms_position_error, 0, sqrt(total(5) * mean));
+        put(Quantity::peak_rod_angular_velocity, 0, lane(spin_, index));
+        put(Quantity::rms_rod_angular_velocity, 0, sqrt(total(6) * mean));
+        put(Quantity::peak_tilt, 0, lane(roll_, index));
+        put(Quantity::peak_tilt, 1, lane(yaw_, index));
+        put(Quantity::peak_tilt, 2, lane(pitch_, index));
+    }
+
+private:
+    /// 0 free, 1 point, 2 line, 3 surface: the hardest contact of the configuration.
+    SLIDEWAY_FN static Real mode_class(SliderCrankReport<Real> const& r) {
+        Real const zero(0.0);
+        Real const soft = select(r.contact.points > zero, Real(1.0), zero);
+        return select(r.contact.surfaces > zero, Real(3.0), select(r.contact.lines > zero, Real(2.0), soft));
+    }
+
+    SLIDEWAY_FN void take_peaks(Mask<Real> lanes_taken, SliderCrankReport<Real> const& r, Real const* state) {
+        auto const raise = [&](Real& peak, Real value) { peak = select(lanes_taken, max(value, peak), peak); };
+        raise(force_, r.contact.total_force());
+        for (int apex = 0; apex < 8; ++apex) raise(apex_[apex], r.contact.apex_force(apex));
+        raise(torque_, abs(r.drive_torque));
+        raise(error_, r.position_error);
+        raise(spin_, r.rod_spin);
+        raise(roll_, abs(state[4]));
+        raise(yaw_, abs(state[5]));
+        raise(pitch_, abs(state[6]));
+    }
+
+    Real integral_[integrals];
+    Real apex_[8];
+    Real mode_time_[4];
+    Real force_, torque_, error_, spin_, roll_, yaw_, pitch_;
+    Real onsets_, mode_, start_energy_, energy_;
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

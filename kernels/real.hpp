@@ -1,0 +1,221 @@
+// The vocabulary of the kernels, and the only file that knows the backends.  Physics is written once for a type
+// `Real`, which is `double` (one member, on the host or inside a CUDA thread) or `xsimd::batch<double, Arch>` (one
+// member per lane).  Every operation here gives the same bits for both on hardware with fused multiply-add.
+//
+// All kernel code lives in `slideway::SLIDEWAY_ISA`, an inline namespace named by the unit that compiles it.  Units
+// built for different instruction sets so never share an inline function: the linker cannot hand AVX-512 code to a
+// machine without it.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#if !defined(__CUDACC__) && !defined(SLIDEWAY_NO_SIMD)
+#define SLIDEWAY_SIMD 1
+#include <bit>
+#include <immintrin.h>
+#include <type_traits>
+#include <xsimd/xsimd.hpp>
+#endif
+
+#ifndef SLIDEWAY_ISA
+#define SLIDEWAY_ISA portable
+#endif
+
+#if defined(__CUDACC__)
+#define SLIDEWAY_HD __host__ __device__
+#define SLIDEWAY_FN __host__ __device__ inline
+#define SLIDEWAY_NOINLINE __host__ __device__ __noinline__
+#else
+#define SLIDEWAY_HD
+#define SLIDEWAY_FN inline __attribute__((always_inline))
+#define SLIDEWAY_NOINLINE __attribute__((noinline))
+#endif
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+// ---- double ---------------------------------------------------------------------------------------------------
+
+namespace detail {
+
+SLIDEWAY_FN std::uint64_t bits_of(double x) {
+#if defined(__CUDA_ARCH__)
+    return static_cast<std::uint64_t>(__double_as_longlong(x));
+#else
+    return __builtin_bit_cast(std::uint64_t, x);
+#endif
+}
+
+SLIDEWAY_FN double from_bits(std::uint64_t bits) {
+#if defined(__CUDA_ARCH__)
+    return __longlong_as_double(static_cast<long long>(bits));
+#else
+    return __builtin_bit_cast(double, bits);
+#endif
+}
+
+template <class Real> struct Traits {
+    using Mask = bool;
+    static constexpr int lanes = 1;
+};
+
+}  // namespace detail
+
+/// Truth value per lane.
+template <class Real> using Mask = typename detail::Traits<Real>::Mask;
+/// Members that one `Real` holds.
+template <class Real> inline constexpr int lanes = detail::Traits<Real>::lanes;
+
+SLIDEWAY_FN bool any(bool m) { return m; }
+SLIDEWAY_FN bool all(bool m) { return m; }
+SLIDEWAY_FN double select(bool m, double yes, double no) { return m ? yes : no; }
+
+// The comparisons are written as the SIMD instructions make them, so that NaN and signed zero agree.
+SLIDEWAY_FN double min(double a, double b) { return a < b ? a : b; }
+SLIDEWAY_FN double max(double a, double b) { return a > b ? a : b; }
+SLIDEWAY_FN double abs(double x) { return ::fabs(x); }
+SLIDEWAY_FN double sqrt(double x) { return ::sqrt(x); }
+
+/// a·b + c, rounded once.
+SLIDEWAY_FN double fma(double a, double b, double c) {
+#if defined(__CUDA_ARCH__)
+    return ::fma(a, b, c);
+#elif defined(SLIDEWAY_NO_FMA)
+    return a * b + c;
+#else
+    return __builtin_fma(a, b, c);
+#endif
+}
+
+/// c - a·b, rounded once.
+SLIDEWAY_FN double fnma(double a, double b, double c) { return fma(-a, b, c); }
+/// a·b - c, rounded once.
+SLIDEWAY_FN double fms(double a, double b, double c) { return fma(a, b, -c); }
+
+/// Mantissa in [1, 2) and exponent of a normal positive x: x = mantissa · 2^exponent.
+SLIDEWAY_FN void split_exponent(double x, double& mantissa, double& exponent) {
+    std::uint64_t const bits = detail::bits_of(x);
+    mantissa = detail::from_bits((bits & 0x000fffffffffffffu) | 0x3ff0000000000000u);
+    exponent = detail::from_bits((bits >> 52) | 0x4330000000000000u) - (4503599627370496.0 + 1023.0);
+}
+
+/// 2^n for an integral n in [-1022, 1023].
+SLIDEWAY_FN double power_of_two(double n) {
+    return detail::from_bits(detail::bits_of(n + (4503599627370496.0 + 1023.0)) << 52);
+}
+
+SLIDEWAY_FN double lane(double x, int) { return x; }
+SLIDEWAY_FN void set_lane(double& x, int, double value) { x = value; }
+SLIDEWAY_FN unsigned mask_bits(bool m) { return m ? 1u : 0u; }
+
+// ---- xsimd ----------------------------------------------------------------------------------------------------
+// Argument-dependent lookup finds xsimd's functions too.  A name that xsimd has is therefore overloaded here for
+// `Batch<Arch>`, which is the better match; functions on a bare `Real` bear names that xsimd lacks.
+#if defined(SLIDEWAY_SIMD)
+
+template <class Arch> using Batch = xsimd::batch<double, Arch>;
+template <class Arch> using BatchMask = xsimd::batch_bool<double, Arch>;
+
+namespace detail {
+
+template <class Arch> struct Traits<xsimd::batch<double, Arch>> {
+    using Mask = xsimd::batch_bool<double, Arch>;
+    static constexpr int lanes = static_cast<int>(xsimd::batch<double, Arch>::size);
+};
+
+}  // namespace detail
+
+template <class Arch> SLIDEWAY_FN bool any(BatchMask<Arch> m) { return xsimd::any(m); }
+template <class Arch> SLIDEWAY_FN bool all(BatchMask<Arch> m) { return xsimd::all(m); }
+template <class Arch> SLIDEWAY_FN Batch<Arch> select(BatchMask<Arch> m, Batch<Arch> yes, Batch<Arch> no) {
+    return xsimd::select(m, yes, no);
+}
+template <class Arch> SLIDEWAY_FN Batch<Arch> min(Batch<Arch> a, Batch<Arch> b) { return xsimd::min(a, b); }
+template <class Arch> SLIDEWAY_FN Batch<Arch> max(Batch<Arch> a, Batch<Arch> b) { return xsimd::max(a, b); }
+template <class Arch> SLIDEWAY_FN Batch<Arch> abs(Batch<Arch> x) { return xsimd::abs(x); }
+template <class Arch> SLIDEWAY_FN Batch<Arch> sqrt(Batch<Arch> x) { return xsimd::sqrt(x); }
+
+// xsimd 8.1 has no AVX-512 fma (it becomes multiply and add, which is slower and gives other bits).
+template <class Arch> SLIDEWAY_FN Batch<Arch> fma(Batch<Arch> a, Batch<Arch> b, Batch<Arch> c) {
+#if defined(__AVX512F__)
+    if constexpr (lanes<Batch<Arch>> == 8) return _mm512_fmadd_pd(a, b, c);
+#endif
+#if defined(__FMA__)
+    if constexpr (lanes<Batch<Arch>> == 4) return _mm256_fmadd_pd(a, b, c);
+    if constexpr (lanes<Batch<Arch>> == 2) return _mm_fmadd_pd(a, b, c);
+#endif
+    return a * b + c;
+}
+
+template <class Arch> SLIDEWAY_FN Batch<Arch> fnma(Batch<Arch> a, Batch<Arch> b, Batch<Arch> c) { return fma(-a, b, c); }
+template <class Arch> SLIDEWAY_FN Batch<Arch> fms(Batch<Arch> a, Batch<Arch> b, Batch<Arch> c) { return fma(a, b, -c); }
+
+template <class Arch> SLIDEWAY_FN void split_exponent(Batch<Arch> x, Batch<Arch>& mantissa, Batch<Arch>& exponent) {
+    using Bits = xsimd::batch<std::uint64_t, Arch>;
+    auto const bits = xsimd::bitwise_cast<Bits>(x);
+    mantissa = xsimd::bitwise_cast<Batch<Arch>>((bits & Bits(0x000fffffffffffffu)) | Bits(0x3ff0000000000000u));
+    exponent = xsimd::bitwise_cast<Batch<Arch>>((bits >> 52) | Bits(0x4330000000000000u)) -
+               Batch<Arch>(4503599627370496.0 + 1023.0);
+}
+
+template <class Arch> SLIDEWAY_FN Batch<Arch> power_of_two(Batch<Arch> n) {
+    using Bits = xsimd::batch<std::uint64_t, Arch>;
+    auto const bits = xsimd::bitwise_cast<Bits>(n + Batch<Arch>(4503599627370496.0 + 1023.0));
+    return xsimd::bitwise_cast<Batch<Arch>>(bits << 52);
+}
+
+template <class Arch> SLIDEWAY_FN double lane(Batch<Arch> const& x, int index) {
+    alignas(64) double values[lanes<Batch<Arch>>];
+    x.store_aligned(values);
+    return values[index];
+}
+template <class Arch> SLIDEWAY_FN void set_lane(Batch<Arch>& x, int index, double value) {
+    alignas(64) double values[lanes<Batch<Arch>>];
+    x.store_aligned(values);
+    values[index] = value;
+    x = Batch<Arch>::load_aligned(values);
+}
+
+/// Bit i is the truth value of lane i.
+template <class Arch> SLIDEWAY_FN unsigned mask_bits(BatchMask<Arch> m) {
+#if defined(__AVX512F__)
+    if constexpr (lanes<Batch<Arch>> == 8) return static_cast<unsigned>(static_cast<__mmask8>(m));
+#endif
+#if defined(__AVX__)
+    if constexpr (lanes<Batch<Arch>> == 4) return static_cast<unsigned>(_mm256_movemask_pd(m));
+#endif
+    if constexpr (lanes<Batch<Arch>> == 2) return static_cast<unsigned>(_mm_movemask_pd(m));
+    return 0;
+}
+
+#endif  // SLIDEWAY_SIMD
+
+// ---- the same for both ------------------------------------------------------------------------------------------
+
+template <class M> SLIDEWAY_FN bool none(M m) { return !any(m); }
+
+/// Nearest integer, ties to even; |x| < 2^51.
+template <class Real> SLIDEWAY_FN Real round_even(Real x) {
+    Real const shift(6755399441055744.0);  // 1.5 · 2^52
+    return (x + shift) - shift;
+}
+
+/// Truth value of every lane from one plain bool, which holds for the whole pack.
+template <class Real> SLIDEWAY_FN Mask<Real> mask_of(bool value) { return Mask<Real>(value); }
+
+/// Lanes in which the mask holds.
+template <class M> SLIDEWAY_FN int held_lanes(M m) {
+#if defined(__CUDA_ARCH__)
+    return __popc(mask_bits(m));
+#else
+    return __builtin_popcount(mask_bits(m));
+#endif
+}
+
+/// Truth value of one lane.
+template <class M> SLIDEWAY_FN bool holds(M m, int index) { return (mask_bits(m) >> index) & 1u; }
+
+/// 1 where the mask holds, else 0.
+template <class Real> SLIDEWAY_FN Real count(Mask<Real> m) { return select(m, Real(1.0), Real(0.0)); }
+
+}  // namespace slideway::inline SLIDEWAY_ISA

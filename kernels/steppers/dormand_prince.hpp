@@ -1,0 +1,83 @@
+#pragma once
+
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Coefficients of the pair below.
+struct DormandPrinceTableau {
+    double c[7] = {0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1, 1};
+    double a[7][6] = {
+        {},
+        {1.0 / 5},
+        {3.0 / 40, 9.0 / 40},
+        {44.0 / 45, -56.0 / 15, 32.0 / 9},
+        {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
+        {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
+        {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84},
+    };
+    double b[7] = {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84, 0};
+    // b minus the weights of the fourth order.
+    double e[7] = {71.0 / 57600, 0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
+    double d[7] = {-12715105075.0 / 11282082432,  0, 87487479700.0 / 32700410799, -10690763975.0 / 1880347072,
+                   701980252875.0 / 199316789632, -1453857185.0 / 822651844, 69997945.0 / 29380423};
+};
+
+/// Explicit Runge–Kutta pair of order 5(4) with seven stages, the last of which is the first of the next step, and a
+/// continuous extension of order 4.  Source: Dormand & Prince, J. Comput. Appl. Math. 6 (1980) 19–26; continuous extension as in
+/// Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I (1993), II.6.
+struct DormandPrince {
+    static constexpr int stages = 7;
+    static constexpr int order = 5;
+
+    using Tableau = DormandPrinceTableau;
+    static constexpr Tableau tableau{};
+
+    /// State at which stage `s` evaluates the derivative: y + h Σ_j a_sj k_j.
+    template <int s, int size, class Real>
+    SLIDEWAY_FN static void stage_state(Real const* y, Real const (*k)[size], Real h, Real* at) {
+        for (int i = 0; i < size; ++i) at[i] = fma(h, weighted<s, 0>(k, i), y[i]);
+    }
+
+    /// Σ_j e_j k_j of one component: the error estimate is h times this.
+    template <int size, class Real> SLIDEWAY_FN static Real error_slope(Real const (*k)[size], int i) {
+        constexpr Tableau w{};
+        Real sum = Real(w.e[0]) * k[0][i];
+        sum = fma(Real(w.e[2]), k[2][i], sum);
+        sum = fma(Real(w.e[3]), k[3][i], sum);
+        sum = fma(Real(w.e[4]), k[4][i], sum);
+        sum = fma(Real(w.e[5]), k[5][i], sum);
+        return fma(Real(w.e[6]), k[6][i], sum);
+    }
+
+    /// One component inside the step, at fraction θ of it.  @param y0, y1 the component at both ends of the step.
+    template <int size, class Real>
+    SLIDEWAY_FN static Real dense(Real const (*k)[size], int i, Real y0, Real y1, Real h, Real theta) {
+        constexpr Tableau w{};
+        Real bend = Real(w.d[0]) * k[0][i];
+        bend = fma(Real(w.d[2]), k[2][i], bend);
+        bend = fma(Real(w.d[3]), k[3][i], bend);
+        bend = fma(Real(w.d[4]), k[4][i], bend);
+        bend = fma(Real(w.d[5]), k[5][i], bend);
+        bend = fma(Real(w.d[6]), k[6][i], bend);
+        Real const rest = Real(1.0) - theta;
+        Real const change = y1 - y0;
+        Real const start = fms(h, k[0][i], change);
+        Real const end = fnma(h, k[6][i], change) - start;
+        return fma(theta, fma(rest, fma(theta, fma(rest, h * bend, end), start), change), y0);
+    }
+
+private:
+    template <int s, int j, int size, class Real> SLIDEWAY_FN static Real weighted(Real const (*k)[size], int i) {
+        constexpr double a = Tableau{}.a[s][j];
+        if constexpr (j + 1 == s) {
+            return Real(a) * k[j][i];
+        } else if constexpr (a == 0) {
+            return weighted<s, j + 1>(k, i);
+        } else {
+            return fma(Real(a), k[j][i], weighted<s, j + 1>(k, i));
+        }
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "kernels/math/exponential.hpp"
+#include "kernels/math/logarithm.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Proportional–integral step control for a pair whose error estimate is of order 5.  Source: Hairer & Wanner, Solving Ordinary
+/// Differential Equations II (1996), IV.2 (Gustafsson).  Works on the logarithm of the squared norm, so that one exponential and
+/// one logarithm serve each attempt.
+struct StepControl {
+    static constexpr double safety = 0.9, shrink = 0.2, grow = 10.0;
+    static constexpr double integral = 0.04, proportional = 0.2 - 0.75 * integral;
+    static constexpr double start_memory = -18.42068074395237;  // ln(1e-4²)
+
+    /// Factor for the next step, and the controller's memory: ln of the squared norm of the last accepted error.
+    /// @param squared_norm mean square of error/tolerance; NaN or infinity shrinks the step most.
+    /// @param after_rejection lanes whose last attempt failed: they do not grow at once.
+    template <class Real>
+    SLIDEWAY_FN static Real factor(Real squared_norm, Mask<Real> accepted, Mask<Real> after_rejection, Real& memory) {
+        auto const finite = squared_norm < Real(1e300);
+        Real const level = log_positive(select(finite, max(squared_norm, Real(1e-20)), Real(1.0)));
+        Real const exponent = select(accepted, fma(Real(0.5 * integral), memory, Real(-0.5 * proportional) * level),
+                                     Real(-0.5 * proportional) * level);
+        Real const wish = Real(safety) * exp(exponent);
+        Real const ceiling = select(accepted & !after_rejection, Real(grow), Real(1.0));
+        Real const factor = min(max(wish, Real(shrink)), ceiling);
+        memory = select(accepted, max(level, Real(start_memory)), memory);
+        return select(finite, factor, Real(0.1));
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

@@ -1,0 +1,92 @@
+#pragma once
+
+#include "kernels/joint/contact_report.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Finds where apex–face pairs touch inside an accepted step, so that steps end there, and keeps the speeds of touch that
+/// restitution needs (model.md 4: v0 changes only at accepted touch events).
+template <class Real> class TouchLocator {
+public:
+    /// Depth [clearances] up to which a new touch counts as located: below it the contact force is nil.
+    static constexpr double tolerance = 1e-8;
+
+    /// Remembers the gaps at the start of the next step.
+    SLIDEWAY_FN void keep(Mask<Real> taken, ContactReport<Real> const& r) {
+        for (int face = 0; face < face_count; ++face) {
+            keep(taken, r.penetration[face], start_depth_[face]);
+            keep(taken, r.rate[face], start_rate_[face]);
+        }
+    }
+
+    /// Fraction of the step at which the first pair touches, 1 where none touches before the end or the end is the touch.
+    SLIDEWAY_FN Real earliest(Mask<Real> candidates, ContactReport<Real> const& end, Real step, Real clearance) const {
+        Real fraction(1.0);
+        Real const located = clearance * Real(tolerance);
+        for (int face = 0; face < face_count; ++face) {
+            auto const& d0 = start_depth_[face];
+            auto const& v0 = start_rate_[face];
+            auto const& d1 = end.penetration[face];
+            auto const& v1 = end.rate[face];
+            fraction = min(fraction, crossing(candidates, d0.a, v0.a, d1.a, v1.a, step, located));
+            fraction = min(fraction, crossing(candidates, d0.b, v0.b, d1.b, v1.b, step, located));
+            fraction = min(fraction, crossing(candidates, d0.c, v0.c, d1.c, v1.c, step, located));
+            fraction = min(fraction, crossing(candidates, d0.d, v0.d, d1.d, v1.d, step, located));
+        }
+        return fraction;
+    }
+
+    /// After an accepted step: sets the impact speed of pairs that have just touched.  @return lanes where one did.
+    SLIDEWAY_FN Mask<Real> update(Mask<Real> accepted, ContactReport<Real> const& end, ImpactMemory<Real>& memory) {
+        auto touched = mask_of<Real>(false);
+        for (int face = 0; face < face_count; ++face) {
+            auto const& d0 = start_depth_[face];
+            auto const& d1 = end.penetration[face];
+            auto const& v1 = end.rate[face];
+            auto& speed = memory.speeds[face];
+            touched = touched | touch(accepted, d0.a, d1.a, v1.a, speed.a) | touch(accepted, d0.b, d1.b, v1.b, speed.b) |
+                      touch(accepted, d0.c, d1.c, v1.c, speed.c) | touch(accepted, d0.d, d1.d, v1.d, speed.d);
+        }
+        keep(accepted, end);
+        return touched;
+    }
+
+private:
+    SLIDEWAY_FN static void keep(Mask<Real> taken, Quad<Real> const& from, Quad<Real>& to) {
+        to = {select(taken, from.a, to.a), select(taken, from.b, to.b), select(taken, from.c, to.c),
+              select(taken, from.d, to.d)};
+    }
+
+    SLIDEWAY_FN static Mask<Real> touch(Mask<Real> accepted, Real before, Real after, Real rate, Real& speed) {
+        auto const touched = accepted & (before <= Real(0.0)) & (after > Real(0.0));
+        speed = select(touched, max(rate, Real(least_impact_speed)), speed);
+        return touched;
+    }
+
+    /// Where the cubic through both ends' depths and rates reaches half the tolerance, by bisection under a mask.
+    SLIDEWAY_FN static Real crossing(Mask<Real> candidates, Real d0, Real v0, Real d1, Real v1, Real step,
+                                     Real located) {
+        Real const one(1.0), half(0.5);
+        auto const crosses = candidates & (d0 <= Real(0.0)) & (d1 > located);
+        if (none(crosses)) return one;
+        Real const target = half * located;
+        Real const change = d1 - d0;
+        Real const start = fms(step, v0, change);
+        Real const end = fnma(step, v1, change) - start;
+        Real low(0.0), high(1.0);
+        for (int i = 0; i < 48; ++i) {
+            Real const middle = half * (low + high);
+            Real const rest = one - middle;
+            Real const depth = fma(middle, fma(rest, fma(middle, end, start), change), d0);
+            auto const below = depth < target;
+            low = select(below, middle, low);
+            high = select(below, high, middle);
+        }
+        return select(crosses, min(high, Real(0.999)), one);
+    }
+
+    Quad<Real> start_depth_[face_count], start_rate_[face_count];
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA
