@@ -1,0 +1,71 @@
+// The independent oracle: the spatial slider-crank evaluated as the textbook writes it, in 80-bit arithmetic and
+// without any of the kernels' shortcuts.  Poses are homogeneous 4 x 4 matrices (Qian et al. 2020, Eq. 1-4), every
+// apex-face pair is transformed on its own, and the rod is a free body with unknown end forces.  It shares no code
+// with kernels/, only the plain struct of inputs, so that agreement of the two means something.
+#pragma once
+
+#include <array>
+#include <kernels/inputs.hpp>
+
+namespace oracle {
+
+/// y z [m], vy vz [m/s], roll yaw pitch [rad], ω in the slider's frame [rad/s].
+using State = std::array<double, 10>;
+/// One value per apex-face pair: Y faces P1..P8, then Z faces P1..P8.
+using Pairs = std::array<double, 16>;
+using Vector = std::array<double, 3>;
+
+/// What a face carries.  A face is flat, so two apices across its diagonal never touch without a third.
+enum class FaceKind { none, points, lines, surface };
+/// Order of `Result::faces`: Y+ {1,4,8,5}, Y- {2,3,7,6}, Z+ {1,2,6,5}, Z- {4,3,7,8}.
+enum Face { top, bottom, front, back, face_count };
+
+struct Result {
+    bool geometry = false;        // the rod does not reach: everything else is NaN or zero
+    bool contact_domain = false;  // a line beyond δ̄ ≤ l²/R_e: its load, and what follows from it, is NaN
+
+    State derivative{};
+    double power_crank = 0;                          // F_A · v_A [W]
+    double power_friction = 0;                       // loss, -Σ F_t · v_t [W]
+    double power_damping = 0;                        // loss, Σ (F - F_elastic) δ' [W]
+    std::array<double, 8> pen_y{}, pen_z{};          // δ [m], > 0 in contact
+    std::array<double, 8> rate_y{}, rate_z{};        // δ' [m/s]
+    std::array<double, 8> fn_y{}, fn_z{};            // normal force [N]
+    std::array<double, 8> elastic_y{}, elastic_z{};  // its elastic part [N]
+    std::array<double, 8> slip_y{}, slip_z{};        // |v_t| [m/s], of every pair, touching or not
+    int surfaces = 0, lines = 0, points = 0;
+    std::array<FaceKind, face_count> faces{};
+    double energy = 0;                    // E of section 8 [J], contact potential included
+    double contact_potential = 0;         // U [J]
+    double crank_torque = 0;              // (A x F_A)_z [N m], as in the golden tables
+    double crank_torque_with_weight = 0;  // with the weight of the crank itself
+    double x = 0, vx = 0;                 // slider's centre along X [m], [m/s]
+    Vector acceleration{};                // of the slider's centre [m/s²]
+    Vector rod_angular_velocity{};        // no spin about the rod [rad/s]
+    Vector pin_force{};                   // F_A, on the rod at the crank pin [N]
+    Vector normal_force{};                // Σ normal forces, without the way's X, inertial frame [N]
+    Vector normal_torque{};               // their torque about the slider's centre, inertial frame [N m]
+    double ideal_x = 0;                   // slider of the mechanism without clearance [m]; NaN if it does not reach
+};
+
+/// Fills the inputs that follow from others (section 2): a slider of 40 x 20 x 30 mm, crank and rod of their sections.
+slideway::Inputs completed(slideway::Inputs inputs);
+
+/// Everything at one instant.  @param impact_speeds v0 [m/s] per pair for Damping::restitution, its start value 1e-4
+/// where null.  Parts rule: no friction, no way pose, no χ where they say so, whatever the inputs hold.
+Result evaluate(slideway::Inputs const& completed, slideway::Parts const& parts, double t, State const& state,
+                Pairs const* impact_speeds = nullptr);
+
+/// The sixteen δ [m] alone; NaN where the rod does not reach.
+Pairs penetrations(slideway::Inputs const& completed, slideway::Parts const& parts, double t, State const& state);
+
+// Pieces of the laws, for tests of their own.
+double friction_coefficient(slideway::Inputs const& inputs, double speed);
+/// Total load P [N] of a line of length l [m] at approach δ̄ [m]; NaN beyond l²/R_e.
+double line_load(slideway::Inputs const& inputs, double length, double approach);
+/// Its potential V [J], ∂V/∂δ̄ = P.
+double line_potential(slideway::Inputs const& inputs, double length, double approach);
+/// a in the damping factor 1 + a h'/v0: the root in (0, 1/e) of a(1+e) = ln[(1+a)/(1-ea)]; 0 at e = 1.
+double restitution_slope(double restitution);
+
+}  // namespace oracle

@@ -1,0 +1,135 @@
+// A member's result depends on its own inputs only: not on the lane, its neighbours, the order or the instruction set.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "tests/support/ensemble.hpp"
+
+namespace slideway {
+namespace {
+
+struct PartsCase {
+    char const* name;
+    Parts parts;
+};
+
+PartsCase const parts_cases[] = {
+    {"paper_point_friction", {Law::paper, Damping::point, true, false}},
+    {"conservative_rate_friction", {Law::conservative, Damping::rate, true, false}},
+    {"conservative_point_way", {Law::conservative, Damping::point, true, true}},
+    {"paper_restitution", {Law::paper, Damping::restitution, false, false}},
+    {"conservative_restitution_way", {Law::conservative, Damping::restitution, true, true}},
+};
+
+std::vector<Inputs> varied_members(std::size_t count, Parts const& parts) {
+    auto members = testing::scattered_starts(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        auto& in = members[i];
+        double const x = static_cast<double>(i) / static_cast<double>(count);
+        in.crank_speed *= 1 + x;
+        in.hertz_exponent = i % 3 == 0 ? 1.4 : 1.5;  // both power paths inside one pack
+        if (parts.damping == Damping::rate) in.chi_line = in.chi_surface = 10 * x;
+        if (parts.damping == Damping::restitution) in.restitution = 0.3 + 0.6 * x;
+        if (parts.misaligned_way) in.way_pitch = 1e-4 * x, in.way_roll = -1e-4 * x, in.way_offset_z = 1e-5 * x;
+        // Wide angles in some lanes must not change the bits of the others.
+        if (i % 7 == 3) in.start_angle = 3.0;
+    }
+    return members;
+}
+
+testing::RunOptions engine_options(Parts const& parts) {
+    testing::RunOptions o;
+    o.parts = parts;
+    o.settings.rtol = o.settings.atol = 1e-6;
+    o.settings.end_time = 0.012;
+    o.series = (Selection(1) << series_count) - 1;
+    for (int i = 0; i <= 24; ++i) o.sample_times.push_back(i * 5e-4);
+    return o;
+}
+
+bool same_bits(double const* a, double const* b, std::size_t n) { return std::memcmp(a, b, n * sizeof(double)) == 0; }
+
+void expect_same_member(testing::EnsembleResult const& a, std::size_t i, std::size_t a_count,
+                        testing::EnsembleResult const& b, std::size_t j, std::size_t b_count, std::size_t samples,
+                        std::string const& what) {
+    EXPECT_EQ(a.records[i].status, b.records[j].status) << what;
+    EXPECT_EQ(a.records[i].steps_accepted, b.records[j].steps_accepted) << what;
+    EXPECT_EQ(a.records[i].steps_rejected, b.records[j].steps_rejected) << what;
+    EXPECT_EQ(a.records[i].rhs_evaluations, b.records[j].rhs_evaluations) << what;
+    EXPECT_TRUE(same_bits(a.states[i].data(), b.states[j].data(), state_size)) << what;
+    EXPECT_TRUE(same_bits(a.quantities[i].data(), b.quantities[j].data(), quantity_columns)) << what;
+    for (std::size_t s = 0; s < series_count; ++s) {
+        EXPECT_TRUE(same_bits(&a.series[(s * a_count + i) * samples], &b.series[(s * b_count + j) * samples], samples))
+            << what << " series " << series_table[s].name;
+    }
+}
+
+class EngineParity : public ::testing::TestWithParam<PartsCase> {};
+
+TEST_P(EngineParity, EveryIsaWithFmaGivesTheSameBits) {
+    auto const members = varied_members(37, GetParam().parts);
+    auto const o = engine_options(GetParam().parts);
+    auto const reference = testing::run(Isa::scalar, o, members);
+    EXPECT_GT(reference.value(0, Quantity::contact_onsets), 0) << "the members must meet the way";
+    for (Isa const isa : testing::fma_isas()) {
+        auto const got = testing::run(isa, o, members);
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            expect_same_member(reference, i, members.size(), got, i, members.size(), o.sample_times.size(),
+                               std::string(name_of(isa)) + " member " + std::to_string(i));
+        }
+    }
+}
+
+TEST_P(EngineParity, AMemberAloneGivesTheSameBitsAsInAnyLane) {
+    auto const members = varied_members(19, GetParam().parts);
+    auto const o = engine_options(GetParam().parts);
+    std::size_t const samples = o.sample_times.size();
+    for (Isa const isa : all_isas()) {
+        if (!is_supported(isa)) continue;
+        auto const together = testing::run(isa, o, members);
+        auto backwards = members;
+        std::reverse(backwards.begin(), backwards.end());
+        auto const reversed = testing::run(isa, o, backwards);
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            auto const what = std::string(name_of(isa)) + " member " + std::to_string(i);
+            auto const alone = testing::run(isa, o, {members[i]});
+            expect_same_member(together, i, members.size(), alone, 0, 1, samples, what + " alone");
+            expect_same_member(together, i, members.size(), reversed, members.size() - 1 - i, members.size(), samples,
+                               what + " reversed");
+        }
+    }
+}
+
+TEST_P(EngineParity, ABadNeighbourChangesNothing) {
+    auto const good = varied_members(15, GetParam().parts);
+    auto const o = engine_options(GetParam().parts);
+    for (Isa const isa : all_isas()) {
+        if (!is_supported(isa)) continue;
+        auto const clean = testing::run(isa, o, good);
+        for (std::size_t position = 0; position <= good.size(); ++position) {
+            auto members = good;
+            auto bad = good[0];
+            switch (position % 4) {
+                case 0: bad.vy = NAN; break;
+                case 1: bad.y = 1.0; break;            // beyond the rod's reach
+                case 2: bad.wx = INFINITY; break;
+                case 3: bad.y = 5e-3; break;           // deep inside the wall
+            }
+            members.insert(members.begin() + static_cast<std::ptrdiff_t>(position), bad);
+            auto const got = testing::run(isa, o, members);
+            if (position % 4 != 3) EXPECT_NE(got.records[position].status, Status::finished);
+            for (std::size_t i = 0; i < good.size(); ++i) {
+                expect_same_member(clean, i, good.size(), got, i < position ? i : i + 1, members.size(),
+                                   o.sample_times.size(), "bad neighbour at " + std::to_string(position));
+            }
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Instances, EngineParity, ::testing::ValuesIn(parts_cases),
+                         [](auto const& p) { return std::string(p.param.name); });
+
+}  // namespace
+}  // namespace slideway

@@ -1,0 +1,104 @@
+// Runs members through the compiled kernels, as the driver does, and keeps all they return.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "host/backend/backend.hpp"
+#include "host/scene/keys.hpp"
+#include "kernels/block.hpp"
+
+namespace slideway::testing {
+
+struct EnsembleResult {
+    std::vector<MemberRecord> records;
+    std::vector<std::array<double, state_size>> states;      // at the end
+    std::vector<std::array<double, quantity_columns>> quantities;
+    std::vector<double> series;                               // [series][member][sample]
+    std::uint64_t lane_steps_executed = 0, lane_steps_useful = 0;
+    double value(std::size_t member, Quantity q, int column = 0) const {
+        return quantities[member][static_cast<std::size_t>(quantity_column(q) + column)];
+    }
+};
+
+inline constexpr Selection all_quantities = (Selection(1) << quantity_count) - 1;
+inline constexpr Selection state_selection = (Selection(1) << state_series) - 1;
+
+struct RunOptions {
+    Parts parts;
+    IntegratorSettings settings;
+    Selection quantities = all_quantities;
+    Selection series = 0;
+    std::vector<double> sample_times;
+};
+
+inline EnsembleResult run(Isa isa, RunOptions const& options, std::vector<Inputs> const& members) {
+    EnsembleResult r;
+    std::size_t const n = members.size();
+    r.records.resize(n);
+    r.states.resize(n);
+    r.quantities.resize(n);
+    std::size_t selected = 0;
+    for (int i = 0; i < series_count; ++i) selected += selects(options.series, static_cast<Series>(i)) ? 1 : 0;
+    r.series.assign(selected * n * options.sample_times.size(), -1.0);
+    Block block;
+    block.inputs = members.data();
+    block.members = n;
+    block.settings = options.settings;
+    block.sample_times = options.sample_times.data();
+    block.samples = options.sample_times.size();
+    block.quantities = options.quantities;
+    block.series = options.series;
+    block.records = r.records.data();
+    block.final_states = n == 0 ? nullptr : r.states[0].data();
+    block.quantity_values = n == 0 ? nullptr : r.quantities[0].data();
+    block.series_values = r.series.data();
+    find_instance(isa, options.parts).run(block);
+    r.lane_steps_executed = block.lane_steps_executed;
+    r.lane_steps_useful = block.lane_steps_useful;
+    return r;
+}
+
+/// The instruction sets with FMA that this machine has: those that must agree bit for bit.
+inline std::vector<Isa> fma_isas() {
+    std::vector<Isa> found;
+    for (Isa const isa : {Isa::scalar, Isa::avx2, Isa::avx512}) {
+        if (is_supported(isa)) found.push_back(isa);
+    }
+    return found;
+}
+
+/// The start of golden/trajectories.csv (model.md 11): z = 0.1 c, roll 1e-4, yaw 2e-4, pitch −1e-4, at rest.
+inline Inputs golden_start(double clearance, double crank_speed) {
+    Inputs in;
+    in.clearance_y = in.clearance_z = clearance;
+    in.crank_speed = crank_speed;
+    in.z = 0.1 * clearance;
+    in.roll = 1e-4;
+    in.yaw = 2e-4;
+    in.pitch = -1e-4;
+    return complete_inputs(in);
+}
+
+/// Members that start without contact at scattered poses, by a fixed rule without random numbers.
+inline std::vector<Inputs> scattered_starts(std::size_t count, double clearance = 1e-4, double crank_speed = 3.141592653589793) {
+    std::vector<Inputs> members;
+    for (std::size_t i = 0; i < count; ++i) {
+        auto in = golden_start(clearance, crank_speed);
+        // Multiples of irrational numbers spread evenly over (-1, 1).
+        auto const spread = [&](double irrational) {
+            double const x = static_cast<double>(i + 1) * irrational;
+            return 2 * (x - static_cast<double>(static_cast<long long>(x))) - 1;
+        };
+        in.y = 0.4 * clearance * spread(0.6180339887498949);
+        in.z = 0.4 * clearance * spread(0.4142135623730951);
+        in.roll = 10 * clearance * spread(0.7320508075688772);
+        in.yaw = 5 * clearance * spread(0.2360679774997898);
+        in.pitch = 5 * clearance * spread(0.6457513110645907);
+        members.push_back(in);
+    }
+    return members;
+}
+
+}  // namespace slideway::testing
