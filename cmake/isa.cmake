@@ -4,6 +4,11 @@
 # `scalar` is one member per Real on a machine with AVX2 and FMA: the reference that avx2 and avx512 must meet bit for
 # bit.  `sse2` runs on every x86-64 but rounds each multiply-add twice.
 set(SLIDEWAY_ISAS scalar sse2 avx2 avx512)
+# Members per Real.
+set(SLIDEWAY_LANES_scalar 1)
+set(SLIDEWAY_LANES_sse2 2)
+set(SLIDEWAY_LANES_avx2 4)
+set(SLIDEWAY_LANES_avx512 8)
 
 # slideway_isa_flags(<isa> <out_var>): compile options for a unit of that instruction set.
 function(slideway_isa_flags isa out_var)

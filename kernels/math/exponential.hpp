@@ -9,8 +9,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 namespace detail {
 
 /// exp(head + tail), |tail| small against 1; head is held within ±708 (NaN stays NaN).
-/// With k the nearest integer to head/ln 2 and r the rest, exp = 2^k (1 + r + r² E(r)).  Coefficients: scripts/fit_math.py
-/// exponential.
+/// With k the nearest integer to head/ln 2 and r the rest, exp = 2^k (1 + r + r² E(r)).  Coefficients:
+/// scripts/fit_math.py exponential.
 template <class Real> SLIDEWAY_FN Real exp_of_sum(Real head, Real tail) {
     head = min(Real(708.0), max(Real(-708.0), head));  // in this order the minimum hands a NaN on
     Real const k = round_even(head * Real(1.4426950408889634));
@@ -33,8 +33,8 @@ SLIDEWAY_FN double exp(double x) { return detail::exp_of_sum(x, 0.0); }
 template <class Arch> SLIDEWAY_FN Batch<Arch> exp(Batch<Arch> x) { return detail::exp_of_sum(x, Batch<Arch>(0.0)); }
 #endif
 
-/// x^y for a positive, normal, finite x and a finite y, to 1 unit in the last place while |y ln x| < 100 and growing slowly
-/// beyond; |y ln x| is held within 708.  NaN in gives NaN.
+/// x^y for a positive, normal, finite x and a finite y; |y ln x| is held within 708.  To 1 unit in the last place for
+/// |y| ≤ 4, to 0.1 |y| units for larger |y|.  NaN gives NaN.
 /// The logarithm is carried as head + tail, or its rounding would be multiplied by y ln x.
 template <class Real> SLIDEWAY_FN Real power(Real x, Real y) {
     auto const [k, f] = detail::split_for_logarithm(x);

@@ -20,8 +20,9 @@ template <class Real> SLIDEWAY_FN LogarithmSplit<Real> split_for_logarithm(Real 
             fma(mantissa, select(large, Real(0.5), Real(1.0)), Real(-1.0))};
 }
 
-/// L of log(1 + f) = f − f²/2 + f³ L(f), |1 + f| within a factor √2 of 1.  Longer than the usual series in f/(2 + f) by a
-/// dozen terms, and cheaper than its division.  Coefficients: scripts/fit_math.py logarithm.
+/// L of log(1 + f) = f − f²/2 + f³ L(f), 1 + f within a factor √2 of 1.  A dozen terms longer than the usual series in
+/// f/(2 + f), which would need the divider, the scarcest unit of the kernels.  Coefficients: scripts/fit_math.py
+/// logarithm.
 template <class Real> SLIDEWAY_FN Real logarithm_series(Real f) {
     return polynomial(f, 0.33333333333333387, -0.24999999999999564, 0.19999999999963955, -0.16666666666777288,
                       0.1428571429199041, -0.124999999929636, 0.11111110616474035, -0.09999999941098221,
@@ -36,8 +37,8 @@ inline constexpr double ln2_tail = 5.497923018708371e-14;
 
 }  // namespace detail
 
-/// Natural logarithm of a positive, normal, finite number, to 1 unit in the last place.  Anything else, NaN included, gives
-/// some finite number.
+/// Natural logarithm of a positive, normal, finite number, to 1 unit in the last place.  Anything else, NaN included,
+/// gives some finite number.
 template <class Real> SLIDEWAY_FN Real log_positive(Real x) {
     auto const [k, f] = detail::split_for_logarithm(x);
     Real const correction = f * f * fma(f, detail::logarithm_series(f), Real(-0.5));

