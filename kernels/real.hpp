@@ -76,6 +76,9 @@ SLIDEWAY_FN double max(double a, double b) { return a > b ? a : b; }
 SLIDEWAY_FN double abs(double x) { return ::fabs(x); }
 SLIDEWAY_FN double sqrt(double x) { return ::sqrt(x); }
 
+/// −x, of zero too.  Kernels write it so: xsimd's unary minus is 0 − x under AVX-512, which turns 0 into 0.
+SLIDEWAY_FN double negated(double x) { return -x; }
+
 /// a·b + c, rounded once.
 SLIDEWAY_FN double fma(double a, double b, double c) {
 #if defined(__CUDA_ARCH__)
@@ -135,20 +138,40 @@ template <class Arch> SLIDEWAY_FN Batch<Arch> max(Batch<Arch> a, Batch<Arch> b) 
 template <class Arch> SLIDEWAY_FN Batch<Arch> abs(Batch<Arch> x) { return xsimd::abs(x); }
 template <class Arch> SLIDEWAY_FN Batch<Arch> sqrt(Batch<Arch> x) { return xsimd::sqrt(x); }
 
-// xsimd 8.1 has no AVX-512 fma (it becomes multiply and add, which is slower and gives other bits).
-template <class Arch> SLIDEWAY_FN Batch<Arch> fma(Batch<Arch> a, Batch<Arch> b, Batch<Arch> c) {
-#if defined(__AVX512F__)
-    if constexpr (lanes<Batch<Arch>> == 8) return _mm512_fmadd_pd(a, b, c);
-#endif
-#if defined(__FMA__)
-    if constexpr (lanes<Batch<Arch>> == 4) return _mm256_fmadd_pd(a, b, c);
-    if constexpr (lanes<Batch<Arch>> == 2) return _mm_fmadd_pd(a, b, c);
-#endif
-    return a * b + c;
+template <class Arch> SLIDEWAY_FN Batch<Arch> negated(Batch<Arch> x) {
+    using Bits = xsimd::batch<std::uint64_t, Arch>;
+    return xsimd::bitwise_cast<Batch<Arch>>(xsimd::bitwise_cast<Bits>(x) ^ Bits(0x8000000000000000u));
 }
 
-template <class Arch> SLIDEWAY_FN Batch<Arch> fnma(Batch<Arch> a, Batch<Arch> b, Batch<Arch> c) { return fma(-a, b, c); }
-template <class Arch> SLIDEWAY_FN Batch<Arch> fms(Batch<Arch> a, Batch<Arch> b, Batch<Arch> c) { return fma(a, b, -c); }
+// xsimd 8.1 has no AVX-512 fma: it becomes multiply and add, which is slower and gives other bits.
+#if defined(__AVX512F__)
+#define SLIDEWAY_FUSED_512(name) \
+    if constexpr (lanes<Batch<Arch>> == 8) return _mm512_##name##_pd(a, b, c);
+#else
+#define SLIDEWAY_FUSED_512(name)
+#endif
+#if defined(__FMA__)
+#define SLIDEWAY_FUSED(name)                                                    \
+    SLIDEWAY_FUSED_512(name)                                                    \
+    if constexpr (lanes<Batch<Arch>> == 4) return _mm256_##name##_pd(a, b, c); \
+    if constexpr (lanes<Batch<Arch>> == 2) return _mm_##name##_pd(a, b, c);
+#else
+#define SLIDEWAY_FUSED(name)
+#endif
+template <class Arch> SLIDEWAY_FN Batch<Arch> fma(Batch<Arch> a, Batch<Arch> b, Batch<Arch> c) {
+    SLIDEWAY_FUSED(fmadd)
+    return a * b + c;
+}
+template <class Arch> SLIDEWAY_FN Batch<Arch> fnma(Batch<Arch> a, Batch<Arch> b, Batch<Arch> c) {
+    SLIDEWAY_FUSED(fnmadd)
+    return c - a * b;
+}
+template <class Arch> SLIDEWAY_FN Batch<Arch> fms(Batch<Arch> a, Batch<Arch> b, Batch<Arch> c) {
+    SLIDEWAY_FUSED(fmsub)
+    return a * b - c;
+}
+#undef SLIDEWAY_FUSED
+#undef SLIDEWAY_FUSED_512
 
 template <class Arch> SLIDEWAY_FN void split_exponent(Batch<Arch> x, Batch<Arch>& mantissa, Batch<Arch>& exponent) {
     using Bits = xsimd::batch<std::uint64_t, Arch>;

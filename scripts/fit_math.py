@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Makes the constants of kernels/math/ and prints them as they stand in the headers, each with the error of its fit.
 
-A developer's tool: it needs mpmath; the build and the tests do not need it.  Every fit is a minimax fit (Remez exchange in
-60 digits); the errors shown are those of the coefficients rounded to double.  The output is the same on every machine.
+A developer's tool: it needs mpmath; the build and the tests do not.  Every fit is a minimax fit (Remez exchange in 60
+digits); the errors shown are those of the coefficients rounded to double.  The output is the same on every machine.
 Usage: fit_math.py [trigonometry] [logarithm] [exponential] [lambert_w]
 """
 import sys
@@ -39,7 +39,7 @@ def first_reference(samples, count):
 
 
 def polynomial(function, weight, low, high, degree, samples=1000):
-    """Double coefficients, lowest first, that make the largest |weight (function - polynomial)| least; and that error."""
+    """Double coefficients, lowest first, that make the largest |weight (function - sum)| least; and that error."""
     points = chebyshev_points(mp.mpf(low), mp.mpf(high), samples)
     values = [function(x) for x in points]
     weights = [weight(x) for x in points]
@@ -125,13 +125,13 @@ def show_parts(name, value, bits):
 
 
 def trigonometry():
-    # sin x = x + x³ S(x²) and 1 - cos x = x²/2 - x⁴ C(x²), errors relative to sin x and 1 - cos x.
+    # sin x = x + x³ S(x²) and 1 - cos x = x²/2 + x⁴ C(x²), errors relative to sin x and 1 - cos x.
     def s(z):
         x = mp.sqrt(z)
         return (mp.sin(x) - x) / (x * z) if z else -mp.mpf(1) / 6
 
     def c(z):
-        return (mp.cos(mp.sqrt(z)) - 1 + z / 2) / z ** 2 if z else mp.mpf(1) / 24
+        return (1 - mp.cos(mp.sqrt(z)) - z / 2) / z ** 2 if z else -mp.mpf(1) / 24
 
     quarter, half = (mp.pi / 4) ** 2, (mp.pi / 2) ** 2
     show('sine, |x| <= pi/4', *polynomial(s, lambda z: z + mp.mpf('0.01'), 0, quarter, 5))

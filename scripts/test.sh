@@ -28,12 +28,13 @@ echo "build: $SECONDS s"
 
 SECONDS=0
 code=0
-ctest --test-dir "$build" --label-exclude '^slow$' --parallel "$jobs" --timeout 600 --no-tests=error \
+ctest --test-dir "$build" --label-exclude '^slow$' --parallel "$jobs" --timeout 300 --no-tests=error \
     --output-on-failure | tee "$log" || code=$?
 echo "tests: $SECONDS s on $jobs cores"
 
 # ctest's summary: `P% tests passed, F tests failed out of N`, where N leaves out the disabled tests and counts the
 # skipped ones as passed; after it both are listed by name.
+# shellcheck disable=SC2016  # sed's own $
 summary=$(sed -n '/^[0-9]*% tests passed, /h; /^[0-9]*% tests passed, /!H; ${x;p}' "$log")
 [[ $summary =~ ^[0-9]+%\ tests\ passed,\ ([0-9]+)\ tests\ failed\ out\ of\ ([0-9]+) ]] ||
     stop "ctest ended with code $code and without a summary"

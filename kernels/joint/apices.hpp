@@ -26,7 +26,7 @@ template <class Real> struct FacePair {
 template <class Real>
 SLIDEWAY_FN FacePair<Real> penetrations(Real clearance, Real half_main, Real half_across, Real half_length,
                                         Real shortfall, Real n_across, Real n_x, Real p_main, Real p_across) {
-    return {fma(shortfall, half_main, -clearance), -fma(n_across, p_across, fma(shortfall, p_main, p_main)),
+    return {fms(shortfall, half_main, clearance), negated(fma(n_across, p_across, fma(shortfall, p_main, p_main))),
             n_across * half_across, n_x * half_length};
 }
 
@@ -37,7 +37,7 @@ SLIDEWAY_FN FacePair<Real> penetration_rates(Real half_main, Real half_across, R
                                              Real p_across, Real v_main, Real v_across) {
     Real const turning = fma(m_main, p_main, m_across * p_across);
     Real const moving = fma(n_main, v_main, n_across * v_across);
-    return {m_main * half_main, -(turning + moving), m_across * half_across, m_x * half_length};
+    return {m_main * half_main, negated(turning + moving), m_across * half_across, m_x * half_length};
 }
 
 /// The four apices of the face on `side` (+1 or −1).

@@ -32,13 +32,13 @@ template <class Real> SLIDEWAY_FN Axes<Real> axes(Attitude<Real> const& a) {
     Real const& sp = a.pitch.sin;
     Real const& cp = a.pitch.cos;
     Axes<Real> e;
-    e.x = {cp * cy, sp * cy, -sy};
+    e.x = {cp * cy, sp * cy, negated(sy)};
     Real const sy_sr = sy * sr, sy_cr = sy * cr;
     e.y = {fms(cp, sy_sr, sp * cr), fma(sp, sy_sr, cp * cr), cy * sr};
     e.z = {fma(cp, sy_cr, sp * sr), fms(sp, sy_cr, cp * sr), cy * cr};
     // cos a cos b − 1 = −(va + vb − va vb) with v = 1 − cos.
     e.y_shortfall = fms(sp, sy_sr, fnma(a.pitch.versine, a.roll.versine, a.pitch.versine + a.roll.versine));
-    e.z_shortfall = -fnma(a.yaw.versine, a.roll.versine, a.yaw.versine + a.roll.versine);
+    e.z_shortfall = fms(a.yaw.versine, a.roll.versine, a.yaw.versine + a.roll.versine);
     return e;
 }
 

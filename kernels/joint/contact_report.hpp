@@ -15,7 +15,11 @@ inline constexpr double least_impact_speed = 1e-4;
 
 /// Apex numbers P1…P8 (from 0) of a face's a, b, c, d.  Source: Qian et al. 2020, Table 2: top {1,4,8,5}, bottom {2,3,7,6},
 /// front {1,2,6,5}, back {4,3,7,8}.
-inline constexpr int face_apices[face_count][4] = {{0, 3, 7, 4}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 2, 6, 7}};
+/// A function, because device code cannot index a constant of the host.
+SLIDEWAY_FN constexpr int face_apex(int face, int index) {
+    constexpr int apices[face_count][4] = {{0, 3, 7, 4}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 2, 6, 7}};
+    return apices[face][index];
+}
 
 /// All that the joint knows of one state, for observers and probes.
 template <class Real> struct ContactReport {
@@ -60,10 +64,10 @@ template <class Real> struct ContactReport {
         Real force(0.0);
         for (int face = 0; face < face_count; ++face) {
             auto const& q = normal_force[face];
-            if (face_apices[face][0] == apex) force = force + q.a;
-            if (face_apices[face][1] == apex) force = force + q.b;
-            if (face_apices[face][2] == apex) force = force + q.c;
-            if (face_apices[face][3] == apex) force = force + q.d;
+            if (face_apex(face, 0) == apex) force = force + q.a;
+            if (face_apex(face, 1) == apex) force = force + q.b;
+            if (face_apex(face, 2) == apex) force = force + q.c;
+            if (face_apex(face, 3) == apex) force = force + q.d;
         }
         return force;
     }

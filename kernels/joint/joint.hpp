@@ -111,7 +111,7 @@ private:
             if constexpr (Full) report->add_face(index, m, f);
             if constexpr (Friction::enabled) {
                 SlidingFace<Real> const sliding{n,
-                                                arranged<axis>(zero, fms(side, half_main, p_main), -p_across),
+                                                arranged<axis>(zero, fms(side, half_main, p_main), negated(p_across)),
                                                 {p.geometry.half_length, zero, zero},
                                                 arranged<axis>(zero, zero, half_across),
                                                 motion.velocity,

@@ -66,7 +66,7 @@ private:
     /// n − 1 of a unit vector's main component n, from the other two: −q/(1 + √(1 − q)), q the sum of their squares.
     template <class Real> SLIDEWAY_FN static Real shortfall(Real main, Real p, Real r) {
         Real const q = fma(p, p, r * r);
-        Real const upright = -q / (Real(1.0) + sqrt(max(Real(1.0) - q, Real(0.0))));
+        Real const upright = negated(q) / (Real(1.0) + sqrt(max(Real(1.0) - q, Real(0.0))));
         return select(main > Real(0.0), upright, main - Real(1.0));
     }
 };

@@ -69,7 +69,7 @@ struct StickSlipFriction {
         // Both curves are one sine on [−π/2, π/2]: cos(q) = sin(π/2 − q).
         Real const quarter(1.5707963267948966);
         auto const sticking = speed < f.stick_speed;
-        Real const falling = max(fnma(speed - f.stick_speed, f.fall, quarter), -quarter);
+        Real const falling = max(fnma(speed - f.stick_speed, f.fall, quarter), negated(quarter));
         Real const sine = sin_quarter(select(sticking, speed * f.rise, falling));
         Real const half(0.5);
         Real const amplitude =
@@ -87,7 +87,7 @@ private:
         Real const force = coefficient(speed, friction) * normal;
         power = fma(force, speed, power);
         // μ vanishes with V: any floor keeps the quotient finite.
-        return -(force / max(speed, Real(1e-300))) * v_t;
+        return negated(force / max(speed, Real(1e-300))) * v_t;
     }
 };
 

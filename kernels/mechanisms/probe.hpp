@@ -39,12 +39,11 @@ template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& tabl
             for (int face = 0; face < face_count; ++face) {
                 auto* const depth = face < 2 ? result.penetration_y : result.penetration_z;
                 auto* const force = face < 2 ? result.normal_force_y : result.normal_force_z;
-                auto const& apex = face_apices[face];
                 auto const put = [&](double* to, Quad<Real> const& q) {
-                    to[apex[0]] = lane(q.a, i);
-                    to[apex[1]] = lane(q.b, i);
-                    to[apex[2]] = lane(q.c, i);
-                    to[apex[3]] = lane(q.d, i);
+                    to[face_apex(face, 0)] = lane(q.a, i);
+                    to[face_apex(face, 1)] = lane(q.b, i);
+                    to[face_apex(face, 2)] = lane(q.c, i);
+                    to[face_apex(face, 3)] = lane(q.d, i);
                 };
                 put(depth, c.penetration[face]);
                 put(force, c.normal_force[face]);

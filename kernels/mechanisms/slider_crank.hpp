@@ -35,9 +35,9 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
         // Crank pin A and its motion.
         auto const crank = sincos(fma(p.crank_speed, t, p.start_angle));
         Real const ax = p.crank_length * crank.cos, ay = p.crank_length * crank.sin;
-        Real const vax = -p.crank_speed * ay, vay = p.crank_speed * ax;
-        Real const speed_squared = p.crank_speed * p.crank_speed;
-        Real const aax = -speed_squared * ax, aay = -speed_squared * ay;
+        Real const vax = negated(p.crank_speed) * ay, vay = p.crank_speed * ax;
+        Real const minus_speed_squared = negated(p.crank_speed * p.crank_speed);
+        Real const aax = minus_speed_squared * ax, aay = minus_speed_squared * ay;
 
         // Rod: D² + (y − y_A)² + z² = L² gives x and its rates.
         Real const dy = y - ay;
@@ -45,10 +45,10 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
         faults.geometry = !(reach > zero);
         Real const d = sqrt(reach);
         Real const inverse_d = one / d;
-        Real const ky = -dy * inverse_d, kz = -z * inverse_d;
+        Real const ky = negated(dy) * inverse_d, kz = negated(z) * inverse_d;
         Real const dvy = vy - vay;
         Real const dd = fma(ky, dvy, kz * vz);
-        Real const gamma = -fma(dvy, dvy, fma(vz, vz, dd * dd)) * inverse_d;
+        Real const gamma = negated(fma(dvy, dvy, fma(vz, vz, dd * dd))) * inverse_d;
         Real const x = ax + d, vx = vax + dd;
 
         // Slider's attitude and its kinematic equations.

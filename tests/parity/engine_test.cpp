@@ -37,6 +37,8 @@ std::vector<Inputs> varied_members(std::size_t count, Parts const& parts) {
         if (parts.misaligned_way) in.way_pitch = 1e-4 * x, in.way_roll = -1e-4 * x, in.way_offset_z = 1e-5 * x;
         // Wide angles in some lanes must not change the bits of the others.
         if (i % 7 == 3) in.start_angle = 3.0;
+        // Zeros have a sign.
+        if (i % 5 == 2) in.z = in.roll = in.yaw = 0;
     }
     return members;
 }

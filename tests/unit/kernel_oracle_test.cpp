@@ -117,8 +117,9 @@ template <class Law, class Friction, class Way> void compare_restitution(oracle:
     auto const p = Model::parameters(c.inputs);
     ImpactMemory<double> memory;
     for (int face = 0; face < face_count; ++face) {
-        auto const& apex = face_apices[face];
-        auto const speed = [&](int k) { return c.impact_speeds[static_cast<std::size_t>((face < 2 ? 0 : 8) + apex[k])]; };
+        auto const speed = [&](int k) {
+            return c.impact_speeds[static_cast<std::size_t>((face < 2 ? 0 : 8) + face_apex(face, k))];
+        };
         memory.speeds[face] = {speed(0), speed(1), speed(2), speed(3)};
     }
     double rates[10];
@@ -126,10 +127,10 @@ template <class Law, class Friction, class Way> void compare_restitution(oracle:
     Model::template derivative<true>(c.t, c.state.data(), p, memory, rates, &report);
     double depths[16], forces[16];
     for (int face = 0; face < face_count; ++face) {
-        auto const& apex = face_apices[face];
         int const base = face < 2 ? 0 : 8;
         auto const put = [&](double* to, Quad<double> const& q) {
-            to[base + apex[0]] = q.a, to[base + apex[1]] = q.b, to[base + apex[2]] = q.c, to[base + apex[3]] = q.d;
+            to[base + face_apex(face, 0)] = q.a, to[base + face_apex(face, 1)] = q.b;
+            to[base + face_apex(face, 2)] = q.c, to[base + face_apex(face, 3)] = q.d;
         };
         put(depths, report.contact.penetration[face]);
         put(forces, report.contact.normal_force[face]);

@@ -1,0 +1,74 @@
+#include <fmt/format.h>
+
+#include "host/cli/commands.hpp"
+#include "host/cli/text.hpp"
+#include "host/driver/ensemble.hpp"
+#include "host/study/prediction.hpp"
+
+namespace slideway::cli {
+namespace {
+
+std::string_view damping_text(Damping damping) {
+    switch (damping) {
+    case Damping::point: return "damping of point contacts";
+    case Damping::rate: return "damping of point, line and surface contacts";
+    case Damping::restitution: return "restitution";
+    }
+    return "";
+}
+
+void print_parts(Scene const& scene) {
+    std::string in = fmt::format("{} mechanism; {} law; {}", scene.mechanism,
+                                 scene.parts.law == Law::paper ? "paper" : "conservative",
+                                 damping_text(scene.parts.damping));
+    std::string out = scene.parts.law == Law::paper ? "conservative law" : "paper law";
+    auto const sort = [&](bool is_in, std::string_view name) { (is_in ? in : out) += fmt::format("; {}", name); };
+    if (scene.parts.damping != Damping::rate) sort(false, "damping of line and surface contacts");
+    if (scene.parts.damping != Damping::restitution) sort(false, "restitution");
+    sort(scene.parts.friction, "friction");
+    sort(scene.parts.misaligned_way, "pose of a misaligned way");
+    sort(!scene.sample_times.empty(), "time series");
+    print_field("parts in", in);
+    print_field("parts out", out);
+
+    std::string asked, left;
+    for (int q = 0; q < quantity_count; ++q) {
+        std::string& names = selects(scene.quantities, static_cast<Quantity>(q)) ? asked : left;
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", quantity_table[q].name);
+    }
+    print_field("asked for", asked.empty() ? "no quantity" : asked);
+    print_field("left out", left.empty() ? "no quantity" : left);
+}
+
+std::string range_text(std::string const& least, std::string const& most) {
+    return least == most ? least : fmt::format("{} to {}", least, most);
+}
+
+}  // namespace
+
+int check(CheckArguments const& arguments) {
+    Isa const isa = parse_isa(arguments.scene.isa);
+    Scene const scene = load_scene(arguments.scene);
+    int const threads = arguments.threads.value_or(default_threads());
+    Prediction const prediction = predict(scene, isa, threads);
+
+    fmt::print("# {} is a valid scene.  Resolved, in SI units:\n\n", scene.path);
+    std::string const resolved = resolved_toml(scene);
+    fmt::print("{}{}\n", resolved, resolved.ends_with('\n') ? "" : "\n");
+    print_parts(scene);
+    print_field("kernels", fmt::format("{}, {} lanes, {} threads, blocks of {} members", name_of(isa), lanes_of(isa),
+                                       threads, prediction.block_members));
+    print_field("members", fmt::format("{}, each over {:.6g} s", scene.members, scene.integrator.end_time));
+    print_field("memory", fmt::format("{} for blocks in work", bytes_text(static_cast<double>(prediction.buffer_bytes))));
+    print_field("output", fmt::format("{} and a header of some tens of kB",
+                                      bytes_text(static_cast<double>(prediction.output_bytes))));
+    print_field("cost", fmt::format("{} steps, {} on {} threads; a rough range: all in free flight to all in settled contact",
+                                    range_text(fmt::format("{:.2g}", prediction.least_steps),
+                                               fmt::format("{:.2g}", prediction.most_steps)),
+                                    range_text(duration_text(prediction.least_seconds),
+                                               duration_text(prediction.most_seconds)),
+                                    threads));
+    return exit_code::done;
+}
+
+}  // namespace slideway::cli

@@ -1,0 +1,72 @@
+// The commands: what the user gave, and what runs.  Each returns the process's exit code.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "host/cli/options.hpp"
+#include "host/scene/scene.hpp"
+
+namespace slideway::cli {
+
+namespace exit_code {
+inline constexpr int done = 0;
+inline constexpr int internal_error = 1;    // a defect of slideway itself
+inline constexpr int bad_usage = 2;         // also a bad scene
+inline constexpr int too_many_failures = 3;
+inline constexpr int file_trouble = 4;      // also a lack of memory
+inline constexpr int stopped_early = 5;
+}  // namespace exit_code
+
+struct SceneArguments {
+    std::string path;
+    Overrides overrides;
+    std::string isa = "auto";
+};
+
+struct RunArguments {
+    SceneArguments scene;
+    std::string output;                     // empty: by the scene's name
+    std::string backend = "auto";
+    std::optional<int> threads;
+    std::optional<double> max_hours;
+    FailureLimit max_failures;
+    std::optional<MemberRange> members;     // empty: all
+    bool quiet = false;
+};
+int run(RunArguments const& arguments);
+
+struct CheckArguments {
+    SceneArguments scene;
+    std::optional<int> threads;
+};
+int check(CheckArguments const& arguments);
+
+struct ProbeArguments {
+    SceneArguments scene;
+    std::string table;                      // empty: the scene's start
+    std::string output;                     // empty: stdout
+};
+int probe(ProbeArguments const& arguments);
+
+struct InfoArguments {
+    std::string path;
+};
+int info(InfoArguments const& arguments);
+
+struct ListArguments {};
+int list(ListArguments const& arguments);
+
+/// Text for stdout and nothing to run: --help, --version.
+struct TextOnly {
+    std::string text;
+};
+
+using Arguments = std::variant<RunArguments, CheckArguments, ProbeArguments, InfoArguments, ListArguments, TextOnly>;
+
+/// @throws SceneError with one line for a command line that cannot be used.
+Arguments parse_arguments(int argc, char const* const* argv);
+
+}  // namespace slideway::cli

@@ -1,0 +1,35 @@
+#include <fmt/format.h>
+
+#include "host/cli/commands.hpp"
+#include "host/cli/text.hpp"
+#include "host/output/result_reader.hpp"
+#include "host/study/result_summary.hpp"
+
+namespace slideway::cli {
+
+int info(InfoArguments const& arguments) {
+    ResultReader const results(arguments.path);
+    std::string const computed = results.computed_hash();
+    bool const intact = computed == results.stored_hash();
+
+    print_field("file", arguments.path);
+    for (char const* const name : {"title", "created", "version", "commit", "compiler", "flags", "backend", "isa",
+                                   "threads", "seed", "completeness"}) {
+        print_field(name, results.attribute(name));
+    }
+    print_field("lanes in use", results.attribute("lane_utilisation"));
+    print_field("payload", intact ? fmt::format("{}: matches the data", computed)
+                                  : fmt::format("DOES NOT MATCH: the file says {}, its data give {}",
+                                                results.stored_hash(), computed));
+    fmt::print("\ndimensions\n");
+    for (auto const& dimension : results.dimensions()) fmt::print("  {:<16} {}\n", dimension.name, dimension.length);
+    fmt::print("\nstatus\n");
+    print_statuses(count_statuses(results));
+    auto const quantities = summarise_quantities(results);
+    print_quantities(quantities);
+    fmt::print("\nscene\n{}\n", results.attribute("scene"));
+    if (intact) return exit_code::done;
+    throw FileError(fmt::format("{}: the data do not match their hash; the file is damaged or was edited", arguments.path));
+}
+
+}  // namespace slideway::cli

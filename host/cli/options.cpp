@@ -1,0 +1,96 @@
+#include "host/cli/options.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "host/scene/error.hpp"
+
+namespace slideway::cli {
+namespace {
+
+template <class Number>
+std::optional<Number> parse_number(std::string_view text) {
+    Number value{};
+    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+}  // namespace
+
+bool FailureLimit::exceeded(std::uint64_t failed, std::uint64_t members) const {
+    double const allowed = percent ? value / 100 * static_cast<double>(members) : value;
+    return static_cast<double>(failed) > allowed;
+}
+
+std::string FailureLimit::text() const { return fmt::format("{}{}", value, percent ? "%" : ""); }
+
+FailureLimit parse_failure_limit(std::string_view text) {
+    bool const percent = text.ends_with('%');
+    std::string_view const number = percent ? text.substr(0, text.size() - 1) : text;
+    auto const value = parse_number<double>(number);
+    bool const whole = value && (percent || *value == std::floor(*value));
+    if (!whole || !std::isfinite(*value) || *value < 0 || (percent && *value > 100)) {
+        throw SceneError(fmt::format("--max-failures {}: give a number of members (3) or a percentage (0.5%)", text));
+    }
+    return {*value, percent};
+}
+
+MemberRange parse_member_range(std::string_view text) {
+    auto const dots = text.find("..");
+    if (dots != text.npos) {
+        auto const first = parse_number<std::uint64_t>(text.substr(0, dots));
+        auto const last = parse_number<std::uint64_t>(text.substr(dots + 2));
+        if (first && last && *first <= *last && *last < std::numeric_limits<std::uint64_t>::max()) {
+            return {*first, *last - *first + 1};
+        }
+    }
+    throw SceneError(fmt::format("--members {}: give the first and the last member as A..B, counted from 0", text));
+}
+
+std::pair<std::string, std::string> parse_override(std::string_view text) {
+    auto const sign = text.find('=');
+    if (sign == text.npos || sign == 0) {
+        throw SceneError(fmt::format("--set {}: give key=value, for instance --set contact.law=conservative", text));
+    }
+    return {std::string(text.substr(0, sign)), std::string(text.substr(sign + 1))};
+}
+
+Isa parse_isa(std::string_view text) {
+    if (text == "auto") return best_isa();
+    std::string known = "auto", supported;
+    for (Isa const isa : all_isas()) {
+        known += fmt::format(", {}", name_of(isa));
+        if (is_supported(isa)) supported += fmt::format("{}{}", supported.empty() ? "" : ", ", name_of(isa));
+    }
+    for (Isa const isa : all_isas()) {
+        if (name_of(isa) != text) continue;
+        if (is_supported(isa)) return isa;
+        throw SceneError(fmt::format("--isa {}: this machine does not have it; it has {}", text, supported));
+    }
+    throw SceneError(fmt::format("--isa {}: no such instruction set; use one of {}", text, known));
+}
+
+void require_backend(std::string_view text) {
+    if (text == "auto" || text == "cpu") return;
+    if (text == "cuda") throw SceneError("--backend cuda: not available in this build; use cpu");
+    throw SceneError(fmt::format("--backend {}: no such backend; use one of auto, cpu, cuda", text));
+}
+
+std::string shell_quoted(std::string_view word) {
+    constexpr std::string_view plain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+    if (!word.empty() && word.find_first_not_of(plain) == word.npos) return std::string(word);
+    std::string quoted = "'";
+    for (char const c : word) {
+        if (c == '\'') quoted += "'\\''";
+        else quoted += c;
+    }
+    return quoted + "'";
+}
+
+}  // namespace slideway::cli

@@ -1,0 +1,33 @@
+// Values of options that are more than a word or a number.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "host/backend/backend.hpp"
+#include "host/study/ensemble_study.hpp"
+
+namespace slideway::cli {
+
+/// How many members may fail before the exit code says so.
+struct FailureLimit {
+    double value = 1;
+    bool percent = true;
+    bool exceeded(std::uint64_t failed, std::uint64_t members) const;
+    std::string text() const;
+};
+
+// Each throws SceneError with one line for a text that cannot be used.
+
+FailureLimit parse_failure_limit(std::string_view text);                      // "3", "0.5%"
+MemberRange parse_member_range(std::string_view text);                        // "A..B", both included, from 0
+std::pair<std::string, std::string> parse_override(std::string_view text);    // "key=value"
+Isa parse_isa(std::string_view text);                                         // also "auto"; supported by this machine
+void require_backend(std::string_view text);                                  // one that this build has
+
+/// 'a b' for a shell; words without special characters stay as they are.
+std::string shell_quoted(std::string_view word);
+
+}  // namespace slideway::cli

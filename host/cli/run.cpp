@@ -1,0 +1,132 @@
+#include <filesystem>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "host/cli/commands.hpp"
+#include "host/cli/text.hpp"
+
+namespace slideway::cli {
+namespace {
+
+std::string default_output(RunArguments const& arguments) {
+    std::string const stem = std::filesystem::path(arguments.scene.path).stem().string();
+    if (!arguments.members) return stem + ".nc";
+    // A replay must not replace the ensemble that it looks into.
+    auto const [first, count] = *arguments.members;
+    return count == 1 ? fmt::format("{}_member_{}.nc", stem, first)
+                      : fmt::format("{}_members_{}-{}.nc", stem, first, first + count - 1);
+}
+
+MemberRange member_range(RunArguments const& arguments, Scene const& scene) {
+    if (!arguments.members) return {0, scene.members};
+    MemberRange const range = *arguments.members;
+    if (range.count > scene.members || range.first > scene.members - range.count) {
+        throw SceneError(fmt::format("--members {}..{}: {} has members 0 to {}", range.first,
+                                     range.first + range.count - 1, scene.path, scene.members - 1));
+    }
+    return range;
+}
+
+std::string replay_command(RunArguments const& arguments, Isa isa, std::uint64_t member) {
+    std::string command = "slideway run " + shell_quoted(arguments.scene.path);
+    for (auto const& [key, value] : arguments.scene.overrides) command += " --set " + shell_quoted(key + "=" + value);
+    return command + fmt::format(" --isa {} --member {}", name_of(isa), member);
+}
+
+void print_failures(RunArguments const& arguments, Scene const& scene, Isa isa, EnsembleTotals const& totals,
+                    ResultReader const& results) {
+    if (totals.failed() == 0) return;
+    constexpr std::size_t listed = 5;
+    auto const failed = failed_members(results, listed);
+    fmt::print("\n{} failed member{}{}:\n", totals.failed(), totals.failed() == 1 ? "" : "s",
+               totals.failed() > listed ? fmt::format(", the first {}", listed) : "");
+    for (FailedMember const& member : failed) {
+        fmt::print("  member {}: {}", member.member, name_of(member.status));
+        auto const why = defect(member_inputs(scene, member.member));
+        if (why) fmt::print(": {}", *why);
+        else fmt::print(" at t = {:.6g} s", member.time);
+        fmt::print("\n    {}\n", replay_command(arguments, isa, member.member));
+    }
+}
+
+/// The paper's law makes energy where its modes switch (model.md 8); a reader of results has to know how much.
+void print_energy_made(Scene const& scene, std::vector<QuantitySummary> const& quantities) {
+    if (scene.parts.law != Law::paper) return;
+    auto const mean_of = [&](std::string_view label) -> QuantitySummary const* {
+        for (QuantitySummary const& quantity : quantities) {
+            if (quantity.label == label && quantity.values.count > 0) return &quantity;
+        }
+        return nullptr;
+    };
+    QuantitySummary const* const residual = mean_of("energy_residual");
+    if (residual == nullptr) return;
+    double const made = residual->values.mean;
+    fmt::print("\nMode switching of the paper law made {:.3g} J of energy per member on average", made);
+    QuantitySummary const* const work = mean_of("crank_work");
+    if (work != nullptr && work->values.mean != 0) {
+        fmt::print(", {:.3g} % of the crank's work of {:.3g} J", 100 * made / std::abs(work->values.mean), work->values.mean);
+    }
+    fmt::print(".\n");
+}
+
+void print_summary(RunArguments const& arguments, Scene const& scene, EnsembleOptions const& options,
+                   EnsembleTotals const& totals, bool replaced) {
+    ResultReader const results(options.output);
+    auto const quantities = summarise_quantities(results);
+    std::uint64_t const ran = options.range.count - totals.not_run;
+    print_field("scene", scene.title.empty() ? scene.path : fmt::format("{} ({})", scene.title, scene.path));
+    print_field("members", fmt::format("{}", options.range.count));
+    print_statuses(count_statuses(results));
+    print_field("throughput", fmt::format("{:.4g} members/s, {} wall time ({} threads, {}, {} lanes)",
+                                          totals.seconds > 0 ? static_cast<double>(ran) / totals.seconds : 0.0,
+                                          duration_text(totals.seconds), options.threads, name_of(options.isa),
+                                          lanes_of(options.isa)));
+    print_field("steps", fmt::format("{} accepted, {} rejected, {} right-hand sides", totals.steps_accepted,
+                                     totals.steps_rejected, totals.rhs_evaluations));
+    print_field("lanes in use", fmt::format("{:.1f} %", 100 * totals.lane_utilisation()));
+    print_quantities(quantities);
+    print_energy_made(scene, quantities);
+    print_failures(arguments, scene, options.isa, totals, results);
+    fmt::print("\n");
+    print_field("results", fmt::format("{}{}", options.output, replaced ? " (replaced a former file)" : ""));
+}
+
+}  // namespace
+
+int run(RunArguments const& arguments) {
+    require_backend(arguments.backend);
+    Isa const isa = parse_isa(arguments.scene.isa);
+    Scene const scene = load_scene(arguments.scene);
+    EnsembleOptions options;
+    options.range = member_range(arguments, scene);
+    options.output = arguments.output.empty() ? default_output(arguments) : arguments.output;
+    options.isa = isa;
+    options.threads = arguments.threads.value_or(default_threads());
+    options.progress = Progress::style_for(stderr, arguments.quiet);
+    std::error_code ignored;
+    bool const replaced = std::filesystem::exists(options.output, ignored);
+
+    StopRequest stop;
+    if (arguments.max_hours) stop.stop_after(std::chrono::duration<double, std::ratio<3600>>(*arguments.max_hours));
+    EnsembleTotals totals;
+    {
+        SignalScope const signals(stop);
+        totals = run_ensemble_study(scene, options, stop);
+    }
+    print_summary(arguments, scene, options, totals, replaced);
+
+    if (totals.stopped != StopReason::none) {
+        fmt::print(stderr, "slideway: stopped early ({}): {} of {} members were not run\n",
+                   totals.stopped == StopReason::signal ? "signal" : "--max-hours", totals.not_run, options.range.count);
+        return exit_code::stopped_early;
+    }
+    if (arguments.max_failures.exceeded(totals.failed(), options.range.count)) {
+        fmt::print(stderr, "slideway: {} of {} members failed, more than --max-failures {}\n", totals.failed(),
+                   options.range.count, arguments.max_failures.text());
+        return exit_code::too_many_failures;
+    }
+    return exit_code::done;
+}
+
+}  // namespace slideway::cli

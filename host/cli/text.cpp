@@ -1,0 +1,65 @@
+#include "host/cli/text.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace slideway::cli {
+
+Scene load_scene(SceneArguments const& arguments) {
+    try {
+        return read_scene(arguments.path, arguments.overrides);
+    } catch (FileError const& error) {
+        throw SceneError(error.what());   // to the user a scene that is not there is bad usage
+    }
+}
+
+std::string bytes_text(double bytes) {
+    if (bytes < 1e3) return fmt::format("{:.0f} B", bytes);
+    if (bytes < 1e6) return fmt::format("{:.1f} kB", bytes / 1e3);
+    if (bytes < 1e9) return fmt::format("{:.1f} MB", bytes / 1e6);
+    return fmt::format("{:.1f} GB", bytes / 1e9);
+}
+
+std::string duration_text(double seconds) {
+    if (seconds < 60) return fmt::format("{:.2g} s", seconds);
+    if (seconds < 3600) return fmt::format("{:.0f} min {:.0f} s", std::floor(seconds / 60), std::fmod(std::floor(seconds), 60));
+    if (seconds < 86400) return fmt::format("{:.1f} h", seconds / 3600);
+    return fmt::format("{:.1f} days", seconds / 86400);
+}
+
+void print_field(std::string_view label, std::string_view text) { fmt::print("{:<12} {}\n", label, text); }
+
+void print_statuses(std::vector<StatusCount> const& statuses) {
+    for (StatusCount const& count : statuses) fmt::print("  {:<16} {}\n", name_of(count.status), count.members);
+}
+
+void print_quantities(std::vector<QuantitySummary> const& quantities) {
+    if (quantities.empty()) return;
+    // Rows of NaN alone would say the same in a harder way.
+    auto const has_values = [](QuantitySummary const& quantity) { return quantity.values.count > 0; };
+    if (std::none_of(quantities.begin(), quantities.end(), has_values)) {
+        fmt::print("\nNo member finished: there are no statistics.\n");
+        return;
+    }
+    fmt::print("\nOver the members that finished:\n");
+    std::size_t width = 8, unit_width = 4;
+    for (QuantitySummary const& quantity : quantities) {
+        width = std::max(width, quantity.label.size());
+        unit_width = std::max(unit_width, quantity.unit.size());
+    }
+    auto const row = [&](std::string_view label, std::string_view unit, auto const&... cells) {
+        fmt::print("  {:<{}}  {:<{}}", label, width, unit, unit_width);
+        (fmt::print("  {:>12}", cells), ...);
+        fmt::print("\n");
+    };
+    auto const text = [](double value) { return fmt::format("{:.5g}", value); };
+    row("quantity", "unit", "mean", "sd", "min", "median", "max");
+    for (QuantitySummary const& quantity : quantities) {
+        Summary const& s = quantity.values;
+        row(quantity.label, quantity.unit, text(s.mean), text(s.sd), text(s.min), text(s.median), text(s.max));
+    }
+}
+
+}  // namespace slideway::cli

@@ -1,0 +1,28 @@
+// Pieces of text that several commands print to stdout.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host/cli/commands.hpp"
+#include "host/study/result_summary.hpp"
+
+namespace slideway::cli {
+
+/// Reads the scene of a command line.  @throws SceneError, also when the file is missing.
+Scene load_scene(SceneArguments const& arguments);
+
+std::string bytes_text(double bytes);         // "1.5 MB"
+std::string duration_text(double seconds);    // "8.2 s", "3 min 20 s", "2.4 h"
+
+/// Lines `  finished  1000`.
+void print_statuses(std::vector<StatusCount> const& statuses);
+
+/// Headed table of mean, standard deviation, minimum, median and maximum, one row per column of a quantity.
+void print_quantities(std::vector<QuantitySummary> const& quantities);
+
+/// Writes "label      text", labels in a column.
+void print_field(std::string_view label, std::string_view text);
+
+}  // namespace slideway::cli

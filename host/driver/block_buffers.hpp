@@ -1,0 +1,48 @@
+// The memory of one block: inputs and results, reused from block to block by the same thread.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "host/backend/backend.hpp"
+#include "host/driver/block_result.hpp"
+
+namespace slideway {
+
+/// Fills in the inputs of a member, complete, and says whether they can be used.  Called from several threads.
+using MemberSource = std::function<bool(std::uint64_t member, Inputs& inputs)>;
+
+/// What every block of a run has in common.
+struct BlockRequest {
+    IntegratorSettings integrator;
+    std::vector<double> sample_times;   // empty: no time series
+    Selection quantities = 0;
+    Selection series = 0;
+};
+
+/// Bytes that a block of `members` needs.
+std::uint64_t block_bytes(BlockRequest const& request, std::size_t members);
+
+class BlockBuffers {
+public:
+    /// Draws members [first_member, first_member + members) and integrates those with usable inputs.  The others get
+    /// status `invalid_inputs` and NaN results.
+    void run(KernelInstance const& kernel, BlockRequest const& request, MemberSource const& source,
+             std::uint64_t first_member, std::size_t members);
+
+    /// Views of the last run.  @param first where the block lies in the whole run.
+    BlockResult result(std::uint64_t first) const;
+
+    std::uint64_t lane_steps_executed() const { return lane_steps_executed_; }
+    std::uint64_t lane_steps_useful() const { return lane_steps_useful_; }
+
+private:
+    std::vector<Inputs> drawn_, usable_;
+    std::vector<char> is_usable_;
+    std::vector<MemberRecord> records_;
+    std::vector<double> final_states_, quantities_, series_;
+    std::uint64_t lane_steps_executed_ = 0, lane_steps_useful_ = 0;
+};
+
+}  // namespace slideway

@@ -1,0 +1,98 @@
+#include "host/driver/ensemble.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <mutex>
+#include <numeric>
+
+#include <omp.h>
+
+namespace slideway {
+namespace {
+
+void add_block(EnsembleTotals& totals, BlockBuffers const& buffers, BlockResult const& result) {
+    for (MemberRecord const& record : result.records) {
+        if (record.status == Status::not_run) ++totals.not_run;
+        else ++totals.ended[static_cast<std::size_t>(record.status)];
+        totals.steps_accepted += record.steps_accepted;
+        totals.steps_rejected += record.steps_rejected;
+        totals.rhs_evaluations += record.rhs_evaluations;
+    }
+    totals.lane_steps_executed += buffers.lane_steps_executed();
+    totals.lane_steps_useful += buffers.lane_steps_useful();
+}
+
+}  // namespace
+
+std::uint64_t EnsembleTotals::failed() const {
+    return std::accumulate(ended.begin(), ended.end(), std::uint64_t{0}) -
+           ended[static_cast<std::size_t>(Status::finished)];
+}
+
+double EnsembleTotals::lane_utilisation() const {
+    if (lane_steps_executed == 0) return 1;
+    return static_cast<double>(lane_steps_useful) / static_cast<double>(lane_steps_executed);
+}
+
+int default_threads() { return omp_get_max_threads(); }
+
+std::size_t default_block_members(std::uint64_t members, int threads, int lanes) {
+    constexpr std::uint64_t largest = 64, blocks_per_thread = 8;
+    auto const width = static_cast<std::uint64_t>(lanes);
+    std::uint64_t const even = members / (blocks_per_thread * static_cast<std::uint64_t>(threads));
+    return static_cast<std::size_t>((std::clamp<std::uint64_t>(even, 1, largest) + width - 1) / width * width);
+}
+
+EnsembleTotals run_ensemble(EnsemblePlan const& plan, KernelInstance const& kernel, BlockSink const& sink,
+                            StopRequest const& stop, Progress* progress) {
+    auto const start = std::chrono::steady_clock::now();
+    std::uint64_t const blocks = (plan.members + plan.block_members - 1) / plan.block_members;
+    EnsembleTotals totals;
+    std::uint64_t handed_out = 0;
+    StopReason reason = StopReason::none;
+    std::exception_ptr failure;
+    std::mutex mutex;   // guards the four above and the sink
+
+    auto const next_block_allowed = [&] {
+        std::lock_guard const lock(mutex);
+        if (reason == StopReason::none) reason = stop.reason();
+        return !failure && reason == StopReason::none;
+    };
+    auto const run_block = [&](BlockBuffers& buffers, std::uint64_t block) {
+        std::uint64_t const first = block * plan.block_members;
+        auto const members = static_cast<std::size_t>(std::min<std::uint64_t>(plan.block_members, plan.members - first));
+        buffers.run(kernel, plan.request, plan.source, plan.first_member + first, members);
+        BlockResult const result = buffers.result(first);
+        {
+            std::lock_guard const lock(mutex);
+            if (failure) return;
+            sink(result);
+            add_block(totals, buffers, result);
+            handed_out += members;
+        }
+        if (progress) progress->add(members);
+    };
+
+#pragma omp parallel num_threads(plan.threads)
+    {
+        BlockBuffers buffers;
+#pragma omp for schedule(dynamic, 1)
+        for (std::uint64_t block = 0; block < blocks; ++block) {
+            // No exception may leave the parallel region.
+            try {
+                if (next_block_allowed()) run_block(buffers, block);
+            } catch (...) {
+                std::lock_guard const lock(mutex);
+                if (!failure) failure = std::current_exception();
+            }
+        }
+    }
+    if (failure) std::rethrow_exception(failure);
+    totals.not_run += plan.members - handed_out;
+    totals.stopped = handed_out < plan.members ? reason : StopReason::none;
+    totals.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return totals;
+}
+
+}  // namespace slideway

@@ -1,0 +1,41 @@
+// Ending a run early: by a signal, or when its time is up.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+
+namespace slideway {
+
+enum class StopReason { none, signal, time_limit };
+
+/// Asked before each block is handed out.
+class StopRequest {
+public:
+    /// Safe in a signal handler.
+    void request() noexcept { requested_.store(true, std::memory_order_relaxed); }
+    /// Call before the run starts.
+    void stop_after(std::chrono::duration<double> limit);
+    StopReason reason() const noexcept;
+
+private:
+    using Clock = std::chrono::steady_clock;
+    std::atomic<bool> requested_ = false;
+    Clock::time_point deadline_ = Clock::time_point::max();
+    static_assert(std::atomic<bool>::is_always_lock_free);
+};
+
+/// While it lives, the first SIGINT or SIGTERM becomes a request; a second one ends the process as usual.
+/// At most one at a time.
+class SignalScope {
+public:
+    explicit SignalScope(StopRequest& stop);
+    ~SignalScope();
+    SignalScope(SignalScope const&) = delete;
+    SignalScope& operator=(SignalScope const&) = delete;
+
+private:
+    struct sigaction old_interrupt_, old_terminate_;
+};
+
+}  // namespace slideway

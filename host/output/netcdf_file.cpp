@@ -1,0 +1,187 @@
+#include "host/output/netcdf_file.hpp"
+
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+#include <netcdf.h>
+
+#include "host/scene/error.hpp"
+
+namespace slideway {
+namespace {
+
+constexpr int closed = -1;
+
+[[noreturn]] void fail(std::string const& path, std::string_view action, int code) {
+    throw FileError(fmt::format("{}: cannot {}: {}", path, action, nc_strerror(code)));
+}
+
+int variable_or_global(int variable) { return variable == NetcdfFile::global ? NC_GLOBAL : variable; }
+
+nc_type type_of(NetcdfFile::Type type) {
+    switch (type) {
+    case NetcdfFile::Type::int8: return NC_BYTE;
+    case NetcdfFile::Type::int32: return NC_INT;
+    case NetcdfFile::Type::float64: return NC_DOUBLE;
+    case NetcdfFile::Type::text: break;
+    }
+    return NC_CHAR;
+}
+
+}  // namespace
+
+std::size_t NetcdfFile::size_of(Type type) {
+    switch (type) {
+    case Type::int32: return 4;
+    case Type::float64: return 8;
+    default: return 1;
+    }
+}
+
+std::size_t NetcdfFile::Variable::size() const {
+    return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+}
+
+void NetcdfFile::require(int code, std::string_view action) const {
+    if (code != NC_NOERR) fail(path_, action, code);
+}
+
+NetcdfFile NetcdfFile::create(std::string const& path) {
+    int id = closed;
+    if (int const code = nc_create(path.c_str(), NC_CLOBBER | NC_NETCDF4, &id); code != NC_NOERR) {
+        fail(path, "create", code);
+    }
+    return {path, id};
+}
+
+NetcdfFile NetcdfFile::open(std::string const& path) {
+    int id = closed;
+    if (int const code = nc_open(path.c_str(), NC_NOWRITE, &id); code != NC_NOERR) fail(path, "open", code);
+    return {path, id};
+}
+
+NetcdfFile::NetcdfFile(NetcdfFile&& other) noexcept
+    : path_(std::move(other.path_)), id_(std::exchange(other.id_, closed)) {}
+
+NetcdfFile::~NetcdfFile() {
+    if (id_ != closed) nc_close(id_);
+}
+
+void NetcdfFile::close() {
+    require(nc_close(std::exchange(id_, closed)), "close");
+}
+
+int NetcdfFile::add_dimension(std::string const& name, std::size_t length) {
+    int dimension = 0;
+    require(nc_def_dim(id_, name.c_str(), length, &dimension), "define dimension " + name);
+    return dimension;
+}
+
+int NetcdfFile::add_variable(std::string const& name, Type type, std::span<int const> dimensions, bool fill) {
+    int variable = 0;
+    require(nc_def_var(id_, name.c_str(), type_of(type), static_cast<int>(dimensions.size()), dimensions.data(),
+                       &variable),
+            "define variable " + name);
+    double const nan = std::numeric_limits<double>::quiet_NaN();
+    require(fill ? nc_def_var_fill(id_, variable, NC_FILL, &nan) : nc_def_var_fill(id_, variable, NC_NOFILL, nullptr),
+            "define variable " + name);
+    return variable;
+}
+
+void NetcdfFile::put_text(int variable, std::string const& name, std::string_view value) {
+    require(nc_put_att_text(id_, variable_or_global(variable), name.c_str(), value.size(), value.data()),
+            "write attribute " + name);
+}
+
+void NetcdfFile::put_number(int variable, std::string const& name, double value) {
+    require(nc_put_att_double(id_, variable_or_global(variable), name.c_str(), NC_DOUBLE, 1, &value),
+            "write attribute " + name);
+}
+
+void NetcdfFile::put_number(int variable, std::string const& name, int value) {
+    require(nc_put_att_int(id_, variable_or_global(variable), name.c_str(), NC_INT, 1, &value),
+            "write attribute " + name);
+}
+
+void NetcdfFile::put_bytes(int variable, std::string const& name, std::span<signed char const> values) {
+    require(nc_put_att_schar(id_, variable_or_global(variable), name.c_str(), NC_BYTE, values.size(), values.data()),
+            "write attribute " + name);
+}
+
+void NetcdfFile::end_definitions() {
+    require(nc_enddef(id_), "write the header");
+}
+
+void NetcdfFile::write(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count,
+                       void const* values) {
+    require(nc_put_vara(id_, variable, start.data(), count.data(), values), "write (disk full?)");
+}
+
+void NetcdfFile::read(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count,
+                      void* values) const {
+    require(nc_get_vara(id_, variable, start.data(), count.data(), values), "read");
+}
+
+std::vector<NetcdfFile::Dimension> NetcdfFile::dimensions() const {
+    int count = 0;
+    require(nc_inq_ndims(id_, &count), "read the header");
+    std::vector<Dimension> dimensions;
+    for (int i = 0; i < count; ++i) {
+        char name[NC_MAX_NAME + 1];
+        std::size_t length = 0;
+        require(nc_inq_dim(id_, i, name, &length), "read the header");
+        dimensions.push_back({name, length});
+    }
+    return dimensions;
+}
+
+std::vector<NetcdfFile::Variable> NetcdfFile::variables() const {
+    int count = 0;
+    require(nc_inq_nvars(id_, &count), "read the header");
+    std::vector<Variable> variables;
+    for (int i = 0; i < count; ++i) {
+        char name[NC_MAX_NAME + 1];
+        nc_type type = NC_NAT;
+        int rank = 0;
+        int dimensions[NC_MAX_VAR_DIMS];
+        require(nc_inq_var(id_, i, name, &type, &rank, dimensions, nullptr), "read the header");
+        Variable variable{i, name, Type::text, {}};
+        switch (type) {
+        case NC_BYTE: variable.type = Type::int8; break;
+        case NC_INT: variable.type = Type::int32; break;
+        case NC_DOUBLE: variable.type = Type::float64; break;
+        case NC_CHAR: break;
+        default: continue;   // not a type that slideway writes
+        }
+        for (int d = 0; d < rank; ++d) {
+            std::size_t length = 0;
+            require(nc_inq_dimlen(id_, dimensions[d], &length), "read the header");
+            variable.shape.push_back(length);
+        }
+        variables.push_back(std::move(variable));
+    }
+    return variables;
+}
+
+std::string NetcdfFile::text(int variable, std::string const& name) const {
+    std::size_t length = 0;
+    nc_type type = NC_NAT;
+    int const where = variable_or_global(variable);
+    if (nc_inq_att(id_, where, name.c_str(), &type, &length) != NC_NOERR || type != NC_CHAR) return {};
+    std::string value(length, '\0');
+    require(nc_get_att_text(id_, where, name.c_str(), value.data()), "read attribute " + name);
+    return value;
+}
+
+bool NetcdfFile::number(int variable, std::string const& name, double& value) const {
+    std::size_t length = 0;
+    nc_type type = NC_NAT;
+    int const where = variable_or_global(variable);
+    if (nc_inq_att(id_, where, name.c_str(), &type, &length) != NC_NOERR || type == NC_CHAR || length != 1) return false;
+    return nc_get_att_double(id_, where, name.c_str(), &value) == NC_NOERR;
+}
+
+}  // namespace slideway

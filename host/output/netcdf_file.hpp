@@ -1,0 +1,65 @@
+// netCDF-C behind one class: whatever fails throws FileError with the file's path and netCDF's reason.
+// netCDF-C is not thread-safe: one thread at a time may be in here, whatever file it works on.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace slideway {
+
+class NetcdfFile {
+public:
+    enum class Type { int8, int32, float64, text };
+    struct Dimension {
+        std::string name;
+        std::size_t length;
+    };
+    struct Variable {
+        int id;
+        std::string name;
+        Type type;
+        std::vector<std::size_t> shape;
+        std::size_t size() const;           // product of the shape
+    };
+
+    static NetcdfFile create(std::string const& path);   // netCDF-4, replaces what is there
+    static NetcdfFile open(std::string const& path);     // to read
+    NetcdfFile(NetcdfFile&& other) noexcept;
+    NetcdfFile& operator=(NetcdfFile&&) = delete;
+    ~NetcdfFile();                          // closes; what fails then is lost: call close()
+    void close();
+
+    int add_dimension(std::string const& name, std::size_t length);
+    /// A float64 variable reads as NaN wherever nothing was written, if `fill` is set.
+    int add_variable(std::string const& name, Type type, std::span<int const> dimensions, bool fill = false);
+    static constexpr int global = -1;       // as `variable`: the file itself
+    void put_text(int variable, std::string const& name, std::string_view value);
+    void put_number(int variable, std::string const& name, double value);
+    void put_number(int variable, std::string const& name, int value);
+    void put_bytes(int variable, std::string const& name, std::span<signed char const> values);
+    void end_definitions();
+
+    /// A hyperslab; `count` and `start` have one entry per dimension.
+    void write(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count,
+               void const* values);
+    void read(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count, void* values) const;
+
+    std::vector<Dimension> dimensions() const;
+    std::vector<Variable> variables() const;             // in the order of their definition
+    std::string text(int variable, std::string const& name) const;   // "" when there is none
+    bool number(int variable, std::string const& name, double& value) const;
+
+    std::string const& path() const { return path_; }
+    static std::size_t size_of(Type type);
+
+private:
+    NetcdfFile(std::string path, int id) : path_(std::move(path)), id_(id) {}
+    void require(int code, std::string_view action) const;
+
+    std::string path_;
+    int id_;
+};
+
+}  // namespace slideway

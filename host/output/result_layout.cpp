@@ -1,0 +1,27 @@
+#include "host/output/result_layout.hpp"
+
+#include <bit>
+#include <iterator>
+
+namespace slideway {
+
+std::vector<std::string> labels_of(std::string const& dimension) {
+    if (dimension == "apex") return {"P1", "P2", "P3", "P4", "P5", "P6", "P7", "P8"};
+    if (dimension == "mode_class") return {std::begin(mode_class_names), std::end(mode_class_names)};
+    if (dimension == "axis") return {"roll", "yaw", "pitch"};
+    return {};
+}
+
+std::uint64_t payload_bytes(ResultLayout const& layout) {
+    std::uint64_t columns = 4 + state_size + layout.parameters.size();   // three counters and end_time
+    for (int q = 0; q < quantity_count; ++q) {
+        if (selects(layout.quantities, static_cast<Quantity>(q)))
+            columns += static_cast<std::uint64_t>(quantity_table[q].columns);
+    }
+    std::uint64_t const samples = layout.sample_times.size();
+    if (samples > 0) columns += static_cast<std::uint64_t>(std::popcount(layout.series)) * samples;
+    constexpr std::uint64_t member_and_status = 5;
+    return layout.members * (member_and_status + columns * sizeof(double)) + samples * sizeof(double);
+}
+
+}  // namespace slideway

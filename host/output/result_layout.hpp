@@ -1,0 +1,36 @@
+// Which variables a result file has, in which order.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kernels/block.hpp"
+
+namespace slideway {
+
+/// A varied input: its dotted key with underscores for dots.
+struct ParameterColumn {
+    std::string name;
+    std::string unit;
+    std::string long_name;
+    double Inputs::*member;
+};
+
+struct ResultLayout {
+    std::uint64_t first_member = 0;
+    std::uint64_t members = 0;
+    std::vector<double> sample_times;         // empty: no time series
+    Selection quantities = 0;
+    Selection series = 0;
+    std::vector<ParameterColumn> parameters;
+};
+
+/// Labels along a dimension of the quantity table: "P1" … "P8", the mode classes, "roll" "yaw" "pitch".
+/// Empty for an unknown dimension.
+std::vector<std::string> labels_of(std::string const& dimension);
+
+/// Bytes of data in the file; its header adds some tens of kilobytes.
+std::uint64_t payload_bytes(ResultLayout const& layout);
+
+}  // namespace slideway

@@ -1,0 +1,127 @@
+#include "host/scene/reader.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "host/scene/scene_text.hpp"
+#include "host/scene/suggest.hpp"
+#include "host/scene/values.hpp"
+
+namespace slideway {
+namespace {
+
+constexpr std::string_view table_names[] = {"mechanism", "joint",   "way",        "contact",
+                                            "friction",  "initial", "integrator", "study"};
+constexpr std::string_view other_names[] = {
+    "schema",           "title",           "mechanism.kind",    "contact.law",      "friction.enabled",
+    "integrator.method", "integrator.rtol", "integrator.atol",  "integrator.max_step", "integrator.max_steps",
+    "study.kind",       "study.members",   "study.seed",        "study.revolutions", "study.duration",
+    "study.samples_per_revolution", "study.samples", "study.quantities", "study.vary",
+};
+
+std::vector<std::string_view> known_names() {
+    std::vector<std::string_view> names(std::begin(other_names), std::end(other_names));
+    for (auto const table : {keys(), twin_keys()}) {
+        for (Key const& key : table) names.push_back(key.name);
+    }
+    names.insert(names.end(), std::begin(table_names), std::end(table_names));
+    return names;
+}
+
+bool contains(std::span<std::string_view const> names, std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void check_known(Node const& root) {
+    auto const known = known_names();
+    for (Node const& node : root.children) {
+        if (contains(table_names, node.key)) {
+            if (!node.is_table()) {
+                refuse(node, {"it must be a table", fmt::format("write [{}] and its keys below", node.key)});
+            }
+            for (Node const& child : node.children) {
+                if (child.key.find('.') != std::string::npos || !contains(known, child.name)) {
+                    refuse_unknown(child, "key", known);
+                }
+            }
+        } else if (node.key != "schema" && node.key != "title") {
+            std::span<std::string_view const> const names = known;
+            if (node.is_table()) refuse_unknown(node, "table", names.last(std::size(table_names)));
+            refuse_unknown(node, "key", names);
+        }
+    }
+}
+
+void check_schema(Node const& root) {
+    Node const* const schema = root.find("schema");
+    if (schema == nullptr) {
+        throw SceneError(fmt::format("{}: schema is missing (it says which format the scene is written in); "
+                                     "add the line schema = 1 at the top",
+                                     root.where));
+    }
+    if (schema->type != Node::Type::integer || schema->integer != 1) {
+        refuse(*schema, {"this version of slideway reads schema 1", "write schema = 1"});
+    }
+}
+
+/// The node to blame for a key's value: its own, that of a key which sets it too, or the whole scene.
+Node const* find_given(std::vector<GivenKey> const& given, Key const* key) {
+    Node const* found = nullptr;
+    for (GivenKey const& entry : given) {
+        if (key != nullptr && entry.key->overlaps(*key)) found = entry.node;  // the last one took effect
+    }
+    return found;
+}
+
+void check_inputs(Node const& root, Inputs const& inputs) {
+    auto const found = find_defect(inputs);
+    if (!found) return;
+    auto const given = given_keys(root);
+    Node const* node = find_given(given, found->key);
+    if (node == nullptr) node = find_given(given, found->other);
+    throw SceneError(fmt::format("{}: {}", node != nullptr ? node->where : root.where, defect(inputs).value_or("")));
+}
+
+}  // namespace
+
+void refuse_unknown(Node const& node, std::string_view what, std::span<std::string_view const> known) {
+    std::string_view const near = nearest_name(node.name, known);
+    std::string const advice = near.empty()        ? std::string("remove it, or see `slideway list`")
+                               : near == node.name ? std::string("write it without quotes")
+                                                   : fmt::format("did you mean {}?", near);
+    throw SceneError(fmt::format("{}: {} is no {} of a scene (mistyped, it would have no effect); {}", node.where,
+                                 one_line(node.name), what, advice));
+}
+
+std::size_t read_available(Node const& node, std::string_view meaning, std::span<std::string_view const> names,
+                           std::size_t available) {
+    auto const offered = names.first(available);
+    std::string const& text = read_text_value(node);
+    if (contains(names.subspan(available), text)) {
+        refuse(node, {fmt::format("this {} is not available in this version", meaning),
+                      fmt::format("use \"{}\"", offered.front())});
+    }
+    return read_choice(node, meaning, offered);
+}
+
+Scene read_scene(std::string const& path, Overrides const& overrides) {
+    return parse_scene(read_scene_text(path), path, overrides);
+}
+
+Scene parse_scene(std::string const& text, std::string const& name, Overrides const& overrides) {
+    Node const root = read_document(text, name, overrides);
+    check_known(root);
+    check_schema(root);
+    Scene scene;
+    scene.path = name;
+    if (Node const* const title = root.find("title")) scene.title = read_text_value(*title);
+    read_physics(root, scene);
+    check_inputs(root, scene.inputs);
+    read_variations(root, scene);
+    read_integrator(root, scene);
+    read_study(root, scene);
+    return scene;
+}
+
+}  // namespace slideway

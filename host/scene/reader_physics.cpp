@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "host/scene/reader.hpp"
+#include "host/scene/values.hpp"
+
+namespace slideway {
+namespace {
+
+constexpr std::string_view mechanism_names[] = {"slider_crank", "carriage", "free_slider", "planar_slider_crank",
+                                                "lorenz"};
+constexpr std::size_t available_mechanisms = 1;
+constexpr std::string_view law_names[] = {"paper", "conservative"};
+constexpr std::string_view method_names[] = {"dopri5", "auto"};
+
+void check_rivals(std::vector<GivenKey> const& given) {
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        for (std::size_t j = i + 1; j < given.size(); ++j) {
+            // An option may refine what the file says in general: the later one takes effect.
+            bool const both_in_file = given[i].node->order == 0 && given[j].node->order == 0;
+            if (both_in_file && given[i].key->overlaps(*given[j].key)) {
+                refuse(*given[j].node,
+                       {fmt::format("{} in line {} sets it too", given[i].key->name, given[i].node->line),
+                        "remove one of the two"});
+            }
+        }
+    }
+}
+
+void check_restitution(Node const& root) {
+    if (root.find_path("contact.restitution") == nullptr) return;
+    for (std::string_view const name : {"contact.eta", "contact.chi_line", "contact.chi_surface"}) {
+        if (Node const* const node = root.find_path(name)) {
+            refuse(*node, {"contact.restitution replaces it", "remove one of the two"});
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<GivenKey> given_keys(Node const& root) {
+    std::vector<GivenKey> given;
+    for (Node const& table : root.children) {
+        for (Node const& node : table.children) {
+            if (Key const* const key = find_key(node.name)) given.push_back({key, &node});
+        }
+    }
+    std::stable_sort(given.begin(), given.end(),
+                     [](GivenKey const& a, GivenKey const& b) { return a.node->order < b.node->order; });
+    return given;
+}
+
+void read_physics(Node const& root, Scene& scene) {
+    if (Node const* const kind = root.find_path("mechanism.kind")) {
+        scene.mechanism = mechanism_names[read_available(*kind, "mechanism", mechanism_names, available_mechanisms)];
+    }
+    if (Node const* const law = root.find_path("contact.law")) {
+        scene.parts.law = read_choice(*law, "contact law", law_names) == 0 ? Law::paper : Law::conservative;
+    }
+    auto const given = given_keys(root);
+    for (auto const& [key, node] : given) key->set(scene.inputs, read_number(*node, *key));
+    check_rivals(given);
+    check_restitution(root);
+
+    if (root.find_path("contact.restitution") != nullptr) {
+        scene.parts.damping = Damping::restitution;
+    } else if (scene.inputs.chi_line != 0 || scene.inputs.chi_surface != 0) {
+        scene.parts.damping = Damping::rate;
+    }
+    scene.parts.misaligned_way = root.find("way") != nullptr;
+    scene.parts.friction = root.find("friction") != nullptr;
+    if (Node const* const enabled = root.find_path("friction.enabled")) scene.parts.friction = read_boolean(*enabled);
+}
+
+void read_integrator(Node const& root, Scene& scene) {
+    IntegratorSettings& settings = scene.integrator;
+    scene.method = method_names[0];
+    if (Node const* const node = root.find_path("integrator.method")) {
+        read_choice(*node, "method", method_names);  // auto means the one that there is
+    }
+    if (Node const* const node = root.find_path("integrator.rtol")) {
+        // Below some 50 roundings of a double the error estimate is noise.
+        settings.rtol = read_number(*node, "1", "relative tolerance", {1e-14, 0.1});
+    }
+    if (Node const* const node = root.find_path("integrator.atol")) {
+        settings.atol = read_number(*node, "1", "absolute tolerance", {0, 0.1, false});
+    }
+    double const speed = std::abs(scene.inputs.crank_speed);
+    // A step may not leap over an impact: between two of them the slider flies for milliseconds.
+    constexpr double longest_step = 1e-3;
+    settings.max_step = speed > 0 ? std::min(longest_step, 2 * std::numbers::pi / speed / 2000) : longest_step;
+    if (Node const* const node = root.find_path("integrator.max_step")) {
+        settings.max_step = read_number(*node, "s", "largest step", {.low = 0, .low_included = false});
+    }
+    if (Node const* const node = root.find_path("integrator.max_steps")) {
+        settings.max_steps = read_count(*node, "number of steps", 1, 1'000'000'000'000'000);
+    }
+}
+
+}  // namespace slideway

@@ -1,0 +1,156 @@
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "host/scene/reader.hpp"
+#include "host/scene/values.hpp"
+
+namespace slideway {
+namespace {
+
+constexpr std::string_view study_names[] = {"ensemble", "lyapunov", "poincare", "sweep", "tolerance"};
+constexpr std::size_t available_studies = 1;
+
+constexpr std::uint64_t most_members = 1'000'000'000;
+constexpr std::uint64_t most_samples = 1'000'000;  // of one member: they stay in memory while it runs
+constexpr double most_values = 1e10;               // members × samples × series of one file, 80 GB
+constexpr double longest_time = 1e9;               // [s]
+
+struct EndTime {
+    double seconds;
+    double revolutions;  // NaN when the crank does not turn
+};
+
+void refuse_both(Node const& root, std::string_view first, std::string_view second) {
+    Node const* const a = root.find_path(first);
+    Node const* const b = root.find_path(second);
+    if (a == nullptr || b == nullptr) return;
+    bool const a_is_later = a->order != b->order ? a->order > b->order : a->line > b->line;
+    refuse(a_is_later ? *a : *b,
+           {fmt::format("{} says it too", a_is_later ? second : first), "remove one of the two"});
+}
+
+EndTime read_end_time(Node const& root, double crank_speed) {
+    refuse_both(root, "study.revolutions", "study.duration");
+    double const turn = crank_speed != 0 ? 2 * std::numbers::pi / std::abs(crank_speed) : NAN;
+    if (Node const* const node = root.find_path("study.duration")) {
+        double const seconds = read_number(*node, "s", "duration", {0, longest_time, false});
+        return {seconds, seconds / turn};
+    }
+    Node const* const node = root.find_path("study.revolutions");
+    if (crank_speed == 0) {
+        if (node != nullptr) {
+            refuse(*node, {"mechanism.crank_speed is 0, so there are none", "use study.duration instead"});
+        }
+        return {1, NAN};
+    }
+    double const revolutions =
+        node != nullptr ? read_number(*node, "1", "number of revolutions", {0, longest_time, false}) : 1;
+    double const seconds = revolutions * turn;
+    if (!(seconds > 0 && seconds <= longest_time)) {
+        std::string const reason = fmt::format("it lasts {} s at a crank speed of {} rad/s", seconds, crank_speed);
+        std::string const advice = fmt::format("stay below {} s", longest_time);
+        if (node != nullptr) refuse(*node, {reason, advice});
+        throw SceneError(fmt::format("{}: study.revolutions is 1 ({}); {}", root.where, reason, advice));
+    }
+    return {seconds, revolutions};
+}
+
+/// The node that asks for a time series, and how many times it has.
+struct Sampling {
+    Node const* node = nullptr;
+    std::size_t count = 0;
+};
+
+Sampling read_sampling(Node const& root, EndTime const& end) {
+    refuse_both(root, "study.samples_per_revolution", "study.samples");
+    if (Node const* const node = root.find_path("study.samples")) {
+        std::uint64_t const count = read_count(*node, "number of samples", 0, most_samples);
+        if (count == 1) refuse(*node, {"the first and the last time are both stored", "use 0 or at least 2"});
+        return {node, count};
+    }
+    Node const* const node = root.find_path("study.samples_per_revolution");
+    if (node == nullptr) return {};
+    std::uint64_t const per_turn = read_count(*node, "number of samples per revolution", 0, most_samples);
+    if (per_turn == 0) return {node, 0};
+    if (std::isnan(end.revolutions)) {
+        refuse(*node, {"mechanism.crank_speed is 0, so there are no revolutions", "use study.samples instead"});
+    }
+    double const intervals = std::max(1.0, std::round(static_cast<double>(per_turn) * end.revolutions));
+    if (intervals >= static_cast<double>(most_samples)) {
+        refuse(*node, {fmt::format("that makes {} samples of each member", intervals + 1),
+                       fmt::format("ask for at most {}", most_samples)});
+    }
+    return {node, static_cast<std::size_t>(intervals) + 1};
+}
+
+std::vector<std::string_view> quantity_names() {
+    std::vector<std::string_view> names;
+    for (QuantityInfo const& info : quantity_table) names.emplace_back(info.name);
+    for (SeriesInfo const& info : series_table) names.emplace_back(info.name);
+    return names;
+}
+
+void read_quantities(Node const& list, Scene& scene) {
+    if (list.type != Node::Type::array) {
+        refuse(list, {"not a list of names", "write for example [\"peak_normal_force\", \"energy_residual\"]"});
+    }
+    auto const names = quantity_names();
+    for (Node const& node : list.children) {
+        std::size_t const index = read_choice(node, "quantity", names);
+        if (index < std::size_t{quantity_count}) {
+            scene.quantities |= Selection{1} << index;
+            continue;
+        }
+        if (scene.sample_times.empty()) {
+            refuse(node, {"it is a time series and the study stores none",
+                          "set study.samples_per_revolution or study.samples"});
+        }
+        scene.series |= Selection{1} << (index - quantity_count);
+    }
+}
+
+void check_size(Sampling const& sampling, Scene const& scene) {
+    double const values = static_cast<double>(scene.members) * static_cast<double>(scene.sample_times.size()) *
+                          std::popcount(scene.series);
+    if (values > most_values) {
+        refuse(*sampling.node,
+               {fmt::format("the time series of {} members would hold {:.3g} numbers", scene.members, values),
+                fmt::format("ask for fewer samples, members or series, at most {:g} numbers", most_values)});
+    }
+}
+
+}  // namespace
+
+std::vector<double> uniform_times(double end_time, std::size_t count) {
+    std::vector<double> times(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        times[i] = end_time * static_cast<double>(i) / static_cast<double>(count - 1);
+    }
+    if (count > 0) times.back() = end_time;
+    return times;
+}
+
+void read_study(Node const& root, Scene& scene) {
+    if (Node const* const kind = root.find_path("study.kind")) {
+        scene.study = study_names[read_available(*kind, "study", study_names, available_studies)];
+    }
+    if (Node const* const node = root.find_path("study.members")) {
+        scene.members = read_count(*node, "number of members", 1, most_members);
+    }
+    if (Node const* const node = root.find_path("study.seed")) {
+        scene.seed = read_count(*node, "seed", 0, std::numeric_limits<std::int64_t>::max());
+    }
+    EndTime const end = read_end_time(root, scene.inputs.crank_speed);
+    scene.integrator.end_time = end.seconds;
+    Sampling const sampling = read_sampling(root, end);
+    scene.sample_times = uniform_times(end.seconds, sampling.count);
+    if (!scene.sample_times.empty()) scene.series = (Selection{1} << state_series) - 1;
+    if (Node const* const list = root.find_path("study.quantities")) read_quantities(*list, scene);
+    check_size(sampling, scene);
+}
+
+}  // namespace slideway

@@ -1,0 +1,104 @@
+// A scene as TOML with every key in SI units.  Numbers are the shortest that read back to the same double.
+#include <cmath>
+#include <iterator>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "host/scene/scene.hpp"
+#include "host/scene/scene_text.hpp"
+
+namespace slideway {
+namespace {
+
+std::string number(double value) {
+    std::string text = fmt::format("{}", value);
+    // Without a point TOML reads an integer, and -0 loses its sign.
+    if (text.find_first_of(".e") == std::string::npos) text += ".0";
+    return text;
+}
+
+bool is_written(Key const& key, Parts const& parts) {
+    bool const restitution = parts.damping == Damping::restitution;
+    if (key.name.starts_with("way.")) return parts.misaligned_way;
+    if (key.name == "contact.restitution") return restitution;
+    if (key.name == "contact.eta" || key.name.starts_with("contact.chi_")) return !restitution;
+    return true;
+}
+
+/// Keys of one table; what follows from other keys is a comment, so that it still follows when they vary.
+std::string physics_table(Scene const& scene, Inputs const& complete, std::string_view table, std::string_view first) {
+    std::string text = fmt::format("\n[{}]\n{}", table, first);
+    for (Key const& key : keys()) {
+        auto const dot = key.name.find('.');
+        if (key.name.substr(0, dot) != table || !is_written(key, scene.parts)) continue;
+        std::string_view const name = key.name.substr(dot + 1);
+        std::string_view const unit = key.unit == "1" ? "" : key.unit;
+        if (std::isnan(key.get(scene.inputs))) {
+            text += fmt::format("# {} = {}  # {}{}follows from other keys\n", name, number(key.get(complete)), unit,
+                                unit.empty() ? "" : ", ");
+        } else if (unit.empty()) {
+            text += fmt::format("{} = {}\n", name, number(key.get(scene.inputs)));
+        } else {
+            text += fmt::format("{} = {}  # {}\n", name, number(key.get(scene.inputs)), unit);
+        }
+    }
+    return text;
+}
+
+std::string distribution_text(Distribution const& d) {
+    switch (d.kind) {
+    case Distribution::Kind::constant: break;
+    case Distribution::Kind::uniform:
+        return fmt::format("{{ dist = \"unif\", low = {}, high = {} }}", number(d.low), number(d.high));
+    case Distribution::Kind::normal:
+        return fmt::format("{{ dist = \"norm\", mean = {}, sd = {} }}", number(d.mean), number(d.sd));
+    case Distribution::Kind::truncated_normal:
+        return fmt::format("{{ dist = \"truncnorm\", mean = {}, sd = {}, low = {}, high = {} }}", number(d.mean),
+                           number(d.sd), number(d.low), number(d.high));
+    }
+    return fmt::format("{{ dist = \"const\", value = {} }}", number(d.mean));
+}
+
+std::string quantities_text(Scene const& scene) {
+    std::string text;
+    auto const add = [&](std::string_view name) { text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name); };
+    for (int i = 0; i < quantity_count; ++i) {
+        if (selects(scene.quantities, static_cast<Quantity>(i))) add(quantity_table[i].name);
+    }
+    for (int i = state_series; i < series_count; ++i) {
+        if (selects(scene.series, static_cast<Series>(i))) add(series_table[i].name);
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string resolved_toml(Scene const& scene) {
+    Inputs const complete = complete_inputs(scene.inputs);
+    std::string text = fmt::format("schema = 1\ntitle = {}\n", toml_string(scene.title));
+    text += physics_table(scene, complete, "mechanism", fmt::format("kind = \"{}\"\n", scene.mechanism));
+    text += physics_table(scene, complete, "joint", "");
+    if (scene.parts.misaligned_way) text += physics_table(scene, complete, "way", "");
+    text += physics_table(scene, complete, "contact",
+                          fmt::format("law = \"{}\"\n", scene.parts.law == Law::paper ? "paper" : "conservative"));
+    text += physics_table(scene, complete, "friction", fmt::format("enabled = {}\n", scene.parts.friction));
+    text += physics_table(scene, complete, "initial", "");
+    IntegratorSettings const& integrator = scene.integrator;
+    text += fmt::format("\n[integrator]\nmethod = \"{}\"\nrtol = {}\natol = {}\nmax_step = {}  # s\nmax_steps = {}\n",
+                        scene.method, number(integrator.rtol), number(integrator.atol), number(integrator.max_step),
+                        integrator.max_steps);
+    text += fmt::format("\n[study]\nkind = \"{}\"\nmembers = {}\nseed = {}\nduration = {}  # s\nsamples = {}\n"
+                        "quantities = [{}]\n",
+                        scene.study, scene.members, scene.seed, number(integrator.end_time),
+                        scene.sample_times.size(), quantities_text(scene));
+    if (!scene.variations.empty()) text += "\n[study.vary]\n";
+    for (Variation const& variation : scene.variations) {
+        std::string_view const unit = variation.key->unit;
+        text += fmt::format("\"{}\" = {}{}{}\n", variation.key->name, distribution_text(variation.distribution),
+                            unit == "1" ? "" : "  # ", unit == "1" ? "" : unit);
+    }
+    return text;
+}
+
+}  // namespace slideway

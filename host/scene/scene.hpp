@@ -1,0 +1,58 @@
+// A scene: what to integrate, how, and what to keep.  Read from TOML, validated, in SI units.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/scene/distribution.hpp"
+#include "host/scene/error.hpp"
+#include "host/scene/keys.hpp"
+#include "kernels/block.hpp"
+
+namespace slideway {
+
+struct Variation {
+    Key const* key;
+    Distribution distribution;
+    int line;                               // of the scene file, for messages
+};
+
+struct Scene {
+    std::string path;                       // as the user gave it
+    std::string title;
+    std::string mechanism = "slider_crank";
+    Inputs inputs;                          // as given; entries that follow others are NaN
+    Parts parts;
+    std::string method = "dopri5";          // resolved: what `auto` means for this scene
+    IntegratorSettings integrator;          // end_time and max_step resolved
+    std::string study = "ensemble";
+    std::uint64_t members = 1;
+    std::uint64_t seed = 1;
+    std::vector<double> sample_times;       // empty: no time series
+    Selection quantities = 0;
+    Selection series = 0;                   // state series included when sample_times is not empty
+    std::vector<Variation> variations;      // in the order of the file
+};
+
+using Overrides = std::vector<std::pair<std::string, std::string>>;  // --set key=value, in order
+
+/// Reads and validates a scene.  @throws SceneError with file, line and key, also for a file that cannot be read (a
+/// scene that is not there is bad usage); FileError when the units database of UDUNITS-2 is missing.
+Scene read_scene(std::string const& path, Overrides const& overrides = {});
+
+/// The same from the text of a scene; `name` stands for the path in messages.
+Scene parse_scene(std::string const& text, std::string const& name, Overrides const& overrides = {});
+
+/// Inputs of one member, complete; `defect` tells whether the draw can be used.  Depends on the scene and the member's
+/// number only (Philox keyed by seed, member and key name), so any member can be drawn alone, on any thread or machine.
+Inputs member_inputs(Scene const& scene, std::uint64_t member);
+
+/// The value that member draws for a variation, in SI units.
+double draw(Scene const& scene, Variation const& variation, std::uint64_t member);
+
+/// The scene with every key written out in SI units, as TOML that reads back to the same scene.
+std::string resolved_toml(Scene const& scene);
+
+}  // namespace slideway

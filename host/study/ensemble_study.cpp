@@ -1,0 +1,53 @@
+#include "host/study/ensemble_study.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "host/output/result_writer.hpp"
+
+namespace slideway {
+
+ResultLayout result_layout(Scene const& scene, MemberRange range) {
+    ResultLayout layout{range.first, range.count, scene.sample_times, scene.quantities, scene.series, {}};
+    for (Variation const& variation : scene.variations) {
+        std::string name(variation.key->name);
+        std::replace(name.begin(), name.end(), '.', '_');
+        layout.parameters.push_back({std::move(name), std::string(variation.key->unit),
+                                     std::string(variation.key->meaning), variation.key->member});
+    }
+    return layout;
+}
+
+EnsemblePlan ensemble_plan(Scene const& scene, MemberRange range, Isa isa, int threads) {
+    EnsemblePlan plan;
+    plan.first_member = range.first;
+    plan.members = range.count;
+    plan.block_members = default_block_members(range.count, threads, lanes_of(isa));
+    plan.threads = threads;
+    plan.request = {scene.integrator, scene.sample_times, scene.quantities, scene.series};
+    plan.source = [&scene](std::uint64_t member, Inputs& inputs) {
+        inputs = member_inputs(scene, member);
+        return !defect(inputs);
+    };
+    return plan;
+}
+
+Provenance provenance(Scene const& scene, Isa isa, int threads) {
+    return {scene.title, resolved_toml(scene), scene.seed, "cpu", std::string(name_of(isa)), flags_of(isa), threads};
+}
+
+EnsembleTotals run_ensemble_study(Scene const& scene, EnsembleOptions const& options, StopRequest const& stop) {
+    ResultWriter writer(options.output, result_layout(scene, options.range),
+                        provenance(scene, options.isa, options.threads));
+    EnsemblePlan const plan = ensemble_plan(scene, options.range, options.isa, options.threads);
+    EnsembleTotals totals;
+    {
+        Progress progress(options.range.count, options.progress, stderr, stop);
+        totals = run_ensemble(plan, find_instance(options.isa, scene.parts),
+                              [&writer](BlockResult const& block) { writer.write(block); }, stop, &progress);
+    }
+    writer.finish(totals.lane_utilisation(), totals.stopped);
+    return totals;
+}
+
+}  // namespace slideway

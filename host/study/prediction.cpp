@@ -1,0 +1,38 @@
+#include "host/study/prediction.hpp"
+
+#include <algorithm>
+
+#include "host/study/ensemble_study.hpp"
+
+namespace slideway {
+namespace {
+
+constexpr double contact_step = 5e-6;              // [s]
+constexpr double seconds_per_pack_step = 8e-6;     // one step of all lanes of a pack, on one core
+
+}  // namespace
+
+Prediction predict(Scene const& scene, Isa isa, int threads) {
+    MemberRange const all{0, scene.members};
+    EnsemblePlan const plan = ensemble_plan(scene, all, isa, threads);
+    auto const members = static_cast<double>(scene.members);
+    std::uint64_t const blocks = (plan.members + plan.block_members - 1) / plan.block_members;
+    std::uint64_t const busy = std::min<std::uint64_t>(static_cast<std::uint64_t>(threads), blocks);
+
+    Prediction prediction{};
+    prediction.block_members = plan.block_members;
+    prediction.buffer_bytes =
+        busy * block_bytes(plan.request, static_cast<std::size_t>(std::min<std::uint64_t>(plan.block_members, scene.members)));
+    prediction.output_bytes = payload_bytes(result_layout(scene, all));
+    double const end = scene.integrator.end_time;
+    prediction.least_steps = members * end / scene.integrator.max_step;
+    prediction.most_steps = members * end / std::min(contact_step, scene.integrator.max_step);
+    // Packs are full except where a block has fewer members than lanes.
+    double const packed = std::min<double>(lanes_of(isa), members);
+    double const seconds_per_step = seconds_per_pack_step / packed / static_cast<double>(std::max<std::uint64_t>(busy, 1));
+    prediction.least_seconds = prediction.least_steps * seconds_per_step;
+    prediction.most_seconds = prediction.most_steps * seconds_per_step;
+    return prediction;
+}
+
+}  // namespace slideway

@@ -1,0 +1,24 @@
+// Probing: what the kernels say about single states.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/backend/backend.hpp"
+#include "host/study/state_table.hpp"
+
+namespace slideway {
+
+/// One result per row.
+std::vector<ProbeResult> probe(StateTable const& table, Isa isa);
+
+/// The result columns of tests/golden/rhs_*.csv, in their order: the derivatives d_*, powers, penetrations, normal
+/// forces, mode triple, energies and the crank torque.
+std::vector<std::pair<std::string, double>> result_columns(ProbeResult const& result);
+
+/// The table's parameters, t, the states, the result columns and the status; numbers with 17 digits.
+void write_probe_csv(std::ostream& out, StateTable const& table, std::vector<ProbeResult> const& results);
+
+}  // namespace slideway

@@ -1,0 +1,41 @@
+// What a result file tells about its ensemble, for the end of a run and for `info`.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host/output/result_reader.hpp"
+#include "host/study/statistics.hpp"
+#include "kernels/status.hpp"
+
+namespace slideway {
+
+/// One column of a quantity over the members that finished; the others have no say.
+struct QuantitySummary {
+    std::string label;     // "crank_work", "mode_time[free]", "peak_apex_force[P1]"
+    std::string unit;
+    Summary values;
+};
+/// In the order of the quantity table.
+std::vector<QuantitySummary> summarise_quantities(ResultReader const& results);
+
+struct StatusCount {
+    Status status;
+    std::uint64_t members;
+};
+/// Statuses that occur; not_run last.
+std::vector<StatusCount> count_statuses(ResultReader const& results);
+
+struct FailedMember {
+    std::uint64_t member;
+    Status status;
+    double time;           // [s] where it ended
+};
+/// The first `limit` members that ran and did not finish.
+std::vector<FailedMember> failed_members(ResultReader const& results, std::size_t limit);
+
+/// "finished", also "not_run".
+std::string name_of(Status status);
+
+}  // namespace slideway

@@ -1,0 +1,210 @@
+#include "host/study/state_table.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <istream>
+
+#include <fmt/format.h>
+
+#include "host/scene/suggest.hpp"
+
+namespace slideway {
+namespace {
+
+/// What a column means.
+struct Column {
+    enum class Kind { ignored, time, state, law, key };
+    Kind kind = Kind::ignored;
+    std::string name;
+    double Inputs::*state = nullptr;
+    Key const* key = nullptr;
+};
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view blank = " \t\r";
+    auto const first = text.find_first_not_of(blank);
+    if (first == text.npos) return {};
+    return text.substr(first, text.find_last_not_of(blank) - first + 1);
+}
+
+std::vector<std::string_view> split(std::string_view line) {
+    std::vector<std::string_view> cells;
+    for (;;) {
+        auto const comma = line.find(',');
+        cells.push_back(trimmed(line.substr(0, comma)));
+        if (comma == line.npos) return cells;
+        line.remove_prefix(comma + 1);
+    }
+}
+
+/// Reads lines and knows where it is.
+class Lines {
+public:
+    Lines(std::istream& in, std::string const& name) : in_(in), name_(name) {}
+
+    bool next() {
+        while (std::getline(in_, line_)) {
+            ++number_;
+            if (number_ == 1 && line_.starts_with("\xEF\xBB\xBF")) line_.erase(0, 3);   // byte order mark
+            if (!trimmed(line_).empty()) return true;
+        }
+        return false;
+    }
+    std::string const& text() const { return line_; }
+    [[noreturn]] void fail(std::string const& message) const {
+        throw SceneError(fmt::format("{}:{}: {}", name_, std::max(number_, 1), message));
+    }
+
+private:
+    std::istream& in_;
+    std::string const& name_;
+    std::string line_;
+    int number_ = 0;
+};
+
+Column column_of(std::string_view name, Lines const& lines) {
+    Column column;
+    column.name = name;
+    if (name == "t") {
+        column.kind = Column::Kind::time;
+    } else if (name == "contact.law") {
+        column.kind = Column::Kind::law;
+    } else if (name.find('.') == name.npos) {
+        for (int i = 0; i < state_size; ++i) {
+            if (name != series_table[i].name) continue;
+            column.kind = Column::Kind::state;
+            column.state = state_inputs[i];
+        }
+    } else if (column.key = find_key(name); column.key != nullptr) {
+        column.kind = Column::Kind::key;
+        if (name.starts_with("initial.")) {
+            lines.fail(fmt::format("column {}: the state to probe stands in the column {}", name, name.substr(8)));
+        }
+    } else {
+        std::vector<std::string_view> names{"contact.law"};
+        for (auto const table : {keys(), twin_keys()}) {
+            for (Key const& key : table) names.push_back(key.name);
+        }
+        std::string_view const meant = nearest_name(name, names);
+        lines.fail(fmt::format("column {}: no numeric key of a scene has this name{}", name,
+                               meant.empty() ? std::string("; see slideway list") : fmt::format("; did you mean {}?", meant)));
+    }
+    return column;
+}
+
+std::vector<Column> read_header(Lines const& lines) {
+    std::vector<Column> columns;
+    for (std::string_view const name : split(lines.text())) {
+        Column column = column_of(name, lines);
+        if (column.kind != Column::Kind::ignored) {
+            for (Column const& other : columns) {
+                if (other.name == column.name) lines.fail(fmt::format("column {}: stands there twice", name));
+                if (column.key && other.key && column.key->overlaps(*other.key)) {
+                    lines.fail(fmt::format("column {}: sets the same input as {}", name, other.name));
+                }
+            }
+        }
+        columns.push_back(std::move(column));
+    }
+    auto const need = [&](std::string_view name) {
+        auto const has_name = [&](Column const& column) { return column.name == name; };
+        if (std::none_of(columns.begin(), columns.end(), has_name)) {
+            lines.fail(fmt::format("column {}: is missing; the table needs t, y, z, vy, vz, roll, yaw, pitch, wx, wy, wz",
+                                   name));
+        }
+    };
+    need("t");
+    for (int i = 0; i < state_size; ++i) need(series_table[i].name);
+    return columns;
+}
+
+double number(std::string_view text, Column const& column, Lines const& lines) {
+    std::string_view digits = text;
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    double value = 0;
+    auto const [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    bool const whole = end == digits.data() + digits.size() && !digits.empty();
+    // A number below the smallest double is zero to it; from_chars tells no more than "out of range".
+    if (error == std::errc::result_out_of_range && whole) return std::strtod(std::string(text).c_str(), nullptr);
+    if (error != std::errc{} || !whole) lines.fail(fmt::format("column {}: '{}' is no number", column.name, text));
+    return value;
+}
+
+Law law(std::string_view text, Lines const& lines) {
+    if (text == "paper") return Law::paper;
+    if (text == "conservative") return Law::conservative;
+    lines.fail(fmt::format("column contact.law: '{}' is no law; use paper or conservative", text));
+}
+
+/// A part with its parameter at zero does what the code without it does.
+bool needs_part(Key const& key, double value) {
+    return value != 0 || !(key.name.starts_with("way.") || key.name.starts_with("contact.chi_"));
+}
+
+void add_row(StateTable& table, std::vector<Column> const& columns, Scene const& scene, Lines const& lines) {
+    std::vector<std::string_view> const cells = split(lines.text());
+    if (cells.size() != columns.size()) {
+        lines.fail(fmt::format("the row has {} columns, the header {}", cells.size(), columns.size()));
+    }
+    Inputs inputs = scene.inputs;
+    Parts parts = scene.parts;
+    double time = 0;
+    std::vector<std::string> texts;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        Column const& column = columns[i];
+        switch (column.kind) {
+        case Column::Kind::ignored: break;
+        case Column::Kind::time: time = number(cells[i], column, lines); break;
+        case Column::Kind::state: inputs.*column.state = number(cells[i], column, lines); break;
+        case Column::Kind::law:
+            parts.law = law(cells[i], lines);
+            texts.emplace_back(cells[i]);
+            break;
+        case Column::Kind::key: {
+            double const value = number(cells[i], column, lines);
+            column.key->set(inputs, value);
+            if (needs_part(*column.key, value)) require_part(parts, *column.key);
+            texts.push_back(fmt::format("{:.17g}", value));
+        }
+        }
+    }
+    if (!std::isfinite(time)) lines.fail("column t: is not a finite number");
+    inputs = complete_inputs(inputs);
+    if (auto const why = defect(inputs)) lines.fail(*why);
+    table.inputs.push_back(inputs);
+    table.parts.push_back(parts);
+    table.times.push_back(time);
+    table.parameter_texts.push_back(std::move(texts));
+}
+
+}  // namespace
+
+StateTable start_state(Scene const& scene) {
+    StateTable table;
+    table.inputs = {complete_inputs(scene.inputs)};
+    if (auto const why = defect(table.inputs[0])) throw SceneError(fmt::format("{}: {}", scene.path, *why));
+    table.parts = {scene.parts};
+    table.times = {0.0};
+    table.parameter_texts.resize(1);
+    return table;
+}
+
+StateTable read_state_table(std::istream& in, std::string const& name, Scene const& scene) {
+    Lines lines(in, name);
+    if (!lines.next()) lines.fail("the table is empty");
+    std::vector<Column> const columns = read_header(lines);
+    StateTable table;
+    for (Column const& column : columns) {
+        if (column.kind == Column::Kind::law || column.kind == Column::Kind::key) {
+            table.parameter_names.push_back(column.name);
+        }
+    }
+    while (lines.next()) add_row(table, columns, scene, lines);
+    if (in.bad()) throw FileError(fmt::format("{}: cannot read", name));
+    if (table.rows() == 0) lines.fail("the table has a header but no row");
+    return table;
+}
+
+}  // namespace slideway

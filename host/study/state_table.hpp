@@ -1,0 +1,37 @@
+// States to probe: the scene's start, or the rows of a CSV table in the format of tests/golden/rhs_*.csv.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "host/scene/scene.hpp"
+
+namespace slideway {
+
+/// The inputs that make up the state, in its order.
+inline constexpr double Inputs::*state_inputs[state_size] = {
+    &Inputs::y,   &Inputs::z,     &Inputs::vy, &Inputs::vz, &Inputs::roll,
+    &Inputs::yaw, &Inputs::pitch, &Inputs::wx, &Inputs::wy, &Inputs::wz};
+
+struct StateTable {
+    std::vector<std::string> parameter_names;               // dotted keys, in the order of the input
+    std::vector<std::vector<std::string>> parameter_texts;  // [row][parameter], as they are to be printed
+    std::vector<Inputs> inputs;                             // [rows], complete; the initial state is the one to probe
+    std::vector<Parts> parts;                               // [rows]
+    std::vector<double> times;                              // [rows], s
+
+    std::size_t rows() const { return inputs.size(); }
+};
+
+/// The scene's start at t = 0.  @throws SceneError if the scene's inputs cannot be used.
+StateTable start_state(Scene const& scene);
+
+/// Reads columns in any order: t and the ten states (needed), `contact.law` and numeric keys of the scene (override
+/// it); a column without a dot in its name that is none of these is ignored.  A row has the kernel parts that its
+/// parameters need: the rates where a χ is not zero, the way's pose where one of its entries is not zero, friction if
+/// the scene has it or the table has a friction.* column.
+/// @param name of the table, for messages.  @throws SceneError `name:line: column …`.
+StateTable read_state_table(std::istream& in, std::string const& name, Scene const& scene);
+
+}  // namespace slideway

@@ -1,0 +1,52 @@
+#include "host/study/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace slideway {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+double quantile(std::span<double const> sorted, double p) {
+    if (sorted.empty()) return nan;
+    double const h = static_cast<double>(sorted.size() - 1) * p;
+    auto const below = static_cast<std::size_t>(h);
+    double const fraction = h - static_cast<double>(below);
+    // Without a fraction the neighbour does not count: it may be infinite, or beyond the end.
+    if (fraction == 0) return sorted[below];
+    return sorted[below] + fraction * (sorted[below + 1] - sorted[below]);
+}
+
+Summary summarise(std::span<double const> values) {
+    std::vector<double> sorted;
+    sorted.reserve(values.size());
+    std::copy_if(values.begin(), values.end(), std::back_inserter(sorted), [](double x) { return !std::isnan(x); });
+    Summary summary{sorted.size(), values.size() - sorted.size(), nan, nan, nan, nan, nan};
+    if (sorted.empty()) return summary;
+    std::sort(sorted.begin(), sorted.end());
+
+    auto const n = static_cast<double>(sorted.size());
+    double sum = 0;
+    for (double const x : sorted) sum += x;
+    double const mean = sum / n;
+    // Second pass: the residual sum removes the rounding of the first from the mean and from the spread.
+    double residual = 0, squares = 0;
+    for (double const x : sorted) {
+        residual += x - mean;
+        squares += (x - mean) * (x - mean);
+    }
+    summary.mean = std::isfinite(mean) ? mean + residual / n : mean;
+    if (sorted.size() > 1) summary.sd = std::sqrt(std::max(0.0, squares - residual * residual / n) / (n - 1));
+    if (!std::isfinite(mean)) summary.sd = nan;
+    summary.min = sorted.front();
+    summary.median = quantile(sorted, 0.5);
+    summary.max = sorted.back();
+    return summary;
+}
+
+}  // namespace slideway

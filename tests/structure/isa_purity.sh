@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# isa_purity.sh LIST: fails when a unit built for one instruction set defines a symbol that the linker could merge with
+# another unit's.  A merged AVX-512 copy would then crash, or round otherwise, on a path that never asked for it.
+#
+# LIST holds lines "<library> <object>"; the library's name says the instruction set: slideway_kernels_<isa>_….
+# Weak and unique symbols (nm: W V u) must carry the instruction set in their name: its own namespace,
+# slideway::<isa>::, or an xsimd architecture that no other unit uses.
+set -euo pipefail
+export LC_ALL=C
+
+# Pattern of the xsimd architecture of an instruction set; those that contain a wider one's belong to that one.
+declare -A arch=([scalar]='' [sse2]='xsimd::sse2' [avx2]='xsimd::fma3<xsimd::avx2' [avx512]='xsimd::avx512')
+declare -A wider=([scalar]='' [sse2]='xsimd::(avx|fma|sse[34]|ssse)' [avx2]='xsimd::avx512' [avx512]='')
+
+# May be merged: data, not instructions.
+#   DW.ref.…                      pointer to the exception personality routine, made by the compiler
+#   slideway::quantity_table …    constant tables of the plain-data headers, the same bytes in every unit
+allowed='^(DW\.ref\.__gxx_personality_v0|slideway::(quantity_table|series_table|status_names|mode_class_names))$'
+
+list=$1
+objects=0
+bad=0
+while read -r library object; do
+    [[ -n $library ]] || continue
+    isa=${library#slideway_kernels_}
+    isa=${isa%%_*}
+    if [[ ! -v arch[$isa] ]]; then
+        echo "isa_purity: no rule for the instruction set '$isa' of $library" >&2
+        exit 1
+    fi
+    symbols=$(nm -C --defined-only "$object")
+    # A unit whose kernels are not in its namespace would make the check below pass for the wrong reason.
+    if ! grep -q "slideway::$isa::" <<<"$symbols"; then
+        echo "$object: nothing in slideway::$isa::"
+        bad=$((bad + 1))
+    fi
+    shared=$(awk -v own="slideway::$isa::" -v arch="${arch[$isa]}" -v wider="${wider[$isa]}" -v allowed="$allowed" '
+        $2 !~ /^[WVu]$/ { next }
+        {
+            name = $0
+            sub(/^[^ ]* [^ ] /, "", name)
+            if (index(name, own) || name ~ allowed) next
+            if (arch != "" && name ~ arch && (wider == "" || name !~ wider)) next
+            print "  " name
+        }' <<<"$symbols")
+    if [[ -n $shared ]]; then
+        echo "$object: could be merged with another unit's:"
+        echo "$shared"
+        bad=$((bad + 1))
+    fi
+    objects=$((objects + 1))
+done <"$list"
+
+if ((objects == 0)); then
+    echo "isa_purity: $list names no object" >&2
+    exit 1
+fi
+echo "$objects objects, $bad impure"
+((bad == 0))

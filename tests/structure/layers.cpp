@@ -1,0 +1,142 @@
+#include "tests/structure/layers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <regex>
+#include <set>
+#include <string_view>
+
+namespace slideway::structure {
+
+namespace {
+
+struct Layer {
+    std::string_view name;  // a folder, or a file directly in kernels/
+    int rank;
+};
+
+// A file may include its own layer and those of the same or a lower rank.
+constexpr std::array layers = {
+    Layer{"kernels/real.hpp", 1}, Layer{"kernels/math", 2},          Layer{"kernels/laws", 3},
+    Layer{"kernels/joint", 4},    Layer{"kernels/mechanisms", 5},    Layer{"kernels/observers", 6},
+    Layer{"kernels/steppers", 6}, Layer{"kernels/integrate.hpp", 7}, Layer{"host/scene", 10},
+    Layer{"host/backend", 10},    Layer{"host/output", 11},          Layer{"host/driver", 11},
+    Layer{"host/chaos", 11},      Layer{"host/study", 12},           Layer{"host/report", 13},
+    Layer{"host/cli", 14},
+};
+
+// Plain data without code of any instruction set: every layer may share it, the host included.
+constexpr std::array<std::string_view, 4> plain_data = {
+    "kernels/inputs.hpp",
+    "kernels/status.hpp",
+    "kernels/block.hpp",
+    "kernels/observers/quantities.hpp",
+};
+
+bool is_plain_data(std::string_view path) { return std::ranges::find(plain_data, path) != plain_data.end(); }
+
+Layer const* layer_of(std::string_view path) {
+    for (Layer const& layer : layers) {
+        bool const within = path.starts_with(layer.name) && path.substr(layer.name.size()).starts_with('/');
+        if (path == layer.name || within) return &layer;
+    }
+    return nullptr;
+}
+
+bool knows_backends(std::string_view path) { return path == "kernels/real.hpp" || path.starts_with("host/backend/"); }
+
+std::optional<std::string> include_violation(std::string const& from, std::string const& to) {
+    if (is_plain_data(from)) {
+        if (is_plain_data(to)) return std::nullopt;
+        return from + " is plain data and includes " + to;
+    }
+    Layer const* const user = layer_of(from);
+    if (!user) return from + " is in no layer; give it a rank in tests/structure/layers.cpp";
+    if (user->name == "kernels/real.hpp") return from + " includes " + to + "; it stands below everything";
+    if (is_plain_data(to)) return std::nullopt;
+    Layer const* const used = layer_of(to);
+    if (!used) return from + " includes " + to + ", which is in no layer (includes are written from the root)";
+    if (used->rank > user->rank) return from + " includes upward: " + to;
+    if (from.starts_with("host/") && to.starts_with("kernels/") && user->name != "host/backend") {
+        return from + " includes " + to + "; above host/backend only the plain data of kernels/ is known";
+    }
+    return std::nullopt;
+}
+
+/// A line of the file's code that matches, for the message.
+void find_in_code(SourceFile const& file, std::regex const& pattern, std::string const& why, Violations& out) {
+    auto const lines = lines_of(code_only(file.text));
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        if (std::smatch match; std::regex_search(lines[i], match, pattern)) {
+            out.push_back(file.path + ":" + std::to_string(i + 1) + ": " + match.str() + ": " + why);
+        }
+    }
+}
+
+using Graph = std::map<std::string_view, std::set<std::string_view>>;
+
+bool reaches(Graph const& graph, std::string_view from, std::string_view goal, std::set<std::string_view>& seen) {
+    auto const node = graph.find(from);
+    if (node == graph.end() || !seen.insert(from).second) return false;
+    return std::ranges::any_of(node->second,
+                               [&](std::string_view next) { return next == goal || reaches(graph, next, goal, seen); });
+}
+
+}  // namespace
+
+Violations include_violations(SourceFile const& file) {
+    Violations out;
+    if (!is_plain_data(file.path) && !layer_of(file.path)) {
+        out.push_back(file.path + " is in no layer; give it a rank in tests/structure/layers.cpp");
+        return out;
+    }
+    for (std::string const& included : quoted_includes(file.text)) {
+        if (auto violation = include_violation(file.path, included)) out.push_back(*violation);
+    }
+    return out;
+}
+
+Violations circle_violations(std::vector<SourceFile> const& files) {
+    Graph graph;
+    for (SourceFile const& file : files) {
+        Layer const* const user = layer_of(file.path);
+        if (!user || is_plain_data(file.path)) continue;
+        for (std::string const& included : quoted_includes(file.text)) {
+            Layer const* const used = layer_of(included);
+            if (used && used != user && !is_plain_data(included)) graph[user->name].insert(used->name);
+        }
+    }
+    Violations out;
+    for (auto const& [folder, used] : graph) {
+        if (std::set<std::string_view> seen; reaches(graph, folder, folder, seen)) {
+            out.push_back(std::string(folder) + " includes itself through other folders");
+        }
+    }
+    return out;
+}
+
+Violations backend_violations(SourceFile const& file) {
+    Violations out;
+    if (knows_backends(file.path)) return out;
+    static std::regex const instruction_set(
+        R"(\b_mm\d*_\w+|\bxsimd\b|\w*intrin\.h\b|\b__m(128|256|512)\w*|__AVX\w*|__SSE\w*)");
+    static std::regex const cuda(R"(__CUDA\w*|\b__(host|device|global)__)");
+    find_in_code(file, instruction_set, "only kernels/real.hpp and host/backend know instruction sets", out);
+    find_in_code(file, cuda, "only kernels/real.hpp and host/backend know CUDA", out);
+    return out;
+}
+
+Violations kernel_violations(SourceFile const& file) {
+    Violations out;
+    if (!file.path.ends_with(".hpp")) out.push_back(file.path + ": kernels/ holds headers only");
+    static std::regex const exception(R"(\b(throw|try|catch)\b)");
+    static std::regex const allocation(
+        R"(\bnew\b|\bdelete\b(?!;)|\b(malloc|free)\s*\(|\bstd::(vector|string|map|function|\w+_ptr)\b)");
+    find_in_code(file, exception, "kernels report a status, they do not throw", out);
+    find_in_code(file, allocation, "kernels do not allocate", out);
+    return out;
+}
+
+}  // namespace slideway::structure

@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/structure/layers.hpp"
+
+namespace slideway::structure {
+namespace {
+
+std::vector<SourceFile> layered_sources() {
+    auto files = files_below({"kernels", "host"});
+    std::erase_if(files, [](SourceFile const& f) { return !has_ending(f.path, {".hpp", ".cpp", ".cu"}); });
+    return files;
+}
+
+template <class Rule> void expect_kept(std::vector<SourceFile> const& files, Rule rule) {
+    ASSERT_FALSE(files.empty());
+    for (SourceFile const& file : files) {
+        for (std::string const& violation : rule(file)) ADD_FAILURE() << violation;
+    }
+}
+
+SourceFile including(std::string path, std::string const& included) {
+    return {std::move(path), "#include \"" + included + "\"\n"};
+}
+
+TEST(Layers, NothingIncludesUpward) { expect_kept(layered_sources(), include_violations); }
+
+TEST(Layers, FoldersIncludeEachOtherOneWay) {
+    for (std::string const& violation : circle_violations(layered_sources())) ADD_FAILURE() << violation;
+}
+
+TEST(Layers, OnlyTheVocabularyKnowsBackends) { expect_kept(layered_sources(), backend_violations); }
+
+TEST(Layers, KernelsNeitherThrowNorAllocate) { expect_kept(files_below({"kernels"}), kernel_violations); }
+
+TEST(LayerRules, UpwardIncludeIsFound) {
+    EXPECT_EQ(include_violations(including("kernels/laws/line.hpp", "kernels/joint/joint.hpp")).size(), 1u);
+    EXPECT_EQ(include_violations(including("host/scene/scene.cpp", "host/cli/run.hpp")).size(), 1u);
+    EXPECT_EQ(include_violations(including("kernels/integrate.hpp", "host/scene/scene.hpp")).size(), 1u);
+    EXPECT_TRUE(include_violations(including("kernels/joint/joint.hpp", "kernels/laws/line.hpp")).empty());
+    EXPECT_TRUE(include_violations(including("host/cli/run.cpp", "host/scene/scene.hpp")).empty());
+}
+
+TEST(LayerRules, VocabularyIncludesNothingOfOurs) {
+    EXPECT_EQ(include_violations(including("kernels/real.hpp", "kernels/status.hpp")).size(), 1u);
+}
+
+TEST(LayerRules, PlainDataIsForEveryoneAndIncludesPlainDataOnly) {
+    EXPECT_TRUE(include_violations(including("kernels/mechanisms/probe.hpp", "kernels/block.hpp")).empty());
+    EXPECT_TRUE(include_violations(including("host/output/writer.cpp", "kernels/observers/quantities.hpp")).empty());
+    EXPECT_TRUE(include_violations(including("kernels/block.hpp", "kernels/status.hpp")).empty());
+    EXPECT_EQ(include_violations(including("kernels/block.hpp", "kernels/real.hpp")).size(), 1u);
+}
+
+TEST(LayerRules, PhysicsIsKnownToTheBackendAlone) {
+    EXPECT_TRUE(include_violations(including("host/backend/cpu.cpp", "kernels/integrate.hpp")).empty());
+    EXPECT_EQ(include_violations(including("host/study/ensemble.cpp", "kernels/integrate.hpp")).size(), 1u);
+}
+
+TEST(LayerRules, UnknownPlacesAreFound) {
+    EXPECT_EQ(include_violations({"kernels/extras/thing.hpp", ""}).size(), 1u);
+    EXPECT_EQ(include_violations(including("host/cli/run.cpp", "run.hpp")).size(), 1u);
+}
+
+TEST(LayerRules, CommentedIncludeDoesNotCount) {
+    EXPECT_TRUE(include_violations({"kernels/laws/line.hpp", "// #include \"host/cli/run.hpp\"\n"}).empty());
+    EXPECT_TRUE(include_violations({"kernels/laws/line.hpp", "/*\n#include \"host/cli/run.hpp\"\n*/\n"}).empty());
+}
+
+TEST(LayerRules, CircleOfFoldersOfOneRankIsFound) {
+    auto const there = including("host/driver/ensemble.cpp", "host/output/writer.hpp");
+    auto const back = including("host/output/writer.cpp", "host/driver/progress.hpp");
+    EXPECT_TRUE(circle_violations({there}).empty());
+    EXPECT_EQ(circle_violations({there, back}).size(), 2u);
+}
+
+TEST(LayerRules, InstructionSetsAndCudaAreFoundInCodeOnly) {
+    EXPECT_EQ(backend_violations({"kernels/math/vec3.hpp", "auto x = _mm256_add_pd(a, b);\n"}).size(), 1u);
+    EXPECT_EQ(backend_violations({"host/driver/run.cpp", "xsimd::batch<double> x;\n"}).size(), 1u);
+    EXPECT_EQ(backend_violations({"kernels/laws/line.hpp", "#ifdef __CUDA_ARCH__\n"}).size(), 1u);
+    EXPECT_TRUE(backend_violations({"kernels/laws/line.hpp", "// as xsimd does; __CUDACC__\n"}).empty());
+    EXPECT_TRUE(backend_violations({"host/cli/list.cpp", "print(\"xsimd\");\n"}).empty());
+    EXPECT_TRUE(backend_violations({"kernels/real.hpp", "_mm_fmadd_pd(a, b, c);\n"}).empty());
+}
+
+TEST(LayerRules, ThrowAndAllocationInKernelsAreFound) {
+    EXPECT_EQ(kernel_violations({"kernels/laws/line.hpp", "throw 1;\n"}).size(), 1u);
+    EXPECT_EQ(kernel_violations({"kernels/laws/line.hpp", "std::vector<double> x;\n"}).size(), 1u);
+    EXPECT_EQ(kernel_violations({"kernels/laws/line.cpp", ""}).size(), 1u);
+    EXPECT_TRUE(kernel_violations({"kernels/laws/line.hpp", "Line(Line const&) = delete;\n"}).empty());
+}
+
+}  // namespace
+}  // namespace slideway::structure

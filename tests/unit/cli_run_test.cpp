@@ -1,0 +1,206 @@
+#include "cli_process.hpp"
+
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <sstream>
+
+#include <sys/resource.h>
+
+#include "host/output/result_reader.hpp"
+#include "kernels/status.hpp"
+
+namespace slideway::testing {
+namespace {
+
+constexpr char const* small_scene = R"(
+schema = 1
+title = "A small ensemble"
+[friction]
+[study]
+members = 37
+duration = "5 ms"
+samples = 6
+quantities = ["energy_residual", "crank_work", "mode_time"]
+[study.vary]
+"initial.y" = { dist = "unif", low = "-0.09 mm", high = "0.09 mm" }
+)";
+
+class Run : public Program {
+protected:
+    Run() { write("s.toml", small_scene); }
+    Outcome run_scene(std::vector<std::string> options) const {
+        options.insert(options.begin(), {"run", "s.toml", "--quiet"});
+        return run(std::move(options));
+    }
+    ResultReader results(std::string const& name) const { return ResultReader(path(name).string()); }
+};
+
+TEST_F(Run, WritesItsResultsAndSaysWhere) {
+    Outcome const outcome = run_scene({});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_TRUE(outcome.out.ends_with("results      s.nc\n")) << outcome.out;
+    for (char const* const word : {"A small ensemble", "members/s", "finished", "accepted", "lanes in use", "crank_work",
+                                   "mode_time[surface]", "Mode switching of the paper law made"}) {
+        EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
+    }
+    ResultReader const file = results("s.nc");
+    EXPECT_EQ(file.values("status"), std::vector<double>(37, 0));
+    EXPECT_EQ(file.values("time").back(), 0.005);
+    EXPECT_EQ(file.shape("y"), (std::vector<std::size_t>{37, 6}));
+    EXPECT_EQ(file.attribute("title"), "A small ensemble");
+    // The series starts where the member was drawn.
+    auto const y = file.values("y"), start = file.values("initial_y");
+    for (std::size_t i = 0; i < 37; ++i) EXPECT_EQ(y[6 * i], start[i]);
+    EXPECT_NE(run_scene({}).out.find("replaced a former file"), std::string::npos);
+}
+
+TEST_F(Run, SaysNothingOfMadeEnergyUnderTheConservativeLaw) {
+    Outcome const outcome = run_scene({"--set", "contact.law=conservative"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out.find("Mode switching"), std::string::npos);
+}
+
+TEST_F(Run, GivesTheSameNumbersWithAnyThreads) {
+    std::vector<std::string> hashes;
+    for (char const* const threads : {"1", "2", "4"}) {
+        std::string const name = std::string(threads) + ".nc";
+        ASSERT_EQ(run_scene({"--threads", threads, "-o", name}).code, 0);
+        hashes.push_back(results(name).computed_hash());
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
+    EXPECT_EQ(hashes[0], hashes[2]);
+}
+
+TEST_F(Run, ReplaysOneMemberBitForBit) {
+    ASSERT_EQ(run_scene({}).code, 0);
+    ASSERT_EQ(run_scene({"--member", "29"}).code, 0);
+    ASSERT_EQ(run_scene({"--members", "28..30", "-o", "three.nc"}).code, 0);
+    ResultReader const all = results("s.nc"), one = results("s_member_29.nc"), three = results("three.nc");
+    EXPECT_EQ(one.values("member"), std::vector<double>{29});
+    EXPECT_EQ(three.values("member"), (std::vector<double>{28, 29, 30}));
+    for (char const* const name : {"initial_y", "steps_accepted", "rhs_evaluations", "final_y", "final_vy", "final_wx",
+                                   "crank_work", "energy_residual"}) {
+        EXPECT_EQ(one.values(name)[0], all.values(name)[29]) << name;
+        EXPECT_EQ(three.values(name)[1], all.values(name)[29]) << name;
+    }
+}
+
+TEST_F(Run, CountsAndReplaysMembersWithUnusableInputs) {
+    // About one in six of these clearances is negative.
+    std::vector<std::string> const vary{"--set", R"(study.vary."joint.clearance"={dist="norm",mean=1e-4,sd=1e-4})"};
+    auto const with = [&](std::vector<std::string> options) {
+        options.insert(options.end(), vary.begin(), vary.end());
+        return run_scene(options);
+    };
+    Outcome const outcome = with({});
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_NE(outcome.err.find("more than --max-failures 1%"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.out.find("invalid_inputs: joint.clearance_y is -"), std::string::npos) << outcome.out;
+
+    ResultReader const file = results("s.nc");
+    auto const status = file.values("status"), clearance = file.values("joint_clearance"), y = file.values("final_y");
+    std::uint64_t failed = 0;
+    for (std::size_t i = 0; i < status.size(); ++i) {
+        bool const usable = clearance[i] > 0;
+        EXPECT_EQ(status[i] == static_cast<double>(Status::invalid_inputs), !usable) << i;
+        EXPECT_EQ(std::isnan(y[i]), !usable) << i;
+        failed += !usable;
+    }
+    ASSERT_GT(failed, 0u);
+    EXPECT_EQ(with({"--max-failures", std::to_string(failed)}).code, 0);
+    EXPECT_EQ(with({"--max-failures", std::to_string(failed - 1)}).code, 3);
+    EXPECT_EQ(with({"--max-failures", "100%"}).code, 0);
+    EXPECT_EQ(with({"--max-failures", "0%"}).code, 3);
+
+    // The printed command, followed by a shell, ends as that member did.
+    std::istringstream lines(outcome.out);
+    std::string line, command;
+    while (std::getline(lines, line)) {
+        if (command.empty() && line.starts_with("    slideway ")) command = line.substr(13);
+    }
+    ASSERT_NE(command, "");
+    std::string const shell = "cd '" + path("").string() + "' && '" SLIDEWAY_BINARY "' " + command + " -o one.nc >/dev/null 2>&1";
+    EXPECT_EQ(WEXITSTATUS(std::system(shell.c_str())), 3);
+    EXPECT_EQ(results("one.nc").values("status"), std::vector<double>{static_cast<double>(Status::invalid_inputs)});
+}
+
+TEST_F(Run, OutOfTimeLeavesAWholeFile) {
+    Outcome const outcome = run_scene({"--max-hours", "0"});
+    EXPECT_EQ(outcome.code, 5);
+    EXPECT_NE(outcome.err.find("37 of 37 members were not run"), std::string::npos) << outcome.err;
+    EXPECT_EQ(results("s.nc").values("status"), std::vector<double>(37, -1));
+    EXPECT_EQ(run({"info", "s.nc"}).code, 0);
+}
+
+TEST_F(Run, StoppedByASignalKeepsWhatIsFinished) {
+    for (int const signal : {SIGINT, SIGTERM}) {
+        std::filesystem::remove(path("s.nc"));
+        pid_t const child = start({"run", "s.toml", "--set", "study.members=1000000", "study.samples=0", "--threads", "2"});
+        // The file appears when the handler stands.
+        for (int i = 0; i < 1000 && !std::filesystem::exists(path("s.nc.part")); ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(700));
+        kill(child, signal);
+        Outcome const outcome = wait(child);
+        EXPECT_EQ(outcome.code, 5) << outcome.err;
+        ResultReader const file = results("s.nc");
+        EXPECT_EQ(file.stored_hash(), file.computed_hash());
+        auto const status = file.values("status");
+        auto const finished = std::count(status.begin(), status.end(), 0), left = std::count(status.begin(), status.end(), -1);
+        EXPECT_GT(finished, 0);
+        EXPECT_GT(left, 0);
+        EXPECT_EQ(finished + left, 1000000);
+    }
+}
+
+TEST_F(Run, OnAFullDiskIsRefusedBeforeItsWork) {
+    write("wrapper.sh", "ulimit -f 64\nexec \"$@\"\n");   // 64 kB where a block of ulimit is 1 kB, 32 kB where it is 512 B
+    std::string const shell = "cd '" + path("").string() + "' && bash wrapper.sh '" SLIDEWAY_BINARY
+                              "' run s.toml --set study.members=10000 >out 2>err";
+    EXPECT_EQ(WEXITSTATUS(std::system(shell.c_str())), 4);
+    EXPECT_EQ(file_text(path("out")), "");
+    std::string const err = file_text(path("err"));
+    EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+    EXPECT_NE(err.find("s.nc.part"), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(path("s.nc")));
+    EXPECT_FALSE(std::filesystem::exists(path("s.nc.part")));
+}
+
+TEST_F(Run, ToAClosedOutputIsNoSuccess) {
+    std::string const shell = "cd '" + path("").string() + "' && '" SLIDEWAY_BINARY "' list >/dev/full 2>err";
+    EXPECT_EQ(WEXITSTATUS(std::system(shell.c_str())), 4);
+    EXPECT_NE(file_text(path("err")), "");
+}
+
+TEST_F(Run, InfoTellsOfItsResults) {
+    ASSERT_EQ(run_scene({}).code, 0);
+    Outcome const outcome = run({"info", "s.nc"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_EQ(outcome.err, "");
+    for (char const* const word : {"A small ensemble", "matches the data", "member           37", "sample           6",
+                                   "finished         37", "crank_work", "[study.vary]"}) {
+        EXPECT_NE(outcome.out.find(word), std::string::npos) << word << "\n" << outcome.out;
+    }
+}
+
+TEST_F(Run, InfoNoticesAChangedNumber) {
+    ASSERT_EQ(run_scene({}).code, 0);
+    double const victim = results("s.nc").values("final_vy")[5];
+    std::string bytes = file_text(path("s.nc"));
+    std::string pattern(sizeof victim, '\0');
+    std::memcpy(pattern.data(), &victim, sizeof victim);
+    auto const at = bytes.find(pattern);
+    ASSERT_NE(at, std::string::npos);
+    bytes[at] = static_cast<char>(bytes[at] ^ 1);
+    std::ofstream(path("s.nc"), std::ios::binary) << bytes;
+    Outcome const outcome = run({"info", "s.nc"});
+    EXPECT_EQ(outcome.code, 4);
+    EXPECT_NE(outcome.out.find("DOES NOT MATCH"), std::string::npos);
+    EXPECT_NE(outcome.err.find("s.nc"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace slideway::testing

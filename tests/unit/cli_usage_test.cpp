@@ -1,0 +1,116 @@
+#include "cli_process.hpp"
+
+#include "host/backend/backend.hpp"
+
+namespace slideway::testing {
+namespace {
+
+class Usage : public Program {
+protected:
+    Usage() { write("s.toml", "schema = 1\n[study]\nmembers = 10\nduration = \"1 ms\"\n"); }
+};
+
+TEST_F(Usage, OfCommands) {
+    expect_refusal(2, "a command is missing", {});
+    expect_refusal(2, "did you mean check?", {"chek", "s.toml"});
+    expect_refusal(2, "there is no command 'frobnicate'", {"frobnicate"});
+    expect_refusal(2, "SCENE is missing", {"run"});
+    expect_refusal(2, "--bogus", {"run", "s.toml", "--bogus"});
+    expect_refusal(2, "second", {"run", "s.toml", "second"});
+    expect_refusal(2, "FILE", {"info"});
+}
+
+TEST_F(Usage, OfOptionsOfRun) {
+    expect_refusal(2, "--threads 0", {"run", "s.toml", "--threads", "0"});
+    expect_refusal(2, "--threads", {"run", "s.toml", "--threads", "many"});
+    expect_refusal(2, "--isa mmx", {"run", "s.toml", "--isa", "mmx"});
+    expect_refusal(2, "not available in this build", {"run", "s.toml", "--backend", "cuda"});
+    expect_refusal(2, "--backend abacus", {"run", "s.toml", "--backend", "abacus"});
+    expect_refusal(2, "--max-hours", {"run", "s.toml", "--max-hours=-1"});
+    expect_refusal(2, "--max-hours", {"run", "s.toml", "--max-hours", "nan"});
+    for (char const* const limit : {"-1", "1.5", "101%", "x", "%", "nan%"}) {
+        expect_refusal(2, "--max-failures", {"run", "s.toml", std::string("--max-failures=") + limit});
+    }
+    for (char const* const range : {"3", "5..2", "a..b", "1..", "..2", "0..10"}) {
+        expect_refusal(2, "--members", {"run", "s.toml", "--members", range});
+    }
+    expect_refusal(2, "members 0 to 9", {"run", "s.toml", "--member", "10"});
+    expect_refusal(2, "exclude each other", {"run", "s.toml", "--member", "1", "--members", "1..2"});
+    expect_refusal(2, "--set contact.law", {"run", "s.toml", "--set", "contact.law"});
+    EXPECT_FALSE(std::filesystem::exists(path("s.nc")));
+}
+
+TEST_F(Usage, OfAnInstructionSetThatThisMachineLacks) {
+    for (Isa const isa : all_isas()) {
+        std::string const name(name_of(isa));
+        if (is_supported(isa)) EXPECT_EQ(run({"probe", "s.toml", "--isa", name}).code, 0);
+        else expect_refusal(2, "--isa " + name, {"probe", "s.toml", "--isa", name});
+    }
+}
+
+TEST_F(Usage, OfScenes) {
+    for (char const* const command : {"run", "check", "probe"}) {
+        expect_refusal(2, "missing.toml", {command, "missing.toml"});
+        expect_refusal(2, "joint.clearance", {command, "s.toml", "--set", "joint.clearance=-1"});
+    }
+    write("bad.toml", "schema = 1\n[joint]\nclearence = 1e-4\n");
+    expect_refusal(2, "bad.toml:3: ", {"check", "bad.toml"});
+}
+
+TEST_F(Usage, OfPlacesForResults) {
+    expect_refusal(4, "no folder", {"run", "s.toml", "-o", "nowhere/s.nc"});
+    expect_refusal(4, "is a folder", {"run", "s.toml", "-o", "."});
+    expect_refusal(4, "states.csv", {"probe", "s.toml", "--csv", "states.csv"});
+    expect_refusal(4, "cannot write", {"probe", "s.toml", "-o", "nowhere/p.csv"});
+}
+
+TEST_F(Usage, OfFilesThatAreNoResults) {
+    expect_refusal(4, "missing.nc", {"info", "missing.nc"});
+    expect_refusal(4, "s.toml", {"info", "s.toml"});
+    expect_refusal(4, ".", {"info", "."});
+}
+
+TEST_F(Usage, AllowsTheSceneBehindItsOverrides) {
+    Outcome const outcome = run({"check", "--set", "study.members=7", "contact.law=conservative", "s.toml"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("members = 7"), std::string::npos);
+    EXPECT_NE(outcome.out.find("law = \"conservative\""), std::string::npos);
+}
+
+TEST_F(Usage, AnswersQuestions) {
+    for (auto const& question : {std::vector<std::string>{"--help"}, {"run", "--help"}, {"--version"}, {"list"}}) {
+        Outcome const outcome = run(question);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        EXPECT_NE(outcome.out, "");
+        EXPECT_EQ(outcome.err, "");
+    }
+    EXPECT_TRUE(run({"--version"}).out.starts_with("slideway 0."));
+    std::string const list = run({"list"}).out;
+    for (char const* const name : {"slider_crank", "conservative", "dopri5", "mode_time", "truncnorm", "joint.clearance_y",
+                                   "contact.young_modulus", "avx512", "ensemble", "rod_angular_velocity"}) {
+        EXPECT_NE(list.find(name), std::string::npos) << name;
+    }
+}
+
+TEST_F(Usage, OfCheckTellsWhatIsInTheKernels) {
+    std::string const bare = run({"check", "s.toml"}).out;
+    auto const line = [](std::string const& text, std::string const& label) {
+        auto const at = text.find("\n" + label);
+        return at == text.npos ? std::string() : text.substr(at + 1, text.find('\n', at + 1) - at - 1);
+    };
+    EXPECT_NE(line(bare, "parts in").find("paper law"), std::string::npos);
+    EXPECT_NE(line(bare, "parts out").find("; friction"), std::string::npos);
+    EXPECT_NE(line(bare, "parts out").find("misaligned way"), std::string::npos);
+    write("full.toml", "schema = 1\n[friction]\n[way]\nroll = 1e-4\n[contact]\nlaw = \"conservative\"\nchi_line = 0.1\n"
+                       "[study]\nquantities = [\"crank_work\"]\n");
+    std::string const full = run({"check", "full.toml"}).out;
+    EXPECT_NE(line(full, "parts in").find("conservative law"), std::string::npos);
+    EXPECT_NE(line(full, "parts in").find("; friction"), std::string::npos);
+    EXPECT_NE(line(full, "parts in").find("misaligned way"), std::string::npos);
+    EXPECT_NE(line(full, "parts out").find("paper law"), std::string::npos);
+    EXPECT_EQ(line(full, "asked for"), "asked for    crank_work");
+    for (char const* const label : {"kernels", "memory", "output", "cost"}) EXPECT_NE(line(full, label), "") << label;
+}
+
+}  // namespace
+}  // namespace slideway::testing

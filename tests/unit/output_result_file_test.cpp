@@ -1,0 +1,288 @@
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "host/output/payload_hash.hpp"
+#include "host/output/result_reader.hpp"
+#include "host/output/result_writer.hpp"
+#include "host/scene/error.hpp"
+
+namespace slideway {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// A folder of its own for each test.
+class ResultFile : public testing::Test {
+protected:
+    ResultFile() : folder_(fs::temp_directory_path() / ("slideway_output_test_" + std::to_string(getpid()))) {
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+    }
+    ~ResultFile() override { fs::remove_all(folder_); }
+    std::string path(std::string const& name = "out.nc") const { return (folder_ / name).string(); }
+
+private:
+    fs::path folder_;
+};
+
+ResultLayout layout_of(std::uint64_t members) {
+    ResultLayout layout;
+    layout.first_member = 100;
+    layout.members = members;
+    layout.sample_times = {0.0, 0.5};
+    layout.quantities = Selection{1} << static_cast<int>(Quantity::crank_work) |
+                        Selection{1} << static_cast<int>(Quantity::mode_time);
+    layout.series = 0b101;   // y and vy
+    layout.parameters = {{"initial_y", "m", "vertical position at the start", &Inputs::y}};
+    return layout;
+}
+
+/// The results of members [first, first + count), each value made of the member's place and the variable.
+struct FakeBlock {
+    std::vector<Inputs> inputs;
+    std::vector<MemberRecord> records;
+    std::vector<double> states, quantities, series;
+    std::uint64_t first;
+
+    FakeBlock(std::uint64_t first_member, std::size_t count) : first(first_member) {
+        for (std::size_t i = 0; i < count; ++i) {
+            auto const place = static_cast<double>(first + i);
+            inputs.emplace_back().y = place / 8;
+            records.push_back({Status::finished, first + i, 2, 3, 0.5});
+            for (int k = 0; k < state_size; ++k) states.push_back(place + k / 16.0);
+            for (int k = 0; k < quantity_columns; ++k) quantities.push_back(place * 100 + k);
+        }
+        for (int s = 0; s < 2; ++s) {
+            for (std::size_t i = 0; i < count; ++i) {
+                for (int t = 0; t < 2; ++t) series.push_back(static_cast<double>(first + i) + 0.25 * s + 0.5 * t);
+            }
+        }
+    }
+    BlockResult view() const { return {first, inputs, records, states, quantities, series}; }
+};
+
+void write_file(std::string const& path, std::vector<FakeBlock> const& blocks, int threads = 1) {
+    Provenance provenance;
+    provenance.title = "a title";
+    provenance.scene = "schema = 1\n";
+    provenance.seed = 18446744073709551615u;
+    provenance.backend = "cpu";
+    provenance.isa = "scalar";
+    provenance.threads = threads;
+    ResultWriter writer(path, layout_of(5), provenance);
+    for (FakeBlock const& block : blocks) writer.write(block.view());
+    writer.finish(0.75, StopReason::none);
+}
+
+TEST_F(ResultFile, GivesBackWhatWasWritten) {
+    write_file(path(), {{3, 2}, {0, 3}});
+    ResultReader const results(path());
+    EXPECT_EQ(results.values("member"), (std::vector<double>{100, 101, 102, 103, 104}));
+    EXPECT_EQ(results.values("status"), (std::vector<double>(5, 0)));
+    EXPECT_EQ(results.values("steps_accepted"), (std::vector<double>{0, 1, 2, 3, 4}));
+    EXPECT_EQ(results.values("steps_rejected"), std::vector<double>(5, 2));
+    EXPECT_EQ(results.values("rhs_evaluations"), std::vector<double>(5, 3));
+    EXPECT_EQ(results.values("end_time"), std::vector<double>(5, 0.5));
+    EXPECT_EQ(results.values("initial_y"), (std::vector<double>{0, 0.125, 0.25, 0.375, 0.5}));
+    EXPECT_EQ(results.values("final_y"), (std::vector<double>{0, 1, 2, 3, 4}));
+    EXPECT_EQ(results.values("final_wz"), (std::vector<double>{0.5625, 1.5625, 2.5625, 3.5625, 4.5625}));
+    EXPECT_EQ(results.values("time"), (std::vector<double>{0, 0.5}));
+    EXPECT_EQ(results.values("y"), (std::vector<double>{0, 0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4, 4.5}));
+    EXPECT_EQ(results.values("vy"), (std::vector<double>{0.25, 0.75, 1.25, 1.75, 2.25, 2.75, 3.25, 3.75, 4.25, 4.75}));
+    EXPECT_FALSE(results.has("z"));
+    EXPECT_FALSE(results.has("peak_apex_force"));
+    // 18 columns stand before mode_time, 25 before crank_work in the quantity table.
+    EXPECT_EQ(results.values("crank_work"), (std::vector<double>{25, 125, 225, 325, 425}));
+    EXPECT_EQ(results.shape("mode_time"), (std::vector<std::size_t>{5, 4}));
+    auto const mode_time = results.values("mode_time");
+    EXPECT_EQ(std::vector<double>(mode_time.begin() + 4, mode_time.begin() + 8), (std::vector<double>{118, 119, 120, 121}));
+}
+
+TEST_F(ResultFile, SaysWhereItComesFrom) {
+    setenv("SOURCE_DATE_EPOCH", "86400", 1);
+    write_file(path(), {{0, 5}}, 3);
+    unsetenv("SOURCE_DATE_EPOCH");
+    ResultReader const results(path());
+    EXPECT_EQ(results.attribute("Conventions"), "CF-1.8");
+    EXPECT_EQ(results.attribute("title"), "a title");
+    EXPECT_EQ(results.attribute("scene"), "schema = 1\n");
+    EXPECT_EQ(results.attribute("seed"), "18446744073709551615");
+    EXPECT_EQ(results.attribute("threads"), "3");
+    EXPECT_EQ(results.attribute("created"), "1970-01-02T00:00:00Z");
+    EXPECT_EQ(results.attribute("lane_utilisation"), "0.75");
+    EXPECT_EQ(results.attribute("completeness"), "complete");
+    for (char const* const name : {"version", "commit", "compiler"}) EXPECT_NE(results.attribute(name), "") << name;
+}
+
+TEST_F(ResultFile, NamesUnitsAndLabels) {
+    write_file(path(), {{0, 5}});
+    ResultReader const results(path());
+    for (std::string const& name : results.variable_names()) {
+        if (name == "status" || name.ends_with("_name")) continue;   // flags and texts have no unit
+        EXPECT_NE(results.unit(name), "") << name;
+        EXPECT_NE(results.long_name(name), "") << name;
+    }
+    NetcdfFile const file = NetcdfFile::open(path());
+    for (auto const& variable : file.variables()) {
+        if (variable.name == "mode_time") {
+            EXPECT_EQ(file.text(variable.id, "coordinates"), "mode_class_name");
+        }
+        if (variable.name == "y") {
+            EXPECT_EQ(file.text(variable.id, "coordinates"), "time");
+        }
+        if (variable.name == "status") {
+            EXPECT_EQ(file.text(variable.id, "flag_meanings"),
+                      "not_run finished step_too_small max_steps nonfinite geometry contact_domain invalid_inputs");
+        }
+        if (variable.name == "mode_class_name") {
+            std::vector<char> text(variable.size());
+            std::size_t const start[2] = {0, 0};
+            file.read(variable.id, start, variable.shape, text.data());
+            EXPECT_STREQ(text.data() + variable.shape[1], "point");
+        }
+    }
+}
+
+TEST_F(ResultFile, MarksMembersThatWereNeverWritten) {
+    write_file(path(), {{1, 2}});
+    ResultReader const results(path());
+    EXPECT_EQ(results.values("status"), (std::vector<double>{-1, 0, 0, -1, -1}));
+    auto const work = results.values("crank_work"), steps = results.values("steps_accepted"), y = results.values("y");
+    for (std::size_t const i : {0u, 3u, 4u}) {
+        EXPECT_TRUE(std::isnan(work[i]));
+        EXPECT_TRUE(std::isnan(steps[i]));
+        EXPECT_TRUE(std::isnan(y[2 * i]) && std::isnan(y[2 * i + 1]));
+    }
+    EXPECT_EQ(work[1], 125);
+}
+
+TEST_F(ResultFile, IsTheSameWhateverTheOrderOfBlocks) {
+    setenv("SOURCE_DATE_EPOCH", "0", 1);
+    write_file(path("a.nc"), {{0, 5}});
+    write_file(path("b.nc"), {{4, 1}, {2, 2}, {0, 2}});
+    unsetenv("SOURCE_DATE_EPOCH");
+    EXPECT_EQ(ResultReader(path("a.nc")).stored_hash(), ResultReader(path("b.nc")).stored_hash());
+    auto const bytes = [](std::string const& name) {
+        std::ifstream in(name, std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(in), {});
+    };
+    EXPECT_TRUE(bytes(path("a.nc")) == bytes(path("b.nc")));
+}
+
+TEST_F(ResultFile, StandsAtItsPathOnlyWhenComplete) {
+    std::ofstream(path()) << "a former file";
+    {
+        ResultWriter writer(path(), layout_of(5), {});
+        writer.write(FakeBlock(0, 5).view());
+        EXPECT_EQ(fs::file_size(path()), 13u);
+    }
+    EXPECT_EQ(fs::file_size(path()), 13u);           // given up: the former file stays
+    EXPECT_FALSE(fs::exists(path() + ".part"));
+    write_file(path(), {{0, 5}});
+    EXPECT_FALSE(fs::exists(path() + ".part"));
+    EXPECT_EQ(ResultReader(path()).values("status").size(), 5u);
+}
+
+TEST_F(ResultFile, StaysAsPartIfOnlyItsNameIsTaken) {
+    ResultWriter writer(path(), layout_of(5), {});
+    fs::create_directories(path() + "/in_the_way");
+    EXPECT_THROW(writer.finish(1, StopReason::none), FileError);
+    EXPECT_TRUE(fs::exists(path() + ".part"));
+}
+
+TEST_F(ResultFile, NeedsAPlaceToBeWritten) {
+    EXPECT_THROW(ResultWriter(path("no_folder/out.nc"), layout_of(5), {}), FileError);
+    EXPECT_THROW(ResultWriter(fs::path(path()).parent_path().string(), layout_of(5), {}), FileError);
+    EXPECT_THROW(ResultWriter(path(), layout_of(std::uint64_t{1} << 40), {}), FileError);
+}
+
+TEST_F(ResultFile, IsToldFromOtherFiles) {
+    EXPECT_THROW(ResultReader{path("missing.nc")}, FileError);
+    std::ofstream(path("text.nc")) << "no netCDF";
+    EXPECT_THROW(ResultReader{path("text.nc")}, FileError);
+    {
+        NetcdfFile other = NetcdfFile::create(path("other.nc"));
+        other.close();
+    }
+    EXPECT_THROW(ResultReader{path("other.nc")}, FileError);
+}
+
+// ---- payload hash ----
+
+std::uint64_t fnv(std::string_view text) {
+    Fnv1a hash;
+    hash.add(text);
+    return hash.value();
+}
+
+TEST(Fnv1a, MeetsPublishedValues) {   // Fowler, Noll, Vo: test vectors of the reference implementation
+    EXPECT_EQ(fnv(""), 0xcbf29ce484222325u);
+    EXPECT_EQ(fnv("a"), 0xaf63dc4c8601ec8cu);
+    EXPECT_EQ(fnv("foobar"), 0x85944171f73967e8u);
+}
+
+TEST_F(ResultFile, HashCoversNamesShapesAndData) {
+    // The definition of payload_hash.hpp, written out for a file of one variable.
+    std::vector<double> const values{1.5, -2.0};
+    {
+        NetcdfFile file = NetcdfFile::create(path());
+        int const dimension = file.add_dimension("n", 2);
+        int const variable = file.add_variable("v", NetcdfFile::Type::float64, {&dimension, 1});
+        file.end_definitions();
+        std::size_t const start = 0, count = 2;
+        file.write(variable, {&start, 1}, {&count, 1}, values.data());
+        file.close();
+    }
+    std::string bytes = "v";
+    for (unsigned char const low : {1, 2}) bytes += std::string{static_cast<char>(low)} + std::string(7, '\0');
+    bytes.append(reinterpret_cast<char const*>(values.data()), 16);
+    char expected[17];
+    std::snprintf(expected, sizeof expected, "%016llx", static_cast<unsigned long long>(fnv(bytes)));
+    EXPECT_EQ(payload_hash(NetcdfFile::open(path())), expected);
+}
+
+TEST_F(ResultFile, HashNoticesOneChangedBit) {
+    write_file(path("a.nc"), {{0, 5}});
+    FakeBlock changed(0, 5);
+    changed.series[7] = std::nextafter(changed.series[7], 10.0);
+    write_file(path("b.nc"), {changed});
+    ResultReader const a(path("a.nc")), b(path("b.nc"));
+    EXPECT_EQ(a.stored_hash(), a.computed_hash());
+    EXPECT_EQ(b.stored_hash(), b.computed_hash());
+    EXPECT_NE(a.stored_hash(), b.stored_hash());
+}
+
+TEST_F(ResultFile, HashTakesEveryNanForTheSame) {
+    FakeBlock positive(0, 5), negative(0, 5);
+    positive.series[2] = nan;
+    negative.series[2] = -nan;
+    write_file(path("a.nc"), {positive});
+    write_file(path("b.nc"), {negative});
+    EXPECT_EQ(ResultReader(path("a.nc")).stored_hash(), ResultReader(path("b.nc")).stored_hash());
+}
+
+TEST(CreationTime, IgnoresAnEpochThatIsNoNumber) {
+    for (char const* const text : {"", "soon", "12x", "-1"}) {
+        setenv("SOURCE_DATE_EPOCH", text, 1);
+        std::string const now = creation_time();
+        EXPECT_GT(now.substr(0, 4), "2023") << text;
+        EXPECT_EQ(now.size(), 20u);
+    }
+    unsetenv("SOURCE_DATE_EPOCH");
+}
+
+TEST(PayloadBytes, CountColumns) {
+    // Per member: number 4, status 1, then 4 counters, 10 states, 1 parameter, 1 + 4 quantity columns, 2 × 2 samples.
+    EXPECT_EQ(payload_bytes(layout_of(10)), 10u * (5 + 8 * (4 + 10 + 1 + 5 + 4)) + 2 * 8);
+}
+
+}  // namespace
+}  // namespace slideway

@@ -1,0 +1,114 @@
+// The scenes of the paper and the demo.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/scene_fixture.hpp"
+
+namespace slideway {
+namespace {
+
+using testing::contains;
+constexpr double pi = std::numbers::pi;
+
+struct Case {
+    char const* file;
+    double clearance;  // [m]
+    double speed;      // [rad/s]
+    char const* figure;
+};
+
+constexpr Case cases[] = {
+    {"slider_crank_0.08mm.toml", 0.08e-3, pi, "Fig. 17a"},
+    {"slider_crank_0.1mm.toml", 0.1e-3, pi, "Figs. 13a"},
+    {"slider_crank_0.15mm.toml", 0.15e-3, pi, "Fig. 11"},
+    {"slider_crank_0.3mm.toml", 0.3e-3, pi, "Fig. 17c"},
+    {"slider_crank_0.5mm.toml", 0.5e-3, pi, "Figs. 13b"},
+    {"slider_crank_0.1mm_1.22pi.toml", 0.1e-3, 1.22 * pi, "Figs. 13c"},
+    {"slider_crank_0.1mm_2pi.toml", 0.1e-3, 2 * pi, "Figs. 13d"},
+};
+
+std::string path_of(std::string const& file) { return std::string(SLIDEWAY_SCENES "/") + file; }
+
+TEST(SceneFiles, AreThePapersCases) {
+    for (Case const& c : cases) {
+        SCOPED_TRACE(c.file);
+        Scene const scene = read_scene(path_of(c.file));
+        EXPECT_DOUBLE_EQ(scene.inputs.clearance_y, c.clearance);
+        EXPECT_DOUBLE_EQ(scene.inputs.clearance_z, c.clearance);
+        EXPECT_DOUBLE_EQ(scene.inputs.z, c.clearance / 10);
+        EXPECT_DOUBLE_EQ(scene.inputs.crank_speed, c.speed);
+        EXPECT_DOUBLE_EQ(scene.integrator.end_time, 4 * pi / c.speed);
+        EXPECT_EQ(scene.sample_times.size(), 401u);
+        EXPECT_EQ(scene.members, 1u);
+        EXPECT_EQ(scene.parts, (Parts{Law::paper, Damping::point, true, false}));
+        EXPECT_TRUE(contains(scene.title, c.figure)) << scene.title;
+        EXPECT_EQ(read_scene(path_of(c.file), {{"contact.law", "conservative"}}).parts.law, Law::conservative);
+        // what the files leave out is the default of model.md 2
+        EXPECT_EQ(scene.inputs.crank_length, 0.05);
+        EXPECT_EQ(scene.inputs.rod_length, 0.1422);
+        EXPECT_EQ(scene.inputs.slider_young_modulus, 2.07e11);
+    }
+}
+
+/// Largest penetration of the sixteen apex–face pairs (model.md 3), by rotation matrices without any shortcut.
+double deepest(Inputs const& in) {
+    double const cr = std::cos(in.roll), sr = std::sin(in.roll), cy = std::cos(in.yaw), sy = std::sin(in.yaw),
+                 cp = std::cos(in.pitch), sp = std::sin(in.pitch);
+    // second and third columns of Rz(ψ) Ry(ϑ) Rx(φ)
+    double const n_y[3] = {cp * sy * sr - sp * cr, sp * sy * sr + cp * cr, cy * sr};
+    double const n_z[3] = {cp * sy * cr + sp * sr, sp * sy * cr - cp * sr, cy * cr};
+    double largest = -1;
+    for (int s1 : {-1, 1}) {
+        for (int s2 : {-1, 1}) {
+            for (int s3 : {-1, 1}) {
+                double const rho[3] = {s3 * in.slider_length / 2, s1 * in.way_width / 2 - in.y,
+                                       s2 * in.way_depth / 2 - in.z};
+                double const along_y = n_y[0] * rho[0] + n_y[1] * rho[1] + n_y[2] * rho[2];
+                double const along_z = n_z[0] * rho[0] + n_z[1] * rho[1] + n_z[2] * rho[2];
+                largest = std::max({largest, s1 * along_y - in.way_width / 2 - in.clearance_y,
+                                    s2 * along_z - in.way_depth / 2 - in.clearance_z});
+            }
+        }
+    }
+    return largest;
+}
+
+TEST(SceneFiles, EveryStartFliesFree) {
+    for (Case const& c : cases) {
+        SCOPED_TRACE(c.file);
+        EXPECT_LT(deepest(complete_inputs(read_scene(path_of(c.file)).inputs)), 0);
+    }
+    Scene const scene = read_scene(path_of("ensemble_starts.toml"));
+    double largest = -1;
+    for (std::uint64_t member = 0; member < scene.members; ++member) {
+        Inputs const in = member_inputs(scene, member);
+        ASSERT_EQ(defect(in), std::nullopt);
+        largest = std::max(largest, deepest(in));
+    }
+    EXPECT_LT(largest, 0);
+    EXPECT_GT(largest, -0.06e-3);  // and the starts use the room that they have
+}
+
+TEST(SceneFiles, TheEnsembleIsTheDemo) {
+    Scene const scene = read_scene(path_of("ensemble_starts.toml"));
+    EXPECT_EQ(scene.members, 1024u);
+    EXPECT_EQ(scene.seed, 1u);
+    EXPECT_EQ(scene.integrator.end_time, 0.1);
+    EXPECT_TRUE(scene.sample_times.empty());
+    EXPECT_EQ(scene.parts, (Parts{Law::paper, Damping::point, true, false}));
+    EXPECT_TRUE(selects(scene.quantities, Quantity::energy_residual));
+    EXPECT_EQ(scene.variations.size(), 5u);
+}
+
+TEST(SceneFiles, ResolveToThemselves) {
+    for (Case const& c : cases) {
+        std::string const resolved = resolved_toml(read_scene(path_of(c.file)));
+        EXPECT_EQ(resolved_toml(testing::scene_of(resolved)), resolved) << c.file;
+    }
+}
+
+}  // namespace
+}  // namespace slideway

@@ -1,0 +1,124 @@
+#include "host/study/state_table.hpp"
+
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "host/study/probe.hpp"
+
+namespace slideway {
+namespace {
+
+constexpr char const* states = "t,y,z,vy,vz,roll,yaw,pitch,wx,wy,wz";
+
+StateTable read(std::string const& text, Scene const& scene = {}) {
+    std::istringstream in(text);
+    return read_state_table(in, "states.csv", scene);
+}
+
+std::string error_of(std::string const& text) {
+    try {
+        read(text);
+    } catch (SceneError const& error) {
+        return error.what();
+    }
+    return "";
+}
+
+std::string with_column(std::string const& name, std::string const& value) {
+    return name + "," + states + "\n" + value + ",0,1,2,3,4,5,6,7,8,9,10\n";
+}
+
+TEST(StateTable, ReadsColumnsInAnyOrder) {
+    StateTable const table = read("wz,t,ignored,vy,z,y,vz,roll,yaw,pitch,wx,wy\n"
+                                  "10,0.5,text,3,2e-4,-1e-4,4,0.5,0.6,0.7,8,9\r\n"
+                                  "\n"
+                                  " 11 , +0.25 ,, 3,2,1,4,5,6,7,8,9");
+    ASSERT_EQ(table.rows(), 2u);
+    EXPECT_EQ(table.times, (std::vector<double>{0.5, 0.25}));
+    Inputs const& first = table.inputs[0];
+    EXPECT_EQ(first.y, -1e-4);
+    EXPECT_EQ(first.z, 2e-4);
+    EXPECT_EQ(first.vy, 3);
+    EXPECT_EQ(first.vz, 4);
+    EXPECT_EQ(first.roll, 0.5);
+    EXPECT_EQ(first.yaw, 0.6);
+    EXPECT_EQ(first.pitch, 0.7);
+    EXPECT_EQ(first.wx, 8);
+    EXPECT_EQ(first.wy, 9);
+    EXPECT_EQ(first.wz, 10);
+    EXPECT_EQ(table.inputs[1].wz, 11);
+}
+
+TEST(StateTable, TakesTheSceneWhereTheTableIsSilent) {
+    Scene scene;
+    scene.inputs.rod_length = 0.3;
+    scene.parts.friction = true;
+    StateTable const table = read(with_column("joint.clearance", "2e-4"), scene);
+    Inputs const& in = table.inputs[0];
+    EXPECT_EQ(in.rod_length, 0.3);
+    EXPECT_EQ(in.clearance_y, 2e-4);
+    EXPECT_EQ(in.clearance_z, 2e-4);
+    EXPECT_TRUE(table.parts[0].friction);
+    // What follows from other inputs is filled in: model.md 2, a steel rod of 14.2 × 7.1 mm.
+    EXPECT_NEAR(in.rod_mass, 7800 * 0.0142 * 0.0071 * 0.3, 1e-15);
+    EXPECT_NEAR(in.rod_inertia, in.rod_mass * 0.3 * 0.3 / 12, 1e-18);
+}
+
+TEST(StateTable, PicksThePartsThatARowNeeds) {
+    auto const parts = [](std::string const& name, std::string const& value) {
+        return read(with_column(name, value)).parts[0];
+    };
+    EXPECT_EQ(parts("contact.law", "conservative").law, Law::conservative);
+    EXPECT_EQ(parts("contact.law", "paper").law, Law::paper);
+    EXPECT_EQ(parts("contact.chi_line", "0").damping, Damping::point);
+    EXPECT_EQ(parts("contact.chi_line", "0.1").damping, Damping::rate);
+    EXPECT_EQ(parts("contact.chi_surface", "0.1").damping, Damping::rate);
+    EXPECT_EQ(parts("contact.restitution", "0.5").damping, Damping::restitution);
+    EXPECT_FALSE(parts("way.pitch", "0").misaligned_way);
+    EXPECT_TRUE(parts("way.pitch", "-1e-9").misaligned_way);
+    EXPECT_FALSE(parts("contact.eta", "0.1").friction);
+    EXPECT_TRUE(parts("friction.static", "0").friction);
+}
+
+TEST(StateTable, SaysWhereItCannotBeUsed) {
+    std::string const header = std::string(states) + "\n";
+    EXPECT_EQ(error_of(""), "states.csv:1: the table is empty");
+    EXPECT_EQ(error_of(header), "states.csv:1: the table has a header but no row");
+    EXPECT_EQ(error_of("t,y,z,vy,vz,roll,yaw,pitch,wx,wy\n").substr(0, 35), "states.csv:1: column wz: is missing");
+    EXPECT_EQ(error_of(header + "0,0,0,0,0,0,0,0,0,0,0\n0,0,0,0,x1,0,0,0,0,0,0\n"),
+              "states.csv:3: column vz: 'x1' is no number");
+    EXPECT_EQ(error_of(header + "0,0,0,0,,0,0,0,0,0,0\n"), "states.csv:2: column vz: '' is no number");
+    EXPECT_EQ(error_of(header + "0,0,0,0,1.5e,0,0,0,0,0,0\n"), "states.csv:2: column vz: '1.5e' is no number");
+    EXPECT_EQ(error_of(header + "0,0,0\n"), "states.csv:2: the row has 3 columns, the header 11");
+    EXPECT_EQ(error_of(with_column("joint.clearence", "1")),
+              "states.csv:1: column joint.clearence: no numeric key of a scene has this name; did you mean joint.clearance?");
+    EXPECT_EQ(error_of(with_column("y", "1")), "states.csv:1: column y: stands there twice");
+    EXPECT_NE(error_of(with_column("initial.y", "1")), "");
+    EXPECT_NE(error_of(with_column("joint.clearance_y,joint.clearance", "1,1")), "");
+    EXPECT_EQ(error_of(with_column("contact.law", "hertz")),
+              "states.csv:2: column contact.law: 'hertz' is no law; use paper or conservative");
+    EXPECT_EQ(error_of(with_column("joint.clearance_y", "-1")).substr(0, 37), "states.csv:2: joint.clearance_y is -1");
+    EXPECT_NE(error_of(header + "0,nan,0,0,0,0,0,0,0,0,0\n"), "");
+    EXPECT_NE(error_of(header + "inf,0,0,0,0,0,0,0,0,0,0\n"), "");
+}
+
+TEST(ProbeTable, HasTheColumnsOfTheInputThenTheGoldenOnes) {
+    StateTable const table = read(with_column("contact.law,joint.clearance", "paper,0.1e-3"));
+    std::ostringstream out;
+    ProbeResult result{};
+    result.derivative[0] = 0.1;
+    result.crank_torque = -3;
+    write_probe_csv(out, table, {result});
+    std::istringstream lines(out.str());
+    std::string header, row;
+    std::getline(lines, header);
+    std::getline(lines, row);
+    EXPECT_TRUE(header.starts_with("contact.law,joint.clearance,t,y,z,vy,vz,roll,yaw,pitch,wx,wy,wz,d_y,")) << header;
+    EXPECT_TRUE(header.ends_with("fn_z_P8,surfaces,lines,points,energy,contact_potential,crank_torque,status")) << header;
+    EXPECT_TRUE(row.starts_with("paper,0.0001,0,1,2,3,4,5,6,7,8,9,10,0.10000000000000001,0,")) << row;
+    EXPECT_TRUE(row.ends_with(",-3,finished")) << row;
+}
+
+}  // namespace
+}  // namespace slideway
