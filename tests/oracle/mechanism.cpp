@@ -1,0 +1,87 @@
+#include "mechanism.hpp"
+
+#include <cmath>
+
+#include "poses.hpp"
+
+namespace oracle::detail {
+
+Kinematics kinematics_of(Inputs const& in, Real t, State const& state) {
+    Kinematics k;
+    Real const speed = in.crank_speed;
+    k.angle = Real(in.start_angle) + speed * t;
+    k.pin = Real(in.crank_length) * Vector3(std::cos(k.angle), std::sin(k.angle), 0);
+    k.pin_velocity = speed * Vector3::UnitZ().cross(k.pin);
+    k.pin_acceleration = -speed * speed * k.pin;
+
+    Real const y = state[0], z = state[1], vy = state[2], vz = state[3];
+    Real const above = y - k.pin.y();
+    Real const reach = Real(in.rod_length) * in.rod_length - above * above - z * z;
+    k.reached = reach > 0;
+    if (!k.reached) return k;
+    Real const along = std::sqrt(reach);
+    k.centre = Vector3(k.pin.x() + along, y, z);
+    // (B - A) · (v_B - v_A) = 0
+    k.velocity = Vector3(k.pin_velocity.x() - (above * (vy - k.pin_velocity.y()) + z * vz) / along, vy, vz);
+
+    k.roll = state[4], k.yaw = state[5], k.pitch = state[6];
+    k.angular_velocity = Vector3(state[7], state[8], state[9]);
+    k.pose = pose_of(k.centre, k.roll, k.yaw, k.pitch);
+    k.pose_rate = Matrix4::Zero();
+    k.pose_rate.topLeftCorner<3, 3>() = k.pose.topLeftCorner<3, 3>() * cross_matrix(k.angular_velocity);
+    k.pose_rate.topRightCorner<3, 1>() = k.velocity;
+    return k;
+}
+
+Matrix4 pose_of_way(Inputs const& in, Parts const& parts) {
+    if (!parts.misaligned_way) return translation(Vector3(in.rod_length, 0, 0));
+    return pose_of(Vector3(in.rod_length, in.way_offset_y, in.way_offset_z), in.way_roll, in.way_yaw, in.way_pitch);
+}
+
+Motion solve_motion(Inputs const& in, Kinematics const& k, Vector3 const& gravity, Vector3 const& contact_force) {
+    Real const mass = in.slider_mass, rod = in.rod_mass, fraction = in.rod_mass_center, length = in.rod_length;
+    Vector3 const span = k.centre - k.pin;
+    Vector3 const spread = k.velocity - k.pin_velocity;
+    Vector3 const across_1 = span.unitOrthogonal(), across_2 = span.cross(across_1).normalized();
+
+    Eigen::Matrix<Real, 9, 9> matrix = Eigen::Matrix<Real, 9, 9>::Zero();
+    Eigen::Matrix<Real, 9, 1> right = Eigen::Matrix<Real, 9, 1>::Zero();
+    Matrix3 const one = Matrix3::Identity();
+    // m_r [(1 - f) a_A + f a_B] = F_A + F_B + m_r g
+    matrix.block<3, 3>(0, 0) = rod * fraction * one;
+    matrix.block<3, 3>(0, 3) = -one;
+    matrix.block<3, 3>(0, 6) = -one;
+    right.segment<3>(0) = rod * gravity - rod * (1 - fraction) * k.pin_acceleration;
+    // M a_B = F_c + M g - F_B
+    matrix.block<3, 3>(3, 0) = mass * one;
+    matrix.block<3, 3>(3, 6) = one;
+    right.segment<3>(3) = contact_force + mass * gravity;
+    // J d × (a_B - a_A)/L² = -f d × F_A + (1 - f) d × F_B, d = B - A
+    Eigen::Matrix<Real, 2, 3> across;
+    across << across_1.transpose(), across_2.transpose();
+    Eigen::Matrix<Real, 2, 3> const turned = across * cross_matrix(span);
+    Real const spin = Real(in.rod_inertia) / (length * length);
+    matrix.block<2, 3>(6, 0) = spin * turned;
+    matrix.block<2, 3>(6, 3) = fraction * turned;
+    matrix.block<2, 3>(6, 6) = -(1 - fraction) * turned;
+    right.segment<2>(6) = spin * turned * k.pin_acceleration;
+    // d · (a_B - a_A) = -|d'|²
+    matrix.block<1, 3>(8, 0) = span.transpose();
+    right[8] = span.dot(k.pin_acceleration) - spread.squaredNorm();
+
+    Eigen::Matrix<Real, 9, 1> const solution = matrix.fullPivLu().solve(right);
+    return {solution.segment<3>(0), solution.segment<3>(3)};
+}
+
+Real kinetic_and_weight(Inputs const& in, Kinematics const& k, Vector3 const& gravity, Vector3 const& inertia) {
+    Real const fraction = in.rod_mass_center, length = in.rod_length;
+    Vector3 const rod_centre = (1 - fraction) * k.pin + fraction * k.centre;
+    Vector3 const rod_velocity = (1 - fraction) * k.pin_velocity + fraction * k.velocity;
+    Vector3 const rod_spin = (k.centre - k.pin).cross(k.velocity - k.pin_velocity) / (length * length);
+    Real const kinetic = in.slider_mass * k.velocity.squaredNorm() + in.rod_mass * rod_velocity.squaredNorm() +
+                         in.rod_inertia * rod_spin.squaredNorm() +
+                         k.angular_velocity.dot(inertia.cwiseProduct(k.angular_velocity));
+    return kinetic / 2 - in.slider_mass * gravity.dot(k.centre) - in.rod_mass * gravity.dot(rod_centre);
+}
+
+}  // namespace oracle::detail

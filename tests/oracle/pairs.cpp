@@ -1,0 +1,51 @@
+#include "pairs.hpp"
+
+#include <algorithm>
+
+#include "poses.hpp"
+
+namespace oracle::detail {
+namespace {
+
+Real const least_impact_speed = 1e-4;
+
+}  // namespace
+
+PairTable pairs_of(Inputs const& in, Kinematics const& k, Matrix4 const& way, Pairs const* impact_speeds) {
+    Matrix4 const from_inertial = inverse_of(way);
+    Matrix4 const slider = from_inertial * k.pose;
+    Matrix4 const slider_rate = from_inertial * k.pose_rate;
+    Matrix4 const into_slider = inverse_of(slider);
+    Matrix3 const attitude = slider.topLeftCorner<3, 3>();
+    Vector3 const centre = slider.topRightCorner<3, 1>();
+    Vector3 const velocity = slider_rate.topRightCorner<3, 1>();
+    Vector3 const angular_velocity = attitude * k.angular_velocity;
+    Real const half_hole[3] = {0, Real(in.way_width) / 2 + in.clearance_y, Real(in.way_depth) / 2 + in.clearance_z};
+
+    PairTable table;
+    for (int i = 0; i < 8; ++i) {
+        auto const [s1, s2, s3] = apices[i];
+        // The contact segment of the way runs along with the slider.
+        Vector4 const apex(centre.x() + s3 * Real(in.slider_length) / 2, s1 * Real(in.way_width) / 2,
+                           s2 * Real(in.way_depth) / 2, 1);
+        Vector4 const apex_rate(velocity.x(), 0, 0, 0);
+        Vector4 const in_slider = into_slider * apex;
+        // R = T⁻¹ P  ⇒  R' = T⁻¹ (P' - T' R)
+        Vector4 const in_slider_rate = into_slider * (apex_rate - slider_rate * in_slider);
+        for (int axis : {1, 2}) {
+            Pair& pair = table[axis][i];
+            pair.side = axis == 1 ? s1 : s2;
+            pair.normal = attitude.col(axis);
+            pair.arm = apex.head<3>() - centre;
+            pair.depth = pair.side * in_slider[axis] - half_hole[axis];
+            pair.rate = pair.side * in_slider_rate[axis];
+            Vector3 const sliding = velocity + angular_velocity.cross(pair.arm);
+            pair.slip = sliding - sliding.dot(pair.normal) * pair.normal;
+            Real const remembered = impact_speeds ? (*impact_speeds)[(axis - 1) * 8 + i] : 0.0;
+            pair.impact_speed = std::max(remembered, least_impact_speed);
+        }
+    }
+    return table;
+}
+
+}  // namespace oracle::detail

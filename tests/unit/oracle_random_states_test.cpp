@@ -1,0 +1,108 @@
+// The seeded cases reach every contact mode, depth, sliding speed, part and parameter.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <tuple>
+
+#include "tests/oracle/oracle.hpp"
+#include "tests/oracle/random_states.hpp"
+#include "tests/unit/oracle_fixture.hpp"
+
+namespace {
+
+using oracle::Case;
+using oracle::Pairs;
+using oracle::Result;
+using oracle::testing::evaluate;
+using oracle::testing::joined;
+using oracle::testing::seed;
+using oracle::testing::Triple;
+using slideway::Inputs;
+using slideway::Law;
+
+/// One axis of flat parallel faces: f(s3, s) = t + a3 s3 + a s against ±1 shows every pattern that can occur.
+std::set<Triple> triples_of_one_axis() {
+    std::set<Triple> found;
+    for (double t = -3; t <= 3; t += 0.25) {
+        for (double a3 = -3.1; a3 <= 3; a3 += 0.25) {
+            for (double a = -3.17; a <= 3; a += 0.25) {
+                Triple triple{0, 0, 0};
+                auto& [surfaces, lines, points] = triple;
+                for (int side : {-1, 1}) {
+                    int touching = 0;
+                    for (double f : {t + a3 + a, t + a3 - a, t - a3 + a, t - a3 - a}) touching += side * f > 1;
+                    surfaces += touching == 4;
+                    lines += touching == 2 ? 1 : touching == 3 ? 2 : 0;
+                    points += touching == 1;
+                }
+                found.insert(triple);
+            }
+        }
+    }
+    return found;
+}
+
+TEST(RandomStates, CoverEveryModeTripleThatFlatFacesAllow) {
+    std::set<Triple> possible, hit;
+    for (auto const& [s1, l1, p1] : triples_of_one_axis())
+        for (auto const& [s2, l2, p2] : triples_of_one_axis()) possible.insert({s1 + s2, l1 + l2, p1 + p2});
+    EXPECT_EQ(possible.size(), 27u);
+    for (Case const& c : oracle::make_cases(seed, 4000)) {
+        Result const r = evaluate(c);
+        hit.insert({r.surfaces, r.lines, r.points});
+    }
+    EXPECT_EQ(hit, possible);
+}
+
+TEST(RandomStates, CoverDepthsSlidingSpeedsAndParts) {
+    std::set<int> decades, frictions, parts;
+    for (Case const& c : oracle::make_cases(seed, 2000)) {
+        Result const r = evaluate(c);
+        Pairs const depths = joined(r.pen_y, r.pen_z), slips = joined(r.slip_y, r.slip_z);
+        for (int i = 0; i < 16; ++i) {
+            if (depths[i] <= 0) continue;
+            decades.insert(static_cast<int>(std::floor(std::log10(depths[i]))));
+            frictions.insert(slips[i] == 0                                 ? 0
+                             : slips[i] < c.inputs.friction_stick_speed    ? 1
+                             : slips[i] <= c.inputs.friction_slip_speed    ? 2
+                             : slips[i] < 3 * c.inputs.friction_slip_speed ? 3
+                                                                           : 4);
+        }
+        parts.insert((c.parts.law == Law::paper) + 2 * static_cast<int>(c.parts.damping) + 6 * c.parts.friction +
+                     12 * c.parts.misaligned_way);
+        for (double rate : r.derivative) EXPECT_TRUE(std::isfinite(rate));
+        EXPECT_FALSE(r.geometry || r.contact_domain);
+    }
+    for (int decade = -10; decade <= -6; ++decade) EXPECT_TRUE(decades.count(decade)) << "1e" << decade << " m";
+    EXPECT_EQ(frictions, (std::set<int>{0, 1, 2, 3, 4}));
+    EXPECT_EQ(parts.size(), 24u);
+}
+
+TEST(RandomStates, VaryEveryParameter) {
+    constexpr int numbers = sizeof(Inputs) / sizeof(double);
+    constexpr int initial = 10;  // the start of a run; a case carries its own state
+    std::array<std::set<double>, numbers> seen;
+    for (Case const& c : oracle::make_cases(seed, 500)) {
+        auto const values = std::bit_cast<std::array<double, numbers>>(c.inputs);
+        for (int i = 0; i < numbers; ++i) seen[i].insert(values[i]);
+    }
+    for (int i = 0; i < numbers - initial; ++i) EXPECT_GT(seen[i].size(), 50u) << "number " << i << " of Inputs";
+}
+
+TEST(RandomStates, AreTheSameForTheSameSeed) {
+    auto const all = oracle::make_cases(seed, 200), fewer = oracle::make_cases(seed, 100);
+    auto const others = oracle::make_cases(seed + 1, 100);
+    int equal_to_others = 0;
+    for (std::size_t i = 0; i < fewer.size(); ++i) {
+        EXPECT_EQ(all[i].state, fewer[i].state);
+        EXPECT_EQ(all[i].impact_speeds, fewer[i].impact_speeds);
+        equal_to_others += all[i].state == others[i].state;
+    }
+    EXPECT_EQ(equal_to_others, 0);
+}
+
+}  // namespace
