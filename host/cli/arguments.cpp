@@ -1,8 +1,8 @@
 #include <cmath>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "host/cli/commands.hpp"
 #include "host/output/provenance.hpp"
@@ -12,27 +12,24 @@ namespace slideway::cli {
 namespace {
 
 constexpr std::string_view command_names[] = {"run", "check", "probe", "info", "list"};
-constexpr int most_threads = 4096;   // beyond it the OpenMP runtime ends the process instead of complaining
-
 /// Texts of the options as CLI11 fills them in; checked and turned into arguments afterwards.
 struct Words {
     std::string scene, output, isa = "auto", backend = "auto", table, file;
     std::vector<std::string> overrides;
-    std::string max_failures, members;
-    std::optional<std::uint64_t> member;
-    std::optional<int> threads;
-    std::optional<double> max_hours;
+    std::string max_failures, max_hours, member, members, threads;
     bool quiet = false;
 };
 
 void add_scene_options(CLI::App& command, Words& words) {
-    command.add_option("SCENE", words.scene, "Scene file (TOML)");
-    command.add_option("--set", words.overrides, "Override a key of the scene: key=value ...");
-    command.add_option("--isa", words.isa, "Instruction set: auto, scalar, sse2, avx2 or avx512");
+    command.add_option("SCENE", words.scene, "Scene file (TOML)")->type_name("");
+    command.add_option("--set", words.overrides, "Override keys of the scene, as in contact.law=conservative")
+        ->type_name("KEY=VALUE");
+    command.add_option("--isa", words.isa, "Instruction set: auto (the widest), scalar, sse2, avx2 or avx512")
+        ->type_name("ISA");
 }
 
 void add_threads(CLI::App& command, Words& words) {
-    command.add_option("--threads", words.threads, "Threads (default: all that this process may use)");
+    command.add_option("--threads", words.threads, "Threads (default: all that this process may use)")->type_name("N");
 }
 
 /// `--set` takes all words up to the next option, the scene too where it stands behind: only that has no `=`.
@@ -41,18 +38,18 @@ SceneArguments scene_arguments(Words const& words) {
     scene.path = words.scene;
     scene.isa = words.isa;
     for (std::string const& word : words.overrides) {
-        if (scene.path.empty() && word.find('=') == word.npos) scene.path = word;
-        else scene.overrides.push_back(parse_override(word));
+        if (scene.path.empty() && word.find('=') == word.npos)
+            scene.path = word;
+        else
+            scene.overrides.push_back(parse_override(word));
     }
     if (scene.path.empty()) throw SceneError("slideway: SCENE is missing; give a scene file, see slideway --help");
     return scene;
 }
 
 std::optional<int> threads(Words const& words) {
-    if (words.threads && (*words.threads < 1 || *words.threads > most_threads)) {
-        throw SceneError(fmt::format("--threads {}: use a number from 1 to {}", *words.threads, most_threads));
-    }
-    return words.threads;
+    if (words.threads.empty()) return std::nullopt;
+    return parse_threads(words.threads);
 }
 
 RunArguments run_arguments(Words const& words) {
@@ -63,26 +60,26 @@ RunArguments run_arguments(Words const& words) {
     run.threads = threads(words);
     run.quiet = words.quiet;
     if (!words.max_failures.empty()) run.max_failures = parse_failure_limit(words.max_failures);
-    if (words.max_hours) {
-        if (!(*words.max_hours >= 0)) throw SceneError("--max-hours: use a number >= 0");
-        run.max_hours = words.max_hours;
+    if (!words.max_hours.empty()) run.max_hours = parse_hours(words.max_hours);
+    if (!words.member.empty() && !words.members.empty()) {
+        throw SceneError("--member and --members exclude each other; use one");
     }
-    if (words.member && !words.members.empty()) throw SceneError("--member and --members exclude each other; use one");
-    if (words.member) run.members = MemberRange{*words.member, 1};
+    if (!words.member.empty()) run.members = parse_member(words.member);
     if (!words.members.empty()) run.members = parse_member_range(words.members);
     return run;
 }
 
 /// CLI11's own message for an unknown command names all words behind it, but not what was meant.
 void require_known_command(int argc, char const* const* argv) {
-    if (argc < 2) throw SceneError("slideway: a command is missing; use run, check, probe, info or list (see slideway --help)");
+    if (argc < 2)
+        throw SceneError("slideway: a command is missing; use run, check, probe, info or list (see slideway --help)");
     std::string_view const word = argv[1];
-    if (word.starts_with('-')) return;
+    if (word == "--help" || word == "-h" || word == "--version") return;
     if (std::find(std::begin(command_names), std::end(command_names), word) != std::end(command_names)) return;
     std::string_view const meant = nearest_name(word, command_names);
-    throw SceneError(fmt::format("slideway: there is no command '{}'; {}", word,
-                                 meant.empty() ? "use run, check, probe, info or list"
-                                               : fmt::format("did you mean {}?", meant)));
+    throw SceneError(
+        fmt::format("slideway: there is no command '{}'; {}", word,
+                    meant.empty() ? "use run, check, probe, info or list" : fmt::format("did you mean {}?", meant)));
 }
 
 std::string one_line(std::string text) {
@@ -97,33 +94,38 @@ Arguments parse_arguments(int argc, char const* const* argv) {
     require_known_command(argc, argv);
     Words words;
     CLI::App app{"Clearance joints of slider mechanisms: ensembles of simulations from a scene file.", "slideway"};
-    app.set_version_flag("--version",
-                         fmt::format("slideway {} ({})", build_info().version, build_info().commit));
+    app.set_version_flag("--version", fmt::format("slideway {} ({})", build_info().version, build_info().commit));
     app.require_subcommand(1);
 
     CLI::App* const run = app.add_subcommand("run", "Integrate the members of a scene to a NetCDF file");
     add_scene_options(*run, words);
-    run->add_option("-o,--output", words.output, "Result file (default: the scene's name with .nc, in this folder)");
+    run->add_option("-o,--output", words.output, "Result file (default: the scene's name with .nc, in this folder)")
+        ->type_name("OUT.nc");
     add_threads(*run, words);
-    run->add_option("--backend", words.backend, "auto, cpu or cuda");
-    run->add_option("--max-hours", words.max_hours, "Stop after this time and write what is finished (exit code 5)");
+    run->add_option("--backend", words.backend, "auto, cpu or cuda")->type_name("NAME");
+    run->add_option("--max-hours", words.max_hours, "Stop after this time and write what is finished (exit code 5)")
+        ->type_name("H");
     run->add_option("--max-failures", words.max_failures,
-                    "Members that may fail, as N or P%, before the exit code is 3 (default 1%)");
-    run->add_option("--member", words.member, "Run this member alone, counted from 0, with the inputs it has in the ensemble");
-    run->add_option("--members", words.members, "Run members A..B, both included");
+                    "Members that may fail before the exit code is 3 (default 1%)")
+        ->type_name("N|P%");
+    run->add_option("--member", words.member,
+                    "Run this member alone, counted from 0, with the inputs it has in the ensemble")
+        ->type_name("N");
+    run->add_option("--members", words.members, "Run these members alone, both ends included")->type_name("A..B");
     run->add_flag("--quiet", words.quiet, "No progress on stderr");
 
-    CLI::App* const check = app.add_subcommand("check", "Validate a scene; print it resolved, and what a run will take");
+    CLI::App* const check =
+        app.add_subcommand("check", "Validate a scene; print it resolved, and what a run will take");
     add_scene_options(*check, words);
     add_threads(*check, words);
 
     CLI::App* const probe = app.add_subcommand("probe", "Forces, contact mode and derivative of single states");
     add_scene_options(*probe, words);
-    probe->add_option("--csv", words.table, "Table of states (default: the scene's start)");
-    probe->add_option("-o,--output", words.output, "Write CSV to this file");
+    probe->add_option("--csv", words.table, "Table of states (default: the scene's start)")->type_name("STATES.csv");
+    probe->add_option("-o,--output", words.output, "Write CSV to this file")->type_name("OUT.csv");
 
     CLI::App* const info = app.add_subcommand("info", "Provenance, statuses and statistics of a result file");
-    info->add_option("FILE", words.file, "Result file")->required();
+    info->add_option("FILE", words.file, "Result file")->required()->type_name("");
 
     CLI::App* const list = app.add_subcommand("list", "Mechanisms, laws, quantities, keys: what a scene may ask for");
 

@@ -10,17 +10,20 @@ namespace {
 
 std::string_view damping_text(Damping damping) {
     switch (damping) {
-    case Damping::point: return "damping of point contacts";
-    case Damping::rate: return "damping of point, line and surface contacts";
-    case Damping::restitution: return "restitution";
+        case Damping::point:
+            return "damping of point contacts";
+        case Damping::rate:
+            return "damping of point, line and surface contacts";
+        case Damping::restitution:
+            return "restitution";
     }
     return "";
 }
 
 void print_parts(Scene const& scene) {
-    std::string in = fmt::format("{} mechanism; {} law; {}", scene.mechanism,
-                                 scene.parts.law == Law::paper ? "paper" : "conservative",
-                                 damping_text(scene.parts.damping));
+    std::string in =
+        fmt::format("{} mechanism; {} law; {}", scene.mechanism,
+                    scene.parts.law == Law::paper ? "paper" : "conservative", damping_text(scene.parts.damping));
     std::string out = scene.parts.law == Law::paper ? "conservative law" : "paper law";
     auto const sort = [&](bool is_in, std::string_view name) { (is_in ? in : out) += fmt::format("; {}", name); };
     if (scene.parts.damping != Damping::rate) sort(false, "damping of line and surface contacts");
@@ -59,15 +62,16 @@ int check(CheckArguments const& arguments) {
     print_field("kernels", fmt::format("{}, {} lanes, {} threads, blocks of {} members", name_of(isa), lanes_of(isa),
                                        threads, prediction.block_members));
     print_field("members", fmt::format("{}, each over {:.6g} s", scene.members, scene.integrator.end_time));
-    print_field("memory", fmt::format("{} for blocks in work", bytes_text(static_cast<double>(prediction.buffer_bytes))));
+    print_field("memory",
+                fmt::format("{} for blocks in work", bytes_text(static_cast<double>(prediction.buffer_bytes))));
     print_field("output", fmt::format("{} and a header of some tens of kB",
                                       bytes_text(static_cast<double>(prediction.output_bytes))));
-    print_field("cost", fmt::format("{} steps, {} on {} threads; a rough range: all in free flight to all in settled contact",
-                                    range_text(fmt::format("{:.2g}", prediction.least_steps),
-                                               fmt::format("{:.2g}", prediction.most_steps)),
-                                    range_text(duration_text(prediction.least_seconds),
-                                               duration_text(prediction.most_seconds)),
-                                    threads));
+    print_field(
+        "cost",
+        fmt::format(
+            "{} steps, {} on {} threads; a rough range: all in free flight to all in settled contact",
+            range_text(fmt::format("{:.2g}", prediction.least_steps), fmt::format("{:.2g}", prediction.most_steps)),
+            range_text(duration_text(prediction.least_seconds), duration_text(prediction.most_seconds)), threads));
     return exit_code::done;
 }
 

@@ -13,10 +13,10 @@ namespace slideway::cli {
 
 namespace exit_code {
 inline constexpr int done = 0;
-inline constexpr int internal_error = 1;    // a defect of slideway itself
-inline constexpr int bad_usage = 2;         // also a bad scene
+inline constexpr int internal_error = 1;  // a defect of slideway itself
+inline constexpr int bad_usage = 2;       // also a bad scene
 inline constexpr int too_many_failures = 3;
-inline constexpr int file_trouble = 4;      // also a lack of memory
+inline constexpr int file_trouble = 4;  // also a lack of memory
 inline constexpr int stopped_early = 5;
 }  // namespace exit_code
 
@@ -28,12 +28,12 @@ struct SceneArguments {
 
 struct RunArguments {
     SceneArguments scene;
-    std::string output;                     // empty: by the scene's name
+    std::string output;  // empty: by the scene's name
     std::string backend = "auto";
     std::optional<int> threads;
     std::optional<double> max_hours;
     FailureLimit max_failures;
-    std::optional<MemberRange> members;     // empty: all
+    std::optional<MemberRange> members;  // empty: all
     bool quiet = false;
 };
 int run(RunArguments const& arguments);
@@ -46,8 +46,8 @@ int check(CheckArguments const& arguments);
 
 struct ProbeArguments {
     SceneArguments scene;
-    std::string table;                      // empty: the scene's start
-    std::string output;                     // empty: stdout
+    std::string table;   // empty: the scene's start
+    std::string output;  // empty: stdout
 };
 int probe(ProbeArguments const& arguments);
 

@@ -29,7 +29,8 @@ int info(InfoArguments const& arguments) {
     print_quantities(quantities);
     fmt::print("\nscene\n{}\n", results.attribute("scene"));
     if (intact) return exit_code::done;
-    throw FileError(fmt::format("{}: the data do not match their hash; the file is damaged or was edited", arguments.path));
+    throw FileError(
+        fmt::format("{}: the data do not match their hash; the file is damaged or was edited", arguments.path));
 }
 
 }  // namespace slideway::cli

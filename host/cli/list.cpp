@@ -12,24 +12,26 @@ void print_keys(std::span<Key const> table) {
 }  // namespace
 
 int list(ListArguments const&) {
-    fmt::print("mechanisms (mechanism.kind)\n"
-               "  slider_crank                   spatial slider-crank, slider with clearance on a rectangular way\n"
-               "\ncontact laws (contact.law)\n"
-               "  paper                          one mode per face: surface, lines or points (makes energy where it switches)\n"
-               "  conservative                   one potential of all contacts, no switching\n"
-               "\ndamping\n"
-               "  point                          contact.eta: point contacts alone\n"
-               "  rate                           contact.chi_line, contact.chi_surface: lines and surfaces too\n"
-               "  restitution                    contact.restitution: replaces both\n"
-               "\nintegrators (integrator.method)\n"
-               "  dopri5                         Dormand-Prince 5(4), adaptive, dense output (what auto means)\n"
-               "\nstudies (study.kind)\n"
-               "  ensemble                       every member to the end time, summary statistics\n"
-               "\ndistributions (study.vary)\n"
-               "  const                          value\n"
-               "  unif                           low, high\n"
-               "  norm                           mean, sd\n"
-               "  truncnorm                      mean, sd, low, high\n");
+    fmt::print(
+        "mechanisms (mechanism.kind)\n"
+        "  slider_crank                   spatial slider-crank, slider with clearance on a rectangular way\n"
+        "\ncontact laws (contact.law)\n"
+        "  paper                          one mode per face: surface, lines or points (makes energy where it "
+        "switches)\n"
+        "  conservative                   one potential of all contacts, no switching\n"
+        "\ndamping\n"
+        "  point                          contact.eta: point contacts alone\n"
+        "  rate                           contact.chi_line, contact.chi_surface: lines and surfaces too\n"
+        "  restitution                    contact.restitution: replaces both\n"
+        "\nintegrators (integrator.method)\n"
+        "  dopri5                         Dormand-Prince 5(4), adaptive, dense output (what auto means)\n"
+        "\nstudies (study.kind)\n"
+        "  ensemble                       every member to the end time, summary statistics\n"
+        "\ndistributions (study.vary)\n"
+        "  const                          value\n"
+        "  unif                           low, high\n"
+        "  norm                           mean, sd\n"
+        "  truncnorm                      mean, sd, low, high\n");
     fmt::print("\nquantities (study.quantities): one value, or one row of values, per member\n");
     for (QuantityInfo const& quantity : quantity_table) {
         fmt::print("  {:<30} {:<8} {}{}\n", quantity.name, quantity.unit, quantity.long_name,
@@ -47,9 +49,9 @@ int list(ListArguments const&) {
     fmt::print("\ninstruction sets (--isa)\n");
     for (Isa const isa : all_isas()) {
         fmt::print("  {:<30} {} lane{}, {}\n", name_of(isa), lanes_of(isa), lanes_of(isa) == 1 ? "" : "s",
-                   !is_supported(isa)     ? "not on this machine"
-                   : isa == best_isa()    ? "what auto means on this machine"
-                                          : "supported");
+                   !is_supported(isa)  ? "not on this machine"
+                   : isa == best_isa() ? "what auto means on this machine"
+                                       : "supported");
     }
     return exit_code::done;
 }

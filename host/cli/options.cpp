@@ -12,8 +12,7 @@
 namespace slideway::cli {
 namespace {
 
-template <class Number>
-std::optional<Number> parse_number(std::string_view text) {
+template <class Number> std::optional<Number> parse_number(std::string_view text) {
     Number value{};
     auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
@@ -28,6 +27,25 @@ bool FailureLimit::exceeded(std::uint64_t failed, std::uint64_t members) const {
 }
 
 std::string FailureLimit::text() const { return fmt::format("{}{}", value, percent ? "%" : ""); }
+
+int parse_threads(std::string_view text) {
+    constexpr int most = 4096;  // beyond it the OpenMP runtime ends the process instead of complaining
+    auto const threads = parse_number<int>(text);
+    if (threads && *threads >= 1 && *threads <= most) return *threads;
+    throw SceneError(fmt::format("--threads {}: give a whole number from 1 to {}", text, most));
+}
+
+double parse_hours(std::string_view text) {
+    auto const hours = parse_number<double>(text);
+    if (hours && *hours >= 0) return *hours;
+    throw SceneError(fmt::format("--max-hours {}: give a number of hours, 0 or more", text));
+}
+
+MemberRange parse_member(std::string_view text) {
+    auto const member = parse_number<std::uint64_t>(text);
+    if (member) return {*member, 1};
+    throw SceneError(fmt::format("--member {}: give the number of a member, counted from 0", text));
+}
 
 FailureLimit parse_failure_limit(std::string_view text) {
     bool const percent = text.ends_with('%');
@@ -82,13 +100,14 @@ void require_backend(std::string_view text) {
 }
 
 std::string shell_quoted(std::string_view word) {
-    constexpr std::string_view plain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
     if (!word.empty() && word.find_first_not_of(plain) == word.npos) return std::string(word);
     std::string quoted = "'";
     for (char const c : word) {
-        if (c == '\'') quoted += "'\\''";
-        else quoted += c;
+        if (c == '\'')
+            quoted += "'\\''";
+        else
+            quoted += c;
     }
     return quoted + "'";
 }

@@ -21,11 +21,14 @@ struct FailureLimit {
 
 // Each throws SceneError with one line for a text that cannot be used.
 
-FailureLimit parse_failure_limit(std::string_view text);                      // "3", "0.5%"
-MemberRange parse_member_range(std::string_view text);                        // "A..B", both included, from 0
-std::pair<std::string, std::string> parse_override(std::string_view text);    // "key=value"
-Isa parse_isa(std::string_view text);                                         // also "auto"; supported by this machine
-void require_backend(std::string_view text);                                  // one that this build has
+int parse_threads(std::string_view text);
+double parse_hours(std::string_view text);
+MemberRange parse_member(std::string_view text);                            // "A", from 0
+FailureLimit parse_failure_limit(std::string_view text);                    // "3", "0.5%"
+MemberRange parse_member_range(std::string_view text);                      // "A..B", both included, from 0
+std::pair<std::string, std::string> parse_override(std::string_view text);  // "key=value"
+Isa parse_isa(std::string_view text);                                       // also "auto"; supported by this machine
+void require_backend(std::string_view text);                                // one that this build has
 
 /// 'a b' for a shell; words without special characters stay as they are.
 std::string shell_quoted(std::string_view word);

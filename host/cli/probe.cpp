@@ -52,7 +52,8 @@ void print_listing(Scene const& scene, StateTable const& table, ProbeResult cons
     print_apices("force Z [N]", result.normal_force_z);
     fmt::print("\n");
     print_field("mode", fmt::format("{} surfaces, {} lines, {} points", result.surfaces, result.lines, result.points));
-    print_field("energy", fmt::format("{:.10g} J, of it {:.10g} J in the contacts", result.energy, result.contact_potential));
+    print_field("energy",
+                fmt::format("{:.10g} J, of it {:.10g} J in the contacts", result.energy, result.contact_potential));
     print_field("power", fmt::format("{:.10g} W crank, {:.10g} W friction, {:.10g} W damping", result.power_crank,
                                      result.power_friction, result.power_damping));
     print_field("crank torque", fmt::format("{:.10g} N m", result.crank_torque));
@@ -65,9 +66,12 @@ int probe(ProbeArguments const& arguments) {
     Scene const scene = load_scene(arguments.scene);
     StateTable const table = arguments.table.empty() ? start_state(scene) : load_table(arguments.table, scene);
     std::vector<ProbeResult> const results = slideway::probe(table, isa);
-    if (!arguments.output.empty()) write_table(arguments.output, table, results);
-    else if (!arguments.table.empty()) write_probe_csv(std::cout, table, results);
-    else print_listing(scene, table, results[0], isa);
+    if (!arguments.output.empty())
+        write_table(arguments.output, table, results);
+    else if (!arguments.table.empty())
+        write_probe_csv(std::cout, table, results);
+    else
+        print_listing(scene, table, results[0], isa);
     return exit_code::done;
 }
 

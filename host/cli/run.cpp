@@ -22,8 +22,10 @@ MemberRange member_range(RunArguments const& arguments, Scene const& scene) {
     if (!arguments.members) return {0, scene.members};
     MemberRange const range = *arguments.members;
     if (range.count > scene.members || range.first > scene.members - range.count) {
-        throw SceneError(fmt::format("--members {}..{}: {} has members 0 to {}", range.first,
-                                     range.first + range.count - 1, scene.path, scene.members - 1));
+        std::string const asked = range.count == 1
+                                      ? fmt::format("--member {}", range.first)
+                                      : fmt::format("--members {}..{}", range.first, range.first + range.count - 1);
+        throw SceneError(fmt::format("{}: {} has members 0 to {}", asked, scene.path, scene.members - 1));
     }
     return range;
 }
@@ -44,8 +46,10 @@ void print_failures(RunArguments const& arguments, Scene const& scene, Isa isa, 
     for (FailedMember const& member : failed) {
         fmt::print("  member {}: {}", member.member, name_of(member.status));
         auto const why = defect(member_inputs(scene, member.member));
-        if (why) fmt::print(": {}", *why);
-        else fmt::print(" at t = {:.6g} s", member.time);
+        if (why)
+            fmt::print(": {}", *why);
+        else
+            fmt::print(" at t = {:.6g} s", member.time);
         fmt::print("\n    {}\n", replay_command(arguments, isa, member.member));
     }
 }
@@ -65,7 +69,8 @@ void print_energy_made(Scene const& scene, std::vector<QuantitySummary> const& q
     fmt::print("\nMode switching of the paper law made {:.3g} J of energy per member on average", made);
     QuantitySummary const* const work = mean_of("crank_work");
     if (work != nullptr && work->values.mean != 0) {
-        fmt::print(", {:.3g} % of the crank's work of {:.3g} J", 100 * made / std::abs(work->values.mean), work->values.mean);
+        fmt::print(", {:.3g} % of the crank's work of {:.3g} J", 100 * made / std::abs(work->values.mean),
+                   work->values.mean);
     }
     fmt::print(".\n");
 }
@@ -105,6 +110,9 @@ int run(RunArguments const& arguments) {
     options.threads = arguments.threads.value_or(default_threads());
     options.progress = Progress::style_for(stderr, arguments.quiet);
     std::error_code ignored;
+    if (std::filesystem::equivalent(options.output, scene.path, ignored)) {
+        throw SceneError(options.output + ": is the scene itself; give another name with -o");
+    }
     bool const replaced = std::filesystem::exists(options.output, ignored);
 
     StopRequest stop;
@@ -118,7 +126,8 @@ int run(RunArguments const& arguments) {
 
     if (totals.stopped != StopReason::none) {
         fmt::print(stderr, "slideway: stopped early ({}): {} of {} members were not run\n",
-                   totals.stopped == StopReason::signal ? "signal" : "--max-hours", totals.not_run, options.range.count);
+                   totals.stopped == StopReason::signal ? "signal" : "--max-hours", totals.not_run,
+                   options.range.count);
         return exit_code::stopped_early;
     }
     if (arguments.max_failures.exceeded(totals.failed(), options.range.count)) {

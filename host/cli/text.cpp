@@ -11,7 +11,7 @@ Scene load_scene(SceneArguments const& arguments) {
     try {
         return read_scene(arguments.path, arguments.overrides);
     } catch (FileError const& error) {
-        throw SceneError(error.what());   // to the user a scene that is not there is bad usage
+        throw SceneError(error.what());  // to the user a scene that is not there is bad usage
     }
 }
 
@@ -24,7 +24,8 @@ std::string bytes_text(double bytes) {
 
 std::string duration_text(double seconds) {
     if (seconds < 60) return fmt::format("{:.2g} s", seconds);
-    if (seconds < 3600) return fmt::format("{:.0f} min {:.0f} s", std::floor(seconds / 60), std::fmod(std::floor(seconds), 60));
+    if (seconds < 3600)
+        return fmt::format("{:.0f} min {:.0f} s", std::floor(seconds / 60), std::fmod(std::floor(seconds), 60));
     if (seconds < 86400) return fmt::format("{:.1f} h", seconds / 3600);
     return fmt::format("{:.1f} days", seconds / 86400);
 }
@@ -54,7 +55,8 @@ void print_quantities(std::vector<QuantitySummary> const& quantities) {
         (fmt::print("  {:>12}", cells), ...);
         fmt::print("\n");
     };
-    auto const text = [](double value) { return fmt::format("{:.5g}", value); };
+    // One member has no standard deviation.
+    auto const text = [](double value) { return std::isnan(value) ? std::string("-") : fmt::format("{:.5g}", value); };
     row("quantity", "unit", "mean", "sd", "min", "median", "max");
     for (QuantitySummary const& quantity : quantities) {
         Summary const& s = quantity.values;

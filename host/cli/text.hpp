@@ -13,8 +13,8 @@ namespace slideway::cli {
 /// Reads the scene of a command line.  @throws SceneError, also when the file is missing.
 Scene load_scene(SceneArguments const& arguments);
 
-std::string bytes_text(double bytes);         // "1.5 MB"
-std::string duration_text(double seconds);    // "8.2 s", "3 min 20 s", "2.4 h"
+std::string bytes_text(double bytes);       // "1.5 MB"
+std::string duration_text(double seconds);  // "8.2 s", "3 min 20 s", "2.4 h"
 
 /// Lines `  finished  1000`.
 void print_statuses(std::vector<StatusCount> const& statuses);

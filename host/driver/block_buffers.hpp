@@ -16,7 +16,7 @@ using MemberSource = std::function<bool(std::uint64_t member, Inputs& inputs)>;
 /// What every block of a run has in common.
 struct BlockRequest {
     IntegratorSettings integrator;
-    std::vector<double> sample_times;   // empty: no time series
+    std::vector<double> sample_times;  // empty: no time series
     Selection quantities = 0;
     Selection series = 0;
 };

@@ -10,12 +10,12 @@
 namespace slideway {
 
 struct BlockResult {
-    std::uint64_t first = 0;                    // the block's first member, counted from the run's first
-    std::span<Inputs const> inputs;             // [members], as drawn, also those that cannot be used
-    std::span<MemberRecord const> records;      // [members]
-    std::span<double const> final_states;       // [members][state_size]; NaN for a member that was not integrated
-    std::span<double const> quantities;         // [members][quantity_columns]; NaN where not selected or not integrated
-    std::span<double const> series;             // [selected series, in table order][members][samples]
+    std::uint64_t first = 0;                // the block's first member, counted from the run's first
+    std::span<Inputs const> inputs;         // [members], as drawn, also those that cannot be used
+    std::span<MemberRecord const> records;  // [members]
+    std::span<double const> final_states;   // [members][state_size]; NaN for a member that was not integrated
+    std::span<double const> quantities;     // [members][quantity_columns]; NaN where not selected or not integrated
+    std::span<double const> series;         // [selected series, in table order][members][samples]
 };
 
 /// Takes blocks in any order, one call at a time.  What it throws ends the run.

@@ -13,8 +13,10 @@ namespace {
 
 void add_block(EnsembleTotals& totals, BlockBuffers const& buffers, BlockResult const& result) {
     for (MemberRecord const& record : result.records) {
-        if (record.status == Status::not_run) ++totals.not_run;
-        else ++totals.ended[static_cast<std::size_t>(record.status)];
+        if (record.status == Status::not_run)
+            ++totals.not_run;
+        else
+            ++totals.ended[static_cast<std::size_t>(record.status)];
         totals.steps_accepted += record.steps_accepted;
         totals.steps_rejected += record.steps_rejected;
         totals.rhs_evaluations += record.rhs_evaluations;
@@ -52,7 +54,7 @@ EnsembleTotals run_ensemble(EnsemblePlan const& plan, KernelInstance const& kern
     std::uint64_t handed_out = 0;
     StopReason reason = StopReason::none;
     std::exception_ptr failure;
-    std::mutex mutex;   // guards the four above and the sink
+    std::mutex mutex;  // guards the four above and the sink
 
     auto const next_block_allowed = [&] {
         std::lock_guard const lock(mutex);
@@ -61,13 +63,20 @@ EnsembleTotals run_ensemble(EnsemblePlan const& plan, KernelInstance const& kern
     };
     auto const run_block = [&](BlockBuffers& buffers, std::uint64_t block) {
         std::uint64_t const first = block * plan.block_members;
-        auto const members = static_cast<std::size_t>(std::min<std::uint64_t>(plan.block_members, plan.members - first));
+        auto const members =
+            static_cast<std::size_t>(std::min<std::uint64_t>(plan.block_members, plan.members - first));
         buffers.run(kernel, plan.request, plan.source, plan.first_member + first, members);
         BlockResult const result = buffers.result(first);
         {
             std::lock_guard const lock(mutex);
             if (failure) return;
-            sink(result);
+            // Recorded before the lock is given up: no other thread may offer its block to a sink that failed.
+            try {
+                sink(result);
+            } catch (...) {
+                failure = std::current_exception();
+                return;
+            }
             add_block(totals, buffers, result);
             handed_out += members;
         }

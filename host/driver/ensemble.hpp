@@ -23,15 +23,15 @@ struct EnsemblePlan {
 
 /// What a run came to.  Sums of whole numbers, so the same for every order of the blocks.
 struct EnsembleTotals {
-    std::array<std::uint64_t, status_count> ended{};   // by status
+    std::array<std::uint64_t, status_count> ended{};  // by status
     std::uint64_t not_run = 0;
     std::uint64_t steps_accepted = 0, steps_rejected = 0, rhs_evaluations = 0;
     std::uint64_t lane_steps_executed = 0, lane_steps_useful = 0;
-    double seconds = 0;                                // wall time
-    StopReason stopped = StopReason::none;             // none if every member ran, whatever was asked for
+    double seconds = 0;                     // wall time
+    StopReason stopped = StopReason::none;  // none if every member ran, whatever was asked for
 
-    std::uint64_t failed() const;                      // members that ended otherwise than finished
-    double lane_utilisation() const;                   // useful / executed lane steps; 1 if there were none
+    std::uint64_t failed() const;     // members that ended otherwise than finished
+    double lane_utilisation() const;  // useful / executed lane steps; 1 if there were none
 };
 
 /// Threads that this process may use at once (OMP_NUM_THREADS, else the processors it may run on).

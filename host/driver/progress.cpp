@@ -53,8 +53,10 @@ void Progress::print_line() {
     std::chrono::duration<double> const elapsed = std::chrono::steady_clock::now() - start_;
     std::string const line = progress_line(done_.load(std::memory_order_relaxed), members_, elapsed.count());
     // Erase to the end of the line: the next one may be shorter.
-    if (style_ == Style::terminal) fmt::print(out_, "\r{}\x1b[K", line);
-    else fmt::print(out_, "{}\n", line);
+    if (style_ == Style::terminal)
+        fmt::print(out_, "\r{}\x1b[K", line);
+    else
+        fmt::print(out_, "{}\n", line);
     std::fflush(out_);
 }
 

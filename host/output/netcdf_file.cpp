@@ -23,10 +23,14 @@ int variable_or_global(int variable) { return variable == NetcdfFile::global ? N
 
 nc_type type_of(NetcdfFile::Type type) {
     switch (type) {
-    case NetcdfFile::Type::int8: return NC_BYTE;
-    case NetcdfFile::Type::int32: return NC_INT;
-    case NetcdfFile::Type::float64: return NC_DOUBLE;
-    case NetcdfFile::Type::text: break;
+        case NetcdfFile::Type::int8:
+            return NC_BYTE;
+        case NetcdfFile::Type::int32:
+            return NC_INT;
+        case NetcdfFile::Type::float64:
+            return NC_DOUBLE;
+        case NetcdfFile::Type::text:
+            break;
     }
     return NC_CHAR;
 }
@@ -35,9 +39,12 @@ nc_type type_of(NetcdfFile::Type type) {
 
 std::size_t NetcdfFile::size_of(Type type) {
     switch (type) {
-    case Type::int32: return 4;
-    case Type::float64: return 8;
-    default: return 1;
+        case Type::int32:
+            return 4;
+        case Type::float64:
+            return 8;
+        default:
+            return 1;
     }
 }
 
@@ -51,7 +58,7 @@ void NetcdfFile::require(int code, std::string_view action) const {
 
 NetcdfFile NetcdfFile::create(std::string const& path) {
     int id = closed;
-    if (int const code = nc_create(path.c_str(), NC_CLOBBER | NC_NETCDF4, &id); code != NC_NOERR) {
+    if (int const code = nc_create(path.c_str(), NC_NOCLOBBER | NC_NETCDF4, &id); code != NC_NOERR) {
         fail(path, "create", code);
     }
     return {path, id};
@@ -59,7 +66,9 @@ NetcdfFile NetcdfFile::create(std::string const& path) {
 
 NetcdfFile NetcdfFile::open(std::string const& path) {
     int id = closed;
-    if (int const code = nc_open(path.c_str(), NC_NOWRITE, &id); code != NC_NOERR) fail(path, "open", code);
+    int const code = nc_open(path.c_str(), NC_NOWRITE, &id);
+    if (code == NC_ENOTNC) throw FileError(path + ": is no netCDF file; give a result of slideway run");
+    if (code != NC_NOERR) fail(path, "open", code);
     return {path, id};
 }
 
@@ -70,9 +79,7 @@ NetcdfFile::~NetcdfFile() {
     if (id_ != closed) nc_close(id_);
 }
 
-void NetcdfFile::close() {
-    require(nc_close(std::exchange(id_, closed)), "close");
-}
+void NetcdfFile::close() { require(nc_close(std::exchange(id_, closed)), "close"); }
 
 int NetcdfFile::add_dimension(std::string const& name, std::size_t length) {
     int dimension = 0;
@@ -82,9 +89,9 @@ int NetcdfFile::add_dimension(std::string const& name, std::size_t length) {
 
 int NetcdfFile::add_variable(std::string const& name, Type type, std::span<int const> dimensions, bool fill) {
     int variable = 0;
-    require(nc_def_var(id_, name.c_str(), type_of(type), static_cast<int>(dimensions.size()), dimensions.data(),
-                       &variable),
-            "define variable " + name);
+    require(
+        nc_def_var(id_, name.c_str(), type_of(type), static_cast<int>(dimensions.size()), dimensions.data(), &variable),
+        "define variable " + name);
     double const nan = std::numeric_limits<double>::quiet_NaN();
     require(fill ? nc_def_var_fill(id_, variable, NC_FILL, &nan) : nc_def_var_fill(id_, variable, NC_NOFILL, nullptr),
             "define variable " + name);
@@ -111,9 +118,9 @@ void NetcdfFile::put_bytes(int variable, std::string const& name, std::span<sign
             "write attribute " + name);
 }
 
-void NetcdfFile::end_definitions() {
-    require(nc_enddef(id_), "write the header");
-}
+void NetcdfFile::flush() { require(nc_sync(id_), "write (disk full?)"); }
+
+void NetcdfFile::end_definitions() { require(nc_enddef(id_), "write the header"); }
 
 void NetcdfFile::write(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count,
                        void const* values) {
@@ -150,11 +157,19 @@ std::vector<NetcdfFile::Variable> NetcdfFile::variables() const {
         require(nc_inq_var(id_, i, name, &type, &rank, dimensions, nullptr), "read the header");
         Variable variable{i, name, Type::text, {}};
         switch (type) {
-        case NC_BYTE: variable.type = Type::int8; break;
-        case NC_INT: variable.type = Type::int32; break;
-        case NC_DOUBLE: variable.type = Type::float64; break;
-        case NC_CHAR: break;
-        default: continue;   // not a type that slideway writes
+            case NC_BYTE:
+                variable.type = Type::int8;
+                break;
+            case NC_INT:
+                variable.type = Type::int32;
+                break;
+            case NC_DOUBLE:
+                variable.type = Type::float64;
+                break;
+            case NC_CHAR:
+                break;
+            default:
+                continue;  // not a type that slideway writes
         }
         for (int d = 0; d < rank; ++d) {
             std::size_t length = 0;
@@ -180,7 +195,8 @@ bool NetcdfFile::number(int variable, std::string const& name, double& value) co
     std::size_t length = 0;
     nc_type type = NC_NAT;
     int const where = variable_or_global(variable);
-    if (nc_inq_att(id_, where, name.c_str(), &type, &length) != NC_NOERR || type == NC_CHAR || length != 1) return false;
+    if (nc_inq_att(id_, where, name.c_str(), &type, &length) != NC_NOERR || type == NC_CHAR || length != 1)
+        return false;
     return nc_get_att_double(id_, where, name.c_str(), &value) == NC_NOERR;
 }
 

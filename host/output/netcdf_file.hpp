@@ -21,25 +21,26 @@ public:
         std::string name;
         Type type;
         std::vector<std::size_t> shape;
-        std::size_t size() const;           // product of the shape
+        std::size_t size() const;  // product of the shape
     };
 
-    static NetcdfFile create(std::string const& path);   // netCDF-4, replaces what is there
-    static NetcdfFile open(std::string const& path);     // to read
+    static NetcdfFile create(std::string const& path);  // netCDF-4; the file must not exist
+    static NetcdfFile open(std::string const& path);    // to read
     NetcdfFile(NetcdfFile&& other) noexcept;
     NetcdfFile& operator=(NetcdfFile&&) = delete;
-    ~NetcdfFile();                          // closes; what fails then is lost: call close()
+    ~NetcdfFile();  // closes; what fails then is lost: call close()
     void close();
 
     int add_dimension(std::string const& name, std::size_t length);
     /// A float64 variable reads as NaN wherever nothing was written, if `fill` is set.
     int add_variable(std::string const& name, Type type, std::span<int const> dimensions, bool fill = false);
-    static constexpr int global = -1;       // as `variable`: the file itself
+    static constexpr int global = -1;  // as `variable`: the file itself
     void put_text(int variable, std::string const& name, std::string_view value);
     void put_number(int variable, std::string const& name, double value);
     void put_number(int variable, std::string const& name, int value);
     void put_bytes(int variable, std::string const& name, std::span<signed char const> values);
     void end_definitions();
+    void flush();  // to the disk
 
     /// A hyperslab; `count` and `start` have one entry per dimension.
     void write(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count,
@@ -47,8 +48,8 @@ public:
     void read(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count, void* values) const;
 
     std::vector<Dimension> dimensions() const;
-    std::vector<Variable> variables() const;             // in the order of their definition
-    std::string text(int variable, std::string const& name) const;   // "" when there is none
+    std::vector<Variable> variables() const;                        // in the order of their definition
+    std::string text(int variable, std::string const& name) const;  // "" when there is none
     bool number(int variable, std::string const& name, double& value) const;
 
     std::string const& path() const { return path_; }

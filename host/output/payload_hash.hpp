@@ -17,7 +17,7 @@ class Fnv1a {
 public:
     void add(std::span<std::byte const> bytes);
     void add(std::string_view text);
-    void add(std::uint64_t value);      // eight bytes, the lowest first
+    void add(std::uint64_t value);  // eight bytes, the lowest first
     std::uint64_t value() const { return hash_; }
 
 private:

@@ -8,20 +8,20 @@ namespace slideway {
 
 /// The program as it was built.
 struct BuildInfo {
-    std::string version;    // "0.1.0"
-    std::string commit;     // short name, "-dirty" behind it if tracked files differed; "unknown" without git
-    std::string compiler;   // "GNU 12.2.0"
+    std::string version;   // "0.1.0"
+    std::string commit;    // short name, "-dirty" behind it if tracked files differed; "unknown" without git
+    std::string compiler;  // "GNU 12.2.0"
 };
 BuildInfo const& build_info();
 
 /// One run.
 struct Provenance {
     std::string title;
-    std::string scene;      // resolved, as TOML
+    std::string scene;  // resolved, as TOML
     std::uint64_t seed = 0;
-    std::string backend;    // "cpu"
+    std::string backend;  // "cpu"
     std::string isa;
-    std::string flags;      // of the compiler, for the kernels of that ISA
+    std::string flags;  // of the compiler, for the kernels of that ISA
     int threads = 1;
 };
 

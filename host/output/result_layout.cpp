@@ -13,7 +13,7 @@ std::vector<std::string> labels_of(std::string const& dimension) {
 }
 
 std::uint64_t payload_bytes(ResultLayout const& layout) {
-    std::uint64_t columns = 4 + state_size + layout.parameters.size();   // three counters and end_time
+    std::uint64_t columns = 4 + state_size + layout.parameters.size();  // three counters and end_time
     for (int q = 0; q < quantity_count; ++q) {
         if (selects(layout.quantities, static_cast<Quantity>(q)))
             columns += static_cast<std::uint64_t>(quantity_table[q].columns);

@@ -20,7 +20,7 @@ struct ParameterColumn {
 struct ResultLayout {
     std::uint64_t first_member = 0;
     std::uint64_t members = 0;
-    std::vector<double> sample_times;         // empty: no time series
+    std::vector<double> sample_times;  // empty: no time series
     Selection quantities = 0;
     Selection series = 0;
     std::vector<ParameterColumn> parameters;

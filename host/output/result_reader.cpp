@@ -10,8 +10,7 @@
 namespace slideway {
 namespace {
 
-template <class T>
-std::vector<double> read_as(NetcdfFile const& file, NetcdfFile::Variable const& variable) {
+template <class T> std::vector<double> read_as(NetcdfFile const& file, NetcdfFile::Variable const& variable) {
     std::vector<T> values(variable.size());
     std::vector<std::size_t> const start(variable.shape.size(), 0);
     if (!values.empty()) file.read(variable.id, start, variable.shape, values.data());
@@ -24,8 +23,11 @@ ResultReader::ResultReader(std::string const& path) : file_(NetcdfFile::open(pat
     auto const is_status = [](NetcdfFile::Variable const& variable) {
         return variable.name == "status" && variable.shape.size() == 1;
     };
-    if (stored_hash().empty() || !std::any_of(variables_.begin(), variables_.end(), is_status)) {
+    if (!std::any_of(variables_.begin(), variables_.end(), is_status)) {
         throw FileError(path + ": is a netCDF file, but not a result of slideway");
+    }
+    if (stored_hash().empty()) {
+        throw FileError(path + ": is unfinished: the run that wrote it did not come to its end");
     }
 }
 
@@ -64,10 +66,14 @@ std::vector<std::size_t> ResultReader::shape(std::string const& variable) const 
 std::vector<double> ResultReader::values(std::string const& variable) const {
     NetcdfFile::Variable const& found = find(variable);
     switch (found.type) {
-    case NetcdfFile::Type::int8: return read_as<signed char>(file_, found);
-    case NetcdfFile::Type::int32: return read_as<int>(file_, found);
-    case NetcdfFile::Type::float64: return read_as<double>(file_, found);
-    case NetcdfFile::Type::text: break;
+        case NetcdfFile::Type::int8:
+            return read_as<signed char>(file_, found);
+        case NetcdfFile::Type::int32:
+            return read_as<int>(file_, found);
+        case NetcdfFile::Type::float64:
+            return read_as<double>(file_, found);
+        case NetcdfFile::Type::text:
+            break;
     }
     throw FileError(fmt::format("{}: {} is no number", file_.path(), variable));
 }

@@ -14,7 +14,7 @@ public:
     explicit ResultReader(std::string const& path);
 
     std::vector<NetcdfFile::Dimension> dimensions() const { return file_.dimensions(); }
-    std::string attribute(std::string const& name) const;          // as text, also numbers; "" when there is none
+    std::string attribute(std::string const& name) const;  // as text, also numbers; "" when there is none
     bool has(std::string const& variable) const;
     std::vector<std::string> variable_names() const;
     std::string unit(std::string const& variable) const;
@@ -24,7 +24,7 @@ public:
     std::vector<std::size_t> shape(std::string const& variable) const;
 
     std::string stored_hash() const { return attribute("payload_hash"); }
-    std::string computed_hash() const;                             // reads all data
+    std::string computed_hash() const;  // reads all data
 
 private:
     NetcdfFile::Variable const& find(std::string const& variable) const;

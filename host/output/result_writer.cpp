@@ -8,6 +8,10 @@
 #include <limits>
 #include <map>
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <fmt/format.h>
 
 #include "host/output/payload_hash.hpp"
@@ -18,7 +22,7 @@ namespace {
 
 using Type = NetcdfFile::Type;
 
-constexpr std::size_t label_length = 8;   // "surface" and room for one more letter
+constexpr std::size_t label_length = 8;  // "surface" and room for one more letter
 
 /// Before netCDF tries: its reasons for a folder ("HDF error") tell nobody what to do.
 void require_writable_place(std::string const& path) {
@@ -30,6 +34,21 @@ void require_writable_place(std::string const& path) {
     if (!fs::is_directory(folder, ignored)) {
         throw FileError(fmt::format("{}: cannot create: there is no folder '{}'", path, folder.string()));
     }
+    // The renaming at the end would put a file in the place of /dev/null.
+    if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
+        throw FileError(path + ": is a device or a pipe; give the name of a file with -o");
+    }
+}
+
+/// Removes what a killed run left.  A run that still lives shows by the lock that HDF5 holds on a file it writes;
+/// without locks (some network file systems) nobody can tell, and the file is taken for a leftover.
+void remove_leftover(std::string const& path, std::string const& part) {
+    int const file = open(part.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (file < 0) return;  // there is none, or creating it tells what is wrong
+    bool const in_use = flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (!in_use) unlink(part.c_str());
+    close(file);
+    if (in_use) throw FileError(path + ": another run is writing it; wait for its end or give another name with -o");
 }
 
 }  // namespace
@@ -41,6 +60,7 @@ ResultWriter::ResultWriter(std::string path, ResultLayout layout, Provenance con
         throw FileError(fmt::format("{}: cannot number members beyond {}", path_, largest));
     }
     require_writable_place(path_);
+    remove_leftover(path_, part_);
     file_.emplace(NetcdfFile::create(part_));
     try {
         BuildInfo const& build = build_info();
@@ -57,7 +77,7 @@ ResultWriter::ResultWriter(std::string path, ResultLayout layout, Provenance con
         attribute("backend", provenance.backend);
         attribute("isa", provenance.isa);
         file_->put_number(NetcdfFile::global, "threads", provenance.threads);
-        attribute("seed", fmt::format("{}", provenance.seed));   // CF-1.8 has no 64-bit integers
+        attribute("seed", fmt::format("{}", provenance.seed));  // CF-1.8 has no 64-bit integers
         attribute("created", creation_time());
         attribute("scene", provenance.scene);
         define_coordinates();
@@ -143,7 +163,7 @@ void ResultWriter::define_quantities() {
             int const variable = file_->add_variable(found->second.label_name, Type::text,
                                                      std::array{found->second.dimension, label_dimension});
             file_->put_text(variable, "long_name", fmt::format("label along {}", name));
-            file_->put_text(variable, "_Encoding", "utf-8");   // readers then give strings, not bytes
+            file_->put_text(variable, "_Encoding", "utf-8");  // readers then give strings, not bytes
             labels_.push_back({variable, std::move(labels)});
         }
         return found->second;
@@ -264,11 +284,13 @@ void ResultWriter::finish(double lane_utilisation, StopReason stopped) {
                             : stopped == StopReason::signal ? "stopped by a signal"
                                                             : "stopped by the time limit";
     file_->put_text(NetcdfFile::global, "completeness", end);
+    file_->flush();
     file_->put_text(NetcdfFile::global, "payload_hash", payload_hash(*file_));
     file_->close();
     file_.reset();
     if (std::rename(part_.c_str(), path_.c_str()) != 0) {
-        throw FileError(fmt::format("{}: cannot replace: {}; the results are in {}", path_, std::strerror(errno), part_));
+        throw FileError(
+            fmt::format("{}: cannot replace: {}; the results are in {}", path_, std::strerror(errno), part_));
     }
 }
 

@@ -43,8 +43,9 @@ EnsembleTotals run_ensemble_study(Scene const& scene, EnsembleOptions const& opt
     EnsembleTotals totals;
     {
         Progress progress(options.range.count, options.progress, stderr, stop);
-        totals = run_ensemble(plan, find_instance(options.isa, scene.parts),
-                              [&writer](BlockResult const& block) { writer.write(block); }, stop, &progress);
+        totals = run_ensemble(
+            plan, find_instance(options.isa, scene.parts), [&writer](BlockResult const& block) { writer.write(block); },
+            stop, &progress);
     }
     writer.finish(totals.lane_utilisation(), totals.stopped);
     return totals;

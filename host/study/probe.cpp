@@ -50,7 +50,7 @@ std::vector<std::pair<std::string, double>> result_columns(ProbeResult const& re
     columns.emplace_back("power_crank", result.power_crank);
     columns.emplace_back("power_friction", result.power_friction);
     columns.emplace_back("power_damping", result.power_damping);
-    auto const add_apices = [&](std::string_view prefix, double const (&values)[8]) {
+    auto const add_apices = [&](std::string_view prefix, double const(&values)[8]) {
         for (int i = 0; i < 8; ++i) columns.emplace_back(fmt::format("{}_P{}", prefix, i + 1), values[i]);
     };
     add_apices("pen_y", result.penetration_y);

@@ -27,7 +27,7 @@ std::vector<QuantitySummary> summarise_quantities(ResultReader const& results) {
         if (!results.has(info.name)) continue;
         std::vector<double> const values = results.values(info.name);
         auto const columns = static_cast<std::size_t>(info.columns);
-        if (values.size() != statuses.size() * columns) continue;   // written by another version
+        if (values.size() != statuses.size() * columns) continue;  // written by another version
         std::vector<std::string> const labels = info.dimension ? labels_of(info.dimension) : std::vector<std::string>{};
         for (std::size_t column = 0; column < columns; ++column) {
             std::vector<double> finished;

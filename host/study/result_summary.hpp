@@ -13,7 +13,7 @@ namespace slideway {
 
 /// One column of a quantity over the members that finished; the others have no say.
 struct QuantitySummary {
-    std::string label;     // "crank_work", "mode_time[free]", "peak_apex_force[P1]"
+    std::string label;  // "crank_work", "mode_time[free]", "peak_apex_force[P1]"
     std::string unit;
     Summary values;
 };
@@ -30,7 +30,7 @@ std::vector<StatusCount> count_statuses(ResultReader const& results);
 struct FailedMember {
     std::uint64_t member;
     Status status;
-    double time;           // [s] where it ended
+    double time;  // [s] where it ended
 };
 /// The first `limit` members that ran and did not finish.
 std::vector<FailedMember> failed_members(ResultReader const& results, std::size_t limit);

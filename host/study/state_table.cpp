@@ -47,7 +47,7 @@ public:
     bool next() {
         while (std::getline(in_, line_)) {
             ++number_;
-            if (number_ == 1 && line_.starts_with("\xEF\xBB\xBF")) line_.erase(0, 3);   // byte order mark
+            if (number_ == 1 && line_.starts_with("\xEF\xBB\xBF")) line_.erase(0, 3);  // byte order mark
             if (!trimmed(line_).empty()) return true;
         }
         return false;
@@ -88,8 +88,9 @@ Column column_of(std::string_view name, Lines const& lines) {
             for (Key const& key : table) names.push_back(key.name);
         }
         std::string_view const meant = nearest_name(name, names);
-        lines.fail(fmt::format("column {}: no numeric key of a scene has this name{}", name,
-                               meant.empty() ? std::string("; see slideway list") : fmt::format("; did you mean {}?", meant)));
+        lines.fail(
+            fmt::format("column {}: no numeric key of a scene has this name{}", name,
+                        meant.empty() ? std::string("; see slideway list") : fmt::format("; did you mean {}?", meant)));
     }
     return column;
 }
@@ -111,8 +112,8 @@ std::vector<Column> read_header(Lines const& lines) {
     auto const need = [&](std::string_view name) {
         auto const has_name = [&](Column const& column) { return column.name == name; };
         if (std::none_of(columns.begin(), columns.end(), has_name)) {
-            lines.fail(fmt::format("column {}: is missing; the table needs t, y, z, vy, vz, roll, yaw, pitch, wx, wy, wz",
-                                   name));
+            lines.fail(fmt::format(
+                "column {}: is missing; the table needs t, y, z, vy, vz, roll, yaw, pitch, wx, wy, wz", name));
         }
     };
     need("t");
@@ -155,19 +156,24 @@ void add_row(StateTable& table, std::vector<Column> const& columns, Scene const&
     for (std::size_t i = 0; i < cells.size(); ++i) {
         Column const& column = columns[i];
         switch (column.kind) {
-        case Column::Kind::ignored: break;
-        case Column::Kind::time: time = number(cells[i], column, lines); break;
-        case Column::Kind::state: inputs.*column.state = number(cells[i], column, lines); break;
-        case Column::Kind::law:
-            parts.law = law(cells[i], lines);
-            texts.emplace_back(cells[i]);
-            break;
-        case Column::Kind::key: {
-            double const value = number(cells[i], column, lines);
-            column.key->set(inputs, value);
-            if (needs_part(*column.key, value)) require_part(parts, *column.key);
-            texts.push_back(fmt::format("{:.17g}", value));
-        }
+            case Column::Kind::ignored:
+                break;
+            case Column::Kind::time:
+                time = number(cells[i], column, lines);
+                break;
+            case Column::Kind::state:
+                inputs.*column.state = number(cells[i], column, lines);
+                break;
+            case Column::Kind::law:
+                parts.law = law(cells[i], lines);
+                texts.emplace_back(cells[i]);
+                break;
+            case Column::Kind::key: {
+                double const value = number(cells[i], column, lines);
+                column.key->set(inputs, value);
+                if (needs_part(*column.key, value)) require_part(parts, *column.key);
+                texts.push_back(fmt::format("{:.17g}", value));
+            }
         }
     }
     if (!std::isfinite(time)) lines.fail("column t: is not a finite number");

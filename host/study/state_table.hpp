@@ -10,9 +10,9 @@
 namespace slideway {
 
 /// The inputs that make up the state, in its order.
-inline constexpr double Inputs::*state_inputs[state_size] = {
-    &Inputs::y,   &Inputs::z,     &Inputs::vy, &Inputs::vz, &Inputs::roll,
-    &Inputs::yaw, &Inputs::pitch, &Inputs::wx, &Inputs::wy, &Inputs::wz};
+inline constexpr double Inputs::*state_inputs[state_size] = {&Inputs::y,    &Inputs::z,   &Inputs::vy,    &Inputs::vz,
+                                                             &Inputs::roll, &Inputs::yaw, &Inputs::pitch, &Inputs::wx,
+                                                             &Inputs::wy,   &Inputs::wz};
 
 struct StateTable {
     std::vector<std::string> parameter_names;               // dotted keys, in the order of the input

@@ -8,9 +8,9 @@ namespace slideway {
 
 /// Of the numbers that are not NaN; all NaN when there are none.
 struct Summary {
-    std::size_t count = 0;      // numbers used
-    std::size_t missing = 0;    // NaN
-    double mean, sd;            // sd: with count - 1; NaN for a single number
+    std::size_t count = 0;    // numbers used
+    std::size_t missing = 0;  // NaN
+    double mean, sd;          // sd: with count - 1; NaN for a single number
     double min, median, max;
 };
 

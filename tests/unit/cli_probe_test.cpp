@@ -31,15 +31,17 @@ TEST_P(GoldenTable, IsMetInEveryColumn) {
     EXPECT_EQ(first_line(file_text(path("got.csv"))), first_line(file_text(golden_file(name))) + ",status");
     auto const reference = golden::Table::read(golden_file(name)), got = golden::Table::read(path("got.csv"));
     auto const difference = golden::worst_difference(reference, got);
-    EXPECT_LE(difference.value, 2e-8) << difference.where;   // model.md 11
+    EXPECT_LE(difference.value, 2e-8) << difference.where;  // model.md 11
 }
 
 INSTANTIATE_TEST_SUITE_P(Probe, GoldenTable,
-                         ::testing::Combine(::testing::Values("rhs_paper.csv", "rhs_conservative.csv", "rhs_parameters.csv"),
+                         ::testing::Combine(::testing::Values("rhs_paper.csv", "rhs_conservative.csv",
+                                                              "rhs_parameters.csv"),
                                             ::testing::Values(Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx512)),
                          [](auto const& info) {
                              std::string const& name = std::get<0>(info.param);
-                             return name.substr(4, name.size() - 8) + "_" + std::string(name_of(std::get<1>(info.param)));
+                             return name.substr(4, name.size() - 8) + "_" +
+                                    std::string(name_of(std::get<1>(info.param)));
                          });
 
 TEST_F(Probe, OfAShuffledTableGivesTheSameRows) {
@@ -51,7 +53,8 @@ TEST_F(Probe, OfAShuffledTableGivesTheSameRows) {
         std::string turned = row == 0 ? "remark" : "text";
         for (std::size_t end = line.size(); end != line.npos;) {
             auto const comma = line.rfind(',', end - 1);
-            turned += "," + line.substr(comma + 1, end - comma - 1);
+            turned += ',';
+            turned.append(line, comma + 1, end - comma - 1);  // npos + 1 is 0
             end = comma;
         }
         reversed += turned + "\n";

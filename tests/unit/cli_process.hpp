@@ -18,7 +18,7 @@
 namespace slideway::testing {
 
 struct Outcome {
-    int code;            // exit code; -signal if a signal ended the process
+    int code;  // exit code; -signal if a signal ended the process
     std::string out, err;
 };
 
@@ -47,7 +47,8 @@ protected:
         for (std::string& argument : arguments) words.push_back(argument.data());
         words.push_back(nullptr);
         int const flags = O_WRONLY | O_CREAT | O_TRUNC;
-        if (chdir(folder_.c_str()) != 0 || dup2(open("out", flags, 0600), 1) < 0 || dup2(open("err", flags, 0600), 2) < 0) {
+        if (chdir(folder_.c_str()) != 0 || dup2(open("out", flags, 0600), 1) < 0 ||
+            dup2(open("err", flags, 0600), 2) < 0) {
             _exit(127);
         }
         execv(SLIDEWAY_BINARY, words.data());
@@ -56,7 +57,8 @@ protected:
     Outcome wait(pid_t child) const {
         int status = 0;
         if (waitpid(child, &status, 0) != child) throw std::runtime_error("waitpid");
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), file_text(path("out")), file_text(path("err"))};
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), file_text(path("out")),
+                file_text(path("err"))};
     }
     Outcome run(std::vector<std::string> arguments) const { return wait(start(std::move(arguments))); }
 

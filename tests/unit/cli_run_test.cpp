@@ -41,8 +41,8 @@ TEST_F(Run, WritesItsResultsAndSaysWhere) {
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
     EXPECT_TRUE(outcome.out.ends_with("results      s.nc\n")) << outcome.out;
-    for (char const* const word : {"A small ensemble", "members/s", "finished", "accepted", "lanes in use", "crank_work",
-                                   "mode_time[surface]", "Mode switching of the paper law made"}) {
+    for (char const* const word : {"A small ensemble", "members/s", "finished", "accepted", "lanes in use",
+                                   "crank_work", "mode_time[surface]", "Mode switching of the paper law made"}) {
         EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
     }
     ResultReader const file = results("s.nc");
@@ -121,7 +121,8 @@ TEST_F(Run, CountsAndReplaysMembersWithUnusableInputs) {
         if (command.empty() && line.starts_with("    slideway ")) command = line.substr(13);
     }
     ASSERT_NE(command, "");
-    std::string const shell = "cd '" + path("").string() + "' && '" SLIDEWAY_BINARY "' " + command + " -o one.nc >/dev/null 2>&1";
+    std::string const shell =
+        "cd '" + path("").string() + "' && '" SLIDEWAY_BINARY "' " + command + " -o one.nc >/dev/null 2>&1";
     EXPECT_EQ(WEXITSTATUS(std::system(shell.c_str())), 3);
     EXPECT_EQ(results("one.nc").values("status"), std::vector<double>{static_cast<double>(Status::invalid_inputs)});
 }
@@ -137,7 +138,8 @@ TEST_F(Run, OutOfTimeLeavesAWholeFile) {
 TEST_F(Run, StoppedByASignalKeepsWhatIsFinished) {
     for (int const signal : {SIGINT, SIGTERM}) {
         std::filesystem::remove(path("s.nc"));
-        pid_t const child = start({"run", "s.toml", "--set", "study.members=1000000", "study.samples=0", "--threads", "2"});
+        pid_t const child =
+            start({"run", "s.toml", "--set", "study.members=1000000", "study.samples=0", "--threads", "2"});
         // The file appears when the handler stands.
         for (int i = 0; i < 1000 && !std::filesystem::exists(path("s.nc.part")); ++i) {
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -149,7 +151,8 @@ TEST_F(Run, StoppedByASignalKeepsWhatIsFinished) {
         ResultReader const file = results("s.nc");
         EXPECT_EQ(file.stored_hash(), file.computed_hash());
         auto const status = file.values("status");
-        auto const finished = std::count(status.begin(), status.end(), 0), left = std::count(status.begin(), status.end(), -1);
+        auto const finished = std::count(status.begin(), status.end(), 0),
+                   left = std::count(status.begin(), status.end(), -1);
         EXPECT_GT(finished, 0);
         EXPECT_GT(left, 0);
         EXPECT_EQ(finished + left, 1000000);
@@ -157,8 +160,10 @@ TEST_F(Run, StoppedByASignalKeepsWhatIsFinished) {
 }
 
 TEST_F(Run, OnAFullDiskIsRefusedBeforeItsWork) {
-    write("wrapper.sh", "ulimit -f 64\nexec \"$@\"\n");   // 64 kB where a block of ulimit is 1 kB, 32 kB where it is 512 B
-    std::string const shell = "cd '" + path("").string() + "' && bash wrapper.sh '" SLIDEWAY_BINARY
+    write("wrapper.sh",
+          "ulimit -f 64\nexec \"$@\"\n");  // 64 kB where a block of ulimit is 1 kB, 32 kB where it is 512 B
+    std::string const shell = "cd '" + path("").string() +
+                              "' && bash wrapper.sh '" SLIDEWAY_BINARY
                               "' run s.toml --set study.members=10000 >out 2>err";
     EXPECT_EQ(WEXITSTATUS(std::system(shell.c_str())), 4);
     EXPECT_EQ(file_text(path("out")), "");

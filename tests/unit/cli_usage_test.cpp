@@ -43,8 +43,10 @@ TEST_F(Usage, OfOptionsOfRun) {
 TEST_F(Usage, OfAnInstructionSetThatThisMachineLacks) {
     for (Isa const isa : all_isas()) {
         std::string const name(name_of(isa));
-        if (is_supported(isa)) EXPECT_EQ(run({"probe", "s.toml", "--isa", name}).code, 0);
-        else expect_refusal(2, "--isa " + name, {"probe", "s.toml", "--isa", name});
+        if (is_supported(isa))
+            EXPECT_EQ(run({"probe", "s.toml", "--isa", name}).code, 0);
+        else
+            expect_refusal(2, "--isa " + name, {"probe", "s.toml", "--isa", name});
     }
 }
 
@@ -86,8 +88,9 @@ TEST_F(Usage, AnswersQuestions) {
     }
     EXPECT_TRUE(run({"--version"}).out.starts_with("slideway 0."));
     std::string const list = run({"list"}).out;
-    for (char const* const name : {"slider_crank", "conservative", "dopri5", "mode_time", "truncnorm", "joint.clearance_y",
-                                   "contact.young_modulus", "avx512", "ensemble", "rod_angular_velocity"}) {
+    for (char const* const name :
+         {"slider_crank", "conservative", "dopri5", "mode_time", "truncnorm", "joint.clearance_y",
+          "contact.young_modulus", "avx512", "ensemble", "rod_angular_velocity"}) {
         EXPECT_NE(list.find(name), std::string::npos) << name;
     }
 }
@@ -101,8 +104,9 @@ TEST_F(Usage, OfCheckTellsWhatIsInTheKernels) {
     EXPECT_NE(line(bare, "parts in").find("paper law"), std::string::npos);
     EXPECT_NE(line(bare, "parts out").find("; friction"), std::string::npos);
     EXPECT_NE(line(bare, "parts out").find("misaligned way"), std::string::npos);
-    write("full.toml", "schema = 1\n[friction]\n[way]\nroll = 1e-4\n[contact]\nlaw = \"conservative\"\nchi_line = 0.1\n"
-                       "[study]\nquantities = [\"crank_work\"]\n");
+    write("full.toml",
+          "schema = 1\n[friction]\n[way]\nroll = 1e-4\n[contact]\nlaw = \"conservative\"\nchi_line = 0.1\n"
+          "[study]\nquantities = [\"crank_work\"]\n");
     std::string const full = run({"check", "full.toml"}).out;
     EXPECT_NE(line(full, "parts in").find("conservative law"), std::string::npos);
     EXPECT_NE(line(full, "parts in").find("; friction"), std::string::npos);

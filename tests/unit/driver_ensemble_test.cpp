@@ -68,7 +68,7 @@ struct Collected {
     struct Member {
         double drawn;
         MemberRecord record;
-        std::vector<double> values;   // final state, crank work, series
+        std::vector<double> values;  // final state, crank work, series
     };
     std::map<std::uint64_t, Member> members;
     int calls = 0, twice = 0;
@@ -154,7 +154,7 @@ TEST_P(EnsembleOverBlocks, LeavesUnusableMembersOutAndKeepsTheOthersInPlace) {
             EXPECT_EQ(member.values, known_values(static_cast<double>(index)));
         }
     }
-    EXPECT_EQ(totals.ended[static_cast<std::size_t>(Status::invalid_inputs)], 17u);   // 1, 4, …, 49
+    EXPECT_EQ(totals.ended[static_cast<std::size_t>(Status::invalid_inputs)], 17u);  // 1, 4, …, 49
     EXPECT_EQ(totals.failed(), 17u);
 }
 
@@ -166,8 +166,8 @@ TEST(Ensemble, OfUnusableMembersAloneNeverCallsTheKernel) {
     StopRequest const stop;
     EnsemblePlan plan = small_plan(10, 4, 2);
     plan.source = [](std::uint64_t, Inputs&) { return false; };
-    auto const totals = run_ensemble(plan, {[](Block&) { throw std::logic_error("called"); }, nullptr},
-                                     collected.sink(), stop);
+    auto const totals =
+        run_ensemble(plan, {[](Block&) { throw std::logic_error("called"); }, nullptr}, collected.sink(), stop);
     EXPECT_EQ(totals.failed(), 10u);
     EXPECT_EQ(totals.lane_utilisation(), 1);
 }
@@ -185,7 +185,7 @@ TEST(Ensemble, EndsWithTheErrorOfItsSink) {
         } catch (std::runtime_error const& error) {
             EXPECT_STREQ(error.what(), "disk full");
         }
-        EXPECT_EQ(calls, 3);   // no block is offered to a sink that failed
+        EXPECT_EQ(calls, 3);  // no block is offered to a sink that failed
     }
 }
 
@@ -196,7 +196,9 @@ TEST(Ensemble, EndsWithTheErrorOfAMember) {
         if (member == 50) throw std::runtime_error("no such member");
         return true;
     };
-    EXPECT_THROW(run_ensemble(plan, {known_results, nullptr}, [](BlockResult const&) {}, stop), std::runtime_error);
+    EXPECT_THROW(run_ensemble(
+                     plan, {known_results, nullptr}, [](BlockResult const&) {}, stop),
+                 std::runtime_error);
 }
 
 TEST(Ensemble, StoppedBeforeItsStartRunsNothing) {
@@ -237,8 +239,12 @@ TEST(Ensemble, StopsWhenItsTimeIsUp) {
 
 TEST(Ensemble, IsNotStoppedByARequestAfterItsLastBlock) {
     StopRequest stop;
-    auto const totals = run_ensemble(small_plan(8, 4, 1), {known_results, nullptr},
-                                     [&](BlockResult const& block) { if (block.first == 4) stop.request(); }, stop);
+    auto const totals = run_ensemble(
+        small_plan(8, 4, 1), {known_results, nullptr},
+        [&](BlockResult const& block) {
+            if (block.first == 4) stop.request();
+        },
+        stop);
     EXPECT_EQ(totals.stopped, StopReason::none);
     EXPECT_EQ(totals.not_run, 0u);
 }
@@ -254,7 +260,7 @@ TEST(Blocks, AreMultiplesOfTheLanesAndGiveEveryThreadWork) {
             }
         }
     }
-    EXPECT_EQ(default_block_members(1024, 4, 8), 32u);     // 32 blocks, eight for each thread
+    EXPECT_EQ(default_block_members(1024, 4, 8), 32u);  // 32 blocks, eight for each thread
     EXPECT_EQ(default_block_members(1000000, 4, 8), 64u);
 }
 

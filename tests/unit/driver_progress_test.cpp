@@ -48,9 +48,7 @@ TEST(Progress, RedrawsItsLineOnATerminalAndEndsIt) {
     EXPECT_EQ(text.back(), '\n');
 }
 
-TEST(Progress, SaysElsewhereNothingInTheFirstSeconds) {
-    EXPECT_EQ(written_by(Progress::Style::lines, 600, 50), "");
-}
+TEST(Progress, SaysElsewhereNothingInTheFirstSeconds) { EXPECT_EQ(written_by(Progress::Style::lines, 600, 50), ""); }
 
 TEST(Progress, TakesAFileForNoTerminal) {
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> const file(std::tmpfile(), std::fclose);

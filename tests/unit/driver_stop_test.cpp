@@ -9,9 +9,7 @@ namespace {
 
 using std::chrono::duration;
 
-TEST(StopRequest, HasNoReasonOfItsOwn) {
-    EXPECT_EQ(StopRequest().reason(), StopReason::none);
-}
+TEST(StopRequest, HasNoReasonOfItsOwn) { EXPECT_EQ(StopRequest().reason(), StopReason::none); }
 
 TEST(StopRequest, EndsAtItsTimeLimit) {
     StopRequest now, later, never;

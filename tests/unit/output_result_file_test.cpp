@@ -38,9 +38,9 @@ ResultLayout layout_of(std::uint64_t members) {
     layout.first_member = 100;
     layout.members = members;
     layout.sample_times = {0.0, 0.5};
-    layout.quantities = Selection{1} << static_cast<int>(Quantity::crank_work) |
-                        Selection{1} << static_cast<int>(Quantity::mode_time);
-    layout.series = 0b101;   // y and vy
+    layout.quantities =
+        Selection{1} << static_cast<int>(Quantity::crank_work) | Selection{1} << static_cast<int>(Quantity::mode_time);
+    layout.series = 0b101;  // y and vy
     layout.parameters = {{"initial_y", "m", "vertical position at the start", &Inputs::y}};
     return layout;
 }
@@ -103,7 +103,8 @@ TEST_F(ResultFile, GivesBackWhatWasWritten) {
     EXPECT_EQ(results.values("crank_work"), (std::vector<double>{25, 125, 225, 325, 425}));
     EXPECT_EQ(results.shape("mode_time"), (std::vector<std::size_t>{5, 4}));
     auto const mode_time = results.values("mode_time");
-    EXPECT_EQ(std::vector<double>(mode_time.begin() + 4, mode_time.begin() + 8), (std::vector<double>{118, 119, 120, 121}));
+    EXPECT_EQ(std::vector<double>(mode_time.begin() + 4, mode_time.begin() + 8),
+              (std::vector<double>{118, 119, 120, 121}));
 }
 
 TEST_F(ResultFile, SaysWhereItComesFrom) {
@@ -126,7 +127,7 @@ TEST_F(ResultFile, NamesUnitsAndLabels) {
     write_file(path(), {{0, 5}});
     ResultReader const results(path());
     for (std::string const& name : results.variable_names()) {
-        if (name == "status" || name.ends_with("_name")) continue;   // flags and texts have no unit
+        if (name == "status" || name.ends_with("_name")) continue;  // flags and texts have no unit
         EXPECT_NE(results.unit(name), "") << name;
         EXPECT_NE(results.long_name(name), "") << name;
     }
@@ -184,7 +185,7 @@ TEST_F(ResultFile, StandsAtItsPathOnlyWhenComplete) {
         writer.write(FakeBlock(0, 5).view());
         EXPECT_EQ(fs::file_size(path()), 13u);
     }
-    EXPECT_EQ(fs::file_size(path()), 13u);           // given up: the former file stays
+    EXPECT_EQ(fs::file_size(path()), 13u);  // given up: the former file stays
     EXPECT_FALSE(fs::exists(path() + ".part"));
     write_file(path(), {{0, 5}});
     EXPECT_FALSE(fs::exists(path() + ".part"));
@@ -223,7 +224,7 @@ std::uint64_t fnv(std::string_view text) {
     return hash.value();
 }
 
-TEST(Fnv1a, MeetsPublishedValues) {   // Fowler, Noll, Vo: test vectors of the reference implementation
+TEST(Fnv1a, MeetsPublishedValues) {  // Fowler, Noll, Vo: test vectors of the reference implementation
     EXPECT_EQ(fnv(""), 0xcbf29ce484222325u);
     EXPECT_EQ(fnv("a"), 0xaf63dc4c8601ec8cu);
     EXPECT_EQ(fnv("foobar"), 0x85944171f73967e8u);

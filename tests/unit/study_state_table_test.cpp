@@ -30,10 +30,11 @@ std::string with_column(std::string const& name, std::string const& value) {
 }
 
 TEST(StateTable, ReadsColumnsInAnyOrder) {
-    StateTable const table = read("wz,t,ignored,vy,z,y,vz,roll,yaw,pitch,wx,wy\n"
-                                  "10,0.5,text,3,2e-4,-1e-4,4,0.5,0.6,0.7,8,9\r\n"
-                                  "\n"
-                                  " 11 , +0.25 ,, 3,2,1,4,5,6,7,8,9");
+    StateTable const table = read(
+        "wz,t,ignored,vy,z,y,vz,roll,yaw,pitch,wx,wy\n"
+        "10,0.5,text,3,2e-4,-1e-4,4,0.5,0.6,0.7,8,9\r\n"
+        "\n"
+        " 11 , +0.25 ,, 3,2,1,4,5,6,7,8,9");
     ASSERT_EQ(table.rows(), 2u);
     EXPECT_EQ(table.times, (std::vector<double>{0.5, 0.25}));
     Inputs const& first = table.inputs[0];
@@ -91,8 +92,9 @@ TEST(StateTable, SaysWhereItCannotBeUsed) {
     EXPECT_EQ(error_of(header + "0,0,0,0,,0,0,0,0,0,0\n"), "states.csv:2: column vz: '' is no number");
     EXPECT_EQ(error_of(header + "0,0,0,0,1.5e,0,0,0,0,0,0\n"), "states.csv:2: column vz: '1.5e' is no number");
     EXPECT_EQ(error_of(header + "0,0,0\n"), "states.csv:2: the row has 3 columns, the header 11");
-    EXPECT_EQ(error_of(with_column("joint.clearence", "1")),
-              "states.csv:1: column joint.clearence: no numeric key of a scene has this name; did you mean joint.clearance?");
+    EXPECT_EQ(
+        error_of(with_column("joint.clearence", "1")),
+        "states.csv:1: column joint.clearence: no numeric key of a scene has this name; did you mean joint.clearance?");
     EXPECT_EQ(error_of(with_column("y", "1")), "states.csv:1: column y: stands there twice");
     EXPECT_NE(error_of(with_column("initial.y", "1")), "");
     EXPECT_NE(error_of(with_column("joint.clearance_y,joint.clearance", "1,1")), "");
@@ -115,7 +117,8 @@ TEST(ProbeTable, HasTheColumnsOfTheInputThenTheGoldenOnes) {
     std::getline(lines, header);
     std::getline(lines, row);
     EXPECT_TRUE(header.starts_with("contact.law,joint.clearance,t,y,z,vy,vz,roll,yaw,pitch,wx,wy,wz,d_y,")) << header;
-    EXPECT_TRUE(header.ends_with("fn_z_P8,surfaces,lines,points,energy,contact_potential,crank_torque,status")) << header;
+    EXPECT_TRUE(header.ends_with("fn_z_P8,surfaces,lines,points,energy,contact_potential,crank_torque,status"))
+        << header;
     EXPECT_TRUE(row.starts_with("paper,0.0001,0,1,2,3,4,5,6,7,8,9,10,0.10000000000000001,0,")) << row;
     EXPECT_TRUE(row.ends_with(",-3,finished")) << row;
 }

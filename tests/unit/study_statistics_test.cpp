@@ -35,7 +35,7 @@ TEST(Summary, OfKnownNumbers) {
     EXPECT_EQ(s.count, 4u);
     EXPECT_EQ(s.missing, 0u);
     EXPECT_DOUBLE_EQ(s.mean, 4);
-    EXPECT_DOUBLE_EQ(s.sd, std::sqrt(24.0 / 3));   // 16 + 4 + 0 + 4
+    EXPECT_DOUBLE_EQ(s.sd, std::sqrt(24.0 / 3));  // 16 + 4 + 0 + 4
     EXPECT_EQ(s.min, 2);
     EXPECT_EQ(s.median, 3);
     EXPECT_EQ(s.max, 8);

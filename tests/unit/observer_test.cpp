@@ -1,0 +1,242 @@
+// The observer by itself: fed with reports made up here, it must return what algebra says of them.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "kernels/block.hpp"
+#include "kernels/observers/slider_crank_observer.hpp"
+
+namespace slideway {
+namespace {
+
+using Observer = SliderCrankObserver<double>;
+using Report = SliderCrankReport<double>;
+using State = std::array<double, state_size>;
+
+constexpr Selection everything = (Selection(1) << quantity_count) - 1;
+
+/// A report in which nothing happens.
+Report quiet() {
+    Report r{};
+    r.contact.clear();
+    return r;
+}
+
+Report in_mode(int surfaces, int lines, int points) {
+    auto r = quiet();
+    r.contact.surfaces = surfaces;
+    r.contact.lines = lines;
+    r.contact.points = points;
+    return r;
+}
+
+Report with_energy(double energy) {
+    auto r = quiet();
+    r.energy = energy;
+    return r;
+}
+
+/// The observer with room for its results.
+class Watched {
+public:
+    Watched() { row_.fill(unwritten); }
+
+    void start(Report const& r, State const& state = {}) { observer_.start(true, r, state.data()); }
+    /// One step of length h whose integrands all have the given stage means.
+    void step(double h, Report const& r, State const& state = {}, std::vector<double> means = {}, bool accepted = true) {
+        means.resize(Observer::integrals, 0.0);
+        observer_.accept(accepted, h, means.data(), r, state.data());
+    }
+    void finish(double time, Selection selected = everything) { observer_.finish(0, time, selected, row_.data()); }
+    double operator()(Quantity q, int column = 0) const {
+        return row_[static_cast<std::size_t>(quantity_column(q) + column)];
+    }
+
+    static constexpr double unwritten = -12345;
+
+private:
+    Observer observer_{};
+    std::array<double, quantity_columns> row_{};
+};
+
+/// Integrands, in their order, of a report whose numbers all differ.
+Report busy() {
+    auto r = quiet();
+    for (int face = 0; face < face_count; ++face) {
+        r.contact.normal_force[face] = {1.0 + face, 10.0 + face, 100.0 + face, 1000.0 + face};
+    }
+    r.crank_power = 2;
+    r.contact.friction_power = 3;
+    r.contact.damping_power = 5;
+    r.crank_torque = 0.5;
+    r.drive_torque = -7;
+    r.position_error = 11;
+    r.rod_spin = 13;
+    r.rod_spin_z = 12;
+    r.energy = 17;
+    return r;
+}
+
+/// Y and Z face of every apex as Qian et al. 2020, Table 2 lists the faces: top {1,4,8,5}, bottom {2,3,7,6}, front {1,2,6,5},
+/// back {4,3,7,8}; the forces are those of `busy`.
+constexpr double apex_forces[8] = {1 + 3, 2 + 12, 11 + 13, 10 + 4, 1000 + 1002, 1001 + 102, 101 + 103, 100 + 1003};
+
+TEST(Observer, PeaksAreTheLargestOfStartAndAcceptedSteps) {
+    // The largest of each stands at the start, at the first step or at the last one.
+    for (int largest = 0; largest < 3; ++largest) {
+        Watched watched;
+        auto const at = [&](int step) { return step == largest ? busy() : quiet(); };
+        auto const tilt = [&](int step) {
+            State s{};
+            if (step == largest) s[4] = -0.1, s[5] = -0.2, s[6] = 0.3;
+            return s;
+        };
+        watched.start(at(0), tilt(0));
+        watched.step(1, at(1), tilt(1));
+        watched.step(1, at(2), tilt(2));
+        watched.finish(2);
+        EXPECT_EQ(watched(Quantity::peak_normal_force), 4444 + 6 * 4) << largest;
+        for (int apex = 0; apex < 8; ++apex) EXPECT_EQ(watched(Quantity::peak_apex_force, apex), apex_forces[apex]) << apex;
+        EXPECT_EQ(watched(Quantity::peak_crank_torque), 7) << "the magnitude of the drive torque, " << largest;
+        EXPECT_EQ(watched(Quantity::peak_position_error), 11);
+        EXPECT_EQ(watched(Quantity::peak_rod_angular_velocity), 13);
+        EXPECT_EQ(watched(Quantity::peak_tilt, 0), 0.1);
+        EXPECT_EQ(watched(Quantity::peak_tilt, 1), 0.2);
+        EXPECT_EQ(watched(Quantity::peak_tilt, 2), 0.3);
+    }
+}
+
+TEST(Observer, IntegrandsAreThoseOfTheTable) {
+    double values[Observer::integrals];
+    Observer::integrands(busy(), values);
+    EXPECT_EQ(values[0], 2);
+    EXPECT_EQ(values[1], 3);
+    EXPECT_EQ(values[2], 5);
+    EXPECT_EQ(values[3], 4444 + 6 * 4);
+    EXPECT_EQ(values[4], 49);
+    EXPECT_EQ(values[5], 121);
+    EXPECT_EQ(values[6], 169);
+    for (int apex = 0; apex < 8; ++apex) EXPECT_EQ(values[7 + apex], apex_forces[apex]) << apex;
+}
+
+TEST(Observer, MeansAndSumsAreIntegralsOfTheSteps) {
+    Watched watched;
+    watched.start(with_energy(100));
+    // Two steps, h = 1 and 3: an integrand of stage mean i + 1, then twice that, integrates to 7 (i + 1).
+    std::vector<double> first, second;
+    for (int i = 0; i < Observer::integrals; ++i) first.push_back(i + 1), second.push_back(2 * (i + 1));
+    watched.step(1, with_energy(50), {}, first);
+    watched.step(3, with_energy(102.5), {}, second);
+    watched.finish(4);
+    EXPECT_EQ(watched(Quantity::crank_work), 7);
+    EXPECT_EQ(watched(Quantity::friction_loss), 14);
+    EXPECT_EQ(watched(Quantity::damping_loss), 21);
+    EXPECT_EQ(watched(Quantity::energy_change), 2.5);
+    EXPECT_EQ(watched(Quantity::energy_residual), 2.5 - 7 + 14 + 21);
+    EXPECT_EQ(watched(Quantity::mean_normal_force), 28 / 4.0);
+    EXPECT_EQ(watched(Quantity::rms_crank_torque), std::sqrt(35 / 4.0));
+    EXPECT_EQ(watched(Quantity::rms_position_error), std::sqrt(42 / 4.0));
+    EXPECT_EQ(watched(Quantity::rms_rod_angular_velocity), std::sqrt(49 / 4.0));
+    for (int apex = 0; apex < 8; ++apex) EXPECT_EQ(watched(Quantity::mean_apex_force, apex), 7 * (8 + apex) / 4.0) << apex;
+}
+
+TEST(Observer, SharesAStepBetweenTwoModesByHalves) {
+    Watched watched;
+    watched.start(in_mode(0, 0, 0));
+    watched.step(2, in_mode(0, 0, 0));    // free 2
+    watched.step(4, in_mode(0, 0, 1));    // free 2, point 2
+    watched.step(8, in_mode(0, 2, 1));    // point 4, line 4
+    watched.step(16, in_mode(1, 0, 0));   // line 8, surface 8
+    watched.step(32, in_mode(1, 2, 0));   // surface 32
+    watched.step(64, in_mode(0, 0, 0));   // surface 32, free 32
+    watched.finish(126);
+    EXPECT_EQ(watched(Quantity::mode_time, 0), 36);
+    EXPECT_EQ(watched(Quantity::mode_time, 1), 6);
+    EXPECT_EQ(watched(Quantity::mode_time, 2), 12);
+    EXPECT_EQ(watched(Quantity::mode_time, 3), 72);
+}
+
+TEST(Observer, CountsOnsetsFromFreeFlightAlone) {
+    Watched watched;
+    watched.start(in_mode(0, 1, 0));      // a start in contact is none
+    watched.step(1, in_mode(1, 0, 0));    // harder, but no onset
+    watched.step(1, in_mode(0, 0, 0));    // leaving
+    watched.step(1, in_mode(0, 0, 0));
+    watched.step(1, in_mode(0, 0, 3));    // first
+    watched.step(1, in_mode(0, 1, 0));
+    watched.step(1, in_mode(0, 0, 1));
+    watched.step(1, in_mode(0, 0, 0));
+    watched.step(1, in_mode(2, 0, 0));    // second
+    watched.step(1, in_mode(0, 0, 0));
+    watched.finish(9);
+    EXPECT_EQ(watched(Quantity::contact_onsets), 2);
+}
+
+TEST(Observer, TakesNothingFromARejectedLane) {
+    Watched seen, unseen;
+    std::vector<double> const means(Observer::integrals, 4.0);
+    State const tilted{0, 0, 0, 0, 1, 1, 1};
+    for (auto* watched : {&seen, &unseen}) {
+        watched->start(in_mode(0, 0, 1));
+        watched->step(2, with_energy(3));
+    }
+    auto report = busy();
+    report.contact.surfaces = 1;
+    unseen.step(2, report, tilted, means, false);
+    for (auto* watched : {&seen, &unseen}) {
+        watched->step(2, in_mode(0, 1, 0));
+        watched->finish(4);
+    }
+    for (int q = 0; q < quantity_count; ++q) {
+        for (int column = 0; column < quantity_table[q].columns; ++column) {
+            EXPECT_EQ(unseen(static_cast<Quantity>(q), column), seen(static_cast<Quantity>(q), column)) << quantity_table[q].name;
+        }
+    }
+}
+
+TEST(Observer, BeginsEveryMemberAnew) {
+    Watched fresh, used;
+    used.start(busy(), {0, 0, 0, 0, 1, 1, 1});
+    used.step(5, in_mode(1, 0, 0), {}, std::vector<double>(Observer::integrals, 6.0));
+    used.step(5, quiet());
+    used.step(5, in_mode(1, 0, 0));
+    for (auto* watched : {&fresh, &used}) {
+        watched->start(with_energy(1));
+        watched->step(1, with_energy(2), {}, std::vector<double>(Observer::integrals, 1.0));
+        watched->finish(1);
+    }
+    for (int q = 0; q < quantity_count; ++q) {
+        for (int column = 0; column < quantity_table[q].columns; ++column) {
+            EXPECT_EQ(used(static_cast<Quantity>(q), column), fresh(static_cast<Quantity>(q), column)) << quantity_table[q].name;
+        }
+    }
+}
+
+TEST(Observer, WritesTheSelectedQuantitiesAlone) {
+    for (int chosen = 0; chosen < quantity_count; ++chosen) {
+        Watched watched;
+        watched.start(busy());
+        watched.step(1, busy());
+        watched.finish(1, Selection(1) << chosen);
+        for (int q = 0; q < quantity_count; ++q) {
+            for (int column = 0; column < quantity_table[q].columns; ++column) {
+                EXPECT_EQ(watched(static_cast<Quantity>(q), column) != Watched::unwritten, q == chosen)
+                    << quantity_table[q].name << " where " << quantity_table[chosen].name << " is asked for";
+            }
+        }
+    }
+}
+
+TEST(Observer, AMemberThatNeverMovedHasFiniteMeans) {
+    Watched watched;
+    watched.start(quiet());
+    watched.finish(0);
+    EXPECT_EQ(watched(Quantity::mean_normal_force), 0);
+    EXPECT_EQ(watched(Quantity::rms_crank_torque), 0);
+}
+
+}  // namespace
+}  // namespace slideway
