@@ -39,6 +39,9 @@ struct Block {
     std::size_t samples = 0;
     Selection quantities = 0;
     Selection series = 0;
+    /// Asked now and then; true ends the block at once.  Members that have not ended keep the record they came with.
+    bool (*stop)(void const* context) = nullptr;
+    void const* stop_context = nullptr;
     // results
     MemberRecord* records = nullptr;            // [members]
     double* final_states = nullptr;             // [members][state_size]

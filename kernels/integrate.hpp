@@ -29,7 +29,11 @@ public:
         if (block_.members == 0) return;
         prepare();
         take_members(all_lanes());
-        while (any(busy_)) {
+        for (unsigned attempts = 1; any(busy_); ++attempts) {
+            if (attempts % stop_interval == 0 && block_.stop != nullptr && block_.stop(block_.stop_context)) {
+                abandon();
+                return;
+            }
             attempt();
             auto const ended = settle();
             if (any(ended)) {
@@ -42,6 +46,7 @@ public:
 private:
     static constexpr int size = Model::size;
     static constexpr int width = lanes<Real>;
+    static constexpr unsigned stop_interval = 64;  // attempts: some 0.1 ms
     using Method = DormandPrince;
     using Observer = SliderCrankObserver<Real>;
     using Report = typename Model::template Report<Real>;
@@ -113,7 +118,8 @@ private:
         if constexpr (Model::has_memory) touches_.keep(fresh, end_report_.contact);
         // A start that cannot be evaluated ends its member before the first step.
         failure_ = faults.within(fresh);
-        not_finite_ = fresh & !(is_finite(y_) & is_finite(k_[0]));
+        auto const whole_state = is_finite(y_), whole_rates = is_finite(k_[0]);
+        not_finite_ = fresh & !(whole_state & whole_rates);
         auto const failed = not_finite_ | failure_.geometry | failure_.contact_domain;
         if (any(failed)) retire(failed);
         return failed;
@@ -294,6 +300,13 @@ private:
         if (holds(stuck_, index)) return Status::step_too_small;
         if (lane(t_, index) >= block_.settings.end_time) return Status::finished;
         return Status::max_steps;
+    }
+
+    /// Leaves the members in the lanes as if they had never begun.
+    SLIDEWAY_HD void abandon() {
+        for (int i = 0; i < width; ++i) {
+            if (holds(busy_, i) && block_.samples > 0) sampler_.fill_missing(member_[i], 0);
+        }
     }
 
     /// Hands over the results of members that have ended.

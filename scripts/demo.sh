@@ -35,8 +35,8 @@ Done in $SECONDS s.  The results lie in $PWD/demo:
   ensemble_starts_conservative.nc   the same starts under the law that conserves energy
 Both hold, for every member, how it ended, what it cost, and the quantities that the scene asks for.
 
-Compare energy_residual = E(t) - E(0) - W + D_f + D_d in the two tables above: the energy of the mechanism that
-neither came from the crank's work W nor is missing for friction D_f and contact damping D_d.
+Compare energy_residual = E(t) - E(0) - W + D_f + D_d in the tables of the two runs: the energy of the mechanism
+that neither came from the crank's work W nor is missing for friction D_f and contact damping D_d.
   paper         the force jumps where a contact changes between point, line and surface, and on the whole the
                 jumps make energy: the residual is what they made, and it keeps the slider bouncing.
   conservative  the force is the slope of one potential: the residual is the integrator's error alone and falls

@@ -62,8 +62,9 @@ int check(CheckArguments const& arguments) {
     print_field("kernels", fmt::format("{}, {} lanes, {} threads, blocks of {} members", name_of(isa), lanes_of(isa),
                                        threads, prediction.block_members));
     print_field("members", fmt::format("{}, each over {:.6g} s", scene.members, scene.integrator.end_time));
-    print_field("memory",
-                fmt::format("{} for blocks in work", bytes_text(static_cast<double>(prediction.buffer_bytes))));
+    print_field("memory", fmt::format("{} for blocks in work, {} for the statistics at the end",
+                                      bytes_text(static_cast<double>(prediction.buffer_bytes)),
+                                      bytes_text(static_cast<double>(prediction.summary_bytes))));
     print_field("output", fmt::format("{} and a header of some tens of kB",
                                       bytes_text(static_cast<double>(prediction.output_bytes))));
     print_field(

@@ -40,7 +40,7 @@ std::uint64_t block_bytes(BlockRequest const& request, std::size_t members) {
 }
 
 void BlockBuffers::run(KernelInstance const& kernel, BlockRequest const& request, MemberSource const& source,
-                       std::uint64_t first_member, std::size_t members) {
+                       StopRequest const& stop, std::uint64_t first_member, std::size_t members) {
     drawn_.assign(members, Inputs{});
     is_usable_.assign(members, 0);
     usable_.clear();
@@ -61,6 +61,8 @@ void BlockBuffers::run(KernelInstance const& kernel, BlockRequest const& request
     block.samples = request.sample_times.size();
     block.quantities = request.quantities;
     block.series = request.sample_times.empty() ? Selection{0} : request.series;
+    block.stop = [](void const* context) { return static_cast<StopRequest const*>(context)->reason() != StopReason::none; };
+    block.stop_context = &stop;
     block.records = records_.data();
     block.final_states = final_states_.data();
     block.quantity_values = quantities_.data();

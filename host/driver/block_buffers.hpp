@@ -7,6 +7,7 @@
 
 #include "host/backend/backend.hpp"
 #include "host/driver/block_result.hpp"
+#include "host/driver/stop.hpp"
 
 namespace slideway {
 
@@ -27,9 +28,9 @@ std::uint64_t block_bytes(BlockRequest const& request, std::size_t members);
 class BlockBuffers {
 public:
     /// Draws members [first_member, first_member + members) and integrates those with usable inputs.  The others get
-    /// status `invalid_inputs` and NaN results.
+    /// status `invalid_inputs` and NaN results; those that `stop` cut short get `not_run` and NaN.
     void run(KernelInstance const& kernel, BlockRequest const& request, MemberSource const& source,
-             std::uint64_t first_member, std::size_t members);
+             StopRequest const& stop, std::uint64_t first_member, std::size_t members);
 
     /// Views of the last run.  @param first where the block lies in the whole run.
     BlockResult result(std::uint64_t first) const;

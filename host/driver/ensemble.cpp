@@ -65,7 +65,7 @@ EnsembleTotals run_ensemble(EnsemblePlan const& plan, KernelInstance const& kern
         std::uint64_t const first = block * plan.block_members;
         auto const members =
             static_cast<std::size_t>(std::min<std::uint64_t>(plan.block_members, plan.members - first));
-        buffers.run(kernel, plan.request, plan.source, plan.first_member + first, members);
+        buffers.run(kernel, plan.request, plan.source, stop, plan.first_member + first, members);
         BlockResult const result = buffers.result(first);
         {
             std::lock_guard const lock(mutex);
@@ -99,7 +99,9 @@ EnsembleTotals run_ensemble(EnsemblePlan const& plan, KernelInstance const& kern
     }
     if (failure) std::rethrow_exception(failure);
     totals.not_run += plan.members - handed_out;
-    totals.stopped = handed_out < plan.members ? reason : StopReason::none;
+    // A block in work may be the first to hear of the stop.
+    if (reason == StopReason::none) reason = stop.reason();
+    totals.stopped = totals.not_run > 0 ? reason : StopReason::none;
     totals.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return totals;
 }

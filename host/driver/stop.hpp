@@ -9,7 +9,7 @@ namespace slideway {
 
 enum class StopReason { none, signal, time_limit };
 
-/// Asked before each block is handed out.
+/// Asked before each block is handed out, and now and then by the blocks in work.
 class StopRequest {
 public:
     /// Safe in a signal handler.

@@ -1,5 +1,6 @@
 # Writes HEADER with the commit of SOURCE: its short name, "-dirty" if tracked files differ from it, "unknown" without
 # git or outside a repository.
+cmake_policy(VERSION 3.25)
 set(commit unknown)
 find_program(git git)
 if(git)

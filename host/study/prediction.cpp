@@ -24,6 +24,15 @@ double seconds_per_member_step(Isa isa) {
     return 1e-6;
 }
 
+/// Statuses, the widest quantity, one of its columns and that column sorted: what the statistics hold at once.
+std::uint64_t summary_bytes(Scene const& scene) {
+    int widest = 0;
+    for (int q = 0; q < quantity_count; ++q) {
+        if (selects(scene.quantities, static_cast<Quantity>(q))) widest = std::max(widest, quantity_table[q].columns);
+    }
+    return scene.members * sizeof(double) * (1 + (widest > 0 ? static_cast<std::uint64_t>(widest) + 2 : 0));
+}
+
 }  // namespace
 
 Prediction predict(Scene const& scene, Isa isa, int threads) {
@@ -38,6 +47,7 @@ Prediction predict(Scene const& scene, Isa isa, int threads) {
     prediction.buffer_bytes =
         busy *
         block_bytes(plan.request, static_cast<std::size_t>(std::min<std::uint64_t>(plan.block_members, scene.members)));
+    prediction.summary_bytes = summary_bytes(scene);
     prediction.output_bytes = payload_bytes(result_layout(scene, all));
     double const end = scene.integrator.end_time;
     prediction.least_steps = members * end / scene.integrator.max_step;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <initializer_list>
+
 #include "kernels/block.hpp"
 #include "kernels/mechanisms/slider_crank_report.hpp"
 #include "kernels/observers/quantities.hpp"

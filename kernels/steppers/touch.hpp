@@ -45,8 +45,9 @@ public:
             auto const& d1 = end.penetration[face];
             auto const& v1 = end.rate[face];
             auto& speed = memory.speeds[face];
-            touched = touched | touch(accepted, d0.a, d1.a, v1.a, speed.a) | touch(accepted, d0.b, d1.b, v1.b, speed.b) |
-                      touch(accepted, d0.c, d1.c, v1.c, speed.c) | touch(accepted, d0.d, d1.d, v1.d, speed.d);
+            auto const a = touch(accepted, d0.a, d1.a, v1.a, speed.a), b = touch(accepted, d0.b, d1.b, v1.b, speed.b);
+            auto const c = touch(accepted, d0.c, d1.c, v1.c, speed.c), d = touch(accepted, d0.d, d1.d, v1.d, speed.d);
+            touched = touched | a | b | c | d;
         }
         keep(accepted, end);
         return touched;

@@ -1,5 +1,7 @@
 #include "cli_process.hpp"
 
+#include <sys/stat.h>
+
 #include "host/backend/backend.hpp"
 
 namespace slideway::testing {
@@ -16,6 +18,7 @@ TEST_F(Usage, OfCommands) {
     expect_refusal(2, "there is no command 'frobnicate'", {"frobnicate"});
     expect_refusal(2, "SCENE is missing", {"run"});
     expect_refusal(2, "--bogus", {"run", "s.toml", "--bogus"});
+    expect_refusal(2, "there is no command '--quiet'", {"--quiet", "run", "s.toml"});
     expect_refusal(2, "second", {"run", "s.toml", "second"});
     expect_refusal(2, "FILE", {"info"});
 }
@@ -34,7 +37,9 @@ TEST_F(Usage, OfOptionsOfRun) {
     for (char const* const range : {"3", "5..2", "a..b", "1..", "..2", "0..10"}) {
         expect_refusal(2, "--members", {"run", "s.toml", "--members", range});
     }
-    expect_refusal(2, "members 0 to 9", {"run", "s.toml", "--member", "10"});
+    expect_refusal(2, "--member 10: s.toml has members 0 to 9", {"run", "s.toml", "--member", "10"});
+    expect_refusal(2, "--member -1: ", {"run", "s.toml", "--member", "-1"});
+    expect_refusal(2, "--member two: ", {"run", "s.toml", "--member", "two"});
     expect_refusal(2, "exclude each other", {"run", "s.toml", "--member", "1", "--members", "1..2"});
     expect_refusal(2, "--set contact.law", {"run", "s.toml", "--set", "contact.law"});
     EXPECT_FALSE(std::filesystem::exists(path("s.nc")));
@@ -66,9 +71,20 @@ TEST_F(Usage, OfPlacesForResults) {
     expect_refusal(4, "cannot write", {"probe", "s.toml", "-o", "nowhere/p.csv"});
 }
 
+TEST_F(Usage, NeverReplacesWhatIsNoResult) {
+    std::string const scene = file_text(path("s.toml"));
+    for (char const* const name : {"s.toml", "./s.toml"}) {
+        expect_refusal(2, "is the scene itself", {"run", "s.toml", "-o", name});
+        EXPECT_EQ(file_text(path("s.toml")), scene);
+    }
+    ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+    expect_refusal(4, "pipe: is a device or a pipe", {"run", "s.toml", "-o", "pipe"});
+    EXPECT_TRUE(std::filesystem::is_fifo(path("pipe")));
+}
+
 TEST_F(Usage, OfFilesThatAreNoResults) {
     expect_refusal(4, "missing.nc", {"info", "missing.nc"});
-    expect_refusal(4, "s.toml", {"info", "s.toml"});
+    expect_refusal(4, "s.toml: is no netCDF file", {"info", "s.toml"});
     expect_refusal(4, ".", {"info", "."});
 }
 
