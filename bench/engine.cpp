@@ -45,7 +45,8 @@ int register_all() {
                                          (law == Law::paper ? "/paper" : "/conservative") + (audit ? "/audit" : "");
                 Selection const quantities = audit ? Selection(1) << static_cast<int>(Quantity::energy_residual) : 0;
                 benchmark::RegisterBenchmark(name.c_str(), engine, isa, Parts{law, Damping::point, true, false},
-                                             quantities)->Unit(benchmark::kMillisecond);
+                                             quantities)
+                    ->Unit(benchmark::kMillisecond);
             }
         }
     }

@@ -15,9 +15,9 @@ inline constexpr int state_size = 10;  // y z vy vz roll yaw pitch wx wy wz
 
 struct IntegratorSettings {
     double rtol = 1e-6;
-    double atol = 1e-6;            // relative to the joint's scales: c, c·ω, 2c/L_k, 2c/L_k·ω
-    double end_time = 0;           // [s]
-    double max_step = 1e-3;        // [s]
+    double atol = 1e-6;                     // relative to the joint's scales: c, c·ω, 2c/L_k, 2c/L_k·ω
+    double end_time = 0;                    // [s]
+    double max_step = 1e-3;                 // [s]
     std::uint64_t max_steps = 100'000'000;  // tried steps per member
 };
 
@@ -25,30 +25,30 @@ struct IntegratorSettings {
 struct MemberRecord {
     Status status = Status::not_run;
     std::uint64_t steps_accepted = 0;
-    std::uint64_t steps_rejected = 0;
+    std::uint64_t steps_rejected = 0;  // by the error, or cut at a touch
     std::uint64_t rhs_evaluations = 0;
-    double time = 0;               // [s] where it ended
+    double time = 0;  // [s] where it ended
 };
 
 /// Members [0, members) of a block.  A lane that finishes takes the next member of the block.
 struct Block {
-    Inputs const* inputs = nullptr;             // [members], completed: nothing `follows`
+    Inputs const* inputs = nullptr;  // [members], completed: nothing `follows`
     std::size_t members = 0;
     IntegratorSettings settings;
-    double const* sample_times = nullptr;       // [samples], ascending, within [0, end_time]
+    double const* sample_times = nullptr;  // [samples], ascending, within [0, end_time]
     std::size_t samples = 0;
     Selection quantities = 0;
     Selection series = 0;
-    /// Asked now and then; true ends the block at once.  Members that have not ended keep the record they came with.
+    /// Asked now and then; true ends the block at once.  Members that have not ended keep what their results held before.
     bool (*stop)(void const* context) = nullptr;
     void const* stop_context = nullptr;
     // results
-    MemberRecord* records = nullptr;            // [members]
-    double* final_states = nullptr;             // [members][state_size]
-    double* quantity_values = nullptr;          // [members][quantity_columns], only selected columns written
-    double* series_values = nullptr;            // [selected series, in table order][members][samples]; NaN after a failure
-    std::uint64_t lane_steps_executed = 0;      // step attempts × lanes
-    std::uint64_t lane_steps_useful = 0;        // those that served a member
+    MemberRecord* records = nullptr;        // [members]
+    double* final_states = nullptr;         // [members][state_size]
+    double* quantity_values = nullptr;      // [members][quantity_columns], only selected columns written
+    double* series_values = nullptr;        // [selected series, in table order][members][samples]; NaN after a failure
+    std::uint64_t lane_steps_executed = 0;  // step attempts × lanes
+    std::uint64_t lane_steps_useful = 0;    // those that served a member
 };
 
 /// Everything one state tells, as the golden tables list it (model.md 11).
@@ -58,16 +58,16 @@ struct ProbeResult {
     double penetration_y[8], penetration_z[8];          // [m], Y and Z faces, P1…P8
     double normal_force_y[8], normal_force_z[8];        // [N]
     int surfaces, lines, points;
-    double energy, contact_potential;                   // [J]
-    double crank_torque;                                // [N m], without the crank's own weight
-    Status status;                                      // finished, or why the state cannot be evaluated
+    double energy, contact_potential;  // [J]
+    double crank_torque;               // [N m], without the crank's own weight
+    Status status;                     // finished, or why the state cannot be evaluated
 };
 
 struct ProbeTable {
-    Inputs const* inputs = nullptr;       // [rows]; the initial state is the state to probe
-    double const* times = nullptr;        // [rows]
+    Inputs const* inputs = nullptr;  // [rows]; the initial state is the state to probe
+    double const* times = nullptr;   // [rows]
     std::size_t rows = 0;
-    ProbeResult* results = nullptr;       // [rows]
+    ProbeResult* results = nullptr;  // [rows]
 };
 
 }  // namespace slideway

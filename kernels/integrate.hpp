@@ -51,8 +51,9 @@ private:
     using Observer = SliderCrankObserver<Real>;
     using Report = typename Model::template Report<Real>;
     using Parameters = typename Model::template Parameters<Real>;
-    static_assert(sizeof(Parameters) % sizeof(Real) == 0 && sizeof(Parameters) / sizeof(Real) ==
-                  sizeof(typename Model::template Parameters<double>) / sizeof(double));
+    static_assert(sizeof(Parameters) % sizeof(Real) == 0 &&
+                  sizeof(Parameters) / sizeof(Real) ==
+                      sizeof(typename Model::template Parameters<double>) / sizeof(double));
 
     SLIDEWAY_HD static Mask<Real> all_lanes() { return mask_of<Real>(true); }
 
@@ -145,7 +146,8 @@ private:
         step_ = select(busy_, select(last_, remaining, h_), Real(0.0));
         faults_ = Faults<Real>::none();
         if (stage_reports_) {
-            for (int i = 0; i < Observer::integrals; ++i) integral_[i] = Real(Method::tableau.b[0]) * first_integrand_[i];
+            for (int i = 0; i < Observer::integrals; ++i)
+                integral_[i] = Real(Method::tableau.b[0]) * first_integrand_[i];
             for (int i = 0; i < Observer::audit_integrals; ++i) {
                 audit_error_[i] = Real(Method::tableau.e[0]) * first_integrand_[i];
             }
@@ -164,6 +166,7 @@ private:
         Method::template stage_state<s>(y_, k_, step_, at);
         Real const t = fma(step_, Real(w.c[s]), t_);
         auto const faults = evaluate(t, at, k_[s], end ? end_reports_ : stage_reports_, end_report_);
+        // A fault of one stage is NaN in those after it, whose own faults say nothing.
         faults_ = faults_.or_else(faults);
         if (!stage_reports_ || (w.b[s] == 0 && w.e[s] == 0)) return;
         Real values[Observer::integrals];
@@ -199,12 +202,15 @@ private:
         Real const squared_norm = squared_error_norm();
         auto accepted = busy_ & (squared_norm <= Real(1.0));
         Real const resolution(8 * 2.220446049250313e-16 * block_.settings.end_time);
+        Real const former_memory = error_memory_;
+        auto cut = mask_of<Real>(false);
         Real wish = step_ * StepControl::factor(squared_norm, accepted, rejections_ > Real(0.5), error_memory_);
         if constexpr (Model::has_memory) {
             // A touch must end its step, for it sets the impact speed of what follows.
             auto const early = accepted & (step_ > resolution * Real(64.0));
-            Real const fraction = touches_.earliest(early, end_report_.contact, step_, p_.length_scale_y);
-            auto const cut = fraction < Real(1.0);
+            Real const fraction = touches_.earliest(early, end_report_.contact, step_, Model::touch_scale(p_));
+            cut = fraction < Real(1.0);
+            error_memory_ = select(cut, former_memory, error_memory_);
             accepted = accepted & !cut;
             wish = select(cut, max(step_ * fraction, resolution * Real(32.0)), wish);
         }
@@ -212,14 +218,15 @@ private:
         block_.lane_steps_useful += static_cast<std::uint64_t>(held_lanes(busy_));
         accepted_ = accepted_ + count<Real>(accepted);
         rejected_ = rejected_ + count<Real>(rejected);
-        rejections_ = select(rejected, Real(1.0), Real(0.0));
+        rejections_ = count<Real>(rejected & !cut);
 
         auto ended = mask_of<Real>(false);
         if (any(accepted)) ended = advance(accepted);
         h_ = select(busy_, min(wish, Real(block_.settings.max_step)), h_);
 
         auto const stuck = rejected & (h_ <= resolution);
-        auto const spent = busy_ & !ended & (accepted_ + rejected_ >= Real(static_cast<double>(block_.settings.max_steps)));
+        auto const spent =
+            busy_ & !ended & (accepted_ + rejected_ >= Real(static_cast<double>(block_.settings.max_steps)));
         failure_ = faults_.within(stuck);
         not_finite_ = stuck & !(squared_norm < Real(1e300));
         stuck_ = stuck;
@@ -330,7 +337,7 @@ private:
     Block& block_;
     Sampler sampler_;
     bool stage_reports_, audited_, end_reports_;
-    std::size_t next_ = 0;                     // of the block's queue
+    std::size_t next_ = 0;  // of the block's queue
     std::size_t member_[width], sample_[width];
 
     Parameters p_;

@@ -12,8 +12,8 @@
 
 #if !defined(__CUDACC__) && !defined(SLIDEWAY_NO_SIMD)
 #define SLIDEWAY_SIMD 1
-#include <bit>
 #include <immintrin.h>
+#include <bit>
 #include <type_traits>
 #include <xsimd/xsimd.hpp>
 #endif
@@ -151,8 +151,8 @@ template <class Arch> SLIDEWAY_FN Batch<Arch> negated(Batch<Arch> x) {
 #define SLIDEWAY_FUSED_512(name)
 #endif
 #if defined(__FMA__)
-#define SLIDEWAY_FUSED(name)                                                    \
-    SLIDEWAY_FUSED_512(name)                                                    \
+#define SLIDEWAY_FUSED(name)                                                   \
+    SLIDEWAY_FUSED_512(name)                                                   \
     if constexpr (lanes<Batch<Arch>> == 4) return _mm256_##name##_pd(a, b, c); \
     if constexpr (lanes<Batch<Arch>> == 2) return _mm_##name##_pd(a, b, c);
 #else

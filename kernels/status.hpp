@@ -4,18 +4,18 @@
 namespace slideway {
 
 enum class Status : signed char {
-    not_run = -1,         // the run stopped before the member started or ended
-    finished = 0,         // reached the end time
-    step_too_small = 1,   // the error control asked for a step below the resolution of time
-    max_steps = 2,        // spent integrator.max_steps
-    nonfinite = 3,        // NaN or infinity in the state or its derivative at any step that resolves time
-    geometry = 4,         // the rod does not reach: L² − (y−y_A)² − z² ≤ 0
-    contact_domain = 5,   // a line contact beyond its domain δ̄ ≤ l²/R_e
-    invalid_inputs = 6,   // the inputs drawn for the member cannot be used; it was not integrated
+    not_run = -1,        // the run stopped before the member started or ended
+    finished = 0,        // reached the end time
+    step_too_small = 1,  // the error control asked for a step below the resolution of time
+    max_steps = 2,       // spent integrator.max_steps
+    nonfinite = 3,       // NaN or infinity in the state or its derivative at any step that resolves time
+    geometry = 4,        // the rod does not reach: L² − (y−y_A)² − z² ≤ 0
+    contact_domain = 5,  // a line contact beyond its domain δ̄ ≤ l²/R_e
+    invalid_inputs = 6,  // the inputs drawn for the member cannot be used; it was not integrated
 };
 
 inline constexpr int status_count = 7;  // without not_run
-inline constexpr char const* status_names[status_count] = {"finished",       "step_too_small", "max_steps",     "nonfinite",
-                                                           "geometry",       "contact_domain", "invalid_inputs"};
+inline constexpr char const* status_names[status_count] = {"finished", "step_too_small", "max_steps",     "nonfinite",
+                                                           "geometry", "contact_domain", "invalid_inputs"};
 
 }  // namespace slideway

@@ -17,10 +17,10 @@ enum class Isa { scalar, sse2, avx2, avx512 };
 
 std::string_view name_of(Isa isa);
 int lanes_of(Isa isa);
-bool is_supported(Isa isa);                 // by this machine
-Isa best_isa();                             // the widest that this machine supports
+bool is_supported(Isa isa);  // by this machine
+Isa best_isa();              // the widest that this machine supports
 std::span<Isa const> all_isas();
-std::string flags_of(Isa isa);              // compiler flags the unit was built with
+std::string flags_of(Isa isa);  // compiler flags the unit was built with
 
 /// @throws std::out_of_range never: every combination of parts exists for every ISA.
 KernelInstance find_instance(Isa isa, Parts const& parts);

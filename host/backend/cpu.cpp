@@ -32,9 +32,11 @@ std::string flags_of(Isa isa) { return info(isa).flags; }
 
 bool is_supported(Isa isa) {
     switch (isa) {
-        case Isa::sse2: return true;
+        case Isa::sse2:
+            return true;
         case Isa::scalar:
-        case Isa::avx2: return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+        case Isa::avx2:
+            return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
         case Isa::avx512:
             return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
                    __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512bw") &&
@@ -56,8 +58,8 @@ std::span<Isa const> all_isas() {
 }
 
 KernelInstance find_instance(Isa isa, Parts const& parts) {
-    auto const& table = *instance_tables[static_cast<int>(isa)][static_cast<int>(parts.law)]
-                                        [static_cast<int>(parts.damping)];
+    auto const& table =
+        *instance_tables[static_cast<int>(isa)][static_cast<int>(parts.law)][static_cast<int>(parts.damping)];
     return table.at[parts.friction ? 1 : 0][parts.misaligned_way ? 1 : 0];
 }
 

@@ -1,11 +1,11 @@
 // The machine code of one instruction set, law and damping: compiled once per combination with its own flags and
 // names (see CMakeLists.txt here).  Nothing from the host is included, so that no unit shares code with another.
+#include "host/backend/instance_table.hpp"
 #include "kernels/integrate.hpp"
-#include "kernels/mechanisms/probe.hpp"
-#include "kernels/mechanisms/slider_crank.hpp"
 #include "kernels/laws/conservative.hpp"
 #include "kernels/laws/paper.hpp"
-#include "host/backend/instance_table.hpp"
+#include "kernels/mechanisms/probe.hpp"
+#include "kernels/mechanisms/slider_crank.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 namespace {

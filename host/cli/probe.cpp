@@ -56,7 +56,7 @@ void print_listing(Scene const& scene, StateTable const& table, ProbeResult cons
                 fmt::format("{:.10g} J, of it {:.10g} J in the contacts", result.energy, result.contact_potential));
     print_field("power", fmt::format("{:.10g} W crank, {:.10g} W friction, {:.10g} W damping", result.power_crank,
                                      result.power_friction, result.power_damping));
-    print_field("crank torque", fmt::format("{:.10g} N m", result.crank_torque));
+    print_field("crank torque", fmt::format("{:.10g} N m, without the crank's own weight", result.crank_torque));
 }
 
 }  // namespace

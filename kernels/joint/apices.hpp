@@ -17,9 +17,7 @@ template <class Real> struct JointGeometry {
 
 /// The penetrations of the two faces normal to one of the slider's axes, as an affine function of the three signs: for the face
 /// on side s, δ = base + s·middle + s·(s_across·across + s_x·along).  The same for their rates.
-template <class Real> struct FacePair {
-    Real base, middle, across, along;
-};
+template <class Real> struct FacePair { Real base, middle, across, along; };
 
 /// δ = −c + s[(n − 1) ρ + …] of the apices (model.md 3, clearance first).  With ρ = (s_x L_k/2, s w/2 − p, s_across w_across/2 −
 /// p_across) and n the face's normal: base = −c + (n_main − 1) w/2, middle = −(n_main p + n_across p_across).

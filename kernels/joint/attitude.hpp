@@ -15,9 +15,7 @@ template <class Real> struct Axes {
 };
 
 /// Sines and cosines of roll φ, yaw ϑ and pitch ψ.
-template <class Real> struct Attitude {
-    SinCos<Real> roll, yaw, pitch;
-};
+template <class Real> struct Attitude { SinCos<Real> roll, yaw, pitch; };
 
 template <class Real> SLIDEWAY_FN Attitude<Real> attitude(Real roll, Real yaw, Real pitch) {
     return {sincos(roll), sincos(yaw), sincos(pitch)};

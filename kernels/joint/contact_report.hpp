@@ -8,9 +8,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 inline constexpr int face_count = 4;  // Y+, Y−, Z+, Z−
 
 /// v0 of restitution: per apex–face pair the δ' of its last touch [m/s], at least `least_impact_speed`.
-template <class Real> struct ImpactMemory {
-    Quad<Real> speeds[face_count];
-};
+template <class Real> struct ImpactMemory { Quad<Real> speeds[face_count]; };
 inline constexpr double least_impact_speed = 1e-4;
 
 /// Apex numbers P1…P8 (from 0) of a face's a, b, c, d.  Source: Qian et al. 2020, Table 2: top {1,4,8,5}, bottom {2,3,7,6},
@@ -23,13 +21,13 @@ SLIDEWAY_FN constexpr int face_apex(int face, int index) {
 
 /// All that the joint knows of one state, for observers and probes.
 template <class Real> struct ContactReport {
-    Quad<Real> penetration[face_count];  // [m]
-    Quad<Real> rate[face_count];         // [m/s]; filled where restitution needs it
-    Quad<Real> normal_force[face_count]; // [N]
-    Real surfaces, lines, points;        // how many
-    Real potential;                      // U of the contacts [J]
-    Real friction_power;                 // Σ μ F V [W]
-    Real damping_power;                  // Σ (F − F_elastic) δ' [W]
+    Quad<Real> penetration[face_count];   // [m]
+    Quad<Real> rate[face_count];          // [m/s]; filled where restitution needs it
+    Quad<Real> normal_force[face_count];  // [N]
+    Real surfaces, lines, points;         // how many
+    Real potential;                       // U of the contacts [J]
+    Real friction_power;                  // Σ μ F V [W]
+    Real damping_power;                   // Σ (F − F_elastic) δ' [W]
 
     SLIDEWAY_FN void clear() {
         Real const zero(0.0);
@@ -48,8 +46,8 @@ template <class Real> struct ContactReport {
         damping_power = damping_power + (front + rear);
         auto const modes = face_modes<Real>(m.touching);
         surfaces = surfaces + count<Real>(modes.surface);
-        lines = lines + ((count<Real>(modes.ab) + count<Real>(modes.bc)) +
-                         (count<Real>(modes.cd) + count<Real>(modes.da)));
+        lines =
+            lines + ((count<Real>(modes.ab) + count<Real>(modes.bc)) + (count<Real>(modes.cd) + count<Real>(modes.da)));
         points = points + ((count<Real>(modes.point.a) + count<Real>(modes.point.b)) +
                            (count<Real>(modes.point.c) + count<Real>(modes.point.d)));
     }

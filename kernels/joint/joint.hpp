@@ -46,22 +46,20 @@ template <class Law, class Friction, class Damping> struct Joint {
         auto const my = cross(motion.spin, ny);
         Vec3<Real> const& v = motion.velocity;
         FaceContact<Real> const y_face{p.contact.surface_stiffness_y, p.contact.across_y_face, p.contact.along};
-        add_faces<Axis::y, Full>(
-            penetrations(g.clearance_y, g.half_width, g.half_depth, g.half_length, motion.axes.y_shortfall, ny.z, ny.x,
-                         motion.y, motion.z),
-            penetration_rates(g.half_width, g.half_depth, g.half_length, ny.y, ny.z, my.y, my.z, my.x, motion.y,
-                              motion.z, v.y, v.z),
-            ny, g.half_width, g.half_depth, y_face, motion, memory, p, report, outside, w);
+        add_faces<Axis::y, Full>(penetrations(g.clearance_y, g.half_width, g.half_depth, g.half_length,
+                                              motion.axes.y_shortfall, ny.z, ny.x, motion.y, motion.z),
+                                 penetration_rates(g.half_width, g.half_depth, g.half_length, ny.y, ny.z, my.y, my.z,
+                                                   my.x, motion.y, motion.z, v.y, v.z),
+                                 ny, g.half_width, g.half_depth, y_face, motion, memory, p, report, outside, w);
 
         Vec3<Real> const& nz = motion.axes.z;
         auto const mz = cross(motion.spin, nz);
         FaceContact<Real> const z_face{p.contact.surface_stiffness_z, p.contact.across_z_face, p.contact.along};
-        add_faces<Axis::z, Full>(
-            penetrations(g.clearance_z, g.half_depth, g.half_width, g.half_length, motion.axes.z_shortfall, nz.y, nz.x,
-                         motion.z, motion.y),
-            penetration_rates(g.half_depth, g.half_width, g.half_length, nz.z, nz.y, mz.z, mz.y, mz.x, motion.z,
-                              motion.y, v.z, v.y),
-            nz, g.half_depth, g.half_width, z_face, motion, memory, p, report, outside, w);
+        add_faces<Axis::z, Full>(penetrations(g.clearance_z, g.half_depth, g.half_width, g.half_length,
+                                              motion.axes.z_shortfall, nz.y, nz.x, motion.z, motion.y),
+                                 penetration_rates(g.half_depth, g.half_width, g.half_length, nz.z, nz.y, mz.z, mz.y,
+                                                   mz.x, motion.z, motion.y, v.z, v.y),
+                                 nz, g.half_depth, g.half_width, z_face, motion, memory, p, report, outside, w);
         return w;
     }
 
@@ -99,6 +97,7 @@ private:
             if (!touched) continue;
             contact = true;
             m.rate = apices(rates, side);
+            m.impact_speed = {zero, zero, zero, zero};
             if constexpr (has_memory) m.impact_speed = memory.speeds[index];
             auto const f = Law::template forces<Damping>(m, face, p.contact);
             outside = outside | f.outside;

@@ -14,10 +14,10 @@ template <class Real> struct WayParameters {
 
 /// Pose and motion of the slider as the joint sees it.
 template <class Real> struct JointMotion {
-    Axes<Real> axes;       // A_lᵀ A_k
-    Real y, z;             // slider's centre from the way's axis [m]
-    Vec3<Real> velocity;   // A_lᵀ u' [m/s]
-    Vec3<Real> spin;       // A_lᵀ ω_I [rad/s]
+    Axes<Real> axes;      // A_lᵀ A_k
+    Real y, z;            // slider's centre from the way's axis [m]
+    Vec3<Real> velocity;  // A_lᵀ u' [m/s]
+    Vec3<Real> spin;      // A_lᵀ ω_I [rad/s]
 };
 
 /// The way lies on the X axis of the inertial frame: nothing to turn.
@@ -28,16 +28,14 @@ struct AlignedWay {
                                                 WayParameters<Real> const&) {
         return {slider, position.y, position.z, velocity, spin};
     }
-    template <class Real>
-    SLIDEWAY_FN static Vec3<Real> to_inertial(Vec3<Real> const& v, WayParameters<Real> const&) {
+    template <class Real> SLIDEWAY_FN static Vec3<Real> to_inertial(Vec3<Real> const& v, WayParameters<Real> const&) {
         return v;
     }
 };
 
 /// Tolerance of the way: an offset and an attitude A_l.  p = A_lᵀ (u − u_l), p' = A_lᵀ u' (model.md 1).
 struct MisalignedWay {
-    template <class Real>
-    SLIDEWAY_FN static Vec3<Real> to_way(Vec3<Real> const& v, WayParameters<Real> const& way) {
+    template <class Real> SLIDEWAY_FN static Vec3<Real> to_way(Vec3<Real> const& v, WayParameters<Real> const& way) {
         return {dot(way.x, v), dot(way.y, v), dot(way.z, v)};
     }
     template <class Real>

@@ -13,14 +13,14 @@ struct ConservativeLaw {
     /// Not inlined: a mechanism calls it for four faces in several variants, and the code would multiply.
     template <class Damping, class Real>
     SLIDEWAY_NOINLINE static FaceForces<Real> forces(FaceMotion<Real> const& m, FaceContact<Real> const& face,
-                                               ContactParameters<Real> const& contact) {
+                                                     ContactParameters<Real> const& contact) {
         Real const zero(0.0);
         FaceForces<Real> f{{zero, zero, zero, zero}, {zero, zero, zero, zero}, zero, mask_of<Real>(false)};
         auto const& t = m.touching;
         // A floor for the depths of apices out of contact keeps every dead side finite.
         Real const dead(1e-6);
-        Quad<Real> const depth{select(t.a, m.depth.a, dead), select(t.b, m.depth.b, dead),
-                               select(t.c, m.depth.c, dead), select(t.d, m.depth.d, dead)};
+        Quad<Real> const depth{select(t.a, m.depth.a, dead), select(t.b, m.depth.b, dead), select(t.c, m.depth.c, dead),
+                               select(t.d, m.depth.d, dead)};
         add_point<Damping>(t.a, depth.a, m.rate.a, m.impact_speed.a, contact, f.normal.a, f.elastic.a, f.potential);
         add_point<Damping>(t.b, depth.b, m.rate.b, m.impact_speed.b, contact, f.normal.b, f.elastic.b, f.potential);
         add_point<Damping>(t.c, depth.c, m.rate.c, m.impact_speed.c, contact, f.normal.c, f.elastic.c, f.potential);
@@ -97,8 +97,8 @@ private:
         Real const v0 = max(max(m.impact_speed.a, m.impact_speed.b), max(m.impact_speed.c, m.impact_speed.d));
         Real const load = select(surface, face.surface_stiffness * mean, zero);
         Real const damped = load * Damping::surface_factor(mean_rate, v0, contact.damping);
-        f.normal = {fma(damped, slope.a, f.normal.a), fma(damped, slope.b, f.normal.b), fma(damped, slope.c, f.normal.c),
-                    fma(damped, slope.d, f.normal.d)};
+        f.normal = {fma(damped, slope.a, f.normal.a), fma(damped, slope.b, f.normal.b),
+                    fma(damped, slope.c, f.normal.c), fma(damped, slope.d, f.normal.d)};
         f.elastic = {fma(load, slope.a, f.elastic.a), fma(load, slope.b, f.elastic.b), fma(load, slope.c, f.elastic.c),
                      fma(load, slope.d, f.elastic.d)};
         f.potential = f.potential + Real(0.5) * load * mean;

@@ -17,9 +17,9 @@ template <class Real> struct FaceContact {
 template <class Real> struct ContactParameters {
     PointContact<Real> point;
     DampingParameters<Real> damping;
-    LineContact<Real> along;           // edges along X, both kinds of face
-    LineContact<Real> across_y_face;   // edges of the Y faces along Z
-    LineContact<Real> across_z_face;   // edges of the Z faces along Y
+    LineContact<Real> along;          // edges along X, both kinds of face
+    LineContact<Real> across_y_face;  // edges of the Y faces along Z
+    LineContact<Real> across_z_face;  // edges of the Z faces along Y
     Real surface_stiffness_y;
     Real surface_stiffness_z;
 };

@@ -8,33 +8,31 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// One value per apex of a face, in the order (X+, across+), (X+, across−), (X−, across−), (X−, across+), where
 /// `across` is Z for the Y faces and Y for the Z faces.  Neighbours, cyclically, share an edge: a–b and c–d run
 /// across the way, b–c and d–a along it.  Named members, because g++ keeps arrays of packs in memory.
-template <class Value> struct Quad {
-    Value a, b, c, d;
-};
+template <class Value> struct Quad { Value a, b, c, d; };
 
 template <class Real> SLIDEWAY_FN Real sum(Quad<Real> const& q) { return (q.a + q.b) + (q.c + q.d); }
 
 /// Which contacts a face has.  Edges are named by their apices.
 template <class Real> struct FaceModes {
     Mask<Real> surface;
-    Mask<Real> ab, bc, cd, da;     // lines
+    Mask<Real> ab, bc, cd, da;  // lines
     Quad<Mask<Real>> point;
 };
 
 /// What a face's law works on.
 template <class Real> struct FaceMotion {
-    Quad<Real> depth;              // δ [m], > 0 in contact
-    Quad<Real> rate;               // δ' [m/s]
-    Quad<Mask<Real>> touching;     // δ > 0
-    Quad<Real> impact_speed;       // v0 [m/s]; read by Restitution alone
+    Quad<Real> depth;           // δ [m], > 0 in contact
+    Quad<Real> rate;            // δ' [m/s]
+    Quad<Mask<Real>> touching;  // δ > 0
+    Quad<Real> impact_speed;    // v0 [m/s]; read by RestitutionDamping alone
 };
 
 /// What a law returns for a face.
 template <class Real> struct FaceForces {
-    Quad<Real> normal;             // F [N], damping included, >= 0
-    Quad<Real> elastic;            // F without damping [N]
-    Real potential;                // U of the elastic part [J]
-    Mask<Real> outside;            // a line contact beyond its domain; the forces of that lane are NaN
+    Quad<Real> normal;   // F [N], damping included, >= 0
+    Quad<Real> elastic;  // F without damping [N]
+    Real potential;      // U of the elastic part [J]
+    Mask<Real> outside;  // a line contact beyond its domain; the forces of that lane are NaN
 };
 
 /// Modes of a face from its touching apices (model.md 4, Qian et al. 2020, 3.2.1): all four are one surface; else each
@@ -55,7 +53,7 @@ template <class Real> SLIDEWAY_FN FaceModes<Real> face_modes(Quad<Mask<Real>> co
     return m;
 }
 
-/// Rates are written clamped at zero: no contact pulls.
-template <class Real> SLIDEWAY_FN Real clamped(Real force) { return max(force, Real(0.0)); }
+/// Forces are clamped at zero: no contact pulls.  In this order the maximum hands a NaN on.
+template <class Real> SLIDEWAY_FN Real clamped(Real force) { return max(Real(0.0), force); }
 
 }  // namespace slideway::inline SLIDEWAY_ISA

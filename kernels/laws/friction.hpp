@@ -18,10 +18,10 @@ template <class Real> struct FrictionParameters {
 
 /// One face as friction sees it.  Apex positions and velocities are affine in the apex's signs: centre ± along ± across.
 template <class Real> struct SlidingFace {
-    Vec3<Real> normal;                          // unit normal n
-    Vec3<Real> centre, along, across;           // ρ [m] from the slider's centre
-    Vec3<Real> velocity;                        // u' of the slider's centre [m/s]
-    Vec3<Real> spin;                            // ω of the slider [rad/s]
+    Vec3<Real> normal;                 // unit normal n
+    Vec3<Real> centre, along, across;  // ρ [m] from the slider's centre
+    Vec3<Real> velocity;               // u' of the slider's centre [m/s]
+    Vec3<Real> spin;                   // ω of the slider [rad/s]
 };
 
 template <class Real> struct FrictionLoad {

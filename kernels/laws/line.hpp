@@ -15,8 +15,8 @@ template <class Real> struct LineContact {
 };
 
 template <class Real> struct LineLoad {
-    Real load;         // P [N]
-    Real potential;    // V [J]
+    Real load;       // P [N]
+    Real potential;  // V [J]
     Mask<Real> outside;
 };
 
@@ -27,7 +27,7 @@ template <class Real> struct LineLoad {
 /// @param approach δ [m], 0 < δ ≤ l²/R.  @return NaN load and `outside` beyond it.
 template <class Real> SLIDEWAY_FN LineLoad<Real> line_load(Real approach, LineContact<Real> const& line) {
     Real const u = approach * line.radius_rate;
-    auto const outside = u > Real(1.0);
+    auto const outside = !(u <= Real(1.0));
     // Below 1e-32 of its domain the load is nil in double precision; the logarithm needs a normal number.
     Real const inside = min(max(u, Real(1e-32)), Real(1.0));
     auto const w = minus_lambert_wm1_exp(negated(log_positive(inside)));

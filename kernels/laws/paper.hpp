@@ -12,7 +12,7 @@ struct PaperLaw {
     /// Not inlined: a mechanism calls it for four faces in several variants, and the code would multiply.
     template <class Damping, class Real>
     SLIDEWAY_NOINLINE static FaceForces<Real> forces(FaceMotion<Real> const& m, FaceContact<Real> const& face,
-                                               ContactParameters<Real> const& contact) {
+                                                     ContactParameters<Real> const& contact) {
         auto const modes = face_modes<Real>(m.touching);
         Real const zero(0.0);
         FaceForces<Real> f{{zero, zero, zero, zero}, {zero, zero, zero, zero}, zero, mask_of<Real>(false)};
@@ -45,8 +45,8 @@ private:
         f.elastic = {select(surface, elastic.a, zero), select(surface, elastic.b, zero),
                      select(surface, elastic.c, zero), select(surface, elastic.d, zero)};
         f.normal = {f.elastic.a * factor, f.elastic.b * factor, f.elastic.c * factor, f.elastic.d * factor};
-        Real const stored = fma(elastic.a, m.depth.a, elastic.b * m.depth.b) +
-                            fma(elastic.c, m.depth.c, elastic.d * m.depth.d);
+        Real const stored =
+            fma(elastic.a, m.depth.a, elastic.b * m.depth.b) + fma(elastic.c, m.depth.c, elastic.d * m.depth.d);
         f.potential = select(surface, Real(0.5) * stored, zero);
     }
 

@@ -8,9 +8,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 namespace detail {
 
 /// x = 2^exponent (1 + fraction), fraction in [√½ − 1, √2 − 1] and exact.
-template <class Real> struct LogarithmSplit {
-    Real exponent, fraction;
-};
+template <class Real> struct LogarithmSplit { Real exponent, fraction; };
 
 template <class Real> SLIDEWAY_FN LogarithmSplit<Real> split_for_logarithm(Real x) {
     Real mantissa, exponent;

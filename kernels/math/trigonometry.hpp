@@ -88,9 +88,11 @@ template <class Arch> SLIDEWAY_FN SinCos<Batch<Arch>> sincos(Batch<Arch> x) { re
 template <class Real> SLIDEWAY_FN Real sin_quarter(Real x) {
     Real const square = x * x;
     // The series' first term by itself: it is large, and Estrin's powers would carry their errors into it.
-    Real const s = fma(square, polynomial(square, 0.008333333333333219, -0.00019841269841217545, 2.75573192124693e-06,
-                                          -2.5052106987820503e-08, 1.6058945196506933e-10, -7.643127882360041e-13,
-                                          2.7225512927491773e-15), Real(-0.16666666666666666));
+    Real const s =
+        fma(square,
+            polynomial(square, 0.008333333333333219, -0.00019841269841217545, 2.75573192124693e-06,
+                       -2.5052106987820503e-08, 1.6058945196506933e-10, -7.643127882360041e-13, 2.7225512927491773e-15),
+            Real(-0.16666666666666666));
     return fma(square * x, s, x);
 }
 

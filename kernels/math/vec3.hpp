@@ -4,9 +4,7 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-template <class Real> struct Vec3 {
-    Real x, y, z;
-};
+template <class Real> struct Vec3 { Real x, y, z; };
 
 template <class Real> SLIDEWAY_FN Vec3<Real> operator+(Vec3<Real> const& a, Vec3<Real> const& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};

@@ -42,7 +42,7 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
         // Rod: D² + (y − y_A)² + z² = L² gives x and its rates.
         Real const dy = y - ay;
         Real const reach = fnma(z, z, fnma(dy, dy, p.rod_length * p.rod_length));
-        faults.geometry = !(reach > zero);
+        faults.geometry = reach <= zero;  // NaN has another cause
         Real const d = sqrt(reach);
         Real const inverse_d = one / d;
         Real const ky = negated(dy) * inverse_d, kz = negated(z) * inverse_d;
@@ -119,7 +119,14 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
         return p.slider_mass * speed * speed;
     }
 
-    SLIDEWAY_HD static SliderCrankParameters<double> parameters(Inputs const& inputs) { return slider_crank_parameters(inputs); }
+    /// Length [m] against which the tolerance of a located touch is meant.
+    template <class Real> SLIDEWAY_FN static Real touch_scale(SliderCrankParameters<Real> const& p) {
+        return min(p.length_scale_y, p.length_scale_z);
+    }
+
+    SLIDEWAY_HD static SliderCrankParameters<double> parameters(Inputs const& inputs) {
+        return slider_crank_parameters(inputs);
+    }
 
     SLIDEWAY_HD static void initial_state(Inputs const& in, double* s) {
         double const start[size] = {in.y, in.z, in.vy, in.vz, in.roll, in.yaw, in.pitch, in.wx, in.wy, in.wz};

@@ -12,24 +12,24 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// All numbers that the slider-crank's kernels need of one member (or one pack), derived once from its inputs.
 template <class Real> struct SliderCrankParameters {
     // crank and rod
-    Real crank_length;         // r [m]
-    Real crank_speed;          // ω [rad/s]
-    Real start_angle;          // θ0 [rad]
-    Real rod_length;           // L [m]
-    Real m_aa, m_ab;           // rod's mass matrix between its ends [kg]
-    Real mass;                 // m = M + m_BB [kg]
-    Real gravity_x, gravity_y; // g⃗ [m/s²]
-    Real weighing_mass;        // M + m_r f_r: whose weight acts on B [kg]
+    Real crank_length;          // r [m]
+    Real crank_speed;           // ω [rad/s]
+    Real start_angle;           // θ0 [rad]
+    Real rod_length;            // L [m]
+    Real m_aa, m_ab;            // rod's mass matrix between its ends [kg]
+    Real mass;                  // m = M + m_BB [kg]
+    Real gravity_x, gravity_y;  // g⃗ [m/s²]
+    Real weighing_mass;         // M + m_r f_r: whose weight acts on B [kg]
     // slider
-    Real slider_mass;          // M [kg]
-    Vec3<Real> inertia;        // I [kg m²]
+    Real slider_mass;    // M [kg]
+    Vec3<Real> inertia;  // I [kg m²]
     Vec3<Real> inverse_inertia;
     JointParameters<Real> joint;
     // energy and torque only
-    Real rod_mass;             // m_r [kg]
-    Real rod_mass_center;      // f_r
-    Real rod_spin_mass;        // J/L² [kg]
-    Real crank_moment;         // m_c r/2 [kg m]
+    Real rod_mass;         // m_r [kg]
+    Real rod_mass_center;  // f_r
+    Real rod_spin_mass;    // J/L² [kg]
+    Real crank_moment;     // m_c r/2 [kg m]
     // scales of the error control
     Real length_scale_y, length_scale_z;  // clearances [m]
     Real tilt_scale;                      // 2c/L_k [rad]

@@ -8,21 +8,19 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// One end of the rod.
-template <class Real> struct CrankState {
-    Vec3<Real> position, velocity, acceleration;
-};
+template <class Real> struct CrankState { Vec3<Real> position, velocity, acceleration; };
 
 /// All that a state of the slider-crank tells beside its derivative.
 template <class Real> struct SliderCrankReport {
     ContactReport<Real> contact;
-    Real x, vx;                 // slider's centre along the way
-    Real crank_power;           // F_A · v_A [W]
-    Real crank_torque;          // (A × F_A)_z [N m]
-    Real drive_torque;          // the crank's own weight included [N m]
-    Real energy;                // E of model.md 8, contact potential included [J]
-    Real position_error;        // distance of the slider's centre from the ideal mechanism's [m]
-    Real rod_spin;              // rod's angular velocity, magnitude [rad/s]
-    Real rod_spin_z;            // its component about Z
+    Real x, vx;           // slider's centre along the way
+    Real crank_power;     // F_A · v_A [W]
+    Real crank_torque;    // (A × F_A)_z [N m]
+    Real drive_torque;    // the crank's own weight included [N m]
+    Real energy;          // E of model.md 8, contact potential included [J]
+    Real position_error;  // distance of the slider's centre from the ideal mechanism's [m]
+    Real rod_spin;        // rod's angular velocity, magnitude [rad/s]
+    Real rod_spin_z;      // its component about Z
 
     SLIDEWAY_FN void fill(CrankState<Real> const& a, CrankState<Real> const& b, Real d, Vec3<Real> const& omega,
                           Vec3<Real> const& contact_force, SliderCrankParameters<Real> const& p) {
@@ -34,8 +32,8 @@ template <class Real> struct SliderCrankReport {
         // Force of the crank pin on the rod: F_A = m_AA a_A + m_AB a_B − m_r (1 − f_r) g⃗ + Λ with
         // Λ = M a_B − F_c − M g⃗ + m_BB a_B + m_AB a_A − m_r f_r g⃗ (model.md 6).
         auto const rod_end = p.mass * b.acceleration + p.m_ab * a.acceleration - contact_force;
-        auto const pin_force = p.m_aa * a.acceleration + p.m_ab * b.acceleration + rod_end -
-                               (p.slider_mass + p.rod_mass) * gravity;
+        auto const pin_force =
+            p.m_aa * a.acceleration + p.m_ab * b.acceleration + rod_end - (p.slider_mass + p.rod_mass) * gravity;
         crank_power = dot(pin_force, a.velocity);
         crank_torque = fms(a.position.x, pin_force.y, a.position.y * pin_force.x);
         // m_c g (r/2) cos(θ + β) = −(m_c r/2)(g_y cos θ − g_x sin θ)
@@ -49,9 +47,9 @@ template <class Real> struct SliderCrankReport {
         auto const rod_position = (one - center) * a.position + center * b.position;
         auto const relative = b.velocity - a.velocity;
         Vec3<Real> const momentum{p.inertia.x * omega.x, p.inertia.y * omega.y, p.inertia.z * omega.z};
-        Real const kinetic = half * (p.slider_mass * dot(b.velocity, b.velocity) +
-                                     p.rod_mass * dot(rod_velocity, rod_velocity) +
-                                     p.rod_spin_mass * dot(relative, relative) + dot(omega, momentum));
+        Real const kinetic =
+            half * (p.slider_mass * dot(b.velocity, b.velocity) + p.rod_mass * dot(rod_velocity, rod_velocity) +
+                    p.rod_spin_mass * dot(relative, relative) + dot(omega, momentum));
         Real const height = p.slider_mass * dot(gravity, b.position) + p.rod_mass * dot(gravity, rod_position);
         energy = kinetic - height + contact.potential;
 

@@ -63,8 +63,27 @@ static_assert(sizeof(quantity_table) / sizeof(quantity_table[0]) == quantity_cou
 inline constexpr char const* mode_class_names[] = {"free", "point", "line", "surface"};
 
 /// Values at the sample times.  The first ten are the state and always stored with a time series.
-enum class Series : int { y, z, vy, vz, roll, yaw, pitch, wx, wy, wz,
-                          x, vx, normal_force, crank_torque, rod_angular_velocity, surfaces, lines, points, count };
+enum class Series : int {
+    y,
+    z,
+    vy,
+    vz,
+    roll,
+    yaw,
+    pitch,
+    wx,
+    wy,
+    wz,
+    x,
+    vx,
+    normal_force,
+    crank_torque,
+    rod_angular_velocity,
+    surfaces,
+    lines,
+    points,
+    count
+};
 
 struct SeriesInfo {
     char const* name;

@@ -19,7 +19,7 @@ public:
     /// @param report read only where a series beyond the state is selected.
     template <class Real>
     SLIDEWAY_HD void write(int index, std::size_t member, std::size_t sample, Real const* state,
-               SliderCrankReport<Real> const& report) const {
+                           SliderCrankReport<Real> const& report) const {
         std::size_t row = 0;
         for (int i = 0; i < series_count; ++i) {
             auto const series = static_cast<Series>(i);
@@ -42,15 +42,24 @@ private:
     template <class Real>
     SLIDEWAY_HD static double reported(Series series, int index, SliderCrankReport<Real> const& r) {
         switch (series) {
-            case Series::x: return lane(r.x, index);
-            case Series::vx: return lane(r.vx, index);
-            case Series::normal_force: return lane(r.contact.total_force(), index);
-            case Series::crank_torque: return lane(r.drive_torque, index);
-            case Series::rod_angular_velocity: return lane(r.rod_spin_z, index);
-            case Series::surfaces: return lane(r.contact.surfaces, index);
-            case Series::lines: return lane(r.contact.lines, index);
-            case Series::points: return lane(r.contact.points, index);
-            default: return follows;
+            case Series::x:
+                return lane(r.x, index);
+            case Series::vx:
+                return lane(r.vx, index);
+            case Series::normal_force:
+                return lane(r.contact.total_force(), index);
+            case Series::crank_torque:
+                return lane(r.drive_torque, index);
+            case Series::rod_angular_velocity:
+                return lane(r.rod_spin_z, index);
+            case Series::surfaces:
+                return lane(r.contact.surfaces, index);
+            case Series::lines:
+                return lane(r.contact.lines, index);
+            case Series::points:
+                return lane(r.contact.points, index);
+            default:
+                return follows;
         }
     }
 

@@ -20,10 +20,10 @@ public:
     static constexpr int audit_integrals = 3;
 
     SLIDEWAY_HD static constexpr bool needs_stages(Selection q) {
-        for (auto const i : {Quantity::mean_normal_force, Quantity::mean_apex_force, Quantity::energy_residual,
-                             Quantity::crank_work, Quantity::friction_loss, Quantity::damping_loss,
-                             Quantity::rms_crank_torque, Quantity::rms_position_error,
-                             Quantity::rms_rod_angular_velocity}) {
+        for (auto const i :
+             {Quantity::mean_normal_force, Quantity::mean_apex_force, Quantity::energy_residual, Quantity::crank_work,
+              Quantity::friction_loss, Quantity::damping_loss, Quantity::rms_crank_torque, Quantity::rms_position_error,
+              Quantity::rms_rod_angular_velocity}) {
             if (selects(q, i)) return true;
         }
         return false;

@@ -117,10 +117,18 @@ TEST_P(EngineParity, ABadNeighbourChangesNothing) {
             auto members = good;
             auto bad = good[0];
             switch (position % 4) {
-                case 0: bad.vy = NAN; break;
-                case 1: bad.y = 1.0; break;            // beyond the rod's reach
-                case 2: bad.wx = INFINITY; break;
-                case 3: bad.y = 5e-3; break;           // deep inside the wall
+                case 0:
+                    bad.vy = NAN;
+                    break;
+                case 1:
+                    bad.y = 1.0;
+                    break;  // beyond the rod's reach
+                case 2:
+                    bad.wx = INFINITY;
+                    break;
+                case 3:
+                    bad.y = 5e-3;
+                    break;  // deep inside the wall
             }
             members.insert(members.begin() + static_cast<std::ptrdiff_t>(position), bad);
             auto const got = testing::run(isa, o, members);

@@ -13,9 +13,9 @@ namespace slideway::testing {
 
 struct EnsembleResult {
     std::vector<MemberRecord> records;
-    std::vector<std::array<double, state_size>> states;      // at the end
+    std::vector<std::array<double, state_size>> states;  // at the end
     std::vector<std::array<double, quantity_columns>> quantities;
-    std::vector<double> series;                               // [series][member][sample]
+    std::vector<double> series;  // [series][member][sample]
     std::uint64_t lane_steps_executed = 0, lane_steps_useful = 0;
     double value(std::size_t member, Quantity q, int column = 0) const {
         return quantities[member][static_cast<std::size_t>(quantity_column(q) + column)];
@@ -82,7 +82,8 @@ inline Inputs golden_start(double clearance, double crank_speed) {
 }
 
 /// Members that start without contact at scattered poses, by a fixed rule without random numbers.
-inline std::vector<Inputs> scattered_starts(std::size_t count, double clearance = 1e-4, double crank_speed = 3.141592653589793) {
+inline std::vector<Inputs> scattered_starts(std::size_t count, double clearance = 1e-4,
+                                            double crank_speed = 3.141592653589793) {
     std::vector<Inputs> members;
     for (std::size_t i = 0; i < count; ++i) {
         auto in = golden_start(clearance, crank_speed);

@@ -33,7 +33,9 @@ public:
                 << what_ << ": " << name << " " << i << " is " << got[i] << ", the oracle says " << reference[i];
         }
     }
-    void value(char const* name, double reference, double got, double floor = 0) { group(name, &reference, &got, 1, floor); }
+    void value(char const* name, double reference, double got, double floor = 0) {
+        group(name, &reference, &got, 1, floor);
+    }
 
 private:
     std::string what_;
@@ -45,15 +47,17 @@ double load_of(oracle::Result const& r) {
     return sum;
 }
 
-template <std::size_t n> std::array<double, 2 * n> joined(std::array<double, n> const& a, std::array<double, n> const& b) {
+template <std::size_t n>
+std::array<double, 2 * n> joined(std::array<double, n> const& a, std::array<double, n> const& b) {
     std::array<double, 2 * n> all;
     std::copy(a.begin(), a.end(), all.begin());
     std::copy(b.begin(), b.end(), all.begin() + n);
     return all;
 }
 
-void compare(std::string const& what, oracle::Case const& c, oracle::Result const& r, double const* d, double const* depths,
-             double const* forces, double const* powers, double energy, double potential, double torque) {
+void compare(std::string const& what, oracle::Case const& c, oracle::Result const& r, double const* d,
+             double const* depths, double const* forces, double const* powers, double energy, double potential,
+             double torque) {
     Comparison compare(what);
     double const load = load_of(r);
     compare.group("position rates", r.derivative.data(), d, 2);
@@ -89,7 +93,8 @@ TEST_P(KernelsAgainstOracle, AgreeOnThousandsOfStates) {
         for (std::size_t j = 0; j < 10; ++j) *state[j] = c.state[j];
         ProbeResult p;
         find_instance(GetParam(), c.parts).probe({&in, &c.t, 1, &p});
-        std::vector<double> depths(p.penetration_y, p.penetration_y + 8), forces(p.normal_force_y, p.normal_force_y + 8);
+        std::vector<double> depths(p.penetration_y, p.penetration_y + 8),
+            forces(p.normal_force_y, p.normal_force_y + 8);
         depths.insert(depths.end(), p.penetration_z, p.penetration_z + 8);
         forces.insert(forces.end(), p.normal_force_z, p.normal_force_z + 8);
         double const powers[] = {p.power_crank, p.power_friction, p.power_damping};
@@ -98,19 +103,20 @@ TEST_P(KernelsAgainstOracle, AgreeOnThousandsOfStates) {
         EXPECT_EQ(p.surfaces, r.surfaces) << what;
         EXPECT_EQ(p.lines, r.lines) << what;
         EXPECT_EQ(p.points, r.points) << what;
-        compare(what, c, r, p.derivative, depths.data(), forces.data(), powers, p.energy, p.contact_potential, p.crank_torque);
+        compare(what, c, r, p.derivative, depths.data(), forces.data(), powers, p.energy, p.contact_potential,
+                p.crank_torque);
         ++compared;
         if (HasFailure()) break;
     }
     EXPECT_GT(compared, 3500);
 }
 
-INSTANTIATE_TEST_SUITE_P(Isas, KernelsAgainstOracle,
-                         ::testing::Values(Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx512),
+INSTANTIATE_TEST_SUITE_P(Isas, KernelsAgainstOracle, ::testing::Values(Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx512),
                          [](auto const& p) { return std::string(name_of(p.param)); });
 
 /// The restitution memory and what only observers see, which the probe does not show: through the kernel itself.
-template <class Law, class Friction, class Way> void compare_restitution(oracle::Case const& c, std::string const& what) {
+template <class Law, class Friction, class Way>
+void compare_restitution(oracle::Case const& c, std::string const& what) {
     using Model = SliderCrank<Law, Friction, Way, RestitutionDamping>;
     auto const r = oracle::evaluate(c.inputs, c.parts, c.t, c.state, &c.impact_speeds);
     if (r.geometry || r.contact_domain) return;

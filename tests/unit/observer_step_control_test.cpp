@@ -32,7 +32,8 @@ TEST(StepControl, FollowsTheErrorAndItsMemory) {
 TEST(StepControl, ForgetsNothingWhenAStepFails) {
     double const before = 2 * std::log(0.5);
     double memory = before;
-    EXPECT_NEAR(factor(20, false, false, memory), 0.9 * std::pow(20, -0.17), 1e-14) << "the memory has no say in a failure";
+    EXPECT_NEAR(factor(20, false, false, memory), 0.9 * std::pow(20, -0.17), 1e-14)
+        << "the memory has no say in a failure";
     EXPECT_EQ(memory, before);
 }
 
@@ -43,7 +44,8 @@ TEST(StepControl, StaysWithinItsLimits) {
     EXPECT_EQ(factor(0, true, true, memory), 1) << "no growth after a failure";
     EXPECT_EQ(factor(1.0001, false, false, memory), 0.9 * std::pow(1.0001, -0.17)) << "a failed step shrinks";
     EXPECT_EQ(factor(1e9, false, false, memory), 0.2);
-    for (double const error : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e200}) {
+    for (double const error :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e200}) {
         EXPECT_EQ(factor(error, false, false, memory), 0.1) << error;
         EXPECT_TRUE(std::isfinite(memory));
     }

@@ -46,7 +46,8 @@ public:
 
     void start(Report const& r, State const& state = {}) { observer_.start(true, r, state.data()); }
     /// One step of length h whose integrands all have the given stage means.
-    void step(double h, Report const& r, State const& state = {}, std::vector<double> means = {}, bool accepted = true) {
+    void step(double h, Report const& r, State const& state = {}, std::vector<double> means = {},
+              bool accepted = true) {
         means.resize(Observer::integrals, 0.0);
         observer_.accept(accepted, h, means.data(), r, state.data());
     }
@@ -99,7 +100,8 @@ TEST(Observer, PeaksAreTheLargestOfStartAndAcceptedSteps) {
         watched.step(1, at(2), tilt(2));
         watched.finish(2);
         EXPECT_EQ(watched(Quantity::peak_normal_force), 4444 + 6 * 4) << largest;
-        for (int apex = 0; apex < 8; ++apex) EXPECT_EQ(watched(Quantity::peak_apex_force, apex), apex_forces[apex]) << apex;
+        for (int apex = 0; apex < 8; ++apex)
+            EXPECT_EQ(watched(Quantity::peak_apex_force, apex), apex_forces[apex]) << apex;
         EXPECT_EQ(watched(Quantity::peak_crank_torque), 7) << "the magnitude of the drive torque, " << largest;
         EXPECT_EQ(watched(Quantity::peak_position_error), 11);
         EXPECT_EQ(watched(Quantity::peak_rod_angular_velocity), 13);
@@ -140,18 +142,19 @@ TEST(Observer, MeansAndSumsAreIntegralsOfTheSteps) {
     EXPECT_EQ(watched(Quantity::rms_crank_torque), std::sqrt(35 / 4.0));
     EXPECT_EQ(watched(Quantity::rms_position_error), std::sqrt(42 / 4.0));
     EXPECT_EQ(watched(Quantity::rms_rod_angular_velocity), std::sqrt(49 / 4.0));
-    for (int apex = 0; apex < 8; ++apex) EXPECT_EQ(watched(Quantity::mean_apex_force, apex), 7 * (8 + apex) / 4.0) << apex;
+    for (int apex = 0; apex < 8; ++apex)
+        EXPECT_EQ(watched(Quantity::mean_apex_force, apex), 7 * (8 + apex) / 4.0) << apex;
 }
 
 TEST(Observer, SharesAStepBetweenTwoModesByHalves) {
     Watched watched;
     watched.start(in_mode(0, 0, 0));
-    watched.step(2, in_mode(0, 0, 0));    // free 2
-    watched.step(4, in_mode(0, 0, 1));    // free 2, point 2
-    watched.step(8, in_mode(0, 2, 1));    // point 4, line 4
-    watched.step(16, in_mode(1, 0, 0));   // line 8, surface 8
-    watched.step(32, in_mode(1, 2, 0));   // surface 32
-    watched.step(64, in_mode(0, 0, 0));   // surface 32, free 32
+    watched.step(2, in_mode(0, 0, 0));   // free 2
+    watched.step(4, in_mode(0, 0, 1));   // free 2, point 2
+    watched.step(8, in_mode(0, 2, 1));   // point 4, line 4
+    watched.step(16, in_mode(1, 0, 0));  // line 8, surface 8
+    watched.step(32, in_mode(1, 2, 0));  // surface 32
+    watched.step(64, in_mode(0, 0, 0));  // surface 32, free 32
     watched.finish(126);
     EXPECT_EQ(watched(Quantity::mode_time, 0), 36);
     EXPECT_EQ(watched(Quantity::mode_time, 1), 6);
@@ -161,15 +164,15 @@ TEST(Observer, SharesAStepBetweenTwoModesByHalves) {
 
 TEST(Observer, CountsOnsetsFromFreeFlightAlone) {
     Watched watched;
-    watched.start(in_mode(0, 1, 0));      // a start in contact is none
-    watched.step(1, in_mode(1, 0, 0));    // harder, but no onset
-    watched.step(1, in_mode(0, 0, 0));    // leaving
+    watched.start(in_mode(0, 1, 0));    // a start in contact is none
+    watched.step(1, in_mode(1, 0, 0));  // harder, but no onset
+    watched.step(1, in_mode(0, 0, 0));  // leaving
     watched.step(1, in_mode(0, 0, 0));
-    watched.step(1, in_mode(0, 0, 3));    // first
+    watched.step(1, in_mode(0, 0, 3));  // first
     watched.step(1, in_mode(0, 1, 0));
     watched.step(1, in_mode(0, 0, 1));
     watched.step(1, in_mode(0, 0, 0));
-    watched.step(1, in_mode(2, 0, 0));    // second
+    watched.step(1, in_mode(2, 0, 0));  // second
     watched.step(1, in_mode(0, 0, 0));
     watched.finish(9);
     EXPECT_EQ(watched(Quantity::contact_onsets), 2);
@@ -192,7 +195,8 @@ TEST(Observer, TakesNothingFromARejectedLane) {
     }
     for (int q = 0; q < quantity_count; ++q) {
         for (int column = 0; column < quantity_table[q].columns; ++column) {
-            EXPECT_EQ(unseen(static_cast<Quantity>(q), column), seen(static_cast<Quantity>(q), column)) << quantity_table[q].name;
+            EXPECT_EQ(unseen(static_cast<Quantity>(q), column), seen(static_cast<Quantity>(q), column))
+                << quantity_table[q].name;
         }
     }
 }
@@ -210,7 +214,8 @@ TEST(Observer, BeginsEveryMemberAnew) {
     }
     for (int q = 0; q < quantity_count; ++q) {
         for (int column = 0; column < quantity_table[q].columns; ++column) {
-            EXPECT_EQ(used(static_cast<Quantity>(q), column), fresh(static_cast<Quantity>(q), column)) << quantity_table[q].name;
+            EXPECT_EQ(used(static_cast<Quantity>(q), column), fresh(static_cast<Quantity>(q), column))
+                << quantity_table[q].name;
         }
     }
 }

@@ -15,21 +15,27 @@ struct Extreme {
     std::string name;
     std::function<void(Inputs&)> change;
     bool must_finish;
-    Status otherwise = Status::finished;   // when it must not finish: the status it must have
+    Status otherwise = Status::finished;  // when it must not finish: the status it must have
 };
 
 std::vector<Extreme> extremes() {
     return {
         // Tolerances of 1e-13 m let the paper's law chatter between its modes: it may spend its steps.
         {"clearance 1e-7 m",
-         [](Inputs& in) { in.clearance_y = in.clearance_z = 1e-7, in.z = in.y = in.roll = in.yaw = in.pitch = 0; }, false},
+         [](Inputs& in) { in.clearance_y = in.clearance_z = 1e-7, in.z = in.y = in.roll = in.yaw = in.pitch = 0; },
+         false},
         {"clearance 5 mm", [](Inputs& in) { in.clearance_y = in.clearance_z = 5e-3; }, true},
         {"crank at rest", [](Inputs& in) { in.crank_speed = 0; }, true},
         {"crank 500 rad/s", [](Inputs& in) { in.crank_speed = 500; }, true},
         {"crank -500 rad/s", [](Inputs& in) { in.crank_speed = -500; }, true},
         {"E 1e5 Pa", [](Inputs& in) { in.slider_young_modulus = in.way_young_modulus = 1e5; }, true},
         {"E 1e13 Pa", [](Inputs& in) { in.slider_young_modulus = in.way_young_modulus = 1e13; }, true},
-        {"E 1e5 against 1e13 Pa", [](Inputs& in) { in.slider_young_modulus = 1e5; in.way_young_modulus = 1e13; }, true},
+        {"E 1e5 against 1e13 Pa",
+         [](Inputs& in) {
+             in.slider_young_modulus = 1e5;
+             in.way_young_modulus = 1e13;
+         },
+         true},
         {"start 10 um inside the wall", [](Inputs& in) { in.y = -1.1e-4; }, true},
         {"start 1 mm inside the wall", [](Inputs& in) { in.y = -1.1e-3; }, false},
         {"start upside down", [](Inputs& in) { in.roll = 3.0; }, false},
@@ -39,11 +45,16 @@ std::vector<Extreme> extremes() {
         {"zero gravity", [](Inputs& in) { in.gravity = 0; }, true},
         {"NaN state", [](Inputs& in) { in.vz = NAN; }, false, Status::nonfinite},
         {"infinite state", [](Inputs& in) { in.wy = INFINITY; }, false, Status::nonfinite},
-        {"NaN parameter", [](Inputs& in) { in.edge_radius = NAN; in.slider_mass = NAN; }, false, Status::nonfinite},
+        {"NaN parameter",
+         [](Inputs& in) {
+             in.edge_radius = NAN;
+             in.slider_mass = NAN;
+         },
+         false, Status::nonfinite},
         {"infinite speed", [](Inputs& in) { in.vy = 1e300; }, false},
         {"yaw at a right angle", [](Inputs& in) { in.yaw = 1.5707963267948966; }, false},
-        {"line contact beyond its domain",
-         [](Inputs& in) { in.edge_radius = 1e6, in.y = -1.2e-4, in.pitch = 2e-3; }, false, Status::contact_domain},
+        {"line contact beyond its domain", [](Inputs& in) { in.edge_radius = 1e6, in.y = -1.2e-4, in.pitch = 2e-3; },
+         false, Status::contact_domain},
     };
 }
 

@@ -163,8 +163,9 @@ TEST_P(SampledRun, ApexForcesErrorsAndRodSpinAreTheOraclesOverTime) {
             int const column = static_cast<int>(a);
             double const got = result_.value(m, Quantity::mean_apex_force, column);
             EXPECT_NEAR(got, mean([&](std::size_t i) { return apex[a][i]; }), jump * force) << m << " apex " << a;
-            EXPECT_NEAR(result_.value(m, Quantity::peak_apex_force, column), *std::max_element(apex[a].begin(), apex[a].end()),
-                        std::max(jump, 1e-3) * peak) << m << " apex " << a;
+            EXPECT_NEAR(result_.value(m, Quantity::peak_apex_force, column),
+                        *std::max_element(apex[a].begin(), apex[a].end()), std::max(jump, 1e-3) * peak)
+                << m << " apex " << a;
             means += got;
         }
         EXPECT_NEAR(means, force, 1e-12 * force) << "the apices share the total force";
@@ -173,9 +174,11 @@ TEST_P(SampledRun, ApexForcesErrorsAndRodSpinAreTheOraclesOverTime) {
         };
         double const e = root_mean_square(error), w = root_mean_square(spin);
         EXPECT_NEAR(result_.value(m, Quantity::rms_position_error), e, 1e-6 * e);
-        EXPECT_NEAR(result_.value(m, Quantity::peak_position_error), *std::max_element(error.begin(), error.end()), 1e-4 * e);
+        EXPECT_NEAR(result_.value(m, Quantity::peak_position_error), *std::max_element(error.begin(), error.end()),
+                    1e-4 * e);
         EXPECT_NEAR(result_.value(m, Quantity::rms_rod_angular_velocity), w, 1e-6 * w);
-        EXPECT_NEAR(result_.value(m, Quantity::peak_rod_angular_velocity), *std::max_element(spin.begin(), spin.end()), 1e-4 * w);
+        EXPECT_NEAR(result_.value(m, Quantity::peak_rod_angular_velocity), *std::max_element(spin.begin(), spin.end()),
+                    1e-4 * w);
     }
 }
 
@@ -185,7 +188,8 @@ TEST_P(SampledRun, PeaksAreThoseOfTheSeries) {
     for (std::size_t m = 0; m < members_.size(); ++m) {
         auto const compare = [&](Quantity q, int column, Series s, double slack) {
             double const peak = largest([&](std::size_t i) { return at(s, m, i); });
-            EXPECT_NEAR(result_.value(m, q, column), peak, slack * peak) << m << " " << series_table[static_cast<int>(s)].name;
+            EXPECT_NEAR(result_.value(m, q, column), peak, slack * peak)
+                << m << " " << series_table[static_cast<int>(s)].name;
         };
         compare(Quantity::peak_normal_force, 0, Series::normal_force, 1e-2);
         compare(Quantity::peak_crank_torque, 0, Series::crank_torque, 1e-2);
@@ -243,7 +247,8 @@ TEST_P(SampledRun, EnergyIsTheOraclesOfTheFirstAndLastState) {
         EXPECT_NEAR(result_.value(m, Quantity::energy_residual),
                     change - result_.value(m, Quantity::crank_work) + result_.value(m, Quantity::friction_loss) +
                         result_.value(m, Quantity::damping_loss),
-                    1e-12) << m;
+                    1e-12)
+            << m;
     }
 }
 
@@ -254,7 +259,8 @@ TEST_P(SampledRun, WorkAndLossesAreIntegralsOfTheOraclesPowers) {
         auto const integral = [&](double oracle::Result::*power) {
             return end_time * mean([&](std::size_t i) { return all[i].*power; });
         };
-        double const work = integral(&oracle::Result::power_crank), friction = integral(&oracle::Result::power_friction);
+        double const work = integral(&oracle::Result::power_crank),
+                     friction = integral(&oracle::Result::power_friction);
         double const damping = integral(&oracle::Result::power_damping);
         double const jump = GetParam() == Law::paper ? 2e-2 : 1e-3;
         double const scale = std::abs(work) + friction + damping;

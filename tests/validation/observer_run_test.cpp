@@ -210,7 +210,8 @@ TEST(Quantities, OnlyTheAuditHasASayInTheSteps) {
             EXPECT_EQ(got.records[m].steps_accepted, expected.records[m].steps_accepted) << quantity_table[q].name;
         }
     }
-    EXPECT_NE(audited.records[0].steps_accepted, without.records[0].steps_accepted) << "the audit must have its say here";
+    EXPECT_NE(audited.records[0].steps_accepted, without.records[0].steps_accepted)
+        << "the audit must have its say here";
 }
 
 TEST(Quantities, AskedForAloneAreWhatTheyAreTogether) {
@@ -225,7 +226,8 @@ TEST(Quantities, AskedForAloneAreWhatTheyAreTogether) {
             auto const alone = testing::run(best_isa(), o, members);
             for (std::size_t m = 0; m < members.size(); ++m) {
                 for (int column = 0; column < quantity_table[q].columns; ++column) {
-                    EXPECT_EQ(alone.value(m, static_cast<Quantity>(q), column), all.value(m, static_cast<Quantity>(q), column))
+                    EXPECT_EQ(alone.value(m, static_cast<Quantity>(q), column),
+                              all.value(m, static_cast<Quantity>(q), column))
                         << quantity_table[q].name << " member " << m;
                 }
             }

@@ -58,7 +58,8 @@ TEST(Restitution, LosesTheEnergyOfTheImpact) {
     in = complete_inputs(in);
     auto const r = testing::run(best_isa(), options, {in});
     // The rod turns about its crank end with y: half its mass matrix at B moves along.
-    double const rod = in.rod_mass * in.rod_mass_center * in.rod_mass_center + in.rod_inertia / (in.rod_length * in.rod_length);
+    double const rod =
+        in.rod_mass * in.rod_mass_center * in.rod_mass_center + in.rod_inertia / (in.rod_length * in.rod_length);
     double const kinetic = 0.5 * (in.slider_mass + rod) * in.vy * in.vy;
     EXPECT_NEAR(r.value(0, Quantity::damping_loss), 0.75 * kinetic, 1e-3 * kinetic);
     EXPECT_NEAR(r.value(0, Quantity::energy_residual), 0, 1e-6 * kinetic);

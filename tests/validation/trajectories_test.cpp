@@ -17,7 +17,8 @@ TEST_P(GoldenTrajectories, AreMetAtTightTolerance) {
     auto const table = golden::Table::read(SLIDEWAY_TEST_DATA "/golden/trajectories.csv");
     ASSERT_EQ(table.rows(), 72u);
     for (std::size_t row = 0; row < table.rows(); ++row) {
-        auto in = testing::golden_start(table.number(row, "joint.clearance"), table.number(row, "mechanism.crank_speed"));
+        auto in =
+            testing::golden_start(table.number(row, "joint.clearance"), table.number(row, "mechanism.crank_speed"));
         in.chi_line = table.number(row, "contact.chi_line");
         in.chi_surface = table.number(row, "contact.chi_surface");
         testing::RunOptions options;
@@ -38,7 +39,8 @@ TEST_P(GoldenTrajectories, AreMetAtTightTolerance) {
         EXPECT_NEAR(got.value(0, Quantity::damping_loss), table.number(row, "loss_damping"), energy) << "row " << row;
         // The table gives the paper law's residual to three digits.
         double const residual = table.number(row, "energy_residual");
-        EXPECT_NEAR(got.value(0, Quantity::energy_residual), residual, energy + 2e-3 * std::abs(residual)) << "row " << row;
+        EXPECT_NEAR(got.value(0, Quantity::energy_residual), residual, energy + 2e-3 * std::abs(residual))
+            << "row " << row;
     }
 }
 
