@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -125,6 +127,13 @@ void check_size(Sampling const& sampling, Scene const& scene) {
 
 }  // namespace
 
+/// Settled contact asks an explicit method for some 0.5 million steps a second; a member that wants twenty times that is
+/// hopeless and should not hold a lane for minutes.
+std::uint64_t default_max_steps(double seconds, double max_step) {
+    constexpr double start = 1e7, per_second = 1e7, largest = 1e15;
+    return static_cast<std::uint64_t>(std::min(start + per_second * seconds + 2 * seconds / max_step, largest));
+}
+
 std::vector<double> uniform_times(double end_time, std::size_t count) {
     std::vector<double> times(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -146,6 +155,9 @@ void read_study(Node const& root, Scene& scene) {
     }
     EndTime const end = read_end_time(root, scene.inputs.crank_speed);
     scene.integrator.end_time = end.seconds;
+    if (root.find_path("integrator.max_steps") == nullptr) {
+        scene.integrator.max_steps = default_max_steps(end.seconds, scene.integrator.max_step);
+    }
     Sampling const sampling = read_sampling(root, end);
     scene.sample_times = uniform_times(end.seconds, sampling.count);
     if (!scene.sample_times.empty()) scene.series = (Selection{1} << state_series) - 1;
