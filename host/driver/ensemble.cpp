@@ -40,10 +40,14 @@ double EnsembleTotals::lane_utilisation() const {
 int default_threads() { return omp_get_max_threads(); }
 
 std::size_t default_block_members(std::uint64_t members, int threads, int lanes) {
-    constexpr std::uint64_t largest = 64, blocks_per_thread = 8;
-    auto const width = static_cast<std::uint64_t>(lanes);
-    std::uint64_t const even = members / (blocks_per_thread * static_cast<std::uint64_t>(threads));
-    return static_cast<std::size_t>((std::clamp<std::uint64_t>(even, 1, largest) + width - 1) / width * width);
+    // The last members of a block leave lanes idle: several for each lane keep that small, several blocks for each
+    // thread keep the threads even.
+    constexpr std::uint64_t largest = 128, blocks_per_thread = 4, members_per_lane = 8;
+    auto const width = static_cast<std::uint64_t>(lanes), workers = static_cast<std::uint64_t>(threads);
+    std::uint64_t const share = (members + workers - 1) / workers;
+    std::uint64_t const least = std::clamp<std::uint64_t>(share, 1, members_per_lane * width);
+    std::uint64_t const size = std::clamp(share / blocks_per_thread, least, largest);
+    return static_cast<std::size_t>((size + width - 1) / width * width);
 }
 
 EnsembleTotals run_ensemble(EnsemblePlan const& plan, KernelInstance const& kernel, BlockSink const& sink,
