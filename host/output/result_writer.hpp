@@ -1,4 +1,4 @@
-// Writes a result file (NetCDF-4, CF-1.8; contract.md).
+// Writes a result file (NetCDF-4, CF-1.8).
 #pragma once
 
 #include <optional>

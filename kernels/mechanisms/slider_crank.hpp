@@ -103,7 +103,7 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
         return faults;
     }
 
-    /// Sizes against which integrator.atol is meant: c, c·ω, 2c/L_k, 2c/L_k·ω (contract: scene, [integrator]).
+    /// Sizes against which integrator.atol is meant: c, c·ω, 2c/L_k, 2c/L_k·ω.
     template <class Real> SLIDEWAY_FN static void scales(SliderCrankParameters<Real> const& p, Real* scale) {
         scale[0] = p.length_scale_y;
         scale[1] = p.length_scale_z;
