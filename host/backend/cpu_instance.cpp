@@ -1,6 +1,7 @@
 // The machine code of one instruction set, law and damping: compiled once per combination with its own flags and
 // names (see CMakeLists.txt here).  Nothing from the host is included, so that no unit shares code with another.
 #include "host/backend/instance_table.hpp"
+#include "host/backend/isa_real.hpp"
 #include "kernels/integrate.hpp"
 #include "kernels/laws/conservative.hpp"
 #include "kernels/laws/paper.hpp"
@@ -10,15 +11,7 @@
 namespace slideway::inline SLIDEWAY_ISA {
 namespace {
 
-#if SLIDEWAY_LANES == 8
-using Real = Batch<xsimd::avx512dq>;
-#elif SLIDEWAY_LANES == 4
-using Real = Batch<xsimd::fma3<xsimd::avx2>>;
-#elif SLIDEWAY_LANES == 2
-using Real = Batch<xsimd::sse2>;
-#else
-using Real = double;
-#endif
+using Real = IsaReal;
 
 template <class Friction, class Way> constexpr KernelInstance instance() {
     using Model = SliderCrank<SLIDEWAY_LAW, Friction, Way, SLIDEWAY_DAMPING>;

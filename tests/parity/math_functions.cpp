@@ -1,4 +1,5 @@
 // Compiled once per instruction set.
+#include "host/backend/isa_real.hpp"
 #include "kernels/math/exponential.hpp"
 #include "kernels/math/lambert_w.hpp"
 #include "kernels/math/logarithm.hpp"
@@ -9,15 +10,7 @@
 namespace slideway::inline SLIDEWAY_ISA {
 namespace {
 
-#if SLIDEWAY_LANES == 8
-using Real = Batch<xsimd::avx512dq>;
-#elif SLIDEWAY_LANES == 4
-using Real = Batch<xsimd::fma3<xsimd::avx2>>;
-#elif SLIDEWAY_LANES == 2
-using Real = Batch<xsimd::sse2>;
-#else
-using Real = double;
-#endif
+using Real = IsaReal;
 
 #if SLIDEWAY_LANES > 1
 Real load(double const* from) { return Real::load_unaligned(from); }
