@@ -11,6 +11,11 @@ inline constexpr int face_count = 4;  // Y+, Y−, Z+, Z−
 template <class Real> struct ImpactMemory { Quad<Real> speeds[face_count]; };
 inline constexpr double least_impact_speed = 1e-4;
 
+template <class Real> SLIDEWAY_FN void start_memory(ImpactMemory<Real>& memory) {
+    Real const least(least_impact_speed);
+    for (auto& face : memory.speeds) face = {least, least, least, least};
+}
+
 /// Apex numbers P1…P8 (from 0) of a face's a, b, c, d.  Source: Qian et al. 2020, Table 2: top {1,4,8,5}, bottom {2,3,7,6},
 /// front {1,2,6,5}, back {4,3,7,8}.
 /// A function, because device code cannot index a constant of the host.

@@ -32,8 +32,8 @@ template <class Law, class Friction, class Damping> struct Joint {
 
     /// @tparam Full also fill the report (penetrations, forces, modes, powers); the wrench has the same bits without.
     /// @param outside set where a line contact is beyond its domain; the wrench of such a lane is NaN.
-    template <bool Full, class Real>
-    SLIDEWAY_FN static Wrench<Real> wrench(JointMotion<Real> const& motion, ImpactMemory<Real> const& memory,
+    template <bool Full, class Real, class Memory>
+    SLIDEWAY_FN static Wrench<Real> wrench(JointMotion<Real> const& motion, Memory const& memory,
                                            JointParameters<Real> const& p, ContactReport<Real>* report,
                                            Mask<Real>& outside) {
         auto const& g = p.geometry;
@@ -63,8 +63,29 @@ template <class Law, class Friction, class Damping> struct Joint {
         return w;
     }
 
+    /// Which of the sixteen apex–face pairs touch: bit 4·face + i for the i-th apex of a face, as a number.
+    template <class Real>
+    SLIDEWAY_FN static Real pattern(JointMotion<Real> const& motion, JointGeometry<Real> const& g) {
+        Vec3<Real> const &ny = motion.axes.y, &nz = motion.axes.z;
+        auto const y = penetrations(g.clearance_y, g.half_width, g.half_depth, g.half_length, motion.axes.y_shortfall,
+                                    ny.z, ny.x, motion.y, motion.z);
+        auto const z = penetrations(g.clearance_z, g.half_depth, g.half_width, g.half_length, motion.axes.z_shortfall,
+                                    nz.y, nz.x, motion.z, motion.y);
+        Real const one(1.0), sixteen(16.0);
+        Real code = face_pattern(apices(z, negated(one)));
+        code = fma(code, sixteen, face_pattern(apices(z, one)));
+        code = fma(code, sixteen, face_pattern(apices(y, negated(one))));
+        return fma(code, sixteen, face_pattern(apices(y, one)));
+    }
+
 private:
     enum class Axis { y, z };
+
+    template <class Real> SLIDEWAY_FN static Real face_pattern(Quad<Real> const& depth) {
+        Real const zero(0.0);
+        auto const bit = [&](Real d, double value) { return select(d > zero, Real(value), zero); };
+        return (bit(depth.a, 1.0) + bit(depth.b, 2.0)) + (bit(depth.c, 4.0) + bit(depth.d, 8.0));
+    }
 
     /// The vector with `main` along the axis, `across` along the other of Y and Z.
     template <Axis axis, class Real> SLIDEWAY_FN static Vec3<Real> arranged(Real x, Real main, Real across) {
@@ -73,10 +94,10 @@ private:
     }
 
     /// Both faces normal to one of the slider's axes.
-    template <Axis axis, bool Full, class Real>
+    template <Axis axis, bool Full, class Real, class Memory>
     SLIDEWAY_FN static void add_faces(FacePair<Real> const& depths, FacePair<Real> const& rates, Vec3<Real> const& n,
                                       Real half_main, Real half_across, FaceContact<Real> const& face,
-                                      JointMotion<Real> const& motion, ImpactMemory<Real> const& memory,
+                                      JointMotion<Real> const& motion, Memory const& memory,
                                       JointParameters<Real> const& p, ContactReport<Real>* report, Mask<Real>& outside,
                                       Wrench<Real>& w) {
         Real const zero(0.0);

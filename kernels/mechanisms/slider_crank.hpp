@@ -1,12 +1,17 @@
 #pragma once
 
+#include <type_traits>
+
 #include "kernels/block.hpp"
 #include "kernels/joint/attitude.hpp"
 #include "kernels/joint/joint.hpp"
 #include "kernels/mechanisms/faults.hpp"
+#include "kernels/mechanisms/no_memory.hpp"
 #include "kernels/mechanisms/slider_crank_parameters.hpp"
 #include "kernels/mechanisms/slider_crank_report.hpp"
+#include "kernels/observers/slider_crank_observer.hpp"
 #include "kernels/real.hpp"
+#include "kernels/steppers/touch.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -15,17 +20,24 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// What a scene does not need is not in its instance: law, friction, pose of the way and damping are template arguments.
 template <class Law, class Friction, class Way, class Damping> struct SliderCrank {
     using Contact = Joint<Law, Friction, Damping>;
+    using Inputs = slideway::Inputs;
     static constexpr int size = state_size;
+    static constexpr int series = series_count;
     static constexpr bool has_memory = Contact::has_memory;
+    static constexpr bool has_patterns = true;
+    static constexpr bool has_linearisation = false;
     template <class Real> using Parameters = SliderCrankParameters<Real>;
     template <class Real> using Report = SliderCrankReport<Real>;
+    template <class Real> using Observer = SliderCrankObserver<Real>;
+    template <class Real> using Memory = std::conditional_t<has_memory, ImpactMemory<Real>, NoMemory<Real>>;
+    template <class Real> using Watch = std::conditional_t<has_memory, TouchLocator<Real>, NoWatch<Real>>;
 
     /// Time derivative of the state.
     /// @param t time [s]; @param s the state, `size` values; @param rates their derivatives, NaN where a fault is set.
     /// @param report filled if Full; the derivative has the same bits without.
     template <bool Full, class Real>
     SLIDEWAY_NOINLINE static Faults<Real> derivative(Real t, Real const* s, SliderCrankParameters<Real> const& p,
-                                                     ImpactMemory<Real> const& memory, Real* rates,
+                                                     Memory<Real> const& memory, Real* rates,
                                                      SliderCrankReport<Real>* report) {
         Real const y = s[0], z = s[1], vy = s[2], vz = s[3];
         Vec3<Real> const omega{s[7], s[8], s[9]};
@@ -101,6 +113,20 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
             report->fill(pin, end, d, omega, contact_force, p);
         }
         return faults;
+    }
+
+    /// Which apex–face pairs touch, as a number (Joint::pattern): members of one pattern have the same work to do.
+    template <class Real>
+    SLIDEWAY_NOINLINE static Real contact_pattern(Real t, Real const* s, SliderCrankParameters<Real> const& p) {
+        auto const crank = sincos(fma(p.crank_speed, t, p.start_angle));
+        Real const dy = fnma(p.crank_length, crank.sin, s[0]);
+        Real const reach = fnma(s[1], s[1], fnma(dy, dy, p.rod_length * p.rod_length));
+        Real const x = fma(p.crank_length, crank.cos, sqrt(max(reach, Real(0.0))));
+        Real const zero(0.0);
+        Vec3<Real> const still{zero, zero, zero};
+        auto const motion =
+            Way::motion(axes(attitude(s[4], s[5], s[6])), Vec3<Real>{x, s[0], s[1]}, still, still, p.joint.way);
+        return Contact::pattern(motion, p.joint.geometry);
     }
 
     /// Sizes against which integrator.atol is meant: c, c·ω, 2c/L_k, 2c/L_k·ω.

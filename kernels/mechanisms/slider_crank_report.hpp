@@ -3,6 +3,7 @@
 #include "kernels/joint/contact_report.hpp"
 #include "kernels/math/vec3.hpp"
 #include "kernels/mechanisms/slider_crank_parameters.hpp"
+#include "kernels/observers/quantities.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -21,6 +22,30 @@ template <class Real> struct SliderCrankReport {
     Real position_error;  // distance of the slider's centre from the ideal mechanism's [m]
     Real rod_spin;        // rod's angular velocity, magnitude [rad/s]
     Real rod_spin_z;      // its component about Z
+
+    /// Value of an entry of `series_table` beyond the state.
+    SLIDEWAY_FN Real series_value(int entry) const {
+        switch (static_cast<Series>(entry)) {
+            case Series::x:
+                return x;
+            case Series::vx:
+                return vx;
+            case Series::normal_force:
+                return contact.total_force();
+            case Series::crank_torque:
+                return drive_torque;
+            case Series::rod_angular_velocity:
+                return rod_spin_z;
+            case Series::surfaces:
+                return contact.surfaces;
+            case Series::lines:
+                return contact.lines;
+            case Series::points:
+                return contact.points;
+            default:
+                return Real(follows);
+        }
+    }
 
     SLIDEWAY_FN void fill(CrankState<Real> const& a, CrankState<Real> const& b, Real d, Vec3<Real> const& omega,
                           Vec3<Real> const& contact_force, SliderCrankParameters<Real> const& p) {
