@@ -50,8 +50,8 @@ template <class Real> struct JointStiffness {
 /// the sums run over three motions of the plane instead of four apices.
 /// Arms and vectors are in the slider's frame, where n is an axis: g has no component about it.
 template <class Law, class Friction, class Damping> struct JointLinearisation {
-    template <class Real>
-    SLIDEWAY_FN static void stiffness(JointFrame<Real> const& frame, ImpactMemory<Real> const& memory,
+    template <class Real, class Memory>
+    SLIDEWAY_FN static void stiffness(JointFrame<Real> const& frame, Memory const& memory,
                                       JointParameters<Real> const& p, JointStiffness<Real>& out) {
         auto const& g = p.geometry;
         auto const& motion = frame.motion;
@@ -102,10 +102,10 @@ private:
         return {negated(v.x), negated(v.z), negated(v.y)};
     }
 
-    template <Axis axis, class Real>
+    template <Axis axis, class Real, class Memory>
     SLIDEWAY_FN static void add_faces(FacePair<Real> const& depths, FacePair<Real> const& rates,
                                       FaceContact<Real> const& contact, JointFrame<Real> const& frame,
-                                      ImpactMemory<Real> const& memory, JointParameters<Real> const& p,
+                                      Memory const& memory, JointParameters<Real> const& p,
                                       JointStiffness<Real>& out) {
         Real const zero(0.0);
         for (int i = 0; i < 2; ++i) {

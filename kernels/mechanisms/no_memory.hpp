@@ -8,7 +8,4 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Real> struct NoMemory {};
 template <class Real> SLIDEWAY_FN void start_memory(NoMemory<Real>&) {}
 
-/// A model whose steps need not end at events watches for none.
-template <class Real> struct NoWatch {};
-
 }  // namespace slideway::inline SLIDEWAY_ISA

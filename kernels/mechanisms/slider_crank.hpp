@@ -9,9 +9,7 @@
 #include "kernels/mechanisms/no_memory.hpp"
 #include "kernels/mechanisms/slider_crank_parameters.hpp"
 #include "kernels/mechanisms/slider_crank_report.hpp"
-#include "kernels/observers/slider_crank_observer.hpp"
 #include "kernels/real.hpp"
-#include "kernels/steppers/touch.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -22,15 +20,10 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
     using Contact = Joint<Law, Friction, Damping>;
     using Inputs = slideway::Inputs;
     static constexpr int size = state_size;
-    static constexpr int series = series_count;
     static constexpr bool has_memory = Contact::has_memory;
-    static constexpr bool has_patterns = true;
-    static constexpr bool has_linearisation = false;
     template <class Real> using Parameters = SliderCrankParameters<Real>;
     template <class Real> using Report = SliderCrankReport<Real>;
-    template <class Real> using Observer = SliderCrankObserver<Real>;
     template <class Real> using Memory = std::conditional_t<has_memory, ImpactMemory<Real>, NoMemory<Real>>;
-    template <class Real> using Watch = std::conditional_t<has_memory, TouchLocator<Real>, NoWatch<Real>>;
 
     /// Time derivative of the state.
     /// @param t time [s]; @param s the state, `size` values; @param rates their derivatives, NaN where a fault is set.
