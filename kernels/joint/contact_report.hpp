@@ -49,7 +49,7 @@ template <class Real> struct ContactReport {
         Real const front = fma(f.normal.a - f.elastic.a, m.rate.a, (f.normal.b - f.elastic.b) * m.rate.b);
         Real const rear = fma(f.normal.c - f.elastic.c, m.rate.c, (f.normal.d - f.elastic.d) * m.rate.d);
         damping_power = damping_power + (front + rear);
-        auto const modes = face_modes<Real>(m.touching);
+        auto modes = face_modes<Real>(m.touching);
         surfaces = surfaces + count<Real>(modes.surface);
         lines =
             lines + ((count<Real>(modes.ab) + count<Real>(modes.bc)) + (count<Real>(modes.cd) + count<Real>(modes.da)));
