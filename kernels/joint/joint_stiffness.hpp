@@ -28,7 +28,6 @@ template <class Real> struct JointFrame {
 template <class Real> struct JointStiffness {
     Real by_place[5][5];  // K
     Real by_rate[5][5];   // D
-    Real touching;        // apex–face pairs in contact
 
     SLIDEWAY_FN void clear() {
         for (auto* matrix : {by_place, by_rate}) {
@@ -36,7 +35,6 @@ template <class Real> struct JointStiffness {
                 for (int j = 0; j < 5; ++j) matrix[i][j] = Real(0.0);
             }
         }
-        touching = Real(0.0);
     }
 };
 
@@ -48,13 +46,15 @@ template <class Real> struct JointStiffness {
 /// Left out, because it is not stiff: the turning of g and B with the pose, the change of slip with the pose.
 /// Arms and vectors are in the slider's frame, where n is an axis: g has no component about it.
 template <class Law, class Friction, class Damping> struct JointLinearisation {
+    /// @return how many apex–face pairs are in contact.
     template <class Real>
-    SLIDEWAY_FN static void stiffness(JointFrame<Real> const& frame, ImpactMemory<Real> const& memory,
+    SLIDEWAY_FN static Real stiffness(JointFrame<Real> const& frame, ImpactMemory<Real> const& memory,
                                       JointParameters<Real> const& p, JointStiffness<Real>& out) {
         auto const& g = p.geometry;
         auto const& motion = frame.motion;
         auto const& v = motion.velocity;
         out.clear();
+        Real touching(0.0);
         Vec3<Real> const& ny = motion.axes.y;
         auto const my = cross(motion.spin, ny);
         add_faces<Axis::y>(penetrations(g.clearance_y, g.half_width, g.half_depth, g.half_length,
@@ -62,7 +62,7 @@ template <class Law, class Friction, class Damping> struct JointLinearisation {
                            penetration_rates(g.half_width, g.half_depth, g.half_length, ny.y, ny.z, my.y, my.z, my.x,
                                              motion.y, motion.z, v.y, v.z),
                            {p.contact.surface_stiffness_y, p.contact.across_y_face, p.contact.along}, frame, memory, p,
-                           out);
+                           out, touching);
         Vec3<Real> const& nz = motion.axes.z;
         auto const mz = cross(motion.spin, nz);
         add_faces<Axis::z>(penetrations(g.clearance_z, g.half_depth, g.half_width, g.half_length,
@@ -70,7 +70,8 @@ template <class Law, class Friction, class Damping> struct JointLinearisation {
                            penetration_rates(g.half_depth, g.half_width, g.half_length, nz.z, nz.y, mz.z, mz.y, mz.x,
                                              motion.z, motion.y, v.z, v.y),
                            {p.contact.surface_stiffness_z, p.contact.across_z_face, p.contact.along}, frame, memory, p,
-                           out);
+                           out, touching);
+        return touching;
     }
 
 private:
@@ -107,7 +108,7 @@ private:
     SLIDEWAY_FN static void add_faces(FacePair<Real> const& depths, FacePair<Real> const& rates,
                                       FaceContact<Real> const& contact, JointFrame<Real> const& frame,
                                       ImpactMemory<Real> const& memory, JointParameters<Real> const& p,
-                                      JointStiffness<Real>& out) {
+                                      JointStiffness<Real>& out, Real& touching) {
         Real const zero(0.0);
         for (int i = 0; i < 2; ++i) {
             Real const side(i == 0 ? 1.0 : -1.0);
@@ -118,8 +119,8 @@ private:
             m.rate = apices(rates, side);
             m.impact_speed = {zero, zero, zero, zero};
             if constexpr (Damping::has_memory) m.impact_speed = memory.speeds[(axis == Axis::y ? 0 : 2) + i];
-            out.touching = out.touching + ((count<Real>(m.touching.a) + count<Real>(m.touching.b)) +
-                                           (count<Real>(m.touching.c) + count<Real>(m.touching.d)));
+            touching = touching + ((count<Real>(m.touching.a) + count<Real>(m.touching.b)) +
+                                   (count<Real>(m.touching.c) + count<Real>(m.touching.d)));
             auto const f = LawStiffness<Law>::template face<Damping>(m, contact, p.contact);
             add_face<axis>(f, side, frame, p, out);
         }
