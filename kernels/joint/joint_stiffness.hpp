@@ -28,7 +28,6 @@ template <class Real> struct JointFrame {
 template <class Real> struct JointStiffness {
     Real by_place[5][5];  // K
     Real by_rate[5][5];   // D
-    Real touching;        // apex–face pairs in contact
 
     SLIDEWAY_FN void clear() {
         for (auto* matrix : {by_place, by_rate}) {
@@ -36,27 +35,26 @@ template <class Real> struct JointStiffness {
                 for (int j = 0; j < 5; ++j) matrix[i][j] = Real(0.0);
             }
         }
-        touching = Real(0.0);
     }
 };
 
 /// The structural Jacobian of the clearance joint.  Pair i (apex–face, side s, normal n, arm ρ from the slider's centre) has
 /// δ_i' = g_iᵀν + drive with g_i = (−s n, s n × ρ), and the slip v_i = B_i ν + drive; the force on it is F_i per newton e_i =
 /// s n − μ t, t = v_i/V, whose generalized force is B_iᵀ e_i = −(g_i + μ B_iᵀ t).  Then
-///   K = Σ_ij B_iᵀ e_i (∂F_i/∂δ_j) g_jᵀ,   D = Σ_ij B_iᵀ e_i (∂F_i/∂δ_j') g_jᵀ − Σ_i F_i B_iᵀ T_i B_i,
+///   K = Σ_i B_iᵀ e_i (Σ_j ∂F_i/∂δ_j g_j)ᵀ,   D = Σ_i B_iᵀ e_i (Σ_j ∂F_i/∂δ_j' g_j)ᵀ − Σ_i F_i B_iᵀ T_i B_i,
 /// T = μ'(V) t tᵀ + μ/V (1 − t tᵀ) in the face's plane.  K is unsymmetric through the friction that normal forces bring along.
 /// Left out, because it is not stiff: the turning of g and B with the pose, the change of slip with the pose.
-/// A face is rigid, so the g of its apices are one plane, g = level + σx along + σ_across across with the apices' signs σ:
-/// the sums run over three motions of the plane instead of four apices.
 /// Arms and vectors are in the slider's frame, where n is an axis: g has no component about it.
 template <class Law, class Friction, class Damping> struct JointLinearisation {
+    /// @return how many apex–face pairs are in contact.
     template <class Real, class Memory>
-    SLIDEWAY_FN static void stiffness(JointFrame<Real> const& frame, Memory const& memory,
+    SLIDEWAY_FN static Real stiffness(JointFrame<Real> const& frame, Memory const& memory,
                                       JointParameters<Real> const& p, JointStiffness<Real>& out) {
         auto const& g = p.geometry;
         auto const& motion = frame.motion;
         auto const& v = motion.velocity;
         out.clear();
+        Real touching(0.0);
         Vec3<Real> const& ny = motion.axes.y;
         auto const my = cross(motion.spin, ny);
         add_faces<Axis::y>(penetrations(g.clearance_y, g.half_width, g.half_depth, g.half_length,
@@ -64,7 +62,7 @@ template <class Law, class Friction, class Damping> struct JointLinearisation {
                            penetration_rates(g.half_width, g.half_depth, g.half_length, ny.y, ny.z, my.y, my.z, my.x,
                                              motion.y, motion.z, v.y, v.z),
                            {p.contact.surface_stiffness_y, p.contact.across_y_face, p.contact.along}, frame, memory, p,
-                           out);
+                           out, touching);
         Vec3<Real> const& nz = motion.axes.z;
         auto const mz = cross(motion.spin, nz);
         add_faces<Axis::z>(penetrations(g.clearance_z, g.half_depth, g.half_width, g.half_length,
@@ -72,7 +70,8 @@ template <class Law, class Friction, class Damping> struct JointLinearisation {
                            penetration_rates(g.half_depth, g.half_width, g.half_length, nz.z, nz.y, mz.z, mz.y, mz.x,
                                              motion.z, motion.y, v.z, v.y),
                            {p.contact.surface_stiffness_z, p.contact.across_z_face, p.contact.along}, frame, memory, p,
-                           out);
+                           out, touching);
+        return touching;
     }
 
 private:
@@ -87,11 +86,14 @@ private:
         Translation<Real> x, normal, z;
     };
 
-    /// A generalized force.
+    /// A generalized force: B_iᵀ f.
     template <class Real> struct Generalized {
         Translation<Real> push;
         Vec3<Real> turn;
     };
+
+    /// A multiple of g, or a sum of the g of one face: level · (−s n) on the translations, turning about x and z.
+    template <class Real> struct Gradient { Real level, x, z; };
 
     template <Axis axis, class Real> SLIDEWAY_FN static Vec3<Real> local(Vec3<Real> const& v) {
         if constexpr (axis == Axis::y) return v;
@@ -106,7 +108,7 @@ private:
     SLIDEWAY_FN static void add_faces(FacePair<Real> const& depths, FacePair<Real> const& rates,
                                       FaceContact<Real> const& contact, JointFrame<Real> const& frame,
                                       Memory const& memory, JointParameters<Real> const& p,
-                                      JointStiffness<Real>& out) {
+                                      JointStiffness<Real>& out, Real& touching) {
         Real const zero(0.0);
         for (int i = 0; i < 2; ++i) {
             Real const side(i == 0 ? 1.0 : -1.0);
@@ -117,8 +119,8 @@ private:
             m.rate = apices(rates, side);
             m.impact_speed = {zero, zero, zero, zero};
             if constexpr (Damping::has_memory) m.impact_speed = memory.speeds[(axis == Axis::y ? 0 : 2) + i];
-            out.touching = out.touching + ((count<Real>(m.touching.a) + count<Real>(m.touching.b)) +
-                                           (count<Real>(m.touching.c) + count<Real>(m.touching.d)));
+            touching = touching + ((count<Real>(m.touching.a) + count<Real>(m.touching.b)) +
+                                   (count<Real>(m.touching.c) + count<Real>(m.touching.d)));
             auto const f = LawStiffness<Law>::template face<Damping>(m, contact, p.contact);
             add_face<axis>(f, side, frame, p, out);
         }
@@ -129,20 +131,21 @@ private:
     SLIDEWAY_NOINLINE static void add_face(FaceStiffness<Real> const& f, Real side, JointFrame<Real> const& frame,
                                            JointParameters<Real> const& p, JointStiffness<Real>& out) {
         auto const face = face_of<axis>(side, frame, p.geometry);
-        // e of the four apices
-        Real const zero(0.0);
-        Vec3<Real> const bare{zero, side, zero};
-        Quad<Vec3<Real>> force{bare, bare, bare, bare};
-        if constexpr (Friction::enabled) add_friction<axis>(face, f.normal, p.friction, force, out.by_rate);
-        // g = level ± along ± across
-        auto const& s = face.side;
-        Generalized<Real> const level{{negated(s) * face.normal.y, negated(s) * face.normal.z},
-                                      {s * face.lever.z, zero, negated(s) * face.lever.x}};
-        Vec3<Real> const along{s * face.lever_along.z, zero, negated(s) * face.lever_along.x};
-        Vec3<Real> const across{s * face.lever_across.z, zero, negated(s) * face.lever_across.x};
-        add_product<axis, true>(f.by_depth, face, force, level, along, across, out.by_place);
-        add_product<axis, DampingStiffness<Damping>::couples>(f.by_rate, face, force, level, along, across,
-                                                              out.by_rate);
+        auto const front = face.lever + face.lever_along, rear = face.lever - face.lever_along;
+        Quad<Vec3<Real>> const lever{front + face.lever_across, front - face.lever_across, rear - face.lever_across,
+                                     rear + face.lever_across};
+        Quad<Generalized<Real>> force;  // B_iᵀ e_i
+        if constexpr (Friction::enabled) {
+            add_friction<axis>(face, lever, f.normal, p.friction, force, out.by_rate);
+        } else {
+            force = {bare_force(face, lever.a), bare_force(face, lever.b), bare_force(face, lever.c),
+                     bare_force(face, lever.d)};
+        }
+        Quad<Gradient<Real>> const g{gradient(side, lever.a), gradient(side, lever.b), gradient(side, lever.c),
+                                     gradient(side, lever.d)};
+        add_product<axis>(face, force, coupled(f.by_depth, g), out.by_place);
+        add_product<axis>(face, force, DampingStiffness<Damping>::couples ? coupled(f.by_rate, g) : own(f.by_rate, g),
+                          out.by_rate);
     }
 
     template <Axis axis, class Real>
@@ -172,69 +175,70 @@ private:
         return face;
     }
 
-    /// Sum of B_iᵀ f_i over the four apices.
-    template <class Real>
-    SLIDEWAY_FN static Generalized<Real> resultant(Face<Real> const& face, Quad<Vec3<Real>> const& f) {
-        auto const front = f.a + f.b, rear = f.c + f.d;
-        auto const total = front + rear, along = front - rear, across = (f.a + f.d) - (f.b + f.c);
-        Generalized<Real> q;
-        q.push.y = fma(face.normal.y, total.y, fma(face.x.y, total.x, face.z.y * total.z));
-        q.push.z = fma(face.normal.z, total.y, fma(face.x.z, total.x, face.z.z * total.z));
-        q.turn = cross(face.lever, total) + cross(face.lever_along, along) + cross(face.lever_across, across);
-        return q;
+    template <class Real> SLIDEWAY_FN static Gradient<Real> gradient(Real side, Vec3<Real> const& lever) {
+        return {Real(1.0), side * lever.z, negated(side) * lever.x};
     }
 
-    /// The change of the four forces with one motion of the plane.
     template <class Real>
-    SLIDEWAY_FN static Quad<Vec3<Real>> forces(Quad<Vec3<Real>> const& e, Real const& a, Real const& b, Real const& c,
-                                               Real const& d) {
-        return {a * e.a, b * e.b, c * e.c, d * e.d};
+    SLIDEWAY_FN static Generalized<Real> bare_force(Face<Real> const& face, Vec3<Real> const& lever) {
+        Real const& s = face.side;
+        return {{s * face.normal.y, s * face.normal.z}, {negated(s) * lever.z, Real(0.0), s * lever.x}};
     }
 
-    /// matrix += Σ_ij B_iᵀ e_i slopes_ij g_jᵀ.
-    template <Axis axis, bool coupled, class Real>
-    SLIDEWAY_FN static void add_product(Quad<ApexSlopes<Real>> const& slopes, Face<Real> const& face,
-                                        Quad<Vec3<Real>> const& e, Generalized<Real> const& level,
-                                        Vec3<Real> const& along, Vec3<Real> const& across, Real (*matrix)[5]) {
-        // Seen from an apex, whose signs are taken out, `along` moves its neighbour across the way with it and the others
-        // against it.
-        auto const by_level = [](ApexSlopes<Real> const& r) {
-            if constexpr (!coupled)
-                return r.own;
-            else
-                return (r.own + r.across) + (r.along + r.opposite);
+    /// B_iᵀ e_i with e = (x, s, z).
+    template <class Real>
+    SLIDEWAY_FN static Generalized<Real> force_of(Face<Real> const& face, Vec3<Real> const& lever, Real x, Real z) {
+        return {{fma(face.side, face.normal.y, fma(face.x.y, x, face.z.y * z)),
+                 fma(face.side, face.normal.z, fma(face.x.z, x, face.z.z * z))},
+                cross(lever, {x, face.side, z})};
+    }
+
+    /// Σ_j slopes_ij g_j of the four apices i.
+    template <class Real>
+    SLIDEWAY_FN static Quad<Gradient<Real>> coupled(Quad<ApexSlopes<Real>> const& slopes,
+                                                    Quad<Gradient<Real>> const& g) {
+        auto const row = [](ApexSlopes<Real> const& r, Gradient<Real> const& own, Gradient<Real> const& across,
+                            Gradient<Real> const& along, Gradient<Real> const& opposite) {
+            return Gradient<Real>{
+                (r.own + r.across) + (r.along + r.opposite),
+                fma(r.own, own.x, fma(r.across, across.x, fma(r.along, along.x, r.opposite * opposite.x))),
+                fma(r.own, own.z, fma(r.across, across.z, fma(r.along, along.z, r.opposite * opposite.z)))};
         };
-        auto const by_along = [](ApexSlopes<Real> const& r) {
-            if constexpr (!coupled)
-                return r.own;
-            else
-                return (r.own + r.across) - (r.along + r.opposite);
+        return {row(slopes.a, g.a, g.b, g.d, g.c), row(slopes.b, g.b, g.a, g.c, g.d), row(slopes.c, g.c, g.d, g.b, g.a),
+                row(slopes.d, g.d, g.c, g.a, g.b)};
+    }
+
+    /// The same where each force depends on its own apex alone.
+    template <class Real>
+    SLIDEWAY_FN static Quad<Gradient<Real>> own(Quad<ApexSlopes<Real>> const& slopes, Quad<Gradient<Real>> const& g) {
+        auto const row = [](Real const& slope, Gradient<Real> const& own) {
+            return Gradient<Real>{slope, slope * own.x, slope * own.z};
         };
-        auto const by_across = [](ApexSlopes<Real> const& r) {
-            if constexpr (!coupled)
-                return r.own;
-            else
-                return (r.own - r.across) + (r.along - r.opposite);
-        };
-        auto const& r = slopes;
-        auto const first = resultant(face, forces(e, by_level(r.a), by_level(r.b), by_level(r.c), by_level(r.d)));
-        auto const second =
-            resultant(face, forces(e, by_along(r.a), by_along(r.b), negated(by_along(r.c)), negated(by_along(r.d))));
-        auto const third = resultant(
-            face, forces(e, by_across(r.a), negated(by_across(r.b)), negated(by_across(r.c)), by_across(r.d)));
-        auto const add_row = [&](int i, Real const& x, Real const& y, Real const& z) {
+        return {row(slopes.a.own, g.a), row(slopes.b.own, g.b), row(slopes.c.own, g.c), row(slopes.d.own, g.d)};
+    }
+
+    /// matrix += Σ_i force_i rows_iᵀ.
+    template <Axis axis, class Real>
+    SLIDEWAY_FN static void add_product(Face<Real> const& face, Quad<Generalized<Real>> const& force,
+                                        Quad<Gradient<Real>> const& rows, Real (*matrix)[5]) {
+        Real const normal_y = negated(face.side) * face.normal.y, normal_z = negated(face.side) * face.normal.z;
+        auto const add_row = [&](int i, Real const& a, Real const& b, Real const& c, Real const& d) {
             auto& row = matrix[i];
-            row[0] = fma(x, level.push.y, row[0]);
-            row[1] = fma(x, level.push.z, row[1]);
-            row[2] = fma(x, level.turn.x, fma(y, along.x, fma(z, across.x, row[2])));
+            Real const level = fma(a, rows.a.level, fma(b, rows.b.level, fma(c, rows.c.level, d * rows.d.level)));
             auto& last = row[place<axis>(2)];
-            last = fma(x, level.turn.z, fma(y, along.z, fma(z, across.z, last)));
+            row[0] = fma(level, normal_y, row[0]);
+            row[1] = fma(level, normal_z, row[1]);
+            row[2] = fma(a, rows.a.x, fma(b, rows.b.x, fma(c, rows.c.x, fma(d, rows.d.x, row[2]))));
+            last = fma(a, rows.a.z, fma(b, rows.b.z, fma(c, rows.c.z, fma(d, rows.d.z, last))));
         };
-        add_row(0, first.push.y, second.push.y, third.push.y);
-        add_row(1, first.push.z, second.push.z, third.push.z);
-        add_row(place<axis>(0), first.turn.x, second.turn.x, third.turn.x);
-        add_row(place<axis>(1), first.turn.y, second.turn.y, third.turn.y);
-        add_row(place<axis>(2), first.turn.z, second.turn.z, third.turn.z);
+        auto const& f = force;
+        add_row(0, f.a.push.y, f.b.push.y, f.c.push.y, f.d.push.y);
+        add_row(1, f.a.push.z, f.b.push.z, f.c.push.z, f.d.push.z);
+        add_row(place<axis>(0), f.a.turn.x, f.b.turn.x, f.c.turn.x, f.d.turn.x);
+        if constexpr (Friction::enabled) {
+            add_row(place<axis>(1), f.a.turn.y, f.b.turn.y, f.c.turn.y, f.d.turn.y);
+        }
+        add_row(place<axis>(2), f.a.turn.z, f.b.turn.z, f.c.turn.z, f.d.turn.z);
     }
 
     /// Index in ν of the spin about the face frame's x, y or z.
@@ -243,22 +247,19 @@ private:
         return direction == 1 ? 4 : 3;
     }
 
-    /// Friction of the four apices: the tangential part of e, and −Σ F Bᵀ T B into the damping.
+    /// With friction: all of B_iᵀ e_i, and −Σ F Bᵀ T B into the damping.
     template <Axis axis, class Real>
-    SLIDEWAY_FN static void add_friction(Face<Real> const& face, Quad<Real> const& normal,
-                                         FrictionParameters<Real> const& friction, Quad<Vec3<Real>>& e,
-                                         Real (*damping)[5]) {
-        auto const front = face.lever + face.lever_along, rear = face.lever - face.lever_along;
+    SLIDEWAY_FN static void add_friction(Face<Real> const& face, Quad<Vec3<Real>> const& levers,
+                                         Quad<Real> const& normal, FrictionParameters<Real> const& friction,
+                                         Quad<Generalized<Real>>& force, Real (*damping)[5]) {
         Real const zero(0.0);
         // Σ F T; Σ F T C and Σ F Cᵀ T C with the columns (0, ρy), (ρz, −ρx), (−ρy, 0) of C, the slips that turning brings.
         Real xx = zero, xz = zero, zz = zero;
         Real p1 = zero, p2 = zero, p3 = zero, q1 = zero, q2 = zero;
         Real turn_xx = zero, turn_yy = zero, turn_zz = zero, turn_xy = zero, turn_yz = zero, turn_xz = zero;
-        auto const add = [&](Vec3<Real> const& lever, Real const& load, Vec3<Real>& direction) {
+        auto const add = [&](Vec3<Real> const& lever, Real const& load) {
             auto const v = face.velocity + cross(face.spin, lever);
             auto const slopes = StickSlipStiffness::apex(v.x, v.z, friction);
-            direction.x = slopes.push_x;
-            direction.z = slopes.push_z;
             Real const a = load * slopes.xx, b = load * slopes.xz, c = load * slopes.zz;
             xx = xx + a;
             xz = xz + b;
@@ -276,11 +277,9 @@ private:
             turn_xy = fma(lever.y, bend_z, turn_xy);
             turn_yz = fnma(lever.y, bend_x, turn_yz);
             turn_yy = fma(lever.z, bend_x, fnma(lever.x, bend_z, turn_yy));
+            return force_of(face, lever, slopes.push_x, slopes.push_z);
         };
-        add(front + face.lever_across, normal.a, e.a);
-        add(front - face.lever_across, normal.b, e.b);
-        add(rear - face.lever_across, normal.c, e.c);
-        add(rear + face.lever_across, normal.d, e.d);
+        force = {add(levers.a, normal.a), add(levers.b, normal.b), add(levers.c, normal.c), add(levers.d, normal.d)};
 
         auto const subtract = [&](int i, int j, Real const& value) {
             damping[i][j] = damping[i][j] - value;

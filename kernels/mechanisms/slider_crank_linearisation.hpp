@@ -168,8 +168,7 @@ SLIDEWAY_NOINLINE void linearise(Real t, Real const* s, SliderCrankParameters<Re
     frame.z = translation(slider.z);
     frame.y_normal = translation(Parts::Way::to_inertial(Vec3<Real>{zero, joint_axes.y.y, joint_axes.y.z}, way));
     frame.z_normal = translation(Parts::Way::to_inertial(Vec3<Real>{zero, joint_axes.z.y, joint_axes.z.z}, way));
-    Parts::Joint::stiffness(frame, memory, p.joint, out.joint);
-    out.touching = out.joint.touching;
+    out.touching = Parts::Joint::stiffness(frame, memory, p.joint, out.joint);
 }
 
 }  // namespace slideway::inline SLIDEWAY_ISA
