@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 
 #include "kernels/real.hpp"
@@ -9,117 +10,141 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Members that take the same number of equal steps.  Plain views of memory that the caller owns.
+/// Members that take the same number of equal steps.  Views of memory that the caller owns.
 template <class Model> struct FixedStepBlock {
     typename Model::Inputs const* inputs = nullptr;  // [members]
     std::size_t members = 0;
-    double step = 0;             // h
-    std::uint64_t steps = 0;     // from t = 0
-    double* states = nullptr;    // [members][size], the result; not finite where a member left the numbers
+    double step = 0;           // h
+    std::uint64_t steps = 0;   // from t = 0
+    double* states = nullptr;  // [members][size] at t = steps · h, the result; not finite where a member diverged
 };
+
+/// How a group of packs shares a core.  A step of one pack is a chain of dependent operations that keeps a core a third busy.  Packs
+/// `abreast` take each stage together, as many as the registers hold; `rows` of them follow one another within a step and overlap
+/// because the processor runs ahead.
+struct PackGroup {
+    int abreast, rows;
+};
+
+/// The fastest group for a model of three components: 32 registers of 8 lanes, 16 of fewer (docs/performance.md).
+template <class Real> inline constexpr PackGroup pack_group = lanes<Real> == 8 ? PackGroup{4, 2} : PackGroup{2, 3};
 
 namespace detail {
 
-/// `packs` packs of members that step side by side: while one waits for its last operation, the others keep the units busy.  The
-/// counts are small constants and every loop over them is a fold, so that states and slopes live in registers.
-template <class Model, class Real, int packs> class FixedStepGroup {
+/// One group of packs and its members.  The counts are small constants and every loop over them is a fold, for g++ keeps an array of
+/// packs in registers only if it sees no loop.
+template <class Model, class Real, int abreast, int rows> class FixedStepGroup {
 public:
-    /// Integrates members [first, first + packs · lanes); what the block lacks repeats its last member.
+    static constexpr int packs = abreast * rows;
+    static constexpr int members = packs * lanes<Real>;
+
+    /// Integrates members [first, first + members); lanes beyond the block repeat its last member.
     SLIDEWAY_HD static void run(FixedStepBlock<Model> const& block, std::size_t first) {
-        Start start;
-        load(block, first, start);
-        Stepper group(start, block.step);
-        for (std::uint64_t i = 0; i < block.steps; ++i) group.step(i);
-        group.keep(start.y);
-        store(block, first, start.y);
+        Parameters p[packs];
+        Real y[packs][size];
+        load(block, first, p, y);
+        FixedStepGroup group(p, y, block.step);
+        for (std::uint64_t n = 0; n < block.steps; ++n) group.step(static_cast<double>(n) * block.step);
+        group.each([&](auto pack, auto i) { y[pack][i] = group.y_[pack][i]; });
+        store(block, first, y);
     }
 
 private:
     static constexpr int size = Model::size;
-    static constexpr int width = lanes<Real>;
     using Parameters = typename Model::template Parameters<Real>;
-    using Packs = std::make_integer_sequence<int, packs>;
-    using Components = std::make_integer_sequence<int, size>;
-    static_assert(!Model::has_memory, "a step of fixed size locates nothing that could be remembered");
+    static_assert(!Model::has_memory, "equal steps locate nothing that a model could remember");
 
-    struct Start {
-        Parameters p[packs];
-        Real y[packs][size];
-    };
-
-    SLIDEWAY_HD static void load(FixedStepBlock<Model> const& block, std::size_t first, Start& start) {
-        for (int i = 0; i < packs * width; ++i) {
+    SLIDEWAY_HD static void load(FixedStepBlock<Model> const& block, std::size_t first, Parameters* p,
+                                 Real (*y)[size]) {
+        for (int i = 0; i < members; ++i) {
             std::size_t const wanted = first + static_cast<std::size_t>(i);
             auto const& inputs = block.inputs[wanted < block.members ? wanted : block.members - 1];
+            int const pack = i / lanes<Real>, index = i % lanes<Real>;
             auto const parameters = Model::parameters(inputs);
             auto const* from = reinterpret_cast<double const*>(&parameters);
-            auto* to = reinterpret_cast<Real*>(&start.p[i / width]);
-            for (std::size_t j = 0; j < sizeof(parameters) / sizeof(double); ++j) set_lane(to[j], i % width, from[j]);
-            double y[size];
-            Model::initial_state(inputs, y);
-            for (int j = 0; j < size; ++j) set_lane(start.y[i / width][j], i % width, y[j]);
+            auto* to = reinterpret_cast<Real*>(&p[pack]);
+            for (std::size_t j = 0; j < sizeof(parameters) / sizeof(double); ++j) set_lane(to[j], index, from[j]);
+            double start[size];
+            Model::initial_state(inputs, start);
+            for (int j = 0; j < size; ++j) set_lane(y[pack][j], index, start[j]);
         }
     }
 
     SLIDEWAY_HD static void store(FixedStepBlock<Model> const& block, std::size_t first, Real const (*y)[size]) {
-        for (int i = 0; i < packs * width; ++i) {
+        for (int i = 0; i < members; ++i) {
             std::size_t const member = first + static_cast<std::size_t>(i);
             if (member >= block.members) return;
-            for (int j = 0; j < size; ++j) block.states[member * size + j] = lane(y[i / width][j], i % width);
+            for (int j = 0; j < size; ++j) {
+                block.states[member * size + static_cast<std::size_t>(j)] =
+                    lane(y[i / lanes<Real>][j], i % lanes<Real>);
+            }
         }
     }
 
-    class Stepper {
-    public:
-        SLIDEWAY_FN Stepper(Start const& start, double h)
-            : p_(start.p), length_(h), h_(h), half_(0.5 * h), sixth_(h * (1.0 / 6)) {
-            each_pack([&](auto p) { each_component([&](auto i) { y_[p][i] = start.y[p][i]; }); });
-        }
+    SLIDEWAY_FN FixedStepGroup(Parameters const* p, Real const (*y)[size], double h)
+        : p_(p), half_length_(0.5 * h), h_(h), half_(0.5 * h), sixth_(h * (1.0 / 6)) {
+        each([&](auto pack, auto i) { y_[pack][i] = y[pack][i]; });
+    }
 
-        /// The step from t = n h.
-        SLIDEWAY_FN void step(std::uint64_t n) {
-            double const t = static_cast<double>(n) * length_;
-            stage<0>(Real(t), half_);
-            stage<1>(Real(t + 0.5 * length_), half_);
-            stage<2>(Real(t + 0.5 * length_), h_);
-            stage<3>(Real(t + length_), sixth_);
-        }
+    SLIDEWAY_FN void step(double t) {
+        double const middle = t + half_length_, end = middle + half_length_;
+        over<rows>([&](auto row) {
+            constexpr int lead = decltype(row)::value * abreast;
+            stage<0, lead>(Real(t), half_);
+            stage<1, lead>(Real(middle), half_);
+            stage<2, lead>(Real(middle), h_);
+            stage<3, lead>(Real(end), sixth_);
+        });
+    }
 
-        SLIDEWAY_FN void keep(Real (*y)[size]) const {
-            each_pack([&](auto p) { each_component([&](auto i) { y[p][i] = y_[p][i]; }); });
-        }
-
-    private:
-        /// The slope of every pack at the stage, and the state after it: the next stage's, or the end.
-        template <int s> SLIDEWAY_FN void stage(Real t, Real reach) {
-            each_pack([&](auto p) {
-                Real k[size];
-                Model::template derivative<false>(t, s == 0 ? y_[p] : at_[p], p_[p], memory_, k, &report_);
-                each_component([&](auto i) {
-                    sum_[p][i] = RungeKutta4::accumulate<s>(sum_[p][i], k[i]);
-                    if constexpr (s < 3) {
-                        at_[p][i] = fma(reach, k[i], y_[p][i]);
-                    } else {
-                        y_[p][i] = fma(reach, sum_[p][i], y_[p][i]);
-                    }
-                });
+    /// Slopes of one row of packs at stage `s`, and the state that follows: at the next stage, or the step's end.
+    template <int s, int lead> SLIDEWAY_FN void stage(Real t, Real reach) {
+        over<abreast>([&](auto index) {
+            constexpr int pack = lead + decltype(index)::value;
+            Real k[size];
+            Model::template derivative<false>(t, s == 0 ? y_[pack] : at_[pack], p_[pack], memory_, k, &report_);
+            over<size>([&](auto i) {
+                Real& sum = sum_[pack][i];
+                Real const y = y_[pack][i];
+                if constexpr (s == 0) {
+                    sum = k[i];
+                } else {
+                    sum = RungeKutta4::accumulate<s>(sum, k[i]);
+                }
+                if constexpr (s < 3) {
+                    at_[pack][i] = fma(reach, k[i], y);
+                } else {
+                    y_[pack][i] = fma(reach, sum, y);
+                }
             });
-        }
+        });
+    }
 
-        template <class Each> SLIDEWAY_FN static void each_pack(Each each) { over(each, Packs{}); }
-        template <class Each> SLIDEWAY_FN static void each_component(Each each) { over(each, Components{}); }
-        template <class Each, int... i> SLIDEWAY_FN static void over(Each each, std::integer_sequence<int, i...>) {
-            (each(std::integral_constant<int, i>{}), ...);
-        }
+    /// Calls `f(pack, component)` for all of them.
+    template <class F> SLIDEWAY_FN static void each(F f) {
+        over<packs>([&](auto pack) { over<size>([&](auto i) { f(pack, i); }); });
+    }
+    template <int n, class F> SLIDEWAY_FN static void over(F f) { over(f, std::make_integer_sequence<int, n>{}); }
+    template <class F, int... i> SLIDEWAY_FN static void over(F f, std::integer_sequence<int, i...>) {
+        (f(std::integral_constant<int, i>{}), ...);
+    }
 
-        Parameters const* p_;
-        double length_;
-        Real h_, half_, sixth_;
-        Real y_[packs][size], at_[packs][size], sum_[packs][size];
-        typename Model::template Memory<Real> memory_;
-        typename Model::template Report<Real> report_;
-    };
+    Parameters const* p_;
+    double half_length_;
+    Real h_, half_, sixth_;
+    Real y_[packs][size], at_[packs][size], sum_[packs][size];
+    typename Model::template Memory<Real> memory_;
+    typename Model::template Report<Real> report_;
 };
 
 }  // namespace detail
+
+/// Integrates a block with equal steps of the classical Runge–Kutta method, one member per lane; nothing is decided on the way.
+/// A member's bits are those of any other group, pack or instruction set with fused multiply-add.
+template <class Model, class Real, PackGroup group = pack_group<Real>>
+SLIDEWAY_HD void fixed_step(FixedStepBlock<Model> const& block) {
+    using Group = detail::FixedStepGroup<Model, Real, group.abreast, group.rows>;
+    for (std::size_t first = 0; first < block.members; first += Group::members) Group::run(block, first);
+}
+
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -20,9 +20,7 @@ struct Lorenz {
     static constexpr int size = 3;  // x y z
     static constexpr bool has_memory = false;
 
-    template <class Real> struct Parameters {
-        Real sigma, rho, beta;
-    };
+    template <class Real> struct Parameters { Real sigma, rho, beta; };
     template <class Real> struct Report {};
     template <class Real> using Memory = NoMemory<Real>;
 

@@ -16,24 +16,22 @@ namespace slideway::inline SLIDEWAY_ISA {
 ///   whose remaining bounces raise p by little ends on the seat, x = v = 0 exactly, where v' = 0 until p > δ lifts the disc.
 struct ReliefValve {
     struct Inputs {
-        double inflow = 5;                 // q
+        double inflow = 5;                           // q
         double lift = 0.2, speed = 0, pressure = 0;  // x, v, p at the start
     };
     static constexpr int size = 3;  // x v p
     static constexpr bool has_memory = false;
 
-    template <class Real> struct Parameters {
-        Real inflow;
-    };
+    template <class Real> struct Parameters { Real inflow; };
     template <class Real> struct Report {};
     template <class Real> using Memory = NoMemory<Real>;
 
-    static constexpr double damping = 1.25;        // κ
-    static constexpr double preload = 10;          // δ, the opening pressure
-    static constexpr double stiffness = 20;        // β, of the vessel's contents
-    static constexpr double restitution = 0.8;     // e
-    static constexpr double seat_speed = 1e-6;     // what it cuts off moves p by seat_speed² or so
-    
+    static constexpr double damping = 1.25;     // κ
+    static constexpr double preload = 10;       // δ, the opening pressure
+    static constexpr double stiffness = 20;     // β, of the vessel's contents
+    static constexpr double restitution = 0.8;  // e
+    static constexpr double seat_speed = 1e-6;  // what it cuts off moves p by seat_speed² or so
+
     /// Time derivative of the state.  @param s, rates `size` values each; NaN stays NaN.
     template <bool Full, class Real>
     SLIDEWAY_FN static Faults<Real> derivative(Real, Real const* s, Parameters<Real> const& p, Memory<Real> const&,
@@ -68,8 +66,7 @@ struct ReliefValve {
     }
 
     /// The state after an impact, in the lanes `at`.
-    template <class Real>
-    SLIDEWAY_FN static void reset(int event, Mask<Real> at, Real* s, Parameters<Real> const& p) {
+    template <class Real> SLIDEWAY_FN static void reset(int event, Mask<Real> at, Real* s, Parameters<Real> const& p) {
         if (event != impact) return;
         Real const zero(0.0);
         Real const rebound = Real(-restitution) * s[1];
