@@ -10,10 +10,11 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// A spring-loaded relief valve on a vessel that is filled at a constant rate; the disc bounces on its seat:
 ///   x' = v,   v' = −κ v − (x + δ) + p,   p' = β (q − x √p);   at x = 0 with v < 0: v ← −e v.
 /// x is the lift, p the overpressure, κ = 1.25, δ = 10, β = 20, e = 0.8.  Source: Hős & Champneys, Physica D 241 (2012)
-/// 2068–2076; dimensionless.  Two things are ours, because the equations leave them open:
+/// 2068–2076; dimensionless.  What the equations leave open:
 /// - √p is 0 for p < 0.  No orbit gets there (p' = β q > 0 at p = 0), but a stage of a step may.
 /// - Below the opening pressure bounces come to an end: they pile up in finite time.  A rebound slower than `seat_speed`
 ///   whose remaining bounces raise p by little ends on the seat, x = v = 0 exactly, where v' = 0 until p > δ lifts the disc.
+/// From q = 8.7 or so on orbits end in an equilibrium, at which extrema are but rounding errors: see `at_rest`.
 struct ReliefValve {
     struct Inputs {
         double inflow = 5;                           // q
@@ -31,6 +32,7 @@ struct ReliefValve {
     static constexpr double stiffness = 20;     // β, of the vessel's contents
     static constexpr double restitution = 0.8;  // e
     static constexpr double seat_speed = 1e-6;  // what it cuts off moves p by seat_speed² or so
+    static constexpr double rest_rate = 1e-7;
 
     /// Time derivative of the state.  @param s, rates `size` values each; NaN stays NaN.
     template <bool Full, class Real>
@@ -78,6 +80,11 @@ struct ReliefValve {
                           (Real(4 * stiffness) * p.inflow * rebound <= allowed);
         s[0] = select(at, zero, s[0]);
         s[1] = select(at, select(ends, zero, rebound), s[1]);
+    }
+
+    /// Lanes whose orbit has come to its equilibrium: every extremum still to come is at the present x, within some 1e-8.
+    template <class Real> SLIDEWAY_FN static Mask<Real> at_rest(Real const* rates) {
+        return max(abs(rates[0]), max(abs(rates[1]), abs(rates[2]))) <= Real(rest_rate);
     }
 
     SLIDEWAY_HD static Parameters<double> parameters(Inputs const& in) { return {in.inflow}; }
