@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 #include <utility>
 
 #include "kernels/real.hpp"
@@ -32,7 +31,7 @@ template <class Real> inline constexpr PackGroup pack_group = lanes<Real> == 8 ?
 namespace detail {
 
 /// One group of packs and its members.  The counts are small constants and every loop over them is a fold, for g++ keeps an array of
-/// packs in registers only if it sees no loop.
+/// packs in registers only if it sees no loop; and they are functions, for it inlines lambdas as it likes.
 template <class Model, class Real, int abreast, int rows> class FixedStepGroup {
 public:
     static constexpr int packs = abreast * rows;
@@ -45,13 +44,14 @@ public:
         load(block, first, p, y);
         FixedStepGroup group(p, y, block.step);
         for (std::uint64_t n = 0; n < block.steps; ++n) group.step(static_cast<double>(n) * block.step);
-        group.each([&](auto pack, auto i) { y[pack][i] = group.y_[pack][i]; });
+        copy(group.y_, y, Indices<packs>{});
         store(block, first, y);
     }
 
 private:
     static constexpr int size = Model::size;
     using Parameters = typename Model::template Parameters<Real>;
+    template <int n> using Indices = std::make_integer_sequence<int, n>;
     static_assert(!Model::has_memory, "equal steps locate nothing that a model could remember");
 
     SLIDEWAY_HD static void load(FixedStepBlock<Model> const& block, std::size_t first, Parameters* p,
@@ -83,50 +83,57 @@ private:
 
     SLIDEWAY_FN FixedStepGroup(Parameters const* p, Real const (*y)[size], double h)
         : p_(p), half_length_(0.5 * h), h_(h), half_(0.5 * h), sixth_(h * (1.0 / 6)) {
-        each([&](auto pack, auto i) { y_[pack][i] = y[pack][i]; });
+        copy(y, y_, Indices<packs>{});
     }
 
-    SLIDEWAY_FN void step(double t) {
+    template <int... pack>
+    SLIDEWAY_FN static void copy(Real const (*from)[size], Real (*to)[size], std::integer_sequence<int, pack...>) {
+        (copy(from[pack], to[pack], Indices<size>{}), ...);
+    }
+    template <int... i> SLIDEWAY_FN static void copy(Real const* from, Real* to, std::integer_sequence<int, i...>) {
+        ((to[i] = from[i]), ...);
+    }
+
+    SLIDEWAY_FN void step(double t) { each_row(t, Indices<rows>{}); }
+
+    template <int... row> SLIDEWAY_FN void each_row(double t, std::integer_sequence<int, row...>) {
+        (step_row<row * abreast>(t), ...);
+    }
+
+    /// One step of the packs that begin with `lead`.
+    template <int lead> SLIDEWAY_FN void step_row(double t) {
         double const middle = t + half_length_, end = middle + half_length_;
-        over<rows>([&](auto row) {
-            constexpr int lead = decltype(row)::value * abreast;
-            stage<0, lead>(Real(t), half_);
-            stage<1, lead>(Real(middle), half_);
-            stage<2, lead>(Real(middle), h_);
-            stage<3, lead>(Real(end), sixth_);
-        });
+        stage<0, lead>(Real(t), half_, Indices<abreast>{});
+        stage<1, lead>(Real(middle), half_, Indices<abreast>{});
+        stage<2, lead>(Real(middle), h_, Indices<abreast>{});
+        stage<3, lead>(Real(end), sixth_, Indices<abreast>{});
     }
 
-    /// Slopes of one row of packs at stage `s`, and the state that follows: at the next stage, or the step's end.
-    template <int s, int lead> SLIDEWAY_FN void stage(Real t, Real reach) {
-        over<abreast>([&](auto index) {
-            constexpr int pack = lead + decltype(index)::value;
-            Real k[size];
-            Model::template derivative<false>(t, s == 0 ? y_[pack] : at_[pack], p_[pack], memory_, k, &report_);
-            over<size>([&](auto i) {
-                Real& sum = sum_[pack][i];
-                Real const y = y_[pack][i];
-                if constexpr (s == 0) {
-                    sum = k[i];
-                } else {
-                    sum = RungeKutta4::accumulate<s>(sum, k[i]);
-                }
-                if constexpr (s < 3) {
-                    at_[pack][i] = fma(reach, k[i], y);
-                } else {
-                    y_[pack][i] = fma(reach, sum, y);
-                }
-            });
-        });
+    template <int s, int lead, int... index>
+    SLIDEWAY_FN void stage(Real t, Real reach, std::integer_sequence<int, index...>) {
+        (stage<s, lead + index>(t, reach), ...);
     }
 
-    /// Calls `f(pack, component)` for all of them.
-    template <class F> SLIDEWAY_FN static void each(F f) {
-        over<packs>([&](auto pack) { over<size>([&](auto i) { f(pack, i); }); });
+    /// Slope of one pack at stage `s`, and the state that follows: the next stage's, or the end of the step.
+    template <int s, int pack> SLIDEWAY_FN void stage(Real t, Real reach) {
+        Real k[size];
+        Model::template derivative<false>(t, s == 0 ? y_[pack] : at_[pack], p_[pack], memory_, k, &report_);
+        move_on<s>(reach, k, y_[pack], at_[pack], sum_[pack], Indices<size>{});
     }
-    template <int n, class F> SLIDEWAY_FN static void over(F f) { over(f, std::make_integer_sequence<int, n>{}); }
-    template <class F, int... i> SLIDEWAY_FN static void over(F f, std::integer_sequence<int, i...>) {
-        (f(std::integral_constant<int, i>{}), ...);
+
+    template <int s, int... i>
+    SLIDEWAY_FN static void move_on(Real reach, Real const* k, Real* y, Real* at, Real* sum,
+                                    std::integer_sequence<int, i...>) {
+        if constexpr (s == 0) {
+            ((sum[i] = k[i]), ...);
+        } else {
+            ((sum[i] = RungeKutta4::accumulate<s>(sum[i], k[i])), ...);
+        }
+        if constexpr (s < 3) {
+            ((at[i] = fma(reach, k[i], y[i])), ...);
+        } else {
+            ((y[i] = fma(reach, sum[i], y[i])), ...);
+        }
     }
 
     Parameters const* p_;

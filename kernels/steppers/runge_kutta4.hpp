@@ -38,12 +38,10 @@ struct RungeKutta4 {
         }
     }
 
-    /// The running sum k₁ + 2k₂ + 2k₃ + k₄ after slope `s`: one number per component in place of four slopes, and a single
+    /// The running sum k₁ + 2k₂ + 2k₃ + k₄ from slope `s` = 1, 2, 3 on: one number per component in place of four slopes, and a single
     /// rounding at the size of the state.
     template <int s, class Real> SLIDEWAY_FN static Real accumulate(Real sum, Real slope) {
-        if constexpr (s == 0) {
-            return slope;
-        } else if constexpr (s < 3) {
+        if constexpr (s < 3) {
             return fma(Real(2.0), slope, sum);
         } else {
             return sum + slope;
