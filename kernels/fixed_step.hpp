@@ -25,7 +25,7 @@ struct PackGroup {
     int abreast, rows;
 };
 
-/// The fastest group for a model of three components: 32 registers of 8 lanes, 16 of fewer (docs/performance.md).
+/// The fastest group for a model of three components: 32 registers of 8 lanes, 16 of fewer (bench/lorenz).
 template <class Real> inline constexpr PackGroup pack_group = lanes<Real> == 8 ? PackGroup{4, 2} : PackGroup{2, 3};
 
 namespace detail {
@@ -63,10 +63,19 @@ private:
             auto const parameters = Model::parameters(inputs);
             auto const* from = reinterpret_cast<double const*>(&parameters);
             auto* to = reinterpret_cast<Real*>(&p[pack]);
-            for (std::size_t j = 0; j < sizeof(parameters) / sizeof(double); ++j) set_lane(to[j], index, from[j]);
+            for (std::size_t j = 0; j < sizeof(parameters) / sizeof(double); ++j) put(to[j], index, from[j]);
             double start[size];
             Model::initial_state(inputs, start);
-            for (int j = 0; j < size; ++j) set_lane(y[pack][j], index, start[j]);
+            for (int j = 0; j < size; ++j) put(y[pack][j], index, start[j]);
+        }
+    }
+
+    /// Lanes are filled in order; the first sets them all.
+    SLIDEWAY_FN static void put(Real& x, int index, double value) {
+        if (index == 0) {
+            x = Real(value);
+        } else {
+            set_lane(x, index, value);
         }
     }
 

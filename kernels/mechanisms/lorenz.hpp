@@ -1,9 +1,9 @@
 #pragma once
 
+#include "kernels/mechanisms/event_info.hpp"
 #include "kernels/mechanisms/faults.hpp"
 #include "kernels/mechanisms/no_memory.hpp"
 #include "kernels/real.hpp"
-#include "kernels/steppers/event_info.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 

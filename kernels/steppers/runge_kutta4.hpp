@@ -27,7 +27,8 @@ struct RungeKutta4 {
     SLIDEWAY_FN static void stage_state(Real const* y, Real const (*k)[size], Real h, Real* at) {
         for (int i = 0; i < size; ++i) {
             if constexpr (s < 4) {
-                at[i] = fma(h * Real(tableau.a[s][s - 1]), k[s - 1][i], y[i]);
+                constexpr double reach = Tableau{}.a[s][s - 1];
+                at[i] = fma(h * Real(reach), k[s - 1][i], y[i]);
             } else {
                 Real sum = k[0][i];
                 sum = accumulate<1>(sum, k[1][i]);
