@@ -6,6 +6,9 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
+/// Length of an array that may be empty, which C++ does not allow.
+constexpr int room(int length) { return length > 0 ? length : 1; }
+
 /// All that a member takes along from one stint in the lanes to the next.  `Real = double` is one member's record, a pack is the
 /// transpose of its lanes' records; both hold nothing but Reals, so that a record moves in and out number by number.
 template <class Model, class Real> struct MemberState {
@@ -34,7 +37,7 @@ template <class Model, class Real> struct MemberState {
     /// Present where quantities are asked for.
     struct Observation {
         Observer observer;
-        Real integrand[Observer::integrals];  // at the start of the next step
+        Real integrand[room(Observer::integrals)];  // at the start of the next step
     };
 
     Constants constants;

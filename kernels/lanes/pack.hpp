@@ -49,8 +49,8 @@ template <class Model, class Real> struct Pack {
     Real end[size], end_rates[size];
     Report end_report;  // if needs.ends
     Faults<Real> faults;
-    Real integral[Observer::integrals];           // Σ b_s · integrand of the stages, if needs.stages
-    Real audit_error[Observer::audit_integrals];  // Σ e_s · integrand
+    Real integral[room(Observer::integrals)];           // Σ b_s · integrand of the stages, if needs.stages
+    Real audit_error[room(Observer::audit_integrals)];  // Σ e_s · integrand
     Real scratch[size];
 
     SLIDEWAY_HD Faults<Real> evaluate(Real t, Real const* at, Real* rates, bool report_wanted, Report& report) const {
@@ -70,7 +70,7 @@ template <class Model, class Real> struct Pack {
     /// Adds the stage whose report is at hand.
     SLIDEWAY_HD void add_integrands(double b, double e) {
         if (!needs.stages || (b == 0 && e == 0)) return;
-        Real values[Observer::integrals];
+        Real values[room(Observer::integrals)];
         Observer::integrands(end_report, values);
         for (int i = 0; i < Observer::integrals; ++i) integral[i] = fma(Real(b), values[i], integral[i]);
         for (int i = 0; i < Observer::audit_integrals; ++i) audit_error[i] = fma(Real(e), values[i], audit_error[i]);
@@ -81,7 +81,7 @@ template <class Model, class Real> struct Pack {
         auto& c = state.course;
         for (int i = 0; i < size; ++i) c.rates[i] = select(in, rates[i], c.rates[i]);
         if (!needs.stages) return;
-        Real values[Observer::integrals];
+        Real values[room(Observer::integrals)];
         Observer::integrands(end_report, values);
         for (int i = 0; i < Observer::integrals; ++i) {
             state.observation.integrand[i] = select(in, values[i], state.observation.integrand[i]);

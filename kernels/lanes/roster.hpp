@@ -28,23 +28,24 @@ public:
     SLIDEWAY_HD int choose(int* chosen) const {
         int const leader = choose_leader();
         if (leader < 0) return 0;
-        Kind const kind = seat_[leader].kind;
-        bool taken[seats] = {};
-        taken[leader] = true;
+        // The leader and those that differ from it by the fewest contacts; `far` marks other kinds.
+        constexpr unsigned char far = 33;
+        unsigned char distance[seats];
+        int at_distance[far + 1] = {};
+        for (int i = 0; i < seats; ++i) {
+            bool const fits = seat_[i].kind == seat_[leader].kind;
+            distance[i] = fits ? static_cast<unsigned char>(bits(seat_[i].pattern ^ seat_[leader].pattern)) : far;
+            ++at_distance[distance[i]];
+        }
+        int last = 0, nearer = 0;  // the largest distance to take from, and how many are nearer
+        while (last < far - 1 && nearer + at_distance[last] < width) nearer += at_distance[last++];
+        int room_at_last = last == 0 ? width - 1 : width - nearer;  // the leader has its seat
         chosen[0] = leader;
         int count = 1;
-        while (count < width) {
-            int best = -1, best_distance = 0;
-            for (int i = 0; i < seats; ++i) {
-                if (taken[i] || seat_[i].kind != kind) continue;
-                int const distance = bits(seat_[i].pattern ^ seat_[leader].pattern);
-                bool const nearer = distance < best_distance ||
-                                    (distance == best_distance && best >= 0 && seat_[i].time < seat_[best].time);
-                if (best < 0 || nearer) best = i, best_distance = distance;
-            }
-            if (best < 0) break;
-            taken[best] = true;
-            chosen[count++] = best;
+        for (int i = 0; i < seats && count < width; ++i) {
+            if (i == leader || distance[i] > last) continue;
+            if (distance[i] == last && room_at_last-- <= 0) continue;
+            chosen[count++] = i;
         }
         return count;
     }

@@ -2,7 +2,6 @@
 
 #include "kernels/lanes/pack.hpp"
 #include "kernels/real.hpp"
-#include "kernels/steppers/explicit_pair.hpp"
 #include "kernels/steppers/ros34pw2.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <type_traits>
+
+#include "kernels/lanes/event_search.hpp"
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/results.hpp"
 #include "kernels/lanes/stiffness.hpp"
@@ -8,6 +11,8 @@
 #include "kernels/steppers/step_control.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
+
+struct NoSearch {};
 
 /// A pack of members at work with one stepper for a number of attempts.  Nothing that happens in one lane reaches another.
 template <class Stepper, class Model, class Real> class Stint {
@@ -68,9 +73,11 @@ private:
             sum.add(stepper_.error(pack_, i), tolerance);
         }
         // The damping power has a kink where a contact begins, which the states hardly feel: the audit controls its own error.
-        if (pack_.needs.audit) {
+        constexpr int audit_integrals = Pack<Model, Real>::Observer::audit_integrals;
+        if constexpr (audit_integrals > 0) {
+            if (!pack_.needs.audit) return sum.total() * Real(1.0 / size);
             Real const energy = atol * Model::energy_scale(s.constants.parameters);
-            for (int i = 0; i < Pack<Model, Real>::Observer::audit_integrals; ++i) {
+            for (int i = 0; i < audit_integrals; ++i) {
                 sum.add(pack_.step * pack_.audit_error[i], fma(rtol, abs(s.observation.observer.integral(i)), energy));
             }
         }
@@ -131,8 +138,13 @@ private:
     /// Moves the accepted lanes to the end of their step.  @return those that reached the end time.
     SLIDEWAY_HD Mask<Real> advance(Mask<Real> accepted) {
         auto& c = pack_.state.course;
-        auto const landed = accepted & lands_;
-        Real const t_end = select(landed, target_, c.t + pack_.step);
+        auto landed = accepted & lands_;
+        Real t_end = select(landed, target_, c.t + pack_.step);
+        if constexpr (Model::events > 0) {
+            search_.run(pack_, stepper_, accepted);
+            t_end = select(search_.ended(), fma(pack_.step, search_.fraction(), c.t), t_end);
+            landed = landed & !search_.ended();
+        }
         if (results_.samples() > 0) results_.take_samples(pack_, stepper_, accepted, t_end);
         if (pack_.needs.quantities) {
             pack_.state.observation.observer.accept(accepted, pack_.step, pack_.integral, pack_.end_report, pack_.end);
@@ -145,7 +157,16 @@ private:
             auto const touched = c.watch.update(accepted, pack_.end_report.contact, c.memory);
             if (any(touched)) restart(touched);
         }
-        return landed & (c.t >= Real(settings_.end_time));
+        auto finished = landed & (c.t >= Real(settings_.end_time));
+        if constexpr (Model::events > 0) {
+            search_.keep(accepted, c.watch);
+            if (pack_.needs.quantities) {
+                auto& observer = pack_.state.observation.observer;
+                observer.settle(accepted & Model::at_rest(c.rates), c.y);
+                finished = finished | (accepted & observer.complete());
+            }
+        }
+        return finished;
     }
 
     /// New impact speeds change the derivative at the same state.
@@ -177,6 +198,7 @@ private:
     Results<Model>& results_;
     IntegratorSettings const& settings_;
     Stepper stepper_;
+    [[no_unique_address]] std::conditional_t<(Model::events > 0), EventSearch<Model, Real>, NoSearch> search_;
     double rtol_, atol_, max_step_;
     Real target_;
     Mask<Real> lands_, left_;

@@ -4,7 +4,7 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// A model whose derivative depends on time, state and parameters alone remembers nothing of its events.
+/// What a model remembers beside its state, where that is nothing.
 template <class Real> struct NoMemory {};
 template <class Real> SLIDEWAY_FN void start_memory(NoMemory<Real>&) {}
 

@@ -17,6 +17,7 @@ template <class Law, class Friction, class Way, class Damping>
 struct SliderCrankModel : SliderCrank<Law, Friction, Way, Damping> {
     using Mechanism = SliderCrank<Law, Friction, Way, Damping>;
     static constexpr int series = series_count;
+    static constexpr int events = 0;
     static constexpr bool has_patterns = true;
     static constexpr bool has_linearisation = true;
     template <class Real> using Observer = SliderCrankObserver<Real>;

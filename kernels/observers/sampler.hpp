@@ -22,7 +22,12 @@ public:
         std::size_t row = 0;
         for (int i = 0; i < Model::series; ++i) {
             if (!((block_.series >> i) & 1u)) continue;
-            double const value = i < Model::size ? lane(state[i], index) : lane(report.series_value(i), index);
+            double value = follows;
+            if (i < Model::size) {
+                value = lane(state[i], index);
+            } else if constexpr (Model::series > Model::size) {
+                value = lane(report.series_value(i), index);
+            }
             block_.series_values[(row * block_.members + member) * block_.samples + sample] = value;
             ++row;
         }

@@ -2,6 +2,7 @@
 
 #include "kernels/real.hpp"
 #include "kernels/steppers/explicit_pair.hpp"
+#include "kernels/steppers/hermite.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 

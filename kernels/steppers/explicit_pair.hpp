@@ -4,15 +4,6 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// The cubic through the values and slopes (per step) at both ends of a step, at fraction θ of it.
-template <class Real> SLIDEWAY_FN Real hermite(Real y0, Real slope0, Real y1, Real slope1, Real theta) {
-    Real const rest = Real(1.0) - theta;
-    Real const change = y1 - y0;
-    Real const start = slope0 - change;
-    Real const end = change - slope1 - start;
-    return fma(theta, fma(rest, fma(theta, end, start), change), y0);
-}
-
 /// What all explicit Runge–Kutta pairs share.  @tparam Tableau holds the nodes c, stage weights a, weights b, and the error's
 /// weights e; @tparam count the number of stages, of which the last is the first of the next step.
 template <class Tableau_, int count> struct ExplicitPair {

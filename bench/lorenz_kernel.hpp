@@ -1,0 +1,32 @@
+// What bench/lorenz asks of each instruction set.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace slideway {
+
+/// Members that differ in ρ, from x = y = z = 10 with σ = 10 and β = 8/3, by equal Runge–Kutta steps.
+struct LorenzRun {
+    double const* rho = nullptr;  // [members]
+    std::size_t members = 0;
+    double step = 0;
+    std::uint64_t steps = 0;
+    double* states = nullptr;  // [members][3], the result
+};
+
+/// Operations of a step as the equations and the textbook's method need them, a multiply-add counted as two: four derivatives of 8
+/// (kernels/mechanisms/lorenz.hpp), and per component three stages of 2 and y + h/6 (k₁ + 2k₂ + 2k₃ + k₄), which is 7.
+inline constexpr double lorenz_step_flops = 4 * 8 + 3 * (3 * 2 + 7);
+
+/// Each instruction set's namespace has one, `lorenz_kernel`.
+struct LorenzKernel {
+    void (*integrate)(LorenzRun const& run);
+    /// Independent multiply-adds and nothing else.  @return operations done, two per lane of a multiply-add.
+    double (*multiply_add)(std::uint64_t rounds);
+};
+
+/// The peer: Boost.Odeint's runge_kutta4 on std::array<double, 3>, one member at a time.
+void odeint_lorenz(LorenzRun const& run);
+
+}  // namespace slideway

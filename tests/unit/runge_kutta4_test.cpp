@@ -1,0 +1,163 @@
+// The classical method: coefficients against the order conditions, order on a problem with a closed form, and equal steps.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "kernels/fixed_step.hpp"
+#include "kernels/mechanisms/lorenz.hpp"
+#include "kernels/steppers/runge_kutta4.hpp"
+
+namespace slideway {
+namespace {
+
+constexpr RungeKutta4Tableau w{};
+
+TEST(RungeKutta4, MeetsTheOrderConditions) {
+    auto const dot_b = [](auto const& f) {
+        double sum = 0;
+        for (int i = 0; i < 5; ++i) sum += w.b[i] * f(i);
+        return sum;
+    };
+    auto const a_times = [](int i, auto const& f) {
+        double sum = 0;
+        for (int j = 0; j < i; ++j) sum += w.a[i][j] * f(j);
+        return sum;
+    };
+    auto const c = [](int i) { return w.c[i]; };
+    auto const ac = [&](int i) { return a_times(i, c); };
+    for (int i = 0; i < 5; ++i) EXPECT_NEAR(a_times(i, [](int) { return 1.0; }), w.c[i], 1e-15) << "row " << i;
+    // Trees of up to four nodes (Hairer, Nørsett & Wanner 1993, II.2).
+    EXPECT_NEAR(dot_b([](int) { return 1.0; }), 1, 1e-15);
+    EXPECT_NEAR(dot_b(c), 1.0 / 2, 1e-15);
+    EXPECT_NEAR(dot_b([&](int i) { return c(i) * c(i); }), 1.0 / 3, 1e-15);
+    EXPECT_NEAR(dot_b(ac), 1.0 / 6, 1e-15);
+    EXPECT_NEAR(dot_b([&](int i) { return c(i) * c(i) * c(i); }), 1.0 / 4, 1e-15);
+    EXPECT_NEAR(dot_b([&](int i) { return c(i) * ac(i); }), 1.0 / 8, 1e-15);
+    EXPECT_NEAR(dot_b([&](int i) { return a_times(i, [&](int j) { return c(j) * c(j); }); }), 1.0 / 12, 1e-15);
+    EXPECT_NEAR(dot_b([&](int i) { return a_times(i, ac); }), 1.0 / 24, 1e-15);
+    // The fifth stage is the end of the step.
+    for (int j = 0; j < 4; ++j) EXPECT_EQ(w.a[4][j], w.b[j]);
+    EXPECT_EQ(w.c[4], 1.0);
+}
+
+/// x'' = −x as a system; one step of h from (x, v) with the slopes kept.
+struct Oscillator {
+    double y[2] = {1.0, 0.0}, end[2], k[5][2];
+
+    static void rates(double const* s, double* d) { d[0] = s[1], d[1] = -s[0]; }
+
+    void step(double h) {
+        double at[2];
+        rates(y, k[0]);
+        RungeKutta4::stage_state<1>(y, k, h, at), rates(at, k[1]);
+        RungeKutta4::stage_state<2>(y, k, h, at), rates(at, k[2]);
+        RungeKutta4::stage_state<3>(y, k, h, at), rates(at, k[3]);
+        RungeKutta4::stage_state<4>(y, k, h, end), rates(end, k[4]);
+    }
+    void advance() { y[0] = end[0], y[1] = end[1]; }
+};
+
+double observed_order(auto const& error) { return std::log2(error(0.1) / error(0.05)); }
+
+TEST(RungeKutta4, HasOrderFourOnAnOscillator) {
+    auto const error = [](double h) {
+        Oscillator o;
+        for (int i = 0; i < static_cast<int>(std::lround(4 / h)); ++i) o.step(h), o.advance();
+        return std::hypot(o.y[0] - std::cos(4.0), o.y[1] + std::sin(4.0));
+    };
+    EXPECT_NEAR(observed_order(error), 4.0, 0.2);
+}
+
+TEST(RungeKutta4, CubicInsideTheStepIsOffByTheFourthPower) {
+    for (double const theta : {0.1, 0.37, 0.5, 0.8}) {
+        auto const local = [theta](double h) {
+            Oscillator o;
+            o.step(h);
+            double const x = RungeKutta4::dense(o.k, 0, o.y[0], o.end[0], h, theta);
+            double const v = RungeKutta4::dense(o.k, 1, o.y[1], o.end[1], h, theta);
+            return std::hypot(x - std::cos(theta * h), v + std::sin(theta * h));
+        };
+        EXPECT_NEAR(observed_order(local), 4.0, 0.3) << "at " << theta;
+    }
+}
+
+TEST(RungeKutta4, CubicInsideTheStepMeetsBothEnds) {
+    Oscillator o;
+    o.step(0.3);
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_EQ(RungeKutta4::dense(o.k, i, o.y[i], o.end[i], 0.3, 0.0), o.y[i]);
+        EXPECT_NEAR(RungeKutta4::dense(o.k, i, o.y[i], o.end[i], 0.3, 1.0), o.end[i], 1e-16);
+    }
+}
+
+/// x' = λ x + t^3, whose equal steps have a closed form per step: R(z) x plus Simpson's rule where λ = 0.
+struct Driven {
+    struct Inputs {
+        double lambda = 0, start = 1;
+    };
+    static constexpr int size = 1;
+    static constexpr bool has_memory = false;
+    template <class Real> struct Parameters { Real lambda; };
+    template <class Real> struct Report {};
+    template <class Real> using Memory = NoMemory<Real>;
+    template <bool Full, class Real>
+    static Faults<Real> derivative(Real t, Real const* s, Parameters<Real> const& p, Memory<Real> const&, Real* rates,
+                                   Report<Real>*) {
+        rates[0] = p.lambda * s[0] + t * t * t;
+        return Faults<Real>::none();
+    }
+    static Parameters<double> parameters(Inputs const& in) { return {in.lambda}; }
+    static void initial_state(Inputs const& in, double* s) { s[0] = in.start; }
+};
+
+TEST(FixedStep, IntegratesACubicOfTimeExactly) {
+    // Simpson's rule, which the method is where x' depends on t alone, is exact for cubics: x = 1 + t⁴/4.
+    Driven::Inputs const in;
+    double x = 0;
+    fixed_step<Driven, double>({&in, 1, 0.25, 12, &x});
+    EXPECT_NEAR(x, 1 + std::pow(3.0, 4) / 4, 1e-13);
+}
+
+TEST(FixedStep, EveryMemberHasItsParametersAndItsStart) {
+    // Without the drive a step multiplies by R(z) = 1 + z + z²/2 + z³/6 + z⁴/24; start late times cancel it in differences.
+    std::vector<Driven::Inputs> in;
+    for (int i = 0; i < 7; ++i) in.push_back({-0.3 * i, 1.0 + i});
+    std::vector<double> x(7), undisturbed(7);
+    fixed_step<Driven, double>({in.data(), 7, 0.5, 3, x.data()});
+    for (auto& member : in) member.start = 0;
+    fixed_step<Driven, double>({in.data(), 7, 0.5, 3, undisturbed.data()});
+    for (int i = 0; i < 7; ++i) {
+        double const z = -0.3 * i * 0.5;
+        double const growth = std::pow(1 + z * (1 + z / 2 * (1 + z / 3 * (1 + z / 4))), 3);
+        auto const j = static_cast<std::size_t>(i);
+        EXPECT_NEAR(x[j] - undisturbed[j], (1.0 + i) * growth, 1e-14 * (1 + std::abs(x[j]))) << "member " << i;
+    }
+}
+
+TEST(FixedStep, TakesTheStepsOfTheStepper) {
+    Lorenz::Inputs const in;
+    double got[3];
+    fixed_step<Lorenz, double>({&in, 1, 0.01, 50, got});
+
+    auto const p = Lorenz::parameters(in);
+    Lorenz::Report<double> report;
+    auto const rates = [&](double const* s, double* d) { Lorenz::derivative<false>(0.0, s, p, {}, d, &report); };
+    double y[3], at[3], k[5][3];
+    Lorenz::initial_state(in, y);
+    for (int n = 0; n < 50; ++n) {
+        rates(y, k[0]);
+        RungeKutta4::stage_state<1>(y, k, 0.01, at), rates(at, k[1]);
+        RungeKutta4::stage_state<2>(y, k, 0.01, at), rates(at, k[2]);
+        RungeKutta4::stage_state<3>(y, k, 0.01, at), rates(at, k[3]);
+        RungeKutta4::stage_state<4>(y, k, 0.01, at);
+        for (int i = 0; i < 3; ++i) y[i] = at[i];
+    }
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(got[i], y[i]) << "component " << i;
+}
+
+TEST(FixedStep, NoMembersTouchNoMemory) { fixed_step<Lorenz, double>({nullptr, 0, 0.01, 50, nullptr}); }
+
+}  // namespace
+}  // namespace slideway
