@@ -29,10 +29,10 @@ template <class Real> struct JointStiffness {
     Real by_place[5][5];  // K
     Real by_rate[5][5];   // D
 
-    SLIDEWAY_FN void clear() {
+    SLIDEWAY_FN void fill(Real value) {
         for (auto* matrix : {by_place, by_rate}) {
             for (int i = 0; i < 5; ++i) {
-                for (int j = 0; j < 5; ++j) matrix[i][j] = Real(0.0);
+                for (int j = 0; j < 5; ++j) matrix[i][j] = value;
             }
         }
     }
@@ -53,7 +53,11 @@ template <class Law, class Friction, class Damping> struct JointLinearisation {
         auto const& g = p.geometry;
         auto const& motion = frame.motion;
         auto const& v = motion.velocity;
-        out.clear();
+        // 0, or NaN in a lane whose pose or motion is: else it would depend on its neighbours' contacts what such a lane gets.
+        auto const& place = motion.axes.x;
+        Real const whole = ((motion.y + motion.z) + (place.x + place.y)) +
+                           (((v.x + v.y) + (v.z + frame.spin.x)) + (frame.spin.y + frame.spin.z));
+        out.fill(whole - whole);
         Real touching(0.0);
         Vec3<Real> const& ny = motion.axes.y;
         auto const my = cross(motion.spin, ny);

@@ -23,6 +23,29 @@ public:
         ended_ = mask_of<Real>(false);
         fraction_ = Real(1.0);
         Model::event_values(c.t + pack.step, pack.end, pack.end_rates, p, end_.value, end_.slope);
+        auto candidates = mask_of<Real>(false);
+        for (int event = 0; event < events; ++event) {
+            candidates = candidates | may_cross(c.watch.value[event], c.watch.slope[event], end_.value[event],
+                                                end_.slope[event]);
+        }
+        candidates = candidates & accepted;
+        if (any(candidates)) search(pack, stepper, candidates);
+    }
+
+    /// Lanes whose step an event ended, and the fraction of the step at which.
+    SLIDEWAY_HD Mask<Real> ended() const { return ended_; }
+    SLIDEWAY_HD Real fraction() const { return fraction_; }
+
+    /// What the next step's search starts from.
+    SLIDEWAY_HD void keep(Mask<Real> in, EventValues<events, Real>& watch) const { keep_events(in, end_, watch); }
+
+private:
+    static constexpr double absent = 2.0;  // beyond every step
+
+    template <class Stepper>
+    SLIDEWAY_NOINLINE void search(Pack<Model, Real>& pack, Stepper const& stepper, Mask<Real> accepted) {
+        auto const& c = pack.state.course;
+        auto const& p = pack.state.constants.parameters;
         bool found = false;
         for (int event = 0; event < events; ++event) {
             auto const info = Model::event_table[event];
@@ -43,18 +66,6 @@ public:
         for (int i = 0; i < size; ++i) pack.end_rates[i] = select(ended_, rates[i], pack.end_rates[i]);
         Model::event_values(c.t + pack.step, pack.end, pack.end_rates, p, end_.value, end_.slope);
     }
-
-    /// Lanes whose step an event ended, and the fraction of the step at which.
-    SLIDEWAY_HD Mask<Real> ended() const { return ended_; }
-    SLIDEWAY_HD Real fraction() const { return fraction_; }
-
-    /// What the next step's search starts from.
-    SLIDEWAY_HD void keep(Mask<Real> in, EventValues<events, Real>& watch) const {
-        keep_events(in, end_, watch);
-    }
-
-private:
-    static constexpr double absent = 2.0;  // beyond every step
 
     template <class Stepper>
     SLIDEWAY_HD static void dense_state(Pack<Model, Real> const& pack, Stepper const& stepper, Real theta, Real* state) {

@@ -47,7 +47,8 @@ private:
     static constexpr int size = Model::size;
     static constexpr int width = lanes<Real>;
     static constexpr int seats = width == 1 ? 1 : 8 * width;
-    static constexpr int attempts = 8;  // of a stint
+    // Attempts of a stint: few where lanes are regrouped by what they touch, many where all have the same work.
+    static constexpr int attempts = Model::has_patterns ? 8 : 128;
     using Kind = typename Roster<seats, width>::Kind;
     using Record = MemberState<Model, double>;
 

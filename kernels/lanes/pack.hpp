@@ -53,7 +53,7 @@ template <class Model, class Real> struct Pack {
     Real audit_error[room(Observer::audit_integrals)];  // Σ e_s · integrand
     Real scratch[size];
 
-    SLIDEWAY_HD Faults<Real> evaluate(Real t, Real const* at, Real* rates, bool report_wanted, Report& report) const {
+    SLIDEWAY_FN Faults<Real> evaluate(Real t, Real const* at, Real* rates, bool report_wanted, Report& report) const {
         auto const& s = state;
         return report_wanted
                    ? Model::template derivative<true>(t, at, s.constants.parameters, s.course.memory, rates, &report)

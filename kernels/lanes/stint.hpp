@@ -33,7 +33,10 @@ public:
     SLIDEWAY_HD void work(int attempts) {
         left_ = mask_of<Real>(false);
         auto const members = pack_.busy;
+        int const members_at_start = held_lanes(members);
         for (int i = 0; i < attempts && any(pack_.busy); ++i) {
+            // Where nothing is decided between stints, a lane that falls free ends the stint and is filled at once.
+            if (!Model::has_patterns && held_lanes(pack_.busy) < members_at_start) break;
             begin();
             stepper_.attempt(pack_);
             settle();

@@ -4,9 +4,9 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// LU factors of a small matrix without pivoting (Doolittle): for matrices whose leading minors are safely away from zero, as
-/// a mass matrix with stiffness and damping added has them.  A vanishing pivot gives infinities or NaN, never a wrong finite
-/// answer unnoticed: check the residual.
+/// LU factors of a small matrix without pivoting (Doolittle): for matrices whose leading minors keep away from zero, as those of
+/// a mass matrix with stiffness and damping added do.  A vanishing pivot gives infinities or NaN and a small one costs digits:
+/// check the residual.
 template <int n, class Real> struct LuFactors {
     Real a[n][n];  // unit lower triangle below the diagonal, upper above it, reciprocals of the pivots on it
 

@@ -17,22 +17,26 @@ template <class Real> struct CubicZeros {
     Mask<Real> any;         // lanes with at least one
 };
 
+/// Lanes in which the cubic through the values and slopes at both ends may have a zero on [0, 1].  Without a change of sign only one
+/// that first comes nearer and then leaves can.
+template <class Real> SLIDEWAY_FN Mask<Real> may_cross(Real v0, Real s0, Real v1, Real s1) {
+    Real const zero(0.0);
+    auto const changes = ((v0 >= zero) & (v1 < zero)) | ((v0 < zero) & (v1 >= zero));
+    return changes | ((v0 * s0 < zero) & (v1 * s1 > zero));
+}
+
 /// Zeros on [0, 1] of the cubic through the values and slopes at both ends, those that it crosses in the direction asked for.
 /// Between its extrema the cubic is monotone, so that no pair of zeros inside one step is missed.  A value of 0 counts as positive:
 /// a zero at the end of one step is found in that step or in the next, and once.
+/// @param candidate lanes that `may_cross`.
 template <class Real>
-SLIDEWAY_HD CubicZeros<Real> cubic_zeros(Mask<Real> wanted, Real v0, Real s0, Real v1, Real s1, Direction direction) {
+SLIDEWAY_NOINLINE CubicZeros<Real> cubic_zeros(Mask<Real> candidate, Real v0, Real s0, Real v1, Real s1,
+                                               Direction direction) {
     Real const zero(0.0), one(1.0), absent(2.0);
     CubicZeros<Real> found;
     for (auto& z : found.at) z = {absent, zero, one, one};
     found.any = mask_of<Real>(false);
     auto const starts_positive = v0 >= zero, ends_positive = v1 >= zero;
-    // Without a change of sign only a cubic that first comes nearer and then leaves can have crossed.
-    auto const changes = (starts_positive & !ends_positive) | (!starts_positive & ends_positive);
-    auto const turns = (v0 * s0 < zero) & (v1 * s1 > zero);
-    auto const candidate = wanted & (changes | turns);
-    if (none(candidate)) return found;
-
     // v0 + s0 θ + a θ² + b θ³, extrema at s0 + 2aθ + 3bθ² = 0.
     Real const change = v1 - v0;
     Real const a = fms(Real(3.0), change, s0 + (s0 + s1)), b = fnma(Real(2.0), change, s0 + s1);
@@ -53,7 +57,7 @@ SLIDEWAY_HD CubicZeros<Real> cubic_zeros(Mask<Real> wanted, Real v0, Real s0, Re
                                                                            : falls | rises);
         if (none(crosses)) continue;
         Real low = ends[i], high = ends[i + 1];
-        for (int halvings = 0; halvings < 54; ++halvings) {
+        for (int halvings = 0; halvings < 24; ++halvings) {  // the dense output does the rest
             Real const middle = Real(0.5) * (low + high);
             auto const same = (value(middle) >= zero) & positive[i];
             auto const also = !(value(middle) >= zero) & !positive[i];
