@@ -1,0 +1,75 @@
+#include "bench/work_precision/odeint.hpp"
+#include "bench/work_precision/system.hpp"
+#if SLIDEWAY_CVODE
+#include "bench/work_precision/cvode.hpp"
+#endif
+
+namespace slideway::inline SLIDEWAY_ISA {
+namespace {
+
+using bench::Clock;
+using bench::Outcome;
+using bench::Task;
+
+template <class System, class Library, class Member>
+Outcome run_members(Library const& library, std::vector<Member> const& members, Task const& task) {
+    auto const& problem = task.problem;
+    bool const audited = problem.measure == bench::Measure::energy;
+    typename Library::template Solver<System> solver(library);
+    Outcome outcome;
+    auto const start = Clock::now();
+    auto const after = [&](double seconds) {
+        return start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    };
+    Limits const limits{problem.end_time, problem.max_step, task.tolerance, audited, after(task.budget)};
+    for (auto const& member : members) {
+        System const system(member);
+        auto const end = solver.run(system, limits);
+        if (Clock::now() > limits.deadline) break;  // this one may be cut off
+        bench::MemberOutcome result;
+        result.finished = end.finished;
+        result.state.assign(end.end.begin(), end.end.begin() + System::size);
+        result.evaluations = system.evaluations;
+        if constexpr (System::audits > 0) {
+            if (audited) {
+                auto const* w = &end.end[System::size];
+                double const change =
+                    system.energy(problem.end_time, end.end.data()) - system.energy(0, system.start.data());
+                result.audit = {w[0], w[1], w[2], change - w[0] + w[1] + w[2]};
+            }
+        }
+        outcome.members.push_back(std::move(result));
+        outcome.seconds_per_member = bench::seconds_since(start) / static_cast<double>(outcome.members.size());
+    }
+    return outcome;
+}
+
+template <class Library> bench::Method peer(std::string name, std::string code, Library library) {
+    return {std::move(name), std::move(code), false, [](bench::Problem const&) { return true; },
+            [library](Task const& task) {
+                return with_systems(task.problem.ensemble, [&]<class System>(auto const& members) {
+                    return run_members<System>(library, members, task);
+                });
+            }};
+}
+
+}  // namespace
+}  // namespace slideway::inline SLIDEWAY_ISA
+
+namespace slideway::bench {
+
+namespace odeint = boost::numeric::odeint;
+
+std::vector<Method> peer_methods() {
+    return {
+        peer("Odeint dopri5", "scalar", Odeint<odeint::runge_kutta_dopri5>{}),
+        peer("Odeint Cash-Karp", "scalar", Odeint<odeint::runge_kutta_cash_karp54>{}),
+#if SLIDEWAY_CVODE
+        peer("CVODE BDF", "scalar", Cvode{CV_BDF, 5}),
+        peer("CVODE BDF, order 2", "scalar", Cvode{CV_BDF, 2}),
+        peer("CVODE Adams", "scalar", Cvode{CV_ADAMS, 12}),
+#endif
+    };
+}
+
+}  // namespace slideway::bench
