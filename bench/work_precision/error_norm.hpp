@@ -4,6 +4,7 @@
 #include <array>
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
+#include <limits>
 
 #include "kernels/real.hpp"
 
@@ -14,7 +15,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// @tparam n components that are controlled, of which the first `states` make the mean.
 template <class Number, std::size_t n> class ScaledErrorChecker {
 public:
-    template <class Scale> ScaledErrorChecker(Number tolerance, Scale const& scale, int states)
+    template <class Scale>
+    ScaledErrorChecker(Number tolerance, Scale const& scale, int states)
         : tolerance_(tolerance), states_(static_cast<Number>(states)) {
         for (std::size_t i = 0; i < n; ++i) absolute_[i] = tolerance * scale[i];
     }
@@ -56,6 +58,24 @@ bool integrate_to(Controller& controller, Rates const& rates, State& y, Number e
         wish = step;
         if (wish < resolution || (attempts % 256 == 0 && give_up())) return false;
     }
+}
+
+/// The same with steps that may pass the end, whose state is taken from the pair's continuous extension.
+template <class Controller, class Rates, class State, class GiveUp>
+bool pass_densely(Controller const& controller, Rates const& rates, State& y, double end, double first_step,
+                  GiveUp const& give_up) {
+    boost::numeric::odeint::dense_output_runge_kutta<Controller> stepper(controller);
+    stepper.initialize(y, 0.0, first_step);
+    try {
+        for (unsigned steps = 1; stepper.current_time() < end; ++steps) {
+            stepper.do_step(rates);
+            if (steps % 256 == 0 && give_up()) return false;
+        }
+    } catch (boost::numeric::odeint::step_adjustment_error const&) {
+        return false;
+    }
+    stepper.calc_state(end, y);
+    return true;
 }
 
 }  // namespace slideway::inline SLIDEWAY_ISA

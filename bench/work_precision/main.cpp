@@ -16,11 +16,11 @@ int main(int argc, char** argv) {
     bool quick = false;
     std::string folder = ".", only, only_method;
     double budget = 0;
-    app.add_flag("--quick", quick, "fewer members and tolerances: about a minute instead of ten");
+    app.add_flag("--quick", quick, "fewer members and tolerances: about half a minute instead of ten minutes");
     app.add_option("-o,--output", folder, "folder for the table and the plots")->check(CLI::ExistingDirectory);
     app.add_option("--problem", only, "only problems whose name contains this");
     app.add_option("--method", only_method, "only methods whose name contains this");
-    app.add_option("--budget", budget, "seconds for one method at one tolerance (2, or 0.3 if quick)");
+    app.add_option("--budget", budget, "seconds for one method at one tolerance (6, or 1 if quick)");
     CLI11_PARSE(app, argc, argv);
     if (!slideway::is_supported(slideway::Isa::scalar)) {
         fmt::print(stderr, "work_precision: this machine has no AVX2 and FMA, which the peers are built for\n");
@@ -28,8 +28,8 @@ int main(int argc, char** argv) {
     }
     try {
         SweepOptions options;
-        options.budget = budget > 0 ? budget : quick ? 0.3 : 2;
-        options.repeats = quick ? 1 : 3;
+        options.budget = budget > 0 ? budget : quick ? 1 : 6;
+        options.repeats = quick ? 2 : 3;
         std::vector<Method> methods;
         for (auto const& group : {our_methods(), peer_methods()}) {
             for (auto const& method : group) {

@@ -44,7 +44,7 @@ struct Task {
 
 struct Method {
     std::string name;
-    std::string code;   // instruction set, or library, that runs it
+    std::string code;  // instruction set, or library, that runs it
     bool ours = false;
     std::function<bool(Problem const&)> solves;
     std::function<Outcome(Task const&)> solve;

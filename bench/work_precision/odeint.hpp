@@ -2,14 +2,18 @@
 #pragma once
 
 #include <algorithm>
+#include <boost/numeric/odeint.hpp>
 
 #include "bench/work_precision/error_norm.hpp"
 #include "bench/work_precision/trajectory.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
+/// Controlled steps that end at the end time, or free ones and dense output.
+enum class OdeintEnd { step, dense };
+
 /// @tparam Pair an error stepper of Odeint, by the type of its state.
-template <template <class...> class Pair> struct Odeint {
+template <template <class...> class Pair, OdeintEnd end = OdeintEnd::step> struct Odeint {
     template <class System> class Solver {
     public:
         explicit Solver(Odeint const&) {}
@@ -37,8 +41,13 @@ template <template <class...> class Pair> struct Odeint {
             auto const late = [&] { return bench::Clock::now() > limits.deadline; };
             State x{};
             std::copy(system.start.begin(), system.start.end(), x.begin());
+            double const first_step = 1e-3 * limits.max_step;
             Trajectory<System> result{};
-            result.finished = integrate_to(controller, rates, x, limits.end_time, 1e-3 * limits.max_step, late);
+            if constexpr (end == OdeintEnd::dense) {
+                result.finished = pass_densely(controller, rates, x, limits.end_time, first_step, late);
+            } else {
+                result.finished = integrate_to(controller, rates, x, limits.end_time, first_step, late);
+            }
             std::copy(x.begin(), x.end(), result.end.begin());
             return result;
         }

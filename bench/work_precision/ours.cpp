@@ -56,7 +56,8 @@ Outcome run_block(Isa isa, Choice const& choice, Task const& task) {
     block.final_states = states.data();
     block.quantity_values = quantities.data();
     auto const start = Clock::now();
-    auto const deadline = start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(task.budget));
+    auto const deadline =
+        start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(task.budget));
     block.stop = past_deadline;
     block.stop_context = &deadline;
     find_instance(isa, ensemble.parts).run(block);

@@ -63,11 +63,11 @@ namespace odeint = boost::numeric::odeint;
 std::vector<Method> peer_methods() {
     return {
         peer("Odeint dopri5", "scalar", Odeint<odeint::runge_kutta_dopri5>{}),
-        peer("Odeint Cash-Karp", "scalar", Odeint<odeint::runge_kutta_cash_karp54>{}),
+            peer("Odeint dopri5 dense", "scalar", Odeint<odeint::runge_kutta_dopri5, OdeintEnd::dense>{}),
+            peer("Odeint Cash-Karp", "scalar", Odeint<odeint::runge_kutta_cash_karp54>{}),
 #if SLIDEWAY_CVODE
-        peer("CVODE BDF", "scalar", Cvode{CV_BDF, 5}),
-        peer("CVODE BDF, order 2", "scalar", Cvode{CV_BDF, 2}),
-        peer("CVODE Adams", "scalar", Cvode{CV_ADAMS, 12}),
+            peer("CVODE BDF", "scalar", Cvode{CV_BDF, 5}), peer("CVODE BDF2", "scalar", Cvode{CV_BDF, 2}),
+            peer("CVODE Adams", "scalar", Cvode{CV_ADAMS, 12}),
 #endif
     };
 }

@@ -40,8 +40,8 @@ struct Problem {
     std::string title;  // of its plot
     Ensemble ensemble;
     std::size_t members_wanted = 0;  // the ensemble may hold more until the references have chosen
-    double end_time = 0;  // [s]
-    double max_step = 0;  // [s]
+    double end_time = 0;             // [s]
+    double max_step = 0;             // [s]
     Measure measure = Measure::state;
     std::vector<double> tolerances;  // rtol = atol, the latter against the scales of the error control
 

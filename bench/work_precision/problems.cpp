@@ -98,8 +98,8 @@ Problem long_horizon(std::string name, std::string title, Scene const& scene, do
                      double max_step, std::vector<double> tolerances) {
     return {.name = std::move(name),
             .title = std::move(title),
-            .ensemble = SliderCrankEnsemble{scene.parts, spread_members(members, scene.clearance, scene.crank_speed,
-                                                                        scene.chi)},
+            .ensemble = SliderCrankEnsemble{scene.parts,
+                                            spread_members(members, scene.clearance, scene.crank_speed, scene.chi)},
             .members_wanted = members,
             .end_time = end,
             .max_step = max_step,
@@ -129,7 +129,7 @@ Problem lorenz(double end, std::size_t members, std::vector<double> tolerances) 
 std::vector<Problem> all_problems(bool quick) {
     std::size_t const many = quick ? 8 : 32, few = quick ? 8 : 16;
     // Finest tolerance: of states, of energies where the run is short, and where it is long.
-    int const fine = quick ? 7 : 11, medium = quick ? 6 : 9, coarse = quick ? 4 : 7;
+    int const fine = quick ? 7 : 11, medium = quick ? 6 : 9, coarse = quick ? 4 : 6;
     return {
         short_horizon("settling_states", "Settling: states after 8 ms", settling, 0.008, many, decades(3, fine)),
         short_horizon("rattling_states", "Rattling: states after 18 ms", rattling, 0.018, many, decades(3, fine)),

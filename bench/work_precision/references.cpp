@@ -65,8 +65,8 @@ struct Pair {
 Pair both(SliderCrankEnsemble const& ensemble, std::size_t i, Problem const& problem) {
     auto const& in = ensemble.members[i];
     auto const scale = scales(problem.ensemble, i);
-    return {integrated<odeint::runge_kutta_cash_karp54<CrankState, Real>>(oracle_rates(in, ensemble.parts), start_of(in),
-                                                                         scale, 1e-15L, problem),
+    return {integrated<odeint::runge_kutta_cash_karp54<CrankState, Real>>(oracle_rates(in, ensemble.parts),
+                                                                          start_of(in), scale, 1e-15L, problem),
             integrated<odeint::runge_kutta_dopri5<CrankState, Real>>(kernel_rates(in, ensemble.parts), start_of(in),
                                                                      scale, 1e-15L, problem)};
 }
@@ -79,8 +79,7 @@ Pair both(LorenzEnsemble const& ensemble, std::size_t i, Problem const& problem)
         slope[1] = x[0] * (member.rho - x[2]) - x[1];
         slope[2] = x[0] * x[1] - member.beta * x[2];
     };
-    auto const first =
-        integrated<odeint::runge_kutta_fehlberg78<State<3>, Real>>(rates, y, {1, 1, 1}, 1e-17L, problem);
+    auto const first = integrated<odeint::runge_kutta_fehlberg78<State<3>, Real>>(rates, y, {1, 1, 1}, 1e-17L, problem);
     odeint::bulirsch_stoer<State<3>, Real> const extrapolation(1e-17L, 1e-17L);
     odeint::integrate_adaptive(extrapolation, rates, y, Real(0), Real(problem.end_time), Real(1e-3));
     return {first, rounded(y)};
@@ -104,8 +103,8 @@ std::vector<double> scales(Ensemble const& ensemble, std::size_t member) {
     auto const& in = std::get<SliderCrankEnsemble>(ensemble).members[member];
     double const rate = std::max(std::abs(in.crank_speed), 1.0);
     double const tilt = 2 * std::min(in.clearance_y, in.clearance_z) / in.slider_length;
-    return {in.clearance_y, in.clearance_z, in.clearance_y * rate, in.clearance_z * rate, tilt, tilt, tilt,
-            tilt * rate,    tilt * rate,    tilt * rate};
+    return {in.clearance_y, in.clearance_z, in.clearance_y * rate, in.clearance_z * rate, tilt,
+            tilt,           tilt,           tilt * rate,           tilt * rate,           tilt * rate};
 }
 
 void find_references(Problem& problem) {

@@ -55,6 +55,9 @@ std::vector<Row> sweep(Problem const& problem, std::vector<Method> const& method
         for (int repeat = 0; repeat < options.repeats; ++repeat) {
             for (std::size_t m = 0; m < methods.size(); ++m) {
                 if (!in_time[m] || !methods[m].solves(problem)) continue;
+                if (repeat > 0 &&
+                    last[m].seconds_per_member * static_cast<double>(last[m].members.size()) > options.long_run)
+                    continue;
                 last[m] = methods[m].solve({problem, tolerance, options.budget});
                 if (4 * last[m].members.size() < problem.size()) {
                     in_time[m] = false;

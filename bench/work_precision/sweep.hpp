@@ -13,8 +13,8 @@ struct Row {
     std::string method, code;
     bool ours = false;
     double tolerance = 0;
-    std::size_t members = 0;   // fewer than the problem's where the time allowed ended the run
-    std::size_t failures = 0;  // members that did not reach the end time; their error counts as infinite
+    std::size_t members = 0;                 // fewer than the problem's where the time allowed ended the run
+    std::size_t failures = 0;                // members that did not reach the end time; their error counts as infinite
     double median_error = 0, p95_error = 0;  // of Problem::measure
     double seconds = 0;                      // per member, one core, median of the repeats
     double evaluations = 0;                  // of the right-hand side, mean per member
@@ -22,8 +22,9 @@ struct Row {
 };
 
 struct SweepOptions {
-    double budget = 2;  // [s] for one method at one tolerance, once
-    int repeats = 3;
+    double budget = 6;    // [s] for one method at one tolerance, once
+    int repeats = 3;      // at most
+    double long_run = 1;  // [s] what takes this long is not repeated
 };
 
 /// Rows by method, then by tolerance.  Repeats of different methods take turns, so that a slow spell of the machine meets all of them.

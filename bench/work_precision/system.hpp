@@ -96,7 +96,9 @@ template <class Use> auto with_systems(bench::Ensemble const& ensemble, Use cons
             return paper ? use.template operator()<SliderCrankSystem<PaperLaw, PointDamping>>(e.members)
                          : use.template operator()<SliderCrankSystem<ConservativeLaw, RateDamping>>(e.members);
         }
-        auto operator()(bench::LorenzEnsemble const& e) const { return use.template operator()<LorenzSystem>(e.members); }
+        auto operator()(bench::LorenzEnsemble const& e) const {
+            return use.template operator()<LorenzSystem>(e.members);
+        }
     };
     return std::visit(Visitor{use}, ensemble);
 }
