@@ -10,8 +10,8 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Error checker for Odeint: root mean square of error/(rtol |y| + atol scale) with rtol = atol.  NaN counts as a large error; the
-/// default checker would accept it.
+/// Error checker for Odeint: root mean square of error/(rtol |y| + atol scale) with rtol = atol.  NaN counts as a large
+/// error; the default checker would accept it.
 /// @tparam n components that are controlled, of which the first `states` make the mean.
 template <class Number, std::size_t n> class ScaledErrorChecker {
 public:
@@ -42,8 +42,8 @@ using ScaledController =
     boost::numeric::odeint::controlled_runge_kutta<Stepper, ScaledErrorChecker<Number, n>,
                                                    boost::numeric::odeint::default_step_adjuster<Number, Number>>;
 
-/// Steps y from 0 to the end.  @param give_up asked every 256 attempts.  @return whether it got there; false too where the step fell
-/// below the resolution of time.
+/// Steps y from 0 to the end.  @param give_up asked every 256 attempts.  @return whether it got there; false too where the
+/// step fell below the resolution of time.
 template <class Controller, class Rates, class State, class Number, class GiveUp>
 bool integrate_to(Controller& controller, Rates const& rates, State& y, Number end, Number first_step,
                   GiveUp const& give_up) {

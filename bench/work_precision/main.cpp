@@ -1,8 +1,9 @@
-// Work-precision diagrams: every method over its tolerances on fixed problems, slideway's beside those that users would take instead.
-// Writes work_precision.csv, work_precision.md and one SVG per problem.
+// Work-precision diagrams: every method over its tolerances on fixed problems, slideway's beside those that users would
+// take instead. Writes work_precision.csv, work_precision.md and one SVG per problem.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <exception>
 
 #include "bench/work_precision/plot.hpp"
@@ -45,6 +46,7 @@ int main(int argc, char** argv) {
             auto rows = sweep(problem, methods, options);
             fmt::print("{}: {} members, references {:.0f} s, methods {:.0f} s\n", problem.name, problem.size(),
                        reference_time, seconds_since(start) - reference_time);
+            std::fflush(stdout);
             write_plot(std::filesystem::path(folder) / (problem.name + ".svg"), problem, rows);
             results.push_back({problem, std::move(rows)});
         }

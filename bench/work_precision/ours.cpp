@@ -77,7 +77,8 @@ Outcome run_block(Isa isa, Choice const& choice, Task const& task) {
         member.evaluations = records[i].rhs_evaluations;
         outcome.members.push_back(std::move(member));
     }
-    // A block that was cut off says nothing: its members in work at the end are lost, and the members that ended are the easy ones.
+    // A block that was cut off says nothing: its members in work at the end are lost, and the members that ended are the
+    // easy ones.
     if (outcome.members.size() < n) outcome.members.clear();
     outcome.seconds_per_member = seconds / static_cast<double>(n);
     return outcome;

@@ -27,14 +27,15 @@ struct SweepOptions {
     double long_run = 1;  // [s] what takes this long is not repeated
 };
 
-/// Rows by method, then by tolerance.  Repeats of different methods take turns, so that a slow spell of the machine meets all of them.
-/// A method that cannot do a quarter of the members within the budget is not asked for finer tolerances.
+/// Rows by method, then by tolerance.  Repeats of different methods take turns, so that a slow spell of the machine meets
+/// all of them. A method that cannot do a quarter of the members within the budget is not asked for finer tolerances.
 std::vector<Row> sweep(Problem const& problem, std::vector<Method> const& methods, SweepOptions const& options);
 
 /// Value below or at which a fraction of the values lies (nearest rank).
 double percentile(std::vector<double> values, double fraction);
 
-/// Least time [s] per member in which a method's p95 error meets the target, between its tolerances by log-log interpolation; NaN if it never does.
+/// Least time [s] per member in which a method's p95 error meets the target, between its tolerances by log-log
+/// interpolation; NaN if it never does.
 double time_to_reach(double target, std::vector<Row> const& rows, std::string const& method, std::string const& code);
 
 }  // namespace slideway::bench
