@@ -2,9 +2,9 @@
 # Builds and runs the work-precision benchmark, with SUNDIALS CVODE among the peers.
 # Usage: scripts/bench.sh [arguments of work_precision], e.g. --quick.  Results: bench/results/.
 #
-# Debian 12 builds its SUNDIALS without optimisation (debian/rules sets CMAKE_C_FLAGS, which replaces -O2), and CVODE's own work then takes twice
-# as long.  The comparison should be with CVODE at its best, so the same source is built here with the peers' flags; where
-# it cannot be fetched, Debian's library is taken and the tables say so.
+# Debian 12 builds its SUNDIALS without optimisation (debian/rules sets CMAKE_C_FLAGS, which replaces -O2), and CVODE's
+# own work then takes twice as long.  The comparison should be with CVODE at its best, so the same source is built here
+# with the peers' flags; where it cannot be fetched, Debian's library is taken and the tables say so.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
