@@ -15,9 +15,9 @@ constexpr double width = 860, height = 520;
 constexpr double left = 82, right = 610, top = 46, bottom = 462;  // of the frame
 
 /// Distinguishable with colour-blind eyes (Okabe & Ito 2008); the marks tell them apart in grey.
-constexpr std::string_view colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                        "#e69f00", "#56b4e9", "#000000", "#8a6d00"};
-enum class Mark { circle, square, diamond, up, down, count };
+constexpr std::string_view colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00",
+                                        "#56b4e9", "#000000", "#8a6d00", "#7a3fa0", "#888888"};
+enum class Mark { circle, square, diamond, up, down, left, right, count };
 
 struct Axis {
     int first, last;  // decades
@@ -104,6 +104,12 @@ void draw_mark(fmt::ostream& out, double x, double y, Style const& style) {
             break;
         case Mark::down:
             polygon({{0, 5}, {4.5, -3.5}, {-4.5, -3.5}});
+            break;
+        case Mark::left:
+            polygon({{-5, 0}, {3.5, -4.5}, {3.5, 4.5}});
+            break;
+        case Mark::right:
+            polygon({{5, 0}, {-3.5, -4.5}, {-3.5, 4.5}});
             break;
         case Mark::count:
             break;
