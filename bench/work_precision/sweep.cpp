@@ -40,12 +40,6 @@ Row summary(Problem const& problem, Method const& method, double tolerance, Outc
 
 }  // namespace
 
-double percentile(std::vector<double> values, double fraction) {
-    std::ranges::sort(values);
-    auto const rank = static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(values.size())));
-    return values[std::max<std::size_t>(rank, 1) - 1];
-}
-
 std::vector<Row> sweep(Problem const& problem, std::vector<Method> const& methods, SweepOptions const& options) {
     std::vector<std::vector<Row>> rows(methods.size());
     std::vector<bool> in_time(methods.size(), true);
@@ -75,23 +69,6 @@ std::vector<Row> sweep(Problem const& problem, std::vector<Method> const& method
     std::vector<Row> all;
     for (auto const& of_method : rows) all.insert(all.end(), of_method.begin(), of_method.end());
     return all;
-}
-
-double time_to_reach(double target, std::vector<Row> const& rows, std::string const& method, std::string const& code) {
-    double best = std::numeric_limits<double>::infinity();
-    Row const* before = nullptr;
-    for (auto const& row : rows) {
-        if (row.method != method || row.code != code) continue;
-        if (row.p95_error <= target) {
-            best = std::min(best, row.seconds);
-            if (before && before->p95_error > target && std::isfinite(before->p95_error) && row.p95_error > 0) {
-                double const part = std::log(before->p95_error / target) / std::log(before->p95_error / row.p95_error);
-                best = std::min(best, before->seconds * std::pow(row.seconds / before->seconds, part));
-            }
-        }
-        before = &row;
-    }
-    return std::isfinite(best) ? best : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace slideway::bench
