@@ -1,6 +1,8 @@
 // What is measured: methods that take a whole ensemble to its end time.
 #pragma once
 
+#include <time.h>
+
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -11,11 +13,25 @@
 
 namespace slideway::bench {
 
-using Clock = std::chrono::steady_clock;
+using Clock = std::chrono::steady_clock;  // for limits and progress
 
 inline double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
+
+/// Time that this thread has spent computing: what is reported, for other work on the machine does not count in it.
+class ThreadTimer {
+public:
+    double seconds() const { return now() - start_; }
+
+private:
+    static double now() {
+        timespec t;
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+        return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+    }
+    double start_ = now();
+};
 
 /// Integrals of the energy audit from 0 to the end time [J], and what they leave of the change of energy.
 struct Audit {

@@ -60,8 +60,9 @@ Outcome run_block(Isa isa, Choice const& choice, Task const& task) {
         start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(task.budget));
     block.stop = past_deadline;
     block.stop_context = &deadline;
+    ThreadTimer const timer;
     find_instance(isa, ensemble.parts).run(block);
-    double const seconds = seconds_since(start);
+    double const seconds = timer.seconds();
 
     Outcome outcome;
     for (std::size_t i = 0; i < n; ++i) {

@@ -17,7 +17,9 @@ Outcome run_members(Library const& library, std::vector<Member> const& members, 
     bool const audited = problem.measure == bench::Measure::energy;
     typename Library::template Solver<System> solver(library);
     Outcome outcome;
+    bench::ThreadTimer const timer;
     auto const start = Clock::now();
+    auto last_end = start;
     auto const after = [&](double seconds) {
         return start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
     };
@@ -39,8 +41,12 @@ Outcome run_members(Library const& library, std::vector<Member> const& members, 
             }
         }
         outcome.members.push_back(std::move(result));
-        outcome.seconds_per_member = bench::seconds_since(start) / static_cast<double>(outcome.members.size());
+        last_end = Clock::now();
     }
+    // The part of the time that went into members that came to their end.
+    double const part = std::chrono::duration<double>(last_end - start).count() / bench::seconds_since(start);
+    outcome.seconds_per_member =
+        part * timer.seconds() / static_cast<double>(std::max<std::size_t>(outcome.members.size(), 1));
     return outcome;
 }
 

@@ -100,7 +100,8 @@ void write_markdown(std::filesystem::path const& file, std::vector<Result> const
         "time, when no "
         "member touches the way; energies, |ε| in joules (`docs/model.md` 8).  Percentiles over members; a member that "
         "failed counts "
-        "as infinite.  Time: wall clock of the run whose error is shown, the energy audit included where energies are "
+        "as infinite.  Time: of the processor, in the run whose error is shown, the energy audit included where "
+        "energies are "
         "measured, divided by "
         "its members; slideway runs the ensemble as one block, the peers one member after the other.\n");
     for (auto const& [problem, rows] : results) {
