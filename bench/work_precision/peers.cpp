@@ -67,15 +67,17 @@ namespace slideway::bench {
 namespace odeint = boost::numeric::odeint;
 
 std::vector<Method> peer_methods() {
-    return {
-        peer("Odeint dopri5", "scalar", Odeint<odeint::runge_kutta_dopri5>{}),
-            peer("Odeint dopri5 dense", "scalar", Odeint<odeint::runge_kutta_dopri5, OdeintEnd::dense>{}),
-            peer("Odeint Cash-Karp", "scalar", Odeint<odeint::runge_kutta_cash_karp54>{}),
+    std::vector<Method> methods;
+    methods.push_back(peer("Odeint dopri5", "scalar", Odeint<odeint::runge_kutta_dopri5>{}));
+    methods.push_back(peer("Odeint dopri5 dense", "scalar", Odeint<odeint::runge_kutta_dopri5, OdeintEnd::dense>{}));
+    methods.push_back(peer("Odeint Cash-Karp", "scalar", Odeint<odeint::runge_kutta_cash_karp54>{}));
 #if SLIDEWAY_CVODE
-            peer("CVODE BDF", "scalar", Cvode{CV_BDF, 5}), peer("CVODE BDF2", "scalar", Cvode{CV_BDF, 2}),
-            peer("CVODE Adams", "scalar", Cvode{CV_ADAMS, 12}),
+    methods.push_back(peer("CVODE BDF", "scalar", Cvode{CV_BDF, 5}));
+    // Orders above 2 are not stable on the imaginary axis, where undamped contact has its modes.
+    methods.push_back(peer("CVODE BDF2", "scalar", Cvode{CV_BDF, 2}));
+    methods.push_back(peer("CVODE Adams", "scalar", Cvode{CV_ADAMS, 12}));
 #endif
-    };
+    return methods;
 }
 
 }  // namespace slideway::bench
