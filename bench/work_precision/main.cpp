@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
     bool quick = false;
     std::string folder = ".", only, only_method;
     double budget = 0;
-    app.add_flag("--quick", quick, "fewer members and tolerances: about half a minute instead of ten minutes");
+    app.add_flag("--quick", quick, "fewer members and tolerances: about half a minute instead of six");
     app.add_option("-o,--output", folder, "folder for the table and the plots")->check(CLI::ExistingDirectory);
     app.add_option("--problem", only, "only problems whose name contains this");
     app.add_option("--method", only_method, "only methods whose name contains this");
