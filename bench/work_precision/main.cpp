@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
             fmt::print("{}: {} members, references {:.0f} s, methods {:.0f} s\n", problem.name, problem.size(),
                        reference_time, seconds_since(start) - reference_time);
             std::fflush(stdout);
-            write_plot(std::filesystem::path(folder) / (problem.name + ".svg"), problem, rows);
+            write_plot(std::filesystem::path(folder) / (problem.name + ".svg"), problem, rows, methods);
             results.push_back({problem, std::move(rows)});
         }
         write_csv(std::filesystem::path(folder) / "work_precision.csv", results);

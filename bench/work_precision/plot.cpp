@@ -48,19 +48,19 @@ std::string xml(std::string_view text) {
 }
 
 /// The same colour and mark for one method whatever runs it; scalar code has hollow marks.
-std::vector<Curve> curves_of(std::vector<Row> const& rows) {
+std::vector<Curve> curves_of(std::vector<Row> const& rows, std::vector<Method> const& methods) {
+    std::vector<std::string> names;
+    for (auto const& method : methods) {
+        if (std::ranges::find(names, method.name) == names.end()) names.push_back(method.name);
+    }
     std::vector<Curve> curves;
-    std::vector<std::string> methods;
     for (auto const& row : rows) {
         auto const name = row.ours ? row.method + ", " + row.code : row.method;
         if (curves.empty() || curves.back().name != name) {
-            if (std::ranges::find(methods, row.method) == methods.end()) methods.push_back(row.method);
-            std::size_t const i = methods.size() - 1;
+            auto const i = static_cast<std::size_t>(std::ranges::find(names, row.method) - names.begin());
             bool const hollow = row.ours && row.code == "scalar";
-            curves.push_back({name,
-                              {colours[i % std::size(colours)],
-                               static_cast<Mark>(i % static_cast<std::size_t>(Mark::count)), !hollow},
-                              {}});
+            auto const mark = static_cast<Mark>(i % static_cast<std::size_t>(Mark::count));
+            curves.push_back({name, {colours[i % std::size(colours)], mark, !hollow}, {}});
         }
         curves.back().rows.push_back(row);
     }
@@ -191,8 +191,9 @@ void draw_legend(fmt::ostream& out, std::vector<Curve> const& curves) {
 
 }  // namespace
 
-void write_plot(std::filesystem::path const& file, Problem const& problem, std::vector<Row> const& rows) {
-    auto const curves = curves_of(rows);
+void write_plot(std::filesystem::path const& file, Problem const& problem, std::vector<Row> const& rows,
+                std::vector<Method> const& methods) {
+    auto const curves = curves_of(rows, methods);
     auto const x = axis_over(rows, left, right, [](Row const& r) { return std::vector{r.seconds}; });
     auto const y = axis_over(rows, bottom, top, [](Row const& r) { return std::vector{r.median_error, r.p95_error}; });
     auto out = fmt::output_file(file.string());

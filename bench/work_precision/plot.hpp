@@ -8,6 +8,8 @@
 namespace slideway::bench {
 
 /// Writes an SVG: a line per method, p95 solid with marks, median thin and dashed.
-void write_plot(std::filesystem::path const& file, Problem const& problem, std::vector<Row> const& rows);
+/// @param methods all that may have rows, so that one method looks the same in the plots of all problems.
+void write_plot(std::filesystem::path const& file, Problem const& problem, std::vector<Row> const& rows,
+                std::vector<Method> const& methods);
 
 }  // namespace slideway::bench
