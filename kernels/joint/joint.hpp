@@ -106,7 +106,7 @@ private:
             auto& face = i == 0 ? plus : minus;
             face.impact_speed = {zero, zero, zero, zero};
             if constexpr (has_memory) face.impact_speed = memory.speeds[first + i];
-            auto f = Law::template forces<Damping>(face, contact, p.contact);
+            auto f = Law::template forces<Damping, Full>(face, contact, p.contact);
             outside = outside | f.outside;
             Real const front = f.normal.a + f.normal.b, rear = f.normal.c + f.normal.d;
             Real const pushed = front + rear;
