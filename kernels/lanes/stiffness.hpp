@@ -9,6 +9,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// an impact is over before `stiff_looks` looks.  Factors of two either way change the work by less than 15 %.
 struct Stiffness {
     static constexpr double stiff_above = 0.9;  // hΩ of the explicit pair
+    static constexpr double lasting_above = 0.1;  // hΩ from which a look in contact counts a little
+    static constexpr double lasting_share = 1.0 / 16;
     static constexpr double stiff_looks = 3.0;  // one look a stint
     static constexpr double calm_below = 0.25;  // hΩ of the stiff method
     static constexpr double calm_steps = 6.0;
