@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "kernels/inputs.hpp"
+#include "kernels/methods.hpp"
 #include "kernels/observers/quantities.hpp"
 #include "kernels/status.hpp"
 
@@ -14,10 +15,14 @@ namespace slideway {
 inline constexpr int state_size = 10;  // y z vy vz roll yaw pitch wx wy wz
 
 struct IntegratorSettings {
+    Method method = Method::automatic;
     double rtol = 1e-6;
-    double atol = 1e-6;                     // relative to the joint's scales: c, c·ω, 2c/L_k, 2c/L_k·ω
-    double end_time = 0;                    // [s]
-    double max_step = 1e-3;                 // [s]
+    double atol = 1e-6;              // relative to the joint's scales: c, c·ω, 2c/L_k, 2c/L_k·ω
+    double stiff_tolerance = 1e-4;   // the stiff method's rtol and atol are never below it
+    double end_time = 0;             // [s]
+    double max_step = 1e-3;          // [s], of the explicit methods; what a step may leap over in free flight
+    double stiff_max_step = 1e-2;    // [s], of the stiff method, which runs in lasting contact only
+    double fixed_step = 0;           // [s], of rk4
     std::uint64_t max_steps = 100'000'000;  // tried steps per member
 };
 
@@ -27,12 +32,13 @@ struct MemberRecord {
     std::uint64_t steps_accepted = 0;
     std::uint64_t steps_rejected = 0;  // by the error, or cut at a touch
     std::uint64_t rhs_evaluations = 0;
-    double time = 0;  // [s] where it ended
+    double time = 0;                         // [s] where it ended
+    std::uint64_t jacobian_evaluations = 0;  // each costs about one right-hand side
+    std::uint64_t stiff_steps = 0;           // accepted steps of the stiff method
 };
 
-/// Members [0, members) of a block.  A lane that finishes takes the next member of the block.
-struct Block {
-    Inputs const* inputs = nullptr;  // [members], completed: nothing `follows`
+/// Members [0, members) of a block: what every model's block holds.
+struct BlockBase {
     std::size_t members = 0;
     IntegratorSettings settings;
     double const* sample_times = nullptr;  // [samples], ascending, within [0, end_time]
@@ -44,12 +50,20 @@ struct Block {
     void const* stop_context = nullptr;
     // results
     MemberRecord* records = nullptr;        // [members]
-    double* final_states = nullptr;         // [members][state_size]
-    double* quantity_values = nullptr;      // [members][quantity_columns], only selected columns written
+    double* final_states = nullptr;         // [members][states of the model]
+    double* quantity_values = nullptr;      // [members][columns of the model's observer], only selected columns written
     double* series_values = nullptr;        // [selected series, in table order][members][samples]; NaN after a failure
     std::uint64_t lane_steps_executed = 0;  // step attempts × lanes
     std::uint64_t lane_steps_useful = 0;    // those that served a member
 };
+
+/// A block of members of one model, which reads `ModelInputs` of each.
+template <class ModelInputs> struct BlockOf : BlockBase {
+    ModelInputs const* inputs = nullptr;  // [members]
+};
+
+/// A block of slider-cranks; their inputs are completed: nothing `follows`.
+using Block = BlockOf<Inputs>;
 
 /// Everything one state tells, as the golden tables list it (model.md 11).
 struct ProbeResult {

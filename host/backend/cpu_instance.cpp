@@ -6,7 +6,7 @@
 #include "kernels/laws/conservative.hpp"
 #include "kernels/laws/paper.hpp"
 #include "kernels/mechanisms/probe.hpp"
-#include "kernels/mechanisms/slider_crank.hpp"
+#include "kernels/models/slider_crank_model.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 using Real = IsaReal;
 
 template <class Friction, class Way> constexpr KernelInstance instance() {
-    using Model = SliderCrank<SLIDEWAY_LAW, Friction, Way, SLIDEWAY_DAMPING>;
+    using Model = SliderCrankModel<SLIDEWAY_LAW, Friction, Way, SLIDEWAY_DAMPING>;
     return {&integrate<Model, Real>, &probe<Model, Real>};
 }
 

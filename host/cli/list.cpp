@@ -22,9 +22,10 @@ int list(ListArguments const&) {
         "\ndamping\n"
         "  point                          contact.eta: point contacts alone\n"
         "  rate                           contact.chi_line, contact.chi_surface: lines and surfaces too\n"
-        "  restitution                    contact.restitution: replaces both\n"
-        "\nintegrators (integrator.method)\n"
-        "  dopri5                         Dormand-Prince 5(4), adaptive, dense output (what auto means)\n"
+        "  restitution                    contact.restitution: replaces both\n");
+    fmt::print("\nintegrators (integrator.method)\n");
+    for (MethodInfo const& method : method_table) fmt::print("  {:<30} {}\n", method.name, method.description);
+    fmt::print(
         "\nstudies (study.kind)\n"
         "  ensemble                       every member to the end time, summary statistics\n"
         "\ndistributions (study.vary)\n"

@@ -19,7 +19,9 @@ void add_block(EnsembleTotals& totals, BlockBuffers const& buffers, BlockResult 
             ++totals.ended[static_cast<std::size_t>(record.status)];
         totals.steps_accepted += record.steps_accepted;
         totals.steps_rejected += record.steps_rejected;
+        totals.stiff_steps += record.stiff_steps;
         totals.rhs_evaluations += record.rhs_evaluations;
+        totals.jacobian_evaluations += record.jacobian_evaluations;
     }
     totals.lane_steps_executed += buffers.lane_steps_executed();
     totals.lane_steps_useful += buffers.lane_steps_useful();

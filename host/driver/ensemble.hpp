@@ -25,7 +25,8 @@ struct EnsemblePlan {
 struct EnsembleTotals {
     std::array<std::uint64_t, status_count> ended{};  // by status
     std::uint64_t not_run = 0;
-    std::uint64_t steps_accepted = 0, steps_rejected = 0, rhs_evaluations = 0;
+    std::uint64_t steps_accepted = 0, steps_rejected = 0, stiff_steps = 0;
+    std::uint64_t rhs_evaluations = 0, jacobian_evaluations = 0;
     std::uint64_t lane_steps_executed = 0, lane_steps_useful = 0;
     double seconds = 0;                     // wall time
     StopReason stopped = StopReason::none;  // none if every member ran, whatever was asked for

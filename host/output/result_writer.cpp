@@ -137,6 +137,8 @@ void ResultWriter::define_members() {
     steps_accepted_ = member_variable("steps_accepted", "1", "accepted steps");
     steps_rejected_ = member_variable("steps_rejected", "1", "rejected steps");
     rhs_evaluations_ = member_variable("rhs_evaluations", "1", "evaluations of the right-hand side");
+    jacobian_evaluations_ = member_variable("jacobian_evaluations", "1", "evaluations of the Jacobian");
+    stiff_steps_ = member_variable("stiff_steps", "1", "accepted steps of the stiff method");
     end_time_ = member_variable("end_time", "s", "time at which the member ended");
     for (int i = 0; i < state_size; ++i) {
         final_states_.push_back(member_variable(fmt::format("final_{}", series_table[i].name), series_table[i].unit,
@@ -253,6 +255,8 @@ void ResultWriter::write(BlockResult const& block) {
     put(steps_accepted_, [&](std::size_t i) { return block.records[i].steps_accepted; });
     put(steps_rejected_, [&](std::size_t i) { return block.records[i].steps_rejected; });
     put(rhs_evaluations_, [&](std::size_t i) { return block.records[i].rhs_evaluations; });
+    put(jacobian_evaluations_, [&](std::size_t i) { return block.records[i].jacobian_evaluations; });
+    put(stiff_steps_, [&](std::size_t i) { return block.records[i].stiff_steps; });
     put(end_time_, [&](std::size_t i) { return block.records[i].time; });
     for (std::size_t k = 0; k < final_states_.size(); ++k) {
         put(final_states_[k], [&](std::size_t i) { return block.final_states[i * state_size + k]; });

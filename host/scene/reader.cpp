@@ -16,6 +16,7 @@ constexpr std::string_view table_names[] = {"mechanism", "joint",   "way",      
 constexpr std::string_view other_names[] = {
     "schema",           "title",           "mechanism.kind",    "contact.law",      "friction.enabled",
     "integrator.method", "integrator.rtol", "integrator.atol",  "integrator.max_step", "integrator.max_steps",
+    "integrator.step", "integrator.stiff_max_step", "integrator.stiff_tolerance",
     "study.kind",       "study.members",   "study.seed",        "study.revolutions", "study.duration",
     "study.samples_per_revolution", "study.samples", "study.quantities", "study.vary",
 };

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -14,7 +16,11 @@ constexpr std::string_view mechanism_names[] = {"slider_crank", "carriage", "fre
                                                 "lorenz"};
 constexpr std::size_t available_mechanisms = 1;
 constexpr std::string_view law_names[] = {"paper", "conservative"};
-constexpr std::string_view method_names[] = {"dopri5", "auto"};
+constexpr auto method_names = [] {
+    std::array<std::string_view, method_count> names;
+    for (std::size_t i = 0; i < names.size(); ++i) names[i] = method_table[i].name;
+    return names;
+}();
 
 void check_rivals(std::vector<GivenKey> const& given) {
     for (std::size_t i = 0; i < given.size(); ++i) {
@@ -77,9 +83,13 @@ void read_physics(Node const& root, Scene& scene) {
 
 void read_integrator(Node const& root, Scene& scene) {
     IntegratorSettings& settings = scene.integrator;
-    scene.method = method_names[0];
     if (Node const* const node = root.find_path("integrator.method")) {
-        read_choice(*node, "method", method_names);  // auto means the one that there is
+        settings.method = static_cast<Method>(read_choice(*node, "method", method_names));
+    }
+    Node const* const step = root.find_path("integrator.step");
+    if (step != nullptr) settings.fixed_step = read_number(*step, "s", "fixed step", {.low = 0, .low_included = false});
+    if (settings.method == Method::rk4 && step == nullptr) {
+        refuse(*root.find_path("integrator.method"), {"the method has no step control", "give integrator.step"});
     }
     if (Node const* const node = root.find_path("integrator.rtol")) {
         // Below some 50 roundings of a double the error estimate is noise.
@@ -94,6 +104,14 @@ void read_integrator(Node const& root, Scene& scene) {
     settings.max_step = speed > 0 ? std::min(longest_step, 2 * std::numbers::pi / speed / 2000) : longest_step;
     if (Node const* const node = root.find_path("integrator.max_step")) {
         settings.max_step = read_number(*node, "s", "largest step", {.low = 0, .low_included = false});
+    }
+    // The stiff method runs in lasting contact alone, where nothing is to be leapt over.
+    settings.stiff_max_step = 10 * settings.max_step;
+    if (Node const* const node = root.find_path("integrator.stiff_max_step")) {
+        settings.stiff_max_step = read_number(*node, "s", "largest step", {.low = 0, .low_included = false});
+    }
+    if (Node const* const node = root.find_path("integrator.stiff_tolerance")) {
+        settings.stiff_tolerance = read_number(*node, "1", "least tolerance of the stiff method", {1e-14, 0.1});
     }
     if (Node const* const node = root.find_path("integrator.max_steps")) {
         settings.max_steps = read_count(*node, "number of steps", 1, 1'000'000'000'000'000);

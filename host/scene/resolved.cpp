@@ -85,8 +85,12 @@ std::string resolved_toml(Scene const& scene) {
     text += physics_table(scene, complete, "friction", fmt::format("enabled = {}\n", scene.parts.friction));
     text += physics_table(scene, complete, "initial", "");
     IntegratorSettings const& integrator = scene.integrator;
-    text += fmt::format("\n[integrator]\nmethod = \"{}\"\nrtol = {}\natol = {}\nmax_step = {}  # s\nmax_steps = {}\n",
-                        scene.method, number(integrator.rtol), number(integrator.atol), number(integrator.max_step),
+    text += fmt::format("\n[integrator]\nmethod = \"{}\"\nrtol = {}\natol = {}\nmax_step = {}  # s\n"
+                        "stiff_max_step = {}  # s\nstiff_tolerance = {}\n{}max_steps = {}\n",
+                        name_of(integrator.method), number(integrator.rtol), number(integrator.atol),
+                        number(integrator.max_step), number(integrator.stiff_max_step),
+                        number(integrator.stiff_tolerance),
+                        integrator.fixed_step > 0 ? fmt::format("step = {}  # s\n", number(integrator.fixed_step)) : "",
                         integrator.max_steps);
     text += fmt::format("\n[study]\nkind = \"{}\"\nmembers = {}\nseed = {}\nduration = {}  # s\nsamples = {}\n"
                         "quantities = [{}]\n",

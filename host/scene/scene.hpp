@@ -25,7 +25,6 @@ struct Scene {
     std::string mechanism = "slider_crank";
     Inputs inputs;                          // as given; entries that follow others are NaN
     Parts parts;
-    std::string method = "dopri5";          // resolved: what `auto` means for this scene
     IntegratorSettings integrator;          // end_time and max_step resolved
     std::string study = "ensemble";
     std::uint64_t members = 1;

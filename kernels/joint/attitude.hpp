@@ -17,8 +17,13 @@ template <class Real> struct Axes {
 /// Sines and cosines of roll φ, yaw ϑ and pitch ψ.
 template <class Real> struct Attitude { SinCos<Real> roll, yaw, pitch; };
 
+/// Bits as of three calls of sincos; one branch lets the compiler interleave the three.
 template <class Real> SLIDEWAY_FN Attitude<Real> attitude(Real roll, Real yaw, Real pitch) {
-    return {sincos(roll), sincos(yaw), sincos(pitch)};
+    using namespace detail;
+    if (none(is_wide(roll) | is_wide(yaw) | is_wide(pitch))) {
+        return {sine_and_cosine_near(roll), sine_and_cosine_near(yaw), sine_and_cosine_near(pitch)};
+    }
+    return {sine_and_cosine_reduced(roll), sine_and_cosine_reduced(yaw), sine_and_cosine_reduced(pitch)};
 }
 
 /// Columns of A_k = Rz(ψ) Ry(ϑ) Rx(φ) in the inertial frame.  Source: Qian et al. 2020 (3)–(4), angles as in model.md 1.

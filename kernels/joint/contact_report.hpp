@@ -11,6 +11,11 @@ inline constexpr int face_count = 4;  // Y+, Y−, Z+, Z−
 template <class Real> struct ImpactMemory { Quad<Real> speeds[face_count]; };
 inline constexpr double least_impact_speed = 1e-4;
 
+template <class Real> SLIDEWAY_FN void start_memory(ImpactMemory<Real>& memory) {
+    Real const least(least_impact_speed);
+    for (auto& face : memory.speeds) face = {least, least, least, least};
+}
+
 /// Apex numbers P1…P8 (from 0) of a face's a, b, c, d.  Source: Qian et al. 2020, Table 2: top {1,4,8,5}, bottom {2,3,7,6},
 /// front {1,2,6,5}, back {4,3,7,8}.
 /// A function, because device code cannot index a constant of the host.
@@ -44,7 +49,7 @@ template <class Real> struct ContactReport {
         Real const front = fma(f.normal.a - f.elastic.a, m.rate.a, (f.normal.b - f.elastic.b) * m.rate.b);
         Real const rear = fma(f.normal.c - f.elastic.c, m.rate.c, (f.normal.d - f.elastic.d) * m.rate.d);
         damping_power = damping_power + (front + rear);
-        auto const modes = face_modes<Real>(m.touching);
+        auto modes = face_modes<Real>(m.touching);
         surfaces = surfaces + count<Real>(modes.surface);
         lines =
             lines + ((count<Real>(modes.ab) + count<Real>(modes.bc)) + (count<Real>(modes.cd) + count<Real>(modes.da)));

@@ -32,74 +32,102 @@ template <class Law, class Friction, class Damping> struct Joint {
 
     /// @tparam Full also fill the report (penetrations, forces, modes, powers); the wrench has the same bits without.
     /// @param outside set where a line contact is beyond its domain; the wrench of such a lane is NaN.
-    template <bool Full, class Real>
-    SLIDEWAY_FN static Wrench<Real> wrench(JointMotion<Real> const& motion, ImpactMemory<Real> const& memory,
+    template <bool Full, class Real, class Memory>
+    SLIDEWAY_FN static Wrench<Real> wrench(JointMotion<Real> const& motion, Memory const& memory,
                                            JointParameters<Real> const& p, ContactReport<Real>* report,
                                            Mask<Real>& outside) {
-        auto const& g = p.geometry;
-        Real const zero(0.0);
         outside = mask_of<Real>(false);
         if constexpr (Full) report->clear();
-        Wrench<Real> w{{zero, zero, zero}, {zero, zero, zero}};
-
-        Vec3<Real> const& ny = motion.axes.y;
-        auto const my = cross(motion.spin, ny);
-        Vec3<Real> const& v = motion.velocity;
-        FaceContact<Real> const y_face{p.contact.surface_stiffness_y, p.contact.across_y_face, p.contact.along};
-        add_faces<Axis::y, Full>(penetrations(g.clearance_y, g.half_width, g.half_depth, g.half_length,
-                                              motion.axes.y_shortfall, ny.z, ny.x, motion.y, motion.z),
-                                 penetration_rates(g.half_width, g.half_depth, g.half_length, ny.y, ny.z, my.y, my.z,
-                                                   my.x, motion.y, motion.z, v.y, v.z),
-                                 ny, g.half_width, g.half_depth, y_face, motion, memory, p, report, outside, w);
-
-        Vec3<Real> const& nz = motion.axes.z;
-        auto const mz = cross(motion.spin, nz);
-        FaceContact<Real> const z_face{p.contact.surface_stiffness_z, p.contact.across_z_face, p.contact.along};
-        add_faces<Axis::z, Full>(penetrations(g.clearance_z, g.half_depth, g.half_width, g.half_length,
-                                              motion.axes.z_shortfall, nz.y, nz.x, motion.z, motion.y),
-                                 penetration_rates(g.half_depth, g.half_width, g.half_length, nz.z, nz.y, mz.z, mz.y,
-                                                   mz.x, motion.z, motion.y, v.z, v.y),
-                                 nz, g.half_depth, g.half_width, z_face, motion, memory, p, report, outside, w);
+        Wrench<Real> w;
+        w.force = w.torque = {Real(0.0), Real(0.0), Real(0.0)};
+        add_faces<Axis::y, Full>(motion.axes.y, motion.axes.y_shortfall, motion, memory, p, report, outside, w);
+        add_faces<Axis::z, Full>(motion.axes.z, motion.axes.z_shortfall, motion, memory, p, report, outside, w);
         return w;
+    }
+
+    /// Which of the sixteen apex–face pairs touch: bit 4·face + i for the i-th apex of a face, as a number.
+    template <class Real>
+    SLIDEWAY_FN static Real pattern(JointMotion<Real> const& motion, JointGeometry<Real> const& g) {
+        Vec3<Real> const &ny = motion.axes.y, &nz = motion.axes.z;
+        auto const y = penetrations(g.clearance_y, g.half_width, g.half_depth, g.half_length, motion.axes.y_shortfall,
+                                    ny.z, ny.x, motion.y, motion.z);
+        auto const z = penetrations(g.clearance_z, g.half_depth, g.half_width, g.half_length, motion.axes.z_shortfall,
+                                    nz.y, nz.x, motion.z, motion.y);
+        Real const one(1.0), sixteen(16.0);
+        Real code = face_pattern(apices(z, negated(one)));
+        code = fma(code, sixteen, face_pattern(apices(z, one)));
+        code = fma(code, sixteen, face_pattern(apices(y, negated(one))));
+        return fma(code, sixteen, face_pattern(apices(y, one)));
     }
 
 private:
     enum class Axis { y, z };
 
-    /// The vector with `main` along the axis, `across` along the other of Y and Z.
-    template <Axis axis, class Real> SLIDEWAY_FN static Vec3<Real> arranged(Real x, Real main, Real across) {
-        if constexpr (axis == Axis::y) return {x, main, across};
-        return {x, across, main};
+    template <class Real> SLIDEWAY_FN static Real face_pattern(Quad<Real> const& depth) {
+        Real const zero(0.0);
+        auto const bit = [&](Real d, double value) { return select(d > zero, Real(value), zero); };
+        return (bit(depth.a, 1.0) + bit(depth.b, 2.0)) + (bit(depth.c, 4.0) + bit(depth.d, 8.0));
+    }
+
+    /// A vector in the frame (x, main, across) of the faces normal to an axis, and back.  The Z faces' is (x, z, y), which is
+    /// left-handed: angular velocities and torques change their sign.
+    template <Axis axis, class Real> SLIDEWAY_FN static Vec3<Real> arranged(Vec3<Real> const& v) {
+        if constexpr (axis == Axis::y) return v;
+        return {v.x, v.z, v.y};
+    }
+    template <Axis axis, class Real> SLIDEWAY_FN static Vec3<Real> arranged_axial(Vec3<Real> const& v) {
+        if constexpr (axis == Axis::y) return v;
+        return {negated(v.x), negated(v.z), negated(v.y)};
     }
 
     /// Both faces normal to one of the slider's axes.
-    template <Axis axis, bool Full, class Real>
-    SLIDEWAY_FN static void add_faces(FacePair<Real> const& depths, FacePair<Real> const& rates, Vec3<Real> const& n,
-                                      Real half_main, Real half_across, FaceContact<Real> const& face,
-                                      JointMotion<Real> const& motion, ImpactMemory<Real> const& memory,
-                                      JointParameters<Real> const& p, ContactReport<Real>* report, Mask<Real>& outside,
-                                      Wrench<Real>& w) {
+    template <Axis axis, bool Full, class Real, class Memory>
+    SLIDEWAY_FN static void add_faces(Vec3<Real> const& face_normal, Real shortfall, JointMotion<Real> const& motion,
+                                      Memory const& memory, JointParameters<Real> const& p,
+                                      ContactReport<Real>* report, Mask<Real>& outside, Wrench<Real>& w) {
+        constexpr bool is_y = axis == Axis::y;
         Real const zero(0.0);
-        Real const p_main = axis == Axis::y ? motion.y : motion.z;
-        Real const p_across = axis == Axis::y ? motion.z : motion.y;
+        auto const& g = p.geometry;
+        Real const half_main = is_y ? g.half_width : g.half_depth, half_across = is_y ? g.half_depth : g.half_width;
+        Real const p_main = is_y ? motion.y : motion.z, p_across = is_y ? motion.z : motion.y;
+        auto n = arranged<axis>(face_normal);
+        auto depths = penetrations(is_y ? g.clearance_y : g.clearance_z, half_main, half_across, g.half_length,
+                                   shortfall, n.z, n.x, p_main, p_across);
+        FaceMotion<Real> plus, minus;
+        plus.depth = apices(depths, Real(1.0));
+        minus.depth = apices(depths, Real(-1.0));
+        constexpr int first = is_y ? 0 : 2;
+        if constexpr (Full) {
+            report->set_penetrations(first, plus.depth);
+            report->set_penetrations(first + 1, minus.depth);
+        }
+        bool const on_plus = touch(plus), on_minus = touch(minus);
+        if (!(Full && has_memory) && !on_plus && !on_minus) return;
+
+        auto v = arranged<axis>(motion.velocity);
+        auto spin = arranged_axial<axis>(motion.spin);
+        auto m = cross(spin, n);
+        auto rates = penetration_rates(half_main, half_across, g.half_length, n.y, n.z, m.y, m.z, m.x, p_main, p_across,
+                                       v.y, v.z);
+        plus.rate = apices(rates, Real(1.0));
+        minus.rate = apices(rates, Real(-1.0));
+        if constexpr (Full && has_memory) {
+            report->set_rates(first, plus.rate);
+            report->set_rates(first + 1, minus.rate);
+            if (!on_plus && !on_minus) return;
+        }
+        FaceContact<Real> contact{is_y ? p.contact.surface_stiffness_y : p.contact.surface_stiffness_z,
+                                  is_y ? p.contact.across_y_face : p.contact.across_z_face, p.contact.along};
         // Σ sF, Σ F, Σ s s_x F and Σ s s_across F: all that the wrench needs of eight forces along one normal.
         Real net = zero, total = zero, net_along = zero, net_across = zero;
-        bool contact = false;
+        Vec3<Real> force{zero, zero, zero}, torque{zero, zero, zero};
         for (int i = 0; i < 2; ++i) {
+            if (!(i == 0 ? on_plus : on_minus)) continue;
             Real const side(i == 0 ? 1.0 : -1.0);
-            int const index = (axis == Axis::y ? 0 : 2) + i;
-            FaceMotion<Real> m;
-            m.depth = apices(depths, side);
-            m.touching = {m.depth.a > zero, m.depth.b > zero, m.depth.c > zero, m.depth.d > zero};
-            if constexpr (Full) report->set_penetrations(index, m.depth);
-            bool const touched = any((m.touching.a | m.touching.b) | (m.touching.c | m.touching.d));
-            if constexpr (Full && has_memory) report->set_rates(index, apices(rates, side));
-            if (!touched) continue;
-            contact = true;
-            m.rate = apices(rates, side);
-            m.impact_speed = {zero, zero, zero, zero};
-            if constexpr (has_memory) m.impact_speed = memory.speeds[index];
-            auto const f = Law::template forces<Damping>(m, face, p.contact);
+            auto& face = i == 0 ? plus : minus;
+            face.impact_speed = {zero, zero, zero, zero};
+            if constexpr (has_memory) face.impact_speed = memory.speeds[first + i];
+            auto f = Law::template forces<Damping>(face, contact, p.contact);
             outside = outside | f.outside;
             Real const front = f.normal.a + f.normal.b, rear = f.normal.c + f.normal.d;
             Real const pushed = front + rear;
@@ -107,27 +135,29 @@ private:
             total = total + pushed;
             net_along = fma(side, front - rear, net_along);
             net_across = fma(side, (f.normal.a + f.normal.d) - (f.normal.b + f.normal.c), net_across);
-            if constexpr (Full) report->add_face(index, m, f);
+            if constexpr (Full) report->add_face(first + i, face, f);
             if constexpr (Friction::enabled) {
-                SlidingFace<Real> const sliding{n,
-                                                arranged<axis>(zero, fms(side, half_main, p_main), negated(p_across)),
-                                                {p.geometry.half_length, zero, zero},
-                                                arranged<axis>(zero, zero, half_across),
-                                                motion.velocity,
-                                                motion.spin};
-                auto const friction = Friction::load(sliding, f.normal, p.friction);
-                w.force = w.force + friction.force;
-                w.torque = w.torque + friction.torque;
+                SlidingFace<Real> sliding{
+                    n, fms(side, half_main, p_main), negated(p_across), g.half_length, half_across, v, spin};
+                auto friction = Friction::load(sliding, f.normal, p.friction);
+                force = force + friction.force;
+                torque = torque + friction.torque;
                 if constexpr (Full) report->friction_power = report->friction_power + friction.power;
             }
         }
-        if (!contact) return;
-        auto const force = net * n;
-        auto const arm = arranged<axis>(p.geometry.half_length * net_along, fnma(p_main, net, half_main * total),
-                                        fnma(p_across, net, half_across * net_across));
-        w.force.y = w.force.y + force.y;
-        w.force.z = w.force.z + force.z;
-        w.torque = w.torque + cross(arm, n);
+        Vec3<Real> arm{g.half_length * net_along, fnma(p_main, net, half_main * total),
+                       fnma(p_across, net, half_across * net_across)};
+        force = {force.x, fma(net, n.y, force.y), fma(net, n.z, force.z)};
+        torque = torque + cross(arm, n);
+        w.force = w.force + arranged<axis>(force);
+        w.torque = w.torque + arranged_axial<axis>(torque);
+    }
+
+    /// Finds a face's touching apices.  @return whether there is one.
+    template <class Real> SLIDEWAY_FN static bool touch(FaceMotion<Real>& face) {
+        Real const zero(0.0);
+        face.touching = {face.depth.a > zero, face.depth.b > zero, face.depth.c > zero, face.depth.d > zero};
+        return any((face.touching.a | face.touching.b) | (face.touching.c | face.touching.d));
     }
 };
 

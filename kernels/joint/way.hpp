@@ -48,7 +48,7 @@ struct MisalignedWay {
         m.axes.z = to_way(slider.z, way);
         m.axes.y_shortfall = shortfall(m.axes.y.y, m.axes.y.x, m.axes.y.z);
         m.axes.z_shortfall = shortfall(m.axes.z.z, m.axes.z.x, m.axes.z.y);
-        auto const p = to_way(position - way.offset, way);
+        auto p = to_way(position - way.offset, way);
         m.y = p.y;
         m.z = p.z;
         m.velocity = to_way(velocity, way);

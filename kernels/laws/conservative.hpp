@@ -19,7 +19,7 @@ struct ConservativeLaw {
         auto const& t = m.touching;
         // A floor for the depths of apices out of contact keeps every dead side finite.
         Real const dead(1e-6);
-        Quad<Real> const depth{select(t.a, m.depth.a, dead), select(t.b, m.depth.b, dead), select(t.c, m.depth.c, dead),
+        Quad<Real> depth{select(t.a, m.depth.a, dead), select(t.b, m.depth.b, dead), select(t.c, m.depth.c, dead),
                                select(t.d, m.depth.d, dead)};
         add_point<Damping>(t.a, depth.a, m.rate.a, m.impact_speed.a, contact, f.normal.a, f.elastic.a, f.potential);
         add_point<Damping>(t.b, depth.b, m.rate.b, m.impact_speed.b, contact, f.normal.b, f.elastic.b, f.potential);
@@ -68,7 +68,7 @@ private:
         Real const part_i = depth_i * reciprocal, part_j = depth_j * reciprocal;
         Real const mean = two * depth_i * part_j;
         Real const slope_i = two * part_j * part_j, slope_j = two * part_i * part_i;
-        auto const line = line_load(mean, edge);
+        auto line = line_load(mean, edge);
         f.outside = f.outside | (touching & line.outside);
         Real const mean_rate = fma(slope_i, rate_i, slope_j * rate_j);
         Real const load = select(touching, line.load, zero);
@@ -88,10 +88,10 @@ private:
                                         FaceForces<Real>& f) {
         Real const zero(0.0);
         Real const ab = d.a * d.b, cd = d.c * d.d;
-        Quad<Real> const p{d.b * cd, d.a * cd, ab * d.d, ab * d.c};
+        Quad<Real> p{d.b * cd, d.a * cd, ab * d.d, ab * d.c};
         Real const scale = Real(2.0) / sum(p);
-        Quad<Real> const q{p.a * scale, p.b * scale, p.c * scale, p.d * scale};  // twice q
-        Quad<Real> const slope{q.a * q.a, q.b * q.b, q.c * q.c, q.d * q.d};
+        Quad<Real> q{p.a * scale, p.b * scale, p.c * scale, p.d * scale};  // twice q
+        Quad<Real> slope{q.a * q.a, q.b * q.b, q.c * q.c, q.d * q.d};
         Real const mean = Real(2.0) * d.a * q.a;
         Real const mean_rate = fma(slope.a, m.rate.a, slope.b * m.rate.b) + fma(slope.c, m.rate.c, slope.d * m.rate.d);
         Real const v0 = max(max(m.impact_speed.a, m.impact_speed.b), max(m.impact_speed.c, m.impact_speed.d));

@@ -12,6 +12,15 @@ template <class Value> struct Quad { Value a, b, c, d; };
 
 template <class Real> SLIDEWAY_FN Real sum(Quad<Real> const& q) { return (q.a + q.b) + (q.c + q.d); }
 
+/// 1/a … 1/d by one division (P. Montgomery's trick), to a few units in the last place.  The product of all four must neither
+/// overflow nor vanish; who has no use for one of the four says one.
+template <class Real> SLIDEWAY_FN Quad<Real> reciprocals(Quad<Real> const& q) {
+    Real const ab = q.a * q.b, cd = q.c * q.d;
+    Real const all = Real(1.0) / (ab * cd);
+    Real const of_ab = all * cd, of_cd = all * ab;
+    return {of_ab * q.b, of_ab * q.a, of_cd * q.d, of_cd * q.c};
+}
+
 /// Which contacts a face has.  Edges are named by their apices.
 template <class Real> struct FaceModes {
     Mask<Real> surface;

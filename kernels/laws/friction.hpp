@@ -16,12 +16,14 @@ template <class Real> struct FrictionParameters {
     Real fall;                 // π/(Vd − Vs) [s/m]
 };
 
-/// One face as friction sees it.  Apex positions and velocities are affine in the apex's signs: centre ± along ± across.
+/// One face as friction sees it, in the frame (x, main, across) of the face: main along its normal if the slider lies straight.
+/// The apices lie at centre ± half_length along x ± half_across.
 template <class Real> struct SlidingFace {
-    Vec3<Real> normal;                 // unit normal n
-    Vec3<Real> centre, along, across;  // ρ [m] from the slider's centre
-    Vec3<Real> velocity;               // u' of the slider's centre [m/s]
-    Vec3<Real> spin;                   // ω of the slider [rad/s]
+    Vec3<Real> normal;                // unit normal n
+    Real centre_main, centre_across;  // of the apices' centre (0, main, across), from the slider's centre [m]
+    Real half_length, half_across;    // [m]
+    Vec3<Real> velocity;              // u' of the slider's centre [m/s]
+    Vec3<Real> spin;                  // ω of the slider [rad/s]
 };
 
 template <class Real> struct FrictionLoad {
@@ -44,20 +46,41 @@ struct StickSlipFriction {
     template <class Real>
     SLIDEWAY_NOINLINE static FrictionLoad<Real> load(SlidingFace<Real> const& face, Quad<Real> const& normal,
                                                      FrictionParameters<Real> const& friction) {
-        auto const v_centre = face.velocity + cross(face.spin, face.centre);
-        auto const v_across = cross(face.spin, face.across);
-        auto const v_along = cross(face.spin, face.along);
-        auto const v_front = v_centre + v_along, v_rear = v_centre - v_along;
+        Vec3<Real> w = face.spin;
+        Vec3<Real> n = face.normal;
+        Real const main = face.centre_main, across = face.centre_across;
+        Real const length = face.half_length, width = face.half_across;
+        Real const zero(0.0);
+        // The velocity is affine in the apex's signs, and so is its tangential part.
+        auto of_centre = tangential({fma(w.y, across, fnma(w.z, main, face.velocity.x)),
+                                     fnma(w.x, across, face.velocity.y), fma(w.x, main, face.velocity.z)},
+                                    n);
+        auto of_length = tangential({zero, w.z * length, negated(w.y) * length}, n);
+        auto of_width = tangential({w.y * width, negated(w.x) * width, zero}, n);
+        auto front = of_centre + of_length, rear = of_centre - of_length;
+        auto a = front + of_width, b = front - of_width, c = rear - of_width, d = rear + of_width;
+        Quad<Real> speed{sqrt(dot(a, a)), sqrt(dot(b, b)), sqrt(dot(c, c)), sqrt(dot(d, d))};
+        auto force = coefficients(speed, friction);
+        force = {force.a * normal.a, force.b * normal.b, force.c * normal.c, force.d * normal.d};
+        // μ vanishes with V: any floor keeps the quotient finite.
+        Real const floor(1e-60);
+        auto slowness =
+            reciprocals(Quad<Real>{max(speed.a, floor), max(speed.b, floor), max(speed.c, floor), max(speed.d, floor)});
+        a = (force.a * slowness.a) * a;
+        b = (force.b * slowness.b) * b;
+        c = (force.c * slowness.c) * c;
+        d = (force.d * slowness.d) * d;
+        front = a + b;
+        rear = c + d;
+        auto drag = front + rear;  // against the force
+        Real const along_y = front.y - rear.y, along_z = front.z - rear.z;
+        Real const across_x = (a.x + d.x) - (b.x + c.x), across_y = (a.y + d.y) - (b.y + c.y);
         FrictionLoad<Real> load;
-        load.power = Real(0.0);
-        auto const a = apex(v_front + v_across, face.normal, normal.a, friction, load.power);
-        auto const b = apex(v_front - v_across, face.normal, normal.b, friction, load.power);
-        auto const c = apex(v_rear - v_across, face.normal, normal.c, friction, load.power);
-        auto const d = apex(v_rear + v_across, face.normal, normal.d, friction, load.power);
-        auto const front = a + b, rear = c + d;
-        load.force = front + rear;
-        load.torque =
-            cross(face.centre, load.force) + cross(face.across, (a + d) - (b + c)) + cross(face.along, front - rear);
+        load.force = {negated(drag.x), negated(drag.y), negated(drag.z)};
+        load.torque = {fma(across, drag.y, fms(width, across_y, main * drag.z)),
+                       fms(length, along_z, fma(across, drag.x, width * across_x)),
+                       fms(main, drag.x, length * along_y)};
+        load.power = fma(force.a, speed.a, fma(force.b, speed.b, fma(force.c, speed.c, force.d * speed.d)));
         return load;
     }
 
@@ -65,7 +88,6 @@ struct StickSlipFriction {
     /// @param speed V >= 0 [m/s].
     template <class Real> SLIDEWAY_FN static Real coefficient(Real speed, FrictionParameters<Real> const& f) {
         auto const slipping = speed >= f.slip_speed;
-        if (all(slipping)) return f.kinetic_coefficient;
         // Both curves are one sine on [−π/2, π/2]: cos(q) = sin(π/2 − q).
         Real const quarter(1.5707963267948966);
         auto const sticking = speed < f.stick_speed;
@@ -79,15 +101,19 @@ struct StickSlipFriction {
     }
 
 private:
+    /// μ of four apices.
     template <class Real>
-    SLIDEWAY_FN static Vec3<Real> apex(Vec3<Real> const& v, Vec3<Real> const& n, Real normal,
-                                       FrictionParameters<Real> const& friction, Real& power) {
-        auto const v_t = v - dot(v, n) * n;
-        Real const speed = sqrt(dot(v_t, v_t));
-        Real const force = coefficient(speed, friction) * normal;
-        power = fma(force, speed, power);
-        // μ vanishes with V: any floor keeps the quotient finite.
-        return negated(force / max(speed, Real(1e-300))) * v_t;
+    SLIDEWAY_FN static Quad<Real> coefficients(Quad<Real> const& speed, FrictionParameters<Real> const& f) {
+        Real const slowest = min(min(speed.a, speed.b), min(speed.c, speed.d));
+        Real const slip = f.kinetic_coefficient;
+        if (all(slowest >= f.slip_speed)) return {slip, slip, slip, slip};
+        return {coefficient(speed.a, f), coefficient(speed.b, f), coefficient(speed.c, f), coefficient(speed.d, f)};
+    }
+
+    /// v − (v·n)n.
+    template <class Real> SLIDEWAY_FN static Vec3<Real> tangential(Vec3<Real> const& v, Vec3<Real> const& n) {
+        Real const normal = dot(v, n);
+        return {fnma(normal, n.x, v.x), fnma(normal, n.y, v.y), fnma(normal, n.z, v.z)};
     }
 };
 

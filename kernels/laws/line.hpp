@@ -30,7 +30,7 @@ template <class Real> SLIDEWAY_FN LineLoad<Real> line_load(Real approach, LineCo
     auto const outside = !(u <= Real(1.0));
     // Below 1e-32 of its domain the load is nil in double precision; the logarithm needs a normal number.
     Real const inside = min(max(u, Real(1e-32)), Real(1.0));
-    auto const w = minus_lambert_wm1_exp(negated(log_positive(inside)));
+    auto w = minus_lambert_wm1_exp(negated(log_positive(inside)));
     Real const x = approach * w.denominator / w.numerator;
     Real const load = select(outside, Real(std::numeric_limits<double>::quiet_NaN()), line.scale * x);
     // P x (2w − 1)/4 with x w = δ.

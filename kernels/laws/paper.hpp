@@ -13,7 +13,7 @@ struct PaperLaw {
     template <class Damping, class Real>
     SLIDEWAY_NOINLINE static FaceForces<Real> forces(FaceMotion<Real> const& m, FaceContact<Real> const& face,
                                                      ContactParameters<Real> const& contact) {
-        auto const modes = face_modes<Real>(m.touching);
+        auto modes = face_modes<Real>(m.touching);
         Real const zero(0.0);
         FaceForces<Real> f{{zero, zero, zero, zero}, {zero, zero, zero, zero}, zero, mask_of<Real>(false)};
         if (any(modes.surface)) add_surface<Damping>(modes.surface, m, face, contact, f);
@@ -41,7 +41,7 @@ private:
         Real const share = Real(0.25) * face.surface_stiffness;
         Real const v0 = max(max(m.impact_speed.a, m.impact_speed.b), max(m.impact_speed.c, m.impact_speed.d));
         Real const factor = Damping::surface_factor(Real(0.25) * sum(m.rate), v0, contact.damping);
-        Quad<Real> const elastic{share * m.depth.a, share * m.depth.b, share * m.depth.c, share * m.depth.d};
+        Quad<Real> elastic{share * m.depth.a, share * m.depth.b, share * m.depth.c, share * m.depth.d};
         f.elastic = {select(surface, elastic.a, zero), select(surface, elastic.b, zero),
                      select(surface, elastic.c, zero), select(surface, elastic.d, zero)};
         f.normal = {f.elastic.a * factor, f.elastic.b * factor, f.elastic.c * factor, f.elastic.d * factor};
@@ -61,7 +61,7 @@ private:
         Real const zero(0.0);
         Real const half(0.5);
         Real const approach = select(line, half * (depth_i + depth_j), Real(1e-6));
-        auto const contact_line = line_load(approach, edge);
+        auto contact_line = line_load(approach, edge);
         f.outside = f.outside | (line & contact_line.outside);
         Real const elastic = select(line, half * contact_line.load, zero);
         Real const factor = Damping::line_factor(half * (rate_i + rate_j), max(v0_i, v0_j), contact.damping);

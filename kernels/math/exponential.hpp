@@ -37,7 +37,7 @@ template <class Arch> SLIDEWAY_FN Batch<Arch> exp(Batch<Arch> x) { return detail
 /// |y| ≤ 4, to 0.1 |y| units for larger |y|; without fused multiply-add to 0.8 |y ln x| units.  NaN gives NaN.
 /// The logarithm is carried as head + tail, or its rounding would be multiplied by y ln x.
 template <class Real> SLIDEWAY_FN Real power(Real x, Real y) {
-    auto const [k, f] = detail::split_for_logarithm(x);
+    auto [k, f] = detail::split_for_logarithm(x);
     // k ln 2 + f and − f²/2 with their rounding errors; |k ln 2| > |f| > f²/2, or k = 0.
     Real const whole = k * Real(detail::ln2_head);
     Real const sum = whole + f;

@@ -38,7 +38,7 @@ inline constexpr double ln2_tail = 5.497923018708371e-14;
 /// Natural logarithm of a positive, normal, finite number, to 1 unit in the last place.  Anything else, NaN included,
 /// gives some finite number.
 template <class Real> SLIDEWAY_FN Real log_positive(Real x) {
-    auto const [k, f] = detail::split_for_logarithm(x);
+    auto [k, f] = detail::split_for_logarithm(x);
     Real const correction = f * f * fma(f, detail::logarithm_series(f), Real(-0.5));
     return fma(k, Real(detail::ln2_head), f + fma(k, Real(detail::ln2_tail), correction));
 }

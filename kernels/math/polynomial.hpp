@@ -25,11 +25,14 @@ SLIDEWAY_FN Real estrin(double const* c, Real x1, Real x2, Real x4, Real x8, Rea
 
 /// c0 + c1 x + c2 x² + …, at most 32 coefficients.
 template <class Real, class... Coefficients> SLIDEWAY_FN Real polynomial(Real x, Coefficients... coefficients) {
+    constexpr int count = static_cast<int>(sizeof...(coefficients));
     double const c[] = {coefficients...};
-    Real const x2 = x * x;
-    Real const x4 = x2 * x2;
-    Real const x8 = x4 * x4;
-    return detail::estrin<0, static_cast<int>(sizeof...(coefficients))>(c, x, x2, x4, x8, x8 * x8);
+    Real x2 = x, x4 = x, x8 = x, x16 = x;  // powers that no term needs stay x
+    if constexpr (count > 2) x2 = x * x;
+    if constexpr (count > 4) x4 = x2 * x2;
+    if constexpr (count > 8) x8 = x4 * x4;
+    if constexpr (count > 16) x16 = x8 * x8;
+    return detail::estrin<0, count>(c, x, x2, x4, x8, x16);
 }
 
 }  // namespace slideway::inline SLIDEWAY_ISA

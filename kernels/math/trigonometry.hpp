@@ -31,13 +31,18 @@ template <class Real> SLIDEWAY_FN Real versine_near(Real square) {
     return fma(square * square, c, Real(0.5) * square);
 }
 
-template <class Real> SLIDEWAY_FN SinCos<Real> sine_and_cosine(Real x) {
-    auto const wide = abs(x) > Real(0.7853981633974483);
-    if (none(wide)) {
-        Real const square = x * x;
-        Real const versine = versine_near(square);
-        return {fma(square * x, sine_series(square), x), Real(1.0) - versine, versine};
-    }
+template <class Real> SLIDEWAY_FN Mask<Real> is_wide(Real x) { return abs(x) > Real(0.7853981633974483); }
+
+/// |x| ≤ π/4.
+template <class Real> SLIDEWAY_FN SinCos<Real> sine_and_cosine_near(Real x) {
+    Real const square = x * x;
+    Real const versine = versine_near(square);
+    return {fma(square * x, sine_series(square), x), Real(1.0) - versine, versine};
+}
+
+/// Any x; within π/4 the bits of the function above.
+template <class Real> SLIDEWAY_FN SinCos<Real> sine_and_cosine_reduced(Real x) {
+    auto const wide = is_wide(x);
     // π/2 = 33 bits + 53 bits + 53 bits.  k times the first part is exact, and so is the difference from x; the tail
     // takes the rounding errors of the second product and difference.  A lane within π/4 has k = 0, r = x, no tail and
     // the bits of the short way.
@@ -70,6 +75,10 @@ template <class Real> SLIDEWAY_FN SinCos<Real> sine_and_cosine(Real x) {
     result.cos = cos_sign * select(swap, sine, cosine);
     result.versine = select(quadrant == Real(0.0), versine, Real(1.0) - result.cos);
     return result;
+}
+
+template <class Real> SLIDEWAY_FN SinCos<Real> sine_and_cosine(Real x) {
+    return none(is_wide(x)) ? sine_and_cosine_near(x) : sine_and_cosine_reduced(x);
 }
 
 }  // namespace detail

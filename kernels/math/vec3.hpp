@@ -4,6 +4,8 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
+/// Locals of this and other structures are not const in the kernels: g++ 12 takes a structure apart into registers only if it
+/// is not, and keeps it in memory otherwise.
 template <class Real> struct Vec3 { Real x, y, z; };
 
 template <class Real> SLIDEWAY_FN Vec3<Real> operator+(Vec3<Real> const& a, Vec3<Real> const& b) {

@@ -12,8 +12,8 @@ template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& tabl
     constexpr int size = Model::size;
     typename Model::template Parameters<Real> p;
     typename Model::template Report<Real> report;
-    ImpactMemory<Real> memory;
-    for (auto& face : memory.speeds) face.a = face.b = face.c = face.d = Real(least_impact_speed);
+    typename Model::template Memory<Real> memory;
+    start_memory(memory);
     for (std::size_t first = 0; first < table.rows; first += width) {
         Real t, state[size], rates[size];
         for (int i = 0; i < width; ++i) {

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <type_traits>
+
 #include "kernels/block.hpp"
 #include "kernels/joint/attitude.hpp"
 #include "kernels/joint/joint.hpp"
 #include "kernels/mechanisms/faults.hpp"
+#include "kernels/mechanisms/no_memory.hpp"
 #include "kernels/mechanisms/slider_crank_parameters.hpp"
 #include "kernels/mechanisms/slider_crank_report.hpp"
 #include "kernels/real.hpp"
@@ -15,25 +18,27 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// What a scene does not need is not in its instance: law, friction, pose of the way and damping are template arguments.
 template <class Law, class Friction, class Way, class Damping> struct SliderCrank {
     using Contact = Joint<Law, Friction, Damping>;
+    using Inputs = slideway::Inputs;
     static constexpr int size = state_size;
     static constexpr bool has_memory = Contact::has_memory;
     template <class Real> using Parameters = SliderCrankParameters<Real>;
     template <class Real> using Report = SliderCrankReport<Real>;
+    template <class Real> using Memory = std::conditional_t<has_memory, ImpactMemory<Real>, NoMemory<Real>>;
 
     /// Time derivative of the state.
     /// @param t time [s]; @param s the state, `size` values; @param rates their derivatives, NaN where a fault is set.
     /// @param report filled if Full; the derivative has the same bits without.
     template <bool Full, class Real>
     SLIDEWAY_NOINLINE static Faults<Real> derivative(Real t, Real const* s, SliderCrankParameters<Real> const& p,
-                                                     ImpactMemory<Real> const& memory, Real* rates,
+                                                     Memory<Real> const& memory, Real* rates,
                                                      SliderCrankReport<Real>* report) {
         Real const y = s[0], z = s[1], vy = s[2], vz = s[3];
-        Vec3<Real> const omega{s[7], s[8], s[9]};
+        Vec3<Real> omega{s[7], s[8], s[9]};
         Real const zero(0.0), one(1.0);
         Faults<Real> faults;
 
         // Crank pin A and its motion.
-        auto const crank = sincos(fma(p.crank_speed, t, p.start_angle));
+        auto crank = sincos(fma(p.crank_speed, t, p.start_angle));
         Real const ax = p.crank_length * crank.cos, ay = p.crank_length * crank.sin;
         Real const vax = negated(p.crank_speed) * ay, vay = p.crank_speed * ax;
         Real const minus_speed_squared = negated(p.crank_speed * p.crank_speed);
@@ -52,21 +57,21 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
         Real const x = ax + d, vx = vax + dd;
 
         // Slider's attitude and its kinematic equations.
-        auto const angles = attitude(s[4], s[5], s[6]);
-        auto const slider = axes(angles);
+        auto angles = attitude(s[4], s[5], s[6]);
+        auto slider = axes(angles);
         Real const turn = fma(omega.y, angles.roll.sin, omega.z * angles.roll.cos);
         Real const pitch_rate = turn / angles.yaw.cos;
-        auto const spin = fma(omega.x, slider.x, fma(omega.y, slider.y, omega.z * slider.z));
+        auto spin = fma(omega.x, slider.x, fma(omega.y, slider.y, omega.z * slider.z));
 
         // The joint, in way coordinates.
         auto const& way = p.joint.way;
-        auto const motion = Way::motion(slider, Vec3<Real>{x, y, z}, Vec3<Real>{vx, vy, vz}, spin, way);
-        auto const wrench = Contact::template wrench<Full>(motion, memory, p.joint, Full ? &report->contact : nullptr,
+        auto motion = Way::motion(slider, Vec3<Real>{x, y, z}, Vec3<Real>{vx, vy, vz}, spin, way);
+        auto wrench = Contact::template wrench<Full>(motion, memory, p.joint, Full ? &report->contact : nullptr,
                                                            faults.contact_domain);
-        auto const contact_force = Way::to_inertial(wrench.force, way);
+        auto contact_force = Way::to_inertial(wrench.force, way);
 
         // m a_B + m_AB a_A − F = λ(B − A), the X row eliminated: a symmetric 2×2 system with determinant m²(1 + κy² + κz²).
-        Vec3<Real> const force{fma(p.weighing_mass, p.gravity_x, contact_force.x),
+        Vec3<Real> force{fma(p.weighing_mass, p.gravity_x, contact_force.x),
                                fma(p.weighing_mass, p.gravity_y, contact_force.y), contact_force.z};
         // a_Bx = aAx − κy aAy + γ + κy y'' + κz z''
         Real const bias = fnma(ky, aay, aax) + gamma;
@@ -79,10 +84,10 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
         Real const az_b = fms(ky2, fz, kyz * fy) * scale;
 
         // I ω' = A_kᵀ τ − ω × I ω
-        Vec3<Real> const torque{dot(motion.axes.x, wrench.torque), dot(motion.axes.y, wrench.torque),
+        Vec3<Real> torque{dot(motion.axes.x, wrench.torque), dot(motion.axes.y, wrench.torque),
                                 dot(motion.axes.z, wrench.torque)};
-        Vec3<Real> const momentum{p.inertia.x * omega.x, p.inertia.y * omega.y, p.inertia.z * omega.z};
-        auto const moment = torque - cross(omega, momentum);
+        Vec3<Real> momentum{p.inertia.x * omega.x, p.inertia.y * omega.y, p.inertia.z * omega.z};
+        auto moment = torque - cross(omega, momentum);
 
         rates[0] = vy;
         rates[1] = vz;
@@ -96,11 +101,25 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
         rates[9] = moment.z * p.inverse_inertia.z;
 
         if constexpr (Full) {
-            CrankState<Real> const pin{{ax, ay, zero}, {vax, vay, zero}, {aax, aay, zero}};
-            CrankState<Real> const end{{x, y, z}, {vx, vy, vz}, {fma(ky, ay_b, fma(kz, az_b, bias)), ay_b, az_b}};
+            CrankState<Real> pin{{ax, ay, zero}, {vax, vay, zero}, {aax, aay, zero}};
+            CrankState<Real> end{{x, y, z}, {vx, vy, vz}, {fma(ky, ay_b, fma(kz, az_b, bias)), ay_b, az_b}};
             report->fill(pin, end, d, omega, contact_force, p);
         }
         return faults;
+    }
+
+    /// Which apex–face pairs touch, as a number (Joint::pattern): members of one pattern have the same work to do.
+    template <class Real>
+    SLIDEWAY_NOINLINE static Real contact_pattern(Real t, Real const* s, SliderCrankParameters<Real> const& p) {
+        auto const crank = sincos(fma(p.crank_speed, t, p.start_angle));
+        Real const dy = fnma(p.crank_length, crank.sin, s[0]);
+        Real const reach = fnma(s[1], s[1], fnma(dy, dy, p.rod_length * p.rod_length));
+        Real const x = fma(p.crank_length, crank.cos, sqrt(max(reach, Real(0.0))));
+        Real const zero(0.0);
+        Vec3<Real> const still{zero, zero, zero};
+        auto const motion =
+            Way::motion(axes(attitude(s[4], s[5], s[6])), Vec3<Real>{x, s[0], s[1]}, still, still, p.joint.way);
+        return Contact::pattern(motion, p.joint.geometry);
     }
 
     /// Sizes against which integrator.atol is meant: c, c·ω, 2c/L_k, 2c/L_k·ω.

@@ -3,6 +3,7 @@
 #include "kernels/joint/contact_report.hpp"
 #include "kernels/math/vec3.hpp"
 #include "kernels/mechanisms/slider_crank_parameters.hpp"
+#include "kernels/observers/quantities.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -22,17 +23,41 @@ template <class Real> struct SliderCrankReport {
     Real rod_spin;        // rod's angular velocity, magnitude [rad/s]
     Real rod_spin_z;      // its component about Z
 
+    /// Value of an entry of `series_table` beyond the state.
+    SLIDEWAY_FN Real series_value(int entry) const {
+        switch (static_cast<Series>(entry)) {
+            case Series::x:
+                return x;
+            case Series::vx:
+                return vx;
+            case Series::normal_force:
+                return contact.total_force();
+            case Series::crank_torque:
+                return drive_torque;
+            case Series::rod_angular_velocity:
+                return rod_spin_z;
+            case Series::surfaces:
+                return contact.surfaces;
+            case Series::lines:
+                return contact.lines;
+            case Series::points:
+                return contact.points;
+            default:
+                return Real(follows);
+        }
+    }
+
     SLIDEWAY_FN void fill(CrankState<Real> const& a, CrankState<Real> const& b, Real d, Vec3<Real> const& omega,
                           Vec3<Real> const& contact_force, SliderCrankParameters<Real> const& p) {
         Real const zero(0.0), half(0.5), one(1.0);
         x = b.position.x;
         vx = b.velocity.x;
-        Vec3<Real> const gravity{p.gravity_x, p.gravity_y, zero};
+        Vec3<Real> gravity{p.gravity_x, p.gravity_y, zero};
 
         // Force of the crank pin on the rod: F_A = m_AA a_A + m_AB a_B − m_r (1 − f_r) g⃗ + Λ with
         // Λ = M a_B − F_c − M g⃗ + m_BB a_B + m_AB a_A − m_r f_r g⃗ (model.md 6).
-        auto const rod_end = p.mass * b.acceleration + p.m_ab * a.acceleration - contact_force;
-        auto const pin_force =
+        auto rod_end = p.mass * b.acceleration + p.m_ab * a.acceleration - contact_force;
+        auto pin_force =
             p.m_aa * a.acceleration + p.m_ab * b.acceleration + rod_end - (p.slider_mass + p.rod_mass) * gravity;
         crank_power = dot(pin_force, a.velocity);
         crank_torque = fms(a.position.x, pin_force.y, a.position.y * pin_force.x);
@@ -43,10 +68,10 @@ template <class Real> struct SliderCrankReport {
 
         // E = ½M|u'|² + ½m_r|(1−f_r)v_A + f_r v_B|² + ½(J/L²)|v_B−v_A|² + ½ωᵀIω − M g⃗·u − m_r g⃗·((1−f_r)A + f_r B) + U.
         auto const center = p.rod_mass_center;
-        auto const rod_velocity = (one - center) * a.velocity + center * b.velocity;
-        auto const rod_position = (one - center) * a.position + center * b.position;
-        auto const relative = b.velocity - a.velocity;
-        Vec3<Real> const momentum{p.inertia.x * omega.x, p.inertia.y * omega.y, p.inertia.z * omega.z};
+        auto rod_velocity = (one - center) * a.velocity + center * b.velocity;
+        auto rod_position = (one - center) * a.position + center * b.position;
+        auto relative = b.velocity - a.velocity;
+        Vec3<Real> momentum{p.inertia.x * omega.x, p.inertia.y * omega.y, p.inertia.z * omega.z};
         Real const kinetic =
             half * (p.slider_mass * dot(b.velocity, b.velocity) + p.rod_mass * dot(rod_velocity, rod_velocity) +
                     p.rod_spin_mass * dot(relative, relative) + dot(omega, momentum));
@@ -61,8 +86,8 @@ template <class Real> struct SliderCrankReport {
 
         // No spin about the rod's own axis: ω = e × (v_B − v_A)/L, e the rod's direction.
         Real const inverse_l = one / p.rod_length;
-        auto const along = b.position - a.position;
-        auto const turning = inverse_l * inverse_l * cross(along, relative);
+        auto along = b.position - a.position;
+        auto turning = inverse_l * inverse_l * cross(along, relative);
         rod_spin = sqrt(dot(turning, turning));
         rod_spin_z = turning.z;
     }

@@ -16,6 +16,7 @@ template <class Real> class SliderCrankObserver {
 public:
     /// Integrands: crank, friction and damping power, total force, torque², error², rod spin², eight apex forces.
     static constexpr int integrals = 15;
+    static constexpr int columns = quantity_columns;  // of a member's row
     /// The first of them are the energy audit's.
     static constexpr int audit_integrals = 3;
 

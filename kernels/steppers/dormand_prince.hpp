@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/real.hpp"
+#include "kernels/steppers/explicit_pair.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -28,29 +29,8 @@ struct DormandPrinceTableau {
 /// Explicit Runge–Kutta pair of order 5(4) with seven stages, the last of which is the first of the next step, and a
 /// continuous extension of order 4.  Source: Dormand & Prince, J. Comput. Appl. Math. 6 (1980) 19–26; continuous extension as in
 /// Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I (1993), II.6.
-struct DormandPrince {
-    static constexpr int stages = 7;
+struct DormandPrince : ExplicitPair<DormandPrinceTableau, 7> {
     static constexpr int order = 5;
-
-    using Tableau = DormandPrinceTableau;
-    static constexpr Tableau tableau{};
-
-    /// State at which stage `s` evaluates the derivative: y + h Σ_j a_sj k_j.
-    template <int s, int size, class Real>
-    SLIDEWAY_FN static void stage_state(Real const* y, Real const (*k)[size], Real h, Real* at) {
-        for (int i = 0; i < size; ++i) at[i] = fma(h, weighted<s, 0>(k, i), y[i]);
-    }
-
-    /// Σ_j e_j k_j of one component: the error estimate is h times this.
-    template <int size, class Real> SLIDEWAY_FN static Real error_slope(Real const (*k)[size], int i) {
-        constexpr Tableau w{};
-        Real sum = Real(w.e[0]) * k[0][i];
-        sum = fma(Real(w.e[2]), k[2][i], sum);
-        sum = fma(Real(w.e[3]), k[3][i], sum);
-        sum = fma(Real(w.e[4]), k[4][i], sum);
-        sum = fma(Real(w.e[5]), k[5][i], sum);
-        return fma(Real(w.e[6]), k[6][i], sum);
-    }
 
     /// One component inside the step, at fraction θ of it.  @param y0, y1 the component at both ends of the step.
     template <int size, class Real>
@@ -67,18 +47,6 @@ struct DormandPrince {
         Real const start = fms(h, k[0][i], change);
         Real const end = fnma(h, k[6][i], change) - start;
         return fma(theta, fma(rest, fma(theta, fma(rest, h * bend, end), start), change), y0);
-    }
-
-private:
-    template <int s, int j, int size, class Real> SLIDEWAY_FN static Real weighted(Real const (*k)[size], int i) {
-        constexpr double a = Tableau{}.a[s][j];
-        if constexpr (j + 1 == s) {
-            return Real(a) * k[j][i];
-        } else if constexpr (a == 0) {
-            return weighted<s, j + 1>(k, i);
-        } else {
-            return fma(Real(a), k[j][i], weighted<s, j + 1>(k, i));
-        }
     }
 };
 

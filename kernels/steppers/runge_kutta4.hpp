@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/real.hpp"
+#include "kernels/steppers/hermite.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -9,6 +10,7 @@ struct RungeKutta4Tableau {
     double c[5] = {0, 0.5, 0.5, 1, 1};
     double a[5][4] = {{}, {0.5}, {0, 0.5}, {0, 0, 1}, {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6}};
     double b[5] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6, 0};
+    double e[5] = {};  // no estimate of the error
 };
 
 /// The classical Runge–Kutta method of order 4, for fixed steps: it has no error estimate.  A stage more than the textbook has, at
@@ -52,11 +54,7 @@ struct RungeKutta4 {
     /// One component inside the step, at fraction θ of it: the cubic through values and slopes at both ends.
     template <int size, class Real>
     SLIDEWAY_FN static Real dense(Real const (*k)[size], int i, Real y0, Real y1, Real h, Real theta) {
-        Real const rest = Real(1.0) - theta;
-        Real const change = y1 - y0;
-        Real const start = fms(h, k[0][i], change);
-        Real const end = fnma(h, k[4][i], change) - start;
-        return fma(theta, fma(rest, fma(theta, end, start), change), y0);
+        return hermite(y0, h * k[0][i], y1, h * k[4][i], theta);
     }
 };
 

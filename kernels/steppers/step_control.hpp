@@ -6,13 +6,15 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Proportional–integral step control for a pair whose error estimate is of order 5.  Source: Hairer & Wanner, Solving Ordinary
+/// The controller's memory at the start: ln(1e-4²).
+inline constexpr double step_control_start = -18.42068074395237;
+
+/// Proportional–integral step control for a method whose local error falls with h^order.  Source: Hairer & Wanner, Solving Ordinary
 /// Differential Equations II (1996), IV.2 (Gustafsson).  Works on the logarithm of the squared norm, so that one exponential and
 /// one logarithm serve each attempt.
-struct StepControl {
+template <int order> struct StepControl {
     static constexpr double safety = 0.9, shrink = 0.2, grow = 10.0;
-    static constexpr double integral = 0.04, proportional = 0.2 - 0.75 * integral;
-    static constexpr double start_memory = -18.42068074395237;  // ln(1e-4²)
+    static constexpr double integral = 0.2 / order, proportional = 1.0 / order - 0.75 * integral;
 
     /// Factor for the next step, and the controller's memory: ln of the squared norm of the last accepted error.
     /// @param squared_norm mean square of error/tolerance; NaN or infinity shrinks the step most.
@@ -26,7 +28,7 @@ struct StepControl {
         Real const wish = Real(safety) * exp(exponent);
         Real const ceiling = select(accepted & !after_rejection, Real(grow), Real(1.0));
         Real const factor = min(max(wish, Real(shrink)), ceiling);
-        memory = select(accepted, max(level, Real(start_memory)), memory);
+        memory = select(accepted, max(level, Real(step_control_start)), memory);
         return select(finite, factor, Real(0.1));
     }
 };

@@ -12,7 +12,7 @@ template <class Model> __global__ void integrate_blocks(Block* blocks, int count
 template <class Model> __global__ void probe_table(ProbeTable table) { probe<Model, double>(table); }
 
 template <class Law, class Friction, class Way, class Damping> void launch(Block* blocks, ProbeTable const& table) {
-    using Model = SliderCrank<Law, Friction, Way, Damping>;
+    using Model = SliderCrankModel<Law, Friction, Way, Damping>;
     integrate_blocks<Model><<<1, 32>>>(blocks, 32);
     probe_table<Model><<<1, 1>>>(table);
 }

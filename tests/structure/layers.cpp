@@ -19,11 +19,24 @@ struct Layer {
 
 // A file may include its own layer and those of the same or a lower rank.
 constexpr std::array layers = {
-    Layer{"kernels/real.hpp", 1}, Layer{"kernels/math", 2},          Layer{"kernels/laws", 3},
-    Layer{"kernels/joint", 4},    Layer{"kernels/mechanisms", 5},    Layer{"kernels/observers", 6},
-    Layer{"kernels/steppers", 6}, Layer{"kernels/lanes", 7}, Layer{"kernels/models", 8}, Layer{"kernels/integrate.hpp", 8}, Layer{"host/scene", 10},
-    Layer{"host/backend", 10},    Layer{"host/output", 11},          Layer{"host/driver", 11},
-    Layer{"host/chaos", 11},      Layer{"host/study", 12},           Layer{"host/report", 13},
+    Layer{"kernels/real.hpp", 1},
+    Layer{"kernels/math", 2},
+    Layer{"kernels/laws", 3},
+    Layer{"kernels/joint", 4},
+    Layer{"kernels/mechanisms", 5},
+    Layer{"kernels/observers", 6},
+    Layer{"kernels/steppers", 6},
+    Layer{"kernels/lanes", 7},
+    Layer{"kernels/models", 8},
+    Layer{"kernels/integrate.hpp", 8},
+    Layer{"kernels/fixed_step.hpp", 7},
+    Layer{"host/scene", 10},
+    Layer{"host/backend", 10},
+    Layer{"host/output", 11},
+    Layer{"host/driver", 11},
+    Layer{"host/chaos", 11},
+    Layer{"host/study", 12},
+    Layer{"host/report", 13},
     Layer{"host/cli", 14},
 };
 

@@ -121,7 +121,7 @@ void compare_restitution(oracle::Case const& c, std::string const& what) {
     auto const r = oracle::evaluate(c.inputs, c.parts, c.t, c.state, &c.impact_speeds);
     if (r.geometry || r.contact_domain) return;
     auto const p = Model::parameters(c.inputs);
-    ImpactMemory<double> memory;
+    typename Model::template Memory<double> memory;
     for (int face = 0; face < face_count; ++face) {
         auto const speed = [&](int k) {
             return c.impact_speeds[static_cast<std::size_t>((face < 2 ? 0 : 8) + face_apex(face, k))];

@@ -18,7 +18,7 @@ using Model = SliderCrank<PaperLaw, NoFriction, AlignedWay, PointDamping>;
 double wished(double error, double last) { return 0.9 * std::pow(error, -0.17) * std::pow(last, 0.04); }
 
 double factor(double error, bool accepted, bool after_rejection, double& memory) {
-    return StepControl::factor(error * error, accepted, after_rejection, memory);
+    return StepControl<5>::factor(error * error, accepted, after_rejection, memory);
 }
 
 TEST(StepControl, FollowsTheErrorAndItsMemory) {
@@ -38,7 +38,7 @@ TEST(StepControl, ForgetsNothingWhenAStepFails) {
 }
 
 TEST(StepControl, StaysWithinItsLimits) {
-    double memory = StepControl::start_memory;
+    double memory = step_control_start;
     EXPECT_EQ(factor(0, true, false, memory), 10) << "an error of zero";
     EXPECT_NEAR(memory, 2 * std::log(1e-4), 1e-12) << "the memory has a floor";
     EXPECT_EQ(factor(0, true, true, memory), 1) << "no growth after a failure";

@@ -61,7 +61,7 @@ quantities = ["peak_normal_force", "energy_residual", "mode_time"]
     EXPECT_EQ(scene.inputs.friction_slip_speed, 0.01);
     EXPECT_TRUE(std::isnan(scene.inputs.slider_mass));
     EXPECT_EQ(scene.parts, (Parts{Law::paper, Damping::point, true, false}));
-    EXPECT_EQ(scene.method, "dopri5");
+    EXPECT_EQ(scene.integrator.method, Method::automatic);
     EXPECT_EQ(scene.integrator.rtol, 1e-6);
     EXPECT_DOUBLE_EQ(scene.integrator.end_time, 4);       // two turns at half a turn per second
     EXPECT_DOUBLE_EQ(scene.integrator.max_step, 1e-3);    // 2 s / 2000

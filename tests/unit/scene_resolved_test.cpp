@@ -27,7 +27,7 @@ void expect_equal(Scene const& a, Scene const& b) {
         EXPECT_EQ(std::signbit(x), std::signbit(y)) << key.name;
     }
     EXPECT_EQ(a.parts, b.parts);
-    EXPECT_EQ(a.method, b.method);
+    EXPECT_EQ(a.integrator.method, b.integrator.method);
     EXPECT_EQ(a.integrator.rtol, b.integrator.rtol);
     EXPECT_EQ(a.integrator.atol, b.integrator.atol);
     EXPECT_EQ(a.integrator.end_time, b.integrator.end_time);

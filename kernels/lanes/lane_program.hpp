@@ -1,0 +1,217 @@
+#pragma once
+
+#include "kernels/block.hpp"
+#include "kernels/lanes/member_state.hpp"
+#include "kernels/lanes/pack.hpp"
+#include "kernels/lanes/results.hpp"
+#include "kernels/lanes/roster.hpp"
+#include "kernels/lanes/stiffness.hpp"
+#include "kernels/lanes/stint.hpp"
+#include "kernels/real.hpp"
+#include "kernels/steppers/bogacki_shampine.hpp"
+#include "kernels/steppers/dormand_prince.hpp"
+#include "kernels/lanes/explicit_step.hpp"
+#include "kernels/steppers/runge_kutta4.hpp"
+#include "kernels/lanes/stiff_step.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Works through a block of members with one pack of lanes.  Some eight members per lane are under way at once; the roster picks
+/// those that work together for a stint, a fixed number of a member's own attempts, so that whatever is decided between
+/// stints depends on the member alone.  A member that ends gives its seat to the next of the block's queue.
+template <class Model, class Real> class LaneProgram {
+public:
+    using Block = BlockOf<typename Model::Inputs>;
+
+    SLIDEWAY_HD explicit LaneProgram(Block& block) : block_(block), results_(block) {
+        pack_.needs = ReportNeeds::of<Model, Real>(block.quantities);
+    }
+
+    SLIDEWAY_HD void run() {
+        for (int seat = 0; seat < seats; ++seat) admit(seat);
+        for (;;) {
+            int chosen[width];
+            int const members = roster_.choose(chosen);
+            if (members == 0) return;
+            if (block_.stop != nullptr && block_.stop(block_.stop_context)) {
+                abandon();
+                return;
+            }
+            take(chosen, members);
+            serve(roster_[chosen[0]].kind);
+            release(chosen, members);
+        }
+    }
+
+private:
+    static constexpr int size = Model::size;
+    static constexpr int width = lanes<Real>;
+    static constexpr int seats = width == 1 ? 1 : 8 * width;
+    // Attempts of a stint: few where lanes are regrouped by what they touch, many where all have the same work.
+    static constexpr int attempts = Model::has_patterns ? 8 : 128;
+    using Kind = typename Roster<seats, width>::Kind;
+    using Record = MemberState<Model, double>;
+
+    /// Seats the next member of the queue, if there is one.
+    SLIDEWAY_HD void admit(int seat) {
+        roster_[seat] = {};
+        if (next_ == block_.members) return;
+        std::size_t const member = next_++;
+        auto const& inputs = block_.inputs[member];
+        Record& r = record(seat);
+        r.constants.parameters = Model::parameters(inputs);
+        Model::scales(r.constants.parameters, r.constants.scale);
+        auto& c = r.course;
+        c.member = static_cast<double>(member);
+        c.sample = 0;
+        c.t = 0;
+        c.h = 1e-3 * block_.settings.max_step;
+        c.error_memory = step_control_start;
+        Model::initial_state(inputs, c.y);
+        c.accepted = c.rejected = c.evaluations = c.jacobians = c.stiff_steps = 0;
+        c.rejections = c.stiffness = 0;
+        c.stiff = block_.settings.method == Method::ros34pw2 ? 1 : 0;
+        start_memory(c.memory);
+        roster_[seat].kind = Kind::fresh;
+    }
+
+    /// A single lane works on its record in place.
+    SLIDEWAY_HD Record& record(int seat) {
+        if constexpr (width == 1)
+            return pack_.state;
+        else
+            return records_[seat];
+    }
+
+    /// Brings members into the lanes; lanes without one idle on the first one's numbers.
+    SLIDEWAY_HD void take(int const* chosen, int members) {
+        Real occupied(0.0);
+        for (int i = 0; i < width; ++i) {
+            if (i < members) set_lane(occupied, i, 1.0);
+            if constexpr (width > 1) {
+                Record const& r = records_[chosen[i < members ? i : 0]];
+                load_lane<width>(pack_.state.constants, i, r.constants);
+                load_lane<width>(pack_.state.course, i, r.course);
+                if (pack_.needs.quantities) load_lane<width>(pack_.state.observation, i, r.observation);
+            }
+        }
+        pack_.busy = occupied > Real(0.5);
+    }
+
+    /// Returns them to their seats; an ended member's seat goes to the next of the queue.
+    SLIDEWAY_HD void release(int const* chosen, int members) {
+        for (int i = 0; i < members; ++i) {
+            int const seat = chosen[i];
+            if (!holds(pack_.busy, i)) {
+                admit(seat);
+                continue;
+            }
+            auto const& c = pack_.state.course;
+            if constexpr (width > 1) {
+                store_lane<width>(c, i, records_[seat].course);
+                if (pack_.needs.quantities) {
+                    store_lane<width>(pack_.state.observation, i, records_[seat].observation);
+                }
+            }
+            roster_[seat].kind = lane(c.stiff, i) > 0.5 ? Kind::stiff : Kind::explicit_pair;
+            roster_[seat].pattern = static_cast<std::uint32_t>(lane(pattern_, i));
+            roster_[seat].time = lane(c.t, i);
+        }
+    }
+
+    /// One stint.
+    SLIDEWAY_HD void serve(Kind kind) {
+        auto const& settings = block_.settings;
+        if (kind == Kind::fresh) {
+            start();
+        } else if (kind == Kind::stiff) {
+            if constexpr (Model::has_linearisation) work<StiffStep<Model, Real>>();
+        } else if (settings.method == Method::rk4) {
+            work<ExplicitStep<RungeKutta4, Model, Real>>();
+        } else if (settings.method == Method::bs32 ||
+                   (settings.method == Method::automatic && settings.rtol >= bs32_from)) {
+            work<ExplicitStep<BogackiShampine, Model, Real>>();
+        } else {
+            work<ExplicitStep<DormandPrince, Model, Real>>();
+        }
+        look(kind);
+    }
+
+    template <class Stepper> SLIDEWAY_HD void work() {
+        Stint<Stepper, Model, Real> stint(pack_, results_, block_.settings);
+        stint.work(attempts);
+    }
+
+    /// First evaluation of new members.  A start that cannot be evaluated ends its member before the first step.
+    SLIDEWAY_HD void start() {
+        auto& c = pack_.state.course;
+        auto const faults = pack_.evaluate(c.t, c.y, pack_.end_rates, pack_.needs.ends, pack_.end_report);
+        pack_.count_evaluations(pack_.busy, 1);
+        auto const whole = is_finite(c.y, pack_.end_rates);
+        if (pack_.needs.quantities) pack_.state.observation.observer.start(pack_.busy, pack_.end_report, c.y);
+        pack_.begin_next(pack_.busy, pack_.end_rates);
+        if constexpr (Model::has_memory) c.watch.keep(pack_.busy, pack_.end_report.contact);
+        if constexpr (Model::events > 0) {
+            EventValues<Model::events, Real> now;
+            Model::event_values(c.t, c.y, c.rates, pack_.state.constants.parameters, now.value, now.slope);
+            keep_events(pack_.busy, now, c.watch);
+        }
+        auto const broken = pack_.busy & !whole;
+        auto const failed = broken | (pack_.busy & (faults.geometry | faults.contact_domain));
+        if (none(failed)) return;
+        results_.retire(pack_, failed, mask_of<Real>(false), faults, broken, failed);
+        pack_.busy = pack_.busy & !failed;
+    }
+
+    /// Between stints: who touches what, and who is better off with the stiff method.
+    SLIDEWAY_HD void look(Kind kind) {
+        pattern_ = Real(0.0);
+        if constexpr (Model::has_patterns) {
+            auto const& s = pack_.state;
+            bool const switching = Model::has_linearisation && block_.settings.method == Method::automatic;
+            if (width == 1 && !switching) return;
+            pattern_ = Model::contact_pattern(s.course.t, s.course.y, s.constants.parameters);
+            if constexpr (Model::has_linearisation) {
+                if (switching && kind == Kind::explicit_pair) look_for_stiffness();
+            }
+        }
+    }
+
+    SLIDEWAY_HD void look_for_stiffness() {
+        auto& c = pack_.state.course;
+        auto const touching = pack_.busy & (pattern_ > Real(0.5));
+        Real rate_squared(0.0);
+        if (any(touching)) {
+            typename Model::template Linearisation<Real> matrix;
+            Model::linearise(c.t, c.y, pack_.state.constants.parameters, c.memory, matrix);
+            rate_squared = select(touching, matrix.rate_squared(), rate_squared);
+            c.jacobians = c.jacobians + count<Real>(touching);
+        }
+        auto const held_up = c.h * c.h * rate_squared > Real(Stiffness::stiff_above * Stiffness::stiff_above);
+        Real const looks = select(held_up, c.stiffness + Real(1.0), max(c.stiffness - Real(1.0), Real(0.0)));
+        auto const change = pack_.busy & (looks >= Real(Stiffness::stiff_looks));
+        c.stiff = select(change, Real(1.0), c.stiff);
+        c.stiffness = select(change, Real(0.0), looks);
+    }
+
+    /// Leaves the members under way as if they had never begun.
+    SLIDEWAY_HD void abandon() {
+        for (int seat = 0; seat < seats; ++seat) {
+            if (roster_[seat].kind == Kind::none) continue;
+            results_.abandon(static_cast<std::size_t>(record(seat).course.member));
+        }
+    }
+
+    /// From this tolerance on Bogacki–Shampine beats Dormand–Prince (docs/integrators.md).
+    static constexpr double bs32_from = 1e-5;
+
+    Block& block_;
+    Results<Model> results_;
+    Roster<seats, width> roster_;
+    std::size_t next_ = 0;  // of the block's queue
+    Record records_[width == 1 ? 1 : seats];
+    Pack<Model, Real> pack_;
+    Real pattern_;
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

@@ -1,0 +1,98 @@
+#pragma once
+
+#include "kernels/block.hpp"
+#include "kernels/lanes/member_state.hpp"
+#include "kernels/mechanisms/faults.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Which of a model's reports a block needs.
+struct ReportNeeds {
+    bool quantities = false;  // the observer is at work
+    bool stages = false;      // at every stage, for integrals
+    bool audit = false;       // the audit's integrals meet the tolerance too
+    bool ends = false;        // at the accepted steps
+
+    template <class Model, class Real> SLIDEWAY_HD static ReportNeeds of(Selection quantities) {
+        using Observer = typename Model::template Observer<Real>;
+        ReportNeeds needs;
+        needs.quantities = quantities != 0;
+        needs.stages = Observer::needs_stages(quantities);
+        needs.audit = Observer::audits(quantities);
+        needs.ends = needs.stages || Observer::needs_reports(quantities) || Model::has_memory;
+        return needs;
+    }
+};
+
+/// Lanes whose numbers are all finite.
+template <int size, class Real> SLIDEWAY_HD Mask<Real> is_finite(Real const (&a)[size], Real const (&b)[size]) {
+    Real sum(0.0);
+    for (int i = 0; i < size; ++i) sum = fma(a[i], Real(0.0), fma(b[i], Real(0.0), sum));
+    return sum == Real(0.0);
+}
+
+/// The lanes at work: their members' states, and the step that they attempt.
+template <class Model, class Real> struct Pack {
+    static constexpr int size = Model::size;
+    static constexpr int width = lanes<Real>;
+    using Parameters = typename Model::template Parameters<Real>;
+    using Report = typename Model::template Report<Real>;
+    using Observer = typename Model::template Observer<Real>;
+
+    ReportNeeds needs;
+    MemberState<Model, Real> state;
+    Mask<Real> busy;  // lanes with a member at work
+
+    // The attempt, from (t, y) to (t + step, end).
+    Real step;
+    Real end[size], end_rates[size];
+    Report end_report;  // if needs.ends
+    Faults<Real> faults;
+    Real integral[room(Observer::integrals)];           // Σ b_s · integrand of the stages, if needs.stages
+    Real audit_error[room(Observer::audit_integrals)];  // Σ e_s · integrand
+    Real scratch[size];
+
+    SLIDEWAY_FN Faults<Real> evaluate(Real t, Real const* at, Real* rates, bool report_wanted, Report& report) const {
+        auto const& s = state;
+        return report_wanted
+                   ? Model::template derivative<true>(t, at, s.constants.parameters, s.course.memory, rates, &report)
+                   : Model::template derivative<false>(t, at, s.constants.parameters, s.course.memory, rates, &report);
+    }
+
+    /// Begins the integrals over the step with the stage at its start.
+    SLIDEWAY_HD void begin_integrals(double b, double e) {
+        if (!needs.stages) return;
+        for (int i = 0; i < Observer::integrals; ++i) integral[i] = Real(b) * state.observation.integrand[i];
+        for (int i = 0; i < Observer::audit_integrals; ++i) audit_error[i] = Real(e) * state.observation.integrand[i];
+    }
+
+    /// Adds the stage whose report is at hand.
+    SLIDEWAY_HD void add_integrands(double b, double e) {
+        if (!needs.stages || (b == 0 && e == 0)) return;
+        Real values[room(Observer::integrals)];
+        Observer::integrands(end_report, values);
+        for (int i = 0; i < Observer::integrals; ++i) integral[i] = fma(Real(b), values[i], integral[i]);
+        for (int i = 0; i < Observer::audit_integrals; ++i) audit_error[i] = fma(Real(e), values[i], audit_error[i]);
+    }
+
+    /// What the next step starts from, in the lanes of the mask.
+    SLIDEWAY_HD void begin_next(Mask<Real> in, Real const* rates) {
+        auto& c = state.course;
+        for (int i = 0; i < size; ++i) c.rates[i] = select(in, rates[i], c.rates[i]);
+        if (!needs.stages) return;
+        Real values[room(Observer::integrals)];
+        Observer::integrands(end_report, values);
+        for (int i = 0; i < Observer::integrals; ++i) {
+            state.observation.integrand[i] = select(in, values[i], state.observation.integrand[i]);
+        }
+    }
+
+    /// Counts evaluations of the right-hand side in the lanes of the mask.
+    SLIDEWAY_HD void count_evaluations(Mask<Real> in, double evaluations) {
+        auto& c = state.course;
+        c.evaluations = c.evaluations + select(in, Real(evaluations), Real(0.0));
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

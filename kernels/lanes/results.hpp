@@ -1,0 +1,115 @@
+#pragma once
+
+#include "kernels/lanes/pack.hpp"
+#include "kernels/observers/sampler.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// What the members leave in their block: samples on the way, the rest when they end.
+template <class Model> class Results {
+public:
+    using Block = BlockOf<typename Model::Inputs>;
+
+    SLIDEWAY_HD explicit Results(Block& block) : block_(block), sampler_(block) {}
+
+    SLIDEWAY_HD std::size_t samples() const { return block_.samples; }
+
+    SLIDEWAY_HD void count_attempt(int lanes_executed, int lanes_useful) {
+        block_.lane_steps_executed += static_cast<std::uint64_t>(lanes_executed);
+        block_.lane_steps_useful += static_cast<std::uint64_t>(lanes_useful);
+    }
+
+    /// Time of every lane's next sample, `last` where there is none before it.
+    template <class Real> SLIDEWAY_HD Real next_sample_times(Real const& sample, Real last) const {
+        for (int i = 0; i < lanes<Real>; ++i) {
+            auto const next = static_cast<std::size_t>(lane(sample, i));
+            if (next < block_.samples && block_.sample_times[next] < lane(last, i)) {
+                set_lane(last, i, block_.sample_times[next]);
+            }
+        }
+        return last;
+    }
+
+    /// Series values at the sample times inside the accepted steps, from the stepper's dense output.
+    template <class Stepper, class Real>
+    SLIDEWAY_HD void take_samples(Pack<Model, Real>& pack, Stepper const& stepper, Mask<Real> accepted, Real t_end) {
+        auto& c = pack.state.course;
+        for (;;) {
+            Real at = c.t;
+            Real due_lanes(0.0);
+            for (int i = 0; i < lanes<Real>; ++i) {
+                auto const next = static_cast<std::size_t>(lane(c.sample, i));
+                if (!holds(accepted, i) || next >= block_.samples) continue;
+                double const time = block_.sample_times[next];
+                if (time > lane(t_end, i)) continue;
+                set_lane(due_lanes, i, 1.0);
+                set_lane(at, i, time);
+            }
+            auto const due = due_lanes > Real(0.5);
+            if (none(due)) return;
+            Real const theta = select(accepted, (at - c.t) / select(accepted, pack.step, Real(1.0)), Real(0.0));
+            for (int i = 0; i < Model::size; ++i) pack.scratch[i] = stepper.dense(pack, i, theta);
+            typename Model::template Report<Real> report;
+            if (sampler_.beyond_state()) {
+                Real rates[Model::size];
+                pack.evaluate(at, pack.scratch, rates, true, report);
+                pack.count_evaluations(due, 1);
+            }
+            for (int i = 0; i < lanes<Real>; ++i) {
+                if (!holds(due, i)) continue;
+                sampler_.write(i, number(c.member, i), number(c.sample, i), pack.scratch, report);
+            }
+            c.sample = c.sample + due_lanes;
+        }
+    }
+
+    /// Hands over the results of the members in `ended`.
+    /// @param finished those that reached their end; @param stuck those whose step cannot shrink further, for what `faults` and
+    /// `divergent` say; the others have spent their steps.
+    template <class Real>
+    SLIDEWAY_HD void retire(Pack<Model, Real> const& pack, Mask<Real> ended, Mask<Real> finished,
+                            Faults<Real> const& faults, Mask<Real> divergent, Mask<Real> stuck) {
+        auto const& c = pack.state.course;
+        for (int i = 0; i < lanes<Real>; ++i) {
+            if (!holds(ended, i)) continue;
+            auto const member = number(c.member, i);
+            Status const status = holds(finished, i)               ? Status::finished
+                                  : holds(faults.geometry, i)      ? Status::geometry
+                                  : holds(faults.contact_domain, i) ? Status::contact_domain
+                                  : holds(divergent, i)            ? Status::nonfinite
+                                  : holds(stuck, i)                ? Status::step_too_small
+                                                                   : Status::max_steps;
+            double const time = lane(c.t, i);
+            block_.records[member] = {status,
+                                      number(c.accepted, i),
+                                      number(c.rejected, i),
+                                      number(c.evaluations, i),
+                                      time,
+                                      number(c.jacobians, i),
+                                      number(c.stiff_steps, i)};
+            for (int j = 0; j < Model::size; ++j) block_.final_states[member * Model::size + j] = lane(c.y[j], i);
+            if (block_.quantities != 0) {
+                constexpr auto columns = Pack<Model, Real>::Observer::columns;
+                pack.state.observation.observer.finish(i, time, block_.quantities,
+                                                       block_.quantity_values + member * columns);
+            }
+            if (block_.samples > 0) sampler_.fill_missing(member, number(c.sample, i));
+        }
+    }
+
+    /// Leaves a member that has not ended as if it had never begun.
+    SLIDEWAY_HD void abandon(std::size_t member) {
+        if (block_.samples > 0) sampler_.fill_missing(member, 0);
+    }
+
+private:
+    template <class Real> SLIDEWAY_HD static std::size_t number(Real const& value, int index) {
+        return static_cast<std::size_t>(lane(value, index));
+    }
+
+    Block& block_;
+    Sampler<Model> sampler_;
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

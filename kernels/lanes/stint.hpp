@@ -1,0 +1,210 @@
+#pragma once
+
+#include <type_traits>
+
+#include "kernels/lanes/event_search.hpp"
+#include "kernels/lanes/pack.hpp"
+#include "kernels/lanes/results.hpp"
+#include "kernels/lanes/stiffness.hpp"
+#include "kernels/math/squared_ratios.hpp"
+#include "kernels/real.hpp"
+#include "kernels/steppers/step_control.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+struct NoSearch {};
+
+/// A pack of members at work with one stepper for a number of attempts.  Nothing that happens in one lane reaches another.
+template <class Stepper, class Model, class Real> class Stint {
+public:
+    SLIDEWAY_HD Stint(Pack<Model, Real>& pack, Results<Model>& results, IntegratorSettings const& settings)
+        : pack_(pack), results_(results), settings_(settings) {
+        rtol_ = settings.rtol;
+        atol_ = settings.atol;
+        max_step_ = settings.max_step;
+        if constexpr (Stepper::stiff) {
+            rtol_ = rtol_ > settings.stiff_tolerance ? rtol_ : settings.stiff_tolerance;
+            atol_ = atol_ > settings.stiff_tolerance ? atol_ : settings.stiff_tolerance;
+            max_step_ = settings.stiff_max_step;
+        }
+    }
+
+    /// Every lane attempts `attempts` steps, unless its member ends or leaves the stiff method before.
+    SLIDEWAY_HD void work(int attempts) {
+        left_ = mask_of<Real>(false);
+        auto const members = pack_.busy;
+        int const members_at_start = held_lanes(members);
+        for (int i = 0; i < attempts && any(pack_.busy); ++i) {
+            // Where nothing is decided between stints, a lane that falls free ends the stint and is filled at once.
+            if (!Model::has_patterns && held_lanes(pack_.busy) < members_at_start) break;
+            begin();
+            stepper_.attempt(pack_);
+            settle();
+        }
+        pack_.busy = members & (pack_.busy | left_);
+    }
+
+private:
+    static constexpr int size = Model::size;
+    static constexpr int width = lanes<Real>;
+    using Control = StepControl<Stepper::order>;
+
+    /// Chooses the step.
+    SLIDEWAY_HD void begin() {
+        auto& c = pack_.state.course;
+        target_ = Real(settings_.end_time);
+        if constexpr (Stepper::stiff) {
+            if (results_.samples() > 0) target_ = results_.next_sample_times(c.sample, target_);
+        }
+        Real const remaining = target_ - c.t;
+        Real const h = Stepper::adaptive ? c.h : Real(settings_.fixed_step);
+        // A last step a hair short of the end would leave a crumb below the resolution of time.
+        lands_ = remaining <= h * Real(1.000001);
+        pack_.step = select(pack_.busy, select(lands_, remaining, h), Real(0.0));
+        pack_.count_evaluations(pack_.busy, Stepper::evaluations);
+        results_.count_attempt(width, held_lanes(pack_.busy));
+    }
+
+    /// Mean square of the components' errors, each against its tolerance.  NaN where any is NaN.
+    SLIDEWAY_HD Real squared_error_norm() const {
+        Real const rtol(rtol_), atol(atol_);
+        auto const& s = pack_.state;
+        SquaredRatios<Real> sum;
+        for (int i = 0; i < size; ++i) {
+            Real const tolerance =
+                fma(rtol, max(abs(s.course.y[i]), abs(pack_.end[i])), atol * s.constants.scale[i]);
+            sum.add(stepper_.error(pack_, i), tolerance);
+        }
+        // The damping power has a kink where a contact begins, which the states hardly feel: the audit controls its own error.
+        constexpr int audit_integrals = Pack<Model, Real>::Observer::audit_integrals;
+        if constexpr (audit_integrals > 0) {
+            if (!pack_.needs.audit) return sum.total() * Real(1.0 / size);
+            Real const energy = atol * Model::energy_scale(s.constants.parameters);
+            for (int i = 0; i < audit_integrals; ++i) {
+                sum.add(pack_.step * pack_.audit_error[i], fma(rtol, abs(s.observation.observer.integral(i)), energy));
+            }
+        }
+        return sum.total() * Real(1.0 / size);
+    }
+
+    /// Accepts or rejects per lane.
+    SLIDEWAY_HD void settle() {
+        auto& c = pack_.state.course;
+        auto const busy = pack_.busy;
+        Real const step = pack_.step;
+        Real const resolution(8 * 2.220446049250313e-16 * settings_.end_time);
+        Mask<Real> accepted, cut = mask_of<Real>(false);
+        Real wish = step;
+        auto divergent = mask_of<Real>(false);
+        if constexpr (Stepper::adaptive) {
+            Real const squared_norm = squared_error_norm();
+            accepted = busy & (squared_norm <= Real(1.0));
+            divergent = !(squared_norm < Real(1e300));
+            Real const former_memory = c.error_memory;
+            wish = step * Control::factor(squared_norm, accepted, c.rejections > Real(0.5), c.error_memory);
+            // A step that was shortened to land says little of what the next may be.
+            wish = select(accepted & lands_, max(wish, c.h), wish);
+            if constexpr (Model::has_memory) {
+                // A touch must end its step, for it sets the impact speed of what follows.
+                auto const early = accepted & (step > resolution * Real(64.0));
+                Real const fraction =
+                    c.watch.earliest(early, pack_.end_report.contact, step, Model::touch_scale(pack_.state.constants.parameters));
+                cut = fraction < Real(1.0);
+                c.error_memory = select(cut, former_memory, c.error_memory);
+                accepted = accepted & !cut;
+                wish = select(cut, max(step * fraction, resolution * Real(32.0)), wish);
+            }
+        } else {
+            accepted = busy & is_finite(pack_.end, pack_.end_rates);
+            divergent = busy & !accepted;
+        }
+        auto const rejected = busy & !accepted;
+        c.accepted = c.accepted + count<Real>(accepted);
+        c.rejected = c.rejected + count<Real>(rejected);
+        c.rejections = select(busy, count<Real>(rejected & !cut), c.rejections);
+        auto const still = rejected & (wish <= resolution);
+        auto const stuck = Stepper::adaptive ? still : rejected;
+
+        auto finished = mask_of<Real>(false);
+        if (any(accepted)) finished = advance(accepted);
+        c.h = select(busy, min(wish, Real(max_step_)), c.h);
+        auto const spent =
+            busy & !finished & (c.accepted + c.rejected >= Real(static_cast<double>(settings_.max_steps)));
+        auto const ended = finished | stuck | spent;
+        if (any(ended)) {
+            results_.retire(pack_, ended, finished, pack_.faults.within(stuck), stuck & divergent, stuck);
+            pack_.busy = pack_.busy & !ended;
+        }
+        if constexpr (Stepper::stiff) watch_stiffness(accepted);
+    }
+
+    /// Moves the accepted lanes to the end of their step.  @return those that reached the end time.
+    SLIDEWAY_HD Mask<Real> advance(Mask<Real> accepted) {
+        auto& c = pack_.state.course;
+        auto landed = accepted & lands_;
+        Real t_end = select(landed, target_, c.t + pack_.step);
+        if constexpr (Model::events > 0) {
+            search_.run(pack_, stepper_, accepted);
+            t_end = select(search_.ended(), fma(pack_.step, search_.fraction(), c.t), t_end);
+            landed = landed & !search_.ended();
+        }
+        if (results_.samples() > 0) results_.take_samples(pack_, stepper_, accepted, t_end);
+        if (pack_.needs.quantities) {
+            pack_.state.observation.observer.accept(accepted, pack_.step, pack_.integral, pack_.end_report, pack_.end);
+        }
+        for (int i = 0; i < size; ++i) c.y[i] = select(accepted, pack_.end[i], c.y[i]);
+        c.t = select(accepted, t_end, c.t);
+        if constexpr (Stepper::stiff) c.stiff_steps = c.stiff_steps + count<Real>(accepted);
+        pack_.begin_next(accepted, pack_.end_rates);
+        if constexpr (Model::has_memory) {
+            auto const touched = c.watch.update(accepted, pack_.end_report.contact, c.memory);
+            if (any(touched)) restart(touched);
+        }
+        auto finished = landed & (c.t >= Real(settings_.end_time));
+        if constexpr (Model::events > 0) {
+            search_.keep(accepted, c.watch);
+            if (pack_.needs.quantities) {
+                auto& observer = pack_.state.observation.observer;
+                observer.settle(accepted & Model::at_rest(c.rates), c.y);
+                finished = finished | (accepted & observer.complete());
+            }
+        }
+        return finished;
+    }
+
+    /// New impact speeds change the derivative at the same state.
+    SLIDEWAY_HD void restart(Mask<Real> touched) {
+        auto const& c = pack_.state.course;
+        pack_.evaluate(c.t, c.y, pack_.end_rates, true, pack_.end_report);
+        pack_.count_evaluations(touched, 1);
+        pack_.begin_next(touched, pack_.end_rates);
+    }
+
+    /// A lane leaves the stiff method where contact is lost or its steps stay far below what that method is for.
+    SLIDEWAY_HD void watch_stiffness(Mask<Real> accepted) {
+        auto& c = pack_.state.course;
+        Real const rate = sqrt(max(stepper_.rate_squared(), Real(0.0)));
+        auto const calm = pack_.step * rate < Real(Stiffness::calm_below);
+        c.stiffness = select(accepted, select(calm, c.stiffness + Real(1.0), Real(0.0)), c.stiffness);
+        auto const free = stepper_.touching() < Real(0.5);
+        auto const leaving = pack_.busy & (free | (c.stiffness >= Real(Stiffness::calm_steps)));
+        if (none(leaving) || settings_.method != Method::automatic) return;
+        c.stiffness = select(leaving, Real(0.0), c.stiffness);
+        c.stiff = select(leaving, Real(0.0), c.stiff);
+        Real const explicit_step = min(Real(1.0) / max(rate, Real(1e-9)), Real(settings_.max_step));
+        c.h = select(leaving, min(c.h, explicit_step), c.h);
+        left_ = left_ | leaving;
+        pack_.busy = pack_.busy & !leaving;
+    }
+
+    Pack<Model, Real>& pack_;
+    Results<Model>& results_;
+    IntegratorSettings const& settings_;
+    Stepper stepper_;
+    [[no_unique_address]] std::conditional_t<(Model::events > 0), EventSearch<Model, Real>, NoSearch> search_;
+    double rtol_, atol_, max_step_;
+    Real target_;
+    Mask<Real> lands_, left_;
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

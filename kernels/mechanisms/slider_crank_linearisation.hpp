@@ -1,0 +1,174 @@
+#pragma once
+
+#include "kernels/joint/attitude.hpp"
+#include "kernels/joint/joint_stiffness.hpp"
+#include "kernels/math/dense_solve.hpp"
+#include "kernels/mechanisms/slider_crank.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// The slider-crank linearised about one state, with the structural Jacobian of its contacts: all that a linearly implicit
+/// step needs.  In ν = (vy, vz, ωx, ωy, ωz) and q = (y, z, φ, ϑ, ψ), q' = G ν and M ν' = Q(q, ν),
+///   A = [0, G; M⁻¹ K G⁻¹, M⁻¹ D],   K = ∂Q/∂(∫ν), D = ∂Q/∂ν of the contacts alone.
+/// Left out, because not stiff: ∂G/∂q, ∂M/∂q, rod, weight and gyroscopic terms.
+/// Eliminating the positions leaves five equations (Hairer & Wanner, Solving ODEs II (1996), IV.8, for second-order systems):
+///   (M − hγ D − (hγ)² K) u_ν = M r_ν + hγ K G⁻¹ r_q,   u_q = r_q + hγ G u_ν.
+template <class Real> struct SliderCrankLinearisation {
+    JointStiffness<Real> joint;    // K and D
+    Real mass_y, mass_z, mass_yz;  // of (vy, vz): m (1 + κκᵀ) [kg]
+    Vec3<Real> inertia;            // of ω [kg m²]
+    SinCos<Real> roll, yaw;
+    Real touching;  // apex–face pairs in contact
+
+    /// Prepares `solve` for one hγ [s].  No pivoting: M is positive definite, and what is added nearly so.
+    SLIDEWAY_NOINLINE void factor(Real hg) {
+        hg_ = hg;
+        Real const minus_hg = negated(hg);
+        for (int i = 0; i < 5; ++i) {
+            for (int j = 0; j < 5; ++j) {
+                matrix_[i][j] = minus_hg * fma(hg, joint.by_place[i][j], joint.by_rate[i][j]);
+            }
+        }
+        matrix_[0][0] = matrix_[0][0] + mass_y;
+        matrix_[0][1] = matrix_[0][1] + mass_yz;
+        matrix_[1][0] = matrix_[1][0] + mass_yz;
+        matrix_[1][1] = matrix_[1][1] + mass_z;
+        matrix_[2][2] = matrix_[2][2] + inertia.x;
+        matrix_[3][3] = matrix_[3][3] + inertia.y;
+        matrix_[4][4] = matrix_[4][4] + inertia.z;
+        factors_.factor(matrix_);
+    }
+
+    /// (I − hγ A) u = r.  @param r, u ten values each, ordered as the state; they may be the same array.
+    SLIDEWAY_NOINLINE void solve(Real const* r, Real* u) const {
+        Real v[5];
+        right_hand_side(r, v);
+        factors_.solve(v);
+        // G: φ' = ωx + s tanϑ, ϑ' = ωy cosφ − ωz sinφ, ψ' = s/cosϑ with s = ωy sinφ + ωz cosφ.
+        Real const pitch = fma(v[3], roll.sin, v[4] * roll.cos) / yaw.cos;
+        u[0] = fma(hg_, v[0], r[0]);
+        u[1] = fma(hg_, v[1], r[1]);
+        u[4] = fma(hg_, fma(pitch, yaw.sin, v[2]), r[4]);
+        u[5] = fma(hg_, fms(v[3], roll.cos, v[4] * roll.sin), r[5]);
+        u[6] = fma(hg_, pitch, r[6]);
+        u[2] = v[0];
+        u[3] = v[1];
+        u[7] = v[2];
+        u[8] = v[3];
+        u[9] = v[4];
+    }
+
+    /// How well u solves the five equations of r: the sum over them of |W u − b|/(|W||u| + |b|), a relative backward error in
+    /// every unit (Oettli & Prager, Numer. Math. 6 (1964) 405).  About 1e-16 where all is well; NaN if anything is.
+    SLIDEWAY_NOINLINE Real residual(Real const* r, Real const* u) const {
+        Real b[5];
+        right_hand_side(r, b);
+        Real const v[5] = {u[2], u[3], u[7], u[8], u[9]};
+        Real worst(0.0);
+        for (int i = 0; i < 5; ++i) {
+            Real rest = negated(b[i]), size = abs(b[i]);
+            for (int j = 0; j < 5; ++j) {
+                rest = fma(matrix_[i][j], v[j], rest);
+                size = fma(abs(matrix_[i][j]), abs(v[j]), size);
+            }
+            worst = worst + abs(rest) / (size + Real(1e-300));
+        }
+        return worst;
+    }
+
+    /// Stiffness estimate Ω² [1/s²]: the trace of M⁻¹(−K), of which positive terms alone count.
+    SLIDEWAY_FN Real rate_squared() const {
+        auto const& k = joint.by_place;
+        Real const scale = Real(1.0) / fms(mass_y, mass_z, mass_yz * mass_yz);
+        Real const y = clamped(fms(mass_yz, k[1][0], mass_z * k[0][0]) * scale);
+        Real const z = clamped(fms(mass_yz, k[0][1], mass_y * k[1][1]) * scale);
+        Real const turning = (clamped(negated(k[2][2]) / inertia.x) + clamped(negated(k[3][3]) / inertia.y)) +
+                             clamped(negated(k[4][4]) / inertia.z);
+        return (y + z) + turning;
+    }
+
+private:
+    /// M r_ν + hγ K G⁻¹ r_q.
+    SLIDEWAY_FN void right_hand_side(Real const* r, Real* b) const {
+        // G⁻¹: ωx = φ' − ψ' sinϑ, ωy = ϑ' cosφ + ψ' sinφ cosϑ, ωz = −ϑ' sinφ + ψ' cosφ cosϑ.
+        Real const upright = yaw.cos * r[6];
+        Real const place[5] = {hg_ * r[0], hg_ * r[1], hg_ * fnma(yaw.sin, r[6], r[4]),
+                               hg_ * fma(roll.cos, r[5], roll.sin * upright),
+                               hg_ * fms(roll.cos, upright, roll.sin * r[5])};
+        b[0] = fma(mass_y, r[2], mass_yz * r[3]);
+        b[1] = fma(mass_yz, r[2], mass_z * r[3]);
+        b[2] = inertia.x * r[7];
+        b[3] = inertia.y * r[8];
+        b[4] = inertia.z * r[9];
+        for (int i = 0; i < 5; ++i) {
+            for (int j = 0; j < 5; ++j) b[i] = fma(joint.by_place[i][j], place[j], b[i]);
+        }
+    }
+
+    Real hg_;
+    Real matrix_[5][5];  // W = M − hγ D − (hγ)² K
+    LuFactors<5, Real> factors_;
+};
+
+namespace detail {
+
+template <class Model> struct SliderCrankParts;
+template <class Law, class Friction, class Way_, class Damping>
+struct SliderCrankParts<SliderCrank<Law, Friction, Way_, Damping>> {
+    using Way = Way_;
+    using Joint = JointLinearisation<Law, Friction, Damping>;
+};
+
+}  // namespace detail
+
+/// Linearises a `SliderCrank` about one state; the same arguments as its derivative.  NaN where that has a fault.
+/// @param t time [s]; @param s the state; @param memory read by RestitutionDamping alone.
+template <class Model, class Real>
+SLIDEWAY_NOINLINE void linearise(Real t, Real const* s, SliderCrankParameters<Real> const& p,
+                                 typename Model::template Memory<Real> const& memory, SliderCrankLinearisation<Real>& out) {
+    using Parts = detail::SliderCrankParts<Model>;
+    Real const y = s[0], z = s[1], vy = s[2], vz = s[3];
+    Real const one(1.0);
+    // Crank pin and rod: vx = vxA + κy (vy − vyA) + κz vz (model.md 6).
+    auto const crank = sincos(fma(p.crank_speed, t, p.start_angle));
+    Real const ax = p.crank_length * crank.cos, ay = p.crank_length * crank.sin;
+    Real const vax = negated(p.crank_speed) * ay, vay = p.crank_speed * ax;
+    Real const dy = y - ay;
+    Real const d = sqrt(fnma(z, z, fnma(dy, dy, p.rod_length * p.rod_length)));
+    Real const inverse_d = one / d;
+    Real const ky = negated(dy) * inverse_d, kz = negated(z) * inverse_d;
+    Real const vx = vax + fma(ky, vy - vay, kz * vz);
+
+    out.mass_y = p.mass * fma(ky, ky, one);
+    out.mass_z = p.mass * fma(kz, kz, one);
+    out.mass_yz = p.mass * ky * kz;
+    out.inertia = p.inertia;
+    auto const angles = attitude(s[4], s[5], s[6]);
+    out.roll = angles.roll;
+    out.yaw = angles.yaw;
+
+    auto const slider = axes(angles);
+    Vec3<Real> const velocity{vx, vy, vz};
+    Vec3<Real> const omega{s[7], s[8], s[9]};
+    auto const spin = fma(omega.x, slider.x, fma(omega.y, slider.y, omega.z * slider.z));
+    JointFrame<Real> frame;
+    frame.motion = Parts::Way::motion(slider, Vec3<Real>{ax + d, y, z}, velocity, spin, p.joint.way);
+    frame.velocity = {dot(slider.x, velocity), dot(slider.y, velocity), dot(slider.z, velocity)};
+    frame.spin = omega;
+    // A force (f_x, f_y, f_z) gives f_y + κy f_x and f_z + κz f_x.
+    auto const translation = [&](Vec3<Real> const& force) {
+        return Translation<Real>{fma(ky, force.x, force.y), fma(kz, force.x, force.z)};
+    };
+    auto const& way = p.joint.way;
+    auto const& joint_axes = frame.motion.axes;
+    Real const zero(0.0);
+    frame.x = translation(slider.x);
+    frame.y = translation(slider.y);
+    frame.z = translation(slider.z);
+    frame.y_normal = translation(Parts::Way::to_inertial(Vec3<Real>{zero, joint_axes.y.y, joint_axes.y.z}, way));
+    frame.z_normal = translation(Parts::Way::to_inertial(Vec3<Real>{zero, joint_axes.z.y, joint_axes.z.z}, way));
+    out.touching = Parts::Joint::stiffness(frame, memory, p.joint, out.joint);
+}
+
+}  // namespace slideway::inline SLIDEWAY_ISA

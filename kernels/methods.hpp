@@ -1,0 +1,24 @@
+// How a member is integrated: the choices of `integrator.method`.
+#pragma once
+
+namespace slideway {
+
+enum class Method { automatic, dopri5, bs32, ros34pw2, rk4 };
+
+struct MethodInfo {
+    char const* name;
+    char const* description;
+};
+
+inline constexpr MethodInfo method_table[] = {
+    {"auto", "explicit pair in flight and impacts, ros34pw2 where lasting contact makes a member stiff"},
+    {"dopri5", "Dormand-Prince 5(4); the explicit pair of auto for rtol below 1e-5"},
+    {"bs32", "Bogacki-Shampine 3(2); the explicit pair of auto from rtol 1e-5 on"},
+    {"ros34pw2", "Rosenbrock W-method 3(2) alone: for lasting contact, it loses energy in impacts"},
+    {"rk4", "classical Runge-Kutta with the fixed step integrator.step"},
+};
+inline constexpr int method_count = sizeof(method_table) / sizeof(method_table[0]);
+
+constexpr char const* name_of(Method method) { return method_table[static_cast<int>(method)].name; }
+
+}  // namespace slideway

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "kernels/mechanisms/lorenz.hpp"
+#include "kernels/observers/event_recorder.hpp"
+#include "kernels/steppers/no_watch.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// The Lorenz equations as the lanes integrate them: nothing is observed but the states.
+struct LorenzModel : Lorenz {
+    static constexpr int series = size;
+    static constexpr int events = 0;
+    static constexpr bool has_patterns = false;
+    static constexpr bool has_linearisation = false;
+    template <class Real> using Observer = EventRecorder<Real, 0, 0>;
+    template <class Real> using Watch = NoWatch<Real>;
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

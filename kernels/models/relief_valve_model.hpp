@@ -1,0 +1,18 @@
+#pragma once
+
+#include "kernels/mechanisms/relief_valve.hpp"
+#include "kernels/observers/event_recorder.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// The relief valve as the lanes integrate it: its impacts and the extrema of its lift are recorded, after a transient of 2,048 of
+/// them, until 64 are.
+struct ReliefValveModel : ReliefValve {
+    static constexpr int series = size;
+    static constexpr bool has_patterns = false;
+    static constexpr bool has_linearisation = false;
+    template <class Real> using Observer = EventRecorder<Real, 2048, 64>;
+    template <class Real> using Watch = EventValues<events, Real>;
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

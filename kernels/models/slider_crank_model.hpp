@@ -1,0 +1,36 @@
+#pragma once
+
+#include <type_traits>
+
+#include "kernels/mechanisms/slider_crank.hpp"
+#include "kernels/mechanisms/slider_crank_linearisation.hpp"
+#include "kernels/observers/quantities.hpp"
+#include "kernels/observers/slider_crank_observer.hpp"
+#include "kernels/steppers/no_watch.hpp"
+#include "kernels/steppers/touch.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// The slider-crank as the lanes integrate it (kernels/integrate.hpp): its equations, what is observed, and what the stiff method
+/// and the location of touches need.
+template <class Law, class Friction, class Way, class Damping>
+struct SliderCrankModel : SliderCrank<Law, Friction, Way, Damping> {
+    using Mechanism = SliderCrank<Law, Friction, Way, Damping>;
+    static constexpr int series = series_count;
+    static constexpr int events = 0;
+    static constexpr bool has_patterns = true;
+    static constexpr bool has_linearisation = true;
+    template <class Real> using Observer = SliderCrankObserver<Real>;
+    template <class Real>
+    using Watch = std::conditional_t<Mechanism::has_memory, TouchLocator<Real>, NoWatch<Real>>;
+    template <class Real> using Linearisation = SliderCrankLinearisation<Real>;
+
+    template <class Real>
+    SLIDEWAY_HD static void linearise(Real t, Real const* state, SliderCrankParameters<Real> const& p,
+                                      typename Mechanism::template Memory<Real> const& memory,
+                                      SliderCrankLinearisation<Real>& out) {
+        slideway::linearise<Mechanism>(t, state, p, memory, out);
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

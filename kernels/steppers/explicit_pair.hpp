@@ -1,0 +1,50 @@
+#pragma once
+
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// What all explicit Runge–Kutta pairs share.  @tparam Tableau holds the nodes c, stage weights a, weights b, and the error's
+/// weights e; @tparam count the number of stages, of which the last is the first of the next step.
+template <class Tableau_, int count> struct ExplicitPair {
+    using Tableau = Tableau_;
+    static constexpr bool adaptive = true;
+    static constexpr int stages = count;
+    static constexpr Tableau tableau{};
+
+    /// State at which stage `s` evaluates the derivative: y + h Σ_j a_sj k_j.
+    template <int s, int size, class Real>
+    SLIDEWAY_FN static void stage_state(Real const* y, Real const (*k)[size], Real h, Real* at) {
+        for (int i = 0; i < size; ++i) at[i] = fma(h, weighted<s, 0>(k, i), y[i]);
+    }
+
+    /// Σ_j e_j k_j of one component: the error estimate is h times this.
+    template <int size, class Real> SLIDEWAY_FN static Real error_slope(Real const (*k)[size], int i) {
+        return weighted_error<1>(k, i, Real(Tableau{}.e[0]) * k[0][i]);
+    }
+
+private:
+    template <int s, int j, int size, class Real> SLIDEWAY_FN static Real weighted(Real const (*k)[size], int i) {
+        constexpr double a = Tableau{}.a[s][j];
+        if constexpr (j + 1 == s) {
+            return Real(a) * k[j][i];
+        } else if constexpr (a == 0) {
+            return weighted<s, j + 1>(k, i);
+        } else {
+            return fma(Real(a), k[j][i], weighted<s, j + 1>(k, i));
+        }
+    }
+
+    template <int j, int size, class Real>
+    SLIDEWAY_FN static Real weighted_error(Real const (*k)[size], int i, Real sum) {
+        if constexpr (j == stages) {
+            return sum;
+        } else {
+            constexpr double e = Tableau{}.e[j];
+            if constexpr (e != 0) sum = fma(Real(e), k[j][i], sum);
+            return weighted_error<j + 1>(k, i, sum);
+        }
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

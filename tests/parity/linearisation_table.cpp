@@ -1,0 +1,63 @@
+// Compiled once per instruction set.
+#include "tests/parity/linearisation_table.hpp"
+
+#include "host/backend/isa_real.hpp"
+#include "kernels/mechanisms/slider_crank_linearisation.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+namespace {
+
+using Real = IsaReal;
+
+template <class Model> void linearise_all(LinearisationRow const* rows, std::size_t count, double* result) {
+    constexpr int width = lanes<Real>;
+    SliderCrankParameters<Real> p;
+    ImpactMemory<Real> memory;
+    for (auto& face : memory.speeds) face.a = face.b = face.c = face.d = Real(0.01);
+    SliderCrankLinearisation<Real> at;
+    for (std::size_t first = 0; first < count; first += width) {
+        Real t, hg, state[state_size], u[state_size];
+        for (int i = 0; i < width; ++i) {
+            auto const& row = rows[first + static_cast<std::size_t>(i)];
+            auto const parameters = Model::parameters(row.inputs);
+            auto const* from = reinterpret_cast<double const*>(&parameters);
+            auto* to = reinterpret_cast<Real*>(&p);
+            for (std::size_t j = 0; j < sizeof(parameters) / sizeof(double); ++j) set_lane(to[j], i, from[j]);
+            double start[state_size];
+            Model::initial_state(row.inputs, start);
+            for (int j = 0; j < state_size; ++j) set_lane(state[j], i, start[j]);
+            set_lane(t, i, row.time);
+            set_lane(hg, i, row.hg);
+        }
+        linearise<Model>(t, state, p, memory, at);
+        at.factor(hg);
+        at.solve(state, u);
+        Real values[linearisation_values];
+        Real* next = values;
+        for (auto const* matrix : {at.joint.by_place, at.joint.by_rate}) {
+            for (int i = 0; i < 5; ++i) {
+                for (int j = 0; j < 5; ++j) *next++ = matrix[i][j];
+            }
+        }
+        *next++ = at.touching;
+        *next++ = at.rate_squared();
+        for (Real const& value : u) *next++ = value;
+        *next++ = at.residual(state, u);
+        for (int i = 0; i < width; ++i) {
+            double* const to = result + (first + static_cast<std::size_t>(i)) * linearisation_values;
+            for (int j = 0; j < linearisation_values; ++j) to[j] = lane(values[j], i);
+        }
+    }
+}
+
+}  // namespace
+
+void linearise_table(Law law, LinearisationRow const* rows, std::size_t count, double* result) {
+    if (law == Law::paper) {
+        linearise_all<SliderCrank<PaperLaw, StickSlipFriction, MisalignedWay, RestitutionDamping>>(rows, count, result);
+    } else {
+        linearise_all<SliderCrank<ConservativeLaw, StickSlipFriction, MisalignedWay, RateDamping>>(rows, count, result);
+    }
+}
+
+}  // namespace slideway::inline SLIDEWAY_ISA

@@ -1,0 +1,199 @@
+// Derivatives of the contact laws against central differences of the laws themselves.
+#include "kernels/laws/face_stiffness.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "kernels/laws/conservative.hpp"
+#include "kernels/laws/conservative_stiffness.hpp"
+#include "kernels/laws/friction_stiffness.hpp"
+#include "kernels/laws/paper.hpp"
+#include "kernels/laws/paper_stiffness.hpp"
+#include "kernels/mechanisms/slider_crank_parameters.hpp"
+#include "tests/oracle/oracle.hpp"
+
+namespace slideway {
+namespace {
+
+using Values = std::array<double, 4>;
+
+SliderCrankParameters<double> parameters(double exponent = 1.5) {
+    Inputs in;
+    in.hertz_exponent = exponent;
+    in.chi_line = 3, in.chi_surface = 5;
+    in.restitution = 0.6;
+    return slider_crank_parameters(oracle::completed(in));
+}
+
+FaceContact<double> y_face(SliderCrankParameters<double> const& p) {
+    auto const& c = p.joint.contact;
+    return {c.surface_stiffness_y, c.across_y_face, c.along};
+}
+
+Quad<double> quad(Values const& v) { return {v[0], v[1], v[2], v[3]}; }
+Values values(Quad<double> const& q) { return {q.a, q.b, q.c, q.d}; }
+
+FaceMotion<double> motion(Values const& depth, Values const& rate) {
+    FaceMotion<double> m;
+    m.depth = quad(depth);
+    m.rate = quad(rate);
+    m.touching = {depth[0] > 0, depth[1] > 0, depth[2] > 0, depth[3] > 0};
+    m.impact_speed = {0.02, 0.03, 0.01, 0.025};
+    return m;
+}
+
+/// Row of the full matrix: derivatives by a, b, c, d.
+Values by_apex(ApexSlopes<double> const& r, int apex) {
+    switch (apex) {
+        case 0:
+            return {r.own, r.across, r.opposite, r.along};
+        case 1:
+            return {r.across, r.own, r.along, r.opposite};
+        case 2:
+            return {r.opposite, r.along, r.own, r.across};
+        default:
+            return {r.along, r.opposite, r.across, r.own};
+    }
+}
+
+template <class Law, class Damping> void expect_derivatives(double exponent) {
+    auto const p = parameters(exponent);
+    auto const face = y_face(p);
+    auto const& contact = p.joint.contact;
+    std::mt19937_64 random(17);
+    std::uniform_real_distribution<double> unit(0, 1);
+    auto const forces = [&](Values const& depth, Values const& rate) {
+        return values(Law::template forces<Damping>(motion(depth, rate), face, contact).normal);
+    };
+    for (int draw = 0; draw < 40; ++draw) {
+        for (unsigned pattern = 0; pattern < 16; ++pattern) {
+            Values depth, rate;
+            double const size = std::pow(10.0, -9 + 3 * unit(random));
+            for (unsigned i = 0; i < 4; ++i) {
+                depth[i] = size * (0.3 + unit(random)) * ((pattern >> i & 1u) != 0 ? 1 : -1);
+                rate[i] = 0.02 * (unit(random) - 0.5);
+            }
+            auto const got = LawStiffness<Law>::template face<Damping>(motion(depth, rate), face, contact);
+            auto const force = forces(depth, rate), normal = values(got.normal);
+            double const load = *std::max_element(force.begin(), force.end());
+            std::string const where = "pattern " + std::to_string(pattern) + " draw " + std::to_string(draw);
+            for (unsigned i = 0; i < 4; ++i) EXPECT_NEAR(normal[i], force[i], 1e-13 * load) << where;
+            ApexSlopes<double> const* const depth_rows[] = {&got.by_depth.a, &got.by_depth.b, &got.by_depth.c,
+                                                            &got.by_depth.d};
+            ApexSlopes<double> const* const rate_rows[] = {&got.by_rate.a, &got.by_rate.b, &got.by_rate.c,
+                                                           &got.by_rate.d};
+            for (unsigned j = 0; j < 4; ++j) {
+                auto const difference = [&](Values upper, double step, bool of_rate) {
+                    auto lower = upper;
+                    upper[j] += step, lower[j] -= step;
+                    auto const up = of_rate ? forces(depth, upper) : forces(upper, rate);
+                    auto const down = of_rate ? forces(depth, lower) : forces(lower, rate);
+                    Values d;
+                    for (unsigned i = 0; i < 4; ++i) d[i] = (up[i] - down[i]) / (2 * step);
+                    return d;
+                };
+                double const step = 1e-4 * size, rate_step = 1e-5;
+                auto const by_depth = difference(depth, step, false), by_rate = difference(rate, rate_step, true);
+                for (int i = 0; i < 4; ++i) {
+                    auto const at = static_cast<std::size_t>(i);
+                    EXPECT_NEAR(by_apex(*depth_rows[i], i)[j], by_depth[at], 2e-7 * load / size) << where << i << j;
+                    EXPECT_NEAR(by_apex(*rate_rows[i], i)[j], by_rate[at], 1e-9 * load / rate_step) << where << i << j;
+                }
+            }
+            if (::testing::Test::HasFailure()) return;
+        }
+    }
+}
+
+TEST(FaceStiffness, IsTheDerivativeOfThePaperLaw) {
+    expect_derivatives<PaperLaw, PointDamping>(1.5);
+    expect_derivatives<PaperLaw, PointDamping>(1.4);
+    expect_derivatives<PaperLaw, RateDamping>(1.5);
+    expect_derivatives<PaperLaw, RestitutionDamping>(1.3);
+}
+
+TEST(FaceStiffness, IsTheDerivativeOfTheConservativeLaw) {
+    expect_derivatives<ConservativeLaw, PointDamping>(1.5);
+    expect_derivatives<ConservativeLaw, PointDamping>(1.4);
+    expect_derivatives<ConservativeLaw, RateDamping>(1.5);
+    expect_derivatives<ConservativeLaw, RestitutionDamping>(1.3);
+}
+
+TEST(FaceStiffness, AContactThatDampingLiftsHasNone) {
+    auto const p = parameters();
+    // 1 + χ h' and 1 + a h'/v0 are negative, and so is K δ^(3/2) + η K δ δ'.
+    auto const m = motion({1e-8, 1.1e-8, 0.9e-8, 1e-8}, {-1, -1, -1, -1});
+    auto const expect_nothing = [](FaceStiffness<double> const& f) {
+        for (double const force : values(f.normal)) EXPECT_EQ(force, 0);
+        for (auto const* rows : {&f.by_depth, &f.by_rate}) {
+            for (auto const& r : {rows->a, rows->b, rows->c, rows->d}) {
+                EXPECT_EQ(r.own, 0);
+                EXPECT_EQ(r.across, 0);
+                EXPECT_EQ(r.along, 0);
+                EXPECT_EQ(r.opposite, 0);
+            }
+        }
+    };
+    expect_nothing(LawStiffness<PaperLaw>::face<RateDamping>(m, y_face(p), p.joint.contact));
+    expect_nothing(LawStiffness<PaperLaw>::face<RestitutionDamping>(m, y_face(p), p.joint.contact));
+    expect_nothing(LawStiffness<ConservativeLaw>::face<RestitutionDamping>(m, y_face(p), p.joint.contact));
+}
+
+TEST(LineStiffness, IsOneOverTheSlopeOfTheApproach) {
+    // δ = x (1 − ln(x R/l²)), P = scale·x: both known in closed form from x.
+    LineContact<double> const line{2e10, 0.4};
+    for (double x = 1e-12; x < 2; x *= 3) {
+        double const logarithm = std::log(x * line.radius_rate);
+        auto const at = line_stiffness(x * (1 - logarithm), line);
+        EXPECT_NEAR(at.load, line.scale * x, 1e-14 * line.scale * x);
+        EXPECT_NEAR(at.slope * -logarithm / line.scale, 1, 1e-13) << x;
+    }
+}
+
+TEST(LineStiffness, StaysFiniteAtTheEndOfItsDomainAndIsNanBeyond) {
+    LineContact<double> const line{2e10, 0.4};
+    EXPECT_TRUE(std::isfinite(line_stiffness(2.5, line).slope));
+    EXPECT_TRUE(std::isnan(line_stiffness(2.6, line).slope));
+    EXPECT_TRUE(std::isnan(line_stiffness(2.6, line).load));
+}
+
+TEST(FrictionStiffness, IsTheDerivativeOfTheSlidingForce) {
+    auto const f = parameters().joint.friction;
+    auto const force = [&](double x, double z) {
+        double const speed = std::hypot(x, z);
+        double const mu = StickSlipFriction::coefficient(speed, f);
+        return std::array<double, 2>{-mu * x / speed, -mu * z / speed};
+    };
+    for (double speed = 1e-5; speed < 0.05; speed *= 1.3) {
+        double const x = 0.6 * speed, z = -0.8 * speed, h = 1e-5 * speed;
+        auto const at = StickSlipStiffness::apex(x, z, f);
+        auto const here = force(x, z);
+        EXPECT_NEAR(at.push_x, here[0], 1e-15);
+        EXPECT_NEAR(at.push_z, here[1], 1e-15);
+        auto const right = force(x + h, z), left = force(x - h, z), up = force(x, z + h), down = force(x, z - h);
+        double const close = 1e-7 * f.static_coefficient / std::min(speed, 1e-3);
+        EXPECT_NEAR(at.xx, (left[0] - right[0]) / (2 * h), close) << speed;
+        EXPECT_NEAR(at.xz, (left[1] - right[1]) / (2 * h), close) << speed;
+        EXPECT_NEAR(at.xz, (down[0] - up[0]) / (2 * h), close) << speed;
+        EXPECT_NEAR(at.zz, (down[1] - up[1]) / (2 * h), close) << speed;
+    }
+}
+
+TEST(FrictionStiffness, IsIsotropicAtRest) {
+    auto const f = parameters().joint.friction;
+    auto const at = StickSlipStiffness::apex(0.0, 0.0, f);
+    double const slope = f.static_coefficient * f.rise;  // μ'(0)
+    EXPECT_EQ(at.push_x, 0);
+    EXPECT_EQ(at.push_z, 0);
+    EXPECT_NEAR(at.xx, slope, 1e-12 * slope);
+    EXPECT_NEAR(at.zz, slope, 1e-12 * slope);
+    EXPECT_EQ(at.xz, 0);
+}
+
+}  // namespace
+}  // namespace slideway

@@ -1,0 +1,194 @@
+// The structural Jacobian of the slider-crank against differences of the contacts' part of its derivative.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+#include <string>
+
+#include "kernels/laws/conservative.hpp"
+#include "kernels/laws/paper.hpp"
+#include "kernels/mechanisms/slider_crank.hpp"
+#include "kernels/mechanisms/slider_crank_linearisation.hpp"
+#include "tests/oracle/golden_table.hpp"
+#include "tests/oracle/oracle.hpp"
+#include "tests/oracle/random_states.hpp"
+
+namespace slideway {
+namespace {
+
+using Vector5 = Eigen::Matrix<double, 5, 1>;
+using Matrix5 = Eigen::Matrix<double, 5, 5>;
+
+/// Contacts without force: what is left of the derivative is not the joint's.
+struct Forceless {
+    template <class Damping, class Real>
+    static FaceForces<Real> forces(FaceMotion<Real> const&, FaceContact<Real> const&, ContactParameters<Real> const&) {
+        return {{0, 0, 0, 0}, {0, 0, 0, 0}, 0, false};
+    }
+};
+
+/// One case: the state, its model and what the differences need.
+template <class Law, class Friction, class Way, class Damping> class Linearised {
+public:
+    using Model = SliderCrank<Law, Friction, Way, Damping>;
+    using Free = SliderCrank<Forceless, Friction, Way, Damping>;
+
+    explicit Linearised(oracle::Case const& c) : c_(c), p_(Model::parameters(c.inputs)) {
+        for (int face = 0; face < face_count; ++face) {
+            auto const speed = [&](int k) {
+                return c.impact_speeds[static_cast<std::size_t>((face < 2 ? 0 : 8) + face_apex(face, k))];
+            };
+            memory_.speeds[face] = {speed(0), speed(1), speed(2), speed(3)};
+        }
+        linearise<Model>(c.t, c.state.data(), p_, memory_, at_);
+        mass_.setZero();
+        mass_(0, 0) = at_.mass_y, mass_(1, 1) = at_.mass_z, mass_(0, 1) = mass_(1, 0) = at_.mass_yz;
+        mass_(2, 2) = at_.inertia.x, mass_(3, 3) = at_.inertia.y, mass_(4, 4) = at_.inertia.z;
+    }
+
+    [[nodiscard]] Matrix5 by_place() const { return matrix(at_.joint.by_place); }
+    [[nodiscard]] Matrix5 by_rate() const { return matrix(at_.joint.by_rate); }
+    [[nodiscard]] double touching() const { return at_.touching; }
+
+    /// M (ν'(state) − ν' without contact forces): the generalized force of the contacts.
+    [[nodiscard]] Vector5 contact_force(oracle::State const& state) const {
+        double with[10], without[10];
+        Model::template derivative<false, double>(c_.t, state.data(), p_, memory_, with, nullptr);
+        Free::template derivative<false, double>(c_.t, state.data(), p_, memory_, without, nullptr);
+        Vector5 a;
+        for (int i : {0, 1, 2, 3, 4}) a(i) = with[place(i)] - without[place(i)];
+        // The forces see the pose's own κ; it hardly changes over a difference.
+        return mass_ * a;
+    }
+
+    /// The state moved by ∫ν = step along direction j: q += G e_j step.
+    [[nodiscard]] oracle::State moved(int j, double step) const {
+        auto s = c_.state;
+        double const sr = std::sin(s[4]), cr = std::cos(s[4]), ty = std::tan(s[5]), cy = std::cos(s[5]);
+        if (j < 2) s[static_cast<std::size_t>(j)] += step;
+        if (j == 2) s[4] += step;
+        if (j == 3) s[4] += step * sr * ty, s[5] += step * cr, s[6] += step * sr / cy;
+        if (j == 4) s[4] += step * cr * ty, s[5] -= step * sr, s[6] += step * cr / cy;
+        return s;
+    }
+    [[nodiscard]] oracle::State pushed(int j, double step) const {
+        auto s = c_.state;
+        s[place(j)] += step;
+        return s;
+    }
+
+private:
+    static std::size_t place(int i) { return static_cast<std::size_t>(i < 2 ? i + 2 : i + 5); }
+    static Matrix5 matrix(double const (&m)[5][5]) {
+        Matrix5 r;
+        for (int i = 0; i < 5; ++i) {
+            for (int j = 0; j < 5; ++j) r(i, j) = m[i][j];
+        }
+        return r;
+    }
+
+    oracle::Case const& c_;
+    SliderCrankParameters<double> p_;
+    ImpactMemory<double> memory_;
+    SliderCrankLinearisation<double> at_;
+    Matrix5 mass_;
+};
+
+/// Turns rotations into displacements at the apices, so that all entries are N/m (or N s/m).
+Matrix5 in_lengths(Matrix5 m, double lever) {
+    for (int i = 2; i < 5; ++i) m.row(i) /= lever, m.col(i) /= lever;
+    return m;
+}
+
+constexpr double rate_step = 1e-7;  // [m/s]
+constexpr double rounding = 2e-15;  // of a generalized force, against the normal loads and 1 N
+
+template <class Law, class Friction, class Way, class Damping>
+void compare(oracle::Case const& c, std::string const& what, int& compared) {
+    oracle::Result const r = oracle::evaluate(c.inputs, c.parts, c.t, c.state, &c.impact_speeds);
+    if (r.geometry || r.contact_domain) return;
+    double nearest = 1;
+    for (auto const* depths : {&r.pen_y, &r.pen_z}) {
+        for (double const d : *depths) nearest = std::min(nearest, std::abs(d));
+    }
+    Linearised<Law, Friction, Way, Damping> const at(c);
+    if (at.touching() == 0) return;
+    double const lever = 0.5 * c.inputs.slider_length;
+    double const step = 1e-3 * nearest;  // crosses no contact's border
+    Matrix5 const k = at.by_place(), d = at.by_rate();
+    Matrix5 k_difference, d_difference;
+    for (int j = 0; j < 5; ++j) {
+        double const unit = j < 2 ? 1 : 1 / lever;
+        double const h = step * unit;
+        k_difference.col(j) = (at.contact_force(at.moved(j, h)) - at.contact_force(at.moved(j, -h))) / (2 * h);
+        double const dv = rate_step * unit;
+        d_difference.col(j) = (at.contact_force(at.pushed(j, dv)) - at.contact_force(at.pushed(j, -dv))) / (2 * dv);
+    }
+    double load = 0;
+    for (auto const* forces : {&r.fn_y, &r.fn_z}) load = std::accumulate(forces->begin(), forces->end(), load);
+    auto const largest = [&](Matrix5 const& m) { return in_lengths(m, lever).cwiseAbs().maxCoeff(); };
+    // Left out: the turning of the forces with the pose, load/lever, and of slips and rates, D · speed/lever.
+    auto const& s = c.state;
+    double const spin = std::hypot(s[7], s[8], s[9]);
+    double const speed = std::hypot(std::hypot(r.vx, s[2], s[3]), lever * spin);
+    double const turning = (load + largest(d) * speed) / lever;
+    // A penetration is good to about 1e-18 m.
+    double const noise = 1e-18 / step * largest(k) + rounding * (load + 1) / step;
+    EXPECT_LE(largest(k - k_difference), 2e-5 * largest(k) + 4 * turning + noise) << what;
+    EXPECT_LE(largest(d - d_difference), 1e-5 * largest(d) + rounding * (load + 1) / rate_step) << what;
+    ++compared;
+}
+
+template <class Law, class Friction, class Way>
+void by_damping(oracle::Case const& c, std::string const& what, int& compared) {
+    switch (c.parts.damping) {
+        case Damping::point:
+            return compare<Law, Friction, Way, PointDamping>(c, what, compared);
+        case Damping::rate:
+            return compare<Law, Friction, Way, RateDamping>(c, what, compared);
+        case Damping::restitution:
+            return compare<Law, Friction, Way, RestitutionDamping>(c, what, compared);
+    }
+}
+template <class Law, class Friction> void by_way(oracle::Case const& c, std::string const& what, int& compared) {
+    if (c.parts.misaligned_way) return by_damping<Law, Friction, MisalignedWay>(c, what, compared);
+    by_damping<Law, Friction, AlignedWay>(c, what, compared);
+}
+template <class Law> void by_friction(oracle::Case const& c, std::string const& what, int& compared) {
+    if (c.parts.friction) return by_way<Law, StickSlipFriction>(c, what, compared);
+    by_way<Law, NoFriction>(c, what, compared);
+}
+void by_law(oracle::Case const& c, std::string const& what, int& compared) {
+    if (c.parts.law == Law::paper) return by_friction<PaperLaw>(c, what, compared);
+    by_friction<ConservativeLaw>(c, what, compared);
+}
+
+// The differences hold what the structure leaves out, the turning of normals, arms and slips with the pose.  It grows with the
+// loads, not with the stiffness: at rest it is 1e-7 of it.  By rates nothing is left out.
+TEST(JointStiffness, IsTheDerivativeOfTheContactForces) {
+    int compared = 0;
+    auto const cases = oracle::make_cases(11, 2400);
+    for (std::size_t i = 0; i < cases.size(); ++i) by_law(cases[i], "case " + std::to_string(i), compared);
+    EXPECT_GT(compared, 1500);
+}
+
+TEST(JointStiffness, IsTheDerivativeOfTheContactForcesOnTheGoldenStates) {
+    int compared = 0;
+    for (auto const* name : {"rhs_paper.csv", "rhs_conservative.csv", "rhs_parameters.csv"}) {
+        auto const table = golden::Table::read(std::filesystem::path(SLIDEWAY_TEST_DATA) / "golden" / name);
+        for (std::size_t row = 0; row < table.rows(); ++row) {
+            auto const g = golden::case_of(table, row);
+            oracle::Case c{g.inputs, g.parts, g.t, g.state, {}};
+            c.impact_speeds.fill(least_impact_speed);
+            by_law(c, std::string(name) + " row " + std::to_string(row), compared);
+        }
+    }
+    EXPECT_GT(compared, 50);
+}
+
+}  // namespace
+}  // namespace slideway

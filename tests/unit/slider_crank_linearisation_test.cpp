@@ -1,0 +1,180 @@
+// The linear systems of an implicit step: eliminated to five equations, against all ten.
+#include "kernels/mechanisms/slider_crank_linearisation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+
+#include "tests/oracle/random_states.hpp"
+
+namespace slideway {
+namespace {
+
+using Model = SliderCrank<ConservativeLaw, StickSlipFriction, MisalignedWay, RateDamping>;
+using Linearisation = SliderCrankLinearisation<double>;
+using Matrix5 = Eigen::Matrix<double, 5, 5>;
+using Matrix10 = Eigen::Matrix<double, 10, 10>;
+using Vector10 = Eigen::Matrix<double, 10, 1>;
+
+// Where y z φ ϑ ψ and vy vz ωx ωy ωz lie in the state.
+constexpr int position_at[5] = {0, 1, 4, 5, 6}, velocity_at[5] = {2, 3, 7, 8, 9};
+
+Linearisation linearised(oracle::Case const& c) {
+    ImpactMemory<double> memory{};
+    Linearisation at;
+    linearise<Model, double>(c.t, c.state.data(), Model::parameters(c.inputs), memory, at);
+    return at;
+}
+
+Matrix5 matrix(double const (&m)[5][5]) { return Eigen::Map<Eigen::Matrix<double, 5, 5, Eigen::RowMajor> const>(m[0]); }
+
+Matrix5 mass_of(Linearisation const& at) {
+    Matrix5 m = Matrix5::Zero();
+    m(0, 0) = at.mass_y, m(1, 1) = at.mass_z, m(0, 1) = m(1, 0) = at.mass_yz;
+    m(2, 2) = at.inertia.x, m(3, 3) = at.inertia.y, m(4, 4) = at.inertia.z;
+    return m;
+}
+
+/// A of model.md's state, from the three rates of the angles along their axes.
+Matrix10 jacobian(oracle::Case const& c, Linearisation const& at) {
+    double const roll = c.state[4], yaw = c.state[5];
+    // ω = e_x φ' + Rxᵀ e_y ϑ' + Rxᵀ Ryᵀ e_z ψ'
+    Eigen::Matrix3d const rx = Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()).toRotationMatrix();
+    Eigen::Matrix3d const ry = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    Matrix5 inverse_g = Matrix5::Identity();
+    inverse_g.block<3, 1>(2, 2) = Eigen::Vector3d::UnitX();
+    inverse_g.block<3, 1>(2, 3) = rx.transpose() * Eigen::Vector3d::UnitY();
+    inverse_g.block<3, 1>(2, 4) = rx.transpose() * ry.transpose() * Eigen::Vector3d::UnitZ();
+    Matrix5 const inverse_mass = mass_of(at).inverse();
+    Matrix5 const g = inverse_g.inverse();
+    Matrix5 const by_q = inverse_mass * matrix(at.joint.by_place) * inverse_g;
+    Matrix5 const by_v = inverse_mass * matrix(at.joint.by_rate);
+    Matrix10 a = Matrix10::Zero();
+    for (int i = 0; i < 5; ++i) {
+        for (int j = 0; j < 5; ++j) {
+            a(position_at[i], velocity_at[j]) = g(i, j);
+            a(velocity_at[i], position_at[j]) = by_q(i, j);
+            a(velocity_at[i], velocity_at[j]) = by_v(i, j);
+        }
+    }
+    return a;
+}
+
+/// Sizes of a state in the joint's clearance and of its rates.
+constexpr double size[10] = {1e-4, 1e-4, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 0.1, 0.1, 0.1};
+
+Vector10 random_state(std::mt19937_64& random) {
+    std::uniform_real_distribution<double> unit(-1, 1);
+    Vector10 r;
+    for (int i = 0; i < 10; ++i) r(i) = size[i] * unit(random);
+    return r;
+}
+
+TEST(SliderCrankLinearisation, SolvesTheTenEquations) {
+    std::mt19937_64 random(5);
+    using Wide = Eigen::Matrix<long double, 10, 10>;
+    int compared = 0;
+    for (auto const& c : oracle::make_cases(31, 400)) {
+        auto at = linearised(c);
+        if (std::isnan(at.rate_squared())) continue;
+        auto const a = jacobian(c, at);
+        for (double const hg : {1e-7, 1e-5, 1e-3}) {
+            auto const r = random_state(random);
+            at.factor(hg);
+            Vector10 u;
+            at.solve(r.data(), u.data());
+            Vector10 const want =
+                (Wide::Identity() - hg * a.cast<long double>()).fullPivLu().solve(r.cast<long double>()).cast<double>();
+            double largest = 1;
+            for (int i = 0; i < 10; ++i) largest = std::max(largest, std::abs(want(i)) / size[i]);
+            for (int i = 0; i < 10; ++i) {
+                EXPECT_LE(std::abs(u(i) - want(i)) / size[i], 1e-9 * largest) << "component " << i << ", hγ " << hg;
+            }
+            EXPECT_LE(at.residual(r.data(), u.data()), 1e-13);
+            ++compared;
+        }
+        if (HasFailure()) break;
+    }
+    EXPECT_GT(compared, 1000);
+}
+
+TEST(SliderCrankLinearisation, SolvesInPlace) {
+    std::mt19937_64 random(6);
+    auto at = linearised(oracle::make_cases(31, 1)[0]);
+    at.factor(1e-4);
+    Vector10 r = random_state(random), u;
+    at.solve(r.data(), u.data());
+    at.solve(r.data(), r.data());
+    EXPECT_EQ(r, u);
+}
+
+TEST(SliderCrankLinearisation, ResidualTellsAWrongAnswer) {
+    std::mt19937_64 random(7);
+    for (auto const& c : oracle::make_cases(32, 50)) {
+        auto at = linearised(c);
+        if (std::isnan(at.rate_squared())) continue;
+        at.factor(1e-4);
+        auto const r = random_state(random);
+        Vector10 u;
+        at.solve(r.data(), u.data());
+        for (int const i : velocity_at) {
+            Vector10 wrong = u;
+            wrong(i) *= 2;
+            EXPECT_GT(at.residual(r.data(), wrong.data()), 1e-5);
+            wrong(i) = std::numeric_limits<double>::quiet_NaN();
+            EXPECT_TRUE(std::isnan(at.residual(r.data(), wrong.data())));
+        }
+    }
+}
+
+TEST(SliderCrankLinearisation, RateSquaredIsTheSumOfTheSquaredFrequencies) {
+    // Without friction −K is symmetric; where no term of the trace is negative it is the sum of the eigenvalues.
+    using Smooth = SliderCrank<ConservativeLaw, NoFriction, MisalignedWay, PointDamping>;
+    int compared = 0;
+    for (auto const& c : oracle::make_cases(33, 800)) {
+        ImpactMemory<double> memory{};
+        Linearisation at;
+        linearise<Smooth, double>(c.t, c.state.data(), Smooth::parameters(c.inputs), memory, at);
+        if (std::isnan(at.rate_squared()) || at.touching == 0) continue;
+        Matrix5 const k = -matrix(at.joint.by_place);
+        EXPECT_LE((k - k.transpose()).cwiseAbs().maxCoeff(), 1e-9 * k.cwiseAbs().maxCoeff());
+        if (((mass_of(at).inverse() * k).diagonal().array() < 0).any()) continue;
+        Matrix5 const symmetric = 0.5 * (k + k.transpose());
+        Eigen::GeneralizedSelfAdjointEigenSolver<Matrix5> const frequencies(symmetric, mass_of(at));
+        double const sum = frequencies.eigenvalues().sum();
+        EXPECT_NEAR(at.rate_squared(), sum, 1e-9 * sum);
+        ++compared;
+    }
+    EXPECT_GT(compared, 100);
+}
+
+TEST(SliderCrankLinearisation, CountsTheTouchingPairs) {
+    for (auto const& c : oracle::make_cases(34, 200)) {
+        auto const depths = oracle::penetrations(c.inputs, c.parts, c.t, c.state);
+        if (!c.parts.misaligned_way || std::isnan(depths[0])) continue;
+        EXPECT_EQ(linearised(c).touching, std::count_if(depths.begin(), depths.end(), [](double d) { return d > 0; }));
+    }
+}
+
+TEST(SliderCrankLinearisation, IsNothingInFreeFlightAndNanOutOfReach) {
+    auto const p = Model::parameters(oracle::completed({}));
+    ImpactMemory<double> memory{};
+    Linearisation at;
+    double state[10] = {};
+    linearise<Model, double>(0.0, state, p, memory, at);
+    EXPECT_EQ(at.touching, 0);
+    EXPECT_EQ(at.rate_squared(), 0);
+    EXPECT_EQ(matrix(at.joint.by_place), Matrix5::Zero());
+    EXPECT_EQ(matrix(at.joint.by_rate), Matrix5::Zero());
+    state[0] = 1;
+    linearise<Model, double>(0.0, state, p, memory, at);
+    EXPECT_TRUE(std::isnan(at.rate_squared()));
+}
+
+}  // namespace
+}  // namespace slideway
