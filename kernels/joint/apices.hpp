@@ -46,4 +46,9 @@ template <class Real> SLIDEWAY_FN Quad<Real> apices(FacePair<Real> const& pair, 
     return {front + across, front - across, rear - across, rear + across};
 }
 
+/// The largest of the four, bit for bit, since rounding keeps the order.
+template <class Real> SLIDEWAY_FN Real deepest_apex(FacePair<Real> const& pair, Real side) {
+    return (fma(side, pair.middle, pair.base) + abs(pair.along)) + abs(pair.across);
+}
+
 }  // namespace slideway::inline SLIDEWAY_ISA

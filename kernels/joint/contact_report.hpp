@@ -43,8 +43,15 @@ template <class Real> struct ContactReport {
     SLIDEWAY_FN void set_penetrations(int face, Quad<Real> const& depth) { penetration[face] = depth; }
     SLIDEWAY_FN void set_rates(int face, Quad<Real> const& r) { rate[face] = r; }
 
-    SLIDEWAY_FN void add_face(int face, FaceMotion<Real> const& m, FaceForces<Real> const& f) {
-        normal_force[face] = f.normal;
+    /// A face of every lane: `face` where is_plus holds, the one opposite elsewhere.
+    SLIDEWAY_FN void add_face(int face, Mask<Real> is_plus, FaceMotion<Real> const& m, FaceForces<Real> const& f) {
+        Real const zero(0.0);
+        auto& plus = normal_force[face];
+        auto& minus = normal_force[face + 1];
+        plus = {plus.a + select(is_plus, f.normal.a, zero), plus.b + select(is_plus, f.normal.b, zero),
+                plus.c + select(is_plus, f.normal.c, zero), plus.d + select(is_plus, f.normal.d, zero)};
+        minus = {minus.a + select(is_plus, zero, f.normal.a), minus.b + select(is_plus, zero, f.normal.b),
+                 minus.c + select(is_plus, zero, f.normal.c), minus.d + select(is_plus, zero, f.normal.d)};
         potential = potential + f.potential;
         Real const front = fma(f.normal.a - f.elastic.a, m.rate.a, (f.normal.b - f.elastic.b) * m.rate.b);
         Real const rear = fma(f.normal.c - f.elastic.c, m.rate.c, (f.normal.d - f.elastic.d) * m.rate.d);

@@ -93,41 +93,50 @@ private:
         auto n = arranged<axis>(face_normal);
         auto depths = penetrations(is_y ? g.clearance_y : g.clearance_z, half_main, half_across, g.half_length,
                                    shortfall, n.z, n.x, p_main, p_across);
-        FaceMotion<Real> plus, minus;
-        plus.depth = apices(depths, Real(1.0));
-        minus.depth = apices(depths, Real(-1.0));
+        auto const on_plus = deepest_apex(depths, Real(1.0)) > zero, on_minus = deepest_apex(depths, Real(-1.0)) > zero;
         constexpr int first = is_y ? 0 : 2;
         if constexpr (Full) {
-            report->set_penetrations(first, plus.depth);
-            report->set_penetrations(first + 1, minus.depth);
+            report->set_penetrations(first, apices(depths, Real(1.0)));
+            report->set_penetrations(first + 1, apices(depths, Real(-1.0)));
         }
-        bool const on_plus = touch(plus), on_minus = touch(minus);
-        if (!(Full && has_memory) && !on_plus && !on_minus) return;
+        bool const touched = any(on_plus | on_minus);
+        if (!(Full && has_memory) && !touched) return;
 
         auto v = arranged<axis>(motion.velocity);
         auto spin = arranged_axial<axis>(motion.spin);
         auto m = cross(spin, n);
         auto rates = penetration_rates(half_main, half_across, g.half_length, n.y, n.z, m.y, m.z, m.x, p_main, p_across,
                                        v.y, v.z);
-        plus.rate = apices(rates, Real(1.0));
-        minus.rate = apices(rates, Real(-1.0));
         if constexpr (Full && has_memory) {
-            report->set_rates(first, plus.rate);
-            report->set_rates(first + 1, minus.rate);
-            if (!on_plus && !on_minus) return;
+            report->set_rates(first, apices(rates, Real(1.0)));
+            report->set_rates(first + 1, apices(rates, Real(-1.0)));
+            if (!touched) return;
         }
         FaceContact<Real> contact{is_y ? p.contact.surface_stiffness_y : p.contact.surface_stiffness_z,
                                   is_y ? p.contact.across_y_face : p.contact.across_z_face, p.contact.along};
         // Σ sF, Σ F, Σ s s_x F and Σ s s_across F: all that the wrench needs of eight forces along one normal.
         Real net = zero, total = zero, net_along = zero, net_across = zero;
         Vec3<Real> force{zero, zero, zero}, torque{zero, zero, zero};
-        for (int i = 0; i < 2; ++i) {
-            if (!(i == 0 ? on_plus : on_minus)) continue;
-            Real const side(i == 0 ? 1.0 : -1.0);
-            auto& face = i == 0 ? plus : minus;
+        // A slider rarely touches on both sides: one pass takes each lane's face, a second the other face of those lanes that
+        // touch on both.
+        auto const both = on_plus & on_minus;
+        for (int pass = 0; pass < 2; ++pass) {
+            auto const is_plus = pass == 0 ? on_plus : mask_of<Real>(false);
+            auto const seen = pass == 0 ? mask_of<Real>(true) : both;
+            Real const side = select(is_plus, Real(1.0), Real(-1.0));
+            FaceMotion<Real> face;
+            face.depth = apices(depths, side);
+            face.rate = apices(rates, side);
+            face.touching = {seen & (face.depth.a > zero), seen & (face.depth.b > zero), seen & (face.depth.c > zero),
+                             seen & (face.depth.d > zero)};
             face.impact_speed = {zero, zero, zero, zero};
-            if constexpr (has_memory) face.impact_speed = memory.speeds[first + i];
-            auto f = Law::template forces<Damping>(face, contact, p.contact);
+            if constexpr (has_memory) {
+                auto const& plus = memory.speeds[first];
+                auto const& minus = memory.speeds[first + 1];
+                face.impact_speed = {select(is_plus, plus.a, minus.a), select(is_plus, plus.b, minus.b),
+                                     select(is_plus, plus.c, minus.c), select(is_plus, plus.d, minus.d)};
+            }
+            auto f = Law::template forces<Damping, Full>(face, contact, p.contact);
             outside = outside | f.outside;
             Real const front = f.normal.a + f.normal.b, rear = f.normal.c + f.normal.d;
             Real const pushed = front + rear;
@@ -135,7 +144,7 @@ private:
             total = total + pushed;
             net_along = fma(side, front - rear, net_along);
             net_across = fma(side, (f.normal.a + f.normal.d) - (f.normal.b + f.normal.c), net_across);
-            if constexpr (Full) report->add_face(first + i, face, f);
+            if constexpr (Full) report->add_face(first, is_plus, face, f);
             if constexpr (Friction::enabled) {
                 SlidingFace<Real> sliding{
                     n, fms(side, half_main, p_main), negated(p_across), g.half_length, half_across, v, spin};
@@ -144,6 +153,7 @@ private:
                 torque = torque + friction.torque;
                 if constexpr (Full) report->friction_power = report->friction_power + friction.power;
             }
+            if (none(both)) break;
         }
         Vec3<Real> arm{g.half_length * net_along, fnma(p_main, net, half_main * total),
                        fnma(p_across, net, half_across * net_across)};
@@ -151,13 +161,6 @@ private:
         torque = torque + cross(arm, n);
         w.force = w.force + arranged<axis>(force);
         w.torque = w.torque + arranged_axial<axis>(torque);
-    }
-
-    /// Finds a face's touching apices.  @return whether there is one.
-    template <class Real> SLIDEWAY_FN static bool touch(FaceMotion<Real>& face) {
-        Real const zero(0.0);
-        face.touching = {face.depth.a > zero, face.depth.b > zero, face.depth.c > zero, face.depth.d > zero};
-        return any((face.touching.a | face.touching.b) | (face.touching.c | face.touching.d));
     }
 };
 

@@ -59,17 +59,18 @@ struct StickSlipFriction {
         auto of_width = tangential({w.y * width, negated(w.x) * width, zero}, n);
         auto front = of_centre + of_length, rear = of_centre - of_length;
         auto a = front + of_width, b = front - of_width, c = rear - of_width, d = rear + of_width;
-        Quad<Real> speed{sqrt(dot(a, a)), sqrt(dot(b, b)), sqrt(dot(c, c)), sqrt(dot(d, d))};
+        Quad<Real> square{dot(a, a), dot(b, b), dot(c, c), dot(d, d)};
+        Quad<Real> speed{sqrt(square.a), sqrt(square.b), sqrt(square.c), sqrt(square.d)};
         auto force = coefficients(speed, friction);
         force = {force.a * normal.a, force.b * normal.b, force.c * normal.c, force.d * normal.d};
-        // μ vanishes with V: any floor keeps the quotient finite.
-        Real const floor(1e-60);
-        auto slowness =
-            reciprocals(Quad<Real>{max(speed.a, floor), max(speed.b, floor), max(speed.c, floor), max(speed.d, floor)});
-        a = (force.a * slowness.a) * a;
-        b = (force.b * slowness.b) * b;
-        c = (force.c * slowness.c) * c;
-        d = (force.d * slowness.d) * d;
+        // 1/V = V/V², for the division need not wait for the root.  μ vanishes with V: any floor keeps the quotient finite.
+        Real const floor(1e-70);
+        auto inverse = reciprocals(
+            Quad<Real>{max(square.a, floor), max(square.b, floor), max(square.c, floor), max(square.d, floor)});
+        a = (force.a * (speed.a * inverse.a)) * a;
+        b = (force.b * (speed.b * inverse.b)) * b;
+        c = (force.c * (speed.c * inverse.c)) * c;
+        d = (force.d * (speed.d * inverse.d)) * d;
         front = a + b;
         rear = c + d;
         auto drag = front + rear;  // against the force

@@ -10,26 +10,22 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// force acts): a surface's kδ_i/4 and a line's P/2 are the shares that make each mode by itself conservative.
 struct PaperLaw {
     /// Not inlined: a mechanism calls it for four faces in several variants, and the code would multiply.
-    template <class Damping, class Real>
+    /// @tparam Full also the elastic forces and the potential; without, they are zero.
+    template <class Damping, bool Full = true, class Real>
     SLIDEWAY_NOINLINE static FaceForces<Real> forces(FaceMotion<Real> const& m, FaceContact<Real> const& face,
                                                      ContactParameters<Real> const& contact) {
         auto modes = face_modes<Real>(m.touching);
         Real const zero(0.0);
         FaceForces<Real> f{{zero, zero, zero, zero}, {zero, zero, zero, zero}, zero, mask_of<Real>(false)};
         if (any(modes.surface)) add_surface<Damping>(modes.surface, m, face, contact, f);
-        add_line<Damping>(modes.ab, m.depth.a, m.depth.b, m.rate.a, m.rate.b, m.impact_speed.a, m.impact_speed.b,
-                          face.across, contact, f.normal.a, f.normal.b, f.elastic.a, f.elastic.b, f);
-        add_line<Damping>(modes.bc, m.depth.b, m.depth.c, m.rate.b, m.rate.c, m.impact_speed.b, m.impact_speed.c,
-                          face.along, contact, f.normal.b, f.normal.c, f.elastic.b, f.elastic.c, f);
-        add_line<Damping>(modes.cd, m.depth.c, m.depth.d, m.rate.c, m.rate.d, m.impact_speed.c, m.impact_speed.d,
-                          face.across, contact, f.normal.c, f.normal.d, f.elastic.c, f.elastic.d, f);
-        add_line<Damping>(modes.da, m.depth.d, m.depth.a, m.rate.d, m.rate.a, m.impact_speed.d, m.impact_speed.a,
-                          face.along, contact, f.normal.d, f.normal.a, f.elastic.d, f.elastic.a, f);
+        if (any((modes.ab | modes.bc) | (modes.cd | modes.da))) add_lines<Damping>(modes, m, face, contact, f);
         add_point<Damping>(modes.point.a, m.depth.a, m.rate.a, m.impact_speed.a, contact, f.normal.a, f.elastic.a, f);
         add_point<Damping>(modes.point.b, m.depth.b, m.rate.b, m.impact_speed.b, contact, f.normal.b, f.elastic.b, f);
         add_point<Damping>(modes.point.c, m.depth.c, m.rate.c, m.impact_speed.c, contact, f.normal.c, f.elastic.c, f);
         add_point<Damping>(modes.point.d, m.depth.d, m.rate.d, m.impact_speed.d, contact, f.normal.d, f.elastic.d, f);
-        return f;
+        // Made anew, so that the sums above live in registers and not in the caller's memory.
+        if constexpr (Full) return {f.normal, f.elastic, f.potential, f.outside};
+        return {f.normal, {zero, zero, zero, zero}, zero, f.outside};
     }
 
 private:
@@ -52,25 +48,40 @@ private:
 
     /// P(δ̄), δ̄ the mean of both apices, P/2 at each.
     template <class Damping, class Real>
-    SLIDEWAY_FN static void add_line(Mask<Real> line, Real const& depth_i, Real const& depth_j, Real const& rate_i,
+    SLIDEWAY_FN static void add_lines(FaceModes<Real> const& modes, FaceMotion<Real> const& m,
+                                      FaceContact<Real> const& face, ContactParameters<Real> const& contact,
+                                      FaceForces<Real>& f) {
+        Real const half(0.5), dead(1e-6);
+        auto const& d = m.depth;
+        Quad<Real> approach{select(modes.ab, half * (d.a + d.b), dead), select(modes.bc, half * (d.b + d.c), dead),
+                            select(modes.cd, half * (d.c + d.d), dead), select(modes.da, half * (d.d + d.a), dead)};
+        auto lines = line_loads<Real>({modes.ab, modes.bc, modes.cd, modes.da}, approach, face.across, face.along);
+        add_line<Damping>(modes.ab, lines.a, m.rate.a, m.rate.b, m.impact_speed.a, m.impact_speed.b, contact,
+                          f.normal.a, f.normal.b, f.elastic.a, f.elastic.b, f);
+        add_line<Damping>(modes.bc, lines.b, m.rate.b, m.rate.c, m.impact_speed.b, m.impact_speed.c, contact,
+                          f.normal.b, f.normal.c, f.elastic.b, f.elastic.c, f);
+        add_line<Damping>(modes.cd, lines.c, m.rate.c, m.rate.d, m.impact_speed.c, m.impact_speed.d, contact,
+                          f.normal.c, f.normal.d, f.elastic.c, f.elastic.d, f);
+        add_line<Damping>(modes.da, lines.d, m.rate.d, m.rate.a, m.impact_speed.d, m.impact_speed.a, contact,
+                          f.normal.d, f.normal.a, f.elastic.d, f.elastic.a, f);
+    }
+
+    template <class Damping, class Real>
+    SLIDEWAY_FN static void add_line(Mask<Real> mode, LineLoad<Real> const& line, Real const& rate_i,
                                      Real const& rate_j, Real const& v0_i, Real const& v0_j,
-                                     LineContact<Real> const& edge, ContactParameters<Real> const& contact,
-                                     Real& normal_i, Real& normal_j, Real& elastic_i, Real& elastic_j,
-                                     FaceForces<Real>& f) {
-        if (none(line)) return;
-        Real const zero(0.0);
-        Real const half(0.5);
-        Real const approach = select(line, half * (depth_i + depth_j), Real(1e-6));
-        auto contact_line = line_load(approach, edge);
-        f.outside = f.outside | (line & contact_line.outside);
-        Real const elastic = select(line, half * contact_line.load, zero);
+                                     ContactParameters<Real> const& contact, Real& normal_i, Real& normal_j,
+                                     Real& elastic_i, Real& elastic_j, FaceForces<Real>& f) {
+        if (none(mode)) return;
+        Real const zero(0.0), half(0.5);
+        f.outside = f.outside | (mode & line.outside);
+        Real const elastic = select(mode, half * line.load, zero);
         Real const factor = Damping::line_factor(half * (rate_i + rate_j), max(v0_i, v0_j), contact.damping);
         Real const normal = elastic * factor;
         normal_i = normal_i + normal;
         normal_j = normal_j + normal;
         elastic_i = elastic_i + elastic;
         elastic_j = elastic_j + elastic;
-        f.potential = f.potential + select(line, contact_line.potential, zero);
+        f.potential = f.potential + select(mode, line.potential, zero);
     }
 
     /// K δⁿ + C δ δ'; U = K δⁿ⁺¹/(n + 1).

@@ -49,7 +49,7 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
         Real const reach = fnma(z, z, fnma(dy, dy, p.rod_length * p.rod_length));
         faults.geometry = reach <= zero;  // NaN has another cause
         Real const d = sqrt(reach);
-        Real const inverse_d = one / d;
+        Real const inverse_d = d * (one / reach);  // root and division side by side
         Real const ky = negated(dy) * inverse_d, kz = negated(z) * inverse_d;
         Real const dvy = vy - vay;
         Real const dd = fma(ky, dvy, kz * vz);
@@ -67,12 +67,12 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
         auto const& way = p.joint.way;
         auto motion = Way::motion(slider, Vec3<Real>{x, y, z}, Vec3<Real>{vx, vy, vz}, spin, way);
         auto wrench = Contact::template wrench<Full>(motion, memory, p.joint, Full ? &report->contact : nullptr,
-                                                           faults.contact_domain);
+                                                     faults.contact_domain);
         auto contact_force = Way::to_inertial(wrench.force, way);
 
         // m a_B + m_AB a_A − F = λ(B − A), the X row eliminated: a symmetric 2×2 system with determinant m²(1 + κy² + κz²).
         Vec3<Real> force{fma(p.weighing_mass, p.gravity_x, contact_force.x),
-                               fma(p.weighing_mass, p.gravity_y, contact_force.y), contact_force.z};
+                         fma(p.weighing_mass, p.gravity_y, contact_force.y), contact_force.z};
         // a_Bx = aAx − κy aAy + γ + κy y'' + κz z''
         Real const bias = fnma(ky, aay, aax) + gamma;
         Real const pull = fnma(p.m_ab, aax, fnma(p.mass, bias, force.x));
@@ -85,7 +85,7 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
 
         // I ω' = A_kᵀ τ − ω × I ω
         Vec3<Real> torque{dot(motion.axes.x, wrench.torque), dot(motion.axes.y, wrench.torque),
-                                dot(motion.axes.z, wrench.torque)};
+                          dot(motion.axes.z, wrench.torque)};
         Vec3<Real> momentum{p.inertia.x * omega.x, p.inertia.y * omega.y, p.inertia.z * omega.z};
         auto moment = torque - cross(omega, momentum);
 

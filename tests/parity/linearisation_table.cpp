@@ -12,8 +12,10 @@ using Real = IsaReal;
 template <class Model> void linearise_all(LinearisationRow const* rows, std::size_t count, double* result) {
     constexpr int width = lanes<Real>;
     SliderCrankParameters<Real> p;
-    ImpactMemory<Real> memory;
-    for (auto& face : memory.speeds) face.a = face.b = face.c = face.d = Real(0.01);
+    typename Model::template Memory<Real> memory;
+    if constexpr (Model::has_memory) {
+        for (auto& face : memory.speeds) face.a = face.b = face.c = face.d = Real(0.01);
+    }
     SliderCrankLinearisation<Real> at;
     for (std::size_t first = 0; first < count; first += width) {
         Real t, hg, state[state_size], u[state_size];

@@ -38,11 +38,13 @@ public:
     using Free = SliderCrank<Forceless, Friction, Way, Damping>;
 
     explicit Linearised(oracle::Case const& c) : c_(c), p_(Model::parameters(c.inputs)) {
-        for (int face = 0; face < face_count; ++face) {
-            auto const speed = [&](int k) {
-                return c.impact_speeds[static_cast<std::size_t>((face < 2 ? 0 : 8) + face_apex(face, k))];
-            };
-            memory_.speeds[face] = {speed(0), speed(1), speed(2), speed(3)};
+        if constexpr (Model::has_memory) {
+            for (int face = 0; face < face_count; ++face) {
+                auto const speed = [&](int k) {
+                    return c.impact_speeds[static_cast<std::size_t>((face < 2 ? 0 : 8) + face_apex(face, k))];
+                };
+                memory_.speeds[face] = {speed(0), speed(1), speed(2), speed(3)};
+            }
         }
         linearise<Model>(c.t, c.state.data(), p_, memory_, at_);
         mass_.setZero();
@@ -93,7 +95,7 @@ private:
 
     oracle::Case const& c_;
     SliderCrankParameters<double> p_;
-    ImpactMemory<double> memory_;
+    typename Model::template Memory<double> memory_;
     SliderCrankLinearisation<double> at_;
     Matrix5 mass_;
 };

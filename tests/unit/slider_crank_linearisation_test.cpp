@@ -25,7 +25,7 @@ using Vector10 = Eigen::Matrix<double, 10, 1>;
 constexpr int position_at[5] = {0, 1, 4, 5, 6}, velocity_at[5] = {2, 3, 7, 8, 9};
 
 Linearisation linearised(oracle::Case const& c) {
-    ImpactMemory<double> memory{};
+    Model::Memory<double> memory{};
     Linearisation at;
     linearise<Model, double>(c.t, c.state.data(), Model::parameters(c.inputs), memory, at);
     return at;
@@ -137,7 +137,7 @@ TEST(SliderCrankLinearisation, RateSquaredIsTheSumOfTheSquaredFrequencies) {
     using Smooth = SliderCrank<ConservativeLaw, NoFriction, MisalignedWay, PointDamping>;
     int compared = 0;
     for (auto const& c : oracle::make_cases(33, 800)) {
-        ImpactMemory<double> memory{};
+        Smooth::Memory<double> memory{};
         Linearisation at;
         linearise<Smooth, double>(c.t, c.state.data(), Smooth::parameters(c.inputs), memory, at);
         if (std::isnan(at.rate_squared()) || at.touching == 0) continue;
@@ -163,7 +163,7 @@ TEST(SliderCrankLinearisation, CountsTheTouchingPairs) {
 
 TEST(SliderCrankLinearisation, IsNothingInFreeFlightAndNanOutOfReach) {
     auto const p = Model::parameters(oracle::completed({}));
-    ImpactMemory<double> memory{};
+    Model::Memory<double> memory{};
     Linearisation at;
     double state[10] = {};
     linearise<Model, double>(0.0, state, p, memory, at);

@@ -1,0 +1,59 @@
+// Work-precision diagrams: every method over its tolerances on fixed problems, slideway's beside those that users would
+// take instead. Writes work_precision.csv, work_precision.md and one SVG per problem.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "bench/work_precision/plot.hpp"
+#include "bench/work_precision/references.hpp"
+#include "bench/work_precision/table.hpp"
+#include "host/backend/backend.hpp"
+
+int main(int argc, char** argv) {
+    using namespace slideway::bench;
+    CLI::App app("Error against run time of slideway's methods and their peers, on one core");
+    bool quick = false;
+    std::string folder = ".", only, only_method;
+    double budget = 0;
+    app.add_flag("--quick", quick, "fewer members and tolerances: about half a minute instead of six");
+    app.add_option("-o,--output", folder, "folder for the table and the plots")->check(CLI::ExistingDirectory);
+    app.add_option("--problem", only, "only problems whose name contains this");
+    app.add_option("--method", only_method, "only methods whose name contains this");
+    app.add_option("--budget", budget, "seconds for one method at one tolerance (6, or 1 if quick)");
+    CLI11_PARSE(app, argc, argv);
+    if (!slideway::is_supported(slideway::Isa::scalar)) {
+        fmt::print(stderr, "work_precision: this machine has no AVX2 and FMA, which the peers are built for\n");
+        return 1;
+    }
+    try {
+        SweepOptions options;
+        options.budget = budget > 0 ? budget : quick ? 1 : 6;
+        options.repeats = quick ? 2 : 3;
+        std::vector<Method> methods;
+        for (auto const& group : {our_methods(), peer_methods()}) {
+            for (auto const& method : group) {
+                if (method.name.find(only_method) != std::string::npos) methods.push_back(method);
+            }
+        }
+        std::vector<Result> results;
+        for (auto& problem : all_problems(quick)) {
+            if (problem.name.find(only) == std::string::npos) continue;
+            auto const start = Clock::now();
+            find_references(problem);
+            double const reference_time = seconds_since(start);
+            auto rows = sweep(problem, methods, options);
+            fmt::print("{}: {} members, references {:.0f} s, methods {:.0f} s\n", problem.name, problem.size(),
+                       reference_time, seconds_since(start) - reference_time);
+            std::fflush(stdout);
+            write_plot(std::filesystem::path(folder) / (problem.name + ".svg"), problem, rows, methods);
+            results.push_back({problem, std::move(rows)});
+        }
+        write_csv(std::filesystem::path(folder) / "work_precision.csv", results);
+        write_markdown(std::filesystem::path(folder) / "work_precision.md", results);
+    } catch (std::exception const& error) {
+        fmt::print(stderr, "work_precision: {}\n", error.what());
+        return 1;
+    }
+}

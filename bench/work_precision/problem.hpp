@@ -1,0 +1,60 @@
+// What the methods are measured on: ensembles with an end time and a measure of error.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "kernels/inputs.hpp"
+
+namespace slideway::bench {
+
+struct SliderCrankEnsemble {
+    Parts parts;
+    std::vector<Inputs> members;
+};
+
+/// x' = σ(y − x), y' = x(ρ − z) − y, z' = xy − βz.  Source: Lorenz 1963 (25)–(27).
+struct LorenzMember {
+    double sigma, rho, beta;
+    std::array<double, 3> start;
+};
+struct LorenzEnsemble {
+    std::vector<LorenzMember> members;
+};
+
+using Ensemble = std::variant<SliderCrankEnsemble, LorenzEnsemble>;
+
+enum class Measure {
+    /// Root mean square over the components of |y − reference| / (scale + |reference|) at the end time: the norm of the
+    /// error control, so that a method without error propagation would end at its tolerance.
+    state,
+    /// |ε| [J] of the energy audit at the end time (model.md 8), exact value 0.  For horizons on which states are chaotic.
+    energy,
+};
+
+struct Problem {
+    std::string name;   // of its files
+    std::string title;  // of its plot
+    Ensemble ensemble;
+    std::size_t members_wanted = 0;  // the ensemble may hold more until the references have chosen
+    double end_time = 0;             // [s]
+    double max_step = 0;             // [s]
+    Measure measure = Measure::state;
+    std::vector<double> tolerances;  // rtol = atol, the latter against the scales of the error control
+
+    // Measure::state: the states at the end time, and how far the two references differ in that measure at most.
+    std::vector<std::vector<double>> reference = {};
+    double reference_difference = 0;
+
+    std::size_t size() const {
+        return std::visit([](auto const& e) { return e.members.size(); }, ensemble);
+    }
+};
+
+/// All problems.  @param quick fewer members and tolerances.
+std::vector<Problem> all_problems(bool quick);
+
+}  // namespace slideway::bench

@@ -1,0 +1,142 @@
+#include "bench/work_precision/references.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "bench/work_precision/error_norm.hpp"
+#include "host/backend/backend.hpp"
+#include "tests/oracle/oracle.hpp"
+
+namespace slideway::bench {
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+using Real = long double;
+template <std::size_t n> using State = std::array<Real, n>;
+constexpr double largest_difference = 1e-11;
+using CrankState = State<state_size>;
+
+template <std::size_t n> std::vector<double> rounded(State<n> const& y) { return {y.begin(), y.end()}; }
+
+/// The state at the end with rtol = atol.
+template <class Stepper, std::size_t n, class Rates>
+std::vector<double> integrated(Rates const& rates, State<n> y, std::vector<double> const& scale, Real tolerance,
+                               Problem const& problem) {
+    using Controller = ScaledController<Stepper, Real, n>;
+    Controller controller(typename Controller::error_checker_type(tolerance, scale, n),
+                          typename Controller::step_adjuster_type(problem.max_step));
+    Real const end = problem.end_time;
+    if (!integrate_to(controller, rates, y, end, 1e-6L * end, [] { return false; })) {
+        throw std::runtime_error(problem.name + ": a reference fell below the resolution of time");
+    }
+    return rounded(y);
+}
+
+CrankState start_of(Inputs const& in) {
+    return {in.y, in.z, in.vy, in.vz, in.roll, in.yaw, in.pitch, in.wx, in.wy, in.wz};
+}
+
+auto oracle_rates(Inputs const& inputs, Parts const& parts) {
+    return [&](CrankState const& y, CrankState& slope, Real t) {
+        oracle::State state;
+        for (std::size_t i = 0; i < state_size; ++i) state[i] = static_cast<double>(y[i]);
+        auto const r = oracle::evaluate(inputs, parts, static_cast<double>(t), state);
+        for (std::size_t i = 0; i < state_size; ++i) slope[i] = r.derivative[i];
+    };
+}
+
+auto kernel_rates(Inputs const& inputs, Parts const& parts) {
+    return [&inputs, probe = find_instance(Isa::scalar, parts).probe](CrankState const& y, CrankState& slope, Real t) {
+        Inputs in = inputs;
+        double* const state[state_size] = {&in.y,   &in.z,     &in.vy, &in.vz, &in.roll,
+                                           &in.yaw, &in.pitch, &in.wx, &in.wy, &in.wz};
+        for (int i = 0; i < state_size; ++i) *state[i] = static_cast<double>(y[i]);
+        double const time = static_cast<double>(t);
+        ProbeResult result;
+        probe({&in, &time, 1, &result});
+        for (int i = 0; i < state_size; ++i) slope[i] = result.derivative[i];
+    };
+}
+
+struct Pair {
+    std::vector<double> first, second;
+};
+
+Pair both(SliderCrankEnsemble const& ensemble, std::size_t i, Problem const& problem) {
+    auto const& in = ensemble.members[i];
+    auto const scale = scales(problem.ensemble, i);
+    return {integrated<odeint::runge_kutta_cash_karp54<CrankState, Real>>(oracle_rates(in, ensemble.parts),
+                                                                          start_of(in), scale, 1e-15L, problem),
+            integrated<odeint::runge_kutta_dopri5<CrankState, Real>>(kernel_rates(in, ensemble.parts), start_of(in),
+                                                                     scale, 1e-15L, problem)};
+}
+
+Pair both(LorenzEnsemble const& ensemble, std::size_t i, Problem const& problem) {
+    auto const& member = ensemble.members[i];
+    State<3> y = {member.start[0], member.start[1], member.start[2]};
+    auto const rates = [&](State<3> const& x, State<3>& slope, Real) {
+        slope[0] = member.sigma * (x[1] - x[0]);
+        slope[1] = x[0] * (member.rho - x[2]) - x[1];
+        slope[2] = x[0] * x[1] - member.beta * x[2];
+    };
+    auto const first = integrated<odeint::runge_kutta_fehlberg78<State<3>, Real>>(rates, y, {1, 1, 1}, 1e-17L, problem);
+    odeint::bulirsch_stoer<State<3>, Real> const extrapolation(1e-17L, 1e-17L);
+    odeint::integrate_adaptive(extrapolation, rates, y, Real(0), Real(problem.end_time), Real(1e-3));
+    return {first, rounded(y)};
+}
+
+}  // namespace
+
+double state_error(std::vector<double> const& state, std::vector<double> const& reference,
+                   std::vector<double> const& scale) {
+    double sum = 0;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        double const ratio = (state[i] - reference[i]) / (scale[i] + std::abs(reference[i]));
+        sum += ratio * ratio;
+    }
+    return std::sqrt(sum / static_cast<double>(state.size()));
+}
+
+std::vector<double> scales(Ensemble const& ensemble, std::size_t member) {
+    if (std::holds_alternative<LorenzEnsemble>(ensemble)) return {1, 1, 1};
+    // c, c·ω, 2c/L_k, 2c/L_k·ω (docs/model.md 9)
+    auto const& in = std::get<SliderCrankEnsemble>(ensemble).members[member];
+    double const rate = std::max(std::abs(in.crank_speed), 1.0);
+    double const tilt = 2 * std::min(in.clearance_y, in.clearance_z) / in.slider_length;
+    return {in.clearance_y, in.clearance_z, in.clearance_y * rate, in.clearance_z * rate, tilt,
+            tilt,           tilt,           tilt * rate,           tilt * rate,           tilt * rate};
+}
+
+void find_references(Problem& problem) {
+    if (problem.measure != Measure::state) return;
+    // Untimed, so all cores may help.
+    std::vector<Pair> pairs(problem.size());
+    std::string failure;
+#pragma omp parallel for schedule(dynamic)
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        try {
+            pairs[i] = std::visit([&](auto const& e) { return both(e, i, problem); }, problem.ensemble);
+        } catch (std::exception const& error) {
+#pragma omp critical
+            failure = error.what();
+        }
+    }
+    if (!failure.empty()) throw std::runtime_error(failure);
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < pairs.size() && kept.size() < problem.members_wanted; ++i) {
+        double const difference = state_error(pairs[i].second, pairs[i].first, scales(problem.ensemble, i));
+        if (!(difference <= largest_difference)) continue;
+        problem.reference_difference = std::max(problem.reference_difference, difference);
+        problem.reference.push_back(pairs[i].first);
+        kept.push_back(i);
+    }
+    if (2 * kept.size() < problem.members_wanted) throw std::runtime_error(problem.name + ": too few references agree");
+    std::visit(
+        [&](auto& e) {
+            for (std::size_t i = 0; i < kept.size(); ++i) e.members[i] = e.members[kept[i]];
+            e.members.resize(kept.size());
+        },
+        problem.ensemble);
+}
+
+}  // namespace slideway::bench

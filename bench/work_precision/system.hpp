@@ -1,0 +1,106 @@
+// The right-hand sides as the peers take them: one trajectory, plain arrays.  Included by one unit alone, which is built with
+// the flags of the scalar kernels and an ISA namespace of its own, so that the peers' code and the kernels' optimise together.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "bench/work_precision/method.hpp"
+#include "kernels/laws/conservative.hpp"
+#include "kernels/laws/paper.hpp"
+#include "kernels/mechanisms/slider_crank.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// One member of a slider-crank ensemble.
+template <class Law, class Damping> class SliderCrankSystem {
+public:
+    using Model = SliderCrank<Law, StickSlipFriction, AlignedWay, Damping>;
+    static constexpr int size = Model::size;
+    static constexpr int audits = 3;  // W, D_f, D_d
+
+    explicit SliderCrankSystem(Inputs const& inputs) : p_(Model::parameters(inputs)) {
+        Model::initial_state(inputs, start.data());
+        Model::scales(p_, scale.data());
+        std::fill(scale.begin() + size, scale.end(), Model::energy_scale(p_));
+        for (auto& face : memory_.speeds) face.a = face.b = face.c = face.d = least_impact_speed;
+    }
+
+    void rates(double t, double const* x, double* dxdt) const {
+        ++evaluations;
+        Model::template derivative<false>(t, x, p_, memory_, dxdt, &report_);
+    }
+    /// The derivative and behind it the powers of the audit.
+    void audited_rates(double t, double const* x, double* dxdt) const {
+        ++evaluations;
+        Model::template derivative<true>(t, x, p_, memory_, dxdt, &report_);
+        store_powers(dxdt + size);
+    }
+    void powers(double t, double const* x, double* power) const {
+        double unused[size];
+        ++evaluations;
+        Model::template derivative<true>(t, x, p_, memory_, unused, &report_);
+        store_powers(power);
+    }
+    double energy(double t, double const* x) const {
+        double unused[size];
+        Model::template derivative<true>(t, x, p_, memory_, unused, &report_);
+        return report_.energy;
+    }
+
+    std::array<double, size> start;
+    std::array<double, size + audits> scale;  // what the absolute tolerance is relative to
+    mutable std::uint64_t evaluations = 0;
+
+private:
+    void store_powers(double* power) const {
+        power[0] = report_.crank_power;
+        power[1] = report_.contact.friction_power;
+        power[2] = report_.contact.damping_power;
+    }
+
+    SliderCrankParameters<double> p_;
+    ImpactMemory<double> memory_;
+    mutable SliderCrankReport<double> report_;
+};
+
+class LorenzSystem {
+public:
+    static constexpr int size = 3;
+    static constexpr int audits = 0;
+
+    explicit LorenzSystem(bench::LorenzMember const& member) : start(member.start), scale{1, 1, 1}, p_(member) {}
+
+    void rates(double, double const* x, double* dxdt) const {
+        ++evaluations;
+        dxdt[0] = p_.sigma * (x[1] - x[0]);
+        dxdt[1] = x[0] * (p_.rho - x[2]) - x[1];
+        dxdt[2] = x[0] * x[1] - p_.beta * x[2];
+    }
+
+    std::array<double, size> start;
+    std::array<double, size> scale;
+    mutable std::uint64_t evaluations = 0;
+
+private:
+    bench::LorenzMember p_;
+};
+
+/// Calls `use` with the type of system that an ensemble's members are, and the members.
+template <class Use> auto with_systems(bench::Ensemble const& ensemble, Use const& use) {
+    struct Visitor {
+        Use const& use;
+        auto operator()(bench::SliderCrankEnsemble const& e) const {
+            bool const paper = e.parts.law == Law::paper;
+            return paper ? use.template operator()<SliderCrankSystem<PaperLaw, PointDamping>>(e.members)
+                         : use.template operator()<SliderCrankSystem<ConservativeLaw, RateDamping>>(e.members);
+        }
+        auto operator()(bench::LorenzEnsemble const& e) const {
+            return use.template operator()<LorenzSystem>(e.members);
+        }
+    };
+    return std::visit(Visitor{use}, ensemble);
+}
+
+}  // namespace slideway::inline SLIDEWAY_ISA
