@@ -69,7 +69,7 @@ private:
         c.error_memory = step_control_start;
         Model::initial_state(inputs, c.y);
         c.accepted = c.rejected = c.evaluations = c.jacobians = c.stiff_steps = 0;
-        c.rejections = c.stiffness = 0;
+        c.rejections = c.stiffness = c.rate_squared = 0;
         c.stiff = block_.settings.method == Method::ros34pw2 ? 1 : 0;
         start_memory(c.memory);
         roster_[seat].kind = Kind::fresh;
@@ -188,7 +188,8 @@ private:
             rate_squared = select(touching, matrix.rate_squared(), rate_squared);
             c.jacobians = c.jacobians + count<Real>(touching);
         }
-        Real const measure = c.h * c.h * rate_squared;  // (hΩ)²
+        c.rate_squared = select(pack_.busy, max(rate_squared, Real(Stiffness::look_memory) * c.rate_squared), c.rate_squared);
+        Real const measure = select(touching, c.h * c.h * c.rate_squared, Real(0.0));  // (hΩ)²
         auto const held_up = measure > Real(Stiffness::stiff_above * Stiffness::stiff_above);
         auto const lasting = measure > Real(Stiffness::lasting_above * Stiffness::lasting_above);
         Real const sign = select(held_up, Real(1.0), select(lasting, Real(Stiffness::lasting_share), Real(-1.0)));
