@@ -118,16 +118,16 @@ private:
         Vec3<Real> force{zero, zero, zero}, torque{zero, zero, zero};
         // A slider rarely touches on both sides: one pass takes each lane's face, a second the other face of those lanes that
         // touch on both.
-        auto const both = on_plus & on_minus;
+        Mask<Real> const both = on_plus & on_minus;
         for (int pass = 0; pass < 2; ++pass) {
-            auto const is_plus = pass == 0 ? on_plus : mask_of<Real>(false);
-            auto const seen = pass == 0 ? mask_of<Real>(true) : both;
+            Mask<Real> const is_plus = pass == 0 ? on_plus : mask_of<Real>(false);
+            Mask<Real> const seen = pass == 0 ? mask_of<Real>(true) : both;
             Real const side = select(is_plus, Real(1.0), Real(-1.0));
             FaceMotion<Real> face;
             face.depth = apices(depths, side);
             face.rate = apices(rates, side);
-            face.touching = {seen & (face.depth.a > zero), seen & (face.depth.b > zero), seen & (face.depth.c > zero),
-                             seen & (face.depth.d > zero)};
+            face.touching = {Mask<Real>(seen & (face.depth.a > zero)), Mask<Real>(seen & (face.depth.b > zero)),
+                             Mask<Real>(seen & (face.depth.c > zero)), Mask<Real>(seen & (face.depth.d > zero))};
             face.impact_speed = {zero, zero, zero, zero};
             if constexpr (has_memory) {
                 auto const& plus = memory.speeds[first];
