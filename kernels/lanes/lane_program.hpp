@@ -188,13 +188,13 @@ private:
             rate_squared = select(touching, matrix.rate_squared(), rate_squared);
             c.jacobians = c.jacobians + count<Real>(touching);
         }
-        c.rate_squared = select(pack_.busy, max(rate_squared, Real(Stiffness::look_memory) * c.rate_squared), c.rate_squared);
+        c.rate_squared = select(pack_.busy, max(rate_squared, Real(Stiffness::memory) * c.rate_squared), c.rate_squared);
         Real const measure = select(touching, c.h * c.h * c.rate_squared, Real(0.0));  // (hΩ)²
-        auto const held_up = measure > Real(Stiffness::stiff_above * Stiffness::stiff_above);
+        auto const held_up = measure > Real(Stiffness::held_up_above * Stiffness::held_up_above);
         auto const lasting = measure > Real(Stiffness::lasting_above * Stiffness::lasting_above);
         Real const sign = select(held_up, Real(1.0), select(lasting, Real(Stiffness::lasting_share), Real(-1.0)));
         Real const looks = max(c.stiffness + sign, Real(0.0));
-        auto const change = pack_.busy & (looks >= Real(Stiffness::stiff_looks));
+        auto const change = pack_.busy & (looks >= Real(Stiffness::enough));
         c.stiff = select(change, Real(1.0), c.stiff);
         c.stiffness = select(change, Real(0.0), looks);
     }
