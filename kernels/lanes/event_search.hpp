@@ -17,7 +17,8 @@ public:
 
     /// @param accepted lanes with an accepted step.  After it `fraction()` tells where the steps end, and the pack's `end`
     /// holds the state there, after the reset; its `end_rates` are those of that state.
-    template <class Stepper> SLIDEWAY_HD void run(Pack<Model, Real>& pack, Stepper const& stepper, Mask<Real> accepted) {
+    template <class Stepper>
+    SLIDEWAY_HD void run(Pack<Model, Real>& pack, Stepper const& stepper, Mask<Real> accepted) {
         auto& c = pack.state.course;
         auto const& p = pack.state.constants.parameters;
         ended_ = mask_of<Real>(false);
@@ -25,8 +26,8 @@ public:
         Model::event_values(c.t + pack.step, pack.end, pack.end_rates, p, end_.value, end_.slope);
         auto candidates = mask_of<Real>(false);
         for (int event = 0; event < events; ++event) {
-            candidates = candidates | may_cross(c.watch.value[event], c.watch.slope[event], end_.value[event],
-                                                end_.slope[event]);
+            candidates = candidates |
+                         may_cross(c.watch.value[event], c.watch.slope[event], end_.value[event], end_.slope[event]);
         }
         candidates = candidates & accepted;
         if (any(candidates)) search(pack, stepper, candidates);
@@ -56,8 +57,7 @@ private:
             for (auto& zero : zeros_[event].at) place(pack, stepper, event, zero);
         }
         if (!found) return;
-        while (apply_earliest(pack, stepper, accepted)) {
-        }
+        while (apply_earliest(pack, stepper, accepted)) {}
         if (none(ended_)) return;
         for (int i = 0; i < size; ++i) pack.end[i] = select(ended_, reset_[i], pack.end[i]);
         Real rates[size];
@@ -68,13 +68,15 @@ private:
     }
 
     template <class Stepper>
-    SLIDEWAY_HD static void dense_state(Pack<Model, Real> const& pack, Stepper const& stepper, Real theta, Real* state) {
+    SLIDEWAY_HD static void dense_state(Pack<Model, Real> const& pack, Stepper const& stepper, Real theta,
+                                        Real* state) {
         for (int i = 0; i < size; ++i) state[i] = stepper.dense(pack, i, theta);
     }
 
     /// Moves a zero of the cubic to that of the dense output: three Newton steps with the cubic's slope leave the rounding.
     template <class Stepper>
-    SLIDEWAY_HD void place(Pack<Model, Real> const& pack, Stepper const& stepper, int event, CubicZero<Real>& zero) const {
+    SLIDEWAY_HD void place(Pack<Model, Real> const& pack, Stepper const& stepper, int event,
+                           CubicZero<Real>& zero) const {
         auto const present = zero.theta <= Real(1.0);
         if (none(present)) return;
         auto const& c = pack.state.course;

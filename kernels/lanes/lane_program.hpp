@@ -1,18 +1,18 @@
 #pragma once
 
 #include "kernels/block.hpp"
+#include "kernels/lanes/explicit_step.hpp"
 #include "kernels/lanes/member_state.hpp"
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/results.hpp"
 #include "kernels/lanes/roster.hpp"
+#include "kernels/lanes/stiff_step.hpp"
 #include "kernels/lanes/stiffness.hpp"
 #include "kernels/lanes/stint.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/bogacki_shampine.hpp"
 #include "kernels/steppers/dormand_prince.hpp"
-#include "kernels/lanes/explicit_step.hpp"
 #include "kernels/steppers/runge_kutta4.hpp"
-#include "kernels/lanes/stiff_step.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -24,7 +24,7 @@ public:
     using Block = BlockOf<typename Model::Inputs>;
 
     SLIDEWAY_HD explicit LaneProgram(Block& block) : block_(block), results_(block) {
-        pack_.needs = ReportNeeds::of<Model, Real>(block.quantities);
+        pack_.needs = ReportNeeds::of<Model, Real>(block.quantities, block.settings.locate_modes);
     }
 
     SLIDEWAY_HD void run() {
@@ -151,7 +151,9 @@ private:
         auto const whole = is_finite(c.y, pack_.end_rates);
         if (pack_.needs.quantities) pack_.state.observation.observer.start(pack_.busy, pack_.end_report, c.y);
         pack_.begin_next(pack_.busy, pack_.end_rates);
-        if constexpr (Model::has_memory) c.watch.keep(pack_.busy, pack_.end_report.contact);
+        if constexpr (Model::has_memory || Model::can_hold) {
+            if (pack_.needs.watch) c.watch.begin(pack_.busy, pack_.end_report.contact, c.memory);
+        }
         if constexpr (Model::events > 0) {
             EventValues<Model::events, Real> now;
             Model::event_values(c.t, c.y, c.rates, pack_.state.constants.parameters, now.value, now.slope);
@@ -169,7 +171,8 @@ private:
         pattern_ = Real(0.0);
         if constexpr (Model::has_patterns) {
             auto const& s = pack_.state;
-            bool const switching = Model::has_linearisation && block_.settings.method == Method::automatic;
+            bool const switching = Model::has_linearisation && block_.settings.method == Method::automatic &&
+                                   !block_.settings.locate_modes;
             if (width == 1 && !switching) return;
             pattern_ = Model::contact_pattern(s.course.t, s.course.y, s.constants.parameters);
             if constexpr (Model::has_linearisation) {
@@ -188,7 +191,8 @@ private:
             rate_squared = select(touching, matrix.rate_squared(), rate_squared);
             c.jacobians = c.jacobians + count<Real>(touching);
         }
-        c.rate_squared = select(pack_.busy, max(rate_squared, Real(Stiffness::memory) * c.rate_squared), c.rate_squared);
+        c.rate_squared =
+            select(pack_.busy, max(rate_squared, Real(Stiffness::memory) * c.rate_squared), c.rate_squared);
         Real const measure = select(touching, c.h * c.h * c.rate_squared, Real(0.0));  // (hΩ)²
         auto const held_up = measure > Real(Stiffness::held_up_above * Stiffness::held_up_above);
         auto const lasting = measure > Real(Stiffness::lasting_above * Stiffness::lasting_above);

@@ -74,20 +74,15 @@ public:
         for (int i = 0; i < lanes<Real>; ++i) {
             if (!holds(ended, i)) continue;
             auto const member = number(c.member, i);
-            Status const status = holds(finished, i)               ? Status::finished
-                                  : holds(faults.geometry, i)      ? Status::geometry
+            Status const status = holds(finished, i)                ? Status::finished
+                                  : holds(faults.geometry, i)       ? Status::geometry
                                   : holds(faults.contact_domain, i) ? Status::contact_domain
-                                  : holds(divergent, i)            ? Status::nonfinite
-                                  : holds(stuck, i)                ? Status::step_too_small
-                                                                   : Status::max_steps;
+                                  : holds(divergent, i)             ? Status::nonfinite
+                                  : holds(stuck, i)                 ? Status::step_too_small
+                                                                    : Status::max_steps;
             double const time = lane(c.t, i);
-            block_.records[member] = {status,
-                                      number(c.accepted, i),
-                                      number(c.rejected, i),
-                                      number(c.evaluations, i),
-                                      time,
-                                      number(c.jacobians, i),
-                                      number(c.stiff_steps, i)};
+            block_.records[member] = {status, number(c.accepted, i),  number(c.rejected, i),   number(c.evaluations, i),
+                                      time,   number(c.jacobians, i), number(c.stiff_steps, i)};
             for (int j = 0; j < Model::size; ++j) block_.final_states[member * Model::size + j] = lane(c.y[j], i);
             if (block_.quantities != 0) {
                 constexpr auto columns = Pack<Model, Real>::Observer::columns;

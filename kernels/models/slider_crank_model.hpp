@@ -6,6 +6,7 @@
 #include "kernels/mechanisms/slider_crank_linearisation.hpp"
 #include "kernels/observers/quantities.hpp"
 #include "kernels/observers/slider_crank_observer.hpp"
+#include "kernels/steppers/mode_locator.hpp"
 #include "kernels/steppers/no_watch.hpp"
 #include "kernels/steppers/touch.hpp"
 
@@ -22,7 +23,8 @@ struct SliderCrankModel : SliderCrank<Law, Friction, Way, Damping> {
     static constexpr bool has_linearisation = true;
     template <class Real> using Observer = SliderCrankObserver<Real>;
     template <class Real>
-    using Watch = std::conditional_t<Mechanism::has_memory, TouchLocator<Real>, NoWatch<Real>>;
+    using Watch = std::conditional_t<Mechanism::has_memory, TouchLocator<Real>,
+                                     std::conditional_t<Mechanism::can_hold, ModeLocator<Real>, NoWatch<Real>>>;
     template <class Real> using Linearisation = SliderCrankLinearisation<Real>;
 
     template <class Real>

@@ -21,8 +21,7 @@ public:
     template <class Report> SLIDEWAY_FN void start(Mask<Real> fresh, Report const&, Real const*) {
         count_ = select(fresh, Real(0.0), count_);
     }
-    template <class Report>
-    SLIDEWAY_FN void accept(Mask<Real>, Real, Real const*, Report const&, Real const*) {}
+    template <class Report> SLIDEWAY_FN void accept(Mask<Real>, Real, Real const*, Report const&, Real const*) {}
 
     /// An event in the lanes of the mask.
     SLIDEWAY_HD void event(Mask<Real> at, int, Real, Real const* state) {
