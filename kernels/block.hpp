@@ -41,6 +41,7 @@ struct MemberRecord {
 /// Members [0, members) of a block: what every model's block holds.
 struct BlockBase {
     std::size_t members = 0;
+    std::uint32_t const* order = nullptr;  // [members] who is taken when, dearest first; nullptr: as they stand
     IntegratorSettings settings;
     double const* sample_times = nullptr;  // [samples], ascending, within [0, end_time]
     std::size_t samples = 0;

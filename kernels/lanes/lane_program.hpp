@@ -56,7 +56,8 @@ private:
     SLIDEWAY_HD void admit(int seat) {
         roster_[seat] = {};
         if (next_ == block_.members) return;
-        std::size_t const member = next_++;
+        std::size_t const member = block_.order != nullptr ? block_.order[next_] : next_;
+        ++next_;
         auto const& inputs = block_.inputs[member];
         Record& r = record(seat);
         r.constants.parameters = Model::parameters(inputs);
