@@ -15,10 +15,8 @@ public:
     static constexpr int size = Model::size;
     static constexpr int events = Model::events;
 
-    /// @param accepted lanes with an accepted step.  After it `fraction()` tells where the steps end, and the pack's `end`
-    /// holds the state there, after the reset; its `end_rates` are those of that state.
-    template <class Stepper>
-    SLIDEWAY_HD void run(Pack<Model, Real>& pack, Stepper const& stepper, Mask<Real> accepted) {
+    /// Finds the events; `fraction()` then tells where the steps end.  @param accepted lanes with an accepted step.
+    template <class Stepper> SLIDEWAY_HD void run(Pack<Model, Real>& pack, Stepper const& stepper, Mask<Real> accepted) {
         auto& c = pack.state.course;
         auto const& p = pack.state.constants.parameters;
         ended_ = mask_of<Real>(false);
@@ -26,11 +24,17 @@ public:
         Model::event_values(c.t + pack.step, pack.end, pack.end_rates, p, end_.value, end_.slope);
         auto candidates = mask_of<Real>(false);
         for (int event = 0; event < events; ++event) {
-            candidates = candidates |
-                         may_cross(c.watch.value[event], c.watch.slope[event], end_.value[event], end_.slope[event]);
+            candidates = candidates | may_cross(c.watch.value[event], c.watch.slope[event], end_.value[event],
+                                                end_.slope[event]);
         }
         candidates = candidates & accepted;
         if (any(candidates)) search(pack, stepper, candidates);
+    }
+
+    /// Puts lanes whose step an event ended into the state after its reset: the pack's `end` and `end_rates` hold it.  Before that they
+    /// are those of the whole step, which the stepper's dense output wants.
+    SLIDEWAY_HD void reset(Pack<Model, Real>& pack) {
+        if (any(ended_)) place_resets(pack);
     }
 
     /// Lanes whose step an event ended, and the fraction of the step at which.
@@ -46,7 +50,6 @@ private:
     template <class Stepper>
     SLIDEWAY_NOINLINE void search(Pack<Model, Real>& pack, Stepper const& stepper, Mask<Real> accepted) {
         auto const& c = pack.state.course;
-        auto const& p = pack.state.constants.parameters;
         bool found = false;
         for (int event = 0; event < events; ++event) {
             auto const info = Model::event_table[event];
@@ -56,27 +59,28 @@ private:
             found = true;
             for (auto& zero : zeros_[event].at) place(pack, stepper, event, zero);
         }
-        if (!found) return;
-        while (apply_earliest(pack, stepper, accepted)) {}
-        if (none(ended_)) return;
+        while (found && apply_earliest(pack, stepper, accepted)) {
+        }
+    }
+
+    SLIDEWAY_NOINLINE void place_resets(Pack<Model, Real>& pack) {
+        Real const t = fma(pack.step, fraction_, pack.state.course.t);
         for (int i = 0; i < size; ++i) pack.end[i] = select(ended_, reset_[i], pack.end[i]);
         Real rates[size];
-        pack.evaluate(fma(pack.step, fraction_, c.t), pack.end, rates, pack.needs.ends, pack.end_report);
+        pack.evaluate(t, pack.end, rates, pack.needs.ends, pack.end_report);
         pack.count_evaluations(ended_, 1);
         for (int i = 0; i < size; ++i) pack.end_rates[i] = select(ended_, rates[i], pack.end_rates[i]);
-        Model::event_values(c.t + pack.step, pack.end, pack.end_rates, p, end_.value, end_.slope);
+        Model::event_values(t, pack.end, pack.end_rates, pack.state.constants.parameters, end_.value, end_.slope);
     }
 
     template <class Stepper>
-    SLIDEWAY_HD static void dense_state(Pack<Model, Real> const& pack, Stepper const& stepper, Real theta,
-                                        Real* state) {
+    SLIDEWAY_HD static void dense_state(Pack<Model, Real> const& pack, Stepper const& stepper, Real theta, Real* state) {
         for (int i = 0; i < size; ++i) state[i] = stepper.dense(pack, i, theta);
     }
 
     /// Moves a zero of the cubic to that of the dense output: three Newton steps with the cubic's slope leave the rounding.
     template <class Stepper>
-    SLIDEWAY_HD void place(Pack<Model, Real> const& pack, Stepper const& stepper, int event,
-                           CubicZero<Real>& zero) const {
+    SLIDEWAY_HD void place(Pack<Model, Real> const& pack, Stepper const& stepper, int event, CubicZero<Real>& zero) const {
         auto const present = zero.theta <= Real(1.0);
         if (none(present)) return;
         auto const& c = pack.state.course;
