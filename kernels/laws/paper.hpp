@@ -9,6 +9,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// (model.md 8).  Source: Qian et al. 2020, 3.2.2–3.2.4; the sharing between apices is ours (the paper does not say where the
 /// force acts): a surface's kδ_i/4 and a line's P/2 are the shares that make each mode by itself conservative.
 struct PaperLaw {
+    static constexpr bool conserving = false;  // of energy, but for friction and damping
+
     /// Not inlined: a mechanism calls it for four faces in several variants, and the code would multiply.
     /// @tparam Full also the elastic forces and the potential; without, they are zero.
     template <class Damping, bool Full = true, class Real>

@@ -21,6 +21,7 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
     using Inputs = slideway::Inputs;
     static constexpr int size = state_size;
     static constexpr bool has_memory = Contact::has_memory;
+    static constexpr bool conserving = Law::conserving;
     template <class Real> using Parameters = SliderCrankParameters<Real>;
     template <class Real> using Report = SliderCrankReport<Real>;
     template <class Real> using Memory = std::conditional_t<has_memory, ImpactMemory<Real>, NoMemory<Real>>;
