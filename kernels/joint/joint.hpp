@@ -45,7 +45,8 @@ template <class Law, class Friction, class Damping> struct Joint {
         return w;
     }
 
-    /// Which of the sixteen apex–face pairs touch: bit 4·face + i for the i-th apex of a face, as a number.
+    /// What a state has the contact code do, as a number: bit i where the i-th apex of either Y face touches, bit 4 + i for the Z
+    /// faces.  The two faces of an axis are worked on in one pass, so that their sides make no difference.
     template <class Real>
     SLIDEWAY_FN static Real pattern(JointMotion<Real> const& motion, JointGeometry<Real> const& g) {
         Vec3<Real> const &ny = motion.axes.y, &nz = motion.axes.z;
@@ -53,20 +54,18 @@ template <class Law, class Friction, class Damping> struct Joint {
                                     ny.z, ny.x, motion.y, motion.z);
         auto const z = penetrations(g.clearance_z, g.half_depth, g.half_width, g.half_length, motion.axes.z_shortfall,
                                     nz.y, nz.x, motion.z, motion.y);
-        Real const one(1.0), sixteen(16.0);
-        Real code = face_pattern(apices(z, negated(one)));
-        code = fma(code, sixteen, face_pattern(apices(z, one)));
-        code = fma(code, sixteen, face_pattern(apices(y, negated(one))));
-        return fma(code, sixteen, face_pattern(apices(y, one)));
+        return fma(Real(16.0), axis_pattern(z), axis_pattern(y));
     }
 
 private:
     enum class Axis { y, z };
 
-    template <class Real> SLIDEWAY_FN static Real face_pattern(Quad<Real> const& depth) {
+    template <class Real> SLIDEWAY_FN static Real axis_pattern(FacePair<Real> const& depths) {
         Real const zero(0.0);
-        auto const bit = [&](Real d, double value) { return select(d > zero, Real(value), zero); };
-        return (bit(depth.a, 1.0) + bit(depth.b, 2.0)) + (bit(depth.c, 4.0) + bit(depth.d, 8.0));
+        auto const plus = apices(depths, Real(1.0)), minus = apices(depths, Real(-1.0));
+        auto const bit = [&](Real p, Real m, double value) { return select(max(p, m) > zero, Real(value), zero); };
+        return (bit(plus.a, minus.a, 1.0) + bit(plus.b, minus.b, 2.0)) +
+               (bit(plus.c, minus.c, 4.0) + bit(plus.d, minus.d, 8.0));
     }
 
     /// A vector in the frame (x, main, across) of the faces normal to an axis, and back.  The Z faces' is (x, z, y), which is
@@ -119,16 +118,16 @@ private:
         Vec3<Real> force{zero, zero, zero}, torque{zero, zero, zero};
         // A slider rarely touches on both sides: one pass takes each lane's face, a second the other face of those lanes that
         // touch on both.
-        auto const both = on_plus & on_minus;
+        Mask<Real> const both = on_plus & on_minus;
         for (int pass = 0; pass < 2; ++pass) {
-            auto const is_plus = pass == 0 ? on_plus : mask_of<Real>(false);
-            auto const seen = pass == 0 ? mask_of<Real>(true) : both;
+            Mask<Real> const is_plus = pass == 0 ? on_plus : mask_of<Real>(false);
+            Mask<Real> const seen = pass == 0 ? mask_of<Real>(true) : both;
             Real const side = select(is_plus, Real(1.0), Real(-1.0));
             FaceMotion<Real> face;
             face.depth = apices(depths, side);
             face.rate = apices(rates, side);
-            face.touching = {seen & (face.depth.a > zero), seen & (face.depth.b > zero), seen & (face.depth.c > zero),
-                             seen & (face.depth.d > zero)};
+            face.touching = {Mask<Real>(seen & (face.depth.a > zero)), Mask<Real>(seen & (face.depth.b > zero)),
+                             Mask<Real>(seen & (face.depth.c > zero)), Mask<Real>(seen & (face.depth.d > zero))};
             face.impact_speed = {zero, zero, zero, zero};
             if constexpr (has_memory) {
                 auto const& plus = memory.speeds[first];

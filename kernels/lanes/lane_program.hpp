@@ -51,7 +51,7 @@ private:
     static constexpr int width = lanes<Real>;
     static constexpr int seats = width == 1 ? 1 : 8 * width;
     // Attempts of a stint: few where lanes are regrouped by what they touch, many where all have the same work.
-    static constexpr int attempts = Model::has_patterns ? 8 : 128;
+    static constexpr int attempts = Model::has_patterns ? 16 : 128;
     using Kind = typename Roster<seats, width>::Kind;
     using Record = MemberState<Model, double>;
 
@@ -72,7 +72,7 @@ private:
         c.error_memory = step_control_start;
         Model::initial_state(inputs, c.y);
         c.accepted = c.rejected = c.evaluations = c.jacobians = c.stiff_steps = 0;
-        c.rejections = c.stiffness = 0;
+        c.rejections = c.stiffness = c.rate_squared = 0;
         c.stiff = block_.settings.method == Method::ros34pw2 ? 1 : 0;
         start_memory(c.memory);
         roster_[seat].kind = Kind::fresh;
@@ -142,7 +142,8 @@ private:
 
     template <class Stepper> SLIDEWAY_HD void work() {
         Stint<Stepper, Model, Real> stint(pack_, results_, block_.settings);
-        stint.work(attempts);
+        // Lanes that leave the stiff method wait for the others.
+        stint.work(Stepper::stiff ? attempts / 4 : attempts);
     }
 
     /// First evaluation of new members.  A start that cannot be evaluated ends its member before the first step.
@@ -190,8 +191,12 @@ private:
             rate_squared = select(touching, matrix.rate_squared(), rate_squared);
             c.jacobians = c.jacobians + count<Real>(touching);
         }
-        auto const held_up = c.h * c.h * rate_squared > Real(Stiffness::stiff_above * Stiffness::stiff_above);
-        Real const looks = select(held_up, c.stiffness + Real(1.0), max(c.stiffness - Real(1.0), Real(0.0)));
+        c.rate_squared = select(pack_.busy, max(rate_squared, Real(Stiffness::look_memory) * c.rate_squared), c.rate_squared);
+        Real const measure = select(touching, c.h * c.h * c.rate_squared, Real(0.0));  // (hΩ)²
+        auto const held_up = measure > Real(Stiffness::stiff_above * Stiffness::stiff_above);
+        auto const lasting = measure > Real(Stiffness::lasting_above * Stiffness::lasting_above);
+        Real const sign = select(held_up, Real(1.0), select(lasting, Real(Stiffness::lasting_share), Real(-1.0)));
+        Real const looks = max(c.stiffness + sign, Real(0.0));
         auto const change = pack_.busy & (looks >= Real(Stiffness::stiff_looks));
         c.stiff = select(change, Real(1.0), c.stiff);
         c.stiffness = select(change, Real(0.0), looks);

@@ -30,6 +30,7 @@ template <class Model, class Real> struct MemberState {
         Real rejections;  // 1 after a rejected attempt, else 0
         Real stiff;       // 1 where the next stint is the stiff method's, else 0
         Real stiffness;   // explicit: looks that found the member stiff; stiff: calm steps in a row
+        Real rate_squared;  // Ω² [1/s²] of its stiffest contacts, of late
         [[no_unique_address]] typename Model::template Memory<Real> memory;
         [[no_unique_address]] typename Model::template Watch<Real> watch;
     };

@@ -183,7 +183,9 @@ private:
     /// A lane leaves the stiff method where contact is lost or its steps stay far below what that method is for.
     SLIDEWAY_HD void watch_stiffness(Mask<Real> accepted) {
         auto& c = pack_.state.course;
-        Real const rate = sqrt(max(stepper_.rate_squared(), Real(0.0)));
+        Real const of_late = max(stepper_.rate_squared(), Real(Stiffness::step_memory) * c.rate_squared);
+        c.rate_squared = select(accepted, of_late, c.rate_squared);
+        Real const rate = sqrt(max(c.rate_squared, Real(0.0)));
         auto const calm = pack_.step * rate < Real(Stiffness::calm_below);
         c.stiffness = select(accepted, select(calm, c.stiffness + Real(1.0), Real(0.0)), c.stiffness);
         auto const free = stepper_.touching() < Real(0.5);

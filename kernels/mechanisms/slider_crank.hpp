@@ -109,7 +109,7 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
         return faults;
     }
 
-    /// Which apex–face pairs touch, as a number (Joint::pattern): members of one pattern have the same work to do.
+    /// Which apices touch, as a number (Joint::pattern): members of one pattern have the same work to do.
     template <class Real>
     SLIDEWAY_NOINLINE static Real contact_pattern(Real t, Real const* s, SliderCrankParameters<Real> const& p) {
         auto const crank = sincos(fma(p.crank_speed, t, p.start_angle));
