@@ -16,7 +16,7 @@ enum class Status : signed char {
 };
 
 inline constexpr int status_count = 8;  // without not_run
-inline constexpr char const* status_names[status_count] = {
-    "finished", "step_too_small", "max_steps", "nonfinite", "geometry", "contact_domain", "invalid_inputs", "unstable"};
+inline constexpr char const* status_names[status_count] = {"finished", "step_too_small", "max_steps",      "nonfinite",
+                                                           "geometry", "contact_domain", "invalid_inputs", "unstable"};
 
 }  // namespace slideway

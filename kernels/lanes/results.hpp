@@ -81,13 +81,13 @@ public:
         for (int i = 0; i < lanes<Real>; ++i) {
             if (!holds(ended, i)) continue;
             auto const member = number(c.member, i);
-            Status const status = holds(finished & unstable, i)    ? Status::unstable
-                                  : holds(finished, i)             ? Status::finished
-                                  : holds(faults.geometry, i)      ? Status::geometry
+            Status const status = holds(finished & unstable, i)     ? Status::unstable
+                                  : holds(finished, i)              ? Status::finished
+                                  : holds(faults.geometry, i)       ? Status::geometry
                                   : holds(faults.contact_domain, i) ? Status::contact_domain
-                                  : holds(divergent, i)            ? Status::nonfinite
-                                  : holds(stuck, i)                ? Status::step_too_small
-                                                                   : Status::max_steps;
+                                  : holds(divergent, i)             ? Status::nonfinite
+                                  : holds(stuck, i)                 ? Status::step_too_small
+                                                                    : Status::max_steps;
             double const time = lane(c.t, i);
             block_.records[member] = {status,
                                       number(c.accepted, i),

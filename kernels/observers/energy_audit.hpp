@@ -17,19 +17,20 @@ template <class Real> struct EnergyAudit {
     SLIDEWAY_FN Real residual() const { return change - crank_work + friction_loss + damping_loss; }
 };
 
-/// What a run of `time` gives a residual to be measured against.
+/// What a residual is measured against beside the audit itself.
 template <class Real> struct EnergyScales {
-    Real smallest;      // M (c ω)², of the audit's absolute tolerance [J]
-    Real crossing;      // M a c, energy of a slider that falls through the clearance under a = g + r ω² [J]
-    Real crossing_time; // √(c/a) [s], infinite at a = 0
+    Real smallest;       // M (c ω)², the audit's absolute tolerance is relative to it [J]
+    Real crossing;       // M a c, what a slider gains on its way across the clearance under a = g + r ω² [J]
+    Real crossing_time;  // √(c/a) [s], infinite at a = 0
 };
 
-/// Members whose residual no method leaves that is in its stable range; NaN counts among them.  How the bounds were found, and which runs
-/// came how close: docs/stability.md.
-/// A conserving law leaves ε to the method alone.  A tenth of what friction, damping and contact turned over is four times what an
-/// adaptive method left at a tolerance of 1e-3, and a thousandth of the crank's turnover is where free flight ends up.
-/// A law that switches modes makes energy at every crossing of the clearance, up to half of this bound: as much as the crank
-/// moved, plus the largest contact's, plus M a c for each crossing.
+/// Members whose residual tells that their method left its stable range; NaN tells it too.
+/// A conserving law leaves ε to the method alone, and a stable one keeps it below a tenth of what friction, damping and contact
+/// turned over, plus a thousandth of what the crank moved (the error in free flight).
+/// A law that switches modes makes energy itself, some at every crossing of the clearance: below M a c for each crossing, plus what the
+/// crank moved, plus the largest contact's.
+/// How close runs came to these bounds, and how far beyond unstable ones lie: docs/stability.md.
+/// @tparam conserving of the law.  @param time [s] of the run.
 template <bool conserving, class Real>
 SLIDEWAY_FN Mask<Real> left_stable_range(EnergyAudit<Real> const& audit, EnergyScales<Real> const& scale, Real time) {
     Real bound;

@@ -31,10 +31,9 @@ public:
         return false;
     }
     /// The quantities of the energy audit; any of them brings the whole of it along.
-    static constexpr Selection audit_quantities = selection_of(Quantity::energy_residual) |
-                                                  selection_of(Quantity::crank_work) |
-                                                  selection_of(Quantity::friction_loss) |
-                                                  selection_of(Quantity::damping_loss);
+    static constexpr Selection audit_quantities =
+        selection_of(Quantity::energy_residual) | selection_of(Quantity::crank_work) |
+        selection_of(Quantity::friction_loss) | selection_of(Quantity::damping_loss);
     /// Whether the audit's integrals are asked for and must meet the tolerance themselves.
     SLIDEWAY_HD static constexpr bool audits(Selection q) { return (q & audit_quantities) != 0; }
     /// Whether a report is needed at the accepted steps.
