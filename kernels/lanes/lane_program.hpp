@@ -24,7 +24,10 @@ public:
     using Block = BlockOf<typename Model::Inputs>;
 
     SLIDEWAY_HD explicit LaneProgram(Block& block) : block_(block), results_(block) {
-        pack_.needs = ReportNeeds::of<Model, Real>(block.quantities, block.settings.locate_modes);
+        // What is observed for the status alone is not written.
+        Selection const for_status =
+            is_always_audited(block.settings.method) ? MemberState<Model, Real>::Observer::audit_quantities : 0;
+        pack_.needs = ReportNeeds::of<Model, Real>(block.quantities | for_status, block.settings.locate_modes);
     }
 
     SLIDEWAY_HD void run() {

@@ -65,16 +65,24 @@ public:
     }
 
     /// Hands over the results of the members in `ended`.
-    /// @param finished those that reached their end; @param stuck those whose step cannot shrink further, for what `faults` and
-    /// `divergent` say; the others have spent their steps.
+    /// @param finished those that reached their end; where the audit ran it says whether the method was in its stable range.
+    /// @param stuck those whose step cannot shrink further, for what `faults` and `divergent` say; the others have spent their steps.
     template <class Real>
     SLIDEWAY_HD void retire(Pack<Model, Real> const& pack, Mask<Real> ended, Mask<Real> finished,
                             Faults<Real> const& faults, Mask<Real> divergent, Mask<Real> stuck) {
         auto const& c = pack.state.course;
+        auto unstable = mask_of<Real>(false);
+        if constexpr (Pack<Model, Real>::Observer::audit_integrals > 0) {
+            if (pack.needs.audit && any(finished)) {
+                unstable = Model::left_stable_range(pack.state.observation.observer.audit(), c.t,
+                                                    pack.state.constants.parameters);
+            }
+        }
         for (int i = 0; i < lanes<Real>; ++i) {
             if (!holds(ended, i)) continue;
             auto const member = number(c.member, i);
-            Status const status = holds(finished, i)                ? Status::finished
+            Status const status = holds(finished & unstable, i)     ? Status::unstable
+                                  : holds(finished, i)              ? Status::finished
                                   : holds(faults.geometry, i)       ? Status::geometry
                                   : holds(faults.contact_domain, i) ? Status::contact_domain
                                   : holds(divergent, i)             ? Status::nonfinite

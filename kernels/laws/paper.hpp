@@ -9,7 +9,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// (model.md 8).  Source: Qian et al. 2020, 3.2.2–3.2.4; the sharing between apices is ours (the paper does not say where the
 /// force acts): a surface's kδ_i/4 and a line's P/2 are the shares that make each mode by itself conservative.
 struct PaperLaw {
-    static constexpr bool switches = true;
+    static constexpr bool switches = true;  // between modes, which makes energy
 
     /// Not inlined: a mechanism calls it for four faces in several variants, and the code would multiply.
     /// @tparam Full also the elastic forces and the potential; without, they are zero.

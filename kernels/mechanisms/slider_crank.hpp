@@ -22,6 +22,7 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
     static constexpr int size = state_size;
     static constexpr bool has_memory = Contact::has_memory;
     static constexpr bool can_hold = Contact::can_hold;
+    static constexpr bool conserving = !Law::switches;
     template <class Real> using Parameters = SliderCrankParameters<Real>;
     template <class Real> using Report = SliderCrankReport<Real>;
     template <class Real>

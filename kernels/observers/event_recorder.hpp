@@ -12,6 +12,7 @@ public:
     static constexpr int integrals = 0, audit_integrals = 0;
     static constexpr int columns = kept;
 
+    static constexpr Selection audit_quantities = 0;
     SLIDEWAY_HD static constexpr bool needs_stages(Selection) { return false; }
     SLIDEWAY_HD static constexpr bool audits(Selection) { return false; }
     SLIDEWAY_HD static constexpr bool needs_reports(Selection) { return false; }
