@@ -15,8 +15,7 @@ public:
     static constexpr int size = Model::size;
     static constexpr int events = Model::events;
 
-    /// @param accepted lanes with an accepted step.  After it `fraction()` tells where the steps end, and the pack's `end`
-    /// holds the state there, after the reset; its `end_rates` are those of that state.
+    /// Finds the events; `fraction()` then tells where the steps end.  @param accepted lanes with an accepted step.
     template <class Stepper> SLIDEWAY_HD void run(Pack<Model, Real>& pack, Stepper const& stepper, Mask<Real> accepted) {
         auto& c = pack.state.course;
         auto const& p = pack.state.constants.parameters;
@@ -32,6 +31,12 @@ public:
         if (any(candidates)) search(pack, stepper, candidates);
     }
 
+    /// Puts lanes whose step an event ended into the state after its reset: the pack's `end` and `end_rates` hold it.  Before that they
+    /// are those of the whole step, which the stepper's dense output wants.
+    SLIDEWAY_HD void reset(Pack<Model, Real>& pack) {
+        if (any(ended_)) place_resets(pack);
+    }
+
     /// Lanes whose step an event ended, and the fraction of the step at which.
     SLIDEWAY_HD Mask<Real> ended() const { return ended_; }
     SLIDEWAY_HD Real fraction() const { return fraction_; }
@@ -45,7 +50,6 @@ private:
     template <class Stepper>
     SLIDEWAY_NOINLINE void search(Pack<Model, Real>& pack, Stepper const& stepper, Mask<Real> accepted) {
         auto const& c = pack.state.course;
-        auto const& p = pack.state.constants.parameters;
         bool found = false;
         for (int event = 0; event < events; ++event) {
             auto const info = Model::event_table[event];
@@ -55,16 +59,18 @@ private:
             found = true;
             for (auto& zero : zeros_[event].at) place(pack, stepper, event, zero);
         }
-        if (!found) return;
-        while (apply_earliest(pack, stepper, accepted)) {
+        while (found && apply_earliest(pack, stepper, accepted)) {
         }
-        if (none(ended_)) return;
+    }
+
+    SLIDEWAY_NOINLINE void place_resets(Pack<Model, Real>& pack) {
+        Real const t = fma(pack.step, fraction_, pack.state.course.t);
         for (int i = 0; i < size; ++i) pack.end[i] = select(ended_, reset_[i], pack.end[i]);
         Real rates[size];
-        pack.evaluate(fma(pack.step, fraction_, c.t), pack.end, rates, pack.needs.ends, pack.end_report);
+        pack.evaluate(t, pack.end, rates, pack.needs.ends, pack.end_report);
         pack.count_evaluations(ended_, 1);
         for (int i = 0; i < size; ++i) pack.end_rates[i] = select(ended_, rates[i], pack.end_rates[i]);
-        Model::event_values(c.t + pack.step, pack.end, pack.end_rates, p, end_.value, end_.slope);
+        Model::event_values(t, pack.end, pack.end_rates, pack.state.constants.parameters, end_.value, end_.slope);
     }
 
     template <class Stepper>

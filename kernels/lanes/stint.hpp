@@ -149,6 +149,7 @@ private:
             landed = landed & !search_.ended();
         }
         if (results_.samples() > 0) results_.take_samples(pack_, stepper_, accepted, t_end);
+        if constexpr (Model::events > 0) search_.reset(pack_);
         if (pack_.needs.quantities) {
             pack_.state.observation.observer.accept(accepted, pack_.step, pack_.integral, pack_.end_report, pack_.end);
         }

@@ -51,7 +51,7 @@ SLIDEWAY_NOINLINE CubicZeros<Real> cubic_zeros(Mask<Real> candidate, Real v0, Re
     positive[1] = (positive[1] & (ends[1] > zero)) | (starts_positive & !(ends[1] > zero));
     positive[2] = (positive[2] & (ends[2] > zero)) | (starts_positive & !(ends[2] > zero));
     for (int i = 0; i < 3; ++i) {
-        auto const falls = positive[i] & !positive[i + 1], rises = !positive[i] & positive[i + 1];
+        auto const falls = positive[i] & (!positive[i + 1]), rises = (!positive[i]) & positive[i + 1];
         auto const crosses = candidate & (direction == Direction::falling  ? falls
                                           : direction == Direction::rising ? rises
                                                                            : falls | rises);
@@ -60,7 +60,7 @@ SLIDEWAY_NOINLINE CubicZeros<Real> cubic_zeros(Mask<Real> candidate, Real v0, Re
         for (int halvings = 0; halvings < 24; ++halvings) {  // the dense output does the rest
             Real const middle = Real(0.5) * (low + high);
             auto const same = (value(middle) >= zero) & positive[i];
-            auto const also = !(value(middle) >= zero) & !positive[i];
+            auto const also = (!(value(middle) >= zero)) & (!positive[i]);
             low = select(same | also, middle, low);
             high = select(same | also, high, middle);
         }
