@@ -152,11 +152,6 @@ private:
         if (pack_.needs.quantities) pack_.state.observation.observer.start(pack_.busy, pack_.end_report, c.y);
         pack_.begin_next(pack_.busy, pack_.end_rates);
         if constexpr (Model::has_memory) c.watch.keep(pack_.busy, pack_.end_report.contact);
-        if constexpr (Model::events > 0) {
-            EventValues<Model::events, Real> now;
-            Model::event_values(c.t, c.y, c.rates, pack_.state.constants.parameters, now.value, now.slope);
-            keep_events(pack_.busy, now, c.watch);
-        }
         auto const broken = pack_.busy & !whole;
         auto const failed = broken | (pack_.busy & (faults.geometry | faults.contact_domain));
         if (none(failed)) return;
