@@ -158,11 +158,6 @@ private:
         if constexpr (Model::has_memory || Model::can_hold) {
             if (pack_.needs.watch) c.watch.begin(pack_.busy, pack_.end_report.contact, c.memory);
         }
-        if constexpr (Model::events > 0) {
-            EventValues<Model::events, Real> now;
-            Model::event_values(c.t, c.y, c.rates, pack_.state.constants.parameters, now.value, now.slope);
-            keep_events(pack_.busy, now, c.watch);
-        }
         auto const broken = pack_.busy & !whole;
         auto const failed = broken | (pack_.busy & (faults.geometry | faults.contact_domain));
         if (none(failed)) return;

@@ -167,7 +167,6 @@ private:
         }
         auto finished = landed & (c.t >= Real(settings_.end_time));
         if constexpr (Model::events > 0) {
-            search_.keep(accepted, c.watch);
             if (pack_.needs.quantities) {
                 auto& observer = pack_.state.observation.observer;
                 observer.settle(accepted & Model::at_rest(c.rates), c.y);

@@ -26,7 +26,8 @@ public:
 
     /// An event in the lanes of the mask.
     SLIDEWAY_HD void event(Mask<Real> at, int, Real, Real const* state) {
-        record(at, state[0]);
+        auto const recorded = at & (count_ >= Real(static_cast<double>(transient)));
+        if (any(recorded)) record(recorded, state[0]);
         count_ = count_ + slideway::count<Real>(at);
     }
 
@@ -50,7 +51,7 @@ private:
         for (int i = 0; i < lanes<Real>; ++i) {
             if (!holds(at, i)) continue;
             auto const place = static_cast<int>(lane(count_, i)) - transient;
-            if (place >= 0 && place < kept) set_lane(value_[place], i, lane(value, i));
+            if (place < kept) set_lane(value_[place], i, lane(value, i));
         }
     }
 

@@ -53,7 +53,6 @@ struct BallModel : PlainModel<2> {
     static constexpr int events = 3;
     static constexpr EventInfo event_table[events] = {
         {Direction::falling, true}, {Direction::falling, false}, {Direction::both, false}};
-    template <class Real> using Watch = EventValues<events, Real>;
 
     template <bool Full, class Real>
     SLIDEWAY_FN static Faults<Real> derivative(Real, Real const* s, Parameters<Real> const& p, Memory<Real> const&,
