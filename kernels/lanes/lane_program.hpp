@@ -192,9 +192,10 @@ private:
         }
         c.rate_squared =
             select(pack_.busy, max(rate_squared, Real(Stiffness::memory) * c.rate_squared), c.rate_squared);
-        Real const measure = select(touching, c.h * c.h * c.rate_squared, Real(0.0));  // (hΩ)²
-        auto const held_up = measure > Real(Stiffness::held_up_above * Stiffness::held_up_above);
-        auto const lasting = measure > Real(Stiffness::lasting_above * Stiffness::lasting_above);
+        Real const squared_step = c.h * c.h;
+        auto const held_up = squared_step * rate_squared > Real(Stiffness::held_up_above * Stiffness::held_up_above);
+        auto const lasting = touching & (squared_step * c.rate_squared >
+                                         Real(Stiffness::lasting_above * Stiffness::lasting_above));
         Real const sign = select(held_up, Real(1.0), select(lasting, Real(Stiffness::lasting_share), Real(-1.0)));
         Real const looks = max(c.stiffness + sign, Real(0.0));
         auto const change = pack_.busy & (looks >= Real(Stiffness::enough));
