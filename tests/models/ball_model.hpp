@@ -9,6 +9,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Real> class BallObserver {
 public:
     static constexpr int integrals = 0, audit_integrals = 0;
+    static constexpr Selection audit_quantities = 0;
     static constexpr int columns = 4 * testing::recorded_ball_events;
 
     SLIDEWAY_HD static constexpr bool needs_stages(Selection) { return false; }
