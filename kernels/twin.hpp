@@ -10,12 +10,12 @@ template <class Half> struct TwinMask {
     Mask<Half> low, high;
 
     TwinMask() = default;
-    SLIDEWAY_FN explicit TwinMask(bool value) : low(value), high(value) {}
+    SLIDEWAY_FN explicit TwinMask(bool value) : low(mask_of<Half>(value)), high(mask_of<Half>(value)) {}
     SLIDEWAY_FN TwinMask(Mask<Half> of_low, Mask<Half> of_high) : low(of_low), high(of_high) {}
 
     SLIDEWAY_FN friend TwinMask operator&(TwinMask a, TwinMask b) { return {a.low & b.low, a.high & b.high}; }
     SLIDEWAY_FN friend TwinMask operator|(TwinMask a, TwinMask b) { return {a.low | b.low, a.high | b.high}; }
-    SLIDEWAY_FN friend TwinMask operator!(TwinMask a) { return {!a.low, !a.high}; }
+    SLIDEWAY_FN friend TwinMask operator!(TwinMask a) { return {negation(a.low), negation(a.high)}; }
 };
 
 /// Two packs in one number: lane i of `low` is lane i, lane i of `high` is lane i + lanes<Half>.  A small model's step is a chain of
@@ -46,6 +46,7 @@ namespace detail {
 template <class Half> struct Traits<Twin<Half>> {
     using Mask = TwinMask<Half>;
     static constexpr int lanes = 2 * Traits<Half>::lanes;
+    SLIDEWAY_FN static Mask mask_of(bool value) { return Mask(value); }
 };
 
 }  // namespace detail
