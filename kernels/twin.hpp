@@ -1,6 +1,5 @@
 #pragma once
 
-#include "kernels/math/exponential.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -13,8 +12,12 @@ template <class Half> struct TwinMask {
     SLIDEWAY_FN explicit TwinMask(bool value) : low(mask_of<Half>(value)), high(mask_of<Half>(value)) {}
     SLIDEWAY_FN TwinMask(Mask<Half> of_low, Mask<Half> of_high) : low(of_low), high(of_high) {}
 
-    SLIDEWAY_FN friend TwinMask operator&(TwinMask a, TwinMask b) { return {a.low & b.low, a.high & b.high}; }
-    SLIDEWAY_FN friend TwinMask operator|(TwinMask a, TwinMask b) { return {a.low | b.low, a.high | b.high}; }
+    SLIDEWAY_FN friend TwinMask operator&(TwinMask a, TwinMask b) {
+        return {Mask<Half>(a.low & b.low), Mask<Half>(a.high & b.high)};
+    }
+    SLIDEWAY_FN friend TwinMask operator|(TwinMask a, TwinMask b) {
+        return {Mask<Half>(a.low | b.low), Mask<Half>(a.high | b.high)};
+    }
     SLIDEWAY_FN friend TwinMask operator!(TwinMask a) { return {negation(a.low), negation(a.high)}; }
 };
 
@@ -65,7 +68,6 @@ template <class Half> SLIDEWAY_FN Twin<Half> max(Twin<Half> a, Twin<Half> b) {
 }
 template <class Half> SLIDEWAY_FN Twin<Half> abs(Twin<Half> x) { return {abs(x.low), abs(x.high)}; }
 template <class Half> SLIDEWAY_FN Twin<Half> sqrt(Twin<Half> x) { return {sqrt(x.low), sqrt(x.high)}; }
-template <class Half> SLIDEWAY_FN Twin<Half> exp(Twin<Half> x) { return {exp(x.low), exp(x.high)}; }
 template <class Half> SLIDEWAY_FN Twin<Half> negated(Twin<Half> x) { return {negated(x.low), negated(x.high)}; }
 template <class Half> SLIDEWAY_FN Twin<Half> fma(Twin<Half> a, Twin<Half> b, Twin<Half> c) {
     return {fma(a.low, b.low, c.low), fma(a.high, b.high, c.high)};
