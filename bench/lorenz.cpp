@@ -9,23 +9,25 @@
 #include <string>
 #include <vector>
 
+#include "bench/fma_peak.hpp"
 #include "bench/lorenz_kernel.hpp"
+#include "bench/machine.hpp"
 #include "host/backend/backend.hpp"
 
 namespace slideway {
 
 namespace scalar {
-extern LorenzKernel const lorenz_kernel;
-}
-namespace sse2 {
-extern LorenzKernel const lorenz_kernel;
-}
+FmaPeakRounds fma_peak_rounds;
+LorenzIntegrator integrate_lorenz;
+}  // namespace scalar
 namespace avx2 {
-extern LorenzKernel const lorenz_kernel;
-}
+FmaPeakRounds fma_peak_rounds;
+LorenzIntegrator integrate_lorenz;
+}  // namespace avx2
 namespace avx512 {
-extern LorenzKernel const lorenz_kernel;
-}
+FmaPeakRounds fma_peak_rounds;
+LorenzIntegrator integrate_lorenz;
+}  // namespace avx512
 
 namespace {
 
@@ -34,19 +36,17 @@ constexpr std::uint64_t steps = 1000;
 constexpr double step = 1e-3;
 constexpr int rounds = 25;
 
-LorenzKernel const& kernel_of(Isa isa) {
-    switch (isa) {
-        case Isa::scalar:
-            return scalar::lorenz_kernel;
-        case Isa::sse2:
-            return sse2::lorenz_kernel;
-        case Isa::avx2:
-            return avx2::lorenz_kernel;
-        case Isa::avx512:
-            break;
-    }
-    return avx512::lorenz_kernel;
-}
+struct Kernel {
+    Isa isa;
+    LorenzIntegrator* integrate;
+    FmaPeakRounds* multiply_add;
+};
+
+constexpr Kernel kernels[] = {
+    {Isa::scalar, scalar::integrate_lorenz, scalar::fma_peak_rounds},
+    {Isa::avx2, avx2::integrate_lorenz, avx2::fma_peak_rounds},
+    {Isa::avx512, avx512::integrate_lorenz, avx512::fma_peak_rounds},
+};
 
 /// Of the processor, not of the clock: other work on the machine counts for little.
 template <class Work> double seconds(Work work) {
@@ -63,18 +63,18 @@ double median(std::vector<double> values) {
 
 struct Row {
     std::string name;
-    LorenzKernel const* kernel;  // null: the peer
-    bool same_bits;              // as scalar
+    LorenzIntegrator* integrate;
+    FmaPeakRounds* multiply_add;
+    bool same_bits;  // as scalar
     std::vector<double> run, peak, share;
 };
 
-void measure(Row& row, LorenzRun const& run, Row const& scalar_row) {
+void measure(Row& row, LorenzRun const& run) {
     double const flops = lorenz_step_flops * static_cast<double>(members * steps);
-    row.run.push_back(seconds([&] { row.kernel ? row.kernel->integrate(run) : odeint_lorenz(run); }));
-    double done = 0;
-    auto const& kernel = row.kernel ? *row.kernel : *scalar_row.kernel;
-    double const time = seconds([&] { done = kernel.multiply_add(400'000); });
-    row.peak.push_back(done / time);
+    row.run.push_back(seconds([&] { row.integrate(run); }));
+    std::uint64_t done = 0;
+    double const time = seconds([&] { done = row.multiply_add(400'000); });
+    row.peak.push_back(static_cast<double>(done) / time);
     row.share.push_back(flops / row.run.back() / row.peak.back());
 }
 
@@ -84,21 +84,23 @@ int benchmark() {
     LorenzRun run{rho.data(), members, step, steps, states.data()};
 
     std::vector<Row> rows;
-    for (Isa const isa : all_isas()) {
-        if (isa == Isa::sse2 || !is_supported(isa)) continue;
-        auto& row = rows.emplace_back(Row{std::string(name_of(isa)), &kernel_of(isa), true, {}, {}, {}});
-        run.states = isa == Isa::scalar ? reference.data() : states.data();
-        row.kernel->integrate(run);
-        row.same_bits = std::memcmp(run.states, reference.data(), 3 * members * sizeof(double)) == 0;
+    for (auto const& kernel : kernels) {
+        if (!is_supported(kernel.isa)) continue;
+        run.states = kernel.isa == Isa::scalar ? reference.data() : states.data();
+        kernel.integrate(run);
+        bool const same = std::memcmp(run.states, reference.data(), 3 * members * sizeof(double)) == 0;
+        rows.push_back({std::string(name_of(kernel.isa)), kernel.integrate, kernel.multiply_add, same, {}, {}, {}});
     }
-    rows.push_back({"Odeint runge_kutta4", nullptr, false, {}, {}, {}});
+    rows.push_back({"Odeint runge_kutta4", odeint_lorenz, scalar::fma_peak_rounds, false, {}, {}, {}});
     run.states = states.data();
     for (int round = 0; round < rounds; ++round) {
-        for (auto& row : rows) measure(row, run, rows.front());
+        for (auto& row : rows) measure(row, run);
     }
 
     double const work = static_cast<double>(members * steps), best_scalar = median(rows.front().run);
-    fmt::print("{} members, {} steps of {}, {} flops a step, medians of {} rounds\n\n", members, steps, step,
+    fmt::print("# Lorenz, fixed-step Runge-Kutta 4, one core\n\n{}- flags: {}\n", machine_and_build(),
+               flags_of(best_isa()));
+    fmt::print("- {} members, {} steps of {}, {} flops a step, medians of {} rounds\n\n", members, steps, step,
                lorenz_step_flops, rounds);
     fmt::print("| | ns per member-step | GF/s | FMA peak, GF/s | of the peak | over scalar | bits as scalar |\n");
     fmt::print("|---|---|---|---|---|---|---|\n");

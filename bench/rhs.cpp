@@ -8,13 +8,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bitset>
 #include <chrono>
 #include <cstdlib>
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/fma_peak.hpp"
@@ -137,7 +137,6 @@ public:
     void evaluate(bool full, int in_a_row, int passes) const {
         kernel_.evaluate[full](packs_.get(), count_, in_a_row, passes);
     }
-    [[nodiscard]] std::size_t count() const { return count_; }
 
 private:
     struct Free {
@@ -182,119 +181,145 @@ FmaPeakRounds* fma_peak_of(Isa isa) {
 }
 
 /// Something to measure: `run(n)` does its unit of work n times.
-struct Work {
-    std::function<void(std::uint64_t)> run;
-    std::uint64_t times = 1;
-    std::vector<double> seconds;  // per unit
+class Work {
+public:
+    explicit Work(std::function<void(std::uint64_t)> run) : run_(std::move(run)) {}
 
-    double timed() {
-        auto const start = std::chrono::steady_clock::now();
-        run(times);
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    }
+    /// Finds how often a sample must repeat the work to be long enough.
     void calibrate() {
-        while (timed() < sample_seconds) times *= 2;
+        while (timed() < sample_seconds) times_ *= 2;
     }
-    void sample() { seconds.push_back(timed() / static_cast<double>(times)); }
-    [[nodiscard]] double least() const { return *std::min_element(seconds.begin(), seconds.end()); }
+    void sample() { seconds_.push_back(timed() / static_cast<double>(times_)); }
+
+    // Seconds per unit of work.
+    [[nodiscard]] double least() const { return *std::min_element(seconds_.begin(), seconds_.end()); }
     [[nodiscard]] double median() const {
-        auto sorted = seconds;
+        auto sorted = seconds_;
         auto const middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
         std::nth_element(sorted.begin(), middle, sorted.end());
         return *middle;
     }
+
+private:
+    double timed() {
+        auto const start = std::chrono::steady_clock::now();
+        run_(times_);
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+
+    std::function<void(std::uint64_t)> run_;
+    std::uint64_t times_ = 1;
+    std::vector<double> seconds_;
+};
+
+struct Peak {
+    Isa isa;
+    double flops;  // per round
+    Work work;
+    [[nodiscard]] double rate() const { return flops / work.median(); }
 };
 
 struct Row {
-    std::size_t states;  // which
+    States const* states;
     Isa isa;
     bool full;
-    Work work;
+    double flops;  // per member
+    Work work;     // one pass over all members
+    [[nodiscard]] std::string name() const {
+        return fmt::format("{} {} {}", states->name, full ? "full" : "lean", name_of(isa));
+    }
+    /// Seconds per member of a time per pass.
+    [[nodiscard]] double per_member(double pass) const {
+        return pass / static_cast<double>(states->members.size() * evaluations_in_a_row);
+    }
 };
 
-int run(int rounds, std::string const& text) {
+double useful_flops(States const& states, bool full) {
+    Loaded const counted(kernel_of(counted::rhs_kernels(), states.law), states);
+    auto const before = counted::operations();
+    counted.evaluate(full, 1, 1);
+    return static_cast<double>(counted::operations() - before) / static_cast<double>(states.members.size());
+}
+
+std::vector<States> all_states() {
     std::vector<States> all{free_flight(Law::paper), settled(Law::paper), settled(Law::conservative)};
     for (Law const law : {Law::paper, Law::conservative}) {
         auto const as_they_come = mixed(law);
         all.push_back(as_they_come);
         all.push_back(sorted_by_contact(as_they_come));
     }
+    return all;
+}
+
+std::vector<Row> rows_of(std::vector<States> const& all, std::vector<Isa> const& isas, std::string const& text) {
+    std::vector<Row> rows;
+    for (auto const& states : all) {
+        for (bool const full : {false, true}) {
+            double const flops = useful_flops(states, full);
+            for (Isa const isa : isas) {
+                auto const packs = std::make_shared<Loaded>(kernel_of(kernels_of(isa), states.law), states);
+                Row row{&states, isa, full, flops, Work([packs, full](std::uint64_t n) {
+                            packs->evaluate(full, evaluations_in_a_row, static_cast<int>(n));
+                        })};
+                if (row.name().find(text) != std::string::npos) rows.push_back(std::move(row));
+            }
+        }
+    }
+    return rows;
+}
+
+void print(std::vector<Peak> const& peaks, std::vector<Row> const& rows, int rounds) {
+    fmt::print("# Right-hand side of the slider-crank, one core\n\n{}- medians of {} interleaved rounds\n",
+               machine_and_build(), rounds);
+    for (auto const& p : peaks) {
+        fmt::print("- {}: `{}`, multiply-add peak {:.1f} GF/s\n", name_of(p.isa), flags_of(p.isa), p.rate() * 1e-9);
+    }
+    fmt::print(
+        "\nFriction on, aligned way, point damping.  `full` also fills the report for the observers.  Mixed states are "
+        "the golden "
+        "ones;\n`sorted` groups them by their touching apices, as an engine that regroups its lanes would meet "
+        "them.\n\n"
+        "| states | variant | ISA | ns/member | least | over scalar | flops/member | GF/s | of peak |\n"
+        "|---|---|---|---|---|---|---|---|---|\n");
+    for (auto const& r : rows) {
+        auto const scalar = std::find_if(rows.begin(), rows.end(), [&](Row const& other) {
+            return other.states == r.states && other.full == r.full && other.isa == Isa::scalar;
+        });
+        auto const peak = std::find_if(peaks.begin(), peaks.end(), [&](Peak const& p) { return p.isa == r.isa; });
+        double const time = r.per_member(r.work.median());
+        std::string const ratio =
+            scalar == rows.end() ? "–" : fmt::format("{:.2f}", scalar->work.median() / r.work.median());
+        fmt::print("| {} | {} | {} | {:.1f} | {:.1f} | {} | {:.0f} | {:.1f} | {:.0f} % |\n", r.states->name,
+                   r.full ? "full" : "lean", name_of(r.isa), time * 1e9, r.per_member(r.work.least()) * 1e9, ratio,
+                   r.flops, r.flops / time * 1e-9, 100 * r.flops / time / peak->rate());
+    }
+}
+
+void run(int rounds, std::string const& text) {
     std::vector<Isa> isas;
     for (Isa const isa : all_isas()) {
         if (is_supported(isa)) isas.push_back(isa);
     }
-
-    std::vector<Work> peaks;
-    for (Isa const isa : isas) peaks.push_back({[f = fma_peak_of(isa)](std::uint64_t n) { f(n); }, 1, {}});
-    std::vector<double> peak_flops;  // per round
-    for (Isa const isa : isas) peak_flops.push_back(static_cast<double>(fma_peak_of(isa)(1)));
-
-    std::vector<std::array<double, 2>> flops;  // per member, lean and full
-    for (auto const& s : all) {
-        Loaded const counted(kernel_of(counted::rhs_kernels(), s.law), s);
-        std::array<double, 2> f{};
-        for (bool const full : {false, true}) {
-            auto const before = counted::operations();
-            counted.evaluate(full, 1, 1);
-            f[full] = static_cast<double>(counted::operations() - before) / static_cast<double>(s.members.size());
-        }
-        flops.push_back(f);
+    std::vector<Peak> peaks;
+    for (Isa const isa : isas) {
+        auto* const peak_rounds = fma_peak_of(isa);
+        peaks.push_back({isa, static_cast<double>(peak_rounds(1)), Work([=](std::uint64_t n) { peak_rounds(n); })});
     }
+    auto const states = all_states();
+    auto rows = rows_of(states, isas, text);
 
-    std::vector<Row> rows;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        for (bool const full : {false, true}) {
-            for (Isa const isa : isas) {
-                auto const name = fmt::format("{} {} {}", all[i].name, full ? "full" : "lean", name_of(isa));
-                if (name.find(text) == std::string::npos) continue;
-                auto const packs = std::make_shared<Loaded>(kernel_of(kernels_of(isa), all[i].law), all[i]);
-                rows.push_back({i,
-                                isa,
-                                full,
-                                {[packs, full](std::uint64_t n) {
-                                     packs->evaluate(full, evaluations_in_a_row, static_cast<int>(n));
-                                 },
-                                 1,
-                                 {}}});
-            }
-        }
-    }
-    for (auto& p : peaks) p.calibrate();
+    for (auto& p : peaks) p.work.calibrate();
     for (auto& r : rows) r.work.calibrate();
     for (int round = 0; round < rounds; ++round) {
-        for (auto& p : peaks) p.sample();
+        for (auto& p : peaks) p.work.sample();
         for (auto& r : rows) r.work.sample();
     }
-
-    fmt::print("# Right-hand side of the slider-crank, one core\n\n{}- medians of {} interleaved rounds\n",
-               machine_and_build(), rounds);
-    for (std::size_t i = 0; i < isas.size(); ++i) {
-        fmt::print("- {}: `{}`, multiply-add peak {:.1f} GF/s\n", name_of(isas[i]), flags_of(isas[i]),
-                   peak_flops[i] / peaks[i].median() * 1e-9);
-    }
-    fmt::print(
-        "\nFriction on, aligned way, point damping.  `full` also fills the report for the observers.\n\n"
-        "| states | variant | ISA | ns/member | least | over scalar | flops/member | GF/s | of peak |\n"
-        "|---|---|---|---|---|---|---|---|---|\n");
-    double scalar_time = 0;
-    for (auto const& r : rows) {
-        auto const& s = all[r.states];
-        double const time = r.work.median() / static_cast<double>(s.members.size() * evaluations_in_a_row);
-        if (r.isa == Isa::scalar) scalar_time = time;
-        auto const isa = static_cast<std::size_t>(std::find(isas.begin(), isas.end(), r.isa) - isas.begin());
-        double const rate = flops[r.states][r.full] / time;
-        fmt::print("| {} | {} | {} | {:.1f} | {:.1f} | {:.2f} | {:.0f} | {:.1f} | {:.0f} % |\n", s.name,
-                   r.full ? "full" : "lean", name_of(r.isa), time * 1e9,
-                   r.work.least() * 1e9 / static_cast<double>(s.members.size() * evaluations_in_a_row),
-                   scalar_time / time, flops[r.states][r.full], rate * 1e-9,
-                   100 * rate * peaks[isa].median() / peak_flops[isa]);
-    }
-    return 0;
+    print(peaks, rows, rounds);
 }
 
 }  // namespace
 }  // namespace slideway
 
 int main(int argc, char** argv) {
-    return slideway::run(argc > 1 ? std::max(1, std::atoi(argv[1])) : 51, argc > 2 ? argv[2] : "");
+    slideway::run(argc > 1 ? std::max(1, std::atoi(argv[1])) : 101, argc > 2 ? argv[2] : "");
 }

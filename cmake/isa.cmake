@@ -1,3 +1,5 @@
+include(CheckCXXCompilerFlag)
+
 # The instruction sets that kernels are built for.  Every unit built for one of them sees its name as SLIDEWAY_ISA,
 # the inline namespace of kernels/real.hpp, so that no two of them share a function.
 
@@ -10,9 +12,8 @@ set(SLIDEWAY_LANES_sse2 2)
 set(SLIDEWAY_LANES_avx2 4)
 set(SLIDEWAY_LANES_avx512 8)
 
-include(CheckCXXCompilerFlag)
-# g++ copies structures in pieces of 16 bytes unless told otherwise.  A pack that was stored whole and is read back from two such
-# pieces, or the reverse, waits until all stores have left the core: a third of the time of an avx2 right-hand side.
+# g++ copies structures in pieces of 16 bytes unless told otherwise; a pack that was stored in two pieces and is read back whole
+# waits until the stores have left the core.
 check_cxx_compiler_flag("-mmove-max=256 -mstore-max=256" SLIDEWAY_HAS_MOVE_MAX)
 
 # slideway_isa_flags(<isa> <out_var>): compile options for a unit of that instruction set.
@@ -35,6 +36,10 @@ function(slideway_isa_flags isa out_var)
         list(APPEND flags -mmove-max=256 -mstore-max=256)
     elseif(SLIDEWAY_HAS_MOVE_MAX AND isa STREQUAL "avx512")
         list(APPEND flags -mmove-max=512 -mstore-max=512)
+    endif()
+    # Pairing operations of one member costs the scalar kernels 4 %: they are to be the best scalar build there is.
+    if(isa STREQUAL "scalar")
+        list(APPEND flags -fno-tree-slp-vectorize)
     endif()
     set(${out_var} ${flags} PARENT_SCOPE)
 endfunction()

@@ -20,7 +20,8 @@ template <class Real> struct Attitude { SinCos<Real> roll, yaw, pitch; };
 /// Bits as of three calls of sincos; one branch lets the compiler interleave the three.
 template <class Real> SLIDEWAY_FN Attitude<Real> attitude(Real roll, Real yaw, Real pitch) {
     using namespace detail;
-    if (none(is_wide(roll) | is_wide(yaw) | is_wide(pitch))) {
+    Mask<Real> const wide_roll = is_wide(roll), wide_yaw = is_wide(yaw), wide_pitch = is_wide(pitch);
+    if (none((wide_roll | wide_yaw) | wide_pitch)) {
         return {sine_and_cosine_near(roll), sine_and_cosine_near(yaw), sine_and_cosine_near(pitch)};
     }
     return {sine_and_cosine_reduced(roll), sine_and_cosine_reduced(yaw), sine_and_cosine_reduced(pitch)};

@@ -29,6 +29,8 @@ template <class Real> struct Wrench {
 /// Source: Qian et al. 2020, 3.2; apices and faces as in its Table 2.  `Law`, `Friction` and `Damping` are chosen per scene.
 template <class Law, class Friction, class Damping> struct Joint {
     static constexpr bool has_memory = Damping::has_memory;
+    /// Whether a step may hold its contacts: HeldContacts is then the memory.
+    static constexpr bool can_hold = Law::switches && !has_memory;
 
     /// @tparam Full also fill the report (penetrations, forces, modes, powers); the wrench has the same bits without.
     /// @param outside set where a line contact is beyond its domain; the wrench of such a lane is NaN.
@@ -45,7 +47,8 @@ template <class Law, class Friction, class Damping> struct Joint {
         return w;
     }
 
-    /// Which of the sixteen apex–face pairs touch: bit 4·face + i for the i-th apex of a face, as a number.
+    /// What a state has the contact code do, as a number: bit i where the i-th apex of either Y face touches, bit 4 + i for the Z
+    /// faces.  The two faces of an axis are worked on in one pass, so that their sides make no difference.
     template <class Real>
     SLIDEWAY_FN static Real pattern(JointMotion<Real> const& motion, JointGeometry<Real> const& g) {
         Vec3<Real> const &ny = motion.axes.y, &nz = motion.axes.z;
@@ -53,20 +56,18 @@ template <class Law, class Friction, class Damping> struct Joint {
                                     ny.z, ny.x, motion.y, motion.z);
         auto const z = penetrations(g.clearance_z, g.half_depth, g.half_width, g.half_length, motion.axes.z_shortfall,
                                     nz.y, nz.x, motion.z, motion.y);
-        Real const one(1.0), sixteen(16.0);
-        Real code = face_pattern(apices(z, negated(one)));
-        code = fma(code, sixteen, face_pattern(apices(z, one)));
-        code = fma(code, sixteen, face_pattern(apices(y, negated(one))));
-        return fma(code, sixteen, face_pattern(apices(y, one)));
+        return fma(Real(16.0), axis_pattern(z), axis_pattern(y));
     }
 
 private:
     enum class Axis { y, z };
 
-    template <class Real> SLIDEWAY_FN static Real face_pattern(Quad<Real> const& depth) {
+    template <class Real> SLIDEWAY_FN static Real axis_pattern(FacePair<Real> const& depths) {
         Real const zero(0.0);
-        auto const bit = [&](Real d, double value) { return select(d > zero, Real(value), zero); };
-        return (bit(depth.a, 1.0) + bit(depth.b, 2.0)) + (bit(depth.c, 4.0) + bit(depth.d, 8.0));
+        auto const plus = apices(depths, Real(1.0)), minus = apices(depths, Real(-1.0));
+        auto const bit = [&](Real p, Real m, double value) { return select(max(p, m) > zero, Real(value), zero); };
+        return (bit(plus.a, minus.a, 1.0) + bit(plus.b, minus.b, 2.0)) +
+               (bit(plus.c, minus.c, 4.0) + bit(plus.d, minus.d, 8.0));
     }
 
     /// A vector in the frame (x, main, across) of the faces normal to an axis, and back.  The Z faces' is (x, z, y), which is
@@ -83,8 +84,8 @@ private:
     /// Both faces normal to one of the slider's axes.
     template <Axis axis, bool Full, class Real, class Memory>
     SLIDEWAY_FN static void add_faces(Vec3<Real> const& face_normal, Real shortfall, JointMotion<Real> const& motion,
-                                      Memory const& memory, JointParameters<Real> const& p,
-                                      ContactReport<Real>* report, Mask<Real>& outside, Wrench<Real>& w) {
+                                      Memory const& memory, JointParameters<Real> const& p, ContactReport<Real>* report,
+                                      Mask<Real>& outside, Wrench<Real>& w) {
         constexpr bool is_y = axis == Axis::y;
         Real const zero(0.0);
         auto const& g = p.geometry;
@@ -93,24 +94,36 @@ private:
         auto n = arranged<axis>(face_normal);
         auto depths = penetrations(is_y ? g.clearance_y : g.clearance_z, half_main, half_across, g.half_length,
                                    shortfall, n.z, n.x, p_main, p_across);
-        auto const on_plus = deepest_apex(depths, Real(1.0)) > zero, on_minus = deepest_apex(depths, Real(-1.0)) > zero;
+        Mask<Real> on_plus = deepest_apex(depths, Real(1.0)) > zero, on_minus = deepest_apex(depths, Real(-1.0)) > zero;
         constexpr int first = is_y ? 0 : 2;
+        Real const half(0.5);
+        bool holding = false;
+        if constexpr (can_hold) {
+            holding = any(memory.holding > half);
+            if (holding) {
+                on_plus = sum(memory.touching[first]) > half;
+                on_minus = sum(memory.touching[first + 1]) > half;
+            }
+        }
+        bool const rates_reported = Full && (has_memory || holding);
         if constexpr (Full) {
             report->set_penetrations(first, apices(depths, Real(1.0)));
             report->set_penetrations(first + 1, apices(depths, Real(-1.0)));
         }
         bool const touched = any(on_plus | on_minus);
-        if (!(Full && has_memory) && !touched) return;
+        if (!rates_reported && !touched) return;
 
         auto v = arranged<axis>(motion.velocity);
         auto spin = arranged_axial<axis>(motion.spin);
         auto m = cross(spin, n);
         auto rates = penetration_rates(half_main, half_across, g.half_length, n.y, n.z, m.y, m.z, m.x, p_main, p_across,
                                        v.y, v.z);
-        if constexpr (Full && has_memory) {
-            report->set_rates(first, apices(rates, Real(1.0)));
-            report->set_rates(first + 1, apices(rates, Real(-1.0)));
-            if (!touched) return;
+        if constexpr (Full) {
+            if (rates_reported) {
+                report->set_rates(first, apices(rates, Real(1.0)));
+                report->set_rates(first + 1, apices(rates, Real(-1.0)));
+                if (!touched) return;
+            }
         }
         FaceContact<Real> contact{is_y ? p.contact.surface_stiffness_y : p.contact.surface_stiffness_z,
                                   is_y ? p.contact.across_y_face : p.contact.across_z_face, p.contact.along};
@@ -119,16 +132,26 @@ private:
         Vec3<Real> force{zero, zero, zero}, torque{zero, zero, zero};
         // A slider rarely touches on both sides: one pass takes each lane's face, a second the other face of those lanes that
         // touch on both.
-        auto const both = on_plus & on_minus;
+        Mask<Real> const both = on_plus & on_minus;
         for (int pass = 0; pass < 2; ++pass) {
-            auto const is_plus = pass == 0 ? on_plus : mask_of<Real>(false);
-            auto const seen = pass == 0 ? mask_of<Real>(true) : both;
+            Mask<Real> const is_plus = pass == 0 ? on_plus : mask_of<Real>(false);
+            Mask<Real> const seen = pass == 0 ? mask_of<Real>(true) : both;
             Real const side = select(is_plus, Real(1.0), Real(-1.0));
             FaceMotion<Real> face;
             face.depth = apices(depths, side);
             face.rate = apices(rates, side);
-            face.touching = {seen & (face.depth.a > zero), seen & (face.depth.b > zero), seen & (face.depth.c > zero),
-                             seen & (face.depth.d > zero)};
+            face.touching = {Mask<Real>(seen & (face.depth.a > zero)), Mask<Real>(seen & (face.depth.b > zero)),
+                             Mask<Real>(seen & (face.depth.c > zero)), Mask<Real>(seen & (face.depth.d > zero))};
+            if constexpr (can_hold) {
+                if (holding) {
+                    auto const& plus = memory.touching[first];
+                    auto const& minus = memory.touching[first + 1];
+                    face.touching = {Mask<Real>(seen & (select(is_plus, plus.a, minus.a) > half)),
+                                     Mask<Real>(seen & (select(is_plus, plus.b, minus.b) > half)),
+                                     Mask<Real>(seen & (select(is_plus, plus.c, minus.c) > half)),
+                                     Mask<Real>(seen & (select(is_plus, plus.d, minus.d) > half))};
+                }
+            }
             face.impact_speed = {zero, zero, zero, zero};
             if constexpr (has_memory) {
                 auto const& plus = memory.speeds[first];

@@ -10,6 +10,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// of their apices.  Source: model.md 4 (ours); where apices share a penetration it is the paper's law of that mode plus the
 /// softer modes in parallel.
 struct ConservativeLaw {
+    static constexpr bool switches = false;  // it conserves energy, but for friction and damping
+
     /// Not inlined: a mechanism calls it for four faces in several variants, and the code would multiply.
     /// @tparam Full also the elastic forces and the potential; without, they are zero.
     template <class Damping, bool Full = true, class Real>
@@ -27,9 +29,10 @@ struct ConservativeLaw {
         add_point<Damping>(t.c, depth.c, m.rate.c, m.impact_speed.c, contact, f.normal.c, f.elastic.c, f.potential);
         add_point<Damping>(t.d, depth.d, m.rate.d, m.impact_speed.d, contact, f.normal.d, f.elastic.d, f.potential);
 
-        Quad<Mask<Real>> edge{t.a & t.b, t.b & t.c, t.c & t.d, t.d & t.a};
-        if (any((edge.a | edge.b) | (edge.c | edge.d))) add_edges<Damping>(edge, depth, m, face, contact, f);
-        auto const surface = edge.a & edge.c;
+        Mask<Real> const ab = t.a & t.b, bc = t.b & t.c, cd = t.c & t.d, da = t.d & t.a;
+        Quad<Mask<Real>> edge{ab, bc, cd, da};
+        if (any((ab | bc) | (cd | da))) add_edges<Damping>(edge, depth, m, face, contact, f);
+        Mask<Real> const surface = ab & cd;
         if (any(surface)) add_surface<Damping>(surface, depth, m, face, contact, f);
         // Made anew, so that the sums above live in registers and not in the caller's memory.
         if constexpr (Full) return {f.normal, f.elastic, f.potential, f.outside};

@@ -9,6 +9,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Real> class BallObserver {
 public:
     static constexpr int integrals = 0, audit_integrals = 0;
+    static constexpr Selection audit_quantities = 0;
     static constexpr int columns = 4 * testing::recorded_ball_events;
 
     SLIDEWAY_HD static constexpr bool needs_stages(Selection) { return false; }
@@ -53,7 +54,6 @@ struct BallModel : PlainModel<2> {
     static constexpr int events = 3;
     static constexpr EventInfo event_table[events] = {
         {Direction::falling, true}, {Direction::falling, false}, {Direction::both, false}};
-    template <class Real> using Watch = EventValues<events, Real>;
 
     template <bool Full, class Real>
     SLIDEWAY_FN static Faults<Real> derivative(Real, Real const* s, Parameters<Real> const& p, Memory<Real> const&,

@@ -14,7 +14,7 @@ template <int components> struct PlainModel {
     static constexpr int size = components;
     static constexpr int series = components;
     static constexpr int events = 0;
-    static constexpr bool has_memory = false;
+    static constexpr bool has_memory = false, can_hold = false;
     static constexpr bool has_patterns = false;
     static constexpr bool has_linearisation = false;
     template <class Real> struct Report {};
