@@ -15,7 +15,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 ///  - `scales(parameters, scale)`: sizes of the state's components that the absolute tolerance is meant against;
 ///  - `has_linearisation`: then `Linearisation<Real>` and `linearise(…)` serve the stiff method;
 ///  - `has_patterns`: then `contact_pattern(…)` says which lanes have like work to do;
-///  - `events`: then `event_table`, `event_values(…)` and `reset(…)` (kernels/steppers/events.hpp).
+///  - `events`: then `event_table`, `event_values(…)`, whose values follow from the state alone, and `reset(…)`
+///    (kernels/mechanisms/event_info.hpp, kernels/lanes/event_search.hpp).
 template <class Model, class Real> SLIDEWAY_HD void integrate(BlockOf<typename Model::Inputs>& block) {
     LaneProgram<Model, Real> program(block);
     program.run();

@@ -74,7 +74,8 @@ private:
         Model::initial_state(inputs, c.y);
         c.accepted = c.rejected = c.evaluations = c.jacobians = c.stiff_steps = 0;
         c.rejections = c.stiffness = c.rate_squared = 0;
-        c.stiff = block_.settings.method == Method::ros34pw2 ? 1 : 0;
+        // A model without linearisation is left to the explicit pair.
+        c.stiff = Model::has_linearisation && block_.settings.method == Method::ros34pw2 ? 1 : 0;
         start_memory(c.memory);
         roster_[seat].kind = Kind::fresh;
     }

@@ -20,10 +20,11 @@ public:
         block_.lane_steps_useful += static_cast<std::uint64_t>(lanes_useful);
     }
 
-    /// Time of every lane's next sample, `last` where there is none before it.
-    template <class Real> SLIDEWAY_HD Real next_sample_times(Real const& sample, Real last) const {
+    /// Time of every lane's next sample after its time t, `last` where there is none before it.
+    template <class Real> SLIDEWAY_HD Real next_sample_times(Real const& sample, Real const& t, Real last) const {
         for (int i = 0; i < lanes<Real>; ++i) {
-            auto const next = static_cast<std::size_t>(lane(sample, i));
+            auto next = static_cast<std::size_t>(lane(sample, i));
+            while (next < block_.samples && block_.sample_times[next] <= lane(t, i)) ++next;
             if (next < block_.samples && block_.sample_times[next] < lane(last, i)) {
                 set_lane(last, i, block_.sample_times[next]);
             }

@@ -35,9 +35,11 @@ public:
         for (int i = 0; i < size; ++i) pack.end[i] = combined(c.y[i], w.m, i);
         auto const faults = pack.evaluate(c.t + pack.step, pack.end, pack.end_rates, pack.needs.ends, pack.end_report);
         pack.faults = pack.faults.or_else(faults);
+        // The estimate does not know the derivative at the end, from which the next step starts: an infinite one is no solution.
+        for (int i = 0; i < size; ++i) residual_ = fma(pack.end_rates[i], Real(0.0), residual_);
     }
 
-    /// Error estimate of one component; NaN where the linear equations were not solved.
+    /// Error estimate of one component; NaN where the linear equations were not solved or the end has no derivative.
     SLIDEWAY_HD Real error(Pack<Model, Real> const&, int i) const {
         constexpr Ros34pw2Tableau w{};
         auto const solved = residual_ <= Real(largest_residual);

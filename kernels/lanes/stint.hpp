@@ -54,7 +54,7 @@ private:
         auto& c = pack_.state.course;
         target_ = Real(settings_.end_time);
         if constexpr (Stepper::stiff) {
-            if (results_.samples() > 0) target_ = results_.next_sample_times(c.sample, target_);
+            if (results_.samples() > 0) target_ = results_.next_sample_times(c.sample, c.t, target_);
         }
         Real const remaining = target_ - c.t;
         Real const h = Stepper::adaptive ? c.h : Real(settings_.fixed_step);

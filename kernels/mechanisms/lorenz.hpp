@@ -52,7 +52,7 @@ struct Lorenz {
     template <class Real>
     SLIDEWAY_FN static void event_values(Real, Real const* s, Real const* rates, Parameters<Real> const& p, Real* value,
                                          Real* slope) {
-        value[0] = rates[2];
+        value[0] = fms(s[0], s[1], p.beta * s[2]);
         slope[0] = fma(rates[0], s[1], fms(s[0], rates[1], p.beta * rates[2]));
     }
 

@@ -119,6 +119,48 @@ TEST_F(Steppers, NoStepEndsWhereThereIsNoDerivative) {
     }
 }
 
+TEST_F(Steppers, NoStiffStepEndsBeyondTheWallThatItsStagesMissed) {
+    // Without error control long steps end elsewhere than their last stage.
+    std::vector<TrackerInputs> members;
+    for (int i = 0; i < 300; ++i) {
+        for (double const rate : {-1.0, -10.0, -100.0, 5.0}) members.push_back({.rate = rate, .wall = 0.1 + 0.8 * i / 300});
+    }
+    auto const r = testing::run(isa, testing::equal_steps(Method::ros34pw2, 0.3, 2.0), members);
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        EXPECT_LE(r.states[2 * i], members[i].wall) << i;
+        EXPECT_EQ(r.records[i].status, Status::nonfinite) << i;
+    }
+}
+
+TEST_F(Steppers, StiffStepsEndWhereSamplesAreWanted) {
+    auto settings = testing::equal_steps(Method::ros34pw2, 0.1, 1.0);
+    settings.rtol = settings.atol = settings.stiff_tolerance = 1e-6;
+    std::vector<double> const times = {0.0, 0.03, 0.3, 0.3, 0.3 + 1e-9, 0.9, 1.0};
+    for (double const rate : {-1e2, -1e5, -1e9}) {
+        TrackerInputs const in{.rate = rate, .y = 0.2};  // beside its track: the start is what is sampled at 0
+        auto const r = testing::run(isa, settings, std::vector{in}, times);
+        EXPECT_EQ(r.series[0], 0.2);
+        for (std::size_t i = 0; i < times.size(); ++i) {
+            EXPECT_NEAR(r.series[times.size() + i], times[i], 1e-15) << "τ' = 1 tells the time of the sample";
+            if (i > 1) {
+                EXPECT_NEAR(r.series[i], std::sin(times[i]), 1e-5) << rate << " at " << times[i];
+            }
+        }
+    }
+}
+
+TEST_F(Steppers, ASampleIsTheStateOfAStiffRunThatEndsThere) {
+    auto settings = testing::equal_steps(Method::ros34pw2, 0.1, 1.0);
+    settings.rtol = settings.atol = settings.stiff_tolerance = 1e-5;
+    auto const in = std::vector{TrackerInputs{.rate = -50, .y = 0.2}};
+    for (double const time : {0.07, 0.31, 0.77}) {
+        settings.end_time = 1.0;
+        auto const sampled = testing::run(isa, settings, in, {time});
+        settings.end_time = time;
+        EXPECT_NEAR(sampled.series[0], testing::run(isa, settings, in).states[0], 1e-15);
+    }
+}
+
 TEST_F(Steppers, AFixedStepEndsAtTheEndTime) {
     for (double const step : {0.1, 0.3, 0.7, 1.0, 5.0}) {
         auto const r = testing::run(isa, testing::equal_steps(Method::rk4, step, 1.0), std::vector{OscillatorInputs{}});

@@ -1,0 +1,49 @@
+// The methods by name, and which of them `auto` is.
+#include "kernels/methods.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <string_view>
+
+#include "tests/support/ensemble.hpp"
+
+namespace slideway {
+namespace {
+
+TEST(Methods, AreNamedInTheirOrder) {
+    EXPECT_STREQ(name_of(Method::automatic), "auto");
+    EXPECT_STREQ(name_of(Method::dopri5), "dopri5");
+    EXPECT_STREQ(name_of(Method::bs32), "bs32");
+    EXPECT_STREQ(name_of(Method::ros34pw2), "ros34pw2");
+    EXPECT_STREQ(name_of(Method::rk4), "rk4");
+    EXPECT_EQ(method_count, 5);
+    for (auto const& info : method_table) EXPECT_GT(std::string_view(info.description).size(), 20u) << info.name;
+    EXPECT_EQ(IntegratorSettings{}.method, Method::automatic);
+}
+
+testing::EnsembleResult flight(Method method, double tolerance) {
+    // Two milliseconds in free flight.
+    testing::RunOptions o;
+    o.parts = {Law::conservative, Damping::point, true, false};
+    o.settings.method = method;
+    o.settings.rtol = o.settings.atol = tolerance;
+    o.settings.end_time = 2e-3;
+    return testing::run(best_isa(), o, testing::scattered_starts(9));
+}
+
+bool same(testing::EnsembleResult const& a, testing::EnsembleResult const& b) {
+    return std::memcmp(a.states.data(), b.states.data(), a.states.size() * sizeof(a.states[0])) == 0 &&
+           a.records[0].steps_accepted == b.records[0].steps_accepted;
+}
+
+TEST(Methods, AutoIsThePairThatItsToleranceAsksFor) {
+    EXPECT_TRUE(same(flight(Method::automatic, 1e-4), flight(Method::bs32, 1e-4)));
+    EXPECT_TRUE(same(flight(Method::automatic, 1e-5), flight(Method::bs32, 1e-5)));
+    EXPECT_TRUE(same(flight(Method::automatic, 9e-6), flight(Method::dopri5, 9e-6)));
+    EXPECT_TRUE(same(flight(Method::automatic, 1e-9), flight(Method::dopri5, 1e-9)));
+    EXPECT_FALSE(same(flight(Method::bs32, 1e-9), flight(Method::dopri5, 1e-9)));
+}
+
+}  // namespace
+}  // namespace slideway
