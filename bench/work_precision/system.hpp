@@ -24,7 +24,7 @@ public:
         Model::initial_state(inputs, start.data());
         Model::scales(p_, scale.data());
         std::fill(scale.begin() + size, scale.end(), Model::energy_scale(p_));
-        for (auto& face : memory_.speeds) face.a = face.b = face.c = face.d = least_impact_speed;
+        start_memory(memory_);
     }
 
     void rates(double t, double const* x, double* dxdt) const {
@@ -61,7 +61,7 @@ private:
     }
 
     SliderCrankParameters<double> p_;
-    ImpactMemory<double> memory_;
+    typename Model::template Memory<double> memory_{};
     mutable SliderCrankReport<double> report_;
 };
 

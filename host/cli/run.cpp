@@ -119,8 +119,8 @@ void print_summary(RunArguments const& arguments, Scene const& scene, EnsembleOp
                                           lanes_of(options.isa)));
     print_field("steps", fmt::format("{} accepted ({} by the stiff method), {} rejected", totals.steps_accepted,
                                      totals.stiff_steps, totals.steps_rejected));
-    print_field("evaluations", fmt::format("{} right-hand sides, {} Jacobians", totals.rhs_evaluations,
-                                           totals.jacobian_evaluations));
+    print_field("evaluations",
+                fmt::format("{} right-hand sides, {} Jacobians", totals.rhs_evaluations, totals.jacobian_evaluations));
     print_field("lanes in use", fmt::format("{:.1f} %", 100 * totals.lane_utilisation()));
     print_quantities(quantities);
     print_energy_made(scene, quantities);

@@ -89,13 +89,8 @@ public:
                                   : holds(stuck, i)                 ? Status::step_too_small
                                                                     : Status::max_steps;
             double const time = lane(c.t, i);
-            block_.records[member] = {status,
-                                      number(c.accepted, i),
-                                      number(c.rejected, i),
-                                      number(c.evaluations, i),
-                                      time,
-                                      number(c.jacobians, i),
-                                      number(c.stiff_steps, i)};
+            block_.records[member] = {status, number(c.accepted, i),  number(c.rejected, i),   number(c.evaluations, i),
+                                      time,   number(c.jacobians, i), number(c.stiff_steps, i)};
             for (int j = 0; j < Model::size; ++j) block_.final_states[member * Model::size + j] = lane(c.y[j], i);
             if (block_.quantities != 0) {
                 constexpr auto columns = Pack<Model, Real>::Observer::columns;

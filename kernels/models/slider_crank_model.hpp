@@ -7,6 +7,7 @@
 #include "kernels/observers/energy_audit.hpp"
 #include "kernels/observers/quantities.hpp"
 #include "kernels/observers/slider_crank_observer.hpp"
+#include "kernels/steppers/mode_locator.hpp"
 #include "kernels/steppers/no_watch.hpp"
 #include "kernels/steppers/touch.hpp"
 
@@ -23,7 +24,8 @@ struct SliderCrankModel : SliderCrank<Law, Friction, Way, Damping> {
     static constexpr bool has_linearisation = true;
     template <class Real> using Observer = SliderCrankObserver<Real>;
     template <class Real>
-    using Watch = std::conditional_t<Mechanism::has_memory, TouchLocator<Real>, NoWatch<Real>>;
+    using Watch = std::conditional_t<Mechanism::has_memory, TouchLocator<Real>,
+                                     std::conditional_t<Mechanism::can_hold, ModeLocator<Real>, NoWatch<Real>>>;
     template <class Real> using Linearisation = SliderCrankLinearisation<Real>;
 
     /// Members whose energy audit says that their method left its stable range.  @param time [s] they were integrated.
