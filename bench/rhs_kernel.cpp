@@ -20,7 +20,7 @@ using Real = IsaReal;
 
 template <class Model> struct Pack {
     typename Model::template Parameters<Real> parameters;
-    ImpactMemory<Real> memory;
+    typename Model::template Memory<Real> memory;
     Real time, state[Model::size], rates[Model::size];
     typename Model::template Report<Real> report;
 };
@@ -38,9 +38,7 @@ template <class Model> void load(void* to, Inputs const* members, double const* 
         Model::initial_state(members[member], start);
         for (int i = 0; i < Model::size; ++i) set_lane(pack.state[i], index, start[i]);
         set_lane(pack.time, index, times[member]);
-        for (auto& face : pack.memory.speeds) {
-            for (auto* speed : {&face.a, &face.b, &face.c, &face.d}) set_lane(*speed, index, least_impact_speed);
-        }
+        start_memory(pack.memory);
     }
 }
 

@@ -17,12 +17,13 @@ inline constexpr int state_size = 10;  // y z vy vz roll yaw pitch wx wy wz
 struct IntegratorSettings {
     Method method = Method::automatic;
     double rtol = 1e-6;
-    double atol = 1e-6;              // relative to the joint's scales: c, c·ω, 2c/L_k, 2c/L_k·ω
-    double stiff_tolerance = 1e-3;   // the stiff method's rtol and atol are never below it
-    double end_time = 0;             // [s]
-    double max_step = 1e-3;          // [s], of the explicit methods; what a step may leap over in free flight
-    double stiff_max_step = 1e-2;    // [s], of the stiff method, which runs in lasting contact only
-    double fixed_step = 0;           // [s], of rk4
+    double atol = 1e-6;                     // relative to the joint's scales: c, c·ω, 2c/L_k, 2c/L_k·ω
+    double stiff_tolerance = 1e-3;          // the stiff method's rtol and atol are never below it
+    double end_time = 0;                    // [s]
+    double max_step = 1e-3;                 // [s], of the explicit methods; what a step may leap over in free flight
+    double stiff_max_step = 1e-2;           // [s], of the stiff method, which runs in lasting contact only
+    double fixed_step = 0;                  // [s], of rk4
+    bool locate_modes = false;              // steps end where the contacts change: for a law that switches
     std::uint64_t max_steps = 100'000'000;  // tried steps per member
 };
 
@@ -40,6 +41,7 @@ struct MemberRecord {
 /// Members [0, members) of a block: what every model's block holds.
 struct BlockBase {
     std::size_t members = 0;
+    std::uint32_t const* order = nullptr;  // [members] who is taken when, dearest first; nullptr: as they stand
     IntegratorSettings settings;
     double const* sample_times = nullptr;  // [samples], ascending, within [0, end_time]
     std::size_t samples = 0;

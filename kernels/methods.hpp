@@ -19,6 +19,10 @@ inline constexpr MethodInfo method_table[] = {
 };
 inline constexpr int method_count = sizeof(method_table) / sizeof(method_table[0]);
 
+/// Methods that do not notice when they fail: rk4 has no error control, and that of ros34pw2 does not see what an impact loses. Their
+/// members carry the energy audit along whether or not it is asked for, so that their status can tell.
+constexpr bool is_always_audited(Method method) { return method == Method::ros34pw2 || method == Method::rk4; }
+
 constexpr char const* name_of(Method method) { return method_table[static_cast<int>(method)].name; }
 
 }  // namespace slideway

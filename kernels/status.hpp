@@ -12,10 +12,11 @@ enum class Status : signed char {
     geometry = 4,        // the rod does not reach: L² − (y−y_A)² − z² ≤ 0
     contact_domain = 5,  // a line contact beyond its domain δ̄ ≤ l²/R_e
     invalid_inputs = 6,  // the inputs drawn for the member cannot be used; it was not integrated
+    unstable = 7,        // reached the end time, but its energy audit says that the method left its stable range
 };
 
-inline constexpr int status_count = 7;  // without not_run
-inline constexpr char const* status_names[status_count] = {"finished", "step_too_small", "max_steps",     "nonfinite",
-                                                           "geometry", "contact_domain", "invalid_inputs"};
+inline constexpr int status_count = 8;  // without not_run
+inline constexpr char const* status_names[status_count] = {"finished", "step_too_small", "max_steps",      "nonfinite",
+                                                           "geometry", "contact_domain", "invalid_inputs", "unstable"};
 
 }  // namespace slideway

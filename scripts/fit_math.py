@@ -3,7 +3,7 @@
 
 A developer's tool: it needs mpmath; the build and the tests do not.  Every fit is a minimax fit (Remez exchange in 60
 digits); the errors shown are those of the coefficients rounded to double.  The output is the same on every machine.
-Usage: fit_math.py [trigonometry] [logarithm] [exponential] [lambert_w]
+Usage: fit_math.py [trigonometry] [logarithm] [exponential] [rough_powers] [lambert_w]
 """
 import sys
 
@@ -164,6 +164,18 @@ def exponential():
     show('1/ln 2', [1 / mp.log(2)])
 
 
+def rough_powers():
+    # log2(1 + f) = f + f (1 - f) L(f), exact at both ends, so that it is continuous; 2^r, error relative.
+    def log(f):
+        if not f or f == 1:
+            f += mp.mpf(10) ** -20 * (1 - 2 * f)
+        return (mp.log(1 + f, 2) - f) / (f * (1 - f))
+
+    show('rough binary logarithm', *polynomial(log, lambda f: f * (1 - f) + mp.mpf(10) ** -6, 0, 1, 2))
+    show('rough binary exponential', *polynomial(lambda r: mp.mpf(2) ** r, lambda r: mp.mpf(2) ** -r,
+                                                 mp.mpf(-1) / 2, mp.mpf(1) / 2, 3))
+
+
 def lambert_w():
     # w = -W-1(-exp(-1 - t)) = t + M/D, error relative to w; M/D = 1 + ln w.
     def w(t):
@@ -177,7 +189,7 @@ def lambert_w():
 
 
 if __name__ == '__main__':
-    parts = {f.__name__: f for f in (trigonometry, logarithm, exponential, lambert_w)}
+    parts = {f.__name__: f for f in (trigonometry, logarithm, exponential, rough_powers, lambert_w)}
     unknown = [a for a in sys.argv[1:] if a not in parts]
     if unknown:
         sys.exit(f'fit_math.py: no part {unknown[0]!r}; one of: {" ".join(parts)}')

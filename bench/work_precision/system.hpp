@@ -24,6 +24,7 @@ public:
         Model::initial_state(inputs, start.data());
         Model::scales(p_, scale.data());
         std::fill(scale.begin() + size, scale.end(), Model::energy_scale(p_));
+        start_memory(memory_);
     }
 
     void rates(double t, double const* x, double* dxdt) const {
@@ -60,7 +61,7 @@ private:
     }
 
     SliderCrankParameters<double> p_;
-    [[no_unique_address]] typename Model::template Memory<double> memory_;  // neither damping has one
+    typename Model::template Memory<double> memory_{};
     mutable SliderCrankReport<double> report_;
 };
 

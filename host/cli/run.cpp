@@ -36,6 +36,36 @@ std::string replay_command(RunArguments const& arguments, Isa isa, std::uint64_t
     return command + fmt::format(" --isa {} --member {}", name_of(isa), member);
 }
 
+std::string_view advice_on(Method method) {
+    switch (method) {
+        case Method::rk4:
+            return "use a smaller integrator.step, or method = \"auto\"";
+        case Method::ros34pw2:
+            return "it is for lasting contact alone; use method = \"auto\" where there are impacts";
+        default:
+            return "use smaller rtol and atol, and starts that are not deep inside the way";
+    }
+}
+
+/// What became of members whose method left its stable range, and the way out (docs/stability.md).
+void print_instability(Scene const& scene, EnsembleTotals const& totals) {
+    Method const method = scene.integrator.method;
+    auto const ended = [&](Status status) { return totals.ended[static_cast<std::size_t>(status)]; };
+    std::uint64_t const unstable = ended(Status::unstable);
+    // A step beyond the limit throws the slider out of its joint, if it does not end in infinity.
+    std::uint64_t const broken =
+        method == Method::rk4 ? ended(Status::nonfinite) + ended(Status::geometry) + ended(Status::contact_domain) : 0;
+    if (unstable + broken == 0) return;
+    std::string const name = method == Method::rk4
+                                 ? fmt::format("rk4 with a step of {:.3g} s", scene.integrator.fixed_step)
+                                 : std::string(name_of(method));
+    std::string what;
+    if (unstable > 0) what = fmt::format("{} unstable by the energy residual", unstable);
+    if (broken > 0) what += fmt::format("{}{} broke down", what.empty() ? "" : ", ", broken);
+    fmt::print("\n{} failed in {} member{} ({}): {}.\n", name, unstable + broken, unstable + broken == 1 ? "" : "s",
+               what, advice_on(method));
+}
+
 void print_failures(RunArguments const& arguments, Scene const& scene, Isa isa, EnsembleTotals const& totals,
                     ResultReader const& results) {
     if (totals.failed() == 0) return;
@@ -89,11 +119,12 @@ void print_summary(RunArguments const& arguments, Scene const& scene, EnsembleOp
                                           lanes_of(options.isa)));
     print_field("steps", fmt::format("{} accepted ({} by the stiff method), {} rejected", totals.steps_accepted,
                                      totals.stiff_steps, totals.steps_rejected));
-    print_field("evaluations", fmt::format("{} right-hand sides, {} Jacobians", totals.rhs_evaluations,
-                                           totals.jacobian_evaluations));
+    print_field("evaluations",
+                fmt::format("{} right-hand sides, {} Jacobians", totals.rhs_evaluations, totals.jacobian_evaluations));
     print_field("lanes in use", fmt::format("{:.1f} %", 100 * totals.lane_utilisation()));
     print_quantities(quantities);
     print_energy_made(scene, quantities);
+    print_instability(scene, totals);
     print_failures(arguments, scene, options.isa, totals, results);
     fmt::print("\n");
     print_field("results", fmt::format("{}{}", options.output, replaced ? " (replaced a former file)" : ""));

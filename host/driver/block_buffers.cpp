@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <numeric>
 
 namespace slideway {
 namespace {
@@ -34,9 +35,17 @@ void spread_rows(std::vector<T>& values, std::vector<char> const& is_usable, std
 
 std::uint64_t block_bytes(BlockRequest const& request, std::size_t members) {
     std::uint64_t const per_member =
-        2 * sizeof(Inputs) + sizeof(char) + sizeof(MemberRecord) +
+        2 * sizeof(Inputs) + sizeof(char) + sizeof(std::uint32_t) + sizeof(MemberRecord) +
         sizeof(double) * (state_size + static_cast<std::uint64_t>(quantity_columns) + series_width(request));
     return members * per_member;
+}
+
+void BlockBuffers::sort_by_cost(MemberCost const& cost) {
+    std::vector<double> costs(usable_.size());
+    std::transform(usable_.begin(), usable_.end(), costs.begin(), cost);
+    order_.resize(usable_.size());
+    std::iota(order_.begin(), order_.end(), std::uint32_t{0});
+    std::stable_sort(order_.begin(), order_.end(), [&](auto a, auto b) { return costs[a] > costs[b]; });
 }
 
 void BlockBuffers::run(KernelInstance const& kernel, BlockRequest const& request, MemberSource const& source,
@@ -53,7 +62,10 @@ void BlockBuffers::run(KernelInstance const& kernel, BlockRequest const& request
     quantities_.assign(members * static_cast<std::size_t>(quantity_columns), nan);
     series_.assign(members * series_width(request), nan);
 
+    order_.clear();
+    if (request.cost) sort_by_cost(request.cost);
     Block block;
+    block.order = order_.empty() ? nullptr : order_.data();
     block.inputs = usable_.data();
     block.members = usable_.size();
     block.settings = request.integrator;

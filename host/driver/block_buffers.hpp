@@ -14,12 +14,16 @@ namespace slideway {
 /// Fills in the inputs of a member, complete, and says whether they can be used.  Called from several threads.
 using MemberSource = std::function<bool(std::uint64_t member, Inputs& inputs)>;
 
+/// What a member may cost, in any unit: members of a block start with the dearest, so that it is not the last to end.
+using MemberCost = std::function<double(Inputs const& inputs)>;
+
 /// What every block of a run has in common.
 struct BlockRequest {
     IntegratorSettings integrator;
     std::vector<double> sample_times;  // empty: no time series
     Selection quantities = 0;
     Selection series = 0;
+    MemberCost cost;  // empty: members start in their order
 };
 
 /// Bytes that a block of `members` needs.
@@ -39,8 +43,11 @@ public:
     std::uint64_t lane_steps_useful() const { return lane_steps_useful_; }
 
 private:
+    void sort_by_cost(MemberCost const& cost);
+
     std::vector<Inputs> drawn_, usable_;
     std::vector<char> is_usable_;
+    std::vector<std::uint32_t> order_;
     std::vector<MemberRecord> records_;
     std::vector<double> final_states_, quantities_, series_;
     std::uint64_t lane_steps_executed_ = 0, lane_steps_useful_ = 0;

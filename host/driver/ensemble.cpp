@@ -44,7 +44,7 @@ int default_threads() { return omp_get_max_threads(); }
 std::size_t default_block_members(std::uint64_t members, int threads, int lanes) {
     // The last members of a block leave lanes idle: several for each lane keep that small, several blocks for each
     // thread keep the threads even.
-    constexpr std::uint64_t largest = 128, blocks_per_thread = 4, members_per_lane = 8;
+    constexpr std::uint64_t largest = 512, blocks_per_thread = 2, members_per_lane = 8;
     auto const width = static_cast<std::uint64_t>(lanes), workers = static_cast<std::uint64_t>(threads);
     std::uint64_t const share = (members + workers - 1) / workers;
     std::uint64_t const least = std::clamp<std::uint64_t>(share, 1, members_per_lane * width);

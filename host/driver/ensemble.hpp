@@ -38,7 +38,7 @@ struct EnsembleTotals {
 /// Threads that this process may use at once (OMP_NUM_THREADS, else the processors it may run on).
 int default_threads();
 
-/// A multiple of the lanes, at most 128: enough members to keep the lanes full, few enough for several blocks a thread.
+/// A multiple of the lanes, at most 512: enough members to keep the lanes full, few enough for several blocks a thread.
 std::size_t default_block_members(std::uint64_t members, int threads, int lanes);
 
 /// Integrates every member of the plan, or those that were handed out before `stop` said to end.  A member's result

@@ -14,11 +14,29 @@ namespace {
 constexpr std::string_view table_names[] = {"mechanism", "joint",   "way",        "contact",
                                             "friction",  "initial", "integrator", "study"};
 constexpr std::string_view other_names[] = {
-    "schema",           "title",           "mechanism.kind",    "contact.law",      "friction.enabled",
-    "integrator.method", "integrator.rtol", "integrator.atol",  "integrator.max_step", "integrator.max_steps",
-    "integrator.step", "integrator.stiff_max_step", "integrator.stiff_tolerance",
-    "study.kind",       "study.members",   "study.seed",        "study.revolutions", "study.duration",
-    "study.samples_per_revolution", "study.samples", "study.quantities", "study.vary",
+    "schema",
+    "title",
+    "mechanism.kind",
+    "contact.law",
+    "friction.enabled",
+    "integrator.method",
+    "integrator.rtol",
+    "integrator.atol",
+    "integrator.max_step",
+    "integrator.max_steps",
+    "integrator.step",
+    "integrator.locate_modes",
+    "integrator.stiff_max_step",
+    "integrator.stiff_tolerance",
+    "study.kind",
+    "study.members",
+    "study.seed",
+    "study.revolutions",
+    "study.duration",
+    "study.samples_per_revolution",
+    "study.samples",
+    "study.quantities",
+    "study.vary",
 };
 
 std::vector<std::string_view> known_names() {
@@ -57,9 +75,10 @@ void check_known(Node const& root) {
 void check_schema(Node const& root) {
     Node const* const schema = root.find("schema");
     if (schema == nullptr) {
-        throw SceneError(fmt::format("{}: schema is missing (it says which format the scene is written in); "
-                                     "add the line schema = 1 at the top",
-                                     root.where));
+        throw SceneError(
+            fmt::format("{}: schema is missing (it says which format the scene is written in); "
+                        "add the line schema = 1 at the top",
+                        root.where));
     }
     if (schema->type != Node::Type::integer || schema->integer != 1) {
         refuse(*schema, {"this version of slideway reads schema 1", "write schema = 1"});

@@ -45,6 +45,18 @@ void check_restitution(Node const& root) {
     }
 }
 
+/// Modes are what the paper's law switches between; the other parts have none, or no steps that could end there.
+void check_located_modes(Node const& node, Scene const& scene) {
+    if (scene.parts.law != Law::paper) refuse(node, {"only contact.law \"paper\" has modes", "remove it"});
+    if (scene.parts.damping == Damping::restitution) {
+        refuse(node, {"contact.restitution ends steps at its touches already", "remove one of the two"});
+    }
+    if (scene.integrator.method == Method::ros34pw2 || scene.integrator.method == Method::rk4) {
+        refuse(node, {fmt::format("{} cannot end its steps there", name_of(scene.integrator.method)),
+                      "use method \"auto\", \"dopri5\" or \"bs32\""});
+    }
+}
+
 }  // namespace
 
 std::vector<GivenKey> given_keys(Node const& root) {
@@ -90,6 +102,10 @@ void read_integrator(Node const& root, Scene& scene) {
     if (step != nullptr) settings.fixed_step = read_number(*step, "s", "fixed step", {.low = 0, .low_included = false});
     if (settings.method == Method::rk4 && step == nullptr) {
         refuse(*root.find_path("integrator.method"), {"the method has no step control", "give integrator.step"});
+    }
+    if (Node const* const node = root.find_path("integrator.locate_modes")) {
+        settings.locate_modes = read_boolean(*node);
+        if (settings.locate_modes) check_located_modes(*node, scene);
     }
     if (Node const* const node = root.find_path("integrator.rtol")) {
         // Below some 50 roundings of a double the error estimate is noise.

@@ -162,6 +162,8 @@ void read_study(Node const& root, Scene& scene) {
     scene.sample_times = uniform_times(end.seconds, sampling.count);
     if (!scene.sample_times.empty()) scene.series = (Selection{1} << state_series) - 1;
     if (Node const* const list = root.find_path("study.quantities")) read_quantities(*list, scene);
+    // The audit runs anyway, and whoever takes such a method should see what it says.
+    if (is_always_audited(scene.integrator.method)) scene.quantities |= selection_of(Quantity::energy_residual);
     check_size(sampling, scene);
 }
 

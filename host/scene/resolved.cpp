@@ -48,14 +48,15 @@ std::string physics_table(Scene const& scene, Inputs const& complete, std::strin
 
 std::string distribution_text(Distribution const& d) {
     switch (d.kind) {
-    case Distribution::Kind::constant: break;
-    case Distribution::Kind::uniform:
-        return fmt::format("{{ dist = \"unif\", low = {}, high = {} }}", number(d.low), number(d.high));
-    case Distribution::Kind::normal:
-        return fmt::format("{{ dist = \"norm\", mean = {}, sd = {} }}", number(d.mean), number(d.sd));
-    case Distribution::Kind::truncated_normal:
-        return fmt::format("{{ dist = \"truncnorm\", mean = {}, sd = {}, low = {}, high = {} }}", number(d.mean),
-                           number(d.sd), number(d.low), number(d.high));
+        case Distribution::Kind::constant:
+            break;
+        case Distribution::Kind::uniform:
+            return fmt::format("{{ dist = \"unif\", low = {}, high = {} }}", number(d.low), number(d.high));
+        case Distribution::Kind::normal:
+            return fmt::format("{{ dist = \"norm\", mean = {}, sd = {} }}", number(d.mean), number(d.sd));
+        case Distribution::Kind::truncated_normal:
+            return fmt::format("{{ dist = \"truncnorm\", mean = {}, sd = {}, low = {}, high = {} }}", number(d.mean),
+                               number(d.sd), number(d.low), number(d.high));
     }
     return fmt::format("{{ dist = \"const\", value = {} }}", number(d.mean));
 }
@@ -85,17 +86,18 @@ std::string resolved_toml(Scene const& scene) {
     text += physics_table(scene, complete, "friction", fmt::format("enabled = {}\n", scene.parts.friction));
     text += physics_table(scene, complete, "initial", "");
     IntegratorSettings const& integrator = scene.integrator;
-    text += fmt::format("\n[integrator]\nmethod = \"{}\"\nrtol = {}\natol = {}\nmax_step = {}  # s\n"
-                        "stiff_max_step = {}  # s\nstiff_tolerance = {}\n{}max_steps = {}\n",
-                        name_of(integrator.method), number(integrator.rtol), number(integrator.atol),
-                        number(integrator.max_step), number(integrator.stiff_max_step),
-                        number(integrator.stiff_tolerance),
-                        integrator.fixed_step > 0 ? fmt::format("step = {}  # s\n", number(integrator.fixed_step)) : "",
-                        integrator.max_steps);
-    text += fmt::format("\n[study]\nkind = \"{}\"\nmembers = {}\nseed = {}\nduration = {}  # s\nsamples = {}\n"
-                        "quantities = [{}]\n",
-                        scene.study, scene.members, scene.seed, number(integrator.end_time),
-                        scene.sample_times.size(), quantities_text(scene));
+    text += fmt::format(
+        "\n[integrator]\nmethod = \"{}\"\nrtol = {}\natol = {}\nmax_step = {}  # s\n"
+        "stiff_max_step = {}  # s\nstiff_tolerance = {}\n{}locate_modes = {}\nmax_steps = {}\n",
+        name_of(integrator.method), number(integrator.rtol), number(integrator.atol), number(integrator.max_step),
+        number(integrator.stiff_max_step), number(integrator.stiff_tolerance),
+        integrator.fixed_step > 0 ? fmt::format("step = {}  # s\n", number(integrator.fixed_step)) : "",
+        integrator.locate_modes, integrator.max_steps);
+    text += fmt::format(
+        "\n[study]\nkind = \"{}\"\nmembers = {}\nseed = {}\nduration = {}  # s\nsamples = {}\n"
+        "quantities = [{}]\n",
+        scene.study, scene.members, scene.seed, number(integrator.end_time), scene.sample_times.size(),
+        quantities_text(scene));
     if (!scene.variations.empty()) text += "\n[study.vary]\n";
     for (Variation const& variation : scene.variations) {
         std::string_view const unit = variation.key->unit;

@@ -7,6 +7,13 @@
 
 namespace slideway {
 
+namespace {
+
+/// A smaller gap is crossed more often: from 0.5 to 0.05 mm the steps per second rise 1.6-fold (paper) to 6-fold (conservative).
+double predicted_cost(Inputs const& inputs) { return 1 / std::min(inputs.clearance_y, inputs.clearance_z); }
+
+}  // namespace
+
 ResultLayout result_layout(Scene const& scene, MemberRange range) {
     ResultLayout layout{range.first, range.count, scene.sample_times, scene.quantities, scene.series, {}};
     for (Variation const& variation : scene.variations) {
@@ -24,7 +31,7 @@ EnsemblePlan ensemble_plan(Scene const& scene, MemberRange range, Isa isa, int t
     plan.members = range.count;
     plan.block_members = default_block_members(range.count, threads, lanes_of(isa));
     plan.threads = threads;
-    plan.request = {scene.integrator, scene.sample_times, scene.quantities, scene.series};
+    plan.request = {scene.integrator, scene.sample_times, scene.quantities, scene.series, predicted_cost};
     plan.source = [&scene](std::uint64_t member, Inputs& inputs) {
         inputs = member_inputs(scene, member);
         return !defect(inputs);

@@ -16,6 +16,19 @@ template <class Real> SLIDEWAY_FN void start_memory(ImpactMemory<Real>& memory) 
     for (auto& face : memory.speeds) face = {least, least, least, least};
 }
 
+/// The contacts that a step takes as given, so that a law which switches is smooth within it: 1 where a pair is held to touch.
+/// Without `holding` a pair touches where δ > 0.
+template <class Real> struct HeldContacts {
+    Real holding;
+    Quad<Real> touching[face_count];
+};
+
+template <class Real> SLIDEWAY_FN void start_memory(HeldContacts<Real>& memory) {
+    Real const zero(0.0);
+    memory.holding = zero;
+    for (auto& face : memory.touching) face = {zero, zero, zero, zero};
+}
+
 /// Apex numbers P1…P8 (from 0) of a face's a, b, c, d.  Source: Qian et al. 2020, Table 2: top {1,4,8,5}, bottom {2,3,7,6},
 /// front {1,2,6,5}, back {4,3,7,8}.
 /// A function, because device code cannot index a constant of the host.
@@ -27,7 +40,7 @@ SLIDEWAY_FN constexpr int face_apex(int face, int index) {
 /// All that the joint knows of one state, for observers and probes.
 template <class Real> struct ContactReport {
     Quad<Real> penetration[face_count];   // [m]
-    Quad<Real> rate[face_count];          // [m/s]; filled where restitution needs it
+    Quad<Real> rate[face_count];          // [m/s]; filled where steps end at touches
     Quad<Real> normal_force[face_count];  // [N]
     Real surfaces, lines, points;         // how many
     Real potential;                       // U of the contacts [J]

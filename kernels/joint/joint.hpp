@@ -29,6 +29,8 @@ template <class Real> struct Wrench {
 /// Source: Qian et al. 2020, 3.2; apices and faces as in its Table 2.  `Law`, `Friction` and `Damping` are chosen per scene.
 template <class Law, class Friction, class Damping> struct Joint {
     static constexpr bool has_memory = Damping::has_memory;
+    /// Whether a step may hold its contacts: HeldContacts is then the memory.
+    static constexpr bool can_hold = Law::switches && !has_memory;
 
     /// @tparam Full also fill the report (penetrations, forces, modes, powers); the wrench has the same bits without.
     /// @param outside set where a line contact is beyond its domain; the wrench of such a lane is NaN.
@@ -82,8 +84,8 @@ private:
     /// Both faces normal to one of the slider's axes.
     template <Axis axis, bool Full, class Real, class Memory>
     SLIDEWAY_FN static void add_faces(Vec3<Real> const& face_normal, Real shortfall, JointMotion<Real> const& motion,
-                                      Memory const& memory, JointParameters<Real> const& p,
-                                      ContactReport<Real>* report, Mask<Real>& outside, Wrench<Real>& w) {
+                                      Memory const& memory, JointParameters<Real> const& p, ContactReport<Real>* report,
+                                      Mask<Real>& outside, Wrench<Real>& w) {
         constexpr bool is_y = axis == Axis::y;
         Real const zero(0.0);
         auto const& g = p.geometry;
@@ -92,24 +94,36 @@ private:
         auto n = arranged<axis>(face_normal);
         auto depths = penetrations(is_y ? g.clearance_y : g.clearance_z, half_main, half_across, g.half_length,
                                    shortfall, n.z, n.x, p_main, p_across);
-        auto const on_plus = deepest_apex(depths, Real(1.0)) > zero, on_minus = deepest_apex(depths, Real(-1.0)) > zero;
+        Mask<Real> on_plus = deepest_apex(depths, Real(1.0)) > zero, on_minus = deepest_apex(depths, Real(-1.0)) > zero;
         constexpr int first = is_y ? 0 : 2;
+        Real const half(0.5);
+        bool holding = false;
+        if constexpr (can_hold) {
+            holding = any(memory.holding > half);
+            if (holding) {
+                on_plus = sum(memory.touching[first]) > half;
+                on_minus = sum(memory.touching[first + 1]) > half;
+            }
+        }
+        bool const rates_reported = Full && (has_memory || holding);
         if constexpr (Full) {
             report->set_penetrations(first, apices(depths, Real(1.0)));
             report->set_penetrations(first + 1, apices(depths, Real(-1.0)));
         }
         bool const touched = any(on_plus | on_minus);
-        if (!(Full && has_memory) && !touched) return;
+        if (!rates_reported && !touched) return;
 
         auto v = arranged<axis>(motion.velocity);
         auto spin = arranged_axial<axis>(motion.spin);
         auto m = cross(spin, n);
         auto rates = penetration_rates(half_main, half_across, g.half_length, n.y, n.z, m.y, m.z, m.x, p_main, p_across,
                                        v.y, v.z);
-        if constexpr (Full && has_memory) {
-            report->set_rates(first, apices(rates, Real(1.0)));
-            report->set_rates(first + 1, apices(rates, Real(-1.0)));
-            if (!touched) return;
+        if constexpr (Full) {
+            if (rates_reported) {
+                report->set_rates(first, apices(rates, Real(1.0)));
+                report->set_rates(first + 1, apices(rates, Real(-1.0)));
+                if (!touched) return;
+            }
         }
         FaceContact<Real> contact{is_y ? p.contact.surface_stiffness_y : p.contact.surface_stiffness_z,
                                   is_y ? p.contact.across_y_face : p.contact.across_z_face, p.contact.along};
@@ -128,6 +142,16 @@ private:
             face.rate = apices(rates, side);
             face.touching = {Mask<Real>(seen & (face.depth.a > zero)), Mask<Real>(seen & (face.depth.b > zero)),
                              Mask<Real>(seen & (face.depth.c > zero)), Mask<Real>(seen & (face.depth.d > zero))};
+            if constexpr (can_hold) {
+                if (holding) {
+                    auto const& plus = memory.touching[first];
+                    auto const& minus = memory.touching[first + 1];
+                    face.touching = {Mask<Real>(seen & (select(is_plus, plus.a, minus.a) > half)),
+                                     Mask<Real>(seen & (select(is_plus, plus.b, minus.b) > half)),
+                                     Mask<Real>(seen & (select(is_plus, plus.c, minus.c) > half)),
+                                     Mask<Real>(seen & (select(is_plus, plus.d, minus.d) > half))};
+                }
+            }
             face.impact_speed = {zero, zero, zero, zero};
             if constexpr (has_memory) {
                 auto const& plus = memory.speeds[first];

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "kernels/lanes/pack.hpp"
 #include "kernels/mechanisms/event_info.hpp"
 #include "kernels/real.hpp"
@@ -15,81 +17,106 @@ public:
     static constexpr int size = Model::size;
     static constexpr int events = Model::events;
 
-    /// @param accepted lanes with an accepted step.  After it `fraction()` tells where the steps end, and the pack's `end`
-    /// holds the state there, after the reset; its `end_rates` are those of that state.
-    template <class Stepper> SLIDEWAY_HD void run(Pack<Model, Real>& pack, Stepper const& stepper, Mask<Real> accepted) {
-        auto& c = pack.state.course;
-        auto const& p = pack.state.constants.parameters;
+    /// Finds the events; `fraction()` then tells where the steps end.  @param accepted lanes with an accepted step.
+    template <class Stepper>
+    SLIDEWAY_HD void run(Pack<Model, Real>& pack, Stepper const& stepper, Mask<Real> accepted) {
         ended_ = mask_of<Real>(false);
         fraction_ = Real(1.0);
-        Model::event_values(c.t + pack.step, pack.end, pack.end_rates, p, end_.value, end_.slope);
+        auto const start = at_start(pack), end = at_end(pack);
         auto candidates = mask_of<Real>(false);
-        for (int event = 0; event < events; ++event) {
-            candidates = candidates | may_cross(c.watch.value[event], c.watch.slope[event], end_.value[event],
-                                                end_.slope[event]);
-        }
+        for (int event = 0; event < events; ++event) candidates = candidates | may_cross(start, end, event);
         candidates = candidates & accepted;
-        if (any(candidates)) search(pack, stepper, candidates);
+        if (any(candidates)) search(pack, stepper, candidates, Each{});
+    }
+
+    /// Puts lanes whose step an event ended into the state after its reset: the pack's `end` and `end_rates` hold it.  Before that they
+    /// are those of the whole step, which the stepper's dense output wants.
+    SLIDEWAY_HD void reset(Pack<Model, Real>& pack) {
+        if (any(ended_)) place_resets(pack);
     }
 
     /// Lanes whose step an event ended, and the fraction of the step at which.
     SLIDEWAY_HD Mask<Real> ended() const { return ended_; }
     SLIDEWAY_HD Real fraction() const { return fraction_; }
 
-    /// What the next step's search starts from.
-    SLIDEWAY_HD void keep(Mask<Real> in, EventValues<events, Real>& watch) const { keep_events(in, end_, watch); }
-
 private:
     static constexpr double absent = 2.0;  // beyond every step
+    using Each = std::make_integer_sequence<int, events>;
 
-    template <class Stepper>
-    SLIDEWAY_NOINLINE void search(Pack<Model, Real>& pack, Stepper const& stepper, Mask<Real> accepted) {
+    /// The event functions at one instant, and their time derivatives.
+    struct Values {
+        Real value[events], slope[events];
+    };
+
+    SLIDEWAY_FN static Values values(Pack<Model, Real> const& pack, Real t, Real const* state, Real const* rates) {
+        Values v;
+        Model::event_values(t, state, rates, pack.state.constants.parameters, v.value, v.slope);
+        return v;
+    }
+    SLIDEWAY_FN static Values at_start(Pack<Model, Real> const& pack) {
         auto const& c = pack.state.course;
-        auto const& p = pack.state.constants.parameters;
-        bool found = false;
-        for (int event = 0; event < events; ++event) {
-            auto const info = Model::event_table[event];
-            zeros_[event] = cubic_zeros(accepted, c.watch.value[event], pack.step * c.watch.slope[event],
-                                        end_.value[event], pack.step * end_.slope[event], info.direction);
-            if (none(zeros_[event].any)) continue;
-            found = true;
-            for (auto& zero : zeros_[event].at) place(pack, stepper, event, zero);
-        }
-        if (!found) return;
-        while (apply_earliest(pack, stepper, accepted)) {
-        }
-        if (none(ended_)) return;
-        for (int i = 0; i < size; ++i) pack.end[i] = select(ended_, reset_[i], pack.end[i]);
-        Real rates[size];
-        pack.evaluate(fma(pack.step, fraction_, c.t), pack.end, rates, pack.needs.ends, pack.end_report);
-        pack.count_evaluations(ended_, 1);
-        for (int i = 0; i < size; ++i) pack.end_rates[i] = select(ended_, rates[i], pack.end_rates[i]);
-        Model::event_values(c.t + pack.step, pack.end, pack.end_rates, p, end_.value, end_.slope);
+        return values(pack, c.t, c.y, c.rates);
+    }
+    SLIDEWAY_FN static Values at_end(Pack<Model, Real> const& pack) {
+        return values(pack, pack.state.course.t + pack.step, pack.end, pack.end_rates);
+    }
+    SLIDEWAY_FN static Mask<Real> may_cross(Values const& start, Values const& end, int event) {
+        return slideway::may_cross(start.value[event], start.slope[event], end.value[event], end.slope[event]);
     }
 
-    template <class Stepper>
-    SLIDEWAY_HD static void dense_state(Pack<Model, Real> const& pack, Stepper const& stepper, Real theta, Real* state) {
-        for (int i = 0; i < size; ++i) state[i] = stepper.dense(pack, i, theta);
+    template <class Stepper, int... event>
+    SLIDEWAY_NOINLINE void search(Pack<Model, Real>& pack, Stepper const& stepper, Mask<Real> accepted,
+                                  std::integer_sequence<int, event...>) {
+        auto const start = at_start(pack), end = at_end(pack);
+        bool const found = (find<event>(pack, stepper, accepted, start, end) | ...);
+        while (found && apply_earliest(pack, stepper, accepted)) {}
     }
 
-    /// Moves a zero of the cubic to that of the dense output: three Newton steps with the cubic's slope leave the rounding.
-    template <class Stepper>
-    SLIDEWAY_HD void place(Pack<Model, Real> const& pack, Stepper const& stepper, int event, CubicZero<Real>& zero) const {
+    /// Times of one event in the step.  @return whether any lane has it.
+    template <int event, class Stepper>
+    SLIDEWAY_HD bool find(Pack<Model, Real> const& pack, Stepper const& stepper, Mask<Real> accepted,
+                          Values const& start, Values const& end) {
+        for (auto& theta : zeros_[event]) theta = Real(absent);
+        auto const candidates = accepted & may_cross(start, end, event);
+        if (none(candidates)) return false;
+        auto const zeros = cubic_zeros(candidates, start.value[event], pack.step * start.slope[event], end.value[event],
+                                       pack.step * end.slope[event], Model::event_table[event].direction);
+        if (none(zeros.any)) return false;
+        for (int i = 0; i < 3; ++i) zeros_[event][i] = placed<event>(pack, stepper, zeros.at[i]);
+        return true;
+    }
+
+    /// A zero of the cubic moved to that of the dense output: three Newton steps with the cubic's slope leave the rounding.
+    template <int event, class Stepper>
+    SLIDEWAY_FN static Real placed(Pack<Model, Real> const& pack, Stepper const& stepper, CubicZero<Real> const& zero) {
         auto const present = zero.theta <= Real(1.0);
-        if (none(present)) return;
-        auto const& c = pack.state.course;
+        if (none(present)) return zero.theta;
         Real theta = select(present, zero.theta, Real(0.5));
         for (int i = 0; i < 3; ++i) {
-            Real state[size], value[events], slope[events];
-            dense_state(pack, stepper, theta, state);
-            Model::event_values(fma(pack.step, theta, c.t), state, pack.end_rates, pack.state.constants.parameters,
-                                value, slope);
-            Real const moved = theta - value[event] / zero.slope;
+            Real state[size];
+            dense_state(pack, stepper, theta, state);  // the compiler drops what the event does not depend on
+            auto const here = values(pack, fma(pack.step, theta, pack.state.course.t), state, pack.end_rates);
+            Real const moved = theta - here.value[event] / zero.slope;
             // A grazing zero has no slope to go by, and a NaN stays where the cubic has it.
             auto const inside = (moved >= zero.low) & (moved <= zero.high);
             theta = select(inside, moved, theta);
         }
-        zero.theta = select(present, theta, zero.theta);
+        return select(present, theta, zero.theta);
+    }
+
+    template <class Stepper>
+    SLIDEWAY_FN static void dense_state(Pack<Model, Real> const& pack, Stepper const& stepper, Real theta,
+                                        Real* state) {
+        for (int i = 0; i < size; ++i) state[i] = stepper.dense(pack, i, theta);
+    }
+
+    SLIDEWAY_NOINLINE void place_resets(Pack<Model, Real>& pack) {
+        Real const t = fma(pack.step, fraction_, pack.state.course.t);
+        for (int i = 0; i < size; ++i) pack.end[i] = select(ended_, reset_[i], pack.end[i]);
+        Real rates[size];
+        pack.evaluate(t, pack.end, rates, pack.needs.ends, pack.end_report);
+        pack.count_evaluations(ended_, 1);
+        for (int i = 0; i < size; ++i) pack.end_rates[i] = select(ended_, rates[i], pack.end_rates[i]);
     }
 
     /// @return whether any lane had an event left.
@@ -97,9 +124,9 @@ private:
     SLIDEWAY_HD bool apply_earliest(Pack<Model, Real>& pack, Stepper const& stepper, Mask<Real> accepted) {
         Real first = Real(absent), which = Real(-1.0);
         for (int event = 0; event < events; ++event) {
-            for (auto const& zero : zeros_[event].at) {
-                auto const earlier = zero.theta < first;
-                first = select(earlier, zero.theta, first);
+            for (auto const& theta : zeros_[event]) {
+                auto const earlier = theta < first;
+                first = select(earlier, theta, first);
                 which = select(earlier, Real(static_cast<double>(event)), which);
             }
         }
@@ -112,9 +139,7 @@ private:
         for (int event = 0; event < events; ++event) {
             auto const here = due & (which == Real(static_cast<double>(event)));
             if (none(here)) continue;
-            for (auto& zero : zeros_[event].at) {
-                zero.theta = select(here & (zero.theta == first), Real(absent), zero.theta);
-            }
+            for (auto& zero : zeros_[event]) zero = select(here & (zero == first), Real(absent), zero);
             if (pack.needs.quantities) pack.state.observation.observer.event(here, event, t, state);
             if (!Model::event_table[event].resets) continue;
             Model::reset(event, here, state, pack.state.constants.parameters);
@@ -125,8 +150,7 @@ private:
         return true;
     }
 
-    CubicZeros<Real> zeros_[events];
-    EventValues<events, Real> end_;
+    Real zeros_[events][3];  // fractions of the step, `absent` where there is none
     Real reset_[size], fraction_;
     Mask<Real> ended_;
 };

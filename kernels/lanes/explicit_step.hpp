@@ -45,8 +45,7 @@ private:
         Real* const at = last ? pack.end : pack.scratch;
         Pair::template stage_state<s>(pack.state.course.y, k_, pack.step, at);
         Real const t = fma(pack.step, Real(w.c[s]), pack.state.course.t);
-        auto const faults =
-            pack.evaluate(t, at, k_[s], last ? pack.needs.ends : pack.needs.stages, pack.end_report);
+        auto const faults = pack.evaluate(t, at, k_[s], last ? pack.needs.ends : pack.needs.stages, pack.end_report);
         // A fault of one stage is NaN in those after it, whose own faults say nothing.
         pack.faults = pack.faults.or_else(faults);
         pack.add_integrands(w.b[s], w.e[s]);

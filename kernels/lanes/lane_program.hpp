@@ -1,18 +1,18 @@
 #pragma once
 
 #include "kernels/block.hpp"
+#include "kernels/lanes/explicit_step.hpp"
 #include "kernels/lanes/member_state.hpp"
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/results.hpp"
 #include "kernels/lanes/roster.hpp"
+#include "kernels/lanes/stiff_step.hpp"
 #include "kernels/lanes/stiffness.hpp"
 #include "kernels/lanes/stint.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/bogacki_shampine.hpp"
 #include "kernels/steppers/dormand_prince.hpp"
-#include "kernels/lanes/explicit_step.hpp"
 #include "kernels/steppers/runge_kutta4.hpp"
-#include "kernels/lanes/stiff_step.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -24,7 +24,10 @@ public:
     using Block = BlockOf<typename Model::Inputs>;
 
     SLIDEWAY_HD explicit LaneProgram(Block& block) : block_(block), results_(block) {
-        pack_.needs = ReportNeeds::of<Model, Real>(block.quantities);
+        // What is observed for the status alone is not written.
+        Selection const for_status =
+            is_always_audited(block.settings.method) ? MemberState<Model, Real>::Observer::audit_quantities : 0;
+        pack_.needs = ReportNeeds::of<Model, Real>(block.quantities | for_status, block.settings.locate_modes);
     }
 
     SLIDEWAY_HD void run() {
@@ -56,7 +59,8 @@ private:
     SLIDEWAY_HD void admit(int seat) {
         roster_[seat] = {};
         if (next_ == block_.members) return;
-        std::size_t const member = next_++;
+        std::size_t const member = block_.order != nullptr ? block_.order[next_] : next_;
+        ++next_;
         auto const& inputs = block_.inputs[member];
         Record& r = record(seat);
         r.constants.parameters = Model::parameters(inputs);
@@ -151,11 +155,8 @@ private:
         auto const whole = is_finite(c.y, pack_.end_rates);
         if (pack_.needs.quantities) pack_.state.observation.observer.start(pack_.busy, pack_.end_report, c.y);
         pack_.begin_next(pack_.busy, pack_.end_rates);
-        if constexpr (Model::has_memory) c.watch.keep(pack_.busy, pack_.end_report.contact);
-        if constexpr (Model::events > 0) {
-            EventValues<Model::events, Real> now;
-            Model::event_values(c.t, c.y, c.rates, pack_.state.constants.parameters, now.value, now.slope);
-            keep_events(pack_.busy, now, c.watch);
+        if constexpr (Model::has_memory || Model::can_hold) {
+            if (pack_.needs.watch) c.watch.begin(pack_.busy, pack_.end_report.contact, c.memory);
         }
         auto const broken = pack_.busy & !whole;
         auto const failed = broken | (pack_.busy & (faults.geometry | faults.contact_domain));
@@ -169,7 +170,8 @@ private:
         pattern_ = Real(0.0);
         if constexpr (Model::has_patterns) {
             auto const& s = pack_.state;
-            bool const switching = Model::has_linearisation && block_.settings.method == Method::automatic;
+            bool const switching = Model::has_linearisation && block_.settings.method == Method::automatic &&
+                                   !block_.settings.locate_modes;
             if (width == 1 && !switching) return;
             pattern_ = Model::contact_pattern(s.course.t, s.course.y, s.constants.parameters);
             if constexpr (Model::has_linearisation) {
@@ -188,10 +190,12 @@ private:
             rate_squared = select(touching, matrix.rate_squared(), rate_squared);
             c.jacobians = c.jacobians + count<Real>(touching);
         }
-        c.rate_squared = select(pack_.busy, max(rate_squared, Real(Stiffness::memory) * c.rate_squared), c.rate_squared);
-        Real const measure = select(touching, c.h * c.h * c.rate_squared, Real(0.0));  // (hΩ)²
-        auto const held_up = measure > Real(Stiffness::held_up_above * Stiffness::held_up_above);
-        auto const lasting = measure > Real(Stiffness::lasting_above * Stiffness::lasting_above);
+        c.rate_squared =
+            select(pack_.busy, max(rate_squared, Real(Stiffness::memory) * c.rate_squared), c.rate_squared);
+        Real const squared_step = c.h * c.h;
+        auto const held_up = squared_step * rate_squared > Real(Stiffness::held_up_above * Stiffness::held_up_above);
+        auto const lasting = touching & (squared_step * c.rate_squared >
+                                         Real(Stiffness::lasting_above * Stiffness::lasting_above));
         Real const sign = select(held_up, Real(1.0), select(lasting, Real(Stiffness::lasting_share), Real(-1.0)));
         Real const looks = max(c.stiffness + sign, Real(0.0));
         auto const change = pack_.busy & (looks >= Real(Stiffness::enough));

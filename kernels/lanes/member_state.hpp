@@ -27,9 +27,9 @@ template <class Model, class Real> struct MemberState {
         Real error_memory;  // of the step control
         Real y[Model::size], rates[Model::size];
         Real accepted, rejected, evaluations, jacobians, stiff_steps;
-        Real rejections;  // 1 after a rejected attempt, else 0
-        Real stiff;       // 1 where the next stint is the stiff method's, else 0
-        Real stiffness;   // explicit: looks that found the member stiff; stiff: calm steps in a row
+        Real rejections;    // 1 after a rejected attempt, else 0
+        Real stiff;         // 1 where the next stint is the stiff method's, else 0
+        Real stiffness;     // explicit: looks that found the member stiff; stiff: calm steps in a row
         Real rate_squared;  // Ω² [1/s²] of its stiffest contacts, of late
         [[no_unique_address]] typename Model::template Memory<Real> memory;
         [[no_unique_address]] typename Model::template Watch<Real> watch;
@@ -47,14 +47,16 @@ template <class Model, class Real> struct MemberState {
 };
 
 /// Moves one lane of a pack's part from or to a member's record.
-template <int width, class PackPart, class Part> SLIDEWAY_HD void load_lane(PackPart& pack, int index, Part const& record) {
+template <int width, class PackPart, class Part>
+SLIDEWAY_HD void load_lane(PackPart& pack, int index, Part const& record) {
     static_assert(sizeof(PackPart) == width * sizeof(Part) && sizeof(Part) % sizeof(double) == 0);
     auto const* from = reinterpret_cast<double const*>(&record);
     auto* to = reinterpret_cast<double*>(&pack) + index;
     for (std::size_t i = 0; i < sizeof(Part) / sizeof(double); ++i) to[i * width] = from[i];
 }
 
-template <int width, class PackPart, class Part> SLIDEWAY_HD void store_lane(PackPart const& pack, int index, Part& record) {
+template <int width, class PackPart, class Part>
+SLIDEWAY_HD void store_lane(PackPart const& pack, int index, Part& record) {
     static_assert(sizeof(PackPart) == width * sizeof(Part) && sizeof(Part) % sizeof(double) == 0);
     auto const* from = reinterpret_cast<double const*>(&pack) + index;
     auto* to = reinterpret_cast<double*>(&record);

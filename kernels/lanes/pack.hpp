@@ -12,15 +12,17 @@ struct ReportNeeds {
     bool quantities = false;  // the observer is at work
     bool stages = false;      // at every stage, for integrals
     bool audit = false;       // the audit's integrals meet the tolerance too
+    bool watch = false;       // steps end at touches or where the contacts change
     bool ends = false;        // at the accepted steps
 
-    template <class Model, class Real> SLIDEWAY_HD static ReportNeeds of(Selection quantities) {
+    template <class Model, class Real> SLIDEWAY_HD static ReportNeeds of(Selection quantities, bool locate_modes) {
         using Observer = typename Model::template Observer<Real>;
         ReportNeeds needs;
         needs.quantities = quantities != 0;
         needs.stages = Observer::needs_stages(quantities);
         needs.audit = Observer::audits(quantities);
-        needs.ends = needs.stages || Observer::needs_reports(quantities) || Model::has_memory;
+        needs.watch = Model::has_memory || (Model::can_hold && locate_modes);
+        needs.ends = needs.stages || Observer::needs_reports(quantities) || needs.watch;
         return needs;
     }
 };

@@ -65,29 +65,32 @@ public:
     }
 
     /// Hands over the results of the members in `ended`.
-    /// @param finished those that reached their end; @param stuck those whose step cannot shrink further, for what `faults` and
-    /// `divergent` say; the others have spent their steps.
+    /// @param finished those that reached their end; where the audit ran it says whether the method was in its stable range.
+    /// @param stuck those whose step cannot shrink further, for what `faults` and `divergent` say; the others have spent their steps.
     template <class Real>
     SLIDEWAY_HD void retire(Pack<Model, Real> const& pack, Mask<Real> ended, Mask<Real> finished,
                             Faults<Real> const& faults, Mask<Real> divergent, Mask<Real> stuck) {
         auto const& c = pack.state.course;
+        auto unstable = mask_of<Real>(false);
+        if constexpr (Pack<Model, Real>::Observer::audit_integrals > 0) {
+            if (pack.needs.audit && any(finished)) {
+                unstable = Model::left_stable_range(pack.state.observation.observer.audit(), c.t,
+                                                    pack.state.constants.parameters);
+            }
+        }
         for (int i = 0; i < lanes<Real>; ++i) {
             if (!holds(ended, i)) continue;
             auto const member = number(c.member, i);
-            Status const status = holds(finished, i)               ? Status::finished
-                                  : holds(faults.geometry, i)      ? Status::geometry
+            Status const status = holds(finished & unstable, i)     ? Status::unstable
+                                  : holds(finished, i)              ? Status::finished
+                                  : holds(faults.geometry, i)       ? Status::geometry
                                   : holds(faults.contact_domain, i) ? Status::contact_domain
-                                  : holds(divergent, i)            ? Status::nonfinite
-                                  : holds(stuck, i)                ? Status::step_too_small
-                                                                   : Status::max_steps;
+                                  : holds(divergent, i)             ? Status::nonfinite
+                                  : holds(stuck, i)                 ? Status::step_too_small
+                                                                    : Status::max_steps;
             double const time = lane(c.t, i);
-            block_.records[member] = {status,
-                                      number(c.accepted, i),
-                                      number(c.rejected, i),
-                                      number(c.evaluations, i),
-                                      time,
-                                      number(c.jacobians, i),
-                                      number(c.stiff_steps, i)};
+            block_.records[member] = {status, number(c.accepted, i),  number(c.rejected, i),   number(c.evaluations, i),
+                                      time,   number(c.jacobians, i), number(c.stiff_steps, i)};
             for (int j = 0; j < Model::size; ++j) block_.final_states[member * Model::size + j] = lane(c.y[j], i);
             if (block_.quantities != 0) {
                 constexpr auto columns = Pack<Model, Real>::Observer::columns;

@@ -71,8 +71,7 @@ private:
         auto const& s = pack_.state;
         SquaredRatios<Real> sum;
         for (int i = 0; i < size; ++i) {
-            Real const tolerance =
-                fma(rtol, max(abs(s.course.y[i]), abs(pack_.end[i])), atol * s.constants.scale[i]);
+            Real const tolerance = fma(rtol, max(abs(s.course.y[i]), abs(pack_.end[i])), atol * s.constants.scale[i]);
             sum.add(stepper_.error(pack_, i), tolerance);
         }
         // The damping power has a kink where a contact begins, which the states hardly feel: the audit controls its own error.
@@ -104,15 +103,18 @@ private:
             wish = step * Control::factor(squared_norm, accepted, c.rejections > Real(0.5), c.error_memory);
             // A step that was shortened to land says little of what the next may be.
             wish = select(accepted & lands_, max(wish, c.h), wish);
-            if constexpr (Model::has_memory) {
-                // A touch must end its step, for it sets the impact speed of what follows.
-                auto const early = accepted & (step > resolution * Real(64.0));
-                Real const fraction =
-                    c.watch.earliest(early, pack_.end_report.contact, step, Model::touch_scale(pack_.state.constants.parameters));
-                cut = fraction < Real(1.0);
-                c.error_memory = select(cut, former_memory, c.error_memory);
-                accepted = accepted & !cut;
-                wish = select(cut, max(step * fraction, resolution * Real(32.0)), wish);
+            if constexpr (Model::has_memory || Model::can_hold) {
+                if (pack_.needs.watch) {
+                    // A touch must end its step: it sets the impact speed of what follows, or the law that holds.
+                    auto const early = accepted & (step > resolution * Real(64.0));
+                    Real const fraction =
+                        c.watch.earliest(early, pack_.end_report.contact, step,
+                                         Model::touch_scale(pack_.state.constants.parameters), c.memory);
+                    cut = fraction < Real(1.0);
+                    c.error_memory = select(cut, former_memory, c.error_memory);
+                    accepted = accepted & !cut;
+                    wish = select(cut, max(step * fraction, resolution * Real(32.0)), wish);
+                }
             }
         } else {
             accepted = busy & is_finite(pack_.end, pack_.end_rates);
@@ -149,6 +151,7 @@ private:
             landed = landed & !search_.ended();
         }
         if (results_.samples() > 0) results_.take_samples(pack_, stepper_, accepted, t_end);
+        if constexpr (Model::events > 0) search_.reset(pack_);
         if (pack_.needs.quantities) {
             pack_.state.observation.observer.accept(accepted, pack_.step, pack_.integral, pack_.end_report, pack_.end);
         }
@@ -156,13 +159,14 @@ private:
         c.t = select(accepted, t_end, c.t);
         if constexpr (Stepper::stiff) c.stiff_steps = c.stiff_steps + count<Real>(accepted);
         pack_.begin_next(accepted, pack_.end_rates);
-        if constexpr (Model::has_memory) {
-            auto const touched = c.watch.update(accepted, pack_.end_report.contact, c.memory);
-            if (any(touched)) restart(touched);
+        if constexpr (Model::has_memory || Model::can_hold) {
+            if (pack_.needs.watch) {
+                auto const touched = c.watch.update(accepted, pack_.end_report.contact, c.memory);
+                if (any(touched)) restart(touched);
+            }
         }
         auto finished = landed & (c.t >= Real(settings_.end_time));
         if constexpr (Model::events > 0) {
-            search_.keep(accepted, c.watch);
             if (pack_.needs.quantities) {
                 auto& observer = pack_.state.observation.observer;
                 observer.settle(accepted & Model::at_rest(c.rates), c.y);

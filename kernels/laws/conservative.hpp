@@ -10,6 +10,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// of their apices.  Source: model.md 4 (ours); where apices share a penetration it is the paper's law of that mode plus the
 /// softer modes in parallel.
 struct ConservativeLaw {
+    static constexpr bool switches = false;  // it conserves energy, but for friction and damping
+
     /// Not inlined: a mechanism calls it for four faces in several variants, and the code would multiply.
     /// @tparam Full also the elastic forces and the potential; without, they are zero.
     template <class Damping, bool Full = true, class Real>

@@ -9,6 +9,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// (model.md 8).  Source: Qian et al. 2020, 3.2.2–3.2.4; the sharing between apices is ours (the paper does not say where the
 /// force acts): a surface's kδ_i/4 and a line's P/2 are the shares that make each mode by itself conservative.
 struct PaperLaw {
+    static constexpr bool switches = true;  // between modes, which makes energy
+
     /// Not inlined: a mechanism calls it for four faces in several variants, and the code would multiply.
     /// @tparam Full also the elastic forces and the potential; without, they are zero.
     template <class Damping, bool Full = true, class Real>
@@ -91,7 +93,8 @@ private:
                                       FaceForces<Real>& f) {
         if (none(point)) return;
         Real const zero(0.0);
-        Real const d = select(point, depth, Real(1e-6));
+        // A held contact may part by a hair before its step ends.
+        Real const d = max(select(point, depth, Real(1e-6)), zero);
         Real const load = point_load(d, contact.point);
         Real const damped = Damping::point_force(load, d, rate, v0, contact.point, contact.damping);
         normal = normal + select(point, damped, zero);

@@ -4,29 +4,34 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Σ (a/b)² over pairs with one division for two of them: (a/b)² + (c/d)² = (a²d² + c²b²)/(bd)².  Divisions are what a norm costs.
+/// Σ (a/b)² over pairs with one division for three of them: (a/b)² + (c/d)² = (a²d² + c²b²)/(bd)², and so on.  Divisions are what a
+/// norm costs.
 template <class Real> class SquaredRatios {
 public:
-    /// @param b > 0, with b⁴ within the range of the number type.
+    /// @param b > 0, with b⁶ within the range of the number type.
     SLIDEWAY_FN void add(Real a, Real b) {
-        if (!pending_) {
+        if (held_ == 0) {
             a_ = a, b_ = b;
+        } else if (held_ == 1) {
+            Real const left = a_ * b, right = a * b_;
+            squares_ = fma(left, left, right * right), b_ = b_ * b;
         } else {
-            Real const product = b_ * b, left = a_ * b, right = a * b_;
-            sum_ = sum_ + fma(left, left, right * right) / (product * product);
+            Real const product = b_ * b, right = a * b_;
+            sum_ = sum_ + fma(squares_, b * b, right * right) / (product * product);
         }
-        pending_ = !pending_;
+        held_ = held_ == 2 ? 0 : held_ + 1;
     }
 
     SLIDEWAY_FN Real total() const {
-        if (!pending_) return sum_;
+        if (held_ == 0) return sum_;
+        if (held_ == 2) return sum_ + squares_ / (b_ * b_);
         Real const ratio = a_ / b_;
         return fma(ratio, ratio, sum_);
     }
 
 private:
-    Real sum_ = Real(0.0), a_ = Real(0.0), b_ = Real(1.0);
-    bool pending_ = false;
+    Real sum_ = Real(0.0), a_ = Real(0.0), b_ = Real(1.0), squares_ = Real(0.0);
+    int held_ = 0;  // pairs that wait for a division
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -18,7 +18,7 @@ struct Lorenz {
         double x = 10, y = 10, z = 10;  // at the start
     };
     static constexpr int size = 3;  // x y z
-    static constexpr bool has_memory = false;
+    static constexpr bool has_memory = false, can_hold = false;
 
     template <class Real> struct Parameters { Real sigma, rho, beta; };
     template <class Real> struct Report {};

@@ -21,7 +21,7 @@ struct ReliefValve {
         double lift = 0.2, speed = 0, pressure = 0;  // x, v, p at the start
     };
     static constexpr int size = 3;  // x v p
-    static constexpr bool has_memory = false;
+    static constexpr bool has_memory = false, can_hold = false;
 
     template <class Real> struct Parameters { Real inflow; };
     template <class Real> struct Report {};

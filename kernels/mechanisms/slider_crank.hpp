@@ -21,9 +21,13 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
     using Inputs = slideway::Inputs;
     static constexpr int size = state_size;
     static constexpr bool has_memory = Contact::has_memory;
+    static constexpr bool can_hold = Contact::can_hold;
+    static constexpr bool conserving = !Law::switches;
     template <class Real> using Parameters = SliderCrankParameters<Real>;
     template <class Real> using Report = SliderCrankReport<Real>;
-    template <class Real> using Memory = std::conditional_t<has_memory, ImpactMemory<Real>, NoMemory<Real>>;
+    template <class Real>
+    using Memory = std::conditional_t<has_memory, ImpactMemory<Real>,
+                                      std::conditional_t<can_hold, HeldContacts<Real>, NoMemory<Real>>>;
 
     /// Time derivative of the state.
     /// @param t time [s]; @param s the state, `size` values; @param rates their derivatives, NaN where a fault is set.

@@ -126,7 +126,8 @@ struct SliderCrankParts<SliderCrank<Law, Friction, Way_, Damping>> {
 /// @param t time [s]; @param s the state; @param memory read by RestitutionDamping alone.
 template <class Model, class Real>
 SLIDEWAY_NOINLINE void linearise(Real t, Real const* s, SliderCrankParameters<Real> const& p,
-                                 typename Model::template Memory<Real> const& memory, SliderCrankLinearisation<Real>& out) {
+                                 typename Model::template Memory<Real> const& memory,
+                                 SliderCrankLinearisation<Real>& out) {
     using Parts = detail::SliderCrankParts<Model>;
     Real const y = s[0], z = s[1], vy = s[2], vz = s[3];
     Real const one(1.0);

@@ -2,6 +2,7 @@
 
 #include "kernels/mechanisms/relief_valve.hpp"
 #include "kernels/observers/event_recorder.hpp"
+#include "kernels/steppers/no_watch.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -12,7 +13,7 @@ struct ReliefValveModel : ReliefValve {
     static constexpr bool has_patterns = false;
     static constexpr bool has_linearisation = false;
     template <class Real> using Observer = EventRecorder<Real, 2048, 64>;
-    template <class Real> using Watch = EventValues<events, Real>;
+    template <class Real> using Watch = NoWatch<Real>;
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -4,8 +4,10 @@
 
 #include "kernels/mechanisms/slider_crank.hpp"
 #include "kernels/mechanisms/slider_crank_linearisation.hpp"
+#include "kernels/observers/energy_audit.hpp"
 #include "kernels/observers/quantities.hpp"
 #include "kernels/observers/slider_crank_observer.hpp"
+#include "kernels/steppers/mode_locator.hpp"
 #include "kernels/steppers/no_watch.hpp"
 #include "kernels/steppers/touch.hpp"
 
@@ -22,8 +24,21 @@ struct SliderCrankModel : SliderCrank<Law, Friction, Way, Damping> {
     static constexpr bool has_linearisation = true;
     template <class Real> using Observer = SliderCrankObserver<Real>;
     template <class Real>
-    using Watch = std::conditional_t<Mechanism::has_memory, TouchLocator<Real>, NoWatch<Real>>;
+    using Watch = std::conditional_t<Mechanism::has_memory, TouchLocator<Real>,
+                                     std::conditional_t<Mechanism::can_hold, ModeLocator<Real>, NoWatch<Real>>>;
     template <class Real> using Linearisation = SliderCrankLinearisation<Real>;
+
+    /// Members whose energy audit says that their method left its stable range.  @param time [s] they were integrated.
+    template <class Real>
+    SLIDEWAY_HD static Mask<Real> left_stable_range(EnergyAudit<Real> const& audit, Real time,
+                                                    SliderCrankParameters<Real> const& p) {
+        Real const gap = max(p.length_scale_y, p.length_scale_z);
+        Real const gravity = sqrt(fma(p.gravity_x, p.gravity_x, p.gravity_y * p.gravity_y));
+        Real const acceleration = fma(p.crank_length, p.crank_speed * p.crank_speed, gravity);
+        EnergyScales<Real> const scale{Mechanism::energy_scale(p), p.slider_mass * acceleration * gap,
+                                       sqrt(gap / acceleration)};
+        return slideway::left_stable_range<Mechanism::conserving>(audit, scale, time);
+    }
 
     template <class Real>
     SLIDEWAY_HD static void linearise(Real t, Real const* state, SliderCrankParameters<Real> const& p,

@@ -12,6 +12,7 @@ public:
     static constexpr int integrals = 0, audit_integrals = 0;
     static constexpr int columns = kept;
 
+    static constexpr Selection audit_quantities = 0;
     SLIDEWAY_HD static constexpr bool needs_stages(Selection) { return false; }
     SLIDEWAY_HD static constexpr bool audits(Selection) { return false; }
     SLIDEWAY_HD static constexpr bool needs_reports(Selection) { return false; }
@@ -21,12 +22,12 @@ public:
     template <class Report> SLIDEWAY_FN void start(Mask<Real> fresh, Report const&, Real const*) {
         count_ = select(fresh, Real(0.0), count_);
     }
-    template <class Report>
-    SLIDEWAY_FN void accept(Mask<Real>, Real, Real const*, Report const&, Real const*) {}
+    template <class Report> SLIDEWAY_FN void accept(Mask<Real>, Real, Real const*, Report const&, Real const*) {}
 
     /// An event in the lanes of the mask.
     SLIDEWAY_HD void event(Mask<Real> at, int, Real, Real const* state) {
-        record(at, state[0]);
+        auto const recorded = at & (count_ >= Real(static_cast<double>(transient)));
+        if (any(recorded)) record(recorded, state[0]);
         count_ = count_ + slideway::count<Real>(at);
     }
 
@@ -50,7 +51,7 @@ private:
         for (int i = 0; i < lanes<Real>; ++i) {
             if (!holds(at, i)) continue;
             auto const place = static_cast<int>(lane(count_, i)) - transient;
-            if (place >= 0 && place < kept) set_lane(value_[place], i, lane(value, i));
+            if (place < kept) set_lane(value_[place], i, lane(value, i));
         }
     }
 

@@ -118,6 +118,7 @@ static_assert(sizeof(series_table) / sizeof(series_table[0]) == series_count);
 /// A set of quantities or series: bit i for entry i of the table.
 using Selection = std::uint32_t;
 constexpr bool selects(Selection set, Quantity q) { return (set >> static_cast<int>(q)) & 1u; }
+constexpr Selection selection_of(Quantity q) { return Selection{1} << static_cast<int>(q); }
 constexpr bool selects(Selection set, Series s) { return (set >> static_cast<int>(s)) & 1u; }
 
 /// First column of a quantity in a member's row of all quantities, which is `quantity_columns` wide.

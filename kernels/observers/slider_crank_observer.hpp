@@ -4,6 +4,7 @@
 
 #include "kernels/block.hpp"
 #include "kernels/mechanisms/slider_crank_report.hpp"
+#include "kernels/observers/energy_audit.hpp"
 #include "kernels/observers/quantities.hpp"
 #include "kernels/real.hpp"
 
@@ -14,8 +15,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// the accepted steps.
 template <class Real> class SliderCrankObserver {
 public:
-    /// Integrands: crank, friction and damping power, total force, torque², error², rod spin², eight apex forces.
-    static constexpr int integrals = 15;
+    /// Integrands: crank, friction and damping power, total force, torque², error², rod spin², eight apex forces, |crank power|.
+    static constexpr int integrals = 16;
     static constexpr int columns = quantity_columns;  // of a member's row
     /// The first of them are the energy audit's.
     static constexpr int audit_integrals = 3;
@@ -29,11 +30,12 @@ public:
         }
         return false;
     }
+    /// The quantities of the energy audit; any of them brings the whole of it along.
+    static constexpr Selection audit_quantities =
+        selection_of(Quantity::energy_residual) | selection_of(Quantity::crank_work) |
+        selection_of(Quantity::friction_loss) | selection_of(Quantity::damping_loss);
     /// Whether the audit's integrals are asked for and must meet the tolerance themselves.
-    SLIDEWAY_HD static constexpr bool audits(Selection q) {
-        return selects(q, Quantity::energy_residual) || selects(q, Quantity::crank_work) ||
-               selects(q, Quantity::friction_loss) || selects(q, Quantity::damping_loss);
-    }
+    SLIDEWAY_HD static constexpr bool audits(Selection q) { return (q & audit_quantities) != 0; }
     /// Whether a report is needed at the accepted steps.
     SLIDEWAY_HD static constexpr bool needs_reports(Selection q) { return q != 0; }
 
@@ -46,12 +48,13 @@ public:
         values[5] = r.position_error * r.position_error;
         values[6] = r.rod_spin * r.rod_spin;
         for (int apex = 0; apex < 8; ++apex) values[7 + apex] = r.contact.apex_force(apex);
+        values[15] = abs(r.crank_power);
     }
 
     /// Begins the members in the lanes of the mask.
     SLIDEWAY_FN void start(Mask<Real> fresh, SliderCrankReport<Real> const& r, Real const* state) {
         Real const zero(0.0);
-        for (auto* value : {&force_, &torque_, &error_, &spin_, &roll_, &yaw_, &pitch_, &onsets_}) {
+        for (auto* value : {&force_, &torque_, &error_, &spin_, &roll_, &yaw_, &pitch_, &onsets_, &potential_}) {
             *value = select(fresh, zero, *value);
         }
         for (auto& value : integral_) value = select(fresh, zero, value);
@@ -87,6 +90,11 @@ public:
     /// Integral of an integrand up to the last accepted step.
     SLIDEWAY_FN Real integral(int i) const { return integral_[i]; }
 
+    /// The energy audit up to the last accepted step, where it ran.
+    SLIDEWAY_FN EnergyAudit<Real> audit() const {
+        return {energy_ - start_energy_, integral_[0], integral_[1], integral_[2], integral_[15], potential_};
+    }
+
     /// Writes the selected quantities of one lane.  @param time [s] the member was integrated.
     SLIDEWAY_HD void finish(int index, double time, Selection selected, double* row) const {
         auto const put = [&](Quantity q, int column, double value) {
@@ -94,7 +102,7 @@ public:
         };
         double const mean = time > 0 ? 1 / time : 0;
         auto const total = [&](int i) { return lane(integral_[i], index); };
-        double const change = lane(energy_, index) - lane(start_energy_, index);
+        auto const energies = audit();
         put(Quantity::peak_normal_force, 0, lane(force_, index));
         put(Quantity::mean_normal_force, 0, total(3) * mean);
         for (int apex = 0; apex < 8; ++apex) {
@@ -103,11 +111,11 @@ public:
         }
         for (int i = 0; i < 4; ++i) put(Quantity::mode_time, i, lane(mode_time_[i], index));
         put(Quantity::contact_onsets, 0, lane(onsets_, index));
-        put(Quantity::energy_residual, 0, change - total(0) + total(1) + total(2));
-        put(Quantity::energy_change, 0, change);
-        put(Quantity::crank_work, 0, total(0));
-        put(Quantity::friction_loss, 0, total(1));
-        put(Quantity::damping_loss, 0, total(2));
+        put(Quantity::energy_residual, 0, lane(energies.residual(), index));
+        put(Quantity::energy_change, 0, lane(energies.change, index));
+        put(Quantity::crank_work, 0, lane(energies.crank_work, index));
+        put(Quantity::friction_loss, 0, lane(energies.friction_loss, index));
+        put(Quantity::damping_loss, 0, lane(energies.damping_loss, index));
         put(Quantity::peak_crank_torque, 0, lane(torque_, index));
         put(Quantity::rms_crank_torque, 0, sqrt(total(4) * mean));
         put(Quantity::peak_position_error, 0, lane(error_, index));
@@ -130,6 +138,7 @@ private:
     SLIDEWAY_FN void take_peaks(Mask<Real> lanes_taken, SliderCrankReport<Real> const& r, Real const* state) {
         auto const raise = [&](Real& peak, Real value) { peak = select(lanes_taken, max(value, peak), peak); };
         raise(force_, r.contact.total_force());
+        raise(potential_, r.contact.potential);
         for (int apex = 0; apex < 8; ++apex) raise(apex_[apex], r.contact.apex_force(apex));
         raise(torque_, abs(r.drive_torque));
         raise(error_, r.position_error);
@@ -143,7 +152,7 @@ private:
     Real apex_[8];
     Real mode_time_[4];
     Real force_, torque_, error_, spin_, roll_, yaw_, pitch_;
-    Real onsets_, mode_, start_energy_, energy_;
+    Real onsets_, mode_, start_energy_, energy_, potential_;
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

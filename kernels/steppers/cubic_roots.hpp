@@ -25,46 +25,70 @@ template <class Real> SLIDEWAY_FN Mask<Real> may_cross(Real v0, Real s0, Real v1
     return changes | ((v0 * s0 < zero) & (v1 * s1 > zero));
 }
 
+namespace detail {
+
+/// v0 + s0 θ + a θ² + b θ³ through the values and slopes at both ends of [0, 1].
+template <class Real> struct EventCubic {
+    Real v0, s0, a, b;
+
+    SLIDEWAY_FN static EventCubic through(Real v0, Real s0, Real v1, Real s1) {
+        Real const change = v1 - v0;
+        return {v0, s0, fms(Real(3.0), change, s0 + (s0 + s1)), fnma(Real(2.0), change, s0 + s1)};
+    }
+    SLIDEWAY_FN Real value(Real theta) const { return fma(theta, fma(theta, fma(theta, b, a), s0), v0); }
+    SLIDEWAY_FN Real slope(Real theta) const { return fma(theta, fma(theta, Real(3.0) * b, a + a), s0); }
+
+    /// Its zero in a stretch where it is monotone and changes its sign.  Newton's method, from the point of the stretch where it is
+    /// steepest: the inflection or the end next to it.  From there on it bends away from its tangents, so that no step goes
+    /// beyond the zero.  A lane stops when its own steps are small, what is left is of the order of their squares, and at a double
+    /// zero of their own.
+    SLIDEWAY_FN Real zero_within(Real low, Real high, Mask<Real> wanted) const {
+        auto const held = [&](Real theta) { return min(max(theta, low), high); };  // a NaN becomes low
+        Real theta = held(negated(a) / (Real(3.0) * b));
+        for (int steps = 0; steps < 40 && any(wanted); ++steps) {
+            Real const next = held(theta - value(theta) / slope(theta));
+            Real const move = abs(next - theta);
+            theta = select(wanted, next, theta);
+            wanted = wanted & (move > Real(1e-7));
+        }
+        return theta;
+    }
+};
+
+}  // namespace detail
+
 /// Zeros on [0, 1] of the cubic through the values and slopes at both ends, those that it crosses in the direction asked for.
 /// Between its extrema the cubic is monotone, so that no pair of zeros inside one step is missed.  A value of 0 counts as positive:
 /// a zero at the end of one step is found in that step or in the next, and once.
 /// @param candidate lanes that `may_cross`.
 template <class Real>
-SLIDEWAY_NOINLINE CubicZeros<Real> cubic_zeros(Mask<Real> candidate, Real v0, Real s0, Real v1, Real s1,
-                                               Direction direction) {
+SLIDEWAY_HD CubicZeros<Real> cubic_zeros(Mask<Real> candidate, Real v0, Real s0, Real v1, Real s1,
+                                         Direction direction) {
     Real const zero(0.0), one(1.0), absent(2.0);
     CubicZeros<Real> found;
     for (auto& z : found.at) z = {absent, zero, one, one};
     found.any = mask_of<Real>(false);
     auto const starts_positive = v0 >= zero, ends_positive = v1 >= zero;
-    // v0 + s0 θ + a θ² + b θ³, extrema at s0 + 2aθ + 3bθ² = 0.
-    Real const change = v1 - v0;
-    Real const a = fms(Real(3.0), change, s0 + (s0 + s1)), b = fnma(Real(2.0), change, s0 + s1);
-    auto const value = [&](Real theta) { return fma(theta, fma(theta, fma(theta, b, a), s0), v0); };
-    auto const slope = [&](Real theta) { return fma(theta, fma(theta, Real(3.0) * b, a + a), s0); };
-    Real const root = sqrt(max(fnma(Real(3.0) * b, s0, a * a), zero));
+    auto const cubic = detail::EventCubic<Real>::through(v0, s0, v1, s1);
+    // Extrema at s0 + 2aθ + 3bθ² = 0.
+    Real const a = cubic.a, triple = Real(3.0) * cubic.b;
+    Real const root = sqrt(max(fnma(triple, s0, a * a), zero));
     Real const q = negated(a + select(a < zero, negated(root), root));
     auto const within = [&](Real theta) { return select((theta > zero) & (theta < one), theta, zero); };  // NaN too
-    Real const e1 = within(q / (Real(3.0) * b)), e2 = within(s0 / q);
+    Real const e1 = within(q / triple), e2 = within(s0 / q);
     Real const ends[4] = {zero, min(e1, e2), max(e1, e2), one};
-    Mask<Real> positive[4] = {starts_positive, value(ends[1]) >= zero, value(ends[2]) >= zero, ends_positive};
+    Mask<Real> positive[4] = {starts_positive, cubic.value(ends[1]) >= zero, cubic.value(ends[2]) >= zero,
+                              ends_positive};
     positive[1] = (positive[1] & (ends[1] > zero)) | (starts_positive & !(ends[1] > zero));
     positive[2] = (positive[2] & (ends[2] > zero)) | (starts_positive & !(ends[2] > zero));
     for (int i = 0; i < 3; ++i) {
-        auto const falls = positive[i] & !positive[i + 1], rises = !positive[i] & positive[i + 1];
+        auto const falls = positive[i] & (!positive[i + 1]), rises = (!positive[i]) & positive[i + 1];
         auto const crosses = candidate & (direction == Direction::falling  ? falls
                                           : direction == Direction::rising ? rises
                                                                            : falls | rises);
         if (none(crosses)) continue;
-        Real low = ends[i], high = ends[i + 1];
-        for (int halvings = 0; halvings < 24; ++halvings) {  // the dense output does the rest
-            Real const middle = Real(0.5) * (low + high);
-            auto const same = (value(middle) >= zero) & positive[i];
-            auto const also = !(value(middle) >= zero) & !positive[i];
-            low = select(same | also, middle, low);
-            high = select(same | also, high, middle);
-        }
-        found.at[i] = {select(crosses, high, absent), ends[i], ends[i + 1], slope(high)};
+        Real const theta = cubic.zero_within(ends[i], ends[i + 1], crosses);
+        found.at[i] = {select(crosses, theta, absent), ends[i], ends[i + 1], cubic.slope(theta)};
         found.any = found.any | crosses;
     }
     return found;

@@ -15,7 +15,7 @@ template <class Tableau_, int count> struct ExplicitPair {
     /// State at which stage `s` evaluates the derivative: y + h Σ_j a_sj k_j.
     template <int s, int size, class Real>
     SLIDEWAY_FN static void stage_state(Real const* y, Real const (*k)[size], Real h, Real* at) {
-        for (int i = 0; i < size; ++i) at[i] = fma(h, weighted<s, 0>(k, i), y[i]);
+        for (int i = 0; i < size; ++i) at[i] = fma(h, weighted<s>(k, i), y[i]);
     }
 
     /// Σ_j e_j k_j of one component: the error estimate is h times this.
@@ -24,14 +24,20 @@ template <class Tableau_, int count> struct ExplicitPair {
     }
 
 private:
-    template <int s, int j, int size, class Real> SLIDEWAY_FN static Real weighted(Real const (*k)[size], int i) {
-        constexpr double a = Tableau{}.a[s][j];
-        if constexpr (j + 1 == s) {
-            return Real(a) * k[j][i];
-        } else if constexpr (a == 0) {
-            return weighted<s, j + 1>(k, i);
+    template <int s, int size, class Real> SLIDEWAY_FN static Real weighted(Real const (*k)[size], int i) {
+        constexpr int first = Tableau{}.a[s][0] != 0 ? 0 : 1;
+        return weighted<s, first + 1>(k, i, Real(Tableau{}.a[s][first]) * k[first][i]);
+    }
+
+    // The newest slope comes last, for the sum waits for it alone.
+    template <int s, int j, int size, class Real>
+    SLIDEWAY_FN static Real weighted(Real const (*k)[size], int i, Real sum) {
+        if constexpr (j == s) {
+            return sum;
         } else {
-            return fma(Real(a), k[j][i], weighted<s, j + 1>(k, i));
+            constexpr double a = Tableau{}.a[s][j];
+            if constexpr (a != 0) sum = fma(Real(a), k[j][i], sum);
+            return weighted<s, j + 1>(k, i, sum);
         }
     }
 

@@ -2,37 +2,36 @@
 
 #include "kernels/joint/contact_report.hpp"
 #include "kernels/real.hpp"
+#include "kernels/steppers/gap_history.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// Finds where apex–face pairs touch inside an accepted step, so that steps end there, and keeps the speeds of touch that
 /// restitution needs (model.md 4: v0 changes only at accepted touch events).
-template <class Real> class TouchLocator {
+template <class Real> class TouchLocator : public GapHistory<Real> {
 public:
     /// Depth [clearances] up to which a new touch counts as located: below it the contact force is nil.
     static constexpr double tolerance = 1e-8;
 
-    /// Remembers the gaps at the start of the next step.
-    SLIDEWAY_FN void keep(Mask<Real> taken, ContactReport<Real> const& r) {
-        for (int face = 0; face < face_count; ++face) {
-            keep(taken, r.penetration[face], start_depth_[face]);
-            keep(taken, r.rate[face], start_rate_[face]);
-        }
+    /// What the first step starts from.
+    SLIDEWAY_FN void begin(Mask<Real> fresh, ContactReport<Real> const& r, ImpactMemory<Real>&) {
+        this->keep(fresh, r);
     }
 
     /// Fraction of the step at which the first pair touches, 1 where none touches before the end or the end is the touch.
-    SLIDEWAY_FN Real earliest(Mask<Real> candidates, ContactReport<Real> const& end, Real step, Real clearance) const {
+    SLIDEWAY_FN Real earliest(Mask<Real> candidates, ContactReport<Real> const& end, Real step, Real clearance,
+                              ImpactMemory<Real> const&) const {
         Real fraction(1.0);
         Real const located = clearance * Real(tolerance);
         for (int face = 0; face < face_count; ++face) {
-            auto const& d0 = start_depth_[face];
-            auto const& v0 = start_rate_[face];
+            auto const& d0 = this->start_depth_[face];
+            auto const& v0 = this->start_rate_[face];
             auto const& d1 = end.penetration[face];
             auto const& v1 = end.rate[face];
-            fraction = min(fraction, crossing(candidates, d0.a, v0.a, d1.a, v1.a, step, located));
-            fraction = min(fraction, crossing(candidates, d0.b, v0.b, d1.b, v1.b, step, located));
-            fraction = min(fraction, crossing(candidates, d0.c, v0.c, d1.c, v1.c, step, located));
-            fraction = min(fraction, crossing(candidates, d0.d, v0.d, d1.d, v1.d, step, located));
+            fraction = min(fraction, touching_at(candidates, d0.a, v0.a, d1.a, v1.a, step, located));
+            fraction = min(fraction, touching_at(candidates, d0.b, v0.b, d1.b, v1.b, step, located));
+            fraction = min(fraction, touching_at(candidates, d0.c, v0.c, d1.c, v1.c, step, located));
+            fraction = min(fraction, touching_at(candidates, d0.d, v0.d, d1.d, v1.d, step, located));
         }
         return fraction;
     }
@@ -41,7 +40,7 @@ public:
     SLIDEWAY_FN Mask<Real> update(Mask<Real> accepted, ContactReport<Real> const& end, ImpactMemory<Real>& memory) {
         auto touched = mask_of<Real>(false);
         for (int face = 0; face < face_count; ++face) {
-            auto const& d0 = start_depth_[face];
+            auto const& d0 = this->start_depth_[face];
             auto const& d1 = end.penetration[face];
             auto const& v1 = end.rate[face];
             auto& speed = memory.speeds[face];
@@ -49,14 +48,15 @@ public:
             auto const c = touch(accepted, d0.c, d1.c, v1.c, speed.c), d = touch(accepted, d0.d, d1.d, v1.d, speed.d);
             touched = touched | a | b | c | d;
         }
-        keep(accepted, end);
+        this->keep(accepted, end);
         return touched;
     }
 
 private:
-    SLIDEWAY_FN static void keep(Mask<Real> taken, Quad<Real> const& from, Quad<Real>& to) {
-        to = {select(taken, from.a, to.a), select(taken, from.b, to.b), select(taken, from.c, to.c),
-              select(taken, from.d, to.d)};
+    SLIDEWAY_FN static Real touching_at(Mask<Real> candidates, Real d0, Real v0, Real d1, Real v1, Real step,
+                                        Real located) {
+        auto const crosses = candidates & (d0 <= Real(0.0)) & (d1 > located);
+        return GapHistory<Real>::crossing(crosses, d0, v0, d1, v1, step, Real(0.5) * located);
     }
 
     SLIDEWAY_FN static Mask<Real> touch(Mask<Real> accepted, Real before, Real after, Real rate, Real& speed) {
@@ -64,30 +64,6 @@ private:
         speed = select(touched, max(rate, Real(least_impact_speed)), speed);
         return touched;
     }
-
-    /// Where the cubic through both ends' depths and rates reaches half the tolerance, by bisection under a mask.
-    SLIDEWAY_FN static Real crossing(Mask<Real> candidates, Real d0, Real v0, Real d1, Real v1, Real step,
-                                     Real located) {
-        Real const one(1.0), half(0.5);
-        auto const crosses = candidates & (d0 <= Real(0.0)) & (d1 > located);
-        if (none(crosses)) return one;
-        Real const target = half * located;
-        Real const change = d1 - d0;
-        Real const start = fms(step, v0, change);
-        Real const end = fnma(step, v1, change) - start;
-        Real low(0.0), high(1.0);
-        for (int i = 0; i < 48; ++i) {
-            Real const middle = half * (low + high);
-            Real const rest = one - middle;
-            Real const depth = fma(middle, fma(rest, fma(middle, end, start), change), d0);
-            auto const below = depth < target;
-            low = select(below, middle, low);
-            high = select(below, high, middle);
-        }
-        return select(crosses, min(high, Real(0.999)), one);
-    }
-
-    Quad<Real> start_depth_[face_count], start_rate_[face_count];
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -13,6 +13,7 @@ template <class Model> void linearise_all(LinearisationRow const* rows, std::siz
     constexpr int width = lanes<Real>;
     SliderCrankParameters<Real> p;
     typename Model::template Memory<Real> memory;
+    start_memory(memory);
     if constexpr (Model::has_memory) {
         for (auto& face : memory.speeds) face.a = face.b = face.c = face.d = Real(0.01);
     }

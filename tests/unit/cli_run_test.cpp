@@ -1,5 +1,6 @@
 #include "cli_process.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstring>
@@ -60,6 +61,42 @@ TEST_F(Run, SaysNothingOfMadeEnergyUnderTheConservativeLaw) {
     Outcome const outcome = run_scene({"--set", "contact.law=conservative"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(outcome.out.find("Mode switching"), std::string::npos);
+}
+
+TEST_F(Run, SaysThatAFixedStepIsTooLong) {
+    // The slider meets its way within 5 ms only where it starts close to it; the linear limit is 7e-6 s.
+    std::vector<std::string> options{"--max-failures", "100%",
+                                     "--set",          "contact.law=conservative",
+                                     "--set",          "study.duration=0.1 s",
+                                     "--set",          "study.quantities=[]",
+                                     "--set",          "integrator.method=rk4",
+                                     "--set",          "integrator.step=20 us"};
+    Outcome const outcome = run_scene(options);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    auto const from = outcome.out.find("rk4 with a step of 2e-05 s failed in ");
+    ASSERT_NE(from, std::string::npos) << outcome.out;
+    std::string const line = outcome.out.substr(from, outcome.out.find('\n', from) - from);
+    EXPECT_NE(line.find("unstable by the energy residual"), std::string::npos) << line;
+    EXPECT_NE(line.find("use a smaller integrator.step"), std::string::npos) << line;
+    ResultReader const file = results("s.nc");
+    auto const status = file.values("status"), residual = file.values("energy_residual");
+    EXPECT_GT(std::count(status.begin(), status.end(), static_cast<double>(Status::unstable)), 18);
+    // Their results are kept.
+    for (std::size_t i = 0; i < status.size(); ++i) {
+        if (status[i] != static_cast<double>(Status::unstable)) continue;
+        EXPECT_TRUE(std::isfinite(residual[i]));
+        EXPECT_EQ(file.values("end_time")[i], 0.1);
+    }
+    EXPECT_EQ(run_scene({}).out.find("failed in"), std::string::npos);
+}
+
+TEST_F(Run, ShowsTheResidualOfAMethodThatDoesNotSeeItsLosses) {
+    std::vector<std::string> options{"--max-failures",           "100%",  "--set",
+                                     "contact.law=conservative", "--set", "study.quantities=[]"};
+    EXPECT_EQ(run_scene(options).out.find("energy_residual"), std::string::npos);
+    options.insert(options.end(), {"--set", "integrator.method=ros34pw2"});
+    Outcome const outcome = run_scene(options);
+    EXPECT_NE(outcome.out.find("energy_residual"), std::string::npos) << outcome.err;
 }
 
 TEST_F(Run, GivesTheSameNumbersWithAnyThreads) {

@@ -256,14 +256,14 @@ TEST(Blocks, AreMultiplesOfTheLanesAndGiveEveryThreadWork) {
                 std::size_t const size = default_block_members(members, threads, lanes);
                 EXPECT_EQ(size % static_cast<std::size_t>(lanes), 0u);
                 EXPECT_GE(size, 1u);
-                EXPECT_LE(size, 128u);
+                EXPECT_LE(size, 512u);
             }
         }
     }
-    EXPECT_EQ(default_block_members(1024, 4, 8), 64u);    // four blocks for each thread
+    EXPECT_EQ(default_block_members(1024, 4, 8), 128u);   // two blocks for each thread
     EXPECT_EQ(default_block_members(256, 2, 8), 64u);     // eight members for each lane
     EXPECT_EQ(default_block_members(32, 4, 8), 8u);       // every thread gets one
-    EXPECT_EQ(default_block_members(1000000, 4, 8), 128u);
+    EXPECT_EQ(default_block_members(1000000, 4, 8), 512u);
 }
 
 }  // namespace

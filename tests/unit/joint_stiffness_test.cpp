@@ -25,7 +25,8 @@ using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
 /// Contacts without force: what is left of the derivative is not the joint's.
 struct Forceless {
-    template <class Damping, class Real>
+    static constexpr bool switches = false;
+    template <class Damping, bool Full = true, class Real>
     static FaceForces<Real> forces(FaceMotion<Real> const&, FaceContact<Real> const&, ContactParameters<Real> const&) {
         return {{0, 0, 0, 0}, {0, 0, 0, 0}, 0, false};
     }
@@ -38,6 +39,7 @@ public:
     using Free = SliderCrank<Forceless, Friction, Way, Damping>;
 
     explicit Linearised(oracle::Case const& c) : c_(c), p_(Model::parameters(c.inputs)) {
+        start_memory(memory_);
         if constexpr (Model::has_memory) {
             for (int face = 0; face < face_count; ++face) {
                 auto const speed = [&](int k) {
@@ -60,7 +62,9 @@ public:
     [[nodiscard]] Vector5 contact_force(oracle::State const& state) const {
         double with[10], without[10];
         Model::template derivative<false, double>(c_.t, state.data(), p_, memory_, with, nullptr);
-        Free::template derivative<false, double>(c_.t, state.data(), p_, memory_, without, nullptr);
+        typename Free::template Memory<double> memory;
+        start_memory(memory);
+        Free::template derivative<false, double>(c_.t, state.data(), p_, memory, without, nullptr);
         Vector5 a;
         for (int i : {0, 1, 2, 3, 4}) a(i) = with[place(i)] - without[place(i)];
         // The forces see the pose's own κ; it hardly changes over a difference.

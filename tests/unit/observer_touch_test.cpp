@@ -54,8 +54,8 @@ TEST(TouchLocator, FindsWhereAnyPairMeetsItsFace) {
         depth(start, p) = -gap, rate(start, p) = v;
         depth(end, p) = -gap + v * step + 0.5 * b * step * step, rate(end, p) = v + b * step;
         touches.keep(true, start);
-        EXPECT_NEAR(touches.earliest(true, end, step, clearance), touch / step, 1e-6) << p.face;
-        EXPECT_EQ(touches.earliest(false, end, step, clearance), 1.0) << "a rejected lane is not searched";
+        EXPECT_NEAR(touches.earliest(true, end, step, clearance, memory_of(0.05)), touch / step, 1e-6) << p.face;
+        EXPECT_EQ(touches.earliest(false, end, step, clearance, memory_of(0.05)), 1.0) << "a rejected lane is not searched";
     }
 }
 
@@ -69,7 +69,7 @@ TEST(TouchLocator, TakesTheFirstOfSeveral) {
         depth(start, all[i]) = -1e-5, depth(end, all[i]) = 3e-5, rate(start, all[i]) = rate(end, all[i]) = 4e-5;
         depth(start, other) = -1e-5, depth(end, other) = 1e-5, rate(start, other) = rate(end, other) = 2e-5;
         touches.keep(true, start);
-        EXPECT_NEAR(touches.earliest(true, end, 1.0, clearance), 0.25, 1e-6);
+        EXPECT_NEAR(touches.earliest(true, end, 1.0, clearance, memory_of(0.05)), 0.25, 1e-6);
     }
 }
 
@@ -80,9 +80,9 @@ TEST(TouchLocator, LeavesAStepThatEndsAtItsTouch) {
     auto const p = pairs()[5];
     rate(end, p) = 0.1;
     depth(end, p) = 0.9 * TouchLocator<double>::tolerance * clearance;
-    EXPECT_EQ(touches.earliest(true, end, 1e-3, clearance), 1.0);
+    EXPECT_EQ(touches.earliest(true, end, 1e-3, clearance, memory_of(0.05)), 1.0);
     depth(end, p) = 1.1 * TouchLocator<double>::tolerance * clearance;
-    EXPECT_LT(touches.earliest(true, end, 1e-3, clearance), 1.0);
+    EXPECT_LT(touches.earliest(true, end, 1e-3, clearance, memory_of(0.05)), 1.0);
 }
 
 TEST(TouchLocator, SetsTheSpeedOfThePairThatTouched) {

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "kernels/mechanisms/event_info.hpp"
+#include "kernels/mechanisms/faults.hpp"
+#include "kernels/mechanisms/no_memory.hpp"
+#include "kernels/observers/event_recorder.hpp"
+#include "kernels/real.hpp"
+#include "kernels/steppers/no_watch.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// What a small model of `components` states leaves at its plainest (kernels/integrate.hpp).
+template <int components> struct PlainModel {
+    static constexpr int size = components;
+    static constexpr int series = components;
+    static constexpr int events = 0;
+    static constexpr bool has_memory = false, can_hold = false;
+    static constexpr bool has_patterns = false;
+    static constexpr bool has_linearisation = false;
+    template <class Real> struct Report {};
+    template <class Real> using Memory = NoMemory<Real>;
+    template <class Real> using Observer = EventRecorder<Real, 0, 0>;
+    template <class Real> using Watch = NoWatch<Real>;
+
+    template <class Parameters, class Real> SLIDEWAY_FN static void scales(Parameters const&, Real* scale) {
+        for (int i = 0; i < size; ++i) scale[i] = Real(1.0);
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

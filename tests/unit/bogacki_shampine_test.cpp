@@ -1,0 +1,88 @@
+#include "kernels/steppers/bogacki_shampine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace slideway {
+namespace {
+
+TEST(BogackiShampine, SatisfiesEveryOrderConditionUpToThree) {
+    BogackiShampineTableau const w;
+    double sum[2][4] = {};  // of b and e: Σ w, Σ w c, Σ w c², Σ w A c
+    for (int i = 0; i < 4; ++i) {
+        double row = 0, ac = 0;
+        for (int j = 0; j < i; ++j) row += w.a[i][j], ac += w.a[i][j] * w.c[j];
+        EXPECT_NEAR(row, w.c[i], 1e-15) << i;
+        double const tree[4] = {1, w.c[i], w.c[i] * w.c[i], ac};
+        for (int k = 0; k < 4; ++k) sum[0][k] += w.b[i] * tree[k], sum[1][k] += w.e[i] * tree[k];
+    }
+    double const want[4] = {1, 1.0 / 2, 1.0 / 3, 1.0 / 6};
+    for (int k = 0; k < 4; ++k) EXPECT_NEAR(sum[0][k], want[k], 1e-15) << k;
+    // The embedded method has order 2 and no more, else there would be no estimate.
+    EXPECT_NEAR(sum[1][0], 0, 1e-16);
+    EXPECT_NEAR(sum[1][1], 0, 1e-16);
+    EXPECT_GT(std::abs(sum[1][2]) + std::abs(sum[1][3]), 0.01);
+    for (int j = 0; j < 3; ++j) EXPECT_EQ(w.a[3][j], w.b[j]) << "the last stage is the first of the next step";
+}
+
+/// x'' = −x as a system; one step of h with its stage derivatives.
+struct Oscillator {
+    double y[2] = {1, 0}, end[2], k[4][2];
+
+    void step(double h) {
+        auto const f = [](double const* s, double* d) { d[0] = s[1], d[1] = -s[0]; };
+        double at[2];
+        f(y, k[0]);
+        BogackiShampine::stage_state<1>(y, k, h, at), f(at, k[1]);
+        BogackiShampine::stage_state<2>(y, k, h, at), f(at, k[2]);
+        BogackiShampine::stage_state<3>(y, k, h, end), f(end, k[3]);
+    }
+};
+
+double order(auto const& error) { return std::log2(error(0.02) / error(0.01)); }
+
+TEST(BogackiShampine, HasOrderThreeOnAnOscillator) {
+    EXPECT_NEAR(order([](double h) {
+                    Oscillator o;
+                    for (int i = 0; i < static_cast<int>(std::lround(4 / h)); ++i) {
+                        o.step(h);
+                        o.y[0] = o.end[0], o.y[1] = o.end[1];
+                    }
+                    return std::hypot(o.y[0] - std::cos(4.0), o.y[1] + std::sin(4.0));
+                }),
+                3, 0.1);
+}
+
+TEST(BogackiShampine, EstimatesTheErrorOfItsOrderTwoCompanion) {
+    // A local error of order 2 falls with h³.
+    EXPECT_NEAR(order([](double h) {
+                    Oscillator o;
+                    o.step(h);
+                    return std::hypot(h * BogackiShampine::error_slope(o.k, 0), h * BogackiShampine::error_slope(o.k, 1));
+                }),
+                3, 0.1);
+}
+
+TEST(BogackiShampine, DenseOutputHasOrderThreeInsideTheStepAndMeetsBothEnds) {
+    for (double const theta : {0.2, 0.5, 0.9}) {
+        EXPECT_NEAR(order([theta](double h) {
+                        Oscillator o;
+                        o.step(h);
+                        double const x = BogackiShampine::dense(o.k, 0, o.y[0], o.end[0], h, theta);
+                        double const v = BogackiShampine::dense(o.k, 1, o.y[1], o.end[1], h, theta);
+                        return std::hypot(x - std::cos(theta * h), v + std::sin(theta * h));
+                    }),
+                    4, 0.2)
+            << theta;
+    }
+    Oscillator o;
+    o.step(0.3);
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_EQ(BogackiShampine::dense(o.k, i, o.y[i], o.end[i], 0.3, 0.0), o.y[i]);
+        EXPECT_NEAR(BogackiShampine::dense(o.k, i, o.y[i], o.end[i], 0.3, 1.0), o.end[i], 1e-16);
+    }
+}
+
+}  // namespace
+}  // namespace slideway

@@ -1,0 +1,81 @@
+// Steps that end where the paper's law changes its mode: the stepper keeps its order through the jumps of the force.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "tests/support/ensemble.hpp"
+
+namespace slideway {
+namespace {
+
+// Two to four impacts; later the orbits part too fast for states to be compared.
+constexpr double horizon = 0.009;
+
+testing::EnsembleResult run_switching(double tolerance, bool located, Isa isa = best_isa()) {
+    testing::RunOptions o;
+    o.parts.friction = true;
+    o.settings.method = Method::dopri5;
+    o.settings.rtol = o.settings.atol = tolerance;
+    o.settings.end_time = horizon;
+    o.settings.locate_modes = located;
+    o.quantities = 0;
+    return testing::run(isa, o, testing::scattered_starts(64));
+}
+
+/// Median over the members of the largest state error against the reference, in c, c·ω, 2c/L_k and 2c/L_k·ω.
+double median_error(testing::EnsembleResult const& got, testing::EnsembleResult const& reference) {
+    double const c = 1e-4, tilt = 5e-3, w = 3.14;
+    std::array<double, state_size> const scale{c, c, c * w, c * w, tilt, tilt, tilt, tilt * w, tilt * w, tilt * w};
+    std::vector<double> errors;
+    for (std::size_t m = 0; m < got.states.size(); ++m) {
+        double error = 0;
+        for (std::size_t i = 0; i < state_size; ++i) {
+            double const size = std::max(scale[i], std::abs(reference.states[m][i]));
+            error = std::max(error, std::abs(got.states[m][i] - reference.states[m][i]) / size);
+        }
+        errors.push_back(error);
+    }
+    std::nth_element(errors.begin(), errors.begin() + 32, errors.end());
+    return errors[32];
+}
+
+double evaluations(testing::EnsembleResult const& r) {
+    double sum = 0;
+    for (auto const& record : r.records) sum += static_cast<double>(record.rhs_evaluations);
+    return sum;
+}
+
+TEST(LocatedModes, ComeToTheSameOrbitsAsStepsThatLeapOverTheJumps) {
+    auto const located = run_switching(1e-12, true), leapt = run_switching(1e-12, false);
+    EXPECT_LT(median_error(located, leapt), 1e-7);
+}
+
+TEST(LocatedModes, AreWorthATenthOfTheErrorAndSaveRightHandSides) {
+    auto const reference = run_switching(1e-13, true);
+    for (double const tolerance : {1e-5, 1e-6, 1e-7}) {
+        auto const located = run_switching(tolerance, true), leapt = run_switching(tolerance, false);
+        EXPECT_LT(median_error(located, reference), 0.25 * median_error(leapt, reference)) << tolerance;
+        EXPECT_LT(evaluations(located), 0.85 * evaluations(leapt)) << tolerance;
+    }
+}
+
+TEST(LocatedModes, LetTheErrorFallAsTheOrderOfTheMethodSays) {
+    // With step control error ~ tolerance^(1) and work ~ tolerance^(-1/5): the error falls with the fifth power of the work
+    // beyond what the events cost, which does not grow.
+    auto const reference = run_switching(1e-13, true);
+    auto const coarse = run_switching(1e-7, true), fine = run_switching(1e-11, true);
+    double const order = std::log(median_error(coarse, reference) / median_error(fine, reference)) /
+                         std::log(evaluations(fine) / evaluations(coarse));
+    EXPECT_GT(order, 4.5);
+}
+
+TEST(LocatedModes, AreTheSameOnEveryInstructionSet) {
+    auto const scalar = run_switching(1e-8, true, testing::fma_isas().front());
+    for (Isa const isa : testing::fma_isas()) EXPECT_EQ(run_switching(1e-8, true, isa).states, scalar.states);
+}
+
+}  // namespace
+}  // namespace slideway

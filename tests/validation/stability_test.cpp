@@ -1,0 +1,191 @@
+// A method outside its stable range says so; one inside is never accused (docs/stability.md).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "host/scene/scene.hpp"
+#include "tests/support/ensemble.hpp"
+
+namespace slideway {
+namespace {
+
+constexpr Selection audit = selection_of(Quantity::energy_residual);
+
+/// The slider on its lower face, pressed so hard that it stays there, with a little rocking: a linear oscillation.
+/// The crank is at rest and nothing rubs or damps, so the rocking frequency is √(k (L_k/2)² / I_z), k = E_s L_k w_b / l_a.
+struct Rocking {
+    Inputs inputs;
+    double rate;  // Ω [rad/s]
+
+    Rocking() {
+        Inputs in;
+        in.crank_speed = 0;
+        in.eta = 0;
+        in.gravity = 1e4;
+        in = complete_inputs(in);
+        double const stiffness = in.slider_young_modulus * in.slider_length * in.way_depth / in.thickness_y;
+        double const weight = (in.slider_mass + in.rod_mass * in.rod_mass_center) * in.gravity;
+        double const depth = weight / stiffness, lever = in.slider_length / 2;
+        in.y = -in.clearance_y - depth;
+        rate = std::sqrt(stiffness * lever * lever / in.slider_inertia_z);
+        in.wz = 0.01 * depth / lever * rate;  // the ends move by a hundredth of the depth
+        inputs = in;
+    }
+
+    /// Status under rk4 with a step of `fraction` of the linear limit 2√2/Ω.
+    MemberRecord run(double fraction, Selection quantities) const {
+        testing::RunOptions o;
+        o.parts = {Law::paper, Damping::point, false, false};
+        o.settings.method = Method::rk4;
+        o.settings.fixed_step = fraction * 2 * std::numbers::sqrt2 / rate;
+        o.settings.end_time = 2e-3;
+        o.quantities = quantities;
+        return testing::run(best_isa(), o, {inputs}).records[0];
+    }
+};
+
+TEST(FixedStep, IsStableUpToTheLinearLimit) {
+    Rocking const rocking;
+    for (double const fraction : {0.25, 0.5, 0.9}) {
+        EXPECT_EQ(rocking.run(fraction, 0).status, Status::finished) << fraction;
+    }
+    for (double const fraction : {1.1, 1.5, 2.0}) {
+        EXPECT_NE(rocking.run(fraction, 0).status, Status::finished) << fraction;
+    }
+}
+
+TEST(FixedStep, IsJudgedWhateverIsAskedFor) {
+    // The same steps and the same verdict with no quantity, with the audit and with one that is none of the audit's.
+    for (Law const law : {Law::paper, Law::conservative}) {
+        testing::RunOptions o;
+        o.parts = {law, Damping::rate, true, false};
+        o.settings.method = Method::rk4;
+        o.settings.fixed_step = 1.8e-5;
+        o.settings.end_time = 0.05;
+        auto const members = testing::scattered_starts(11);
+        o.quantities = audit;
+        auto const expected = testing::run(best_isa(), o, members);
+        for (Selection const quantities : {Selection{0}, selection_of(Quantity::peak_tilt)}) {
+            o.quantities = quantities;
+            auto const got = testing::run(best_isa(), o, members);
+            for (std::size_t i = 0; i < members.size(); ++i) {
+                EXPECT_EQ(got.records[i].status, expected.records[i].status);
+                EXPECT_EQ(got.states[i], expected.states[i]);
+            }
+        }
+    }
+}
+
+/// Members of each status.
+std::array<int, status_count> count_ends(testing::EnsembleResult const& r) {
+    std::array<int, status_count> ended{};
+    for (auto const& record : r.records) ++ended[static_cast<std::size_t>(record.status)];
+    return ended;
+}
+
+int count_of(std::array<int, status_count> const& ended, Status status) {
+    return ended[static_cast<std::size_t>(status)];
+}
+
+class FixedStepInImpacts : public ::testing::TestWithParam<Law> {
+protected:
+    /// Falling starts, 0.1 s; @param fraction of the linear limit of a slider that rocks on its lower face.
+    std::array<int, status_count> run(double fraction) const {
+        testing::RunOptions o;
+        o.parts = {GetParam(), Damping::rate, true, false};
+        o.settings.method = Method::rk4;
+        o.settings.fixed_step = fraction * 2 * std::numbers::sqrt2 / Rocking().rate;
+        o.settings.end_time = 0.1;
+        o.quantities = 0;
+        return count_ends(testing::run(best_isa(), o, testing::scattered_starts(members)));
+    }
+    static constexpr int members = 16;
+};
+
+TEST_P(FixedStepInImpacts, OfHalfTheLimitFinishes) { EXPECT_EQ(count_of(run(0.5), Status::finished), members); }
+
+TEST_P(FixedStepInImpacts, BeyondTheLimitIsToldFromAResult) {
+    auto const twice = run(2), thrice = run(3), tenfold = run(10);
+    if (GetParam() == Law::conservative) {
+        EXPECT_EQ(count_of(twice, Status::unstable), members) << "all reach the end, and none is believed";
+    } else {
+        EXPECT_LE(count_of(twice, Status::finished), members / 2) << "the law itself makes energy, which hides some";
+    }
+    for (auto const& ended : {thrice, tenfold}) {
+        EXPECT_LE(count_of(ended, Status::finished), GetParam() == Law::conservative ? 0 : 1);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, FixedStepInImpacts, ::testing::Values(Law::paper, Law::conservative),
+                         [](auto const& p) { return std::string(p.param == Law::paper ? "paper" : "conservative"); });
+
+TEST(StiffMethodAlone, IsFlaggedWhereAnImpactCostItEnergy) {
+    testing::RunOptions o;
+    o.parts = {Law::conservative, Damping::rate, true, false};
+    o.settings.method = Method::ros34pw2;
+    o.settings.end_time = 0.02;  // one to three impacts
+    o.quantities = testing::all_quantities;
+    auto const r = testing::run(best_isa(), o, testing::scattered_starts(64));
+    int flagged = 0;
+    for (std::size_t i = 0; i < r.records.size(); ++i) {
+        double const burnt = r.value(i, Quantity::friction_loss) + std::abs(r.value(i, Quantity::damping_loss));
+        bool const lost = std::abs(r.value(i, Quantity::energy_residual)) > 0.3 * burnt;
+        if (lost) EXPECT_EQ(r.records[i].status, Status::unstable) << i;
+        flagged += r.records[i].status == Status::unstable;
+    }
+    EXPECT_GT(flagged, 0);
+    // dopri5 makes the same falls without.
+    o.settings.method = Method::dopri5;
+    EXPECT_EQ(count_of(count_ends(testing::run(best_isa(), o, testing::scattered_starts(64))), Status::unstable), 0);
+}
+
+TEST(AdaptiveMethods, AreNeverAccused) {
+    for (Law const law : {Law::paper, Law::conservative}) {
+        for (Method const method : {Method::automatic, Method::dopri5, Method::bs32}) {
+            for (double const tolerance : {1e-3, 1e-6}) {
+                for (auto const& [clearance, speed] :
+                     {std::pair{1e-4, 3.14}, {5e-4, 47.0}, {1e-4, 0.0}, {5e-3, 500.0}}) {
+                    testing::RunOptions o;
+                    o.parts = {law, Damping::point, true, false};
+                    o.settings.method = method;
+                    o.settings.rtol = o.settings.atol = tolerance;
+                    o.settings.end_time = 0.02;
+                    o.quantities = audit;
+                    auto const r = testing::run(best_isa(), o, testing::scattered_starts(16, clearance, speed));
+                    EXPECT_EQ(count_of(count_ends(r), Status::finished), 16)
+                        << name_of(method) << " at " << tolerance << ", " << clearance << " m, " << speed << " rad/s";
+                }
+            }
+        }
+    }
+}
+
+TEST(Scenes, AreNeverAccused) {
+    for (auto const& entry : std::filesystem::directory_iterator(SLIDEWAY_SCENES)) {
+        for (char const* const law : {"paper", "conservative"}) {
+            for (char const* const method : {"auto", "dopri5"}) {
+                Scene const scene =
+                    read_scene(entry.path().string(), {{"contact.law", law}, {"integrator.method", method}});
+                testing::RunOptions o;
+                o.parts = scene.parts;
+                o.settings = scene.integrator;
+                o.settings.end_time = std::min(o.settings.end_time, 0.1);
+                o.quantities = scene.quantities | audit;
+                std::vector<Inputs> members;
+                for (std::uint64_t i = 0; i < std::min<std::uint64_t>(scene.members, 32); ++i) {
+                    members.push_back(member_inputs(scene, i));
+                }
+                auto const ended = count_ends(testing::run(best_isa(), o, members));
+                EXPECT_EQ(count_of(ended, Status::finished), static_cast<int>(members.size()))
+                    << entry.path() << " " << law << " " << method;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace slideway
