@@ -32,6 +32,10 @@ void expect_equal(Scene const& a, Scene const& b) {
     EXPECT_EQ(a.integrator.atol, b.integrator.atol);
     EXPECT_EQ(a.integrator.end_time, b.integrator.end_time);
     EXPECT_EQ(a.integrator.max_step, b.integrator.max_step);
+    EXPECT_EQ(a.integrator.stiff_tolerance, b.integrator.stiff_tolerance);
+    EXPECT_EQ(a.integrator.stiff_max_step, b.integrator.stiff_max_step);
+    EXPECT_EQ(a.integrator.fixed_step, b.integrator.fixed_step);
+    EXPECT_EQ(a.integrator.locate_modes, b.integrator.locate_modes);
     EXPECT_EQ(a.integrator.max_steps, b.integrator.max_steps);
     EXPECT_EQ(a.study, b.study);
     EXPECT_EQ(a.members, b.members);
@@ -118,7 +122,7 @@ TEST(ResolvedScene, NumbersAreInSiUnits) {
                                                     "crank_speed = \"3.141592653589793 rad/s\""));
     EXPECT_TRUE(contains(text, "clearance_y = 0.0001  # m\n"));
     EXPECT_TRUE(contains(text, "crank_speed = 3.141592653589793  # rad/s\n"));
-    EXPECT_TRUE(contains(text, "method = \"dopri5\"\n"));
+    EXPECT_TRUE(contains(text, "method = \"auto\"\n"));
     EXPECT_TRUE(contains(text, "# slider_mass = 0.1872  # kg, follows from other keys\n"))  << text;
 }
 
