@@ -22,13 +22,15 @@ public:
         : equations_(equations),
           controlled_(boost::numeric::odeint::make_controlled(tolerance, tolerance, Stepper())) {}
 
-    /// The events of the orbit from `start`, after the transient ones.
+    /// The events of the orbit from `start`, after the transient ones; fewer if it comes neither to them nor, at a coarse tolerance,
+    /// to rest.
     ValveOrbit run(State const& start) {
         y_ = start;
         auto const rates = rates_counter();
         rates(y_, dy_, Number(0));
         Number step(1e-3);
-        for (std::size_t seen = 0; seen < valve_transient_events + valve_recorded_events;) {
+        for (std::size_t seen = 0;
+             seen < valve_transient_events + valve_recorded_events && orbit_.steps < most_steps;) {
             Number time(0);
             while (controlled_.try_step(rates, y_, dy_, time, end_, step) != boost::numeric::odeint::success) {}
             step = std::min(step, Number(0.5));
@@ -54,6 +56,8 @@ public:
     }
 
 private:
+    static constexpr std::uint64_t most_steps = 2'000'000;
+
     auto rates_counter() {
         return [this](State const& y, State& dy, Number) {
             ++orbit_.rhs;

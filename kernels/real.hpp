@@ -57,6 +57,7 @@ SLIDEWAY_FN double from_bits(std::uint64_t bits) {
 template <class Real> struct Traits {
     using Mask = bool;
     static constexpr int lanes = 1;
+    SLIDEWAY_FN static Mask mask_of(bool value) { return value; }
 };
 
 }  // namespace detail
@@ -68,6 +69,7 @@ template <class Real> inline constexpr int lanes = detail::Traits<Real>::lanes;
 
 SLIDEWAY_FN bool any(bool m) { return m; }
 SLIDEWAY_FN bool all(bool m) { return m; }
+SLIDEWAY_FN bool negation(bool m) { return !m; }
 SLIDEWAY_FN double select(bool m, double yes, double no) { return m ? yes : no; }
 
 // The comparisons are written as the SIMD instructions make them, so that NaN and signed zero agree.
@@ -124,12 +126,19 @@ namespace detail {
 template <class Arch> struct Traits<xsimd::batch<double, Arch>> {
     using Mask = xsimd::batch_bool<double, Arch>;
     static constexpr int lanes = static_cast<int>(xsimd::batch<double, Arch>::size);
+    // xsimd's constructor builds the AVX-512 mask bit by bit, in a function that g++ tends not to inline.
+    SLIDEWAY_FN static Mask mask_of(bool value) {
+        if constexpr (lanes == 8) return static_cast<typename Mask::register_type>(value ? 0xff : 0);
+        return Mask(value);
+    }
 };
 
 }  // namespace detail
 
 template <class Arch> SLIDEWAY_FN bool any(BatchMask<Arch> m) { return xsimd::any(m); }
 template <class Arch> SLIDEWAY_FN bool all(BatchMask<Arch> m) { return xsimd::all(m); }
+/// !m.  xsimd's own compares with a mask that it builds bit by bit.
+template <class Arch> SLIDEWAY_FN BatchMask<Arch> negation(BatchMask<Arch> m) { return ~m; }
 template <class Arch> SLIDEWAY_FN Batch<Arch> select(BatchMask<Arch> m, Batch<Arch> yes, Batch<Arch> no) {
     return xsimd::select(m, yes, no);
 }
@@ -224,16 +233,19 @@ template <class Real> SLIDEWAY_FN Real round_even(Real x) {
 }
 
 /// Truth value of every lane from one plain bool, which holds for the whole pack.
-template <class Real> SLIDEWAY_FN Mask<Real> mask_of(bool value) { return Mask<Real>(value); }
+template <class Real> SLIDEWAY_FN Mask<Real> mask_of(bool value) { return detail::Traits<Real>::mask_of(value); }
 
-/// Lanes in which the mask holds.
-template <class M> SLIDEWAY_FN int held_lanes(M m) {
+/// Bits that are set.
+SLIDEWAY_FN int population(unsigned bits) {
 #if defined(__CUDA_ARCH__)
-    return __popc(mask_bits(m));
+    return __popc(bits);
 #else
-    return __builtin_popcount(mask_bits(m));
+    return __builtin_popcount(bits);
 #endif
 }
+
+/// Lanes in which the mask holds.
+template <class M> SLIDEWAY_FN int held_lanes(M m) { return population(mask_bits(m)); }
 
 /// Truth value of one lane.
 template <class M> SLIDEWAY_FN bool holds(M m, int index) { return (mask_bits(m) >> index) & 1u; }

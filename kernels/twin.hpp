@@ -1,6 +1,5 @@
 #pragma once
 
-#include "kernels/math/exponential.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -10,12 +9,16 @@ template <class Half> struct TwinMask {
     Mask<Half> low, high;
 
     TwinMask() = default;
-    SLIDEWAY_FN explicit TwinMask(bool value) : low(value), high(value) {}
+    SLIDEWAY_FN explicit TwinMask(bool value) : low(mask_of<Half>(value)), high(mask_of<Half>(value)) {}
     SLIDEWAY_FN TwinMask(Mask<Half> of_low, Mask<Half> of_high) : low(of_low), high(of_high) {}
 
-    SLIDEWAY_FN friend TwinMask operator&(TwinMask a, TwinMask b) { return {a.low & b.low, a.high & b.high}; }
-    SLIDEWAY_FN friend TwinMask operator|(TwinMask a, TwinMask b) { return {a.low | b.low, a.high | b.high}; }
-    SLIDEWAY_FN friend TwinMask operator!(TwinMask a) { return {!a.low, !a.high}; }
+    SLIDEWAY_FN friend TwinMask operator&(TwinMask a, TwinMask b) {
+        return {Mask<Half>(a.low & b.low), Mask<Half>(a.high & b.high)};
+    }
+    SLIDEWAY_FN friend TwinMask operator|(TwinMask a, TwinMask b) {
+        return {Mask<Half>(a.low | b.low), Mask<Half>(a.high | b.high)};
+    }
+    SLIDEWAY_FN friend TwinMask operator!(TwinMask a) { return {negation(a.low), negation(a.high)}; }
 };
 
 /// Two packs in one number: lane i of `low` is lane i, lane i of `high` is lane i + lanes<Half>.  A small model's step is a chain of
@@ -46,6 +49,7 @@ namespace detail {
 template <class Half> struct Traits<Twin<Half>> {
     using Mask = TwinMask<Half>;
     static constexpr int lanes = 2 * Traits<Half>::lanes;
+    SLIDEWAY_FN static Mask mask_of(bool value) { return Mask(value); }
 };
 
 }  // namespace detail
@@ -64,7 +68,6 @@ template <class Half> SLIDEWAY_FN Twin<Half> max(Twin<Half> a, Twin<Half> b) {
 }
 template <class Half> SLIDEWAY_FN Twin<Half> abs(Twin<Half> x) { return {abs(x.low), abs(x.high)}; }
 template <class Half> SLIDEWAY_FN Twin<Half> sqrt(Twin<Half> x) { return {sqrt(x.low), sqrt(x.high)}; }
-template <class Half> SLIDEWAY_FN Twin<Half> exp(Twin<Half> x) { return {exp(x.low), exp(x.high)}; }
 template <class Half> SLIDEWAY_FN Twin<Half> negated(Twin<Half> x) { return {negated(x.low), negated(x.high)}; }
 template <class Half> SLIDEWAY_FN Twin<Half> fma(Twin<Half> a, Twin<Half> b, Twin<Half> c) {
     return {fma(a.low, b.low, c.low), fma(a.high, b.high, c.high)};

@@ -71,7 +71,7 @@ Axis of_steps(char const* name, char const* title, std::vector<double> const& va
 }  // namespace
 
 std::vector<Axis> axes(Law law, bool quick) {
-    Setting const standard{law, quick ? 8u : 32u};
+    Setting const standard{law, quick ? 8u : 16u};
     auto lying = standard;
     lying.lying = true;
     auto restituting = standard;

@@ -39,7 +39,7 @@ void fill(Row& row) {
     row.outcome = measure(*row.point, row.method, row.step);
     if (row.method != Method::rk4 || row.axis->of_the_method) return;
     auto const reference = measure(*row.point, Method::automatic, 0);
-    row.largest_step = largest_usable_step(*row.point, usable_residual(row.law, reference));
+    row.largest_step = largest_usable_step(*row.point, reference);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "tests/support/ensemble.hpp"
@@ -9,8 +10,8 @@
 namespace slideway::bench {
 namespace {
 
-/// Ten million a second, as many as a scene allows by default.
-constexpr std::uint64_t most_steps = 1'000'000;
+/// Of an adaptive method: half of what a scene allows by default.
+constexpr std::uint64_t most_steps = 500'000;
 
 double percentile(std::vector<double>& values, double share) {
     if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -27,9 +28,12 @@ Outcome measure(Point const& point, Method method, double fixed_step) {
     options.parts = point.parts;
     options.settings.method = method;
     options.settings.rtol = options.settings.atol = point.tolerance;
+    options.settings.stiff_tolerance =
+        std::max(point.tolerance, std::min(1e3 * point.tolerance, 1e-3));  // as in a scene
     options.settings.fixed_step = fixed_step;
     options.settings.end_time = end_time;
-    options.settings.max_steps = most_steps;
+    // A fixed step costs what it costs.
+    options.settings.max_steps = method == Method::rk4 ? std::numeric_limits<std::uint64_t>::max() : most_steps;
     options.quantities = selection_of(Quantity::energy_residual) | selection_of(Quantity::friction_loss) |
                          selection_of(Quantity::damping_loss);
     auto const r = testing::run(best_isa(), options, point.members);
@@ -54,21 +58,29 @@ Outcome measure(Point const& point, Method method, double fixed_step) {
     return outcome;
 }
 
-double usable_residual(Law law, Outcome const& reference) {
-    return law == Law::conservative ? 0.01 : reference.p95_relative + 0.1;
-}
-
-double largest_usable_step(Point const& point, double bound) {
+double largest_usable_step(Point const& point, Outcome const& reference) {
     double const limit = linear_limit(point.members);
+    bool const conserving = point.parts.law == Law::conservative;
     auto const usable = [&](double step) {
         auto const outcome = measure(point, Method::rk4, step);
-        return outcome.all_finished() && outcome.p95_relative <= bound;
+        return outcome.all_finished() &&
+               (conserving ? outcome.p95_relative <= 0.01 : outcome.median_relative <= reference.median_relative + 0.2);
     };
-    // Upwards by octaves from what is surely stable, then by bisection in the logarithm.
-    double good = std::numeric_limits<double>::quiet_NaN(), bad = limit / 64;
-    for (; bad <= 8 * limit && usable(bad); bad *= 2) good = bad;
-    if (std::isnan(good)) return good;
-    for (int i = 0; i < 3 && bad <= 8 * limit; ++i) {
+    // By octaves to where it changes, then by bisection in the logarithm.
+    double good = limit / 4, bad = limit / 2;
+    if (usable(good)) {
+        for (; usable(bad); bad *= 2) {
+            if (bad > 8 * limit) return bad;
+            good = bad;
+        }
+    } else {
+        do {
+            bad = good;
+            good /= 2;
+            if (good < limit / 300) return std::numeric_limits<double>::quiet_NaN();
+        } while (!usable(good));
+    }
+    for (int i = 0; i < 3; ++i) {
         double const middle = std::sqrt(good * bad);
         (usable(middle) ? good : bad) = middle;
     }

@@ -23,12 +23,9 @@ struct Outcome {
 
 Outcome measure(Point const& point, Method method, double fixed_step);
 
-/// Residual that a fixed step may leave at the 95th percentile to count as usable, relative: a hundredth, or under the paper's law,
-/// which makes energy whatever the step, a tenth more than the reference at a tolerance of 1e-5.
-double usable_residual(Law law, Outcome const& reference);
-
-/// The largest fixed step of rk4, within an eighth of an octave, with which all members finish and the residual stays usable; searched between
-/// a 64th and 8 times the linear limit.  NaN if none is.
-double largest_usable_step(Point const& point, double bound);
+/// The largest fixed step of rk4, within an eighth of an octave, with which all members finish and the residual is what it should be:
+/// under the conservative law at most a hundredth at the 95th percentile; under the paper's, which makes energy whatever the step, a
+/// median at most 0.2 above that of `reference`.  Searched from 1/256 to 8 linear limits; NaN if there is none.
+double largest_usable_step(Point const& point, Outcome const& reference);
 
 }  // namespace slideway::bench

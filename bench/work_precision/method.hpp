@@ -40,9 +40,9 @@ struct Audit {
 
 struct MemberOutcome {
     bool finished = false;
-    std::vector<double> state;  // at the end time
-    Audit audit;                // Measure::energy alone
-    std::uint64_t evaluations = 0;
+    std::vector<double> state;      // at the end time; Measure::extrema: the recorded ones
+    Audit audit;                    // Measure::energy alone
+    std::uint64_t evaluations = 0;  // of the right-hand side; an analytic Jacobian counts as one
 };
 
 /// One ensemble, or as many of its members as the time allowed.
@@ -55,7 +55,8 @@ struct Outcome {
 struct Task {
     Problem const& problem;
     double tolerance = 0;
-    double budget = 1e9;  // [s]
+    std::size_t members = 0;  // the leading ones of the problem
+    double budget = 1e9;      // [s]
 };
 
 struct Method {
@@ -70,5 +71,7 @@ struct Method {
 std::vector<Method> our_methods();
 /// What users would take instead, one trajectory at a time on the same right-hand side.
 std::vector<Method> peer_methods();
+/// The one that locates the relief valve's events.
+Method valve_peer();
 
 }  // namespace slideway::bench

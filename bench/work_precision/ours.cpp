@@ -1,31 +1,45 @@
 #include <algorithm>
 
+#include "bench/relief_valve_orbit.hpp"
 #include "bench/work_precision/method.hpp"
+#include "bench/work_precision/models_kernel.hpp"
 #include "host/backend/backend.hpp"
+
+namespace slideway {
+namespace scalar {
+LorenzMembersRun integrate_lorenz_members;
+ValveMembersRun integrate_valve_members;
+}  // namespace scalar
+namespace avx2 {
+LorenzMembersRun integrate_lorenz_members;
+ValveMembersRun integrate_valve_members;
+}  // namespace avx2
+namespace avx512 {
+LorenzMembersRun integrate_lorenz_members;
+ValveMembersRun integrate_valve_members;
+}  // namespace avx512
+}  // namespace slideway
 
 namespace slideway::bench {
 namespace {
 
-/// One way to set the engine up.
-struct Choice {
-    std::string name;
-    void (*choose)(IntegratorSettings&);
+constexpr ::slideway::Method engine_methods[] = {::slideway::Method::automatic, ::slideway::Method::dopri5,
+                                                 ::slideway::Method::bs32, ::slideway::Method::ros34pw2};
+
+struct ModelRuns {
+    Isa isa;
+    LorenzMembersRun* lorenz;
+    ValveMembersRun* valve;
 };
 
-/// The engine's methods; an engine that leaves no choice has its one.
-template <class Settings = IntegratorSettings> std::vector<Choice> engine_choices() {
-    if constexpr (requires { &Settings::method; }) {
-        using Stepper = decltype(Settings::method);
-        return {
-            {"auto", [](Settings& s) { s.method = Stepper::automatic; }},
-            {"dopri5", [](Settings& s) { s.method = Stepper::dopri5; }},
-            {"bs32", [](Settings& s) { s.method = Stepper::bs32; }},
-            {"ros34pw2", [](Settings& s) { s.method = Stepper::ros34pw2; }},
-        };
-    } else {
-        return {{"dopri5", [](Settings&) {}}};
-    }
-}
+// The peers need AVX2 and FMA, and so does the benchmark.
+constexpr ModelRuns model_runs[] = {
+    {Isa::scalar, scalar::integrate_lorenz_members, scalar::integrate_valve_members},
+    {Isa::avx2, avx2::integrate_lorenz_members, avx2::integrate_valve_members},
+    {Isa::avx512, avx512::integrate_lorenz_members, avx512::integrate_valve_members},
+};
+
+ModelRuns const& runs_of(Isa isa) { return *std::ranges::find(model_runs, isa, &ModelRuns::isa); }
 
 bool past_deadline(void const* deadline) { return Clock::now() > *static_cast<Clock::time_point const*>(deadline); }
 
@@ -38,62 +52,111 @@ Selection audit_quantities() {
     return selected;
 }
 
-Outcome run_block(Isa isa, Choice const& choice, Task const& task) {
-    auto const& problem = task.problem;
-    auto const& ensemble = std::get<SliderCrankEnsemble>(problem.ensemble);
-    std::size_t const n = ensemble.members.size();
-    std::vector<MemberRecord> records(n);
-    std::vector<double> states(n * state_size), quantities(n * quantity_columns);
-    Block block;
-    block.inputs = ensemble.members.data();
-    block.members = n;
-    block.settings.rtol = block.settings.atol = task.tolerance;
-    block.settings.end_time = problem.end_time;
-    block.settings.max_step = problem.max_step;
-    choice.choose(block.settings);
-    block.quantities = problem.measure == Measure::energy ? audit_quantities() : 0;
-    block.records = records.data();
-    block.final_states = states.data();
-    block.quantity_values = quantities.data();
-    auto const start = Clock::now();
-    auto const deadline =
-        start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(task.budget));
-    block.stop = past_deadline;
-    block.stop_context = &deadline;
-    ThreadTimer const timer;
-    find_instance(isa, ensemble.parts).run(block);
-    double const seconds = timer.seconds();
+/// A block and the memory of its results.
+struct Workplace {
+    std::vector<MemberRecord> records;
+    std::vector<double> states, quantities;
+    BlockBase block;
 
-    Outcome outcome;
-    for (std::size_t i = 0; i < n; ++i) {
-        if (records[i].status == Status::not_run) continue;
-        MemberOutcome member;
-        member.finished = records[i].status == Status::finished;
-        member.state.assign(&states[i * state_size], &states[i * state_size] + state_size);
-        auto const value = [&](Quantity q) {
-            return quantities[i * quantity_columns + static_cast<std::size_t>(quantity_column(q))];
-        };
+    Workplace(std::size_t members, std::size_t model_states, std::size_t columns)
+        : records(members), states(members * model_states), quantities(members * columns) {
+        block.members = members;
+        block.records = records.data();
+        block.final_states = states.data();
+        block.quantity_values = quantities.data();
+    }
+};
+
+void run_members(Isa isa, SliderCrankEnsemble const& ensemble, Workplace& work) {
+    Block block{work.block, ensemble.members.data()};
+    find_instance(isa, ensemble.parts).run(block);
+}
+void run_members(Isa isa, LorenzEnsemble const& ensemble, Workplace& work) {
+    runs_of(isa).lorenz(ensemble.members.data(), work.block);
+}
+void run_members(Isa isa, ValveEnsemble const& ensemble, Workplace& work) {
+    runs_of(isa).valve(ensemble.members.data(), work.block);
+}
+
+template <class Model> struct Shape;
+template <> struct Shape<SliderCrankEnsemble> {
+    static constexpr std::size_t states = state_size, columns = quantity_columns;
+};
+template <> struct Shape<LorenzEnsemble> { static constexpr std::size_t states = 3, columns = 0; };
+template <> struct Shape<ValveEnsemble> { static constexpr std::size_t states = 3, columns = valve_recorded_events; };
+
+/// What the problem's measure needs of one member.
+template <class Ensemble> MemberOutcome outcome_of(Workplace const& work, Measure measure, std::size_t i) {
+    MemberOutcome member;
+    auto const& record = work.records[i];
+    member.finished = record.status == Status::finished;
+    member.evaluations = record.rhs_evaluations + record.jacobian_evaluations;
+    using S = Shape<Ensemble>;
+    auto const quantities = work.quantities.begin() + static_cast<std::ptrdiff_t>(i * S::columns);
+    if (measure == Measure::extrema) {
+        member.state.assign(quantities, quantities + S::columns);
+    } else {
+        auto const state = work.states.begin() + static_cast<std::ptrdiff_t>(i * S::states);
+        member.state.assign(state, state + S::states);
+    }
+    if (measure == Measure::energy) {
+        auto const value = [&](Quantity q) { return quantities[quantity_column(q)]; };
         member.audit = {value(Quantity::crank_work), value(Quantity::friction_loss), value(Quantity::damping_loss),
                         value(Quantity::energy_residual)};
-        member.evaluations = records[i].rhs_evaluations;
-        outcome.members.push_back(std::move(member));
     }
+    return member;
+}
+
+template <class Ensemble>
+Outcome run_block(Isa isa, ::slideway::Method method, Ensemble const& ensemble, Task const& task) {
+    auto const& problem = task.problem;
+    Workplace work(task.members, Shape<Ensemble>::states, Shape<Ensemble>::columns);
+    auto& settings = work.block.settings;
+    settings.method = method;
+    settings.rtol = settings.atol = task.tolerance;
+    // As scenes have it unless they say otherwise.
+    settings.stiff_tolerance = std::max(task.tolerance, std::min(1e3 * task.tolerance, 1e-3));
+    settings.end_time = problem.end_time;
+    settings.max_step = problem.max_step;
+    if (problem.measure == Measure::energy) work.block.quantities = audit_quantities();
+    if (problem.measure == Measure::extrema) work.block.quantities = 1;
+    auto const deadline =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(task.budget));
+    work.block.stop = past_deadline;
+    work.block.stop_context = &deadline;
+    ThreadTimer const timer;
+    run_members(isa, ensemble, work);
+    Outcome outcome;
+    outcome.seconds_per_member = timer.seconds() / static_cast<double>(task.members);
     // A block that was cut off says nothing: its members in work at the end are lost, and the members that ended are the
     // easy ones.
-    if (outcome.members.size() < n) outcome.members.clear();
-    outcome.seconds_per_member = seconds / static_cast<double>(n);
+    for (auto const& record : work.records) {
+        if (record.status == Status::not_run) return outcome;
+    }
+    for (std::size_t i = 0; i < task.members; ++i) {
+        outcome.members.push_back(outcome_of<Ensemble>(work, problem.measure, i));
+    }
     return outcome;
+}
+
+/// Models without a linearisation have explicit methods alone, and for them `auto` is their pair.
+bool has_method(Problem const& problem, ::slideway::Method method) {
+    return std::holds_alternative<SliderCrankEnsemble>(problem.ensemble) || method == ::slideway::Method::dopri5 ||
+           method == ::slideway::Method::bs32;
 }
 
 }  // namespace
 
 std::vector<Method> our_methods() {
     std::vector<Method> methods;
-    for (Choice const& choice : engine_choices()) {
+    for (auto const method : engine_methods) {
         for (Isa const isa : {best_isa(), Isa::scalar}) {
-            methods.push_back({"slideway " + choice.name, std::string(name_of(isa)), true,
-                               [](Problem const& p) { return std::holds_alternative<SliderCrankEnsemble>(p.ensemble); },
-                               [=](Task const& task) { return run_block(isa, choice, task); }});
+            methods.push_back({std::string("slideway ") + name_of(method), std::string(name_of(isa)), true,
+                               [=](Problem const& problem) { return has_method(problem, method); },
+                               [=](Task const& task) {
+                                   return std::visit([&](auto const& e) { return run_block(isa, method, e, task); },
+                                                     task.problem.ensemble);
+                               }});
         }
     }
     return methods;

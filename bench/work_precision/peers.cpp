@@ -1,3 +1,5 @@
+#include <span>
+
 #include "bench/work_precision/odeint.hpp"
 #include "bench/work_precision/system.hpp"
 #if SLIDEWAY_CVODE
@@ -12,7 +14,8 @@ using bench::Outcome;
 using bench::Task;
 
 template <class System, class Library, class Member>
-Outcome run_members(Library const& library, std::vector<Member> const& members, Task const& task) {
+Outcome run_members(Library const& library, std::vector<Member> const& ensemble, Task const& task) {
+    std::span const members(ensemble.data(), task.members);
     auto const& problem = task.problem;
     bool const audited = problem.measure == bench::Measure::energy;
     typename Library::template Solver<System> solver(library);
@@ -51,7 +54,8 @@ Outcome run_members(Library const& library, std::vector<Member> const& members, 
 }
 
 template <class Library> bench::Method peer(std::string name, std::string code, Library library) {
-    return {std::move(name), std::move(code), false, [](bench::Problem const&) { return true; },
+    return {std::move(name), std::move(code), false,
+            [](bench::Problem const& p) { return p.measure != bench::Measure::extrema; },
             [library](Task const& task) {
                 return with_systems(task.problem.ensemble, [&]<class System>(auto const& members) {
                     return run_members<System>(library, members, task);
@@ -77,6 +81,7 @@ std::vector<Method> peer_methods() {
     methods.push_back(peer("CVODE BDF2", "scalar", Cvode{CV_BDF, 2}));
     methods.push_back(peer("CVODE Adams", "scalar", Cvode{CV_ADAMS, 12}));
 #endif
+    methods.push_back(valve_peer());
     return methods;
 }
 

@@ -164,10 +164,11 @@ void draw_frame(fmt::ostream& out, Axis const& x, Axis const& y, Problem const& 
     out.print("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" font-size=\"15\">{}</text>\n", middle, top - 18,
               xml(problem.title));
     out.print("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">time per member, one core</text>\n", middle, bottom + 42);
-    out.print(
-        "<text x=\"22\" y=\"{0}\" text-anchor=\"middle\" transform=\"rotate(-90 22 {0})\">{1}</text>\n",
-        (top + bottom) / 2,
-        problem.measure == Measure::energy ? "energy residual |ε| [J]" : "error of the state, relative to its scales");
+    out.print("<text x=\"22\" y=\"{0}\" text-anchor=\"middle\" transform=\"rotate(-90 22 {0})\">{1}</text>\n",
+              (top + bottom) / 2,
+              problem.measure == Measure::energy    ? "energy residual |ε| [J]"
+              : problem.measure == Measure::extrema ? "largest error of the extrema"
+                                                    : "error of the state, relative to its scales");
 }
 
 void draw_legend(fmt::ostream& out, std::vector<Curve> const& curves) {

@@ -25,7 +25,15 @@ struct LorenzEnsemble {
     std::vector<LorenzMember> members;
 };
 
-using Ensemble = std::variant<SliderCrankEnsemble, LorenzEnsemble>;
+/// The relief valve of kernels/mechanisms/relief_valve.hpp from its one start.
+struct ValveMember {
+    double inflow;
+};
+struct ValveEnsemble {
+    std::vector<ValveMember> members;
+};
+
+using Ensemble = std::variant<SliderCrankEnsemble, LorenzEnsemble, ValveEnsemble>;
 
 enum class Measure {
     /// Root mean square over the components of |y − reference| / (scale + |reference|) at the end time: the norm of the
@@ -33,19 +41,23 @@ enum class Measure {
     state,
     /// |ε| [J] of the energy audit at the end time (model.md 8), exact value 0.  For horizons on which states are chaotic.
     energy,
+    /// Largest difference in x between 64 successive extrema and impacts and those of the reference, which repeats.
+    extrema,
 };
 
 struct Problem {
     std::string name;   // of its files
     std::string title;  // of its plot
     Ensemble ensemble;
+    std::size_t shared = 0;          // leading members whose error counts: every method runs these
     std::size_t members_wanted = 0;  // the ensemble may hold more until the references have chosen
     double end_time = 0;             // [s]
     double max_step = 0;             // [s]
     Measure measure = Measure::state;
     std::vector<double> tolerances;  // rtol = atol, the latter against the scales of the error control
 
-    // Measure::state: the states at the end time, and how far the two references differ in that measure at most.
+    // Of the shared members.  Measure::state: the states at the end time, and how far the two references differ in that measure
+    // at most.  Measure::extrema: one period of x; empty where the orbit has none, and the member's error does not count.
     std::vector<std::vector<double>> reference = {};
     double reference_difference = 0;
 

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
+#include "bench/relief_valve_golden.hpp"
 #include "bench/work_precision/problem.hpp"
 #include "tests/support/ensemble.hpp"
 
@@ -67,6 +69,11 @@ std::vector<double> decades(int first, int last) {
     return tolerances;
 }
 
+/// Members in all, which fill the lanes of a pack several times over, and the leading ones that every method runs.
+struct Crowd {
+    std::size_t all, shared;
+};
+
 struct Scene {
     Parts parts;
     double clearance, crank_speed, chi;
@@ -77,16 +84,16 @@ constexpr Scene rattling = {{Law::conservative, Damping::rate, true, false}, 5e-
 constexpr Scene switching = {{Law::paper, Damping::point, true, false}, 1e-4, pi, 0};
 
 /// States at a time at which chaos has not yet set in for most members.
-Problem short_horizon(std::string name, std::string title, Scene const& scene, double end, std::size_t members,
+Problem short_horizon(std::string name, std::string title, Scene const& scene, double end, Crowd crowd,
                       std::vector<double> tolerances) {
     // One candidate in two to four flies at the end, and of those one in three may be chaotic already.
-    auto candidates = in_free_flight(spread_members(8 * members, scene.clearance, scene.crank_speed, scene.chi),
+    auto candidates = in_free_flight(spread_members(8 * crowd.all, scene.clearance, scene.crank_speed, scene.chi),
                                      scene.parts, end, 2e-4);
-    candidates.resize(std::min(candidates.size(), members + members / 2));
     return {.name = std::move(name),
             .title = std::move(title),
             .ensemble = SliderCrankEnsemble{scene.parts, std::move(candidates)},
-            .members_wanted = members,
+            .shared = crowd.shared,
+            .members_wanted = crowd.all,
             .end_time = end,
             .max_step = 1e-3,
             .measure = Measure::state,
@@ -94,22 +101,23 @@ Problem short_horizon(std::string name, std::string title, Scene const& scene, d
 }
 
 /// The energy that the method made or lost on the way.
-Problem long_horizon(std::string name, std::string title, Scene const& scene, double end, std::size_t members,
-                     double max_step, std::vector<double> tolerances) {
+Problem long_horizon(std::string name, std::string title, Scene const& scene, double end, Crowd crowd, double max_step,
+                     std::vector<double> tolerances) {
     return {.name = std::move(name),
             .title = std::move(title),
             .ensemble = SliderCrankEnsemble{scene.parts,
-                                            spread_members(members, scene.clearance, scene.crank_speed, scene.chi)},
-            .members_wanted = members,
+                                            spread_members(crowd.all, scene.clearance, scene.crank_speed, scene.chi)},
+            .shared = crowd.shared,
+            .members_wanted = crowd.all,
             .end_time = end,
             .max_step = max_step,
             .measure = Measure::energy,
             .tolerances = std::move(tolerances)};
 }
 
-Problem lorenz(double end, std::size_t members, std::vector<double> tolerances) {
+Problem lorenz(double end, Crowd crowd, std::vector<double> tolerances) {
     LorenzEnsemble ensemble;
-    for (std::size_t i = 0; i < members; ++i) {
+    for (std::size_t i = 0; i < crowd.all; ++i) {
         auto const spread = [&](double irrational) { return 1 + 0.2 * scattered(i, irrational); };
         ensemble.members.push_back(
             {10, 28 * spread(0.6180339887498949), 8.0 / 3, {1, 1, 25 * spread(0.4142135623730951)}});
@@ -117,17 +125,43 @@ Problem lorenz(double end, std::size_t members, std::vector<double> tolerances) 
     return {.name = "lorenz",
             .title = "Lorenz system: states after 5 units of time",
             .ensemble = std::move(ensemble),
-            .members_wanted = members,
+            .shared = crowd.shared,
+            .members_wanted = crowd.all,
             .end_time = end,
             .max_step = 1,
             .measure = Measure::state,
             .tolerances = std::move(tolerances)};
 }
 
+/// Extrema and impacts after the transient, against an 80-bit run at 1e-13.
+Problem relief_valve(std::vector<double> tolerances) {
+    auto const golden = read_valve_golden(SLIDEWAY_TEST_DATA "/golden/relief_valve.csv");
+    ValveEnsemble ensemble;
+    std::vector<std::vector<double>> periods;
+    for (auto const& orbit : golden) {
+        // One event that repeats is an equilibrium, which coarse tolerances circle for ever.
+        if (orbit.period == 1) continue;
+        ensemble.members.push_back({orbit.inflow});
+        periods.emplace_back();
+        for (auto const& event : orbit.events) periods.back().push_back(event.x);
+    }
+    if (golden.empty()) throw std::runtime_error("tests/golden/relief_valve.csv cannot be read");
+    return {.name = "relief_valve",
+            .title = "Relief valve: extrema of periodic orbits",
+            .ensemble = std::move(ensemble),
+            .shared = periods.size(),
+            .members_wanted = periods.size(),
+            .end_time = 1e4,  // of which an orbit needs a tenth
+            .max_step = 0.5,
+            .measure = Measure::extrema,
+            .tolerances = std::move(tolerances),
+            .reference = std::move(periods)};
+}
+
 }  // namespace
 
 std::vector<Problem> all_problems(bool quick) {
-    std::size_t const many = quick ? 8 : 32;
+    Crowd const many = quick ? Crowd{32, 8} : Crowd{128, 32};
     // Finest tolerance: of states, of energies where the run is short, and where it is long.
     int const fine = quick ? 7 : 11, medium = quick ? 6 : 9, coarse = quick ? 4 : 6;
     return {
@@ -142,6 +176,7 @@ std::vector<Problem> all_problems(bool quick) {
         long_horizon("turn_energy", "A crank turn: energy residual after 2 s", settling, 2, many, 1e-2,
                      decades(3, coarse)),
         lorenz(5, many, decades(3, fine + 1)),
+        relief_valve(decades(5, quick ? 7 : 11)),
     };
 }
 

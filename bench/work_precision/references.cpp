@@ -71,6 +71,10 @@ Pair both(SliderCrankEnsemble const& ensemble, std::size_t i, Problem const& pro
                                                                      scale, 1e-15L, problem)};
 }
 
+Pair both(ValveEnsemble const&, std::size_t, Problem const& problem) {
+    throw std::logic_error(problem.name + ": its reference is a file");
+}
+
 Pair both(LorenzEnsemble const& ensemble, std::size_t i, Problem const& problem) {
     auto const& member = ensemble.members[i];
     State<3> y = {member.start[0], member.start[1], member.start[2]};
@@ -98,7 +102,7 @@ double state_error(std::vector<double> const& state, std::vector<double> const& 
 }
 
 std::vector<double> scales(Ensemble const& ensemble, std::size_t member) {
-    if (std::holds_alternative<LorenzEnsemble>(ensemble)) return {1, 1, 1};
+    if (!std::holds_alternative<SliderCrankEnsemble>(ensemble)) return {1, 1, 1};
     // c, c·ω, 2c/L_k, 2c/L_k·ω (docs/model.md 9)
     auto const& in = std::get<SliderCrankEnsemble>(ensemble).members[member];
     double const rate = std::max(std::abs(in.crank_speed), 1.0);
@@ -110,7 +114,7 @@ std::vector<double> scales(Ensemble const& ensemble, std::size_t member) {
 void find_references(Problem& problem) {
     if (problem.measure != Measure::state) return;
     // Untimed, so all cores may help.
-    std::vector<Pair> pairs(problem.size());
+    std::vector<Pair> pairs(std::min(problem.size(), problem.shared + problem.shared / 2));
     std::string failure;
 #pragma omp parallel for schedule(dynamic)
     for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -123,14 +127,18 @@ void find_references(Problem& problem) {
     }
     if (!failure.empty()) throw std::runtime_error(failure);
     std::vector<std::size_t> kept;
-    for (std::size_t i = 0; i < pairs.size() && kept.size() < problem.members_wanted; ++i) {
+    for (std::size_t i = 0; i < pairs.size() && kept.size() < problem.shared; ++i) {
         double const difference = state_error(pairs[i].second, pairs[i].first, scales(problem.ensemble, i));
         if (!(difference <= largest_difference)) continue;
         problem.reference_difference = std::max(problem.reference_difference, difference);
         problem.reference.push_back(pairs[i].first);
         kept.push_back(i);
     }
-    if (2 * kept.size() < problem.members_wanted) throw std::runtime_error(problem.name + ": too few references agree");
+    if (2 * kept.size() < problem.shared) throw std::runtime_error(problem.name + ": too few references agree");
+    problem.shared = kept.size();
+    // The others keep the lanes busy.
+    for (std::size_t i = pairs.size(); i < problem.size() && kept.size() < problem.members_wanted; ++i)
+        kept.push_back(i);
     std::visit(
         [&](auto& e) {
             for (std::size_t i = 0; i < kept.size(); ++i) e.members[i] = e.members[kept[i]];

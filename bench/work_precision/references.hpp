@@ -18,6 +18,8 @@ std::vector<double> scales(Ensemble const& ensemble, std::size_t member);
 /// inside.) Lorenz: Fehlberg 7(8) against Bulirsch–Stoer.  The first is the reference.  Members whose references differ by
 /// more than 1e-11 are dropped: chaos has made the state at the end a matter of rounding.  @throws std::runtime_error if
 /// fewer than half of those wanted are left.
+///
+/// Only the shared members get references; those behind them stay as company.
 void find_references(Problem& problem);
 
 }  // namespace slideway::bench

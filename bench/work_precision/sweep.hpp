@@ -9,13 +9,13 @@
 namespace slideway::bench {
 
 struct SweepOptions {
-    double budget = 6;    // [s] for one method at one tolerance, once
+    double budget = 15;   // [s] for one method at one tolerance, once
     int repeats = 3;      // at most
     double long_run = 1;  // [s] what takes this long is not repeated
 };
 
 /// Rows by method, then by tolerance.  Repeats of different methods take turns, so that a slow spell of the machine meets
-/// all of them. A method that cannot do a quarter of the members within the budget is not asked for finer tolerances.
+/// all of them. Peers run the shared members, ours the whole ensemble where the time allows it. A method that cannot do a quarter of the members within the budget is not asked for finer tolerances.
 std::vector<Row> sweep(Problem const& problem, std::vector<Method> const& methods, SweepOptions const& options);
 
 }  // namespace slideway::bench

@@ -19,7 +19,8 @@ public:
     SLIDEWAY_HD void attempt(Pack<Model, Real>& pack) {
         for (int i = 0; i < size; ++i) k_[0][i] = pack.state.course.rates[i];
         pack.faults = Faults<Real>::none();
-        pack.begin_integrals(Pair::tableau.b[0], Pair::tableau.e[0]);
+        constexpr typename Pair::Tableau w{};  // not Pair's own: device code has no constants of the host
+        pack.begin_integrals(w.b[0], w.e[0]);
         stages(pack, std::make_integer_sequence<int, Pair::stages - 1>{});
         for (int i = 0; i < size; ++i) pack.end_rates[i] = k_[Pair::stages - 1][i];
     }
@@ -40,7 +41,7 @@ private:
     }
 
     template <int s> SLIDEWAY_HD void stage(Pack<Model, Real>& pack) {
-        constexpr auto w = Pair::tableau;
+        constexpr typename Pair::Tableau w{};
         constexpr bool last = s + 1 == Pair::stages;
         Real* const at = last ? pack.end : pack.scratch;
         Pair::template stage_state<s>(pack.state.course.y, k_, pack.step, at);

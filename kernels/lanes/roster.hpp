@@ -34,7 +34,7 @@ public:
         int at_distance[far + 1] = {};
         for (int i = 0; i < seats; ++i) {
             bool const fits = seat_[i].kind == seat_[leader].kind;
-            distance[i] = fits ? static_cast<unsigned char>(bits(seat_[i].pattern ^ seat_[leader].pattern)) : far;
+            distance[i] = fits ? static_cast<unsigned char>(population(seat_[i].pattern ^ seat_[leader].pattern)) : far;
             ++at_distance[distance[i]];
         }
         int last = 0, nearer = 0;  // the largest distance to take from, and how many are nearer
@@ -66,14 +66,6 @@ private:
             if (leader < 0 || seat_[i].time < seat_[leader].time) leader = i;
         }
         return leader;
-    }
-
-    SLIDEWAY_HD static int bits(std::uint32_t pattern) {
-#if defined(__CUDA_ARCH__)
-        return __popc(pattern);
-#else
-        return __builtin_popcount(pattern);
-#endif
     }
 
     Seat seat_[seats];

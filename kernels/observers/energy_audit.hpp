@@ -25,7 +25,7 @@ template <class Real> struct EnergyScales {
 };
 
 /// Members whose residual tells that their method left its stable range; NaN tells it too.
-/// A conserving law leaves ε to the method alone, and a stable one keeps it below a tenth of what friction, damping and contact
+/// A conserving law leaves ε to the method alone, and a stable one keeps it below a fifth of what friction, damping and contact
 /// turned over, plus a thousandth of what the crank moved (the error in free flight).
 /// A law that switches modes makes energy itself, some at every crossing of the clearance: below M a c for each crossing, plus what the
 /// crank moved, plus the largest contact's.
@@ -36,7 +36,7 @@ SLIDEWAY_FN Mask<Real> left_stable_range(EnergyAudit<Real> const& audit, EnergyS
     Real bound;
     if constexpr (conserving) {
         Real const lateral = (audit.friction_loss + abs(audit.damping_loss)) + (audit.stored + scale.smallest);
-        bound = fma(Real(0.1), lateral, Real(0.001) * audit.crank_turnover);
+        bound = fma(Real(0.2), lateral, Real(0.001) * audit.crank_turnover);
     } else {
         Real const crossings = Real(1.0) + time / scale.crossing_time;
         bound = fma(scale.crossing, crossings, (audit.crank_turnover + audit.stored) + scale.smallest);

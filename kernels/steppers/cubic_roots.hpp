@@ -38,13 +38,15 @@ template <class Real> struct EventCubic {
     SLIDEWAY_FN Real value(Real theta) const { return fma(theta, fma(theta, fma(theta, b, a), s0), v0); }
     SLIDEWAY_FN Real slope(Real theta) const { return fma(theta, fma(theta, Real(3.0) * b, a + a), s0); }
 
-    /// Its zero in a stretch where it is monotone and changes its sign.  Newton's method, from the point of the stretch where it is
-    /// steepest: the inflection or the end next to it.  From there on it bends away from its tangents, so that no step goes
-    /// beyond the zero.  A lane stops when its own steps are small, what is left is of the order of their squares, and at a double
-    /// zero of their own.
+    /// Its zero in a stretch where it is monotone and changes its sign, by Newton's method: from the inflection if that lies inside, else
+    /// from the steeper end.  After at most one step too far it bends away from its tangents, and no step goes beyond the zero.
+    /// A lane stops when its own steps are small: what is left is of the order of their square, at a double zero of their own.
     SLIDEWAY_FN Real zero_within(Real low, Real high, Mask<Real> wanted) const {
-        auto const held = [&](Real theta) { return min(max(theta, low), high); };  // a NaN becomes low
-        Real theta = held(negated(a) / (Real(3.0) * b));
+        Real const inflection = negated(a) / (Real(3.0) * b);
+        auto const inside = (inflection > low) & (inflection < high);
+        Real const steeper = select(abs(slope(low)) > abs(slope(high)), low, high);
+        Real theta = select(inside, inflection, steeper);
+        auto const held = [&](Real x) { return min(max(x, low), high); };  // a NaN becomes low
         for (int steps = 0; steps < 40 && any(wanted); ++steps) {
             Real const next = held(theta - value(theta) / slope(theta));
             Real const move = abs(next - theta);

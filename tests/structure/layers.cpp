@@ -20,6 +20,7 @@ struct Layer {
 // A file may include its own layer and those of the same or a lower rank.
 constexpr std::array layers = {
     Layer{"kernels/real.hpp", 1},
+    Layer{"kernels/twin.hpp", 2},
     Layer{"kernels/math", 2},
     Layer{"kernels/laws", 3},
     Layer{"kernels/joint", 4},
@@ -41,9 +42,10 @@ constexpr std::array layers = {
 };
 
 // Plain data without code of any instruction set: every layer may share it, the host included.
-constexpr std::array<std::string_view, 4> plain_data = {
+constexpr std::array<std::string_view, 5> plain_data = {
     "kernels/inputs.hpp",
     "kernels/status.hpp",
+    "kernels/methods.hpp",
     "kernels/block.hpp",
     "kernels/observers/quantities.hpp",
 };

@@ -29,18 +29,18 @@ TEST(EnergyAudit, ResidualIsWhatTheBooksDoNotExplain) {
     EXPECT_NEAR(audit_with(-3e-4, 0.02).residual(), -3e-4, 1e-17);
 }
 
-TEST(EnergyAudit, OfAConservingLawAllowsATenthOfWhatWasTurnedOver) {
+TEST(EnergyAudit, OfAConservingLawAllowsAFifthOfWhatWasTurnedOver) {
     for (double const sign : {1.0, -1.0}) {
-        EXPECT_FALSE(unstable_if_conserving(audit_with(sign * 1.99e-4)));
-        EXPECT_TRUE(unstable_if_conserving(audit_with(sign * 2.01e-4)));
-        EXPECT_FALSE(unstable_if_conserving(audit_with(sign * 2.99e-4, 0, 1e-3))) << "contact stored 1 mJ";
-        EXPECT_TRUE(unstable_if_conserving(audit_with(sign * 3.01e-4, 0, 1e-3)));
+        EXPECT_FALSE(unstable_if_conserving(audit_with(sign * 3.99e-4)));
+        EXPECT_TRUE(unstable_if_conserving(audit_with(sign * 4.01e-4)));
+        EXPECT_FALSE(unstable_if_conserving(audit_with(sign * 5.99e-4, 0, 1e-3))) << "contact stored 1 mJ";
+        EXPECT_TRUE(unstable_if_conserving(audit_with(sign * 6.01e-4, 0, 1e-3)));
     }
 }
 
 TEST(EnergyAudit, OfAConservingLawAllowsAThousandthOfTheCrank) {
-    EXPECT_FALSE(unstable_if_conserving(audit_with(1.19e-3, 1)));
-    EXPECT_TRUE(unstable_if_conserving(audit_with(1.21e-3, 1)));
+    EXPECT_FALSE(unstable_if_conserving(audit_with(1.39e-3, 1)));
+    EXPECT_TRUE(unstable_if_conserving(audit_with(1.41e-3, 1)));
 }
 
 TEST(EnergyAudit, OfASwitchingLawAllowsWhatCrankContactAndCrossingsBrought) {

@@ -21,18 +21,20 @@ double factor(double error, bool accepted, bool after_rejection, double& memory)
     return StepControl<5>::factor(error * error, accepted, after_rejection, memory);
 }
 
+constexpr double slack = 1.5e-4;  // logarithm and exponential are rough
+
 TEST(StepControl, FollowsTheErrorAndItsMemory) {
-    double memory = 2 * std::log(0.5);
-    EXPECT_NEAR(factor(0.1, true, false, memory), wished(0.1, 0.5), 1e-14);
-    EXPECT_NEAR(memory, 2 * std::log(0.1), 1e-14);
-    EXPECT_NEAR(factor(0.8, true, false, memory), wished(0.8, 0.1), 1e-14);
-    EXPECT_NEAR(memory, 2 * std::log(0.8), 1e-14);
+    double memory = 2 * std::log2(0.5);
+    EXPECT_NEAR(factor(0.1, true, false, memory), wished(0.1, 0.5), slack);
+    EXPECT_NEAR(memory, 2 * std::log2(0.1), slack);
+    EXPECT_NEAR(factor(0.8, true, false, memory), wished(0.8, 0.1), slack);
+    EXPECT_NEAR(memory, 2 * std::log2(0.8), slack);
 }
 
 TEST(StepControl, ForgetsNothingWhenAStepFails) {
-    double const before = 2 * std::log(0.5);
+    double const before = 2 * std::log2(0.5);
     double memory = before;
-    EXPECT_NEAR(factor(20, false, false, memory), 0.9 * std::pow(20, -0.17), 1e-14)
+    EXPECT_NEAR(factor(20, false, false, memory), 0.9 * std::pow(20, -0.17), slack)
         << "the memory has no say in a failure";
     EXPECT_EQ(memory, before);
 }
@@ -40,9 +42,9 @@ TEST(StepControl, ForgetsNothingWhenAStepFails) {
 TEST(StepControl, StaysWithinItsLimits) {
     double memory = step_control_start;
     EXPECT_EQ(factor(0, true, false, memory), 10) << "an error of zero";
-    EXPECT_NEAR(memory, 2 * std::log(1e-4), 1e-12) << "the memory has a floor";
+    EXPECT_NEAR(memory, 2 * std::log2(1e-4), 1e-12) << "the memory has a floor";
     EXPECT_EQ(factor(0, true, true, memory), 1) << "no growth after a failure";
-    EXPECT_EQ(factor(1.0001, false, false, memory), 0.9 * std::pow(1.0001, -0.17)) << "a failed step shrinks";
+    EXPECT_NEAR(factor(1.0001, false, false, memory), 0.9 * std::pow(1.0001, -0.17), slack) << "a failed step shrinks";
     EXPECT_EQ(factor(1e9, false, false, memory), 0.2);
     for (double const error :
          {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e200}) {
