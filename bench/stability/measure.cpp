@@ -29,7 +29,7 @@ Outcome measure(Point const& point, Method method, double fixed_step) {
     options.settings.method = method;
     options.settings.rtol = options.settings.atol = point.tolerance;
     options.settings.stiff_tolerance =
-        std::max(point.tolerance, std::min(1e3 * point.tolerance, 1e-3));  // as in a scene
+        default_stiff_tolerance(point.tolerance);  // as in a scene
     options.settings.fixed_step = fixed_step;
     options.settings.end_time = end_time;
     // A fixed step costs what it costs.

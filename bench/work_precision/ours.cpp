@@ -115,7 +115,7 @@ Outcome run_block(Isa isa, ::slideway::Method method, Ensemble const& ensemble, 
     settings.method = method;
     settings.rtol = settings.atol = task.tolerance;
     // As scenes have it unless they say otherwise.
-    settings.stiff_tolerance = std::max(task.tolerance, std::min(1e3 * task.tolerance, 1e-3));
+    settings.stiff_tolerance = default_stiff_tolerance(task.tolerance);
     settings.end_time = problem.end_time;
     settings.max_step = problem.max_step;
     if (problem.measure == Measure::energy) work.block.quantities = audit_quantities();

@@ -126,8 +126,7 @@ void read_integrator(Node const& root, Scene& scene) {
     if (Node const* const node = root.find_path("integrator.stiff_max_step")) {
         settings.stiff_max_step = read_number(*node, "s", "largest step", {.low = 0, .low_included = false});
     }
-    // Vibrations of lasting contact are not worth the accuracy of an impact; tight tolerances still tighten it (docs/integrators.md).
-    settings.stiff_tolerance = std::max(settings.rtol, std::min(1e3 * settings.rtol, 1e-3));
+    settings.stiff_tolerance = default_stiff_tolerance(settings.rtol);
     if (Node const* const node = root.find_path("integrator.stiff_tolerance")) {
         settings.stiff_tolerance = read_number(*node, "1", "least tolerance of the stiff method", {1e-14, 0.1});
     }

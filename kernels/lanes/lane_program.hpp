@@ -185,21 +185,25 @@ private:
         auto& c = pack_.state.course;
         auto const touching = pack_.busy & (pattern_ > Real(0.5));
         Real rate_squared(0.0);
+        auto creeping = touching;
         if (any(touching)) {
             typename Model::template Linearisation<Real> matrix;
             Model::linearise(c.t, c.y, pack_.state.constants.parameters, c.memory, matrix);
             rate_squared = select(touching, matrix.rate_squared(), rate_squared);
             c.jacobians = c.jacobians + count<Real>(touching);
+            Real const little = Real(Stiffness::creep_below * Stiffness::creep_below) *
+                                Model::energy_scale(pack_.state.constants.parameters);
+            creeping = creeping & (matrix.vibration_energy(c.y) < little);
         }
         c.rate_squared =
             select(pack_.busy, max(rate_squared, Real(Stiffness::memory) * c.rate_squared), c.rate_squared);
         Real const squared_step = c.h * c.h;
         auto const held_up = squared_step * rate_squared > Real(Stiffness::held_up_above * Stiffness::held_up_above);
-        auto const lasting = touching & (squared_step * c.rate_squared >
-                                         Real(Stiffness::lasting_above * Stiffness::lasting_above));
+        auto const lasting =
+            touching & (squared_step * c.rate_squared > Real(Stiffness::lasting_above * Stiffness::lasting_above));
         Real const sign = select(held_up, Real(1.0), select(lasting, Real(Stiffness::lasting_share), Real(-1.0)));
         Real const looks = max(c.stiffness + sign, Real(0.0));
-        auto const change = pack_.busy & (looks >= Real(Stiffness::enough));
+        auto const change = pack_.busy & creeping & (looks >= Real(Stiffness::enough));
         c.stiff = select(change, Real(1.0), c.stiff);
         c.stiffness = select(change, Real(0.0), looks);
     }

@@ -20,6 +20,8 @@ struct Stiffness {
     // It goes back when contact is lost, or after so many steps with hΩ below that.
     static constexpr double calm_below = 0.25;
     static constexpr double calm_steps = 6.0;
+    // And where an apex comes into contact while the slider moves faster than that, in the scales of the velocities (c ω, 2c/L_k ω).
+    static constexpr double creep_below = 0.1;
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

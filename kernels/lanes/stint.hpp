@@ -47,6 +47,7 @@ public:
 private:
     static constexpr int size = Model::size;
     static constexpr int width = lanes<Real>;
+    static constexpr bool impacts_end_it = Stepper::stiff && Model::has_patterns;
     using Control = StepControl<Stepper::order>;
 
     /// Chooses the step.
@@ -120,6 +121,11 @@ private:
             accepted = busy & is_finite(pack_.end, pack_.end_rates);
             divergent = busy & !accepted;
         }
+        auto impact = mask_of<Real>(false);
+        if constexpr (impacts_end_it) {
+            impact = find_impacts(accepted);
+            accepted = accepted & !impact;
+        }
         auto const rejected = busy & !accepted;
         c.accepted = c.accepted + count<Real>(accepted);
         c.rejected = c.rejected + count<Real>(rejected);
@@ -137,7 +143,7 @@ private:
             results_.retire(pack_, ended, finished, pack_.faults.within(stuck), stuck & divergent, stuck);
             pack_.busy = pack_.busy & !ended;
         }
-        if constexpr (Stepper::stiff) watch_stiffness(accepted);
+        if constexpr (Stepper::stiff) watch_stiffness(accepted, impact);
     }
 
     /// Moves the accepted lanes to the end of their step.  @return those that reached the end time.
@@ -184,14 +190,33 @@ private:
         pack_.begin_next(touched, pack_.end_rates);
     }
 
-    /// A lane leaves the stiff method where contact is lost or its steps stay far below what that method is for.
-    SLIDEWAY_HD void watch_stiffness(Mask<Real> accepted) {
+    /// Lanes whose step brought an apex into contact at more than a creep.  The stiff method would swallow the impact's energy without a
+    /// sign: `auto` leaves impacts to the explicit pair.
+    SLIDEWAY_HD Mask<Real> find_impacts(Mask<Real> accepted) {
+        auto const& s = pack_.state;
+        if (settings_.method != Method::automatic) return mask_of<Real>(false);
+        auto const moves =
+            Model::squared_speed(s.course.y, s.constants.scale) > Real(Stiffness::creep_below * Stiffness::creep_below);
+        if (none(accepted & moves)) return mask_of<Real>(false);
+        auto const& p = s.constants.parameters;
+        Real const before = Model::contact_pattern(s.course.t, s.course.y, p);
+        Real const after = Model::contact_pattern(s.course.t + pack_.step, pack_.end, p);
+        Real met(0.0);
+        for (int i = 0; i < width; ++i) {
+            auto const bits = [&](Real const& pattern) { return static_cast<unsigned>(lane(pattern, i)); };
+            if ((bits(after) & ~bits(before)) != 0) set_lane(met, i, 1.0);
+        }
+        return accepted & moves & (met > Real(0.5));
+    }
+
+    /// A lane leaves the stiff method where contact is lost or an impact begins, or its steps stay far below what that method is for.
+    SLIDEWAY_HD void watch_stiffness(Mask<Real> accepted, Mask<Real> impact) {
         auto& c = pack_.state.course;
         Real const rate = sqrt(max(stepper_.rate_squared(), Real(0.0)));
         auto const calm = pack_.step * rate < Real(Stiffness::calm_below);
         c.stiffness = select(accepted, select(calm, c.stiffness + Real(1.0), Real(0.0)), c.stiffness);
         auto const free = stepper_.touching() < Real(0.5);
-        auto const leaving = pack_.busy & (free | (c.stiffness >= Real(Stiffness::calm_steps)));
+        auto const leaving = pack_.busy & (free | impact | (c.stiffness >= Real(Stiffness::calm_steps)));
         if (none(leaving) || settings_.method != Method::automatic) return;
         c.stiffness = select(leaving, Real(0.0), c.stiffness);
         c.stiff = select(leaving, Real(0.0), c.stiff);

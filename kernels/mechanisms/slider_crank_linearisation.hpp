@@ -88,6 +88,19 @@ template <class Real> struct SliderCrankLinearisation {
         return (y + z) + turning;
     }
 
+    /// Kinetic energy [J] of the stiff motions, which a stiff step damps away: ½ νᵀ(−K)ν/Ω², the masses that the contacts' stiffness
+    /// sees.  Sliding along a face has none.  @param s the state.  0 without contact.
+    SLIDEWAY_FN Real vibration_energy(Real const* s) const {
+        Real const rates[5] = {s[2], s[3], s[7], s[8], s[9]};
+        Real sum(0.0);
+        for (int i = 0; i < 5; ++i) {
+            for (int j = 0; j < 5; ++j) sum = fma(joint.by_place[i][j] * rates[i], rates[j], sum);
+        }
+        Real const squared = rate_squared();
+        auto const stiff = squared > Real(0.0);
+        return select(stiff, Real(0.5) * clamped(negated(sum)) / select(stiff, squared, Real(1.0)), Real(0.0));
+    }
+
 private:
     /// M r_ν + hγ K G⁻¹ r_q.
     SLIDEWAY_FN void right_hand_side(Real const* r, Real* b) const {

@@ -40,6 +40,16 @@ struct SliderCrankModel : SliderCrank<Law, Friction, Way, Damping> {
         return slideway::left_stable_range<Mechanism::conserving>(audit, scale, time);
     }
 
+    /// Largest of the squared velocities and rates, each in its scale.
+    template <class Real> SLIDEWAY_HD static Real squared_speed(Real const* state, Real const* scale) {
+        Real largest(0.0);
+        for (int i : {2, 3, 7, 8, 9}) {
+            Real const speed = state[i] / scale[i];
+            largest = max(largest, speed * speed);
+        }
+        return largest;
+    }
+
     template <class Real>
     SLIDEWAY_HD static void linearise(Real t, Real const* state, SliderCrankParameters<Real> const& p,
                                       typename Mechanism::template Memory<Real> const& memory,

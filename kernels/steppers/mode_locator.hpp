@@ -61,7 +61,8 @@ private:
         Real const zero(0.0);
         auto const touches = held > Real(0.5);
         auto const parts = touches & (d0 > zero) & (d1 < negated(located));
-        auto const meets = !touches & (d0 <= zero) & (d1 > located);
+        auto const apart = held < Real(0.5);
+        auto const meets = apart & (d0 <= zero) & (d1 > located);
         Real const target = select(touches, Real(-0.5), Real(0.5)) * located;
         return GapHistory<Real>::crossing(candidates & (parts | meets), d0, v0, d1, v1, step, target);
     }
