@@ -74,6 +74,8 @@ TEST(SceneErrors, UnknownNamesComeWithASuggestion) {
               "did you mean \"conservative\"?");
     EXPECT_EQ(error_in("contact", "law = \"x\""),
               "scene.toml:3: contact.law is \"x\" (there is no such contact law); use one of paper, conservative");
+    EXPECT_EQ(error_in("integrator", "method = \"rk5\""),
+              "scene.toml:3: integrator.method is \"rk5\" (there is no such method); did you mean \"rk4\"?");
     EXPECT_EQ(error_in("integrator", "method = \"euler\""),
               "scene.toml:3: integrator.method is \"euler\" (there is no such method); use one of auto, dopri5, bs32, ros34pw2, rk4");
     EXPECT_EQ(error_in("study", "quantities = [\"peak_normal_forse\"]"),

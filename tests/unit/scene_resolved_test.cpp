@@ -32,6 +32,10 @@ void expect_equal(Scene const& a, Scene const& b) {
     EXPECT_EQ(a.integrator.atol, b.integrator.atol);
     EXPECT_EQ(a.integrator.end_time, b.integrator.end_time);
     EXPECT_EQ(a.integrator.max_step, b.integrator.max_step);
+    EXPECT_EQ(a.integrator.stiff_tolerance, b.integrator.stiff_tolerance);
+    EXPECT_EQ(a.integrator.stiff_max_step, b.integrator.stiff_max_step);
+    EXPECT_EQ(a.integrator.fixed_step, b.integrator.fixed_step);
+    EXPECT_EQ(a.integrator.locate_modes, b.integrator.locate_modes);
     EXPECT_EQ(a.integrator.max_steps, b.integrator.max_steps);
     EXPECT_EQ(a.study, b.study);
     EXPECT_EQ(a.members, b.members);

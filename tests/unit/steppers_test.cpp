@@ -123,7 +123,8 @@ TEST_F(Steppers, NoStiffStepEndsBeyondTheWallThatItsStagesMissed) {
     // Without error control long steps end elsewhere than their last stage.
     std::vector<TrackerInputs> members;
     for (int i = 0; i < 300; ++i) {
-        for (double const rate : {-1.0, -10.0, -100.0, 5.0}) members.push_back({.rate = rate, .wall = 0.1 + 0.8 * i / 300});
+        for (double const rate : {-1.0, -10.0, -100.0, 5.0})
+            members.push_back({.rate = rate, .wall = 0.1 + 0.8 * i / 300});
     }
     auto const r = testing::run(isa, testing::equal_steps(Method::ros34pw2, 0.3, 2.0), members);
     for (std::size_t i = 0; i < members.size(); ++i) {
