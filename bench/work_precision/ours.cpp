@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "bench/relief_valve_orbit.hpp"
@@ -23,8 +25,16 @@ ValveMembersRun integrate_valve_members;
 namespace slideway::bench {
 namespace {
 
-constexpr ::slideway::Method engine_methods[] = {::slideway::Method::automatic, ::slideway::Method::dopri5,
-                                                 ::slideway::Method::bs32, ::slideway::Method::ros34pw2};
+/// One way to set the engine up.
+struct Choice {
+    ::slideway::Method method;
+    bool locate_modes = false;
+};
+
+constexpr Choice choices[] = {
+    {::slideway::Method::automatic}, {::slideway::Method::dopri5},       {::slideway::Method::bs32},
+    {::slideway::Method::ros34pw2},  {::slideway::Method::dopri5, true},
+};
 
 struct ModelRuns {
     Isa isa;
@@ -107,12 +117,12 @@ template <class Ensemble> MemberOutcome outcome_of(Workplace const& work, Measur
     return member;
 }
 
-template <class Ensemble>
-Outcome run_block(Isa isa, ::slideway::Method method, Ensemble const& ensemble, Task const& task) {
+template <class Ensemble> Outcome run_block(Isa isa, Choice const& choice, Ensemble const& ensemble, Task const& task) {
     auto const& problem = task.problem;
     Workplace work(task.members, Shape<Ensemble>::states, Shape<Ensemble>::columns);
     auto& settings = work.block.settings;
-    settings.method = method;
+    settings.method = choice.method;
+    settings.locate_modes = choice.locate_modes;
     settings.rtol = settings.atol = task.tolerance;
     // As scenes have it unless they say otherwise.
     settings.stiff_tolerance = default_stiff_tolerance(task.tolerance);
@@ -139,22 +149,26 @@ Outcome run_block(Isa isa, ::slideway::Method method, Ensemble const& ensemble, 
     return outcome;
 }
 
-/// Models without a linearisation have explicit methods alone, and for them `auto` is their pair.
-bool has_method(Problem const& problem, ::slideway::Method method) {
-    return std::holds_alternative<SliderCrankEnsemble>(problem.ensemble) || method == ::slideway::Method::dopri5 ||
-           method == ::slideway::Method::bs32;
+/// Models without a linearisation have explicit methods alone, and for them `auto` is their pair; only the law of the paper has
+/// modes to locate.
+bool serves(Choice const& choice, Problem const& problem) {
+    using enum ::slideway::Method;
+    auto const* const cranks = std::get_if<SliderCrankEnsemble>(&problem.ensemble);
+    if (cranks == nullptr) return !choice.locate_modes && (choice.method == dopri5 || choice.method == bs32);
+    return !choice.locate_modes || cranks->parts.law == Law::paper;
 }
 
 }  // namespace
 
 std::vector<Method> our_methods() {
     std::vector<Method> methods;
-    for (auto const method : engine_methods) {
+    for (auto const& choice : choices) {
+        auto const name = fmt::format("slideway {}{}", name_of(choice.method), choice.locate_modes ? ", located" : "");
         for (Isa const isa : {best_isa(), Isa::scalar}) {
-            methods.push_back({std::string("slideway ") + name_of(method), std::string(name_of(isa)), true,
-                               [=](Problem const& problem) { return has_method(problem, method); },
+            methods.push_back({name, std::string(name_of(isa)), true,
+                               [=](Problem const& problem) { return serves(choice, problem); },
                                [=](Task const& task) {
-                                   return std::visit([&](auto const& e) { return run_block(isa, method, e, task); },
+                                   return std::visit([&](auto const& e) { return run_block(isa, choice, e, task); },
                                                      task.problem.ensemble);
                                }});
         }
