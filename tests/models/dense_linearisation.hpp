@@ -43,6 +43,8 @@ template <int n, class Real> struct DenseLinearisation {
 
     SLIDEWAY_HD Real rate_squared() const { return a[0][0] * a[0][0] + abs(a[0][1] * a[1][0]); }
 
+    SLIDEWAY_HD Real vibration_energy(Real const*) const { return Real(0.0); }
+
 private:
     Real hg_;
     Real matrix_[n][n];
