@@ -57,14 +57,18 @@ double evaluations_per_member(testing::EnsembleResult const& r) {
 }
 
 TEST(AutoMethod, TurnsStiffWhereTheSliderLiesDown) {
-    // The default tolerance among them: no member may stay with the explicit pair for good.
+    // The default tolerance among them: no member may stay with the explicit pair for good.  At 1e-6 a corner that rattles on its face
+    // may hold one for ten times the mean.
     auto const members = settling_members(64);
-    for (double const tolerance : {1e-4, 1e-6}) {
+    struct {
+        double tolerance, most;
+    } const runs[] = {{1e-4, 5}, {1e-6, 12}};
+    for (auto const& [tolerance, most] : runs) {
         auto const r = testing::run(best_isa(), options_of(Method::automatic, tolerance, 0.3), members);
         double const mean = evaluations_per_member(r);
         for (std::size_t i = 0; i < members.size(); ++i) {
             EXPECT_GT(r.records[i].stiff_steps, 20u) << "member " << i << " at " << tolerance;
-            EXPECT_LT(static_cast<double>(r.records[i].rhs_evaluations), 5 * mean)
+            EXPECT_LT(static_cast<double>(r.records[i].rhs_evaluations), most * mean)
                 << "member " << i << " at " << tolerance;
         }
     }
