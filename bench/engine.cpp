@@ -169,8 +169,8 @@ int benchmark(int rounds) {
         "second and "
         "steps of one core, by processor time; an analytic Jacobian counts as an evaluation.  Lanes in use: lane steps "
         "that served a "
-        "member over those executed, one thread.  Two threads: wall time of one over that of two, median and best "
-        "round; "
+        "member over those executed, one thread.  Two threads: wall time of one over that of two, by the medians and "
+        "by the least; "
         "then processor time likewise, which is below 1 by what the threads cost each other.\n\n",
         rounds, load);
     fmt::print(
