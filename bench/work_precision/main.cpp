@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
     app.add_option("-o,--output", folder, "folder for the table and the plots")->check(CLI::ExistingDirectory);
     app.add_option("--problem", only, "only problems whose name contains this");
     app.add_option("--method", only_method, "only methods whose name contains this");
-    app.add_option("--budget", budget, "seconds for one method at one tolerance (15, or 1 if quick)");
+    app.add_option("--budget", budget, "seconds for one method at one tolerance (8, or 1 if quick)");
     CLI11_PARSE(app, argc, argv);
     if (!slideway::is_supported(slideway::Isa::scalar)) {
         fmt::print(stderr, "work_precision: this machine has no AVX2 and FMA, which the peers are built for\n");
@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
     }
     try {
         SweepOptions options;
-        options.budget = budget > 0 ? budget : quick ? 1 : 15;
+        options.budget = budget > 0 ? budget : quick ? 1 : 8;
         options.repeats = quick ? 2 : 3;
         std::vector<Method> methods;
         for (auto const& group : {our_methods(), peer_methods()}) {

@@ -9,7 +9,7 @@
 namespace slideway::bench {
 
 struct SweepOptions {
-    double budget = 15;   // [s] for one method at one tolerance, once
+    double budget = 8;    // [s] for one method at one tolerance, once
     int repeats = 3;      // at most
     double long_run = 1;  // [s] what takes this long is not repeated
 };
