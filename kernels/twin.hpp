@@ -54,6 +54,7 @@ template <class Half> struct Traits<Twin<Half>> {
 
 }  // namespace detail
 
+template <class Half> SLIDEWAY_FN TwinMask<Half> negation(TwinMask<Half> m) { return !m; }
 template <class Half> SLIDEWAY_FN bool any(TwinMask<Half> m) { return any(m.low | m.high); }
 template <class Half> SLIDEWAY_FN bool all(TwinMask<Half> m) { return all(m.low & m.high); }
 

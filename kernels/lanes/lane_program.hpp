@@ -51,7 +51,7 @@ private:
     static constexpr int width = lanes<Real>;
     static constexpr int seats = width == 1 ? 1 : 8 * width;
     // Attempts of a stint: few where lanes are regrouped by what they touch, many where all have the same work.
-    static constexpr int attempts = Model::has_patterns ? 16 : 128;
+    static constexpr int attempts = Model::has_patterns ? 16 : 512;
     using Kind = typename Roster<seats, width>::Kind;
     using Record = MemberState<Model, double>;
 
