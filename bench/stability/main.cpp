@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
     bool quick = false;
     std::string folder = ".";
     int threads = 2;
-    app.add_flag("--quick", quick, "fewer members and points: about a minute instead of ten");
+    app.add_flag("--quick", quick, "fewer members and points: half a minute instead of two");
     app.add_option("-o,--output", folder, "folder for the tables")->check(CLI::ExistingDirectory);
     app.add_option("--threads", threads, "runs at a time (2)")->check(CLI::PositiveNumber);
     CLI11_PARSE(app, argc, argv);
