@@ -112,10 +112,10 @@ struct Row {
     Case const* scene;
     std::vector<Inputs> const* members;
     Isa isa;
-    Run last;
-    std::vector<double> one;                 // [s] of the processor, one thread
-    std::vector<double> wall_one, wall_two;  // [s]
-    std::vector<double> processor;           // processor time of one thread over that of two
+    Run last{};
+    std::vector<double> one{};                   // [s] of the processor, one thread
+    std::vector<double> wall_one{}, wall_two{};  // [s]
+    std::vector<double> processor{};             // processor time of one thread over that of two
 };
 
 std::string load_average() {
@@ -145,7 +145,7 @@ int benchmark(int rounds) {
     std::vector<Row> rows;
     for (std::size_t i = 0; i < cases.size(); ++i) {
         for (Isa const isa : {Isa::scalar, Isa::avx2, Isa::avx512}) {
-            if (is_supported(isa)) rows.push_back({&cases[i], &members[i], isa, {}, {}, {}, {}});
+            if (is_supported(isa)) rows.push_back({.scene = &cases[i], .members = &members[i], .isa = isa});
         }
     }
     auto const load = load_average();

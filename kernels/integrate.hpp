@@ -5,7 +5,8 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Integrates a block of members of a model with one pack of lanes.
+/// Integrates a block of members of a model with one pack of lanes.  What a model states is static, but its equations may be members:
+/// a model can look them up (kernels/models/slider_crank_table.hpp).
 ///
 /// A `Model` states, for `Real` a number or a pack of them:
 ///  - `Inputs` (plain numbers of one member), `size` (of the state), `parameters(inputs)` and `initial_state(inputs, state)`, in double;
@@ -18,9 +19,14 @@ namespace slideway::inline SLIDEWAY_ISA {
 ///    `energy_scale(…)` what is a creep and what an impact;
 ///  - `events`: then `event_table`, `event_values(…)`, whose values follow from the state alone, and `reset(…)`
 ///    (kernels/mechanisms/event_info.hpp, kernels/lanes/event_search.hpp).
-template <class Model, class Real> SLIDEWAY_HD void integrate(BlockOf<typename Model::Inputs>& block) {
-    LaneProgram<Model, Real> program(block);
+template <class Model, class Real>
+SLIDEWAY_HD void integrate(BlockOf<typename Model::Inputs>& block, Model const& model) {
+    LaneProgram<Model, Real> program(block, model);
     program.run();
+}
+
+template <class Model, class Real> SLIDEWAY_HD void integrate(BlockOf<typename Model::Inputs>& block) {
+    integrate<Model, Real>(block, Model{});
 }
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -23,7 +23,8 @@ template <class Model, class Real> class LaneProgram {
 public:
     using Block = BlockOf<typename Model::Inputs>;
 
-    SLIDEWAY_HD explicit LaneProgram(Block& block) : block_(block), results_(block) {
+    SLIDEWAY_HD LaneProgram(Block& block, Model const& model) : block_(block), results_(block) {
+        pack_.model = model;
         // What is observed for the status alone is not written.
         Selection const for_status =
             is_always_audited(block.settings.method) ? MemberState<Model, Real>::Observer::audit_quantities : 0;
@@ -174,7 +175,7 @@ private:
             bool const switching = Model::has_linearisation && block_.settings.method == Method::automatic &&
                                    !block_.settings.locate_modes;
             if (width == 1 && !switching) return;
-            pattern_ = Model::contact_pattern(s.course.t, s.course.y, s.constants.parameters);
+            pattern_ = pack_.model.contact_pattern(s.course.t, s.course.y, s.constants.parameters);
             if constexpr (Model::has_linearisation) {
                 if (switching && kind == Kind::explicit_pair) look_for_stiffness();
             }
@@ -188,7 +189,7 @@ private:
         auto creeping = touching;
         if (any(touching)) {
             typename Model::template Linearisation<Real> matrix;
-            Model::linearise(c.t, c.y, pack_.state.constants.parameters, c.memory, matrix);
+            pack_.model.linearise(c.t, c.y, pack_.state.constants.parameters, c.memory, matrix);
             rate_squared = select(touching, matrix.rate_squared(), rate_squared);
             c.jacobians = c.jacobians + count<Real>(touching);
             Real const little = Real(Stiffness::creep_below * Stiffness::creep_below) *

@@ -42,6 +42,7 @@ template <class Model, class Real> struct Pack {
     using Report = typename Model::template Report<Real>;
     using Observer = typename Model::template Observer<Real>;
 
+    [[no_unique_address]] Model model;
     ReportNeeds needs;
     MemberState<Model, Real> state;
     Mask<Real> busy;  // lanes with a member at work
@@ -58,8 +59,8 @@ template <class Model, class Real> struct Pack {
     SLIDEWAY_FN Faults<Real> evaluate(Real t, Real const* at, Real* rates, bool report_wanted, Report& report) const {
         auto const& s = state;
         return report_wanted
-                   ? Model::template derivative<true>(t, at, s.constants.parameters, s.course.memory, rates, &report)
-                   : Model::template derivative<false>(t, at, s.constants.parameters, s.course.memory, rates, &report);
+                   ? model.template derivative<true>(t, at, s.constants.parameters, s.course.memory, rates, &report)
+                   : model.template derivative<false>(t, at, s.constants.parameters, s.course.memory, rates, &report);
     }
 
     /// Begins the integrals over the step with the stage at its start.

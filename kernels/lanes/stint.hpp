@@ -199,8 +199,8 @@ private:
             Model::squared_speed(s.course.y, s.constants.scale) > Real(Stiffness::creep_below * Stiffness::creep_below);
         if (none(accepted & moves)) return mask_of<Real>(false);
         auto const& p = s.constants.parameters;
-        Real const before = Model::contact_pattern(s.course.t, s.course.y, p);
-        Real const after = Model::contact_pattern(s.course.t + pack_.step, pack_.end, p);
+        Real const before = pack_.model.contact_pattern(s.course.t, s.course.y, p);
+        Real const after = pack_.model.contact_pattern(s.course.t + pack_.step, pack_.end, p);
         Real met(0.0);
         for (int i = 0; i < width; ++i) {
             auto const bits = [&](Real const& pattern) { return static_cast<unsigned>(lane(pattern, i)); };

@@ -1,13 +1,13 @@
 #pragma once
 
 #include "kernels/block.hpp"
-#include "kernels/mechanisms/slider_crank.hpp"
+#include "kernels/joint/contact_report.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// Evaluates a table of states, a pack at a time; the last pack is filled up with the last row.
-template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& table) {
+template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& table, Model const& model = {}) {
     constexpr int width = lanes<Real>;
     constexpr int size = Model::size;
     typename Model::template Parameters<Real> p;
@@ -27,7 +27,7 @@ template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& tabl
             for (int j = 0; j < size; ++j) set_lane(state[j], i, start[j]);
             set_lane(t, i, table.times[row]);
         }
-        auto const faults = Model::template derivative<true>(t, state, p, memory, rates, &report);
+        auto const faults = model.template derivative<true>(t, state, p, memory, rates, &report);
         for (int i = 0; i < width && first + i < table.rows; ++i) {
             auto& result = table.results[first + i];
             bool finite = true;

@@ -2,13 +2,11 @@
 
 #include <type_traits>
 
-#include "kernels/block.hpp"
 #include "kernels/joint/attitude.hpp"
 #include "kernels/joint/joint.hpp"
 #include "kernels/mechanisms/faults.hpp"
 #include "kernels/mechanisms/no_memory.hpp"
-#include "kernels/mechanisms/slider_crank_parameters.hpp"
-#include "kernels/mechanisms/slider_crank_report.hpp"
+#include "kernels/mechanisms/slider_crank_base.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -16,15 +14,11 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// The spatial slider-crank with clearance in its translational joint.  State: y z vy vz φ ϑ ψ ωx ωy ωz (SI, model.md 1); the
 /// crank turns at constant speed, x follows from the rod.  Source: Qian et al. 2020, section 4; equations as in model.md 6.
 /// What a scene does not need is not in its instance: law, friction, pose of the way and damping are template arguments.
-template <class Law, class Friction, class Way, class Damping> struct SliderCrank {
+template <class Law, class Friction, class Way, class Damping> struct SliderCrank : SliderCrankBase {
     using Contact = Joint<Law, Friction, Damping>;
-    using Inputs = slideway::Inputs;
-    static constexpr int size = state_size;
     static constexpr bool has_memory = Contact::has_memory;
     static constexpr bool can_hold = Contact::can_hold;
     static constexpr bool conserving = !Law::switches;
-    template <class Real> using Parameters = SliderCrankParameters<Real>;
-    template <class Real> using Report = SliderCrankReport<Real>;
     template <class Real>
     using Memory = std::conditional_t<has_memory, ImpactMemory<Real>,
                                       std::conditional_t<can_hold, HeldContacts<Real>, NoMemory<Real>>>;
@@ -124,36 +118,6 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
         auto const motion =
             Way::motion(axes(attitude(s[4], s[5], s[6])), Vec3<Real>{x, s[0], s[1]}, still, still, p.joint.way);
         return Contact::pattern(motion, p.joint.geometry);
-    }
-
-    /// Sizes against which integrator.atol is meant: c, c·ω, 2c/L_k, 2c/L_k·ω.
-    template <class Real> SLIDEWAY_FN static void scales(SliderCrankParameters<Real> const& p, Real* scale) {
-        scale[0] = p.length_scale_y;
-        scale[1] = p.length_scale_z;
-        scale[2] = p.length_scale_y * p.rate_scale;
-        scale[3] = p.length_scale_z * p.rate_scale;
-        scale[4] = scale[5] = scale[6] = p.tilt_scale;
-        scale[7] = scale[8] = scale[9] = p.tilt_scale * p.rate_scale;
-    }
-
-    /// Energy of the slider at the scale of its velocity, M (c ω)² [J], against which the audit's absolute tolerance is meant.
-    template <class Real> SLIDEWAY_FN static Real energy_scale(SliderCrankParameters<Real> const& p) {
-        Real const speed = max(p.length_scale_y, p.length_scale_z) * p.rate_scale;
-        return p.slider_mass * speed * speed;
-    }
-
-    /// Length [m] against which the tolerance of a located touch is meant.
-    template <class Real> SLIDEWAY_FN static Real touch_scale(SliderCrankParameters<Real> const& p) {
-        return min(p.length_scale_y, p.length_scale_z);
-    }
-
-    SLIDEWAY_HD static SliderCrankParameters<double> parameters(Inputs const& inputs) {
-        return slider_crank_parameters(inputs);
-    }
-
-    SLIDEWAY_HD static void initial_state(Inputs const& in, double* s) {
-        double const start[size] = {in.y, in.z, in.vy, in.vz, in.roll, in.yaw, in.pitch, in.wx, in.wy, in.wz};
-        for (int i = 0; i < size; ++i) s[i] = start[i];
     }
 };
 

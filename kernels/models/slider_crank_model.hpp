@@ -1,7 +1,5 @@
 #pragma once
 
-#include <type_traits>
-
 #include "kernels/mechanisms/slider_crank.hpp"
 #include "kernels/mechanisms/slider_crank_linearisation.hpp"
 #include "kernels/observers/energy_audit.hpp"
@@ -13,20 +11,37 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// The slider-crank as the lanes integrate it (kernels/integrate.hpp): its equations, what is observed, and what the stiff method
-/// and the location of touches need.
-template <class Law, class Friction, class Way, class Damping>
-struct SliderCrankModel : SliderCrank<Law, Friction, Way, Damping> {
-    using Mechanism = SliderCrank<Law, Friction, Way, Damping>;
+/// What the lanes need of every slider-crank beside its equations (kernels/integrate.hpp).
+struct SliderCrankLanes {
     static constexpr int series = series_count;
     static constexpr int events = 0;
     static constexpr bool has_patterns = true;
     static constexpr bool has_linearisation = true;
     template <class Real> using Observer = SliderCrankObserver<Real>;
-    template <class Real>
-    using Watch = std::conditional_t<Mechanism::has_memory, TouchLocator<Real>,
-                                     std::conditional_t<Mechanism::can_hold, ModeLocator<Real>, NoWatch<Real>>>;
     template <class Real> using Linearisation = SliderCrankLinearisation<Real>;
+
+    /// Largest of the squared velocities and rates, each in its scale.
+    template <class Real> SLIDEWAY_HD static Real squared_speed(Real const* state, Real const* scale) {
+        Real largest(0.0);
+        for (int i : {2, 3, 7, 8, 9}) {
+            Real const speed = state[i] / scale[i];
+            largest = max(largest, speed * speed);
+        }
+        return largest;
+    }
+};
+
+/// What finds the events that a slider-crank's memory records.
+template <class Memory> struct SliderCrankWatch;
+template <class Real> struct SliderCrankWatch<ImpactMemory<Real>> { using Type = TouchLocator<Real>; };
+template <class Real> struct SliderCrankWatch<HeldContacts<Real>> { using Type = ModeLocator<Real>; };
+template <class Real> struct SliderCrankWatch<NoMemory<Real>> { using Type = NoWatch<Real>; };
+
+/// A slider-crank whose parts are known when the lanes are compiled.
+template <class Law, class Friction, class Way, class Damping>
+struct SliderCrankModel : SliderCrank<Law, Friction, Way, Damping>, SliderCrankLanes {
+    using Mechanism = SliderCrank<Law, Friction, Way, Damping>;
+    template <class Real> using Watch = typename SliderCrankWatch<typename Mechanism::template Memory<Real>>::Type;
 
     /// Members whose energy audit says that their method left its stable range.  @param time [s] they were integrated.
     template <class Real>
@@ -38,16 +53,6 @@ struct SliderCrankModel : SliderCrank<Law, Friction, Way, Damping> {
         EnergyScales<Real> const scale{Mechanism::energy_scale(p), p.slider_mass * acceleration * gap,
                                        sqrt(gap / acceleration)};
         return slideway::left_stable_range<Mechanism::conserving>(audit, scale, time);
-    }
-
-    /// Largest of the squared velocities and rates, each in its scale.
-    template <class Real> SLIDEWAY_HD static Real squared_speed(Real const* state, Real const* scale) {
-        Real largest(0.0);
-        for (int i : {2, 3, 7, 8, 9}) {
-            Real const speed = state[i] / scale[i];
-            largest = max(largest, speed * speed);
-        }
-        return largest;
     }
 
     template <class Real>

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "kernels/models/slider_crank_model.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// A slider-crank whose equations are looked up in a table of functions: the lanes are then compiled once for all laws, frictions, ways
+/// and dampings that leave the same memory.  A call costs what a call costs; the derivative is a function of its own in any case.
+template <class Real, template <class> class Memory_> struct SliderCrankTable : SliderCrankBase, SliderCrankLanes {
+    template <class Number> using Memory = Memory_<Number>;
+    template <class Number> using Watch = typename SliderCrankWatch<Memory<Number>>::Type;
+    static constexpr bool has_memory = std::is_same_v<Memory<Real>, ImpactMemory<Real>>;
+    static constexpr bool can_hold = std::is_same_v<Memory<Real>, HeldContacts<Real>>;
+
+    using Derivative = Faults<Real>(Real, Real const*, Parameters<Real> const&, Memory<Real> const&, Real*,
+                                    Report<Real>*);
+
+    Derivative* lean;
+    Derivative* full;
+    void (*linearisation)(Real, Real const*, Parameters<Real> const&, Memory<Real> const&, Linearisation<Real>&);
+    Real (*pattern)(Real, Real const*, Parameters<Real> const&);
+    Mask<Real> (*unstable)(EnergyAudit<Real> const&, Real, Parameters<Real> const&);
+
+    /// The table of one `SliderCrankModel`.
+    template <class Model> static constexpr SliderCrankTable of() {
+        SliderCrankTable table{};
+        table.lean = &Model::template derivative<false, Real>;
+        table.full = &Model::template derivative<true, Real>;
+        table.linearisation = &Model::template linearise<Real>;
+        table.pattern = &Model::template contact_pattern<Real>;
+        table.unstable = &Model::template left_stable_range<Real>;
+        return table;
+    }
+
+    template <bool Full>
+    Faults<Real> derivative(Real t, Real const* state, Parameters<Real> const& p, Memory<Real> const& memory,
+                            Real* rates, Report<Real>* report) const {
+        return (Full ? full : lean)(t, state, p, memory, rates, report);
+    }
+    void linearise(Real t, Real const* state, Parameters<Real> const& p, Memory<Real> const& memory,
+                   Linearisation<Real>& out) const {
+        linearisation(t, state, p, memory, out);
+    }
+    Real contact_pattern(Real t, Real const* state, Parameters<Real> const& p) const { return pattern(t, state, p); }
+    Mask<Real> left_stable_range(EnergyAudit<Real> const& audit, Real time, Parameters<Real> const& p) const {
+        return unstable(audit, time, p);
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA
