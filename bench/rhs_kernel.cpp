@@ -2,6 +2,7 @@
 #include "bench/rhs_kernel.hpp"
 
 #include "host/backend/isa_real.hpp"
+#include "kernels/lane_copy.hpp"
 #include "kernels/laws/conservative.hpp"
 #include "kernels/laws/paper.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"
@@ -30,10 +31,7 @@ template <class Model> void load(void* to, Inputs const* members, double const* 
     for (std::size_t member = 0; member < count; ++member) {
         auto& pack = packs[member / lanes<Real>];
         int const index = static_cast<int>(member % lanes<Real>);
-        auto const parameters = Model::parameters(members[member]);
-        auto const* const from = reinterpret_cast<double const*>(&parameters);
-        auto* const values = reinterpret_cast<Real*>(&pack.parameters);
-        for (std::size_t i = 0; i < sizeof(parameters) / sizeof(double); ++i) set_lane(values[i], index, from[i]);
+        load_lane(pack.parameters, index, Model::parameters(members[member]));
         double start[Model::size];
         Model::initial_state(members[member], start);
         for (int i = 0; i < Model::size; ++i) set_lane(pack.state[i], index, start[i]);

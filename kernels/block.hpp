@@ -34,7 +34,7 @@ struct MemberRecord {
     std::uint64_t steps_rejected = 0;  // by the error, or cut at a touch
     std::uint64_t rhs_evaluations = 0;
     double time = 0;                         // [s] where it ended
-    std::uint64_t jacobian_evaluations = 0;  // each costs about one right-hand side
+    std::uint64_t jacobian_evaluations = 0;  // each costs one to two right-hand sides
     std::uint64_t stiff_steps = 0;           // accepted steps of the stiff method
 };
 
@@ -47,7 +47,7 @@ struct BlockBase {
     std::size_t samples = 0;
     Selection quantities = 0;
     Selection series = 0;
-    /// Asked now and then; true ends the block at once.  Members that have not ended keep what their results held before.
+    /// Asked now and then; true ends the block at once.  Members that have not ended keep what their results held before; their series are NaN.
     bool (*stop)(void const* context) = nullptr;
     void const* stop_context = nullptr;
     // results

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "kernels/lane_copy.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/runge_kutta4.hpp"
 
@@ -60,10 +61,7 @@ private:
             std::size_t const wanted = first + static_cast<std::size_t>(i);
             auto const& inputs = block.inputs[wanted < block.members ? wanted : block.members - 1];
             int const pack = i / lanes<Real>, index = i % lanes<Real>;
-            auto const parameters = Model::parameters(inputs);
-            auto const* from = reinterpret_cast<double const*>(&parameters);
-            auto* to = reinterpret_cast<Real*>(&p[pack]);
-            for (std::size_t j = 0; j < sizeof(parameters) / sizeof(double); ++j) put(to[j], index, from[j]);
+            load_lane(p[pack], index, Model::parameters(inputs));
             double start[size];
             Model::initial_state(inputs, start);
             for (int j = 0; j < size; ++j) put(y[pack][j], index, start[j]);

@@ -34,6 +34,9 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
+/// Quiet NaN: a value that is not there.
+inline constexpr double not_a_number = __builtin_nan("");
+
 // ---- double ---------------------------------------------------------------------------------------------------
 
 namespace detail {
@@ -153,6 +156,9 @@ template <class Arch> SLIDEWAY_FN Batch<Arch> negated(Batch<Arch> x) {
 }
 
 // xsimd 8.1 has no AVX-512 fma: it becomes multiply and add, which is slower and gives other bits.
+#if defined(SLIDEWAY_NO_FMA)
+#define SLIDEWAY_FUSED(name)
+#else
 #if defined(__AVX512F__)
 #define SLIDEWAY_FUSED_512(name) \
     if constexpr (lanes<Batch<Arch>> == 8) return _mm512_##name##_pd(a, b, c);
@@ -165,7 +171,9 @@ template <class Arch> SLIDEWAY_FN Batch<Arch> negated(Batch<Arch> x) {
     if constexpr (lanes<Batch<Arch>> == 4) return _mm256_##name##_pd(a, b, c); \
     if constexpr (lanes<Batch<Arch>> == 2) return _mm_##name##_pd(a, b, c);
 #else
-#define SLIDEWAY_FUSED(name)
+#define SLIDEWAY_FUSED(name) \
+    static_assert(lanes<Batch<Arch>> == 0, "build with -mfma, or define SLIDEWAY_NO_FMA and have other bits");
+#endif
 #endif
 template <class Arch> SLIDEWAY_FN Batch<Arch> fma(Batch<Arch> a, Batch<Arch> b, Batch<Arch> c) {
     SLIDEWAY_FUSED(fmadd)
@@ -210,14 +218,15 @@ template <class Arch> SLIDEWAY_FN void set_lane(Batch<Arch>& x, int index, doubl
 
 /// Bit i is the truth value of lane i.
 template <class Arch> SLIDEWAY_FN unsigned mask_bits(BatchMask<Arch> m) {
+    constexpr int width = lanes<Batch<Arch>>;
+    static_assert(width == 2 || width == 4 || width == 8);
 #if defined(__AVX512F__)
-    if constexpr (lanes<Batch<Arch>> == 8) return static_cast<unsigned>(static_cast<__mmask8>(m));
+    if constexpr (width == 8) return static_cast<unsigned>(static_cast<__mmask8>(m));
 #endif
 #if defined(__AVX__)
-    if constexpr (lanes<Batch<Arch>> == 4) return static_cast<unsigned>(_mm256_movemask_pd(m));
+    if constexpr (width == 4) return static_cast<unsigned>(_mm256_movemask_pd(m));
 #endif
-    if constexpr (lanes<Batch<Arch>> == 2) return static_cast<unsigned>(_mm_movemask_pd(m));
-    return 0;
+    if constexpr (width == 2) return static_cast<unsigned>(_mm_movemask_pd(m));
 }
 
 #endif  // SLIDEWAY_SIMD

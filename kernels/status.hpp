@@ -8,7 +8,7 @@ enum class Status : signed char {
     finished = 0,        // reached the end time
     step_too_small = 1,  // the error control asked for a step below the resolution of time
     max_steps = 2,       // spent integrator.max_steps
-    nonfinite = 3,       // NaN or infinity in the state or its derivative at any step that resolves time
+    nonfinite = 3,       // NaN or infinity in state, derivative or linear equations at any step that resolves time
     geometry = 4,        // the rod does not reach: L² − (y−y_A)² − z² ≤ 0
     contact_domain = 5,  // a line contact beyond its domain δ̄ ≤ l²/R_e
     invalid_inputs = 6,  // the inputs drawn for the member cannot be used; it was not integrated

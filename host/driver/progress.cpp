@@ -68,10 +68,9 @@ void Progress::report() {
     for (int tick = 1; !changed_.wait_for(lock, 250ms, [this] { return ended_; }); ++tick) {
         if (!told_stop && stop_.reason() != StopReason::none) {
             told_stop = true;
-            bool const by_signal = stop_.reason() == StopReason::signal;
-            fmt::print(out_, "{}stopping ({}): the blocks in work are finished and written{}\n",
-                       style_ == Style::terminal ? "\r\x1b[K" : "", by_signal ? "signal" : "--max-hours",
-                       by_signal ? "; a second signal abandons them" : "");
+            fmt::print(out_, "{}stopping ({}): members under way are given up, those that ended are written\n",
+                       style_ == Style::terminal ? "\r\x1b[K" : "",
+                       stop_.reason() == StopReason::signal ? "signal" : "--max-hours");
             std::fflush(out_);
         }
         if (tick % ticks_per_line == 0) print_line();

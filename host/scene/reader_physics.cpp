@@ -103,6 +103,11 @@ void read_integrator(Node const& root, Scene& scene) {
     if (settings.method == Method::rk4 && step == nullptr) {
         refuse(*root.find_path("integrator.method"), {"the method has no step control", "give integrator.step"});
     }
+    if (settings.method == Method::rk4 && scene.parts.damping == Damping::restitution) {
+        refuse(*root.find_path("integrator.method"),
+               {"contact.restitution wants the speed at each touch, where the method's steps do not end",
+                "use method \"auto\", \"dopri5\", \"bs32\" or \"ros34pw2\""});
+    }
     if (Node const* const node = root.find_path("integrator.locate_modes")) {
         settings.locate_modes = read_boolean(*node);
         if (settings.locate_modes) check_located_modes(*node, scene);

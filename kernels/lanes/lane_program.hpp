@@ -22,6 +22,10 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Model, class Real> class LaneProgram {
 public:
     using Block = BlockOf<typename Model::Inputs>;
+    static_assert(holds_reals_only<Model>);
+    static_assert(
+        Model::events == 0 || (MemberState<Model, Real>::Observer::integrals == 0 && !Model::has_linearisation),
+        "an event ends its step early: integrals over the step and the stiff method's straight line do not know");
 
     SLIDEWAY_HD LaneProgram(Block& block, Model const& model) : block_(block), results_(block) {
         pack_.model = model;
@@ -96,9 +100,9 @@ private:
             if (i < members) set_lane(occupied, i, 1.0);
             if constexpr (width > 1) {
                 Record const& r = records_[chosen[i < members ? i : 0]];
-                load_lane<width>(pack_.state.constants, i, r.constants);
-                load_lane<width>(pack_.state.course, i, r.course);
-                if (pack_.needs.quantities) load_lane<width>(pack_.state.observation, i, r.observation);
+                load_lane(pack_.state.constants, i, r.constants);
+                load_lane(pack_.state.course, i, r.course);
+                if (pack_.needs.quantities) load_lane(pack_.state.observation, i, r.observation);
             }
         }
         pack_.busy = occupied > Real(0.5);
@@ -114,9 +118,9 @@ private:
             }
             auto const& c = pack_.state.course;
             if constexpr (width > 1) {
-                store_lane<width>(c, i, records_[seat].course);
+                store_lane(c, i, records_[seat].course);
                 if (pack_.needs.quantities) {
-                    store_lane<width>(pack_.state.observation, i, records_[seat].observation);
+                    store_lane(pack_.state.observation, i, records_[seat].observation);
                 }
             }
             roster_[seat].kind = lane(c.stiff, i) > 0.5 ? Kind::stiff : Kind::explicit_pair;

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <cstddef>
-
+#include "kernels/lane_copy.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -46,21 +45,9 @@ template <class Model, class Real> struct MemberState {
     Observation observation;
 };
 
-/// Moves one lane of a pack's part from or to a member's record.
-template <int width, class PackPart, class Part>
-SLIDEWAY_HD void load_lane(PackPart& pack, int index, Part const& record) {
-    static_assert(sizeof(PackPart) == width * sizeof(Part) && sizeof(Part) % sizeof(double) == 0);
-    auto const* from = reinterpret_cast<double const*>(&record);
-    auto* to = reinterpret_cast<double*>(&pack) + index;
-    for (std::size_t i = 0; i < sizeof(Part) / sizeof(double); ++i) to[i * width] = from[i];
-}
-
-template <int width, class PackPart, class Part>
-SLIDEWAY_HD void store_lane(PackPart const& pack, int index, Part& record) {
-    static_assert(sizeof(PackPart) == width * sizeof(Part) && sizeof(Part) % sizeof(double) == 0);
-    auto const* from = reinterpret_cast<double const*>(&pack) + index;
-    auto* to = reinterpret_cast<double*>(&record);
-    for (std::size_t i = 0; i < sizeof(Part) / sizeof(double); ++i) to[i] = from[i * width];
-}
+/// Whether a member's record holds Reals only, so that it may be moved number by number.
+template <class Model>
+inline constexpr bool holds_reals_only = sizeof(MemberState<Model, ThreeNumbers>) ==
+                                         3 * sizeof(MemberState<Model, double>);
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -1,8 +1,6 @@
 // Elastic forces of single contacts together with their stiffness: point.hpp and line.hpp, differentiated.
 #pragma once
 
-#include <limits>
-
 #include "kernels/laws/line.hpp"
 #include "kernels/laws/point.hpp"
 #include "kernels/math/exponential.hpp"
@@ -30,7 +28,7 @@ template <class Real> SLIDEWAY_FN ElasticSlope<Real> point_stiffness(Real depth,
 /// @param approach δ [m], 0 < δ ≤ l²/R; NaN beyond.  At its end w = 1 and the stiffness is infinite: w − 1 is held at 1e-6.
 template <class Real> SLIDEWAY_FN ElasticSlope<Real> line_stiffness(Real approach, LineContact<Real> const& line) {
     Real const u = approach * line.radius_rate;
-    Real const scale = select(u <= Real(1.0), line.scale, Real(std::numeric_limits<double>::quiet_NaN()));
+    Real const scale = select(u <= Real(1.0), line.scale, Real(not_a_number));
     Real const inside = min(max(u, Real(1e-32)), Real(1.0));
     auto const w = minus_lambert_wm1_exp(negated(log_positive(inside)));
     // 1/w and 1/(w − 1) by one division.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <limits>
-
 #include "kernels/laws/face.hpp"
 #include "kernels/math/lambert_w.hpp"
 #include "kernels/math/logarithm.hpp"
@@ -40,7 +38,7 @@ template <class Real>
 SLIDEWAY_FN LineLoad<Real> line_load(Mask<Real> line, Real approach, Real x, LineContact<Real> const& contact) {
     if (none(line)) return {Real(0.0), Real(0.0), mask_of<Real>(false)};
     auto const outside = !(approach * contact.radius_rate <= Real(1.0));
-    Real const load = select(outside, Real(std::numeric_limits<double>::quiet_NaN()), contact.scale * x);
+    Real const load = select(outside, Real(not_a_number), contact.scale * x);
     // P x (2w − 1)/4 with x w = δ.
     return {load, load * Real(0.25) * (approach + approach - x), outside};
 }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <limits>
-
 #include "kernels/math/polynomial.hpp"
 #include "kernels/real.hpp"
 
@@ -15,8 +13,6 @@ template <class Real> struct SinCos {
 };
 
 namespace detail {
-
-inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// S of sin x = x + x³ S(x²), |x| ≤ π/4.
 template <class Real> SLIDEWAY_FN Real sine_series(Real square) {

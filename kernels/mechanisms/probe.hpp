@@ -2,6 +2,7 @@
 
 #include "kernels/block.hpp"
 #include "kernels/joint/contact_report.hpp"
+#include "kernels/lane_copy.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -18,10 +19,7 @@ template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& tabl
         Real t, state[size], rates[size];
         for (int i = 0; i < width; ++i) {
             std::size_t const row = first + i < table.rows ? first + i : table.rows - 1;
-            auto const parameters = Model::parameters(table.inputs[row]);
-            auto const* from = reinterpret_cast<double const*>(&parameters);
-            auto* to = reinterpret_cast<Real*>(&p);
-            for (std::size_t j = 0; j < sizeof(parameters) / sizeof(double); ++j) set_lane(to[j], i, from[j]);
+            load_lane(p, i, Model::parameters(table.inputs[row]));
             double start[size];
             Model::initial_state(table.inputs[row], start);
             for (int j = 0; j < size; ++j) set_lane(state[j], i, start[j]);

@@ -33,7 +33,7 @@ template <class Real> struct SliderCrankParameters {
     // scales of the error control
     Real length_scale_y, length_scale_z;  // clearances [m]
     Real tilt_scale;                      // 2c/L_k [rad]
-    Real rate_scale;                      // ω [1/s]
+    Real rate_scale;                      // |ω|, at least 1 [1/s]
 };
 
 namespace detail {

@@ -43,7 +43,7 @@ template <class Real> struct SliderCrankReport {
             case Series::points:
                 return contact.points;
             default:
-                return Real(follows);
+                return Real(not_a_number);
         }
     }
 

@@ -43,7 +43,7 @@ public:
     /// Writes what one lane has recorded; what it has not is NaN.
     SLIDEWAY_HD void finish(int index, double, Selection, double* row) const {
         auto const recorded = static_cast<int>(lane(count_, index)) - transient;
-        for (int i = 0; i < kept; ++i) row[i] = i < recorded ? lane(value_[i], index) : follows;
+        for (int i = 0; i < kept; ++i) row[i] = i < recorded ? lane(value_[i], index) : not_a_number;
     }
 
 private:

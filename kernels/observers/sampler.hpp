@@ -22,7 +22,7 @@ public:
         std::size_t row = 0;
         for (int i = 0; i < Model::series; ++i) {
             if (!((block_.series >> i) & 1u)) continue;
-            double value = follows;
+            double value = not_a_number;
             if (i < Model::size) {
                 value = lane(state[i], index);
             } else if constexpr (Model::series > Model::size) {
@@ -37,7 +37,7 @@ public:
     SLIDEWAY_HD void fill_missing(std::size_t member, std::size_t from) const {
         for (std::size_t row = 0; row < selected_; ++row) {
             auto* const values = block_.series_values + (row * block_.members + member) * block_.samples;
-            for (std::size_t i = from; i < block_.samples; ++i) values[i] = follows;
+            for (std::size_t i = from; i < block_.samples; ++i) values[i] = not_a_number;
         }
     }
 

@@ -10,7 +10,6 @@ template <class Tableau_, int count> struct ExplicitPair {
     using Tableau = Tableau_;
     static constexpr bool adaptive = true;
     static constexpr int stages = count;
-    static constexpr Tableau tableau{};
 
     /// State at which stage `s` evaluates the derivative: y + h Σ_j a_sj k_j.
     template <int s, int size, class Real>

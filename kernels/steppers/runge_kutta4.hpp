@@ -22,7 +22,6 @@ struct RungeKutta4 {
     static constexpr bool adaptive = false;
 
     using Tableau = RungeKutta4Tableau;
-    static constexpr Tableau tableau{};
 
     /// State at which stage `s` evaluates the derivative; s = 4 is the end of the step, with the bits that `accumulate` gives.
     template <int s, int size, class Real>

@@ -2,6 +2,7 @@
 #include "tests/parity/linearisation_table.hpp"
 
 #include "host/backend/isa_real.hpp"
+#include "kernels/lane_copy.hpp"
 #include "kernels/mechanisms/slider_crank_linearisation.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -22,10 +23,7 @@ template <class Model> void linearise_all(LinearisationRow const* rows, std::siz
         Real t, hg, state[state_size], u[state_size];
         for (int i = 0; i < width; ++i) {
             auto const& row = rows[first + static_cast<std::size_t>(i)];
-            auto const parameters = Model::parameters(row.inputs);
-            auto const* from = reinterpret_cast<double const*>(&parameters);
-            auto* to = reinterpret_cast<Real*>(&p);
-            for (std::size_t j = 0; j < sizeof(parameters) / sizeof(double); ++j) set_lane(to[j], i, from[j]);
+            load_lane(p, i, Model::parameters(row.inputs));
             double start[state_size];
             Model::initial_state(row.inputs, start);
             for (int j = 0; j < state_size; ++j) set_lane(state[j], i, start[j]);

@@ -20,6 +20,7 @@ struct Layer {
 // A file may include its own layer and those of the same or a lower rank.
 constexpr std::array layers = {
     Layer{"kernels/real.hpp", 1},
+    Layer{"kernels/lane_copy.hpp", 2},
     Layer{"kernels/twin.hpp", 2},
     Layer{"kernels/math", 2},
     Layer{"kernels/laws", 3},

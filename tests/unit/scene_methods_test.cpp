@@ -36,6 +36,14 @@ TEST(SceneMethods, FixedStepsNeedAStep) {
     EXPECT_EQ(refusal_of("method = \"bs32\""), "");
 }
 
+TEST(SceneMethods, FixedStepsFindNoTouchesForRestitution) {
+    EXPECT_EQ(refusal_of("method = \"rk4\"\nstep = 1e-6\n[contact]\nrestitution = 0.5"),
+              "scene.toml:3: integrator.method is \"rk4\" (contact.restitution wants the speed at each touch, where "
+              "the method's steps do "
+              "not end); use method \"auto\", \"dopri5\", \"bs32\" or \"ros34pw2\"");
+    EXPECT_EQ(refusal_of("method = \"dopri5\"\n[contact]\nrestitution = 0.5"), "");
+}
+
 TEST(SceneMethods, StepsAndTolerancesAreNotEverything) {
     for (char const* key : {"step", "max_step", "stiff_max_step"}) {
         for (char const* value : {"0", "-1e-6", "nan", "\"1 kg\""}) {
@@ -45,7 +53,8 @@ TEST(SceneMethods, StepsAndTolerancesAreNotEverything) {
         EXPECT_EQ(refusal_of(fmt::format("{} = \"1 us\"", key)), "");
     }
     for (char const* value : {"0", "1e-15", "0.2", "-1", "nan"}) {
-        EXPECT_TRUE(contains(refusal_of(fmt::format("stiff_tolerance = {}", value)), "integrator.stiff_tolerance")) << value;
+        EXPECT_TRUE(contains(refusal_of(fmt::format("stiff_tolerance = {}", value)), "integrator.stiff_tolerance"))
+            << value;
     }
     EXPECT_EQ(settings_of("stiff_tolerance = 3e-6").stiff_tolerance, 3e-6);
 }
