@@ -19,14 +19,7 @@ template <class Stepper, class Model, class Real> class Stint {
 public:
     SLIDEWAY_HD Stint(Pack<Model, Real>& pack, Results<Model>& results, IntegratorSettings const& settings)
         : pack_(pack), results_(results), settings_(settings) {
-        rtol_ = settings.rtol;
-        atol_ = settings.atol;
-        max_step_ = settings.max_step;
-        if constexpr (Stepper::stiff) {
-            rtol_ = rtol_ > settings.stiff_tolerance ? rtol_ : settings.stiff_tolerance;
-            atol_ = atol_ > settings.stiff_tolerance ? atol_ : settings.stiff_tolerance;
-            max_step_ = settings.stiff_max_step;
-        }
+        max_step_ = Stepper::stiff ? settings.stiff_max_step : settings.max_step;
     }
 
     /// Every lane attempts `attempts` steps, unless its member ends or leaves the stiff method before.
@@ -67,13 +60,22 @@ private:
     }
 
     /// Mean square of the components' errors, each against its tolerance.  NaN where any is NaN.
-    SLIDEWAY_HD Real squared_error_norm() const {
-        Real const rtol(rtol_), atol(atol_);
+    /// Of the stiff method's errors what lasts meets the tolerance, the whole with its ringing `stiff_tolerance` at least.
+    SLIDEWAY_HD Real squared_error_norm() {
+        Real const rtol(settings_.rtol), atol(settings_.atol);
         auto const& s = pack_.state;
         SquaredRatios<Real> sum;
+        if constexpr (Stepper::stiff) stepper_.filter_error(Real(max_step_));
         for (int i = 0; i < size; ++i) {
-            Real const tolerance = fma(rtol, max(abs(s.course.y[i]), abs(pack_.end[i])), atol * s.constants.scale[i]);
-            sum.add(stepper_.error(pack_, i), tolerance);
+            Real const amount = max(abs(s.course.y[i]), abs(pack_.end[i])), scale = s.constants.scale[i];
+            Real const tolerance = fma(rtol, amount, atol * scale);
+            if constexpr (Stepper::stiff) {
+                Real const least(settings_.stiff_tolerance);
+                sum.add(stepper_.lasting_error(pack_, i), tolerance);
+                sum.add(stepper_.error(pack_, i), fma(max(rtol, least), amount, max(atol, least) * scale));
+            } else {
+                sum.add(stepper_.error(pack_, i), tolerance);
+            }
         }
         // The damping power has a kink where a contact begins, which the states hardly feel: the audit controls its own error.
         constexpr int audit_integrals = Pack<Model, Real>::Observer::audit_integrals;
@@ -231,7 +233,7 @@ private:
     IntegratorSettings const& settings_;
     Stepper stepper_;
     [[no_unique_address]] std::conditional_t<(Model::events > 0), EventSearch<Model, Real>, NoSearch> search_;
-    double rtol_, atol_, max_step_;
+    double max_step_;
     Real target_;
     Mask<Real> lands_, left_;
 };
