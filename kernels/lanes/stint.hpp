@@ -192,8 +192,9 @@ private:
         pack_.begin_next(touched, pack_.end_rates);
     }
 
-    /// Lanes whose step brought an apex into contact at more than a creep.  The stiff method would swallow the impact's energy without a
-    /// sign: `auto` leaves impacts to the explicit pair.
+    /// Lanes whose step brought an apex into contact at speed.  The stiff method would swallow the impact's energy without a
+    /// sign: `auto` leaves impacts to the explicit pair.  What counts is how fast the apex approached its face: a slider that glides along
+    /// one, with a corner that rattles on it at next to no speed, has no impacts.
     SLIDEWAY_HD Mask<Real> find_impacts(Mask<Real> accepted) {
         auto const& s = pack_.state;
         if (settings_.method != Method::automatic) return mask_of<Real>(false);
@@ -201,14 +202,8 @@ private:
             Model::squared_speed(s.course.y, s.constants.scale) > Real(Stiffness::creep_below * Stiffness::creep_below);
         if (none(accepted & moves)) return mask_of<Real>(false);
         auto const& p = s.constants.parameters;
-        Real const before = Model::contact_pattern(s.course.t, s.course.y, p);
-        Real const after = Model::contact_pattern(s.course.t + pack_.step, pack_.end, p);
-        Real met(0.0);
-        for (int i = 0; i < width; ++i) {
-            auto const bits = [&](Real const& pattern) { return static_cast<unsigned>(lane(pattern, i)); };
-            if ((bits(after) & ~bits(before)) != 0) set_lane(met, i, 1.0);
-        }
-        return accepted & moves & (met > Real(0.5));
+        Real const speed = Model::approach_speed(s.course.t, s.course.y, pack_.step, pack_.end, p);
+        return accepted & moves & (speed > Real(Stiffness::impact_above));
     }
 
     /// A lane leaves the stiff method where contact is lost or an impact begins, or its steps stay far below what that method is for.
