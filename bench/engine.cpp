@@ -81,8 +81,6 @@ Run run(Case const& c, std::vector<Inputs> const& members, Isa isa, int threads)
     auto& settings = plan.request.integrator;
     settings.end_time = c.end_time;
     settings.rtol = settings.atol = c.rtol;
-    // As scenes have it unless they say otherwise.
-    settings.stiff_tolerance = default_stiff_tolerance(c.rtol);
     plan.source = [&](std::uint64_t i, Inputs& in) {
         in = members[i];
         return true;

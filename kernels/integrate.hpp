@@ -15,8 +15,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 ///  - `derivative<Full>(t, state, parameters, memory, rates, report)`, which fills the report if Full and returns `Faults`;
 ///  - `scales(parameters, scale)`: sizes of the state's components that the absolute tolerance is meant against;
 ///  - `has_linearisation`: then `Linearisation<Real>` and `linearise(…)` serve the stiff method;
-///  - `has_patterns`: then `contact_pattern(…)` says which lanes have like work to do, and with a linearisation `squared_speed(…)` and
-///    `energy_scale(…)` what is a creep and what an impact;
+///  - `has_patterns`: then `contact_pattern(…)` says which lanes have like work to do, and with a linearisation `squared_speed(…)`,
+///    `approach_speed(…)` and `energy_scale(…)` what is a creep and what an impact;
 ///  - `events`: then `event_table`, `event_values(…)`, whose values follow from the state alone, and `reset(…)`
 ///    (kernels/mechanisms/event_info.hpp, kernels/lanes/event_search.hpp).
 template <class Model, class Real>

@@ -23,13 +23,6 @@ inline constexpr int method_count = sizeof(method_table) / sizeof(method_table[0
 /// members carry the energy audit along whether or not it is asked for, so that their status can tell.
 constexpr bool is_always_audited(Method method) { return method == Method::ros34pw2 || method == Method::rk4; }
 
-/// The stiff method's tolerance where a scene names none.  Vibrations of lasting contact are not worth the accuracy of an impact, and
-/// below 1e-4 they hold the steps; tighter tolerances tighten it nevertheless (docs/integrators.md).
-constexpr double default_stiff_tolerance(double rtol) {
-    double const loose = 100 * rtol < 1e-4 ? 100 * rtol : 1e-4;
-    return rtol > loose ? rtol : loose;
-}
-
 constexpr char const* name_of(Method method) { return method_table[static_cast<int>(method)].name; }
 
 }  // namespace slideway

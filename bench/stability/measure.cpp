@@ -28,8 +28,6 @@ Outcome measure(Point const& point, Method method, double fixed_step) {
     options.parts = point.parts;
     options.settings.method = method;
     options.settings.rtol = options.settings.atol = point.tolerance;
-    options.settings.stiff_tolerance =
-        default_stiff_tolerance(point.tolerance);  // as in a scene
     options.settings.fixed_step = fixed_step;
     options.settings.end_time = end_time;
     // A fixed step costs what it costs.

@@ -124,8 +124,6 @@ template <class Ensemble> Outcome run_block(Isa isa, Choice const& choice, Ensem
     settings.method = choice.method;
     settings.locate_modes = choice.locate_modes;
     settings.rtol = settings.atol = task.tolerance;
-    // As scenes have it unless they say otherwise.
-    settings.stiff_tolerance = default_stiff_tolerance(task.tolerance);
     settings.end_time = problem.end_time;
     settings.max_step = problem.max_step;
     if (problem.measure == Measure::energy) work.block.quantities = audit_quantities();

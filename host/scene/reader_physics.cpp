@@ -131,9 +131,8 @@ void read_integrator(Node const& root, Scene& scene) {
     if (Node const* const node = root.find_path("integrator.stiff_max_step")) {
         settings.stiff_max_step = read_number(*node, "s", "largest step", {.low = 0, .low_included = false});
     }
-    settings.stiff_tolerance = default_stiff_tolerance(settings.rtol);
     if (Node const* const node = root.find_path("integrator.stiff_tolerance")) {
-        settings.stiff_tolerance = read_number(*node, "1", "least tolerance of the stiff method", {1e-14, 0.1});
+        settings.stiff_tolerance = read_number(*node, "1", "least tolerance of ringing", {1e-14, 0.1});
     }
     if (Node const* const node = root.find_path("integrator.max_steps")) {
         settings.max_steps = read_count(*node, "number of steps", 1, 1'000'000'000'000'000);

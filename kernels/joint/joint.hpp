@@ -51,16 +51,47 @@ template <class Law, class Friction, class Damping> struct Joint {
     /// faces.  The two faces of an axis are worked on in one pass, so that their sides make no difference.
     template <class Real>
     SLIDEWAY_FN static Real pattern(JointMotion<Real> const& motion, JointGeometry<Real> const& g) {
-        Vec3<Real> const &ny = motion.axes.y, &nz = motion.axes.z;
-        auto const y = penetrations(g.clearance_y, g.half_width, g.half_depth, g.half_length, motion.axes.y_shortfall,
-                                    ny.z, ny.x, motion.y, motion.z);
-        auto const z = penetrations(g.clearance_z, g.half_depth, g.half_width, g.half_length, motion.axes.z_shortfall,
-                                    nz.y, nz.x, motion.z, motion.y);
-        return fma(Real(16.0), axis_pattern(z), axis_pattern(y));
+        return fma(Real(16.0), axis_pattern(z_depths(motion, g)), axis_pattern(y_depths(motion, g)));
+    }
+
+    /// The longest way [m] that an apex made between two poses towards a face which it touches only in the second; 0 where none does.
+    template <class Real>
+    SLIDEWAY_FN static Real approach(JointMotion<Real> const& before, JointMotion<Real> const& after,
+                                     JointGeometry<Real> const& g) {
+        auto const y0 = y_depths(before, g), y1 = y_depths(after, g);
+        auto const z0 = z_depths(before, g), z1 = z_depths(after, g);
+        Real longest(0.0);
+        for (int i = 0; i < 2; ++i) {
+            Real const side(i == 0 ? 1.0 : -1.0);
+            longest = max(longest, face_approach(apices(y0, side), apices(y1, side)));
+            longest = max(longest, face_approach(apices(z0, side), apices(z1, side)));
+        }
+        return longest;
     }
 
 private:
     enum class Axis { y, z };
+
+    template <class Real>
+    SLIDEWAY_FN static FacePair<Real> y_depths(JointMotion<Real> const& motion, JointGeometry<Real> const& g) {
+        Vec3<Real> const& n = motion.axes.y;
+        return penetrations(g.clearance_y, g.half_width, g.half_depth, g.half_length, motion.axes.y_shortfall, n.z, n.x,
+                            motion.y, motion.z);
+    }
+
+    template <class Real>
+    SLIDEWAY_FN static FacePair<Real> z_depths(JointMotion<Real> const& motion, JointGeometry<Real> const& g) {
+        Vec3<Real> const& n = motion.axes.z;
+        return penetrations(g.clearance_z, g.half_depth, g.half_width, g.half_length, motion.axes.z_shortfall, n.y, n.x,
+                            motion.z, motion.y);
+    }
+
+    template <class Real> SLIDEWAY_FN static Real face_approach(Quad<Real> const& before, Quad<Real> const& after) {
+        Real const zero(0.0);
+        auto const way = [&](Real from, Real to) { return select((from <= zero) & (to > zero), to - from, zero); };
+        return max(max(way(before.a, after.a), way(before.b, after.b)),
+                   max(way(before.c, after.c), way(before.d, after.d)));
+    }
 
     template <class Real> SLIDEWAY_FN static Real axis_pattern(FacePair<Real> const& depths) {
         Real const zero(0.0);

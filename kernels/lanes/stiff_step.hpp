@@ -32,7 +32,10 @@ public:
         stage<1>(pack);
         stage<2>(pack);
         stage<3>(pack);
-        for (int i = 0; i < size; ++i) pack.end[i] = combined(c.y[i], w.m, i);
+        for (int i = 0; i < size; ++i) {
+            pack.end[i] = combined(c.y[i], w.m, i);
+            error_[i] = combined(Real(0.0), w.error, i);
+        }
         auto const faults = pack.evaluate(c.t + pack.step, pack.end, pack.end_rates, pack.needs.ends, pack.end_report);
         pack.faults = pack.faults.or_else(faults);
         // The estimate does not know the derivative at the end, from which the next step starts: an infinite one is no solution.
@@ -41,9 +44,23 @@ public:
 
     /// Error estimate of one component; NaN where the linear equations were not solved or the end has no derivative.
     SLIDEWAY_HD Real error(Pack<Model, Real> const&, int i) const {
-        constexpr Ros34pw2Tableau w{};
         auto const solved = residual_ <= Real(largest_residual);
-        return select(solved, combined(Real(0.0), w.error, i), Real(follows));
+        return select(solved, error_[i], Real(follows));
+    }
+
+    /// Reduces the estimate to what of it is left after a time τ: (I − τA)⁻¹ error, an implicit Euler step of the linearised motion.
+    /// Slow motion keeps its error; ringing faster than 1/τ, which the method damps whatever it does, loses it.  Shampine's filter
+    /// (Hairer & Wanner, Solving Ordinary Differential Equations II (1996), IV.8) with τ in the place of hγ: a step that is short
+    /// because of the ringing must be free to grow across it.  The matrix is at the filter's service until the next attempt.
+    SLIDEWAY_HD void filter_error(Real const& time) {
+        matrix_.factor(time);
+        matrix_.solve(error_, lasting_error_);
+    }
+
+    /// One component of that, where it is the smaller one: the matrix may be near a singular one.
+    SLIDEWAY_HD Real lasting_error(Pack<Model, Real> const& pack, int i) const {
+        Real const whole = error(pack, i);
+        return select(abs(lasting_error_[i]) < abs(whole), lasting_error_[i], whole);
     }
 
     /// One component inside the step: the straight line, for the derivatives at its ends belong to fast motions that the method
@@ -93,7 +110,7 @@ private:
     }
 
     typename Model::template Linearisation<Real> matrix_;
-    Real u_[4][size], right_[size];
+    Real u_[4][size], right_[size], error_[size], lasting_error_[size];
     Real hg_, residual_;
 };
 

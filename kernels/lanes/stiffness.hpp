@@ -20,8 +20,12 @@ struct Stiffness {
     // It goes back when contact is lost, or after so many steps with hΩ below that.
     static constexpr double calm_below = 0.25;
     static constexpr double calm_steps = 6.0;
-    // And where an apex comes into contact while the slider moves faster than that, in the scales of the velocities (c ω, 2c/L_k ω).
+    // It changes over only while its vibrations have less energy than M (c ω)² times this squared; slower in all velocities, in their
+    // scales, it has no impacts.
     static constexpr double creep_below = 0.1;
+    // It goes back where an apex comes into contact faster than that, in units of c ω: a corner has a fifth of the mass, and at this
+    // speed the energy above.
+    static constexpr double impact_above = 0.3;
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

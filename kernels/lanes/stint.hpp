@@ -19,14 +19,7 @@ template <class Stepper, class Model, class Real> class Stint {
 public:
     SLIDEWAY_HD Stint(Pack<Model, Real>& pack, Results<Model>& results, IntegratorSettings const& settings)
         : pack_(pack), results_(results), settings_(settings) {
-        rtol_ = settings.rtol;
-        atol_ = settings.atol;
-        max_step_ = settings.max_step;
-        if constexpr (Stepper::stiff) {
-            rtol_ = rtol_ > settings.stiff_tolerance ? rtol_ : settings.stiff_tolerance;
-            atol_ = atol_ > settings.stiff_tolerance ? atol_ : settings.stiff_tolerance;
-            max_step_ = settings.stiff_max_step;
-        }
+        max_step_ = Stepper::stiff ? settings.stiff_max_step : settings.max_step;
     }
 
     /// Every lane attempts `attempts` steps, unless its member ends or leaves the stiff method before.
@@ -67,13 +60,22 @@ private:
     }
 
     /// Mean square of the components' errors, each against its tolerance.  NaN where any is NaN.
-    SLIDEWAY_HD Real squared_error_norm() const {
-        Real const rtol(rtol_), atol(atol_);
+    /// Of the stiff method's errors what lasts meets the tolerance, the whole with its ringing `stiff_tolerance` at least.
+    SLIDEWAY_HD Real squared_error_norm() {
+        Real const rtol(settings_.rtol), atol(settings_.atol);
         auto const& s = pack_.state;
         SquaredRatios<Real> sum;
+        if constexpr (Stepper::stiff) stepper_.filter_error(Real(max_step_));
         for (int i = 0; i < size; ++i) {
-            Real const tolerance = fma(rtol, max(abs(s.course.y[i]), abs(pack_.end[i])), atol * s.constants.scale[i]);
-            sum.add(stepper_.error(pack_, i), tolerance);
+            Real const amount = max(abs(s.course.y[i]), abs(pack_.end[i])), scale = s.constants.scale[i];
+            Real const tolerance = fma(rtol, amount, atol * scale);
+            if constexpr (Stepper::stiff) {
+                Real const least(settings_.stiff_tolerance);
+                sum.add(stepper_.lasting_error(pack_, i), tolerance);
+                sum.add(stepper_.error(pack_, i), fma(max(rtol, least), amount, max(atol, least) * scale));
+            } else {
+                sum.add(stepper_.error(pack_, i), tolerance);
+            }
         }
         // The damping power has a kink where a contact begins, which the states hardly feel: the audit controls its own error.
         constexpr int audit_integrals = Pack<Model, Real>::Observer::audit_integrals;
@@ -190,23 +192,20 @@ private:
         pack_.begin_next(touched, pack_.end_rates);
     }
 
-    /// Lanes whose step brought an apex into contact at more than a creep.  The stiff method would swallow the impact's energy without a
-    /// sign: `auto` leaves impacts to the explicit pair.
+    /// Lanes whose step brought an apex into contact at speed.  The stiff method would swallow the impact's energy without a
+    /// sign: `auto` leaves impacts to the explicit pair.  What counts is how fast the apex approached its face: a slider that glides along
+    /// one, with a corner that rattles on it at next to no speed, has no impacts.
     SLIDEWAY_HD Mask<Real> find_impacts(Mask<Real> accepted) {
         auto const& s = pack_.state;
         if (settings_.method != Method::automatic) return mask_of<Real>(false);
-        auto const moves =
-            Model::squared_speed(s.course.y, s.constants.scale) > Real(Stiffness::creep_below * Stiffness::creep_below);
+        // At either end: a slider lifted from rest meets the other face within one long step.
+        Real const squared_speed = max(Model::squared_speed(s.course.y, s.constants.scale),
+                                       Model::squared_speed(pack_.end, s.constants.scale));
+        auto const moves = squared_speed > Real(Stiffness::creep_below * Stiffness::creep_below);
         if (none(accepted & moves)) return mask_of<Real>(false);
         auto const& p = s.constants.parameters;
-        Real const before = pack_.model.contact_pattern(s.course.t, s.course.y, p);
-        Real const after = pack_.model.contact_pattern(s.course.t + pack_.step, pack_.end, p);
-        Real met(0.0);
-        for (int i = 0; i < width; ++i) {
-            auto const bits = [&](Real const& pattern) { return static_cast<unsigned>(lane(pattern, i)); };
-            if ((bits(after) & ~bits(before)) != 0) set_lane(met, i, 1.0);
-        }
-        return accepted & moves & (met > Real(0.5));
+        Real const speed = pack_.model.approach_speed(s.course.t, s.course.y, pack_.step, pack_.end, p);
+        return accepted & moves & (speed > Real(Stiffness::impact_above));
     }
 
     /// A lane leaves the stiff method where contact is lost or an impact begins, or its steps stay far below what that method is for.
@@ -231,7 +230,7 @@ private:
     IntegratorSettings const& settings_;
     Stepper stepper_;
     [[no_unique_address]] std::conditional_t<(Model::events > 0), EventSearch<Model, Real>, NoSearch> search_;
-    double rtol_, atol_, max_step_;
+    double max_step_;
     Real target_;
     Mask<Real> lands_, left_;
 };

@@ -109,15 +109,29 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
     /// Which apices touch, as a number (Joint::pattern): members of one pattern have the same work to do.
     template <class Real>
     SLIDEWAY_NOINLINE static Real contact_pattern(Real t, Real const* s, SliderCrankParameters<Real> const& p) {
+        return Contact::pattern(pose(t, s, p), p.joint.geometry);
+    }
+
+    /// Mean speed, in units of c ω, at which the fastest of the apices that come into contact in a step has approached its face; 0 where
+    /// none does.
+    template <class Real>
+    SLIDEWAY_NOINLINE static Real approach_speed(Real t, Real const* s, Real step, Real const* end,
+                                                 SliderCrankParameters<Real> const& p) {
+        Real const way = Contact::approach(pose(t, s, p), pose(t + step, end, p), p.joint.geometry);
+        return way / (step * max(p.length_scale_y, p.length_scale_z) * p.rate_scale);
+    }
+
+private:
+    /// Where the slider is in its joint; without its motion.
+    template <class Real>
+    SLIDEWAY_FN static JointMotion<Real> pose(Real t, Real const* s, SliderCrankParameters<Real> const& p) {
         auto const crank = sincos(fma(p.crank_speed, t, p.start_angle));
         Real const dy = fnma(p.crank_length, crank.sin, s[0]);
         Real const reach = fnma(s[1], s[1], fnma(dy, dy, p.rod_length * p.rod_length));
         Real const x = fma(p.crank_length, crank.cos, sqrt(max(reach, Real(0.0))));
         Real const zero(0.0);
         Vec3<Real> const still{zero, zero, zero};
-        auto const motion =
-            Way::motion(axes(attitude(s[4], s[5], s[6])), Vec3<Real>{x, s[0], s[1]}, still, still, p.joint.way);
-        return Contact::pattern(motion, p.joint.geometry);
+        return Way::motion(axes(attitude(s[4], s[5], s[6])), Vec3<Real>{x, s[0], s[1]}, still, still, p.joint.way);
     }
 };
 

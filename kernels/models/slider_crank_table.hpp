@@ -20,6 +20,7 @@ template <class Real, template <class> class Memory_> struct SliderCrankTable : 
     Derivative* full;
     void (*linearisation)(Real, Real const*, Parameters<Real> const&, Memory<Real> const&, Linearisation<Real>&);
     Real (*pattern)(Real, Real const*, Parameters<Real> const&);
+    Real (*approach)(Real, Real const*, Real, Real const*, Parameters<Real> const&);
     Mask<Real> (*unstable)(EnergyAudit<Real> const&, Real, Parameters<Real> const&);
 
     /// The table of one `SliderCrankModel`.
@@ -29,6 +30,7 @@ template <class Real, template <class> class Memory_> struct SliderCrankTable : 
         table.full = &Model::template derivative<true, Real>;
         table.linearisation = &Model::template linearise<Real>;
         table.pattern = &Model::template contact_pattern<Real>;
+        table.approach = &Model::template approach_speed<Real>;
         table.unstable = &Model::template left_stable_range<Real>;
         return table;
     }
@@ -43,6 +45,9 @@ template <class Real, template <class> class Memory_> struct SliderCrankTable : 
         linearisation(t, state, p, memory, out);
     }
     Real contact_pattern(Real t, Real const* state, Parameters<Real> const& p) const { return pattern(t, state, p); }
+    Real approach_speed(Real t, Real const* state, Real step, Real const* end, Parameters<Real> const& p) const {
+        return approach(t, state, step, end, p);
+    }
     Mask<Real> left_stable_range(EnergyAudit<Real> const& audit, Real time, Parameters<Real> const& p) const {
         return unstable(audit, time, p);
     }

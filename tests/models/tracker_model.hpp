@@ -40,6 +40,10 @@ struct TrackerModel : PlainModel<2> {
 
     template <class Real> SLIDEWAY_FN static Real energy_scale(Parameters<Real> const&) { return Real(1.0); }
     template <class Real> SLIDEWAY_FN static Real squared_speed(Real const*, Real const*) { return Real(0.0); }
+    template <class Real>
+    SLIDEWAY_FN static Real approach_speed(Real, Real const*, Real, Real const*, Parameters<Real> const&) {
+        return Real(0.0);
+    }
 
     static Parameters<double> parameters(Inputs const& in) { return {in.rate, in.wall, in.solvable_below}; }
     static void initial_state(Inputs const& in, double* s) { s[0] = in.y, s[1] = in.tau; }
