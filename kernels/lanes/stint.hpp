@@ -182,11 +182,12 @@ private:
         return finished;
     }
 
-    /// New impact speeds change the derivative at the same state.
+    /// New impact speeds or other contacts change the derivative at the same state.
     SLIDEWAY_HD void restart(Mask<Real> touched) {
         auto const& c = pack_.state.course;
         pack_.evaluate(c.t, c.y, pack_.end_rates, true, pack_.end_report);
         pack_.count_evaluations(touched, 1);
+        if (pack_.needs.quantities) pack_.state.observation.observer.resume(touched, pack_.end_report);
         pack_.begin_next(touched, pack_.end_rates);
     }
 

@@ -22,22 +22,17 @@ struct SliderCrankModel : SliderCrank<Law, Friction, Way, Damping> {
     static constexpr int events = 0;
     static constexpr bool has_patterns = true;
     static constexpr bool has_linearisation = true;
-    template <class Real> using Observer = SliderCrankObserver<Real>;
+    template <class Real> using Observer = SliderCrankObserver<Real, Mechanism::conserving>;
     template <class Real>
     using Watch = std::conditional_t<Mechanism::has_memory, TouchLocator<Real>,
                                      std::conditional_t<Mechanism::can_hold, ModeLocator<Real>, NoWatch<Real>>>;
     template <class Real> using Linearisation = SliderCrankLinearisation<Real>;
 
-    /// Members whose energy audit says that their method left its stable range.  @param time [s] they were integrated.
+    /// Members whose energy audit says that their method left its stable range.
     template <class Real>
-    SLIDEWAY_HD static Mask<Real> left_stable_range(EnergyAudit<Real> const& audit, Real time,
+    SLIDEWAY_HD static Mask<Real> left_stable_range(EnergyAudit<Real> const& audit,
                                                     SliderCrankParameters<Real> const& p) {
-        Real const gap = max(p.length_scale_y, p.length_scale_z);
-        Real const gravity = sqrt(fma(p.gravity_x, p.gravity_x, p.gravity_y * p.gravity_y));
-        Real const acceleration = fma(p.crank_length, p.crank_speed * p.crank_speed, gravity);
-        EnergyScales<Real> const scale{Mechanism::energy_scale(p), p.slider_mass * acceleration * gap,
-                                       sqrt(gap / acceleration)};
-        return slideway::left_stable_range<Mechanism::conserving>(audit, scale, time);
+        return slideway::left_stable_range(audit, Mechanism::energy_scale(p));
     }
 
     /// Largest of the squared velocities and rates, each in its scale.
