@@ -35,12 +35,27 @@ public:
         if (any(ended_)) place_resets(pack);
     }
 
+    /// Lanes whose resets pile up: bounces that come to an end in finite time after infinitely many of them, or an event that its own
+    /// reset brings about again.  A model that knows better leaves that state by its reset (ReliefValve::reset); without, time
+    /// stands still, or creeps by the errors of the zeros.  To be asked once a step, at its end.
+    SLIDEWAY_HD Mask<Real> piled_up(Pack<Model, Real>& pack) const {
+        if (none(ended_)) return ended_;
+        auto& c = pack.state.course;
+        auto const at_once = c.t - c.resets.time <= Real(at_once_within) * pack.step;
+        c.resets.in_row = select(ended_, select(at_once, c.resets.in_row + Real(1.0), Real(0.0)), c.resets.in_row);
+        c.resets.time = select(ended_, c.t, c.resets.time);
+        return ended_ & (c.resets.in_row >= Real(most_at_once));
+    }
+
     /// Lanes whose step an event ended, and the fraction of the step at which.
     SLIDEWAY_HD Mask<Real> ended() const { return ended_; }
     SLIDEWAY_HD Real fraction() const { return fraction_; }
 
 private:
-    static constexpr double absent = 2.0;  // beyond every step
+    static constexpr double absent = 2.0;         // beyond every step
+    static constexpr double most_at_once = 32.0;  // resets; a few of them may fall together
+    static constexpr double at_once_within =
+        1e-6;  // of a step: ten times what a double zero of the cubic may be off by
     using Each = std::make_integer_sequence<int, events>;
 
     /// The event functions at one instant, and their time derivatives.

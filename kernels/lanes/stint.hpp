@@ -131,10 +131,13 @@ private:
         c.rejected = c.rejected + count<Real>(rejected);
         c.rejections = select(busy, count<Real>(rejected & !cut), c.rejections);
         auto const still = rejected & (wish <= resolution);
-        auto const stuck = Stepper::adaptive ? still : rejected;
+        auto stuck = Stepper::adaptive ? still : rejected;
 
         auto finished = mask_of<Real>(false);
-        if (any(accepted)) finished = advance(accepted);
+        if (any(accepted)) {
+            finished = advance(accepted);
+            if constexpr (Model::events > 0) stuck = stuck | search_.piled_up(pack_);
+        }
         c.h = select(busy, min(wish, Real(max_step_)), c.h);
         auto const spent =
             busy & !finished & (c.accepted + c.rejected >= Real(static_cast<double>(settings_.max_steps)));
