@@ -6,7 +6,7 @@ namespace slideway {
 enum class Status : signed char {
     not_run = -1,        // the run stopped before the member started or ended
     finished = 0,        // reached the end time
-    step_too_small = 1,  // the error control asked for a step below the resolution of time
+    step_too_small = 1,  // the error control asked for a step below the resolution of time, or resets pile up below it
     max_steps = 2,       // spent integrator.max_steps
     nonfinite = 3,       // NaN or infinity in state, derivative or linear equations at any step that resolves time
     geometry = 4,        // the rod does not reach: L² − (y−y_A)² − z² ≤ 0

@@ -12,7 +12,9 @@ template <class Friction, class Way> struct Instance {
     using Model = SliderCrankModel<SLIDEWAY_LAW, Friction, Way, SLIDEWAY_DAMPING>;
     // The class template, for an alias of it would be another argument.
     template <class> struct Looked;
-    template <template <class> class Memory> struct Looked<Memory<IsaReal>> { using Up = IsaTable<Memory>; };
+    template <template <class> class Memory> struct Looked<Memory<IsaReal>> {
+        using Up = IsaTable<Memory, Model::conserving>;
+    };
     using Table = typename Looked<typename Model::template Memory<IsaReal>>::Up;
     static constexpr Table table = Table::template of<Model>();
 

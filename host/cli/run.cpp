@@ -43,7 +43,7 @@ std::string_view advice_on(Method method) {
         case Method::ros34pw2:
             return "it is for lasting contact alone; use method = \"auto\" where there are impacts";
         default:
-            return "use smaller rtol and atol, and starts that are not deep inside the way";
+            return "use smaller rtol and atol";
     }
 }
 
@@ -60,7 +60,7 @@ void print_instability(Scene const& scene, EnsembleTotals const& totals) {
                                  ? fmt::format("rk4 with a step of {:.3g} s", scene.integrator.fixed_step)
                                  : std::string(name_of(method));
     std::string what;
-    if (unstable > 0) what = fmt::format("{} unstable by the energy residual", unstable);
+    if (unstable > 0) what = fmt::format("{} unstable by the energy audit", unstable);
     if (broken > 0) what += fmt::format("{}{} broke down", what.empty() ? "" : ", ", broken);
     fmt::print("\n{} failed in {} member{} ({}): {}.\n", name, unstable + broken, unstable + broken == 1 ? "" : "s",
                what, advice_on(method));

@@ -46,11 +46,12 @@ template <class Real> struct ContactReport {
     Real potential;                       // U of the contacts [J]
     Real friction_power;                  // Σ μ F V [W]
     Real damping_power;                   // Σ (F − F_elastic) δ' [W]
+    Real elastic_power;                   // Σ F_elastic δ' [W], what the springs take up: U' unless a mode switches
 
     SLIDEWAY_FN void clear() {
         Real const zero(0.0);
         for (auto& force : normal_force) force = {zero, zero, zero, zero};
-        surfaces = lines = points = potential = friction_power = damping_power = zero;
+        surfaces = lines = points = potential = friction_power = damping_power = elastic_power = zero;
     }
 
     SLIDEWAY_FN void set_penetrations(int face, Quad<Real> const& depth) { penetration[face] = depth; }
@@ -69,12 +70,26 @@ template <class Real> struct ContactReport {
         Real const front = fma(f.normal.a - f.elastic.a, m.rate.a, (f.normal.b - f.elastic.b) * m.rate.b);
         Real const rear = fma(f.normal.c - f.elastic.c, m.rate.c, (f.normal.d - f.elastic.d) * m.rate.d);
         damping_power = damping_power + (front + rear);
+        elastic_power = elastic_power + (fma(f.elastic.a, m.rate.a, f.elastic.b * m.rate.b) +
+                                         fma(f.elastic.c, m.rate.c, f.elastic.d * m.rate.d));
         auto modes = face_modes<Real>(m.touching);
         surfaces = surfaces + count<Real>(modes.surface);
         lines =
             lines + ((count<Real>(modes.ab) + count<Real>(modes.bc)) + (count<Real>(modes.cd) + count<Real>(modes.da)));
         points = points + ((count<Real>(modes.point.a) + count<Real>(modes.point.b)) +
                            (count<Real>(modes.point.c) + count<Real>(modes.point.d)));
+    }
+
+    /// Which of the 16 apex–face pairs touch, as a number: bit 4 f + i for apex i of face f.
+    SLIDEWAY_FN Real pattern() const {
+        Real bits(0.0);
+        for (int face = face_count - 1; face >= 0; --face) {
+            auto const& depth = penetration[face];
+            auto const bit = [](Real const& d, double value) { return select(d > Real(0.0), Real(value), Real(0.0)); };
+            Real const four = (bit(depth.a, 1.0) + bit(depth.b, 2.0)) + (bit(depth.c, 4.0) + bit(depth.d, 8.0));
+            bits = fma(Real(16.0), bits, four);
+        }
+        return bits;
     }
 
     /// Sum of all normal forces [N].

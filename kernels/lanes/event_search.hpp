@@ -10,8 +10,8 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// Finds and applies a model's events inside the accepted steps, in the order of their times.  The cubic through the event
-/// function's values and slopes at both ends tells where its zeros are, twice over within a step or grazing too; the stepper's
-/// dense output then places them.  An event that resets the state ends its step.
+/// function's values and slopes at both ends tells where its zeros are: all of them, up to three in a step, a pair or none where it
+/// grazes zero.  The stepper's dense output then places them.  An event that resets the state ends its step.
 template <class Model, class Real> class EventSearch {
 public:
     static constexpr int size = Model::size;
@@ -24,7 +24,7 @@ public:
         fraction_ = Real(1.0);
         auto const start = at_start(pack), end = at_end(pack);
         auto candidates = mask_of<Real>(false);
-        for (int event = 0; event < events; ++event) candidates = candidates | may_cross(start, end, event);
+        for (int event = 0; event < events; ++event) candidates = candidates | may_cross(pack.step, start, end, event);
         candidates = candidates & accepted;
         if (any(candidates)) search(pack, stepper, candidates, Each{});
     }
@@ -35,12 +35,27 @@ public:
         if (any(ended_)) place_resets(pack);
     }
 
+    /// Lanes whose resets pile up: bounces that come to an end in finite time after infinitely many of them, or an event that its own
+    /// reset brings about again.  A model that knows better leaves that state by its reset (ReliefValve::reset); without, time
+    /// stands still, or creeps by the errors of the zeros.  To be asked once a step, at its end.
+    SLIDEWAY_HD Mask<Real> piled_up(Pack<Model, Real>& pack) const {
+        if (none(ended_)) return ended_;
+        auto& c = pack.state.course;
+        auto const at_once = c.t - c.resets.time <= Real(at_once_within) * pack.step;
+        c.resets.in_row = select(ended_, select(at_once, c.resets.in_row + Real(1.0), Real(0.0)), c.resets.in_row);
+        c.resets.time = select(ended_, c.t, c.resets.time);
+        return ended_ & (c.resets.in_row >= Real(most_at_once));
+    }
+
     /// Lanes whose step an event ended, and the fraction of the step at which.
     SLIDEWAY_HD Mask<Real> ended() const { return ended_; }
     SLIDEWAY_HD Real fraction() const { return fraction_; }
 
 private:
-    static constexpr double absent = 2.0;  // beyond every step
+    static constexpr double absent = 2.0;         // beyond every step
+    static constexpr double most_at_once = 32.0;  // resets; a few of them may fall together
+    static constexpr double at_once_within =
+        1e-6;  // of a step: ten times what a double zero of the cubic may be off by
     using Each = std::make_integer_sequence<int, events>;
 
     /// The event functions at one instant, and their time derivatives.
@@ -60,8 +75,9 @@ private:
     SLIDEWAY_FN static Values at_end(Pack<Model, Real> const& pack) {
         return values(pack, pack.state.course.t + pack.step, pack.end, pack.end_rates);
     }
-    SLIDEWAY_FN static Mask<Real> may_cross(Values const& start, Values const& end, int event) {
-        return slideway::may_cross(start.value[event], start.slope[event], end.value[event], end.slope[event]);
+    SLIDEWAY_FN static Mask<Real> may_cross(Real step, Values const& start, Values const& end, int event) {
+        return slideway::may_cross(start.value[event], step * start.slope[event], end.value[event],
+                                   step * end.slope[event]);
     }
 
     template <class Stepper, int... event>
@@ -77,7 +93,7 @@ private:
     SLIDEWAY_HD bool find(Pack<Model, Real> const& pack, Stepper const& stepper, Mask<Real> accepted,
                           Values const& start, Values const& end) {
         for (auto& theta : zeros_[event]) theta = Real(absent);
-        auto const candidates = accepted & may_cross(start, end, event);
+        auto const candidates = accepted & may_cross(pack.step, start, end, event);
         if (none(candidates)) return false;
         auto const zeros = cubic_zeros(candidates, start.value[event], pack.step * start.slope[event], end.value[event],
                                        pack.step * end.slope[event], Model::event_table[event].direction);
@@ -123,11 +139,15 @@ private:
     template <class Stepper>
     SLIDEWAY_HD bool apply_earliest(Pack<Model, Real>& pack, Stepper const& stepper, Mask<Real> accepted) {
         Real first = Real(absent), which = Real(-1.0);
-        for (int event = 0; event < events; ++event) {
-            for (auto const& theta : zeros_[event]) {
-                auto const earlier = theta < first;
-                first = select(earlier, theta, first);
-                which = select(earlier, Real(static_cast<double>(event)), which);
+        // Of simultaneous events those come first that let the step go on: none of them is lost to a reset.
+        for (bool const resets : {false, true}) {
+            for (int event = 0; event < events; ++event) {
+                if (Model::event_table[event].resets != resets) continue;
+                for (auto const& theta : zeros_[event]) {
+                    auto const earlier = theta < first;
+                    first = select(earlier, theta, first);
+                    which = select(earlier, Real(static_cast<double>(event)), which);
+                }
             }
         }
         auto const due = accepted & !ended_ & (first <= Real(1.0));

@@ -82,6 +82,7 @@ private:
         // A model without linearisation is left to the explicit pair.
         c.stiff = Model::has_linearisation && block_.settings.method == Method::ros34pw2 ? 1 : 0;
         start_memory(c.memory);
+        if constexpr (Model::events > 0) c.resets = {-1.0, 0.0};
         roster_[seat].kind = Kind::fresh;
     }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "kernels/lane_copy.hpp"
 #include "kernels/real.hpp"
 
@@ -7,6 +9,13 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// Length of an array that may be empty, which C++ does not allow.
 constexpr int room(int length) { return length > 0 ? length : 1; }
+
+/// The resets of a model with events, of late.
+template <class Real> struct ResetHistory {
+    Real time;    // of the last one [s]
+    Real in_row;  // how many followed one another at once
+};
+struct NoResets {};
 
 /// All that a member takes along from one stint in the lanes to the next.  `Real = double` is one member's record, a pack is the
 /// transpose of its lanes' records; both hold nothing but Reals, so that a record moves in and out number by number.
@@ -32,6 +41,7 @@ template <class Model, class Real> struct MemberState {
         Real rate_squared;  // Ω² [1/s²] of its stiffest contacts, of late
         [[no_unique_address]] typename Model::template Memory<Real> memory;
         [[no_unique_address]] typename Model::template Watch<Real> watch;
+        [[no_unique_address]] std::conditional_t<(Model::events > 0), ResetHistory<Real>, NoResets> resets;
     };
 
     /// Present where quantities are asked for.

@@ -75,8 +75,8 @@ public:
         auto unstable = mask_of<Real>(false);
         if constexpr (Pack<Model, Real>::Observer::audit_integrals > 0) {
             if (pack.needs.audit && any(finished)) {
-                unstable = pack.model.left_stable_range(pack.state.observation.observer.audit(), c.t,
-                                                        pack.state.constants.parameters);
+                unstable =
+                    Model::left_stable_range(pack.state.observation.observer.audit(), pack.state.constants.parameters);
             }
         }
         for (int i = 0; i < lanes<Real>; ++i) {

@@ -4,9 +4,9 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// When `method = "auto"` changes a member between the explicit pair and the stiff method.  Ω is the rate of the stiffest motion: Ω²
-/// is the trace of M⁻¹K of the touching contacts.  Looks are taken once a stint of the explicit pair, so that an impact is over
-/// before there are enough of them.
+/// When `method = "auto"` changes a member between the explicit pair and the stiff method.  Ω is the rate of its stiffest motion: Ω²
+/// is the trace of M⁻¹K of the touching contacts, plus the square of that of M⁻¹D.  Looks are taken once a stint of the explicit pair,
+/// so that an impact is over before there are enough of them.
 struct Stiffness {
     // The pair is held up where hΩ stays near its limit of stability: a look counts 1.
     static constexpr double held_up_above = 0.9;

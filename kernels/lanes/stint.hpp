@@ -133,10 +133,13 @@ private:
         c.rejected = c.rejected + count<Real>(rejected);
         c.rejections = select(busy, count<Real>(rejected & !cut), c.rejections);
         auto const still = rejected & (wish <= resolution);
-        auto const stuck = Stepper::adaptive ? still : rejected;
+        auto stuck = Stepper::adaptive ? still : rejected;
 
         auto finished = mask_of<Real>(false);
-        if (any(accepted)) finished = advance(accepted);
+        if (any(accepted)) {
+            finished = advance(accepted);
+            if constexpr (Model::events > 0) stuck = stuck | search_.piled_up(pack_);
+        }
         c.h = select(busy, min(wish, Real(max_step_)), c.h);
         auto const spent =
             busy & !finished & (c.accepted + c.rejected >= Real(static_cast<double>(settings_.max_steps)));
@@ -184,11 +187,12 @@ private:
         return finished;
     }
 
-    /// New impact speeds change the derivative at the same state.
+    /// New impact speeds or other contacts change the derivative at the same state.
     SLIDEWAY_HD void restart(Mask<Real> touched) {
         auto const& c = pack_.state.course;
         pack_.evaluate(c.t, c.y, pack_.end_rates, true, pack_.end_report);
         pack_.count_evaluations(touched, 1);
+        if (pack_.needs.quantities) pack_.state.observation.observer.resume(touched, pack_.end_report);
         pack_.begin_next(touched, pack_.end_rates);
     }
 

@@ -77,15 +77,11 @@ template <class Real> struct SliderCrankLinearisation {
         return worst;
     }
 
-    /// Stiffness estimate Ω² [1/s²]: the trace of M⁻¹(−K), of which positive terms alone count.
+    /// Square of the rate [1/s] that bounds an explicit step: Ω², the trace of M⁻¹(−K), and the square of the trace of M⁻¹(−D), which
+    /// strong damping and steep friction raise.
     SLIDEWAY_FN Real rate_squared() const {
-        auto const& k = joint.by_place;
-        Real const scale = Real(1.0) / fms(mass_y, mass_z, mass_yz * mass_yz);
-        Real const y = clamped(fms(mass_yz, k[1][0], mass_z * k[0][0]) * scale);
-        Real const z = clamped(fms(mass_yz, k[0][1], mass_y * k[1][1]) * scale);
-        Real const turning = (clamped(negated(k[2][2]) / inertia.x) + clamped(negated(k[3][3]) / inertia.y)) +
-                             clamped(negated(k[4][4]) / inertia.z);
-        return (y + z) + turning;
+        Real const decay = trace(joint.by_rate);
+        return fma(decay, decay, trace(joint.by_place));
     }
 
     /// Kinetic energy [J] of the stiff motions, which a stiff step damps away: ½ νᵀ(−K)ν/Ω², the masses that the contacts' stiffness
@@ -96,12 +92,22 @@ template <class Real> struct SliderCrankLinearisation {
         for (int i = 0; i < 5; ++i) {
             for (int j = 0; j < 5; ++j) sum = fma(joint.by_place[i][j] * rates[i], rates[j], sum);
         }
-        Real const squared = rate_squared();
+        Real const squared = trace(joint.by_place);
         auto const stiff = squared > Real(0.0);
         return select(stiff, Real(0.5) * clamped(negated(sum)) / select(stiff, squared, Real(1.0)), Real(0.0));
     }
 
 private:
+    /// Trace of M⁻¹(−matrix), of which positive terms alone count.
+    SLIDEWAY_FN Real trace(Real const (&matrix)[5][5]) const {
+        Real const scale = Real(1.0) / fms(mass_y, mass_z, mass_yz * mass_yz);
+        Real const y = clamped(fms(mass_yz, matrix[1][0], mass_z * matrix[0][0]) * scale);
+        Real const z = clamped(fms(mass_yz, matrix[0][1], mass_y * matrix[1][1]) * scale);
+        Real const turning = (clamped(negated(matrix[2][2]) / inertia.x) + clamped(negated(matrix[3][3]) / inertia.y)) +
+                             clamped(negated(matrix[4][4]) / inertia.z);
+        return (y + z) + turning;
+    }
+
     /// M r_ν + hγ K G⁻¹ r_q.
     SLIDEWAY_FN void right_hand_side(Real const* r, Real* b) const {
         // G⁻¹: ωx = φ' − ψ' sinϑ, ωy = ϑ' cosφ + ψ' sinφ cosϑ, ωz = −ϑ' sinφ + ψ' cosφ cosϑ.

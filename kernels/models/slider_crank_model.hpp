@@ -11,13 +11,14 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// What the lanes need of every slider-crank beside its equations (kernels/integrate.hpp).
-struct SliderCrankLanes {
+/// What the lanes need of every slider-crank beside its equations (kernels/integrate.hpp).  @tparam conserving of its law: it makes no
+/// energy.
+template <bool conserving> struct SliderCrankLanes {
     static constexpr int series = series_count;
     static constexpr int events = 0;
     static constexpr bool has_patterns = true;
     static constexpr bool has_linearisation = true;
-    template <class Real> using Observer = SliderCrankObserver<Real>;
+    template <class Real> using Observer = SliderCrankObserver<Real, conserving>;
     template <class Real> using Linearisation = SliderCrankLinearisation<Real>;
 
     /// Largest of the squared velocities and rates, each in its scale.
@@ -29,6 +30,13 @@ struct SliderCrankLanes {
         }
         return largest;
     }
+
+    /// Members whose energy audit says that their method left its stable range.
+    template <class Real>
+    SLIDEWAY_HD static Mask<Real> left_stable_range(EnergyAudit<Real> const& audit,
+                                                    SliderCrankParameters<Real> const& p) {
+        return slideway::left_stable_range(audit, SliderCrankBase::energy_scale(p));
+    }
 };
 
 /// What finds the events that a slider-crank's memory records.
@@ -39,21 +47,9 @@ template <class Real> struct SliderCrankWatch<NoMemory<Real>> { using Type = NoW
 
 /// A slider-crank whose parts are known when the lanes are compiled.
 template <class Law, class Friction, class Way, class Damping>
-struct SliderCrankModel : SliderCrank<Law, Friction, Way, Damping>, SliderCrankLanes {
+struct SliderCrankModel : SliderCrank<Law, Friction, Way, Damping>, SliderCrankLanes<!Law::switches> {
     using Mechanism = SliderCrank<Law, Friction, Way, Damping>;
     template <class Real> using Watch = typename SliderCrankWatch<typename Mechanism::template Memory<Real>>::Type;
-
-    /// Members whose energy audit says that their method left its stable range.  @param time [s] they were integrated.
-    template <class Real>
-    SLIDEWAY_HD static Mask<Real> left_stable_range(EnergyAudit<Real> const& audit, Real time,
-                                                    SliderCrankParameters<Real> const& p) {
-        Real const gap = max(p.length_scale_y, p.length_scale_z);
-        Real const gravity = sqrt(fma(p.gravity_x, p.gravity_x, p.gravity_y * p.gravity_y));
-        Real const acceleration = fma(p.crank_length, p.crank_speed * p.crank_speed, gravity);
-        EnergyScales<Real> const scale{Mechanism::energy_scale(p), p.slider_mass * acceleration * gap,
-                                       sqrt(gap / acceleration)};
-        return slideway::left_stable_range<Mechanism::conserving>(audit, scale, time);
-    }
 
     template <class Real>
     SLIDEWAY_HD static void linearise(Real t, Real const* state, SliderCrankParameters<Real> const& p,

@@ -6,8 +6,9 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// A slider-crank whose equations are looked up in a table of functions: the lanes are then compiled once for all laws, frictions, ways
-/// and dampings that leave the same memory.  A call costs what a call costs; the derivative is a function of its own in any case.
-template <class Real, template <class> class Memory_> struct SliderCrankTable : SliderCrankBase, SliderCrankLanes {
+/// and dampings that leave the same memory and books of energy.  A call costs what a call costs; the derivative is a function of its own in any case.
+template <class Real, template <class> class Memory_, bool conserving>
+struct SliderCrankTable : SliderCrankBase, SliderCrankLanes<conserving> {
     template <class Number> using Memory = Memory_<Number>;
     template <class Number> using Watch = typename SliderCrankWatch<Memory<Number>>::Type;
     static constexpr bool has_memory = std::is_same_v<Memory<Real>, ImpactMemory<Real>>;
@@ -18,10 +19,10 @@ template <class Real, template <class> class Memory_> struct SliderCrankTable : 
 
     Derivative* lean;
     Derivative* full;
-    void (*linearisation)(Real, Real const*, Parameters<Real> const&, Memory<Real> const&, Linearisation<Real>&);
+    void (*linearisation)(Real, Real const*, Parameters<Real> const&, Memory<Real> const&,
+                          SliderCrankLinearisation<Real>&);
     Real (*pattern)(Real, Real const*, Parameters<Real> const&);
     Real (*approach)(Real, Real const*, Real, Real const*, Parameters<Real> const&);
-    Mask<Real> (*unstable)(EnergyAudit<Real> const&, Real, Parameters<Real> const&);
 
     /// The table of one `SliderCrankModel`.
     template <class Model> static constexpr SliderCrankTable of() {
@@ -31,7 +32,6 @@ template <class Real, template <class> class Memory_> struct SliderCrankTable : 
         table.linearisation = &Model::template linearise<Real>;
         table.pattern = &Model::template contact_pattern<Real>;
         table.approach = &Model::template approach_speed<Real>;
-        table.unstable = &Model::template left_stable_range<Real>;
         return table;
     }
 
@@ -41,15 +41,12 @@ template <class Real, template <class> class Memory_> struct SliderCrankTable : 
         return (Full ? full : lean)(t, state, p, memory, rates, report);
     }
     void linearise(Real t, Real const* state, Parameters<Real> const& p, Memory<Real> const& memory,
-                   Linearisation<Real>& out) const {
+                   SliderCrankLinearisation<Real>& out) const {
         linearisation(t, state, p, memory, out);
     }
     Real contact_pattern(Real t, Real const* state, Parameters<Real> const& p) const { return pattern(t, state, p); }
     Real approach_speed(Real t, Real const* state, Real step, Real const* end, Parameters<Real> const& p) const {
         return approach(t, state, step, end, p);
-    }
-    Mask<Real> left_stable_range(EnergyAudit<Real> const& audit, Real time, Parameters<Real> const& p) const {
-        return unstable(audit, time, p);
     }
 };
 

@@ -4,7 +4,8 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// The energies of a member over its run [J], docs/model.md 8.
+/// The energies of a member over its run [J], docs/model.md 8.  What the method made is known step by step: see
+/// SliderCrankObserver::audit_step.
 template <class Real> struct EnergyAudit {
     Real change;          // E(t) − E(0)
     Real crank_work;      // W
@@ -12,36 +13,27 @@ template <class Real> struct EnergyAudit {
     Real damping_loss;    // D_d
     Real crank_turnover;  // ∫|F_A · v_A| dt
     Real stored;          // largest contact potential
+    Real made;            // by the method, not by the law
+    Real astray;          // Σ |made| of the steps
+    Real exchanged;       // Σ |work on the contacts' springs| of the steps
 
-    /// ε, what the contact law or the method made (or lost, if negative).
+    /// ε, what the contact law and the method made (or lost, if negative).
     SLIDEWAY_FN Real residual() const { return change - crank_work + friction_loss + damping_loss; }
 };
 
-/// What a residual is measured against beside the audit itself.
-template <class Real> struct EnergyScales {
-    Real smallest;       // M (c ω)², the audit's absolute tolerance is relative to it [J]
-    Real crossing;       // M a c, what a slider gains on its way across the clearance under a = g + r ω² [J]
-    Real crossing_time;  // √(c/a) [s], infinite at a = 0
-};
-
-/// Members whose residual tells that their method left its stable range; NaN tells it too.
-/// A conserving law leaves ε to the method alone, and a stable one keeps it below a fifth of what friction, damping and contact
-/// turned over, plus a thousandth of what the crank moved (the error in free flight).
-/// A law that switches modes makes energy itself, some at every crossing of the clearance: below M a c for each crossing, plus what the
-/// crank moved, plus the largest contact's.
+/// Members whose method left its stable range, by the energy that it made itself; NaN tells it too.  Two signs:
+/// - In sum it made more than a fifth of what friction, damping and contact turned over, plus a thousandth of what the crank moved (the
+///   error in free flight).
+/// - It does not resolve its contacts: of what went through their springs more than an eighth went astray in the single steps, gains and
+///   losses alike, and that is more than half of the first bound.
 /// How close runs came to these bounds, and how far beyond unstable ones lie: docs/stability.md.
-/// @tparam conserving of the law.  @param time [s] of the run.
-template <bool conserving, class Real>
-SLIDEWAY_FN Mask<Real> left_stable_range(EnergyAudit<Real> const& audit, EnergyScales<Real> const& scale, Real time) {
-    Real bound;
-    if constexpr (conserving) {
-        Real const lateral = (audit.friction_loss + abs(audit.damping_loss)) + (audit.stored + scale.smallest);
-        bound = fma(Real(0.2), lateral, Real(0.001) * audit.crank_turnover);
-    } else {
-        Real const crossings = Real(1.0) + time / scale.crossing_time;
-        bound = fma(scale.crossing, crossings, (audit.crank_turnover + audit.stored) + scale.smallest);
-    }
-    return !(abs(audit.residual()) <= bound);
+/// @param smallest M (c ω)², the audit's absolute tolerance is relative to it [J]
+template <class Real> SLIDEWAY_FN Mask<Real> left_stable_range(EnergyAudit<Real> const& audit, Real smallest) {
+    Real const lateral = (audit.friction_loss + abs(audit.damping_loss)) + (audit.stored + smallest);
+    Real const bound = fma(Real(0.2), lateral, Real(0.001) * audit.crank_turnover);
+    auto const balanced = abs(audit.made) <= bound;
+    auto const resolved = audit.astray <= max(Real(0.125) * audit.exchanged, Real(0.5) * bound);
+    return !(balanced & resolved);
 }
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -13,10 +13,12 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// The scalar quantities of a pack of slider-cranks.  Only the energy audit has a say in the steps:
 /// its integrals meet the tolerance too. Integrals run over the stages with the stepper's own weights, so they have its order; peaks, mode times and onsets go by
 /// the accepted steps.
-template <class Real> class SliderCrankObserver {
+/// @tparam conserving of the law: it makes no energy.
+template <class Real, bool conserving = true> class SliderCrankObserver {
 public:
-    /// Integrands: crank, friction and damping power, total force, torque², error², rod spin², eight apex forces, |crank power|.
-    static constexpr int integrals = 16;
+    /// Integrands: crank, friction and damping power, total force, torque², error², rod spin², eight apex forces, |crank power|; of
+    /// a law that switches also the springs' power.
+    static constexpr int integrals = conserving ? 16 : 17;
     static constexpr int columns = quantity_columns;  // of a member's row
     /// The first of them are the energy audit's.
     static constexpr int audit_integrals = 3;
@@ -49,19 +51,21 @@ public:
         values[6] = r.rod_spin * r.rod_spin;
         for (int apex = 0; apex < 8; ++apex) values[7 + apex] = r.contact.apex_force(apex);
         values[15] = abs(r.crank_power);
+        if constexpr (!conserving) values[16] = r.contact.elastic_power;
     }
 
     /// Begins the members in the lanes of the mask.
     SLIDEWAY_FN void start(Mask<Real> fresh, SliderCrankReport<Real> const& r, Real const* state) {
         Real const zero(0.0);
-        for (auto* value : {&force_, &torque_, &error_, &spin_, &roll_, &yaw_, &pitch_, &onsets_, &potential_}) {
+        for (auto* value : {&force_, &torque_, &error_, &spin_, &roll_, &yaw_, &pitch_, &onsets_, &largest_potential_,
+                            &made_, &astray_, &exchanged_}) {
             *value = select(fresh, zero, *value);
         }
         for (auto& value : integral_) value = select(fresh, zero, value);
         for (auto& value : apex_) value = select(fresh, zero, value);
         for (auto& value : mode_time_) value = select(fresh, zero, value);
         start_energy_ = select(fresh, r.energy, start_energy_);
-        energy_ = select(fresh, r.energy, energy_);
+        resume(fresh, r);
         mode_ = select(fresh, mode_class(r), mode_);
         take_peaks(fresh, r, state);
     }
@@ -73,7 +77,8 @@ public:
         for (int i = 0; i < integrals; ++i) {
             integral_[i] = select(accepted, fma(h, integral[i], integral_[i]), integral_[i]);
         }
-        energy_ = select(accepted, r.energy, energy_);
+        audit_step(accepted, h, integral, r);
+        resume(accepted, r);
         Real const mode = mode_class(r);
         // A step between two modes is shared by halves; contact ends such steps within a small part of an impact.
         Real const share = select(accepted, half * h, zero);
@@ -87,12 +92,20 @@ public:
         take_peaks(accepted, r, state);
     }
 
+    /// What the next step starts from, in the lanes of the mask; again where the law changes there without a step.
+    SLIDEWAY_FN void resume(Mask<Real> in, SliderCrankReport<Real> const& r) {
+        energy_ = select(in, r.energy, energy_);
+        potential_ = select(in, r.contact.potential, potential_);
+        if constexpr (!conserving) pattern_ = select(in, r.contact.pattern(), pattern_);
+    }
+
     /// Integral of an integrand up to the last accepted step.
     SLIDEWAY_FN Real integral(int i) const { return integral_[i]; }
 
     /// The energy audit up to the last accepted step, where it ran.
     SLIDEWAY_FN EnergyAudit<Real> audit() const {
-        return {energy_ - start_energy_, integral_[0], integral_[1], integral_[2], integral_[15], potential_};
+        return {energy_ - start_energy_, integral_[0], integral_[1], integral_[2], integral_[15],
+                largest_potential_,      made_,        astray_,      exchanged_};
     }
 
     /// Writes the selected quantities of one lane.  @param time [s] the member was integrated.
@@ -135,10 +148,30 @@ private:
         return select(r.contact.surfaces > zero, Real(3.0), select(r.contact.lines > zero, Real(2.0), soft));
     }
 
+    /// What the method made in a step, for the audit.  The books of a step in which the law may have switched take what its springs
+    /// did for what they hold: E − U must follow from the powers, whatever U does.  Where the apices that touch stay the same no
+    /// switch is made; nor at the border to free flight, where U is 0 on both sides: a step that leaps into the way or out of it has
+    /// no such excuse.
+    SLIDEWAY_FN void audit_step(Mask<Real> accepted, Real h, Real const* integral, SliderCrankReport<Real> const& r) {
+        Real const zero(0.0);
+        Real made = fnma(h, integral[0] - integral[1] - integral[2], r.energy - energy_);
+        Real exchanged = r.contact.potential - potential_;
+        if constexpr (!conserving) {
+            Real const taken_up = h * integral[16];
+            Real const pattern = r.contact.pattern();
+            auto const may_switch = (pattern != pattern_) & (pattern != zero) & (pattern_ != zero);
+            made = made - select(may_switch, exchanged - taken_up, zero);
+            exchanged = taken_up;
+        }
+        made_ = select(accepted, made_ + made, made_);
+        astray_ = select(accepted, astray_ + abs(made), astray_);
+        exchanged_ = select(accepted, exchanged_ + abs(exchanged), exchanged_);
+    }
+
     SLIDEWAY_FN void take_peaks(Mask<Real> lanes_taken, SliderCrankReport<Real> const& r, Real const* state) {
         auto const raise = [&](Real& peak, Real value) { peak = select(lanes_taken, max(value, peak), peak); };
         raise(force_, r.contact.total_force());
-        raise(potential_, r.contact.potential);
+        raise(largest_potential_, r.contact.potential);
         for (int apex = 0; apex < 8; ++apex) raise(apex_[apex], r.contact.apex_force(apex));
         raise(torque_, abs(r.drive_torque));
         raise(error_, r.position_error);
@@ -152,7 +185,9 @@ private:
     Real apex_[8];
     Real mode_time_[4];
     Real force_, torque_, error_, spin_, roll_, yaw_, pitch_;
-    Real onsets_, mode_, start_energy_, energy_, potential_;
+    Real onsets_, mode_, start_energy_, largest_potential_;
+    Real energy_, potential_, pattern_;  // where the next step starts
+    Real made_, astray_, exchanged_;
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

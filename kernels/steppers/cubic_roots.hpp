@@ -17,12 +17,13 @@ template <class Real> struct CubicZeros {
     Mask<Real> any;         // lanes with at least one
 };
 
-/// Lanes in which the cubic through the values and slopes at both ends may have a zero on [0, 1].  Without a change of sign only one
-/// that first comes nearer and then leaves can.
+/// Lanes in which the cubic through the values and slopes at both ends of [0, 1] may have a zero there, of which none is missed: the
+/// cubic lies within the span of its Bézier ordinates v0, v0 + s0/3, v1 − s1/3 and v1 (G. Farin, Curves and Surfaces for CAGD,
+/// 5th ed., 4.3), and without a change of sign among them it has none.
 template <class Real> SLIDEWAY_FN Mask<Real> may_cross(Real v0, Real s0, Real v1, Real s1) {
-    Real const zero(0.0);
-    auto const changes = ((v0 >= zero) & (v1 < zero)) | ((v0 < zero) & (v1 >= zero));
-    return changes | ((v0 * s0 < zero) & (v1 * s1 > zero));
+    Real const third(1.0 / 3), zero(0.0);
+    Real const c1 = fma(third, s0, v0), c2 = fnma(third, s1, v1);
+    return (min(min(v0, v1), min(c1, c2)) < zero) & (max(max(v0, v1), max(c1, c2)) >= zero);
 }
 
 namespace detail {

@@ -20,8 +20,7 @@ public:
     template <class Report> SLIDEWAY_FN void start(Mask<Real> fresh, Report const&, Real const*) {
         count_ = select(fresh, Real(0.0), count_);
     }
-    template <class Report>
-    SLIDEWAY_FN void accept(Mask<Real>, Real, Real const*, Report const&, Real const*) {}
+    template <class Report> SLIDEWAY_FN void accept(Mask<Real>, Real, Real const*, Report const&, Real const*) {}
 
     SLIDEWAY_HD void event(Mask<Real> at, int kind, Real t, Real const* state) {
         for (int i = 0; i < lanes<Real>; ++i) {
@@ -49,17 +48,17 @@ private:
 struct BallModel : PlainModel<2> {
     using Inputs = testing::BallInputs;
     using Event = testing::BallEvent;
-    template <class Real> struct Parameters { Real gravity, restitution, level; };
+    template <class Real> struct Parameters { Real gravity, restitution, level, jerk; };
     template <class Real> using Observer = BallObserver<Real>;
     static constexpr int events = 3;
     static constexpr EventInfo event_table[events] = {
         {Direction::falling, true}, {Direction::falling, false}, {Direction::both, false}};
 
     template <bool Full, class Real>
-    SLIDEWAY_FN static Faults<Real> derivative(Real, Real const* s, Parameters<Real> const& p, Memory<Real> const&,
+    SLIDEWAY_FN static Faults<Real> derivative(Real t, Real const* s, Parameters<Real> const& p, Memory<Real> const&,
                                                Real* rates, Report<Real>*) {
         rates[0] = s[1];
-        rates[1] = negated(p.gravity);
+        rates[1] = fms(p.jerk, t, p.gravity);
         return Faults<Real>::none();
     }
 
@@ -83,7 +82,7 @@ struct BallModel : PlainModel<2> {
 
     template <class Real> SLIDEWAY_FN static Mask<Real> at_rest(Real const*) { return mask_of<Real>(false); }
 
-    static Parameters<double> parameters(Inputs const& in) { return {in.gravity, in.restitution, in.level}; }
+    static Parameters<double> parameters(Inputs const& in) { return {in.gravity, in.restitution, in.level, in.jerk}; }
     static void initial_state(Inputs const& in, double* s) { s[0] = in.height, s[1] = in.speed; }
 };
 

@@ -13,12 +13,13 @@ namespace slideway::testing {
 
 inline constexpr double never = std::numeric_limits<double>::infinity();
 
-/// A ball over a floor: x'' = −g, at x = 0 with v < 0: v ← −e v.  A parabola, which every method of order 2 renders exactly.
+/// A ball over a floor: x'' = j t − g, at x = 0 with v < 0: v ← −e v.  A cubic, which every method of order 3 renders exactly.
 struct BallInputs {
     double height = 1, speed = 0;  // at the start
     double gravity = 10;
     double restitution = 0.8;
-    double level = 1e6;  // crossings of it, up or down, are located too
+    double level = 1e6;             // crossings of it, up or down, are located too
+    double jerk = 0;                // j
     static constexpr int size = 2;  // x v
 };
 
@@ -44,7 +45,7 @@ struct OscillatorInputs {
 struct TrackerInputs {
     double rate = -1;  // λ
     double y = 0, tau = 0;
-    double wall = never;          // no derivative where y > wall
+    double wall = never;            // no derivative where y > wall
     double solvable_below = never;  // the linear equations of longer hγ count as unsolved
     static constexpr int size = 2;  // y τ
 };

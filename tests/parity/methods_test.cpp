@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,18 @@ struct Outcome {
     std::vector<double> numbers;  // final state, quantities, samples
 };
 
+Outcome outcome_of(testing::EnsembleResult const& r, std::size_t i, std::size_t count) {
+    Outcome outcome{r.records[i], {r.states[i].begin(), r.states[i].end()}};
+    auto& numbers = outcome.numbers;
+    numbers.insert(numbers.end(), r.quantities[i].begin(), r.quantities[i].end());
+    for (std::size_t s = 0; s < state_size; ++s) {
+        for (std::size_t k = 0; k < sample_times.size(); ++k) {
+            numbers.push_back(r.series[(s * count + i) * sample_times.size() + k]);
+        }
+    }
+    return outcome;
+}
+
 /// Members in the given order, cut into blocks, each with its outcome at its own place.
 std::vector<Outcome> outcomes(Isa isa, Method method, std::vector<Inputs> const& members,
                               std::vector<std::size_t> const& order, std::size_t block) {
@@ -60,16 +73,7 @@ std::vector<Outcome> outcomes(Isa isa, Method method, std::vector<Inputs> const&
         for (std::size_t i = 0; i < count; ++i) part.push_back(members[order[first + i]]);
         auto const r = testing::run(isa, options_of(method), part);
         for (std::size_t i = 0; i < count; ++i) {
-            auto& outcome = all[order[first + i]];
-            outcome.record = r.records[i];
-            auto& numbers = outcome.numbers;
-            numbers.assign(r.states[i].begin(), r.states[i].end());
-            numbers.insert(numbers.end(), r.quantities[i].begin(), r.quantities[i].end());
-            for (std::size_t s = 0; s < state_size; ++s) {
-                for (std::size_t k = 0; k < sample_times.size(); ++k) {
-                    numbers.push_back(r.series[(s * count + i) * sample_times.size() + k]);
-                }
-            }
+            all[order[first + i]] = outcome_of(r, i, count);
         }
     }
     return all;
@@ -81,6 +85,17 @@ bool same(Outcome const& a, Outcome const& b) {
            x.rhs_evaluations == y.rhs_evaluations && x.stiff_steps == y.stiff_steps &&
            x.jacobian_evaluations == y.jacobian_evaluations && x.time == y.time &&
            std::memcmp(a.numbers.data(), b.numbers.data(), a.numbers.size() * sizeof(double)) == 0;
+}
+
+/// One block whose members are taken in the given order.
+std::vector<Outcome> outcomes_taken(Isa isa, Method method, std::vector<Inputs> const& members,
+                                    std::vector<std::uint32_t> const& order) {
+    auto o = options_of(method);
+    o.order = order;
+    auto const r = testing::run(isa, o, members);
+    std::vector<Outcome> all(members.size());
+    for (std::size_t i = 0; i < members.size(); ++i) all[i] = outcome_of(r, i, members.size());
+    return all;
 }
 
 std::vector<std::size_t> natural_order(std::size_t count) {
@@ -111,10 +126,29 @@ TEST_P(MethodParity, BitsDependOnTheMemberAlone) {
             for (auto const& order : {forwards, backwards}) {
                 auto const got = outcomes(isa, GetParam(), members, order, block);
                 for (std::size_t i = 0; i < members.size(); ++i) {
-                    EXPECT_TRUE(same(reference[i], got[i]))
-                        << name_of(isa) << " member " << i << ", blocks of " << block
-                        << (order == forwards ? "" : ", reversed");
+                    EXPECT_TRUE(same(reference[i], got[i])) << name_of(isa) << " member " << i << ", blocks of "
+                                                            << block << (order == forwards ? "" : ", reversed");
                 }
+            }
+        }
+    }
+}
+
+TEST_P(MethodParity, TheOrderInWhichABlockTakesItsMembersChangesNothing) {
+    auto const members = mixed_members(80);
+    auto const count = static_cast<std::uint32_t>(members.size());
+    for (Isa const isa : all_isas()) {
+        if (!is_supported(isa)) continue;
+        auto const reference = outcomes_taken(isa, GetParam(), members, {});
+        // As the driver orders them, dearest first; the cheapest first; and as if shuffled: 31 and 80 have no common factor.
+        std::vector<std::uint32_t> dearest(count), shuffled(count);
+        for (std::uint32_t i = 0; i < count; ++i) dearest[i] = i, shuffled[i] = 31 * i % count;
+        std::ranges::stable_sort(dearest, std::greater{}, [&](auto i) { return reference[i].record.rhs_evaluations; });
+        std::vector<std::uint32_t> const cheapest(dearest.rbegin(), dearest.rend());
+        for (auto const& order : {dearest, cheapest, shuffled}) {
+            auto const got = outcomes_taken(isa, GetParam(), members, order);
+            for (std::size_t i = 0; i < members.size(); ++i) {
+                EXPECT_TRUE(same(reference[i], got[i])) << name_of(isa) << " member " << i << ", first " << order[0];
             }
         }
     }
@@ -127,7 +161,8 @@ TEST_P(MethodParity, ModelsOfOtherKindsHaveOneSetOfBits) {
     std::vector<testing::ValveInputs> valves;
     for (int i = 0; i < 23; ++i) {
         balls.push_back({.height = 0.1 + 0.07 * i, .speed = 0.1 * (i % 5), .level = 0.3});
-        trackers.push_back({.rate = i % 4 == 0 ? -1.0 : -std::pow(10.0, i / 4), .wall = i % 6 == 1 ? 0.5 : testing::never});
+        trackers.push_back(
+            {.rate = i % 4 == 0 ? -1.0 : -std::pow(10.0, i / 4), .wall = i % 6 == 1 ? 0.5 : testing::never});
         valves.push_back({.inflow = 0.3 + 0.4 * i});
     }
     auto s = testing::equal_steps(GetParam(), 0.02, 1.0);
@@ -138,8 +173,8 @@ TEST_P(MethodParity, ModelsOfOtherKindsHaveOneSetOfBits) {
         auto const want = testing::run(Isa::scalar, s, members, times);
         for (Isa const isa : testing::fma_isas()) {
             auto const got = testing::run(isa, s, members, times);
-            for (auto const part : {&testing::ModelResult::states, &testing::ModelResult::quantities,
-                                    &testing::ModelResult::series}) {
+            for (auto const part :
+                 {&testing::ModelResult::states, &testing::ModelResult::quantities, &testing::ModelResult::series}) {
                 auto const &a = want.*part, &b = got.*part;
                 EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(double)), 0) << name_of(isa);
             }

@@ -31,6 +31,7 @@ struct RunOptions {
     Selection quantities = all_quantities;
     Selection series = 0;
     std::vector<double> sample_times;
+    std::vector<std::uint32_t> order;  // in which the block takes its members; empty: as they stand
 };
 
 inline EnsembleResult run(Isa isa, RunOptions const& options, std::vector<Inputs> const& members) {
@@ -45,6 +46,7 @@ inline EnsembleResult run(Isa isa, RunOptions const& options, std::vector<Inputs
     Block block;
     block.inputs = members.data();
     block.members = n;
+    block.order = options.order.empty() ? nullptr : options.order.data();
     block.settings = options.settings;
     block.sample_times = options.sample_times.data();
     block.samples = options.sample_times.size();

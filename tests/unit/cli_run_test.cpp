@@ -76,7 +76,7 @@ TEST_F(Run, SaysThatAFixedStepIsTooLong) {
     auto const from = outcome.out.find("rk4 with a step of 2e-05 s failed in ");
     ASSERT_NE(from, std::string::npos) << outcome.out;
     std::string const line = outcome.out.substr(from, outcome.out.find('\n', from) - from);
-    EXPECT_NE(line.find("unstable by the energy residual"), std::string::npos) << line;
+    EXPECT_NE(line.find("unstable by the energy audit"), std::string::npos) << line;
     EXPECT_NE(line.find("use a smaller integrator.step"), std::string::npos) << line;
     ResultReader const file = results("s.nc");
     auto const status = file.values("status"), residual = file.values("energy_residual");

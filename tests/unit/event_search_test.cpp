@@ -1,8 +1,9 @@
-// Events inside the steps, against the algebra of a ball over a floor.  Its parabola is exact for every method, so that steps are as
+// Events inside the steps, against the algebra of a ball over a floor.  Its cubic is exact for every method, so that steps are as
 // long as they may be, and what a time is off by is the search's own error.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -133,8 +134,8 @@ TEST_F(EventSearch, GrazingTheFloorIsAnImpactOrNone) {
         for (double const step : {0.07, 10.0}) {
             auto const r = testing::run(isa, testing::equal_steps(Method::dopri5, step, 0.5), std::vector{in});
             auto const events = testing::ball_events(r, 0);
-            auto const impacts = std::count_if(events.begin(), events.end(),
-                                               [](auto const& e) { return e.kind == BallEvent::impact; });
+            auto const impacts =
+                std::count_if(events.begin(), events.end(), [](auto const& e) { return e.kind == BallEvent::impact; });
             if (gap > 0) {
                 EXPECT_EQ(impacts, 0) << gap;
             } else if (gap < 0) {
@@ -161,6 +162,60 @@ TEST_F(EventSearch, OrdersDifferentEventsOfOneStep) {
     }
 }
 
+/// A ball that moves on x = offset + scale (t − a)(t − b)(t − c), without impacts.
+BallInputs on_cubic(double scale, double a, double b, double c, double offset) {
+    return {.height = offset - scale * a * b * c,
+            .speed = scale * (a * b + a * c + b * c),
+            .gravity = 2 * scale * (a + b + c),
+            .jerk = 6 * scale};
+}
+
+TEST_F(EventSearch, FindsAPairThatTheEndsOfTheStepDoNotShow) {
+    // Both ends of the step [0, 1] rise, away from the level and towards it.
+    for (auto const& [a, b, c] : {std::array{-0.05, 0.3, 0.35}, {0.6, 0.65, 1.1}}) {
+        for (auto const method : explicit_methods) {
+            auto in = on_cubic(6, a, b, c, 50);
+            in.level = 50;
+            auto const events = events_of(in, method, 1.0, 1.0);
+            std::vector<double> times;
+            for (auto const& event : events) {
+                if (event.kind == BallEvent::level) times.push_back(event.time);
+            }
+            std::vector<double> want;
+            for (double const zero : {a, b, c}) {
+                if (zero > 0 && zero < 1) want.push_back(zero);
+            }
+            ASSERT_EQ(times.size(), want.size()) << name_of(method) << ' ' << a;
+            for (std::size_t i = 0; i < want.size(); ++i) EXPECT_NEAR(times[i], want[i], 1e-11) << name_of(method);
+        }
+    }
+}
+
+TEST_F(EventSearch, ADipBelowTheFloorIsAnImpact) {
+    // Up, then below the floor and out again within one step: the floor is met at 0.3 s and not left behind.
+    auto in = on_cubic(6, -0.05, 0.3, 0.35, 0);
+    for (auto const method : explicit_methods) {
+        auto const events = events_of(in, method, 1.0, 1.0);
+        auto const impact = std::ranges::find(events, BallEvent::impact, &BallEvent::kind);
+        ASSERT_NE(impact, events.end()) << name_of(method);
+        EXPECT_NEAR(impact->time, 0.3, 1e-12);
+        EXPECT_NEAR(impact->speed, 6 * 0.35 * -0.05, 1e-12);
+    }
+}
+
+TEST_F(EventSearch, SimultaneousEventsAreAllFound) {
+    // The level is the floor: a crossing that the impact ends.
+    BallInputs const in{.speed = -1e-300, .level = 0};
+    for (auto const method : explicit_methods) {
+        auto const events = events_of(in, method, 0.1, 1.0);
+        ASSERT_EQ(events.size(), 3u) << name_of(method);
+        EXPECT_EQ(events[0].kind, BallEvent::level);
+        EXPECT_EQ(events[1].kind, BallEvent::impact);
+        EXPECT_EQ(events[2].kind, BallEvent::apex);
+        EXPECT_EQ(events[0].time, events[1].time);
+    }
+}
+
 TEST_F(EventSearch, AnEventAtTheStartIsFoundOnce) {
     // On the floor and falling: the impact is now.
     BallInputs in{.height = 0, .speed = -2};
@@ -176,6 +231,12 @@ TEST_F(EventSearch, AnEventAtTheStartIsFoundOnce) {
     in.speed = 1;
     expect_same(events_of(in, Method::dopri5, 0.05, 0.3),
                 {{BallEvent::apex, 0.1, 1.05, 0}, {BallEvent::level, 0.2, 1, -1}}, 1e-14);
+    // Through the level, and back up within the step or at its very end.
+    in = {.height = 1, .speed = -1, .gravity = -8, .level = 1};
+    for (double const step : {0.25, 0.3}) {
+        expect_same(events_of(in, Method::rk4, step, 0.3),
+                    {{BallEvent::level, 0, 1, -1}, {BallEvent::level, 0.25, 1, 1}}, 1e-14);
+    }
 }
 
 TEST_F(EventSearch, EventsOnTheBordersOfStepsAreFoundOnce) {
@@ -207,13 +268,37 @@ TEST_F(EventSearch, SamplesBeforeAnImpactAreThoseOfTheFlightThatItEnds) {
     }
 }
 
-TEST_F(EventSearch, BouncesThatPileUpSpendTheStepsOfTheMember) {
-    auto settings = testing::equal_steps(Method::dopri5, 0.1, 5.0);  // beyond the end of all bounces at 4.02 s
-    settings.max_steps = 3000;
+TEST_F(EventSearch, BouncesThatPileUpEndTheMember) {
+    // All bounces end at 9 √0.2 = 4.02 s, beyond which the ball knows no motion.
+    for (Isa const any_isa : all_isas()) {
+        if (!is_supported(any_isa)) continue;
+        for (auto const method : explicit_methods) {
+            auto const settings = testing::equal_steps(method, 0.1, 5.0);  // up to 1e8 steps
+            auto const r = testing::run(any_isa, settings, std::vector<BallInputs>(11));
+            for (std::size_t i = 0; i < r.records.size(); ++i) {
+                EXPECT_EQ(r.records[i].status, Status::step_too_small);
+                EXPECT_NEAR(r.records[i].time, 9 * std::sqrt(0.2), 1e-5);
+                EXPECT_LT(r.records[i].steps_accepted, 400u);
+                EXPECT_NEAR(r.states[2 * i], 0, 1e-12) << "and stays on the floor";
+            }
+        }
+    }
+}
+
+TEST_F(EventSearch, AResetThatBringsItsEventAboutAgainEndsTheMember) {
+    // Without restitution the ball lies on the floor and falls through it at once.
+    auto const r =
+        testing::run(isa, testing::equal_steps(Method::dopri5, 0.1, 5.0), std::vector{BallInputs{.restitution = 0}});
+    EXPECT_EQ(r.records[0].status, Status::step_too_small);
+    EXPECT_NEAR(r.records[0].time, std::sqrt(0.2), 1e-5);
+}
+
+TEST_F(EventSearch, BouncesThatPileUpSpendTheStepsOfTheMemberAtMost) {
+    auto settings = testing::equal_steps(Method::dopri5, 0.1, 5.0);
+    settings.max_steps = 100;
     auto const r = testing::run(isa, settings, std::vector{BallInputs{}});
     EXPECT_EQ(r.records[0].status, Status::max_steps);
-    EXPECT_NEAR(r.records[0].time, 9 * std::sqrt(0.2), 1e-4);
-    EXPECT_NEAR(r.states[0], 0, 1e-12) << "and stays on the floor";
+    EXPECT_EQ(r.records[0].steps_accepted + r.records[0].steps_rejected, 100u);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "kernels/block.hpp"
@@ -40,9 +41,9 @@ Report with_energy(double energy) {
 }
 
 /// The observer with room for its results.
-class Watched {
+template <class Observer> class WatchedBy {
 public:
-    Watched() { row_.fill(unwritten); }
+    WatchedBy() { row_.fill(unwritten); }
 
     void start(Report const& r, State const& state = {}) { observer_.start(true, r, state.data()); }
     /// One step of length h whose integrands all have the given stage means.
@@ -51,10 +52,13 @@ public:
         means.resize(Observer::integrals, 0.0);
         observer_.accept(accepted, h, means.data(), r, state.data());
     }
+    void resume(Report const& r) { observer_.resume(true, r); }
     void finish(double time, Selection selected = everything) { observer_.finish(0, time, selected, row_.data()); }
     double operator()(Quantity q, int column = 0) const {
         return row_[static_cast<std::size_t>(quantity_column(q) + column)];
     }
+
+    EnergyAudit<double> audit() const { return observer_.audit(); }
 
     static constexpr double unwritten = -12345;
 
@@ -62,6 +66,8 @@ private:
     Observer observer_{};
     std::array<double, quantity_columns> row_{};
 };
+
+using Watched = WatchedBy<Observer>;
 
 /// Integrands, in their order, of a report whose numbers all differ.
 Report busy() {
@@ -72,6 +78,7 @@ Report busy() {
     r.crank_power = 2;
     r.contact.friction_power = 3;
     r.contact.damping_power = 5;
+    r.contact.elastic_power = 19;
     r.crank_torque = 0.5;
     r.drive_torque = -7;
     r.position_error = 11;
@@ -122,6 +129,11 @@ TEST(Observer, IntegrandsAreThoseOfTheTable) {
     EXPECT_EQ(values[5], 121);
     EXPECT_EQ(values[6], 169);
     for (int apex = 0; apex < 8; ++apex) EXPECT_EQ(values[7 + apex], apex_forces[apex]) << apex;
+    EXPECT_EQ(values[15], 2);
+    using Switching = SliderCrankObserver<double, false>;
+    double more[Switching::integrals];
+    Switching::integrands(busy(), more);
+    EXPECT_EQ(more[Switching::integrals - 1], 19) << "the springs' power";
 }
 
 TEST(Observer, MeansAndSumsAreIntegralsOfTheSteps) {
@@ -144,6 +156,81 @@ TEST(Observer, MeansAndSumsAreIntegralsOfTheSteps) {
     EXPECT_EQ(watched(Quantity::rms_rod_angular_velocity), std::sqrt(49 / 4.0));
     for (int apex = 0; apex < 8; ++apex)
         EXPECT_EQ(watched(Quantity::mean_apex_force, apex), 7 * (8 + apex) / 4.0) << apex;
+}
+
+/// E and U at the end of a step, and the first of the apices that touch.
+Report with_contact(double energy, double potential, int apices) {
+    auto r = with_energy(energy);
+    r.contact.potential = potential;
+    for (auto& face : r.contact.penetration) face = {-1, -1, -1, -1};
+    auto& top = r.contact.penetration[0];
+    top = {apices > 0 ? 1.0 : -1.0, apices > 1 ? 1.0 : -1.0, apices > 2 ? 1.0 : -1.0, -1};
+    return r;
+}
+
+/// Means of a step whose springs took up `taken_up` and which lost `loss` to friction.
+std::vector<double> audit_means(double taken_up, double loss) {
+    std::vector<double> means(17, 0.0);
+    means[1] = loss;
+    means[16] = taken_up;
+    return means;
+}
+
+TEST(Observer, OfAConservingLawBlamesTheMethodForTheResidual) {
+    WatchedBy<SliderCrankObserver<double>> watched;
+    watched.start(with_contact(10, 1, 1));
+    watched.step(2, with_contact(13, 5, 3), {}, audit_means(0, 0.5));  // + 4
+    watched.step(2, with_contact(11, 2, 3), {}, audit_means(0, 0.5));  // − 1
+    auto const audit = watched.audit();
+    EXPECT_EQ(audit.made, 3);
+    EXPECT_EQ(audit.made, audit.residual());
+    EXPECT_EQ(audit.astray, 5);
+    EXPECT_EQ(audit.exchanged, 4 + 3);
+    EXPECT_EQ(audit.stored, 5);
+}
+
+TEST(Observer, OfASwitchingLawLeavesToTheLawWhatItMadeByASwitch) {
+    using Switching = WatchedBy<SliderCrankObserver<double, false>>;
+    // Springs that took up 3 hold 7 after a switch: the law made 4, and the method the rest of E's 4.5.
+    Switching switching;
+    switching.start(with_contact(10, 1, 1));
+    switching.step(1, with_contact(14.5, 8, 2), {}, audit_means(3, 0));
+    EXPECT_EQ(switching.audit().residual(), 4.5);
+    EXPECT_EQ(switching.audit().made, 0.5);
+    EXPECT_EQ(switching.audit().astray, 0.5);
+    EXPECT_EQ(switching.audit().exchanged, 3);
+    // With the same apices in touch no switch is to blame, nor where a step leaps into the way or out of it.
+    for (auto const& [before, after] : {std::pair{2, 2}, {0, 2}, {2, 0}}) {
+        Switching leaping;
+        leaping.start(with_contact(10, 1, before));
+        leaping.step(1, with_contact(14.5, 8, after), {}, audit_means(3, 0));
+        EXPECT_EQ(leaping.audit().made, 4.5) << before << ' ' << after;
+    }
+}
+
+TEST(Observer, ResumesWhereTheLawChangedWithoutAStep) {
+    WatchedBy<SliderCrankObserver<double, false>> watched;
+    watched.start(with_contact(10, 1, 2));
+    watched.resume(with_contact(12, 3, 2));  // located, it makes 2
+    watched.step(1, with_contact(12, 3, 2));
+    EXPECT_EQ(watched.audit().made, 0);
+    EXPECT_EQ(watched.audit().residual(), 2);
+}
+
+TEST(Observer, TellsTouchingPairsApart) {
+    ContactReport<double> contact;
+    contact.clear();
+    for (auto& face : contact.penetration) face = {-1, 0, -1, 0};
+    EXPECT_EQ(contact.pattern(), 0);
+    double bit = 1;
+    for (auto& face : contact.penetration) {
+        for (double* depth : {&face.a, &face.b, &face.c, &face.d}) {
+            double const before = std::exchange(*depth, 1e-12);
+            EXPECT_EQ(contact.pattern(), bit);
+            *depth = before;
+            bit *= 2;
+        }
+    }
 }
 
 TEST(Observer, SharesAStepBetweenTwoModesByHalves) {

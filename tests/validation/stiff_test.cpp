@@ -74,6 +74,23 @@ TEST(AutoMethod, TurnsStiffWhereTheSliderLiesDown) {
     }
 }
 
+TEST(AutoMethod, TurnsStiffForStrongDampingAndSteepFrictionToo) {
+    // Both limit an explicit step far below what the contacts' stiffness does.
+    auto damped = settling_members(8);
+    for (auto& in : damped) in.chi_line = in.chi_surface = 1e6;
+    auto steep = settling_members(8);
+    for (auto& in : steep) {
+        in.crank_speed = 0;
+        in.friction_stick_speed = 1e-7;
+        in.friction_slip_speed = 1e-2;
+    }
+    for (auto const& members : {damped, steep}) {
+        auto const alone = testing::run(best_isa(), options_of(Method::ros34pw2, 1e-6, 0.1), members);
+        auto const r = testing::run(best_isa(), options_of(Method::automatic, 1e-6, 0.1), members);
+        EXPECT_LT(evaluations_per_member(r), 4 * evaluations_per_member(alone));
+    }
+}
+
 TEST(AutoMethod, SavesMostOfTheWorkAtTheSameEnergyResidual) {
     // A full turn saves 60 times and more (slow/stiff_turn_test.cpp); here four fifths of 0.4 s are settled.
     auto const members = settling_members(16);
