@@ -37,7 +37,7 @@ public:
 
     /// Lanes whose resets pile up: bounces that come to an end in finite time after infinitely many of them, or an event that its own
     /// reset brings about again.  A model that knows better leaves that state by its reset (ReliefValve::reset); without, time
-    /// stands still, or creeps by the errors of the zeros.  To be asked once a step, at its end.
+    /// stands still, or creeps by rounding errors.  To be asked once a step, at its end.
     SLIDEWAY_HD Mask<Real> piled_up(Pack<Model, Real>& pack) const {
         if (none(ended_)) return ended_;
         auto& c = pack.state.course;

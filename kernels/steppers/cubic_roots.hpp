@@ -17,13 +17,16 @@ template <class Real> struct CubicZeros {
     Mask<Real> any;         // lanes with at least one
 };
 
-/// Lanes in which the cubic through the values and slopes at both ends of [0, 1] may have a zero there, of which none is missed: the
-/// cubic lies within the span of its Bézier ordinates v0, v0 + s0/3, v1 − s1/3 and v1 (G. Farin, Curves and Surfaces for CAGD,
-/// 5th ed., 4.3), and without a change of sign among them it has none.
+/// Lanes in which the cubic through the values and slopes at both ends of [0, 1] may have a zero there.  None is missed: the cubic
+/// lies within the span of its Bézier ordinates v0, v0 + s0/3, v1 − s1/3 and v1 (G. Farin, Curves and Surfaces for CAGD, 5th ed.,
+/// 4.3), and without a change of sign among them it has none.
+/// What starts at rest on zero and ends on the positive side has not crossed: the motion began inside the step, and the cubic, which
+/// cannot know when, swings.
 template <class Real> SLIDEWAY_FN Mask<Real> may_cross(Real v0, Real s0, Real v1, Real s1) {
     Real const third(1.0 / 3), zero(0.0);
     Real const c1 = fma(third, s0, v0), c2 = fnma(third, s1, v1);
-    return (min(min(v0, v1), min(c1, c2)) < zero) & (max(max(v0, v1), max(c1, c2)) >= zero);
+    auto const below = min(min(v0, v1), min(c1, c2)) < zero, above = max(max(v0, v1), max(c1, c2)) >= zero;
+    return (below & above) & !((max(abs(v0), abs(c1)) == zero) & (v1 >= zero));
 }
 
 namespace detail {
@@ -41,7 +44,8 @@ template <class Real> struct EventCubic {
 
     /// Its zero in a stretch where it is monotone and changes its sign, by Newton's method: from the inflection if that lies inside, else
     /// from the steeper end.  After at most one step too far it bends away from its tangents, and no step goes beyond the zero.
-    /// A lane stops when its own steps are small: what is left is of the order of their square, at a double zero of their own.
+    /// A lane stops when its own steps are small beside θ, for after a reset bounces may be far shorter than a step: what is left is of
+    /// the order of their square, at a double zero of their own.
     SLIDEWAY_FN Real zero_within(Real low, Real high, Mask<Real> wanted) const {
         Real const inflection = negated(a) / (Real(3.0) * b);
         auto const inside = (inflection > low) & (inflection < high);
@@ -52,7 +56,7 @@ template <class Real> struct EventCubic {
             Real const next = held(theta - value(theta) / slope(theta));
             Real const move = abs(next - theta);
             theta = select(wanted, next, theta);
-            wanted = wanted & (move > Real(1e-7));
+            wanted = wanted & (move > Real(1e-7) * theta);
         }
         return theta;
     }

@@ -104,6 +104,8 @@ TEST(CubicZeros, CandidatesMayChangeTheirSign) {
     EXPECT_TRUE(may_cross(1.0, -4.0, 1.0, 4.0));
     EXPECT_FALSE(may_cross(0.0, 0.0, 0.0, 0.0));
     EXPECT_FALSE(may_cross(0.0, 1.0, 1.0, 1.0)) << "it has left";
+    EXPECT_FALSE(may_cross(0.0, 0.0, 1.0, 4.0)) << "it rested, and then rose";
+    EXPECT_TRUE(may_cross(0.0, 0.0, -1.0, -4.0)) << "it rested, and then fell";
     EXPECT_TRUE(may_cross(0.0, -1.0, 1.0, 4.0)) << "it leaves now, and comes back";
 }
 
@@ -172,6 +174,15 @@ TEST(CubicZeros, AStartOnZeroIsNoZeroIfItRises) {
     auto const from_zero = found({0, 1, -1, -3});  // θ (1 − 2 θ)
     ASSERT_EQ(from_zero.size(), 1u);
     EXPECT_NEAR(from_zero[0].theta, 0.5, near);
+}
+
+TEST(CubicZeros, ShortBouncesInALongStepKeepTheirDigits) {
+    // θ (s − θ): up from zero at the start of the step, and down again at s.
+    for (double s = 0.1; s > 1e-11; s /= 3) {
+        auto const list = found({0, s, s - 1, s - 2}, Direction::falling);
+        ASSERT_EQ(list.size(), 1u) << s;
+        EXPECT_NEAR(list[0].theta, s, 1e-6 * s);
+    }
 }
 
 TEST(CubicZeros, NanHasNone) {
