@@ -17,7 +17,8 @@ namespace {
 std::vector<Method> methods_of(Axis const& axis) {
     if (axis.name.starts_with("step")) return {Method::rk4};
     std::vector<Method> methods{Method::automatic, Method::dopri5, Method::bs32, Method::ros34pw2};
-    if (!axis.of_the_method) methods.push_back(Method::rk4);
+    // Restitution wants steps that end at touches.
+    if (!axis.of_the_method && axis.name != "restitution") methods.push_back(Method::rk4);
     return methods;
 }
 

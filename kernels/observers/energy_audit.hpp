@@ -22,15 +22,17 @@ template <class Real> struct EnergyAudit {
 };
 
 /// Members whose method left its stable range, by the energy that it made itself; NaN tells it too.  Two signs:
-/// - In sum it made more than a fifth of what friction, damping and contact turned over, plus a thousandth of what the crank moved (the
-///   error in free flight).
+/// - In sum it made more than a fifth of what contact damped and stored, plus a fiftieth of what friction burnt and a thousandth of what
+///   the crank moved (the error of gliding and of free flight).  Losses of the wrong sign excuse nothing.
 /// - It does not resolve its contacts: of what went through their springs more than an eighth went astray in the single steps, gains and
 ///   losses alike, and that is more than half of the first bound.
 /// How close runs came to these bounds, and how far beyond unstable ones lie: docs/stability.md.
 /// @param smallest M (c ω)², the audit's absolute tolerance is relative to it [J]
 template <class Real> SLIDEWAY_FN Mask<Real> left_stable_range(EnergyAudit<Real> const& audit, Real smallest) {
-    Real const lateral = (audit.friction_loss + abs(audit.damping_loss)) + (audit.stored + smallest);
-    Real const bound = fma(Real(0.2), lateral, Real(0.001) * audit.crank_turnover);
+    Real const zero(0.0);
+    Real const contact = max(zero, audit.damping_loss) + (audit.stored + smallest);  // in this order NaN stays
+    Real const carried = fma(Real(0.02), max(zero, audit.friction_loss), Real(0.001) * audit.crank_turnover);
+    Real const bound = fma(Real(0.2), contact, carried);
     auto const balanced = abs(audit.made) <= bound;
     auto const resolved = audit.astray <= max(Real(0.125) * audit.exchanged, Real(0.5) * bound);
     return !(balanced & resolved);

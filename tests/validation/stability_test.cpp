@@ -93,15 +93,16 @@ int count_of(std::array<int, status_count> const& ended, Status status) {
 
 class FixedStepInImpacts : public ::testing::TestWithParam<Law> {
 protected:
-    /// Falling starts, 0.1 s; @param fraction of the linear limit of a slider that rocks on its lower face.
-    std::array<int, status_count> run(double fraction) const {
+    /// Falling starts; @param fraction of the linear limit of a slider that rocks on its lower face.
+    std::array<int, status_count> run(double fraction, double crank_speed = std::numbers::pi,
+                                      double end_time = 0.1) const {
         testing::RunOptions o;
         o.parts = {GetParam(), Damping::rate, true, false};
         o.settings.method = Method::rk4;
         o.settings.fixed_step = fraction * 2 * std::numbers::sqrt2 / Rocking().rate;
-        o.settings.end_time = 0.1;
+        o.settings.end_time = end_time;
         o.quantities = 0;
-        return count_ends(testing::run(best_isa(), o, testing::scattered_starts(members)));
+        return count_ends(testing::run(best_isa(), o, testing::scattered_starts(members, 1e-4, crank_speed)));
     }
     static constexpr int members = 16;
 };
@@ -112,6 +113,11 @@ TEST_P(FixedStepInImpacts, BeyondTheLimitIsToldFromAResult) {
     auto const twice = run(2), thrice = run(3), tenfold = run(10);
     EXPECT_EQ(count_of(twice, Status::unstable), members) << "all reach the end, and none is believed";
     for (auto const& ended : {thrice, tenfold}) EXPECT_EQ(count_of(ended, Status::finished), 0);
+}
+
+TEST_P(FixedStepInImpacts, BeyondTheLimitIsToldWhereFrictionBurnsMost) {
+    // At 47 rad/s friction burns a hundred times what impacts do: the first turn.
+    EXPECT_EQ(count_of(run(2, 47, 2 * std::numbers::pi / 47), Status::finished), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, FixedStepInImpacts, ::testing::Values(Law::paper, Law::conservative),
