@@ -109,9 +109,9 @@ TEST_F(Run, BlamesTheLawOnlyWhereTheMethodIsSound) {
 }
 
 TEST_F(Run, SaysWhatToDoWhenStepsAreSpent) {
-    std::vector<std::string> const options{"--max-failures", "100%", "--set", "integrator.max_steps=20"};
+    std::vector<std::string> const options{"--max-failures", "100%", "--set", "integrator.max_steps=3"};
     Outcome const outcome = run_scene(options);
-    EXPECT_NE(outcome.out.find("37 members spent integrator.max_steps = 20: try a larger one, looser rtol and atol, "
+    EXPECT_NE(outcome.out.find("37 members spent integrator.max_steps = 3: try a larger one, looser rtol and atol, "
                                "or look at one with --member K.\n"),
               std::string::npos)
         << outcome.out;
