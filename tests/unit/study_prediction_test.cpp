@@ -13,11 +13,11 @@ Prediction prediction_of(std::string const& lines, int members = 1) {
 }
 
 TEST(Prediction, RangeHoldsWhatRingingContactCosts) {
-    // Runs of the standard scene, 4 s: 2.4e6 attempts were seen under the conservative law, 3.8e6 with dopri5 alone.
+    // Runs of the standard scene, 4 s: 0.37e6 to 2.4e6 attempts of auto under the conservative law, 3.6e6 of dopri5.
     for (char const* method : {"auto", "dopri5", "bs32"}) {
         auto const p = prediction_of(std::string("[integrator]\nmethod = \"") + method + "\"\n");
         EXPECT_DOUBLE_EQ(p.least_steps, 4000) << method;
-        EXPECT_GT(p.most_steps, 3.8e6) << method;
+        EXPECT_GT(p.most_steps, 3.6e6) << method;
         EXPECT_LT(p.most_steps, 1e8) << method;
     }
     EXPECT_GT(prediction_of("[integrator]\nrtol = 1e-8\natol = 1e-8\n").most_steps, prediction_of("").most_steps);
