@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/study/prediction.hpp"
 #include "tests/support/ensemble.hpp"
 
 namespace slideway::bench {
@@ -114,19 +115,6 @@ std::vector<Axis> axes(Law law, bool quick) {
     all.push_back(of_steps("step", "Fixed step over the linear limit 2√2/Ω, falling start", steps, standard));
     all.push_back(of_steps("step_lying", "Fixed step over the linear limit 2√2/Ω, lying start", steps, lying));
     return all;
-}
-
-double stiffest_rate(Inputs const& in) {
-    double const e1 = in.slider_young_modulus, e2 = in.way_young_modulus;
-    double const series = 2 * e1 * e2 / (e1 + e2);
-    auto const face = [&](double width, double thickness, double rocking_inertia) {
-        double const stiffness = series * in.slider_length * width / thickness;
-        auto const turning = [&](double length, double inertia) { return stiffness * length * length / (4 * inertia); };
-        return std::max({stiffness / in.slider_mass, turning(in.slider_length, rocking_inertia),
-                         turning(width, in.slider_inertia_x)});
-    };
-    return std::sqrt(std::max(face(in.way_depth, in.thickness_y, in.slider_inertia_z),
-                              face(in.way_width, in.thickness_z, in.slider_inertia_y)));
 }
 
 double linear_limit(std::vector<Inputs> const& members) {

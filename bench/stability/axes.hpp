@@ -28,10 +28,6 @@ std::vector<Axis> axes(Law law, bool quick);
 
 inline constexpr double end_time = 0.1;  // [s]; the standard mechanism meets its way five times and comes to rest on it
 
-/// Rate Ω [rad/s] of the stiffest motion of a slider that lies on one of its faces: with the surface's stiffness k it moves as a
-/// whole at √(k/M), rocks at √(k (L_k/2)²/I) and rolls at √(k (w/2)²/I) (docs/model.md 3 and 4).
-double stiffest_rate(Inputs const& inputs);
-
 /// Largest stable step of the classical Runge–Kutta method on an undamped oscillation: 2√2/Ω.
 double linear_limit(std::vector<Inputs> const& members);
 

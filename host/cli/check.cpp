@@ -47,12 +47,26 @@ std::string range_text(std::string const& least, std::string const& most) {
     return least == most ? least : fmt::format("{} to {}", least, most);
 }
 
+std::string cost_text(Scene const& scene, Prediction const& prediction) {
+    std::string const threads =
+        fmt::format("{} thread{}", prediction.busy_threads, prediction.busy_threads == 1 ? "" : "s");
+    if (scene.integrator.method == Method::rk4) {
+        return fmt::format("{:.0f} steps, all fixed; some {} on {}", prediction.most_steps,
+                           duration_text(prediction.most_seconds), threads);
+    }
+    return fmt::format(
+        "{} steps, {} on {}; a rough range: all in free flight to all in contact that rings",
+        range_text(fmt::format("{:.2g}", prediction.least_steps), fmt::format("{:.2g}", prediction.most_steps)),
+        range_text(duration_text(prediction.least_seconds), duration_text(prediction.most_seconds)), threads);
+}
+
 }  // namespace
 
 int check(CheckArguments const& arguments) {
     Isa const isa = parse_isa(arguments.scene.isa);
     Scene const scene = load_scene(arguments.scene);
     int const threads = arguments.threads.value_or(default_threads());
+    print_warnings(scene);
     Prediction const prediction = predict(scene, isa, threads);
 
     fmt::print("# {} is a valid scene.  Resolved, in SI units:\n\n", scene.path);
@@ -67,12 +81,7 @@ int check(CheckArguments const& arguments) {
                                       bytes_text(static_cast<double>(prediction.summary_bytes))));
     print_field("output", fmt::format("{} and a header of some tens of kB",
                                       bytes_text(static_cast<double>(prediction.output_bytes))));
-    print_field(
-        "cost",
-        fmt::format(
-            "{} steps, {} on {} threads; a rough range: all in free flight to all in settled contact",
-            range_text(fmt::format("{:.2g}", prediction.least_steps), fmt::format("{:.2g}", prediction.most_steps)),
-            range_text(duration_text(prediction.least_seconds), duration_text(prediction.most_seconds)), threads));
+    print_field("cost", cost_text(scene, prediction));
     return exit_code::done;
 }
 

@@ -15,6 +15,10 @@ Scene load_scene(SceneArguments const& arguments) {
     }
 }
 
+void print_warnings(Scene const& scene) {
+    for (std::string const& warning : scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
+}
+
 std::string bytes_text(double bytes) {
     if (bytes < 1e3) return fmt::format("{:.0f} B", bytes);
     if (bytes < 1e6) return fmt::format("{:.1f} kB", bytes / 1e3);

@@ -13,6 +13,9 @@ namespace slideway::cli {
 /// Reads the scene of a command line.  @throws SceneError, also when the file is missing.
 Scene load_scene(SceneArguments const& arguments);
 
+/// To stderr: what the scene gives and does not use.
+void print_warnings(Scene const& scene);
+
 std::string bytes_text(double bytes);       // "1.5 MB"
 std::string duration_text(double seconds);  // "8.2 s", "3 min 20 s", "2.4 h"
 

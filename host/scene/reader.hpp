@@ -23,6 +23,9 @@ void read_integrator(Node const& root, Scene& scene);
 /// [study] without [study.vary]; needs the crank speed.
 void read_study(Node const& root, Scene& scene);
 
+/// Largest integrator.max_steps.
+inline constexpr std::uint64_t most_steps = 1'000'000'000'000'000;
+
 /// `count` times from 0 to end_time, both included; count is 0 or at least 2.
 std::vector<double> uniform_times(double end_time, std::size_t count);
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "host/scene/integrator_keys.hpp"
 #include "host/scene/reader.hpp"
 #include "host/scene/values.hpp"
 
@@ -54,6 +55,16 @@ void check_located_modes(Node const& node, Scene const& scene) {
     if (scene.integrator.method == Method::ros34pw2 || scene.integrator.method == Method::rk4) {
         refuse(node, {fmt::format("{} cannot end its steps there", name_of(scene.integrator.method)),
                       "use method \"auto\", \"dopri5\" or \"bs32\""});
+    }
+}
+
+void warn_of_idle_keys(Node const& table, Scene& scene) {
+    for (Node const& node : table.children) {
+        if (has_effect(node.key, scene.integrator.method)) continue;
+        // Said to be off where it cannot be on, it is as it was asked for.
+        if (node.key == "locate_modes") continue;
+        scene.warnings.push_back(
+            fmt::format("{} has no effect with method {}", node.name, name_of(scene.integrator.method)));
     }
 }
 
@@ -135,8 +146,9 @@ void read_integrator(Node const& root, Scene& scene) {
         settings.stiff_tolerance = read_number(*node, "1", "least tolerance of ringing", {1e-14, 0.1});
     }
     if (Node const* const node = root.find_path("integrator.max_steps")) {
-        settings.max_steps = read_count(*node, "number of steps", 1, 1'000'000'000'000'000);
+        settings.max_steps = read_count(*node, "number of steps", 1, most_steps);
     }
+    if (Node const* const table = root.find("integrator")) warn_of_idle_keys(*table, scene);
 }
 
 }  // namespace slideway

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "host/scene/integrator_keys.hpp"
 #include "host/scene/reader.hpp"
 #include "host/scene/values.hpp"
 
@@ -125,14 +126,30 @@ void check_size(Sampling const& sampling, Scene const& scene) {
     }
 }
 
-}  // namespace
-
 /// Settled contact asks an explicit method for some 0.5 million steps a second; a member that wants twenty times that is
 /// hopeless and should not hold a lane for minutes.
 std::uint64_t default_max_steps(double seconds, double max_step) {
-    constexpr double start = 1e7, per_second = 1e7, largest = 1e15;
+    constexpr double start = 1e7, per_second = 1e7, largest = most_steps;
     return static_cast<std::uint64_t>(std::min(start + per_second * seconds + 2 * seconds / max_step, largest));
 }
+
+/// Fixed steps are known beforehand, but for what the rounding of the time adds to very many.
+void read_max_steps_of_fixed(Node const& root, IntegratorSettings& settings) {
+    double const steps = fixed_steps(settings), enough = 1000 + std::ceil(1.001 * steps);
+    if (!(enough <= static_cast<double>(most_steps))) {
+        refuse(*root.find_path("integrator.step"),
+               {fmt::format("that makes {:.3g} steps", steps), "use a larger one, or method \"auto\""});
+    }
+    Node const* const node = root.find_path("integrator.max_steps");
+    if (node == nullptr) {
+        settings.max_steps = static_cast<std::uint64_t>(enough);
+    } else if (static_cast<double>(settings.max_steps) < steps) {
+        refuse(*node, {fmt::format("the fixed steps are {:.0f}", steps),
+                       fmt::format("use a value >= {:.0f}, or a larger integrator.step", steps)});
+    }
+}
+
+}  // namespace
 
 std::vector<double> uniform_times(double end_time, std::size_t count) {
     std::vector<double> times(count);
@@ -155,7 +172,9 @@ void read_study(Node const& root, Scene& scene) {
     }
     EndTime const end = read_end_time(root, scene.inputs.crank_speed);
     scene.integrator.end_time = end.seconds;
-    if (root.find_path("integrator.max_steps") == nullptr) {
+    if (scene.integrator.method == Method::rk4) {
+        read_max_steps_of_fixed(root, scene.integrator);
+    } else if (root.find_path("integrator.max_steps") == nullptr) {
         scene.integrator.max_steps = default_max_steps(end.seconds, scene.integrator.max_step);
     }
     Sampling const sampling = read_sampling(root, end);

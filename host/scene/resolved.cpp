@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "host/scene/integrator_keys.hpp"
 #include "host/scene/scene.hpp"
 #include "host/scene/scene_text.hpp"
 
@@ -73,6 +74,24 @@ std::string quantities_text(Scene const& scene) {
     return text;
 }
 
+/// Only what counts with the scene's method.
+std::string integrator_table(IntegratorSettings const& settings) {
+    std::string text = fmt::format("\n[integrator]\nmethod = \"{}\"\n", name_of(settings.method));
+    auto const add = [&](std::string_view key, std::string const& value, std::string_view unit = "") {
+        if (!has_effect(key, settings.method)) return;
+        text += fmt::format("{} = {}{}{}\n", key, value, unit.empty() ? "" : "  # ", unit);
+    };
+    add("rtol", number(settings.rtol));
+    add("atol", number(settings.atol));
+    add("max_step", number(settings.max_step), "s");
+    add("stiff_max_step", number(settings.stiff_max_step), "s");
+    add("stiff_tolerance", number(settings.stiff_tolerance));
+    add("step", number(settings.fixed_step), "s");
+    add("locate_modes", fmt::format("{}", settings.locate_modes));
+    add("max_steps", fmt::format("{}", settings.max_steps));
+    return text;
+}
+
 }  // namespace
 
 std::string resolved_toml(Scene const& scene) {
@@ -85,18 +104,11 @@ std::string resolved_toml(Scene const& scene) {
                           fmt::format("law = \"{}\"\n", scene.parts.law == Law::paper ? "paper" : "conservative"));
     text += physics_table(scene, complete, "friction", fmt::format("enabled = {}\n", scene.parts.friction));
     text += physics_table(scene, complete, "initial", "");
-    IntegratorSettings const& integrator = scene.integrator;
-    text += fmt::format(
-        "\n[integrator]\nmethod = \"{}\"\nrtol = {}\natol = {}\nmax_step = {}  # s\n"
-        "stiff_max_step = {}  # s\nstiff_tolerance = {}\n{}locate_modes = {}\nmax_steps = {}\n",
-        name_of(integrator.method), number(integrator.rtol), number(integrator.atol), number(integrator.max_step),
-        number(integrator.stiff_max_step), number(integrator.stiff_tolerance),
-        integrator.fixed_step > 0 ? fmt::format("step = {}  # s\n", number(integrator.fixed_step)) : "",
-        integrator.locate_modes, integrator.max_steps);
+    text += integrator_table(scene.integrator);
     text += fmt::format(
         "\n[study]\nkind = \"{}\"\nmembers = {}\nseed = {}\nduration = {}  # s\nsamples = {}\n"
         "quantities = [{}]\n",
-        scene.study, scene.members, scene.seed, number(integrator.end_time), scene.sample_times.size(),
+        scene.study, scene.members, scene.seed, number(scene.integrator.end_time), scene.sample_times.size(),
         quantities_text(scene));
     if (!scene.variations.empty()) text += "\n[study.vary]\n";
     for (Variation const& variation : scene.variations) {

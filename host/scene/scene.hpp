@@ -33,6 +33,7 @@ struct Scene {
     Selection quantities = 0;
     Selection series = 0;                   // state series included when sample_times is not empty
     std::vector<Variation> variations;      // in the order of the file
+    std::vector<std::string> warnings;      // one line each: what was given and has no effect
 };
 
 using Overrides = std::vector<std::pair<std::string, std::string>>;  // --set key=value, in order

@@ -1,13 +1,22 @@
 #include "host/study/prediction.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "host/scene/integrator_keys.hpp"
 #include "host/study/ensemble_study.hpp"
 
 namespace slideway {
 namespace {
 
-constexpr double contact_step = 5e-6;  // [s]
+/// Tried steps per time 1/Ω where a slider rings in contact: measured in settling, gaps down to 10 µs and
+/// strong damping included, at tolerances from 1e-3 to 1e-8, rounded up.  Of `auto` they are its explicit pair's, for a member that never comes to rest long enough to change over.
+double contact_steps(IntegratorSettings const& settings) {
+    double const finer = 1e-6 / std::min(settings.rtol, settings.atol);
+    bool const low_order =
+        settings.method == Method::bs32 || (settings.method != Method::dopri5 && settings.rtol >= 1e-5);
+    return low_order ? 15 * std::cbrt(finer) : 5 * std::pow(finer, 0.2);
+}
 
 /// One step of one member on one core of a server of the 2020s [s], full packs, rejected steps and events shared out.
 double seconds_per_member_step(Isa isa) {
@@ -35,6 +44,19 @@ std::uint64_t summary_bytes(Scene const& scene) {
 
 }  // namespace
 
+double stiffest_rate(Inputs const& in) {
+    double const e1 = in.slider_young_modulus, e2 = in.way_young_modulus;
+    double const series = 2 * e1 * e2 / (e1 + e2);
+    auto const face = [&](double width, double thickness, double rocking_inertia) {
+        double const stiffness = series * in.slider_length * width / thickness;
+        auto const turning = [&](double length, double inertia) { return stiffness * length * length / (4 * inertia); };
+        return std::max({stiffness / in.slider_mass, turning(in.slider_length, rocking_inertia),
+                         turning(width, in.slider_inertia_x)});
+    };
+    return std::sqrt(std::max(face(in.way_depth, in.thickness_y, in.slider_inertia_z),
+                              face(in.way_width, in.thickness_z, in.slider_inertia_y)));
+}
+
 Prediction predict(Scene const& scene, Isa isa, int threads) {
     MemberRange const all{0, scene.members};
     EnsemblePlan const plan = ensemble_plan(scene, all, isa, threads);
@@ -44,18 +66,24 @@ Prediction predict(Scene const& scene, Isa isa, int threads) {
 
     Prediction prediction{};
     prediction.block_members = plan.block_members;
+    prediction.busy_threads = static_cast<int>(std::max<std::uint64_t>(busy, 1));
     prediction.buffer_bytes =
         busy *
         block_bytes(plan.request, static_cast<std::size_t>(std::min<std::uint64_t>(plan.block_members, scene.members)));
     prediction.summary_bytes = summary_bytes(scene);
     prediction.output_bytes = payload_bytes(result_layout(scene, all));
     double const end = scene.integrator.end_time;
-    prediction.least_steps = members * end / scene.integrator.max_step;
-    prediction.most_steps = members * end / std::min(contact_step, scene.integrator.max_step);
+    if (scene.integrator.method == Method::rk4) {
+        prediction.least_steps = prediction.most_steps = members * fixed_steps(scene.integrator);
+    } else {
+        prediction.least_steps = members * end / scene.integrator.max_step;
+        double const rate = stiffest_rate(complete_inputs(scene.inputs));
+        prediction.most_steps = prediction.least_steps + members * end * rate * contact_steps(scene.integrator);
+    }
     // Packs are full except where a block has fewer members than lanes.
     double const filled = std::min(1.0, members / lanes_of(isa));
     double const seconds_per_step =
-        seconds_per_member_step(isa) / filled / static_cast<double>(std::max<std::uint64_t>(busy, 1));
+        seconds_per_member_step(isa) / filled / static_cast<double>(prediction.busy_threads);
     prediction.least_seconds = prediction.least_steps * seconds_per_step;
     prediction.most_seconds = prediction.most_steps * seconds_per_step;
     return prediction;

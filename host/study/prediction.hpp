@@ -8,17 +8,23 @@
 
 namespace slideway {
 
-/// Memory and output size follow from the scene.  Steps and hours are a rough range: settled contact holds explicit
-/// steps near 5 µs (model.md 9), free flight lets them grow to max_step, and nobody knows before the run how long the
-/// slider flies.
+/// Memory, output size and the number of fixed steps follow from the scene.  Other steps and hours are a rough range:
+/// ringing contact holds explicit steps to a fraction of 1/Ω, free flight lets them grow to max_step, and nobody knows
+/// before the run how long the slider flies.
 struct Prediction {
     std::uint64_t buffer_bytes;   // of all threads' blocks; the program itself needs some tens of MB more
     std::uint64_t summary_bytes;  // of the statistics over all members at the end
     std::uint64_t output_bytes;
     std::size_t block_members;
-    double least_steps, most_steps;  // of all members
+    int busy_threads;                // that find a block to work on
+    double least_steps, most_steps;  // of all members; the same where steps are fixed
     double least_seconds, most_seconds;
 };
+
+/// Rate Ω [rad/s] of the stiffest motion of a slider that lies on one of its faces: with the surface's stiffness k it moves as a
+/// whole at √(k/M), rocks at √(k (L_k/2)²/I) and rolls at √(k (w/2)²/I) (docs/stability.md);
+/// inputs complete.
+double stiffest_rate(Inputs const& inputs);
 
 Prediction predict(Scene const& scene, Isa isa, int threads);
 

@@ -99,6 +99,31 @@ TEST_F(Run, ShowsTheResidualOfAMethodThatDoesNotSeeItsLosses) {
     EXPECT_NE(outcome.out.find("energy_residual"), std::string::npos) << outcome.err;
 }
 
+TEST_F(Run, BlamesTheLawOnlyWhereTheMethodIsSound) {
+    std::string const alone = "Mode switching of the paper law made";
+    EXPECT_NE(run_scene({}).out.find(alone), std::string::npos);
+    Outcome const fixed = run_scene({"--set", "integrator.method=rk4", "--set", "integrator.step=2 us"});
+    EXPECT_EQ(fixed.out.find(alone), std::string::npos);
+    EXPECT_NE(fixed.out.find("The paper law's mode switching and the errors of rk4 together made"), std::string::npos)
+        << fixed.out << fixed.err;
+}
+
+TEST_F(Run, SaysWhatToDoWhenStepsAreSpent) {
+    std::vector<std::string> const options{"--max-failures", "100%", "--set", "integrator.max_steps=3"};
+    Outcome const outcome = run_scene(options);
+    EXPECT_NE(outcome.out.find("37 members spent integrator.max_steps = 3: try a larger one, looser rtol and atol, "
+                               "or look at one with --member K.\n"),
+              std::string::npos)
+        << outcome.out;
+    EXPECT_EQ(run_scene({}).out.find("spent"), std::string::npos);
+}
+
+TEST_F(Run, WarnsOfAKeyWithoutEffect) {
+    Outcome const outcome = run_scene({"--set", "integrator.method=dopri5", "--set", "integrator.step=1 us"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_EQ(outcome.err, "warning: integrator.step has no effect with method dopri5\n");
+}
+
 TEST_F(Run, GivesTheSameNumbersWithAnyThreads) {
     std::vector<std::string> hashes;
     for (char const* const threads : {"1", "2", "4"}) {

@@ -135,5 +135,15 @@ TEST_F(Usage, OfCheckTellsWhatIsInTheKernels) {
     EXPECT_NE(line(full, "memory").find(" 32 B for the statistics"), std::string::npos) << line(full, "memory");
 }
 
+TEST_F(Usage, OfCheckKnowsTheNumberOfFixedSteps) {
+    Outcome const outcome = run({"check", "s.toml", "--set", "study.members=1", "--set", "integrator.method=rk4",
+                                 "--set", "integrator.step=1e-9", "--set", "integrator.rtol=1e-3", "--threads", "4"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_EQ(outcome.err, "warning: integrator.rtol has no effect with method rk4\n");
+    EXPECT_NE(outcome.out.find("cost         1000000 steps, all fixed; "), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find(" on 1 thread\n"), std::string::npos) << "one member keeps one thread busy";
+    EXPECT_EQ(outcome.out.find("rtol"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace slideway::testing

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "host/scene/integrator_keys.hpp"
 #include "tests/unit/scene_fixture.hpp"
 
 namespace slideway {
@@ -77,6 +78,67 @@ TEST(SceneMethods, ReadBackFromTheResolvedScene) {
         EXPECT_EQ(again.stiff_tolerance, first.stiff_tolerance);
     }
     EXPECT_FALSE(contains(resolved_toml(scene_of("schema = 1")), "\nstep = ")) << "nothing to say without one";
+}
+
+TEST(SceneMethods, FixedStepsAreAllowedAsManyAsTheyAre) {
+    std::string const scene = "method = \"rk4\"\nstep = 1e-9\n{}[study]\nduration = 0.1";
+    auto const with = [&](std::string const& line) { return fmt::format(fmt::runtime(scene), line); };
+    std::uint64_t const allowed = settings_of(with("")).max_steps;
+    EXPECT_GE(allowed, 100'000'000u);
+    EXPECT_LE(allowed, 101'000'000u);
+    EXPECT_EQ(settings_of(with("max_steps = 100000000\n")).max_steps, 100'000'000u);
+    EXPECT_EQ(refusal_of(with("max_steps = 99999999\n")),
+              "scene.toml:5: integrator.max_steps is 99999999 (the fixed steps are 100000000); use a value >= "
+              "100000000, or a larger integrator.step");
+    EXPECT_EQ(refusal_of("method = \"auto\"\nmax_steps = 10\n[study]\nduration = 0.1"), "");
+}
+
+TEST(SceneMethods, StepsThatNobodyCanWaitForAreRefused) {
+    EXPECT_EQ(
+        refusal_of("method = \"rk4\"\nstep = 1e-300\n[study]\nduration = 1"),
+        "scene.toml:4: integrator.step is 1e-300 (that makes 1e+300 steps); use a larger one, or method \"auto\"");
+    EXPECT_TRUE(contains(refusal_of("method = \"rk4\"\nstep = 5e-324"), "(that makes inf steps)"));
+}
+
+TEST(SceneMethods, CountsFixedStepsAsTheKernelsDo) {
+    auto const steps = [](double end_time, double step) {
+        IntegratorSettings settings;
+        settings.end_time = end_time;
+        settings.fixed_step = step;
+        return fixed_steps(settings);
+    };
+    EXPECT_EQ(steps(0.1, 1e-9), 1e8);
+    EXPECT_EQ(steps(1, 0.3), 4);
+    EXPECT_EQ(steps(1, 1.0 / 3), 3);
+    EXPECT_EQ(steps(0.9000000001, 0.3), 3) << "the last step stretches by a millionth";
+    EXPECT_EQ(steps(1e-9, 1), 1);
+}
+
+TEST(SceneMethods, WarnOfKeysWithoutEffect) {
+    struct Case {
+        char const *key, *methods;  // with which it has an effect
+    };
+    for (auto const& [key, methods] :
+         {Case{"step", "rk4"}, Case{"rtol", "auto dopri5 bs32 ros34pw2"}, Case{"atol", "auto dopri5 bs32 ros34pw2"},
+          Case{"max_step", "auto dopri5 bs32 ros34pw2"}, Case{"stiff_max_step", "auto ros34pw2"},
+          Case{"stiff_tolerance", "auto ros34pw2"}}) {
+        for (MethodInfo const& method : method_table) {
+            std::string const fixed = std::string_view(method.name) == "rk4" ? "step = 1e-5\n" : "";
+            std::string const line = std::string_view(key) == "step" ? "step = 1e-5\n" : fixed + key + " = 1e-5\n";
+            Scene const scene =
+                scene_of(fmt::format("schema = 1\n[integrator]\nmethod = \"{}\"\n{}", method.name, line));
+            bool const counts = contains(methods, method.name);
+            std::vector<std::string> expected;
+            if (!counts)
+                expected.push_back(fmt::format("integrator.{} has no effect with method {}", key, method.name));
+            EXPECT_EQ(scene.warnings, expected);
+            // The resolved scene says what counts, no more; so it reads back without a warning.
+            std::string const resolved = resolved_toml(scene);
+            EXPECT_EQ(contains(resolved, fmt::format("\n{} = ", key)), counts) << key << " " << method.name;
+            EXPECT_TRUE(scene_of(resolved).warnings.empty());
+        }
+    }
+    EXPECT_TRUE(scene_of("schema = 1").warnings.empty());
 }
 
 }  // namespace

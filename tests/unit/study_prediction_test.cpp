@@ -1,0 +1,39 @@
+#include "host/study/prediction.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/scene_fixture.hpp"
+
+namespace slideway {
+namespace {
+
+Prediction prediction_of(std::string const& lines, int members = 1) {
+    std::string const study = "\n[study]\nmembers = " + std::to_string(members) + "\nduration = 4\n";
+    return predict(testing::scene_of("schema = 1\n" + lines + study), Isa::scalar, 4);
+}
+
+TEST(Prediction, RangeHoldsWhatRingingContactCosts) {
+    // Runs of the standard scene, 4 s: 0.37e6 to 2.4e6 attempts of auto under the conservative law, 3.6e6 of dopri5.
+    for (char const* method : {"auto", "dopri5", "bs32"}) {
+        auto const p = prediction_of(std::string("[integrator]\nmethod = \"") + method + "\"\n");
+        EXPECT_DOUBLE_EQ(p.least_steps, 4000) << method;
+        EXPECT_GT(p.most_steps, 3.6e6) << method;
+        EXPECT_LT(p.most_steps, 1e8) << method;
+    }
+    EXPECT_GT(prediction_of("[integrator]\nrtol = 1e-8\natol = 1e-8\n").most_steps, prediction_of("").most_steps);
+    EXPECT_LT(prediction_of("[contact]\nyoung_modulus = 1e9\n").most_steps, 0.1 * prediction_of("").most_steps);
+}
+
+TEST(Prediction, FixedStepsAreExact) {
+    auto const p = prediction_of("[integrator]\nmethod = \"rk4\"\nstep = 1e-6\n", 3);
+    EXPECT_EQ(p.least_steps, 12e6);
+    EXPECT_EQ(p.most_steps, 12e6);
+}
+
+TEST(Prediction, NoMoreThreadsThanBlocks) {
+    EXPECT_EQ(prediction_of("").busy_threads, 1);
+    EXPECT_EQ(prediction_of("", 4096).busy_threads, 4);
+}
+
+}  // namespace
+}  // namespace slideway
