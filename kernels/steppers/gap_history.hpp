@@ -37,7 +37,7 @@ protected:
         Real const end = select(reached > located, reached, min(reached, zero));
         Curve const depth{start - target, along * v0, end - target, along * v1};
         auto const crossing = candidates & may_cross(depth.v0, depth.s0, depth.v1, depth.s1);
-        if (none(crossing)) return {Real(1.0), crossing};
+        if (none(crossing)) return {Real(1.0), mask_of<Real>(false)};
         return first_zero(crossing, depth);
     }
 
@@ -65,7 +65,7 @@ private:
         auto const rises = cubic_zeros(crossing, depth.v0, depth.s0, depth.v1, depth.s1, Direction::rising);
         Real const first = min(rises.at[0].theta, min(rises.at[1].theta, rises.at[2].theta));
         auto const twice = (rises.at[0].theta <= one) & (rises.at[2].theta <= one);
-        return {select(rises.any, min(first, Real(0.999)), one), rises.any & (twice | (depth.v1 < zero))};
+        return {select(rises.any, min(first, Real(0.999)), one), Mask<Real>(rises.any & (twice | (depth.v1 < zero)))};
     }
 
     SLIDEWAY_FN static void keep(Mask<Real> taken, Quad<Real> const& from, Quad<Real>& to) {
