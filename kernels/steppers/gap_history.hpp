@@ -2,10 +2,11 @@
 
 #include "kernels/joint/contact_report.hpp"
 #include "kernels/real.hpp"
+#include "kernels/steppers/cubic_roots.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Depths and rates of the apex–face pairs at the start of a step, and where inside it they reach a depth.
+/// Depths and rates of the apex–face pairs at the start of a step, and where inside it they meet or leave their faces.
 template <class Real> class GapHistory {
 public:
     /// Remembers the gaps at the start of the next step.
@@ -17,30 +18,56 @@ public:
     }
 
 protected:
-    /// Where in (0, 1) the cubic through both ends' depths and rates crosses `target`, by bisection under a mask; 1 elsewhere.
-    /// @param crosses lanes whose depth is below `target` at one end and above it at the other.
-    SLIDEWAY_FN static Real crossing(Mask<Real> crosses, Real d0, Real v0, Real d1, Real v1, Real step, Real target) {
-        Real const one(1.0), half(0.5);
-        if (none(crosses)) return one;
-        Real const change = d1 - d0;
-        Real const start = fms(step, v0, change);
-        Real const end = fnma(step, v1, change) - start;
-        Real const direction = select(d1 > d0, one, Real(-1.0));
-        Real low(0.0), high(1.0);
-        for (int i = 0; i < 48; ++i) {
-            Real const middle = half * (low + high);
-            Real const rest = one - middle;
-            Real const depth = fma(middle, fma(rest, fma(middle, end, start), change), d0);
-            auto const before = direction * (depth - target) < Real(0.0);
-            low = select(before, middle, low);
-            high = select(before, high, middle);
-        }
-        return select(crosses, min(high, Real(0.999)), one);
+    /// Where in (0, 1) pairs first pass to the other side of zero depth, by half of `located` so that they lie there for certain, and
+    /// whether they come back before the end.  From the cubic through both ends' depths and rates: a pair that changes twice inside
+    /// one step ends it where it started, and is found all the same.
+    struct Change {
+        Real fraction;  // of the step, 1 where there is none
+        Mask<Real> returns;
+    };
+
+    /// @param located depth up to which a change at the end of the step counts as its end.
+    SLIDEWAY_FN static Change first_change(Mask<Real> candidates, Real d0, Real v0, Real d1, Real v1, Real step,
+                                           Real located) {
+        Real const zero(0.0), target = Real(0.5) * located;
+        // Turned so that all start below: on zero is apart, and there `located` makes room for a start that is the last change.
+        auto const touches = d0 > zero;
+        Real const start = select(touches, negated(d0), d0), reached = select(touches, negated(d1), d1);
+        Real const along = select(touches, negated(step), step);
+        Real const end = select(reached > located, reached, min(reached, zero));
+        Curve const depth{start - target, along * v0, end - target, along * v1};
+        auto const crossing = candidates & may_cross(depth.v0, depth.s0, depth.v1, depth.s1);
+        if (none(crossing)) return {Real(1.0), mask_of<Real>(false)};
+        return first_zero(crossing, depth);
+    }
+
+    /// The least fraction for a face: `of` tells that of one pair.
+    template <class OfPair>
+    SLIDEWAY_FN Real least_of_face(int face, ContactReport<Real> const& end, OfPair const& of) const {
+        auto const& d0 = start_depth_[face];
+        auto const& v0 = start_rate_[face];
+        auto const& d1 = end.penetration[face];
+        auto const& v1 = end.rate[face];
+        return min(min(of(d0.a, v0.a, d1.a, v1.a), of(d0.b, v0.b, d1.b, v1.b)),
+                   min(of(d0.c, v0.c, d1.c, v1.c), of(d0.d, v0.d, d1.d, v1.d)));
     }
 
     Quad<Real> start_depth_[face_count], start_rate_[face_count];
 
 private:
+    /// Values and slopes at both ends of [0, 1].
+    struct Curve {
+        Real v0, s0, v1, s1;
+    };
+
+    SLIDEWAY_NOINLINE static Change first_zero(Mask<Real> crossing, Curve const& depth) {
+        Real const zero(0.0), one(1.0);
+        auto const rises = cubic_zeros(crossing, depth.v0, depth.s0, depth.v1, depth.s1, Direction::rising);
+        Real const first = min(rises.at[0].theta, min(rises.at[1].theta, rises.at[2].theta));
+        auto const twice = (rises.at[0].theta <= one) & (rises.at[2].theta <= one);
+        return {select(rises.any, min(first, Real(0.999)), one), Mask<Real>(rises.any & (twice | (depth.v1 < zero)))};
+    }
+
     SLIDEWAY_FN static void keep(Mask<Real> taken, Quad<Real> const& from, Quad<Real>& to) {
         to = {select(taken, from.a, to.a), select(taken, from.b, to.b), select(taken, from.c, to.c),
               select(taken, from.d, to.d)};

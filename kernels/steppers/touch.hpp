@@ -23,16 +23,10 @@ public:
                               ImpactMemory<Real> const&) const {
         Real fraction(1.0);
         Real const located = clearance * Real(tolerance);
-        for (int face = 0; face < face_count; ++face) {
-            auto const& d0 = this->start_depth_[face];
-            auto const& v0 = this->start_rate_[face];
-            auto const& d1 = end.penetration[face];
-            auto const& v1 = end.rate[face];
-            fraction = min(fraction, touching_at(candidates, d0.a, v0.a, d1.a, v1.a, step, located));
-            fraction = min(fraction, touching_at(candidates, d0.b, v0.b, d1.b, v1.b, step, located));
-            fraction = min(fraction, touching_at(candidates, d0.c, v0.c, d1.c, v1.c, step, located));
-            fraction = min(fraction, touching_at(candidates, d0.d, v0.d, d1.d, v1.d, step, located));
-        }
+        auto const of_pair = [&](Real d0, Real v0, Real d1, Real v1) {
+            return touching_at(candidates, d0, v0, d1, v1, step, located);
+        };
+        for (int face = 0; face < face_count; ++face) fraction = min(fraction, this->least_of_face(face, end, of_pair));
         return fraction;
     }
 
@@ -53,10 +47,12 @@ public:
     }
 
 private:
+    /// A pair that parts needs no end of its own, unless it touches again in the same step: then the step ends at the parting, and
+    /// a later one at the touch.
     SLIDEWAY_FN static Real touching_at(Mask<Real> candidates, Real d0, Real v0, Real d1, Real v1, Real step,
                                         Real located) {
-        auto const crosses = candidates & (d0 <= Real(0.0)) & (d1 > located);
-        return GapHistory<Real>::crossing(crosses, d0, v0, d1, v1, step, Real(0.5) * located);
+        auto const change = GapHistory<Real>::first_change(candidates, d0, v0, d1, v1, step, located);
+        return select((d0 <= Real(0.0)) | change.returns, change.fraction, Real(1.0));
     }
 
     SLIDEWAY_FN static Mask<Real> touch(Mask<Real> accepted, Real before, Real after, Real rate, Real& speed) {

@@ -1,9 +1,10 @@
-// Where touches are found inside a step, and what they leave behind for the restitution.
+// Where touches and mode changes are found inside a step, and what touches leave behind for the restitution.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
+#include "kernels/steppers/mode_locator.hpp"
 #include "kernels/steppers/touch.hpp"
 
 namespace slideway {
@@ -55,7 +56,8 @@ TEST(TouchLocator, FindsWhereAnyPairMeetsItsFace) {
         depth(end, p) = -gap + v * step + 0.5 * b * step * step, rate(end, p) = v + b * step;
         touches.keep(true, start);
         EXPECT_NEAR(touches.earliest(true, end, step, clearance, memory_of(0.05)), touch / step, 1e-6) << p.face;
-        EXPECT_EQ(touches.earliest(false, end, step, clearance, memory_of(0.05)), 1.0) << "a rejected lane is not searched";
+        EXPECT_EQ(touches.earliest(false, end, step, clearance, memory_of(0.05)), 1.0)
+            << "a rejected lane is not searched";
     }
 }
 
@@ -129,6 +131,90 @@ TEST(TouchLocator, KeepsTheGapsOfTheLastAcceptedStep) {
     EXPECT_FALSE(touches.update(true, inside, memory)) << "a lane that was not taken keeps its old gaps";
     touches.keep(true, apart());
     EXPECT_TRUE(touches.update(true, inside, memory));
+}
+
+/// The ends of a step of length 1 in which the depth of `p` follows scale (θ − a)(θ − b), an arch or a valley.
+struct Arc {
+    ContactReport<double> start = apart(), end = apart();
+    Arc(Pair const& p, double scale, double a, double b) {
+        depth(start, p) = scale * a * b, rate(start, p) = -scale * (a + b);
+        depth(end, p) = scale * (1 - a) * (1 - b), rate(end, p) = scale * (2 - a - b);
+    }
+};
+
+double earliest_touch(Arc const& arc) {
+    TouchLocator<double> touches;
+    touches.keep(true, arc.start);
+    return touches.earliest(true, arc.end, 1.0, clearance, memory_of(0.05));
+}
+
+double earliest_change(Arc const& arc) {
+    ModeLocator<double> modes;
+    HeldContacts<double> held;
+    start_memory(held);
+    modes.begin(true, arc.start, held);
+    return modes.earliest(true, arc.end, 1.0, clearance, held);
+}
+
+TEST(Locators, FindAPairThatMeetsAndLeavesItsFaceInOneStep) {
+    for (auto const& p : pairs()) {
+        // Down to the smallest arch that rises above what counts as located.
+        for (double const width : {0.8, 0.3, 1e-2, 1e-3}) {
+            Arc const arc(p, -clearance, 0.6 - 0.5 * width, 0.6 + 0.5 * width);
+            EXPECT_NEAR(earliest_touch(arc), 0.6 - 0.5 * width, 1e-2 * width) << p.face << ' ' << width;
+            EXPECT_NEAR(earliest_change(arc), 0.6 - 0.5 * width, 1e-4 * width) << p.face << ' ' << width;
+        }
+        Arc const below(p, -clearance, 1.2, 1.3);
+        EXPECT_EQ(earliest_touch(below), 1.0);
+        EXPECT_EQ(earliest_change(below), 1.0);
+    }
+}
+
+TEST(Locators, FindAPairThatPartsAndTouchesAgainInOneStep) {
+    for (auto const& p : pairs()) {
+        Arc const arc(p, clearance, 0.3, 0.8);
+        EXPECT_NEAR(earliest_touch(arc), 0.3, 1e-6) << "the touch after it has a step of its own";
+        EXPECT_NEAR(earliest_change(arc), 0.3, 1e-6);
+        Arc const parts(p, clearance, 0.3, 1.8);
+        EXPECT_EQ(earliest_touch(parts), 1.0) << "a parting alone is no touch";
+        EXPECT_NEAR(earliest_change(parts), 0.3, 1e-6);
+    }
+}
+
+TEST(Locators, PlaceAChangeWithinTheirTolerance) {
+    for (double const scale : {-1.0, 1.0}) {
+        for (double const a : {1e-6, 1e-3, 0.1, 0.37, 0.9}) {
+            for (double const width : {0.03, 0.7, 20.0}) {
+                Arc const arc(pairs()[6], scale * clearance, a, a + width);
+                // Past the zero, by less than what counts as located.
+                double const change = earliest_change(arc), past = (change - a) * (a + width - change);
+                EXPECT_GT(past, 0) << scale << ' ' << a << ' ' << width;
+                EXPECT_LT(past, ModeLocator<double>::tolerance) << scale << ' ' << a << ' ' << width;
+            }
+        }
+    }
+}
+
+TEST(Locators, LeaveAStepThatStartsOrEndsAtAChange) {
+    for (auto const& p : pairs()) {
+        for (double const hair : {1e-6, 0.5, 0.9}) {
+            // Just turned over, and on its way: into the face, or away from it.
+            Arc into(p, clearance, 0, -3.0), away(p, -clearance, 0, -3.0);
+            depth(into.start, p) = hair * ModeLocator<double>::tolerance * clearance;
+            depth(away.start, p) = -depth(into.start, p);
+            for (Arc const& arc : {into, away}) {
+                EXPECT_EQ(earliest_touch(arc), 1.0) << p.face << ' ' << hair;
+                EXPECT_EQ(earliest_change(arc), 1.0) << p.face << ' ' << hair;
+            }
+        }
+        // The end within the tolerance of the change.
+        for (double const left : {1e-3, 0.4, 0.9}) {
+            Arc ends(p, -clearance, 1.0, 4.0);
+            depth(ends.end, p) = left * ModeLocator<double>::tolerance * clearance;
+            EXPECT_EQ(earliest_touch(ends), 1.0) << left;
+            EXPECT_EQ(earliest_change(ends), 1.0) << left;
+        }
+    }
 }
 
 }  // namespace
