@@ -163,7 +163,15 @@ private:
         if (pack_.needs.quantities) pack_.state.observation.observer.start(pack_.busy, pack_.end_report, c.y);
         pack_.begin_next(pack_.busy, pack_.end_rates);
         if constexpr (Model::has_memory || Model::can_hold) {
-            if (pack_.needs.watch) c.watch.begin(pack_.busy, pack_.end_report.contact, c.memory);
+            if (pack_.needs.watch) {
+                c.watch.begin(pack_.busy, pack_.end_report.contact, c.memory);
+                if constexpr (Model::can_hold) {
+                    // Rates are reported only once contacts are held, and the first step is searched too.
+                    pack_.evaluate(c.t, c.y, pack_.end_rates, true, pack_.end_report);
+                    pack_.count_evaluations(pack_.busy, 1);
+                    c.watch.keep(pack_.busy, pack_.end_report.contact);
+                }
+            }
         }
         auto const broken = pack_.busy & !whole;
         auto const failed = broken | (pack_.busy & (faults.geometry | faults.contact_domain));
