@@ -43,3 +43,21 @@ function(slideway_isa_flags isa out_var)
     endif()
     set(${out_var} ${flags} PARENT_SCOPE)
 endfunction()
+
+# slideway_isa_unit(<library> <isa> <source>): the source as an object library with the flags of the kernels that ship.  The unit
+# sees SLIDEWAY_ISA and SLIDEWAY_LANES and defines its functions in that namespace.
+function(slideway_isa_unit library isa source)
+    slideway_isa_flags(${isa} flags)
+    set(options ${flags} -fno-math-errno -Wno-ignored-attributes)
+    # The headers of SIMD take longer to read than many a kernel to compile.
+    set(headers slideway_headers_${isa})
+    if(NOT TARGET ${headers})
+        add_library(${headers} OBJECT ${PROJECT_SOURCE_DIR}/cmake/headers.cpp)
+        target_compile_options(${headers} PRIVATE ${options})
+        target_precompile_headers(${headers} PRIVATE <immintrin.h> <xsimd/xsimd.hpp> <cmath> <cstddef> <cstdint> <vector>)
+    endif()
+    add_library(${library} OBJECT ${source})
+    target_compile_options(${library} PRIVATE ${options})
+    target_compile_definitions(${library} PRIVATE SLIDEWAY_LANES=${SLIDEWAY_LANES_${isa}})
+    target_precompile_headers(${library} REUSE_FROM ${headers})
+endfunction()

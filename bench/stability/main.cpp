@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <omp.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
 #include <exception>
 
+#include "bench/command_line.hpp"
 #include "bench/stability/report.hpp"
 
 namespace slideway::bench {
@@ -49,14 +49,14 @@ void fill(Row& row) {
 int main(int argc, char** argv) {
     using namespace slideway;
     using namespace slideway::bench;
-    CLI::App app("How far each method goes, and how it tells when it has gone too far");
+    CommandLine words("How far each method goes, and how it tells when it has gone too far");
     bool quick = false;
     std::string folder = ".";
     int threads = 2;
-    app.add_flag("--quick", quick, "fewer members and points: half a minute instead of two");
-    app.add_option("-o,--output", folder, "folder for the tables")->check(CLI::ExistingDirectory);
-    app.add_option("--threads", threads, "runs at a time (2)")->check(CLI::PositiveNumber);
-    CLI11_PARSE(app, argc, argv);
+    words.flag("--quick", quick, "fewer members and points: half a minute instead of two");
+    words.folder("-o,--output", folder, "folder for the tables");
+    words.count("--threads", threads, "runs at a time (2)");
+    if (auto const code = words.parse(argc, argv)) return *code;
     try {
         auto const start = std::chrono::steady_clock::now();
         std::vector<Axis> const conservative = axes(Law::conservative, quick), paper = axes(Law::paper, quick);

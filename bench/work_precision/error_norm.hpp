@@ -2,7 +2,8 @@
 #pragma once
 
 #include <array>
-#include <boost/numeric/odeint.hpp>
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/dense_output_runge_kutta.hpp>
 #include <cmath>
 #include <limits>
 

@@ -2,10 +2,10 @@
 // take instead. Writes work_precision.csv, work_precision.md and one SVG per problem.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 
+#include "bench/command_line.hpp"
 #include "bench/work_precision/plot.hpp"
 #include "bench/work_precision/references.hpp"
 #include "bench/work_precision/table.hpp"
@@ -13,16 +13,16 @@
 
 int main(int argc, char** argv) {
     using namespace slideway::bench;
-    CLI::App app("Error against run time of slideway's methods and their peers, on one core");
+    CommandLine words("Error against run time of slideway's methods and their peers, on one core");
     bool quick = false;
     std::string folder = ".", only, only_method;
     double budget = 0;
-    app.add_flag("--quick", quick, "fewer members and tolerances: about half a minute instead of six");
-    app.add_option("-o,--output", folder, "folder for the table and the plots")->check(CLI::ExistingDirectory);
-    app.add_option("--problem", only, "only problems whose name contains this");
-    app.add_option("--method", only_method, "only methods whose name contains this");
-    app.add_option("--budget", budget, "seconds for one method at one tolerance (8, or 1 if quick)");
-    CLI11_PARSE(app, argc, argv);
+    words.flag("--quick", quick, "fewer members and tolerances: about half a minute instead of six");
+    words.folder("-o,--output", folder, "folder for the table and the plots");
+    words.option("--problem", only, "only problems whose name contains this");
+    words.option("--method", only_method, "only methods whose name contains this");
+    words.option("--budget", budget, "seconds for one method at one tolerance (8, or 1 if quick)");
+    if (auto const code = words.parse(argc, argv)) return *code;
     if (!slideway::is_supported(slideway::Isa::scalar)) {
         fmt::print(stderr, "work_precision: this machine has no AVX2 and FMA, which the peers are built for\n");
         return 1;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <boost/numeric/odeint.hpp>
 
 #include "bench/work_precision/error_norm.hpp"
 #include "bench/work_precision/trajectory.hpp"

@@ -1,3 +1,5 @@
+#include <boost/numeric/odeint/stepper/runge_kutta_cash_karp54.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <span>
 
 #include "bench/work_precision/odeint.hpp"

@@ -12,7 +12,7 @@ Real line_strain(Inputs const& in, Real length, Real approach) {
     Real const reduced = approach * in.edge_radius / (length * length);
     if (!(reduced <= 1)) return nan;
     if (reduced == 1) return approach;  // W₋₁(-1/e) = -1, where rounding could leave the domain
-    return -approach / boost::math::lambert_wm1(-reduced / std::exp(Real(1)));
+    return -approach / lower_lambert_w(-reduced / std::exp(Real(1)));
 }
 
 /// a(1+e) - ln[(1+a)/(1-ea)] with q = -ln(1-ea), which keeps digits where a comes close to 1/e.
@@ -30,6 +30,8 @@ Real restitution_excess(Real e, Real q) {
 }
 
 }  // namespace
+
+Real lower_lambert_w(Real x) { return boost::math::lambert_wm1(x); }
 
 Real contact_modulus(Inputs const& in) {
     Real const nu1 = in.slider_poisson_ratio, nu2 = in.way_poisson_ratio;

@@ -1,7 +1,9 @@
 #include "mechanism.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
+#include "linear_solve.hpp"
 #include "poses.hpp"
 
 namespace oracle::detail {
@@ -69,8 +71,8 @@ Motion solve_motion(Inputs const& in, Kinematics const& k, Vector3 const& gravit
     matrix.block<1, 3>(8, 0) = span.transpose();
     right[8] = span.dot(k.pin_acceleration) - spread.squaredNorm();
 
-    Eigen::Matrix<Real, 9, 1> const solution = matrix.fullPivLu().solve(right);
-    return {solution.segment<3>(0), solution.segment<3>(3)};
+    Eigen::Matrix<Real, 9, 1> const accelerations = solution(matrix, right);
+    return {accelerations.segment<3>(0), accelerations.segment<3>(3)};
 }
 
 Real kinetic_and_weight(Inputs const& in, Kinematics const& k, Vector3 const& gravity, Vector3 const& inertia) {

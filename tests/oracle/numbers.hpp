@@ -1,7 +1,7 @@
 // The numbers the oracle computes in, and the names of what it is given.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <kernels/inputs.hpp>
 #include <limits>
 

@@ -1,5 +1,6 @@
 #include "oracle.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>

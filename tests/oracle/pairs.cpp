@@ -1,5 +1,6 @@
 #include "pairs.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "poses.hpp"

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "linear_solve.hpp"
+
 namespace oracle::detail {
 
 Matrix4 translation(Vector3 const& u) {
@@ -41,7 +43,7 @@ Vector3 euler_rates(Real roll, Real yaw, Vector3 const& angular_velocity) {
     Matrix3 const to_body_yx = to_body_x * rotation(1, yaw).topLeftCorner<3, 3>().transpose();
     Matrix3 axes;
     axes << Vector3::UnitX(), to_body_x * Vector3::UnitY(), to_body_yx * Vector3::UnitZ();
-    return axes.fullPivLu().solve(angular_velocity);
+    return solution(axes, angular_velocity);
 }
 
 }  // namespace oracle::detail

@@ -1,11 +1,13 @@
 #include "random_states.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <utility>
+
+#include "linear_solve.hpp"
 
 namespace oracle {
 namespace {
@@ -265,7 +267,7 @@ bool place(Inputs const& in, Parts const& parts, double t, Targets const& target
             moved[free_coordinates[j]] += step;
             slopes.col(j) = (error(moved) - now) / (moved[free_coordinates[j]] - state[free_coordinates[j]]);
         }
-        Eigen::Matrix<double, 5, 1> const correction = slopes.fullPivLu().solve(now);
+        Eigen::Matrix<double, 5, 1> const correction = solution(slopes.cast<long double>(), now.cast<long double>()).cast<double>();
         if (!correction.allFinite()) return false;
         for (int j = 0; j < 5; ++j) state[free_coordinates[j]] -= correction[j];
     }

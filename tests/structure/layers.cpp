@@ -4,7 +4,6 @@
 #include <array>
 #include <map>
 #include <optional>
-#include <regex>
 #include <set>
 #include <string_view>
 
@@ -82,11 +81,11 @@ std::optional<std::string> include_violation(std::string const& from, std::strin
 }
 
 /// A line of the file's code that matches, for the message.
-void find_in_code(SourceFile const& file, std::regex const& pattern, std::string const& why, Violations& out) {
+void find_in_code(SourceFile const& file, Pattern const& pattern, std::string const& why, Violations& out) {
     auto const lines = lines_of(code_only(file.text));
     for (std::size_t i = 0; i < lines.size(); ++i) {
-        if (std::smatch match; std::regex_search(lines[i], match, pattern)) {
-            out.push_back(file.path + ":" + std::to_string(i + 1) + ": " + match.str() + ": " + why);
+        if (auto const match = pattern.match_in(lines[i])) {
+            out.push_back(file.path + ":" + std::to_string(i + 1) + ": " + *match + ": " + why);
         }
     }
 }
@@ -136,9 +135,9 @@ Violations circle_violations(std::vector<SourceFile> const& files) {
 Violations backend_violations(SourceFile const& file) {
     Violations out;
     if (knows_backends(file.path)) return out;
-    static std::regex const instruction_set(
+    static Pattern const instruction_set(
         R"(\b_mm\d*_\w+|\bxsimd\b|\w*intrin\.h\b|\b__m(128|256|512)\w*|__AVX\w*|__SSE\w*)");
-    static std::regex const cuda(R"(__CUDA\w*|\b__(host|device|global)__)");
+    static Pattern const cuda(R"(__CUDA\w*|\b__(host|device|global)__)");
     find_in_code(file, instruction_set, "only kernels/real.hpp and host/backend know instruction sets", out);
     find_in_code(file, cuda, "only kernels/real.hpp and host/backend know CUDA", out);
     return out;
@@ -147,8 +146,8 @@ Violations backend_violations(SourceFile const& file) {
 Violations kernel_violations(SourceFile const& file) {
     Violations out;
     if (!file.path.ends_with(".hpp")) out.push_back(file.path + ": kernels/ holds headers only");
-    static std::regex const exception(R"(\b(throw|try|catch)\b)");
-    static std::regex const allocation(
+    static Pattern const exception(R"(\b(throw|try|catch)\b)");
+    static Pattern const allocation(
         R"(\bnew\b|\bdelete\b(?!;)|\b(malloc|free)\s*\(|\bstd::(vector|string|map|function|\w+_ptr)\b)");
     find_in_code(file, exception, "kernels report a status, they do not throw", out);
     find_in_code(file, allocation, "kernels do not allocate", out);

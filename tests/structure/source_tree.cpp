@@ -86,12 +86,24 @@ std::vector<std::string> lines_of(std::string_view text) {
 }
 
 std::vector<std::string> quoted_includes(std::string_view text) {
-    static std::regex const include(R"re(^\s*#\s*include\s*"([^"]*)")re");
+    static Pattern const include(R"re(^\s*#\s*include\s*"([^"]*)")re");
     std::vector<std::string> paths;
     for (std::string const& line : lines_of(blanked(text, Blank::comments))) {
-        if (std::smatch match; std::regex_search(line, match, include)) paths.push_back(match[1]);
+        if (auto path = include.match_in(line, 1)) paths.push_back(*path);
     }
     return paths;
+}
+
+struct Pattern::Regex {
+    std::regex value;
+};
+
+Pattern::Pattern(std::string const& expression) : regex_(new Regex{std::regex(expression)}) {}
+
+std::optional<std::string> Pattern::match_in(std::string const& text, std::size_t group) const {
+    std::smatch match;
+    if (!std::regex_search(text, match, regex_->value)) return std::nullopt;
+    return match[group];
 }
 
 bool has_ending(std::string_view path, std::initializer_list<std::string_view> endings) {

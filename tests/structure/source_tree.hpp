@@ -2,6 +2,8 @@
 #pragma once
 
 #include <initializer_list>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +28,18 @@ std::vector<std::string> lines_of(std::string_view text);
 
 /// Paths in quotes of the #include lines, those commented out left aside.
 std::vector<std::string> quoted_includes(std::string_view text);
+
+/// A regular expression, in one unit: std::regex takes seconds to compile.
+class Pattern {
+public:
+    explicit Pattern(std::string const& expression);
+    /// The first match, or a group of it; nothing where nothing matches.
+    [[nodiscard]] std::optional<std::string> match_in(std::string const& text, std::size_t group = 0) const;
+
+private:
+    struct Regex;
+    std::shared_ptr<Regex const> regex_;
+};
 
 bool has_ending(std::string_view path, std::initializer_list<std::string_view> endings);
 

@@ -10,6 +10,8 @@
 #include "kernels/laws/conservative.hpp"
 #include "kernels/laws/paper.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"
+#include "kernels/mechanisms/slider_crank_parameters.hpp"
+#include "kernels/mechanisms/slider_crank_report.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/random_states.hpp"
 
@@ -116,11 +118,9 @@ INSTANTIATE_TEST_SUITE_P(Isas, KernelsAgainstOracle, ::testing::Values(Isa::scal
 
 /// The restitution memory and what only observers see, which the probe does not show: through the kernel itself.
 template <class Law, class Friction, class Way>
-void compare_restitution(oracle::Case const& c, std::string const& what) {
+SliderCrankReport<double> restitution_report(oracle::Case const& c, SliderCrankParameters<double> const& p,
+                                             double (&rates)[10]) {
     using Model = SliderCrank<Law, Friction, Way, RestitutionDamping>;
-    auto const r = oracle::evaluate(c.inputs, c.parts, c.t, c.state, &c.impact_speeds);
-    if (r.geometry || r.contact_domain) return;
-    auto const p = Model::parameters(c.inputs);
     typename Model::template Memory<double> memory;
     for (int face = 0; face < face_count; ++face) {
         auto const speed = [&](int k) {
@@ -128,9 +128,29 @@ void compare_restitution(oracle::Case const& c, std::string const& what) {
         };
         memory.speeds[face] = {speed(0), speed(1), speed(2), speed(3)};
     }
-    double rates[10];
-    typename Model::template Report<double> report;
+    SliderCrankReport<double> report;
     Model::template derivative<true>(c.t, c.state.data(), p, memory, rates, &report);
+    return report;
+}
+
+template <class Law>
+SliderCrankReport<double> restitution_report(oracle::Case const& c, SliderCrankParameters<double> const& p,
+                                             double (&rates)[10]) {
+    if (c.parts.friction) {
+        return c.parts.misaligned_way ? restitution_report<Law, StickSlipFriction, MisalignedWay>(c, p, rates)
+                                      : restitution_report<Law, StickSlipFriction, AlignedWay>(c, p, rates);
+    }
+    return c.parts.misaligned_way ? restitution_report<Law, NoFriction, MisalignedWay>(c, p, rates)
+                                  : restitution_report<Law, NoFriction, AlignedWay>(c, p, rates);
+}
+
+void compare_restitution(oracle::Case const& c, std::string const& what) {
+    auto const r = oracle::evaluate(c.inputs, c.parts, c.t, c.state, &c.impact_speeds);
+    if (r.geometry || r.contact_domain) return;
+    auto const p = slider_crank_parameters(c.inputs);
+    double rates[10];
+    auto const report = c.parts.law == Law::paper ? restitution_report<PaperLaw>(c, p, rates)
+                                                  : restitution_report<ConservativeLaw>(c, p, rates);
     double depths[16], forces[16];
     for (int face = 0; face < face_count; ++face) {
         int const base = face < 2 ? 0 : 8;
@@ -170,16 +190,7 @@ TEST(RestitutionKernels, AgreeWithTheOracleAtAnyImpactSpeeds) {
     for (std::size_t i = 0; i < cases.size() && !::testing::Test::HasFailure(); ++i) {
         auto const& c = cases[i];
         if (c.parts.damping != Damping::restitution) continue;
-        auto const what = "case " + std::to_string(i);
-        bool const paper = c.parts.law == Law::paper, friction = c.parts.friction, way = c.parts.misaligned_way;
-        if (paper && friction && way) compare_restitution<PaperLaw, StickSlipFriction, MisalignedWay>(c, what);
-        if (paper && friction && !way) compare_restitution<PaperLaw, StickSlipFriction, AlignedWay>(c, what);
-        if (paper && !friction && way) compare_restitution<PaperLaw, NoFriction, MisalignedWay>(c, what);
-        if (paper && !friction && !way) compare_restitution<PaperLaw, NoFriction, AlignedWay>(c, what);
-        if (!paper && friction && way) compare_restitution<ConservativeLaw, StickSlipFriction, MisalignedWay>(c, what);
-        if (!paper && friction && !way) compare_restitution<ConservativeLaw, StickSlipFriction, AlignedWay>(c, what);
-        if (!paper && !friction && way) compare_restitution<ConservativeLaw, NoFriction, MisalignedWay>(c, what);
-        if (!paper && !friction && !way) compare_restitution<ConservativeLaw, NoFriction, AlignedWay>(c, what);
+        compare_restitution(c, "case " + std::to_string(i));
         ++compared;
     }
     EXPECT_GT(compared, 1000);

@@ -1,7 +1,8 @@
 // The oracle held against conservation laws: potential, power balance, and a turn of everything.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,0 +1,1 @@
+// Empty: a target that precompiles headers for others needs a unit of its own.
