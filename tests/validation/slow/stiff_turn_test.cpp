@@ -39,7 +39,13 @@ Turn settle(Method method, double tolerance) {
 }
 
 TEST(AutoMethodTurn, TakesASixtiethOfTheExplicitWorkAtTheSameResidual) {
-    auto const pair = settle(Method::dopri5, 1e-3), best = settle(Method::automatic, 1e-3);
+    auto const pair = settle(Method::dopri5, 1e-3);
+    // The coarsest tolerance whose residual is no larger.
+    Turn best;
+    for (double tolerance = 1e-3; tolerance > 1e-4; tolerance /= 2) {
+        best = settle(Method::automatic, tolerance);
+        if (best.residual <= pair.residual) break;
+    }
     EXPECT_LE(best.residual, pair.residual);
     EXPECT_GE(pair.evaluations, 60 * best.evaluations);
     RecordProperty("evaluations_dopri5", std::to_string(pair.evaluations));
