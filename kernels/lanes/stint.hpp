@@ -59,7 +59,8 @@ private:
         results_.count_attempt(width, held_lanes(pack_.busy));
     }
 
-    /// Mean square of the components' errors, each against its tolerance.  NaN where any is NaN.
+    /// Squared errors of the components, each against its tolerance, over the number of states; the integrals of the audit, where it
+    /// runs, come on top.  NaN where any is NaN.
     /// Of the stiff method's errors what lasts meets the tolerance, the whole with its ringing `stiff_tolerance` at least.
     SLIDEWAY_HD Real squared_error_norm() {
         Real const rtol(settings_.rtol), atol(settings_.atol);
