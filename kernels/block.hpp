@@ -38,6 +38,34 @@ struct MemberRecord {
     std::uint64_t stiff_steps = 0;           // accepted steps of the stiff method
 };
 
+/// When a member ends and when its steps end on the way.
+struct MemberClock {
+    double end = 0;                  // [s]
+    double first_stop = 0, period = 0;  // stop i is at first_stop + i · period, > 0 and <= end [s]
+};
+
+/// Stops of every member of a block: known times at which a step ends, to the last bit.
+struct StopPlan {
+    std::size_t count = 0;
+    std::size_t transient = 0;      // as many leave no record
+    std::size_t section_every = 1;  // of the later ones the first, and then each such one, is a section: its state is recorded
+
+    constexpr std::size_t sections() const { return count > transient ? (count - transient - 1) / section_every + 1 : 0; }
+    /// From one recorded stop to the next.
+    constexpr std::size_t intervals() const { return count > transient ? count - transient - 1 : 0; }
+};
+
+/// Shadows: copies of a member that start a little off it and take its steps, to tell how offsets grow.  Distances are
+/// dimensionless, in the scales that integrator.atol is meant against.
+struct ShadowPlan {
+    int count = 0;       // per member, at most `most_shadows`
+    double d0 = 1e-7;    // distance after a rescaling
+    double lower = 0;    // a single shadow is rescaled at a stop where its distance is not within [lower, upper]; several
+    double upper = 0;    // are made orthogonal at every stop
+    double const* directions = nullptr;  // [members][count][states of the model], of unit length
+};
+inline constexpr int most_shadows = 10;
+
 /// Members [0, members) of a block: what every model's block holds.
 struct BlockBase {
     std::size_t members = 0;
@@ -47,6 +75,9 @@ struct BlockBase {
     std::size_t samples = 0;
     Selection quantities = 0;
     Selection series = 0;
+    MemberClock const* clocks = nullptr;  // [members]; nullptr: all end at settings.end_time and nobody stops
+    StopPlan stops;
+    ShadowPlan shadows;  // of models with shadows
     /// Asked now and then; true ends the block at once.  Members that have not ended keep what their results held before; their series are NaN.
     bool (*stop)(void const* context) = nullptr;
     void const* stop_context = nullptr;
@@ -55,6 +86,8 @@ struct BlockBase {
     double* final_states = nullptr;         // [members][states of the model]
     double* quantity_values = nullptr;      // [members][columns of the model's observer], only selected columns written
     double* series_values = nullptr;        // [selected series, in table order][members][samples]; NaN after a failure
+    double* section_values = nullptr;       // [members][stops.sections()][states of the model]; NaN after a failure
+    double* growth_values = nullptr;        // [members][stops.intervals()][shadows.count], ln of the growth; NaN likewise
     std::uint64_t lane_steps_executed = 0;  // step attempts × lanes
     std::uint64_t lane_steps_useful = 0;    // those that served a member
 };

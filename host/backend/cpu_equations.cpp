@@ -19,8 +19,9 @@ template <class Friction, class Way> struct Instance {
     static constexpr Table table = Table::template of<Model>();
 
     static void run(Block& block) { integrate<Table, IsaReal>(block, table); }
+    static void run_shadowed(Block& block) { integrate<Shadowed<Table>, IsaReal>(block, Shadowed<Table>{table}); }
     static void probe_states(ProbeTable const& states) { probe<Table, IsaReal>(states, table); }
-    static constexpr KernelInstance functions() { return {&run, &probe_states}; }
+    static constexpr KernelInstance functions() { return {&run, &run_shadowed, &probe_states}; }
 };
 
 }  // namespace

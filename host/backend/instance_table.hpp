@@ -7,6 +7,7 @@ namespace slideway {
 /// The machine code of one kernel instance.
 struct KernelInstance {
     void (*run)(Block&) = nullptr;
+    void (*run_shadowed)(Block&) = nullptr;  // members with shadows
     void (*probe)(ProbeTable const&) = nullptr;
 };
 

@@ -77,6 +77,12 @@ private:
         c.h = 1e-3 * block_.settings.max_step;
         c.error_memory = step_control_start;
         Model::initial_state(inputs, c.y);
+        c.stop = 0;
+        MemberClock const clock = block_.clocks != nullptr ? block_.clocks[member] : MemberClock{block_.settings.end_time};
+        r.constants.end = clock.end;
+        r.constants.first_stop = clock.first_stop;
+        r.constants.stop_period = clock.period;
+        if constexpr (Model::has_shadows) place_shadows(r, member);
         c.accepted = c.rejected = c.evaluations = c.jacobians = c.stiff_steps = 0;
         c.rejections = c.stiffness = c.rate_squared = 0;
         // A model without linearisation is left to the explicit pair.
@@ -84,6 +90,21 @@ private:
         start_memory(c.memory);
         if constexpr (Model::events > 0) c.resets = {-1.0, 0.0};
         roster_[seat].kind = Kind::fresh;
+    }
+
+    /// Puts a new member's shadows beside it.
+    SLIDEWAY_HD void place_shadows(Record& r, std::size_t member) {
+        ShadowPlan const& plan = block_.shadows;
+        for (int s = 0; s < plan.count; ++s) {
+            auto const row = member * static_cast<std::size_t>(plan.count) + static_cast<std::size_t>(s);
+            double const* const direction = plan.directions + row * size;
+            auto& shadow = r.shadows[s];
+            for (int i = 0; i < size; ++i) {
+                shadow.y[i] = fma(plan.d0 * r.constants.scale[i], direction[i], r.course.y[i]);
+            }
+            shadow.distance = plan.d0;
+            start_memory(shadow.memory);
+        }
     }
 
     /// A single lane works on its record in place.
@@ -104,6 +125,9 @@ private:
                 load_lane(pack_.state.constants, i, r.constants);
                 load_lane(pack_.state.course, i, r.course);
                 if (pack_.needs.quantities) load_lane(pack_.state.observation, i, r.observation);
+                if constexpr (Model::has_shadows) {
+                    for (int s = 0; s < block_.shadows.count; ++s) load_lane(pack_.state.shadows[s], i, r.shadows[s]);
+                }
             }
         }
         pack_.busy = occupied > Real(0.5);
@@ -122,6 +146,10 @@ private:
                 store_lane(c, i, records_[seat].course);
                 if (pack_.needs.quantities) {
                     store_lane(pack_.state.observation, i, records_[seat].observation);
+                }
+                if constexpr (Model::has_shadows) {
+                    auto& shadows = records_[seat].shadows;
+                    for (int s = 0; s < block_.shadows.count; ++s) store_lane(pack_.state.shadows[s], i, shadows[s]);
                 }
             }
             roster_[seat].kind = lane(c.stiff, i) > 0.5 ? Kind::stiff : Kind::explicit_pair;
@@ -173,7 +201,10 @@ private:
                 }
             }
         }
-        auto const broken = pack_.busy & !whole;
+        auto broken = pack_.busy & !whole;
+        if constexpr (Model::has_shadows) {
+            broken = broken | Shadows<Model, Real>(block_.shadows).start(pack_, pack_.busy & whole);
+        }
         auto const failed = broken | (pack_.busy & (faults.geometry | faults.contact_domain));
         if (none(failed)) return;
         results_.retire(pack_, failed, mask_of<Real>(false), faults, broken, failed);

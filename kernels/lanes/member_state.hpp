@@ -2,6 +2,7 @@
 
 #include <type_traits>
 
+#include "kernels/block.hpp"
 #include "kernels/lane_copy.hpp"
 #include "kernels/real.hpp"
 
@@ -16,6 +17,7 @@ template <class Real> struct ResetHistory {
     Real in_row;  // how many followed one another at once
 };
 struct NoResets {};
+struct NoShadows {};
 
 /// All that a member takes along from one stint in the lanes to the next.  `Real = double` is one member's record, a pack is the
 /// transpose of its lanes' records; both hold nothing but Reals, so that a record moves in and out number by number.
@@ -26,11 +28,14 @@ template <class Model, class Real> struct MemberState {
     struct Constants {
         typename Model::template Parameters<Real> parameters;
         Real scale[Model::size];  // what atol is relative to
+        Real end;                 // [s]
+        Real first_stop, stop_period;
     };
 
     struct Course {
         Real member;        // its number in the block
         Real sample;        // the next sample
+        Real stop;          // the next stop
         Real t, h;          // time, next step [s]
         Real error_memory;  // of the step control
         Real y[Model::size], rates[Model::size];
@@ -50,9 +55,18 @@ template <class Model, class Real> struct MemberState {
         Real integrand[room(Observer::integrals)];  // at the start of the next step
     };
 
+    /// What of its course a copy of the member has for itself.
+    struct Shadow {
+        Real y[Model::size], rates[Model::size];
+        Real distance;  // from the member, after the last stop; dimensionless
+        [[no_unique_address]] typename Model::template Memory<Real> memory;
+        [[no_unique_address]] typename Model::template Watch<Real> watch;
+    };
+
     Constants constants;
     Course course;
     Observation observation;
+    [[no_unique_address]] std::conditional_t<Model::has_shadows, Shadow[most_shadows], NoShadows> shadows;
 };
 
 /// Whether a member's record holds Reals only, so that it may be moved number by number.

@@ -25,6 +25,13 @@ struct ReportNeeds {
         needs.ends = needs.stages || Observer::needs_reports(quantities) || needs.watch;
         return needs;
     }
+
+    /// Nobody observes a shadow.
+    SLIDEWAY_HD ReportNeeds of_shadows() const {
+        ReportNeeds needs;
+        needs.watch = needs.ends = watch;
+        return needs;
+    }
 };
 
 /// Lanes whose numbers are all finite.
@@ -57,10 +64,14 @@ template <class Model, class Real> struct Pack {
     Real scratch[size];
 
     SLIDEWAY_FN Faults<Real> evaluate(Real t, Real const* at, Real* rates, bool report_wanted, Report& report) const {
-        auto const& s = state;
-        return report_wanted
-                   ? model.template derivative<true>(t, at, s.constants.parameters, s.course.memory, rates, &report)
-                   : model.template derivative<false>(t, at, s.constants.parameters, s.course.memory, rates, &report);
+        return evaluate(t, at, state.course.memory, rates, report_wanted, report);
+    }
+
+    SLIDEWAY_FN Faults<Real> evaluate(Real t, Real const* at, typename Model::template Memory<Real> const& memory,
+                                      Real* rates, bool report_wanted, Report& report) const {
+        auto const& p = state.constants.parameters;
+        return report_wanted ? model.template derivative<true>(t, at, p, memory, rates, &report)
+                             : model.template derivative<false>(t, at, p, memory, rates, &report);
     }
 
     /// Begins the integrals over the step with the stage at its start.

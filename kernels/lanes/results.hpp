@@ -14,6 +14,42 @@ public:
     SLIDEWAY_HD explicit Results(Block& block) : block_(block), sampler_(block) {}
 
     SLIDEWAY_HD std::size_t samples() const { return block_.samples; }
+    SLIDEWAY_HD std::size_t stops() const { return block_.stops.count; }
+    SLIDEWAY_HD ShadowPlan const& shadows() const { return block_.shadows; }
+
+    /// Time of every lane's next stop, infinity after the last.
+    template <class Real> SLIDEWAY_HD Real next_stop(MemberState<Model, Real> const& s) const {
+        auto const left = s.course.stop < Real(static_cast<double>(block_.stops.count));
+        return select(left, fma(s.course.stop, s.constants.stop_period, s.constants.first_stop), Real(endless));
+    }
+
+    /// The states of members at a stop, if it is one of their sections.
+    template <class Real> SLIDEWAY_HD void take_section(Pack<Model, Real> const& pack, Mask<Real> at) {
+        StopPlan const& plan = block_.stops;
+        auto const& c = pack.state.course;
+        if (block_.section_values == nullptr) return;
+        for (int i = 0; i < lanes<Real>; ++i) {
+            std::size_t const stop = number(c.stop, i);
+            if (!holds(at, i) || stop < plan.transient || (stop - plan.transient) % plan.section_every != 0) continue;
+            std::size_t const section = (stop - plan.transient) / plan.section_every;
+            double* const row = block_.section_values + (number(c.member, i) * plan.sections() + section) * Model::size;
+            for (int j = 0; j < Model::size; ++j) row[j] = lane(c.y[j], i);
+        }
+    }
+
+    /// How the offsets of members at a stop have grown since the last.
+    template <class Real> SLIDEWAY_HD void take_growth(Pack<Model, Real> const& pack, Mask<Real> at, Real const* growth) {
+        StopPlan const& plan = block_.stops;
+        auto const& c = pack.state.course;
+        auto const shadows = static_cast<std::size_t>(block_.shadows.count);
+        for (int i = 0; i < lanes<Real>; ++i) {
+            std::size_t const stop = number(c.stop, i);
+            if (!holds(at, i) || stop <= plan.transient) continue;
+            std::size_t const interval = stop - plan.transient - 1;
+            double* const row = block_.growth_values + (number(c.member, i) * plan.intervals() + interval) * shadows;
+            for (std::size_t j = 0; j < shadows; ++j) row[j] = lane(growth[j], i);
+        }
+    }
 
     SLIDEWAY_HD void count_attempt(int lanes_executed, int lanes_useful) {
         block_.lane_steps_executed += static_cast<std::uint64_t>(lanes_executed);
@@ -99,15 +135,41 @@ public:
                                                        block_.quantity_values + member * columns);
             }
             if (block_.samples > 0) sampler_.fill_missing(member, number(c.sample, i));
+            fill_missing_stops(member, number(c.stop, i));
         }
     }
 
     /// Leaves a member that has not ended as if it had never begun.
     SLIDEWAY_HD void abandon(std::size_t member) {
         if (block_.samples > 0) sampler_.fill_missing(member, 0);
+        fill_missing_stops(member, 0);
     }
 
 private:
+    static constexpr double endless = 1e300;
+
+    /// Marks what a member that ended before stop `from` has not come to.
+    SLIDEWAY_HD void fill_missing_stops(std::size_t member, std::size_t from) {
+        StopPlan const& plan = block_.stops;
+        std::size_t const past = from > plan.transient ? from - plan.transient : 0;  // recorded stops behind it
+        if (block_.section_values != nullptr) {
+            std::size_t const taken = (past + plan.section_every - 1) / plan.section_every;
+            fill(block_.section_values, member, plan.sections(), taken, Model::size);
+        }
+        if (block_.growth_values != nullptr) {
+            fill(block_.growth_values, member, plan.intervals(), past > 0 ? past - 1 : 0,
+                 static_cast<std::size_t>(block_.shadows.count));
+        }
+    }
+
+    /// Rows [from, rows) of a member become NaN.
+    SLIDEWAY_HD static void fill(double* values, std::size_t member, std::size_t rows, std::size_t from,
+                                 std::size_t width) {
+        for (std::size_t i = (member * rows + from) * width; i < (member + 1) * rows * width; ++i) {
+            values[i] = not_a_number;
+        }
+    }
+
     template <class Real> SLIDEWAY_HD static std::size_t number(Real const& value, int index) {
         return static_cast<std::size_t>(lane(value, index));
     }

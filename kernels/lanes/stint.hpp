@@ -5,6 +5,7 @@
 #include "kernels/lanes/event_search.hpp"
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/results.hpp"
+#include "kernels/lanes/shadows.hpp"
 #include "kernels/lanes/stiffness.hpp"
 #include "kernels/math/squared_ratios.hpp"
 #include "kernels/real.hpp"
@@ -13,12 +14,15 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 struct NoSearch {};
+struct NoShadowSteps {
+    explicit SLIDEWAY_HD NoShadowSteps(ShadowPlan const&) {}
+};
 
 /// A pack of members at work with one stepper for a number of attempts.  Nothing that happens in one lane reaches another.
 template <class Stepper, class Model, class Real> class Stint {
 public:
     SLIDEWAY_HD Stint(Pack<Model, Real>& pack, Results<Model>& results, IntegratorSettings const& settings)
-        : pack_(pack), results_(results), settings_(settings) {
+        : pack_(pack), results_(results), settings_(settings), shadows_(results.shadows()) {
         max_step_ = Stepper::stiff ? settings.stiff_max_step : settings.max_step;
     }
 
@@ -31,6 +35,12 @@ public:
             // Where nothing is decided between stints, a lane that falls free ends the stint and is filled at once.
             if (!Model::has_patterns && held_lanes(pack_.busy) < members_at_start) break;
             begin();
+            // Before the member: what the stepper knows of the step is then the member's.
+            if constexpr (Model::has_shadows) {
+                shadows_.attempt(pack_, stepper_, [&] {
+                    if constexpr (Stepper::adaptive) return squared_error_norm();
+                });
+            }
             stepper_.attempt(pack_);
             settle();
         }
@@ -46,7 +56,8 @@ private:
     /// Chooses the step.
     SLIDEWAY_HD void begin() {
         auto& c = pack_.state.course;
-        target_ = Real(settings_.end_time);
+        target_ = pack_.state.constants.end;
+        if (results_.stops() > 0) target_ = min(target_, results_.next_stop(pack_.state));
         if constexpr (Stepper::stiff) {
             if (results_.samples() > 0) target_ = results_.next_sample_times(c.sample, c.t, target_);
         }
@@ -95,12 +106,16 @@ private:
         auto& c = pack_.state.course;
         auto const busy = pack_.busy;
         Real const step = pack_.step;
-        Real const resolution(8 * 2.220446049250313e-16 * settings_.end_time);
+        Real const resolution = Real(8 * 2.220446049250313e-16) * pack_.state.constants.end;
         Mask<Real> accepted, cut = mask_of<Real>(false);
         Real wish = step;
         auto divergent = mask_of<Real>(false);
         if constexpr (Stepper::adaptive) {
-            Real const squared_norm = squared_error_norm();
+            Real squared_norm = squared_error_norm();
+            if constexpr (Model::has_shadows) {
+                Real const of_shadows = shadows_.squared_norm();
+                squared_norm = max(squared_norm, of_shadows) + Real(0.0) * (squared_norm + of_shadows);  // NaN stays
+            }
             accepted = busy & (squared_norm <= Real(1.0));
             divergent = !(squared_norm < Real(1e300));
             Real const former_memory = c.error_memory;
@@ -111,9 +126,9 @@ private:
                 if (pack_.needs.watch) {
                     // A touch must end its step: it sets the impact speed of what follows, or the law that holds.
                     auto const early = accepted & (step > resolution * Real(64.0));
-                    Real const fraction =
-                        c.watch.earliest(early, pack_.end_report.contact, step,
-                                         Model::touch_scale(pack_.state.constants.parameters), c.memory);
+                    Real const scale = Model::touch_scale(pack_.state.constants.parameters);
+                    Real fraction = c.watch.earliest(early, pack_.end_report.contact, step, scale, c.memory);
+                    if constexpr (Model::has_shadows) fraction = min(fraction, shadows_.earliest(pack_, early, scale));
                     cut = fraction < Real(1.0);
                     c.error_memory = select(cut, former_memory, c.error_memory);
                     accepted = accepted & !cut;
@@ -122,6 +137,7 @@ private:
             }
         } else {
             accepted = busy & is_finite(pack_.end, pack_.end_rates);
+            if constexpr (Model::has_shadows) accepted = accepted & shadows_.finite();
             divergent = busy & !accepted;
         }
         auto impact = mask_of<Real>(false);
@@ -135,6 +151,7 @@ private:
         c.rejections = select(busy, count<Real>(rejected & !cut), c.rejections);
         auto const still = rejected & (wish <= resolution);
         auto stuck = Stepper::adaptive ? still : rejected;
+        if constexpr (Model::has_shadows) pack_.faults = pack_.faults.or_else(shadows_.faults());
 
         auto finished = mask_of<Real>(false);
         if (any(accepted)) {
@@ -173,11 +190,13 @@ private:
         pack_.begin_next(accepted, pack_.end_rates);
         if constexpr (Model::has_memory || Model::can_hold) {
             if (pack_.needs.watch) {
-                auto const touched = c.watch.update(accepted, pack_.end_report.contact, c.memory);
+                auto const touched = c.watch.update(accepted, pack_.end_report.contact, c.memory, c.y);
                 if (any(touched)) restart(touched);
             }
         }
-        auto finished = landed & (c.t >= Real(settings_.end_time));
+        if constexpr (Model::has_shadows) shadows_.advance(pack_, accepted);
+        if (results_.stops() > 0) stop(landed);
+        auto finished = landed & (c.t >= pack_.state.constants.end);
         if constexpr (Model::events > 0) {
             if (pack_.needs.quantities) {
                 auto& observer = pack_.state.observation.observer;
@@ -186,6 +205,20 @@ private:
             }
         }
         return finished;
+    }
+
+    /// Members that have landed at a stop: their section, and how their shadows have departed.
+    SLIDEWAY_HD void stop(Mask<Real> landed) {
+        auto& c = pack_.state.course;
+        auto const at = landed & (c.t >= results_.next_stop(pack_.state));
+        if (none(at)) return;
+        results_.take_section(pack_, at);
+        if constexpr (Model::has_shadows) {
+            Real growth[most_shadows];
+            shadows_.rescale(pack_, at, growth);
+            results_.take_growth(pack_, at, growth);
+        }
+        c.stop = c.stop + count<Real>(at);
     }
 
     /// New impact speeds or other contacts change the derivative at the same state.
@@ -235,6 +268,7 @@ private:
     IntegratorSettings const& settings_;
     Stepper stepper_;
     [[no_unique_address]] std::conditional_t<(Model::events > 0), EventSearch<Model, Real>, NoSearch> search_;
+    [[no_unique_address]] std::conditional_t<Model::has_shadows, Shadows<Model, Real>, NoShadowSteps> shadows_;
     double max_step_;
     Real target_;
     Mask<Real> lands_, left_;

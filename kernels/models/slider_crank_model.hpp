@@ -17,6 +17,7 @@ template <bool conserving> struct SliderCrankLanes {
     static constexpr int series = series_count;
     static constexpr int events = 0;
     static constexpr bool has_patterns = true;
+    static constexpr bool has_shadows = false;
     static constexpr bool has_linearisation = true;
     template <class Real> using Observer = SliderCrankObserver<Real, conserving>;
     template <class Real> using Linearisation = SliderCrankLinearisation<Real>;
@@ -30,6 +31,9 @@ template <bool conserving> struct SliderCrankLanes {
         }
         return largest;
     }
+
+    /// An impact speed as it may be remembered: a shadow's is carried on from the member's.
+    template <class Real> SLIDEWAY_HD static Real remembered(Real speed) { return max(speed, Real(least_impact_speed)); }
 
     /// Members whose energy audit says that their method left its stable range.
     template <class Real>

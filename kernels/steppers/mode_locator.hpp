@@ -18,7 +18,7 @@ public:
     /// Holds the contacts of the start.
     SLIDEWAY_FN void begin(Mask<Real> fresh, ContactReport<Real> const& r, HeldContacts<Real>& memory) {
         memory.holding = select(fresh, Real(1.0), memory.holding);
-        update(fresh, r, memory);
+        update(fresh, r, memory, nullptr);
     }
 
     /// Fraction of the step at which the first pair changes, 1 where none does before the end or the end is the change.
@@ -34,7 +34,8 @@ public:
     }
 
     /// After an accepted step: turns over the pairs that have changed.  @return lanes where one did.
-    SLIDEWAY_FN Mask<Real> update(Mask<Real> accepted, ContactReport<Real> const& end, HeldContacts<Real>& memory) {
+    SLIDEWAY_FN Mask<Real> update(Mask<Real> accepted, ContactReport<Real> const& end, HeldContacts<Real>& memory,
+                                  Real*) {
         auto changed = mask_of<Real>(false);
         for (int face = 0; face < face_count; ++face) {
             auto const& d = end.penetration[face];

@@ -31,7 +31,8 @@ public:
     }
 
     /// After an accepted step: sets the impact speed of pairs that have just touched.  @return lanes where one did.
-    SLIDEWAY_FN Mask<Real> update(Mask<Real> accepted, ContactReport<Real> const& end, ImpactMemory<Real>& memory) {
+    SLIDEWAY_FN Mask<Real> update(Mask<Real> accepted, ContactReport<Real> const& end, ImpactMemory<Real>& memory,
+                                  Real*) {
         auto touched = mask_of<Real>(false);
         for (int face = 0; face < face_count; ++face) {
             auto const& d0 = this->start_depth_[face];

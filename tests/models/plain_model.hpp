@@ -16,6 +16,7 @@ template <int components> struct PlainModel {
     static constexpr int events = 0;
     static constexpr bool has_memory = false, can_hold = false;
     static constexpr bool has_patterns = false;
+    static constexpr bool has_shadows = false;
     static constexpr bool has_linearisation = false;
     template <class Real> struct Report {};
     template <class Real> using Memory = NoMemory<Real>;

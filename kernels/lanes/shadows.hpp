@@ -1,0 +1,190 @@
+#pragma once
+
+#include "kernels/lanes/pack.hpp"
+#include "kernels/math/gram_schmidt.hpp"
+#include "kernels/math/logarithm.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Distance between member and shadow below which it is rounding [dimensionless]: what shrinks below counts as this.
+inline constexpr double least_distance = 1e-15;
+
+/// The shadows of the members at work.  A shadow takes its member's steps, which meet the tolerance for all of them: the numerical
+/// solution is then one and the same map of member and shadow, and their offset is free of what two sequences of steps would differ
+/// by.  Where steps end at events they end at those of every shadow too.  Each meets its contacts a little earlier or later than
+/// its member; that is how a jump of the velocity or of the force enters the growth of the offset, and linearised equations would need
+/// saltation matrices for it.
+template <class Model, class Real> class Shadows {
+public:
+    static constexpr int size = Model::size;
+    using Shadow = typename MemberState<Model, Real>::Shadow;
+
+    explicit SLIDEWAY_HD Shadows(ShadowPlan const& plan) : plan_(plan) {}
+
+    /// First evaluation of new members' shadows.  @return lanes where one has no derivative.
+    SLIDEWAY_HD Mask<Real> start(Pack<Model, Real>& pack, Mask<Real> fresh) {
+        auto broken = mask_of<Real>(false);
+        for (int s = 0; s < plan_.count; ++s) {
+            refresh(pack, pack.state.shadows[s], fresh);
+            broken = broken | (fresh & !is_finite(pack.state.shadows[s].y, pack.state.shadows[s].rates));
+        }
+        return broken;
+    }
+
+    /// All attempt the step that the pack holds.  @param squared_norm of the error of who is in the pack's course
+    template <class Stepper, class Norm>
+    SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, Stepper& stepper, Norm const& squared_norm) {
+        squared_norm_ = Real(0.0);
+        faults_ = Faults<Real>::none();
+        finite_ = mask_of<Real>(true);
+        ReportNeeds const needs = pack.needs;
+        pack.needs = needs.of_shadows();
+        for (int s = 0; s < plan_.count; ++s) {
+            auto& shadow = pack.state.shadows[s];
+            auto& end = ends_[s];
+            exchange(pack.state.course, shadow);
+            stepper.attempt(pack);
+            if constexpr (Stepper::adaptive) {
+                Real const norm = squared_norm();
+                squared_norm_ = max(norm, squared_norm_) + Real(0.0) * (norm + squared_norm_);  // NaN stays
+            } else {
+                finite_ = finite_ & is_finite(pack.end, pack.end_rates);
+            }
+            faults_ = faults_.or_else(pack.faults);
+            exchange(pack.state.course, shadow);
+            for (int i = 0; i < size; ++i) end.y[i] = pack.end[i], end.rates[i] = pack.end_rates[i];
+            if (pack.needs.watch) end.report = pack.end_report;
+            pack.count_evaluations(pack.busy, Stepper::evaluations);
+        }
+        pack.needs = needs;
+    }
+
+    /// Largest of the shadows' squared errors; NaN where any is.
+    SLIDEWAY_HD Real squared_norm() const { return squared_norm_; }
+    SLIDEWAY_HD Mask<Real> finite() const { return finite_; }
+    SLIDEWAY_HD Faults<Real> faults() const { return faults_; }
+
+    /// Least fraction of the step at which a shadow has an event that ends it.
+    SLIDEWAY_HD Real earliest(Pack<Model, Real> const& pack, Mask<Real> candidates, Real scale) const {
+        Real fraction(1.0);
+        if constexpr (Model::has_memory || Model::can_hold) {
+            for (int s = 0; s < plan_.count; ++s) {
+                auto const& shadow = pack.state.shadows[s];
+                fraction = min(fraction, shadow.watch.earliest(candidates, ends_[s].report.contact, pack.step, scale, shadow.memory));
+            }
+        }
+        return fraction;
+    }
+
+    /// Moves to the end of the step; the pack's time is that of the end.
+    SLIDEWAY_HD void advance(Pack<Model, Real>& pack, Mask<Real> accepted) {
+        for (int s = 0; s < plan_.count; ++s) {
+            auto& shadow = pack.state.shadows[s];
+            auto const& end = ends_[s];
+            for (int i = 0; i < size; ++i) {
+                shadow.y[i] = select(accepted, end.y[i], shadow.y[i]);
+                shadow.rates[i] = select(accepted, end.rates[i], shadow.rates[i]);
+            }
+            if constexpr (Model::has_memory || Model::can_hold) {
+                if (!pack.needs.watch) continue;
+                auto const touched = shadow.watch.update(accepted, end.report.contact, shadow.memory, shadow.y);
+                if (any(touched)) evaluate(pack, shadow, touched);
+            }
+        }
+    }
+
+    /// At a stop: how the offsets have grown since the last one, and the shadows put back to d0 in the directions they went.  One is
+    /// left alone within its bounds; several are made orthogonal, so that the j-th shows the j-th largest rate (Benettin et al. 1980).
+    /// @param growth [count] ln of the growth
+    SLIDEWAY_NOINLINE void rescale(Pack<Model, Real>& pack, Mask<Real> at, Real* growth) {
+        Real w[most_shadows][width], length[most_shadows];
+        int const count = plan_.count;
+        for (int s = 0; s < count; ++s) read_offset(pack, pack.state.shadows[s], w[s]);
+        orthonormalise<size, width>(w, count, Real(least_distance), length);
+        Real const d0(plan_.d0);
+        for (int s = 0; s < count; ++s) {
+            auto& shadow = pack.state.shadows[s];
+            Real const reached = max(length[s], Real(least_distance));
+            growth[s] = log_positive(reached / shadow.distance);
+            auto moved = at;
+            if (count == 1) moved = at & !((reached >= Real(plan_.lower)) & (reached <= Real(plan_.upper)));
+            shadow.distance = select(at, select(moved, d0, reached), shadow.distance);
+            if (none(moved)) continue;
+            write_offset(pack, moved, w[s], d0, shadow);
+            refresh(pack, shadow, moved);
+        }
+    }
+
+private:
+    struct End {
+        Real y[size], rates[size];
+        typename Model::template Report<Real> report;
+    };
+    using Memory = typename Model::template Memory<Real>;
+    /// Impact speeds differ between member and shadow as the states do, and are rescaled with them.
+    static constexpr int remembered = Model::has_memory ? static_cast<int>(sizeof(Memory) / sizeof(Real)) : 0;
+    static constexpr int width = size + remembered;
+
+    SLIDEWAY_HD static Real* numbers(Memory& memory) { return reinterpret_cast<Real*>(&memory); }
+    SLIDEWAY_HD static Real const* numbers(Memory const& memory) { return reinterpret_cast<Real const*>(&memory); }
+
+    SLIDEWAY_HD static void read_offset(Pack<Model, Real> const& pack, Shadow const& shadow, Real* w) {
+        auto const& s = pack.state;
+        for (int i = 0; i < size; ++i) w[i] = (shadow.y[i] - s.course.y[i]) / s.constants.scale[i];
+        for (int i = 0; i < remembered; ++i) w[size + i] = numbers(shadow.memory)[i] - numbers(s.course.memory)[i];
+    }
+
+    SLIDEWAY_HD static void write_offset(Pack<Model, Real> const& pack, Mask<Real> in, Real const* w, Real length, Shadow& shadow) {
+        auto const& s = pack.state;
+        for (int i = 0; i < size; ++i) {
+            shadow.y[i] = select(in, fma(length * s.constants.scale[i], w[i], s.course.y[i]), shadow.y[i]);
+        }
+        for (int i = 0; i < remembered; ++i) {
+            Real& number = numbers(shadow.memory)[i];
+            Real const own = numbers(s.course.memory)[i];
+            number = select(in, Model::remembered(fma(length, w[size + i], own)), number);
+        }
+    }
+
+    /// All that follows from a state that was put somewhere.
+    SLIDEWAY_HD void refresh(Pack<Model, Real>& pack, Shadow& shadow, Mask<Real> in) {
+        if constexpr (Model::has_memory || Model::can_hold) {
+            if (pack.needs.watch) {
+                evaluate(pack, shadow, in);
+                shadow.watch.begin(in, report_.contact, shadow.memory);
+            }
+        }
+        evaluate(pack, shadow, in);
+        if constexpr (Model::can_hold) {
+            if (pack.needs.watch) shadow.watch.keep(in, report_.contact);
+        }
+    }
+
+    SLIDEWAY_HD void evaluate(Pack<Model, Real>& pack, Shadow& shadow, Mask<Real> in) {
+        Real rates[size];
+        pack.evaluate(pack.state.course.t, shadow.y, shadow.memory, rates, pack.needs.watch, report_);
+        pack.count_evaluations(in, 1);
+        for (int i = 0; i < size; ++i) shadow.rates[i] = select(in, rates[i], shadow.rates[i]);
+    }
+
+    /// Puts the shadow in its member's place, or back.
+    template <class Course> SLIDEWAY_HD static void exchange(Course& c, Shadow& shadow) {
+        for (int i = 0; i < size; ++i) swap(c.y[i], shadow.y[i]), swap(c.rates[i], shadow.rates[i]);
+        swap(c.memory, shadow.memory);
+    }
+    template <class T> SLIDEWAY_HD static void swap(T& a, T& b) {
+        T const former = a;
+        a = b;
+        b = former;
+    }
+
+    ShadowPlan const plan_;
+    End ends_[most_shadows];
+    typename Model::template Report<Real> report_;
+    Real squared_norm_;
+    Faults<Real> faults_;
+    Mask<Real> finite_;
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

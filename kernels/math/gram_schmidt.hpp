@@ -1,0 +1,57 @@
+#pragma once
+
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+namespace detail {
+
+template <int n, class Real> SLIDEWAY_FN Real product(Real const* a, Real const* b) {
+    Real sum(0.0);
+    for (int i = 0; i < n; ++i) sum = fma(a[i], b[i], sum);
+    return sum;
+}
+
+/// In the lanes of the mask, the axis that the unit vectors before `w` span least, less what they span of it, as a unit vector.
+template <int n, int width, class Real>
+SLIDEWAY_HD void place_least_spanned(Mask<Real> in, Real const (*unit)[width], int units, Real* w) {
+    Real most(-1.0), which(0.0);
+    for (int axis = 0; axis < n; ++axis) {
+        Real left(1.0);
+        for (int j = 0; j < units; ++j) left = fnma(unit[j][axis], unit[j][axis], left);
+        auto const more = left > most;
+        most = select(more, left, most);
+        which = select(more, Real(static_cast<double>(axis)), which);
+    }
+    Real axis[n];
+    for (int i = 0; i < n; ++i) axis[i] = count<Real>(which == Real(static_cast<double>(i)));
+    for (int j = 0; j < units; ++j) {
+        Real const along = product<n>(unit[j], axis);
+        for (int i = 0; i < n; ++i) axis[i] = fnma(along, unit[j][i], axis[i]);
+    }
+    Real const length = sqrt(product<n>(axis, axis));
+    for (int i = 0; i < n; ++i) w[i] = select(in, axis[i] / length, w[i]);
+    for (int i = n; i < width; ++i) w[i] = select(in, Real(0.0), w[i]);
+}
+
+}  // namespace detail
+
+/// Modified Gram–Schmidt: makes `vectors` vectors orthonormal in their order.  The first n of a vector's `width` numbers count in
+/// products, the others are carried along.  A vector that the earlier ones leave no more than `least` of gives way to an axis.
+/// @param length [vectors] what the earlier ones left of each, R_jj of the QR decomposition
+template <int n, int width, class Real>
+SLIDEWAY_HD void orthonormalise(Real (*w)[width], int vectors, Real least, Real* length) {
+    for (int j = 0; j < vectors; ++j) {
+        for (int k = 0; k < j; ++k) {
+            Real const along = detail::product<n>(w[k], w[j]);
+            for (int i = 0; i < width; ++i) w[j][i] = fnma(along, w[k][i], w[j][i]);
+        }
+        length[j] = sqrt(detail::product<n>(w[j], w[j]));
+        auto const lost = !(length[j] > least);  // NaN too
+        Real const inverse = Real(1.0) / select(lost, Real(1.0), length[j]);
+        for (int i = 0; i < width; ++i) w[j][i] = inverse * w[j][i];
+        if (any(lost)) detail::place_least_spanned<n, width>(lost, w, j, w[j]);
+    }
+}
+
+}  // namespace slideway::inline SLIDEWAY_ISA
