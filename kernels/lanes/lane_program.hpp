@@ -82,7 +82,10 @@ private:
         r.constants.end = clock.end;
         r.constants.first_stop = clock.first_stop;
         r.constants.stop_period = clock.period;
-        if constexpr (Model::has_shadows) place_shadows(r, member);
+        if constexpr (Model::has_shadows) {
+            c.fine_time.rest = 0;
+            place_shadows(r, member);
+        }
         c.accepted = c.rejected = c.evaluations = c.jacobians = c.stiff_steps = 0;
         c.rejections = c.stiffness = c.rate_squared = 0;
         // A model without linearisation is left to the explicit pair.

@@ -20,6 +20,10 @@ public:
     static constexpr int size = Model::size;
     using Shadow = typename MemberState<Model, Real>::Shadow;
 
+    /// Depth [clearances] up to which an event counts as located.  The offset's part in the positions is some 1e-5 of its length, for in
+    /// an impact it is nearly all velocity; this is to be little of that, and rounding is 1e-16.
+    static constexpr double located = 1e-15;
+
     explicit SLIDEWAY_HD Shadows(ShadowPlan const& plan) : plan_(plan) {}
 
     /// First evaluation of new members' shadows.  @return lanes where one has no derivative.
@@ -66,12 +70,12 @@ public:
     SLIDEWAY_HD Faults<Real> faults() const { return faults_; }
 
     /// Least fraction of the step at which a shadow has an event that ends it.
-    SLIDEWAY_HD Real earliest(Pack<Model, Real> const& pack, Mask<Real> candidates, Real scale) const {
+    SLIDEWAY_HD Real earliest(Pack<Model, Real> const& pack, Mask<Real> candidates, Real located_depth) const {
         Real fraction(1.0);
         if constexpr (Model::has_memory || Model::can_hold) {
             for (int s = 0; s < plan_.count; ++s) {
                 auto const& shadow = pack.state.shadows[s];
-                fraction = min(fraction, shadow.watch.earliest(candidates, ends_[s].report.contact, pack.step, scale, shadow.memory));
+                fraction = min(fraction, shadow.watch.earliest(candidates, ends_[s].report.contact, pack.step, located_depth, shadow.memory));
             }
         }
         return fraction;

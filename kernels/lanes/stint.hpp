@@ -50,6 +50,8 @@ public:
 private:
     static constexpr int size = Model::size;
     static constexpr int width = lanes<Real>;
+    /// Least step, in units of the end time.
+    static constexpr double time_resolution = Model::has_shadows ? 1e-19 : 8 * 2.220446049250313e-16;
     static constexpr bool impacts_end_it = Stepper::stiff && Model::has_patterns;
     using Control = StepControl<Stepper::order>;
 
@@ -106,7 +108,7 @@ private:
         auto& c = pack_.state.course;
         auto const busy = pack_.busy;
         Real const step = pack_.step;
-        Real const resolution = Real(8 * 2.220446049250313e-16) * pack_.state.constants.end;
+        Real const resolution = Real(time_resolution) * pack_.state.constants.end;
         Mask<Real> accepted, cut = mask_of<Real>(false);
         Real wish = step;
         auto divergent = mask_of<Real>(false);
@@ -126,9 +128,11 @@ private:
                 if (pack_.needs.watch) {
                     // A touch must end its step: it sets the impact speed of what follows, or the law that holds.
                     auto const early = accepted & (step > resolution * Real(64.0));
-                    Real const scale = Model::touch_scale(pack_.state.constants.parameters);
-                    Real fraction = c.watch.earliest(early, pack_.end_report.contact, step, scale, c.memory);
-                    if constexpr (Model::has_shadows) fraction = min(fraction, shadows_.earliest(pack_, early, scale));
+                    using Watch = typename Model::template Watch<Real>;
+                    constexpr double tolerance = Model::has_shadows ? Shadows<Model, Real>::located : Watch::tolerance;
+                    Real const located = Real(tolerance) * Model::touch_scale(pack_.state.constants.parameters);
+                    Real fraction = c.watch.earliest(early, pack_.end_report.contact, step, located, c.memory);
+                    if constexpr (Model::has_shadows) fraction = min(fraction, shadows_.earliest(pack_, early, located));
                     cut = fraction < Real(1.0);
                     c.error_memory = select(cut, former_memory, c.error_memory);
                     accepted = accepted & !cut;
@@ -173,7 +177,7 @@ private:
     SLIDEWAY_HD Mask<Real> advance(Mask<Real> accepted) {
         auto& c = pack_.state.course;
         auto landed = accepted & lands_;
-        Real t_end = select(landed, target_, c.t + pack_.step);
+        Real t_end = select(landed, target_, time_after_step(accepted, landed));
         if constexpr (Model::events > 0) {
             search_.run(pack_, stepper_, accepted);
             t_end = select(search_.ended(), fma(pack_.step, search_.fraction(), c.t), t_end);
@@ -205,6 +209,20 @@ private:
             }
         }
         return finished;
+    }
+
+    SLIDEWAY_HD Real time_after_step(Mask<Real> accepted, Mask<Real> landed) {
+        auto& c = pack_.state.course;
+        if constexpr (!Model::has_shadows) {
+            return c.t + pack_.step;
+        } else {
+            // Two sums without loss (Knuth); a landing starts a new count.
+            Real const step = pack_.step + c.fine_time.rest, sum = c.t + step;
+            Real const of_step = sum - c.t;
+            Real const rest = (c.t - (sum - of_step)) + (step - of_step);
+            c.fine_time.rest = select(accepted, select(landed, Real(0.0), rest), c.fine_time.rest);
+            return sum;
+        }
     }
 
     /// Members that have landed at a stop: their section, and how their shadows have departed.

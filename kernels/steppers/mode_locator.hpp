@@ -22,10 +22,10 @@ public:
     }
 
     /// Fraction of the step at which the first pair changes, 1 where none does before the end or the end is the change.
-    SLIDEWAY_FN Real earliest(Mask<Real> candidates, ContactReport<Real> const& end, Real step, Real clearance,
+    /// @param located depth [m] up to which it counts as that
+    SLIDEWAY_FN Real earliest(Mask<Real> candidates, ContactReport<Real> const& end, Real step, Real located,
                               HeldContacts<Real> const&) const {
         Real fraction(1.0);
-        Real const located = clearance * Real(tolerance);
         auto const of_pair = [&](Real d0, Real v0, Real d1, Real v1) {
             return this->first_change(candidates, d0, v0, d1, v1, step, located).fraction;
         };

@@ -19,10 +19,10 @@ public:
     }
 
     /// Fraction of the step at which the first pair touches, 1 where none touches before the end or the end is the touch.
-    SLIDEWAY_FN Real earliest(Mask<Real> candidates, ContactReport<Real> const& end, Real step, Real clearance,
+    /// @param located depth [m] up to which it counts as that
+    SLIDEWAY_FN Real earliest(Mask<Real> candidates, ContactReport<Real> const& end, Real step, Real located,
                               ImpactMemory<Real> const&) const {
         Real fraction(1.0);
-        Real const located = clearance * Real(tolerance);
         auto const of_pair = [&](Real d0, Real v0, Real d1, Real v1) {
             return touching_at(candidates, d0, v0, d1, v1, step, located);
         };
