@@ -36,6 +36,7 @@ struct MemberRecord {
     double time = 0;                         // [s] where it ended
     std::uint64_t jacobian_evaluations = 0;  // each costs one to two right-hand sides
     std::uint64_t stiff_steps = 0;           // accepted steps of the stiff method
+    std::uint64_t lost_offsets = 0;          // recorded times that a shadow's offset had shrunk into rounding
 };
 
 /// When a member ends and when its steps end on the way.
@@ -49,10 +50,11 @@ struct StopPlan {
     std::size_t count = 0;
     std::size_t transient = 0;      // as many leave no record
     std::size_t section_every = 1;  // of the later ones the first, and then each such one, is a section: its state is recorded
+    std::size_t growth_every = 1;   // the growth of offsets is recorded summed over as many
 
     constexpr std::size_t sections() const { return count > transient ? (count - transient - 1) / section_every + 1 : 0; }
-    /// From one recorded stop to the next.
-    constexpr std::size_t intervals() const { return count > transient ? count - transient - 1 : 0; }
+    /// Recorded growths; the first begins with the stop that ends the transient.
+    constexpr std::size_t growths() const { return count > transient ? (count - transient - 1) / growth_every : 0; }
 };
 
 /// Shadows: copies of a member that start a little off it and take its steps, to tell how offsets grow.  Distances are
@@ -86,8 +88,8 @@ struct BlockBase {
     double* final_states = nullptr;         // [members][states of the model]
     double* quantity_values = nullptr;      // [members][columns of the model's observer], only selected columns written
     double* series_values = nullptr;        // [selected series, in table order][members][samples]; NaN after a failure
-    double* section_values = nullptr;       // [members][stops.sections()][states of the model]; NaN after a failure
-    double* growth_values = nullptr;        // [members][stops.intervals()][shadows.count], ln of the growth; NaN likewise
+    double* section_values = nullptr;       // [members][stops.sections()][1 + states of the model]: time and state; NaN after a failure
+    double* growth_values = nullptr;        // [members][stops.growths()][shadows.count], ln of the growth; NaN likewise
     std::uint64_t lane_steps_executed = 0;  // step attempts × lanes
     std::uint64_t lane_steps_useful = 0;    // those that served a member
 };

@@ -31,12 +31,21 @@ void spread_rows(std::vector<T>& values, std::vector<char> const& is_usable, std
     }
 }
 
+std::size_t section_width(BlockRequest const& request) {
+    return request.sections ? request.stops.sections() * section_columns : 0;
+}
+
+std::size_t shadow_count(BlockRequest const& request) { return static_cast<std::size_t>(request.shadows.count); }
+
+std::size_t growth_width(BlockRequest const& request) { return request.stops.growths() * shadow_count(request); }
+
 }  // namespace
 
 std::uint64_t block_bytes(BlockRequest const& request, std::size_t members) {
-    std::uint64_t const per_member =
-        2 * sizeof(Inputs) + sizeof(char) + sizeof(std::uint32_t) + sizeof(MemberRecord) +
-        sizeof(double) * (state_size + static_cast<std::uint64_t>(quantity_columns) + series_width(request));
+    std::uint64_t const numbers = state_size + static_cast<std::uint64_t>(quantity_columns) + series_width(request) +
+                                  section_width(request) + growth_width(request) + state_size * shadow_count(request);
+    std::uint64_t const per_member = 2 * sizeof(Inputs) + sizeof(char) + sizeof(std::uint32_t) + sizeof(MemberRecord) +
+                                     sizeof(MemberClock) + sizeof(double) * numbers;
     return members * per_member;
 }
 
@@ -48,19 +57,33 @@ void BlockBuffers::sort_by_cost(MemberCost const& cost) {
     std::stable_sort(order_.begin(), order_.end(), [&](auto a, auto b) { return costs[a] > costs[b]; });
 }
 
-void BlockBuffers::run(KernelInstance const& kernel, BlockRequest const& request, MemberSource const& source,
-                       StopRequest const& stop, std::uint64_t first_member, std::size_t members) {
+void BlockBuffers::draw(BlockRequest const& request, MemberSource const& source, std::uint64_t first_member,
+                        std::size_t members) {
     drawn_.assign(members, Inputs{});
     is_usable_.assign(members, 0);
     usable_.clear();
+    clocks_.clear();
+    directions_.clear();
     for (std::size_t i = 0; i < members; ++i) {
         is_usable_[i] = source(first_member + i, drawn_[i]);
-        if (is_usable_[i]) usable_.push_back(drawn_[i]);
+        if (!is_usable_[i]) continue;
+        usable_.push_back(drawn_[i]);
+        if (request.timing) clocks_.push_back(request.timing(drawn_[i]));
+        if (request.shadows.count == 0) continue;
+        directions_.resize(usable_.size() * shadow_count(request) * state_size);
+        request.directions(first_member + i, &directions_[(usable_.size() - 1) * shadow_count(request) * state_size]);
     }
+}
+
+void BlockBuffers::run(KernelInstance const& kernel, BlockRequest const& request, MemberSource const& source,
+                       StopRequest const& stop, std::uint64_t first_member, std::size_t members) {
+    draw(request, source, first_member, members);
     records_.assign(members, MemberRecord{});
     final_states_.assign(members * state_size, nan);
     quantities_.assign(members * static_cast<std::size_t>(quantity_columns), nan);
     series_.assign(members * series_width(request), nan);
+    sections_.assign(members * section_width(request), nan);
+    growths_.assign(members * growth_width(request), nan);
 
     order_.clear();
     if (request.cost) sort_by_cost(request.cost);
@@ -73,13 +96,19 @@ void BlockBuffers::run(KernelInstance const& kernel, BlockRequest const& request
     block.samples = request.sample_times.size();
     block.quantities = request.quantities;
     block.series = request.sample_times.empty() ? Selection{0} : request.series;
+    block.clocks = clocks_.empty() ? nullptr : clocks_.data();
+    block.stops = request.stops;
+    block.shadows = request.shadows;
+    block.shadows.directions = directions_.data();
     block.stop = [](void const* context) { return static_cast<StopRequest const*>(context)->reason() != StopReason::none; };
     block.stop_context = &stop;
     block.records = records_.data();
     block.final_states = final_states_.data();
     block.quantity_values = quantities_.data();
     block.series_values = series_.data();
-    if (block.members > 0) kernel.run(block);
+    block.section_values = sections_.empty() ? nullptr : sections_.data();
+    block.growth_values = growths_.empty() ? nullptr : growths_.data();
+    if (block.members > 0) (request.shadows.count > 0 ? kernel.run_shadowed : kernel.run)(block);
     lane_steps_executed_ = block.lane_steps_executed;
     lane_steps_useful_ = block.lane_steps_useful;
 
@@ -90,11 +119,13 @@ void BlockBuffers::run(KernelInstance const& kernel, BlockRequest const& request
     spread_rows(records_, is_usable_, usable, 1, 1, invalid);
     spread_rows(final_states_, is_usable_, usable, 1, state_size, nan);
     spread_rows(quantities_, is_usable_, usable, 1, quantity_columns, nan);
+    spread_rows(sections_, is_usable_, usable, 1, section_width(request), nan);
+    spread_rows(growths_, is_usable_, usable, 1, growth_width(request), nan);
     spread_rows(series_, is_usable_, usable, static_cast<std::size_t>(std::popcount(block.series)), block.samples, nan);
 }
 
 BlockResult BlockBuffers::result(std::uint64_t first) const {
-    return {first, drawn_, records_, final_states_, quantities_, series_};
+    return {first, drawn_, records_, final_states_, quantities_, series_, sections_, growths_};
 }
 
 }  // namespace slideway

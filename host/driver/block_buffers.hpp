@@ -17,13 +17,24 @@ using MemberSource = std::function<bool(std::uint64_t member, Inputs& inputs)>;
 /// What a member may cost, in any unit: members of a block start with the dearest, so that it is not the last to end.
 using MemberCost = std::function<double(Inputs const& inputs)>;
 
+/// When a member ends and stops, from its complete inputs.
+using MemberTiming = std::function<MemberClock(Inputs const& inputs)>;
+
+/// Unit vectors [shadows][state_size] in which a member's shadows start.
+using ShadowDirections = std::function<void(std::uint64_t member, double* directions)>;
+
 /// What every block of a run has in common.
 struct BlockRequest {
     IntegratorSettings integrator;
     std::vector<double> sample_times;  // empty: no time series
     Selection quantities = 0;
     Selection series = 0;
-    MemberCost cost;  // empty: members start in their order
+    MemberCost cost;              // empty: members start in their order
+    MemberTiming timing;          // empty: all end at integrator.end_time and nobody stops
+    StopPlan stops;
+    bool sections = false;        // the states at the stops' sections are kept
+    ShadowPlan shadows;           // its directions are those of
+    ShadowDirections directions;
 };
 
 /// Bytes that a block of `members` needs.
@@ -43,13 +54,16 @@ public:
     std::uint64_t lane_steps_useful() const { return lane_steps_useful_; }
 
 private:
+    void draw(BlockRequest const& request, MemberSource const& source, std::uint64_t first_member, std::size_t members);
     void sort_by_cost(MemberCost const& cost);
 
     std::vector<Inputs> drawn_, usable_;
     std::vector<char> is_usable_;
     std::vector<std::uint32_t> order_;
     std::vector<MemberRecord> records_;
-    std::vector<double> final_states_, quantities_, series_;
+    std::vector<double> final_states_, quantities_, series_, sections_, growths_;
+    std::vector<MemberClock> clocks_;
+    std::vector<double> directions_;
     std::uint64_t lane_steps_executed_ = 0, lane_steps_useful_ = 0;
 };
 

@@ -16,7 +16,12 @@ struct BlockResult {
     std::span<double const> final_states;   // [members][state_size]; NaN for a member that was not integrated
     std::span<double const> quantities;     // [members][quantity_columns]; NaN where not selected or not integrated
     std::span<double const> series;         // [selected series, in table order][members][samples]
+    std::span<double const> sections;       // [members][sections][section_columns]; NaN where not reached
+    std::span<double const> growths;        // [members][growths][shadows], ln; NaN where not reached
 };
+
+/// Time and state of a section.
+inline constexpr std::size_t section_columns = 1 + state_size;
 
 /// Takes blocks in any order, one call at a time.  What it throws ends the run.
 using BlockSink = std::function<void(BlockResult const&)>;

@@ -83,7 +83,7 @@ private:
         r.constants.first_stop = clock.first_stop;
         r.constants.stop_period = clock.period;
         if constexpr (Model::has_shadows) {
-            c.fine_time.rest = 0;
+            c.shadowed.fine_time = c.shadowed.lost = 0;
             place_shadows(r, member);
         }
         c.accepted = c.rejected = c.evaluations = c.jacobians = c.stiff_steps = 0;
@@ -106,6 +106,7 @@ private:
                 shadow.y[i] = fma(plan.d0 * r.constants.scale[i], direction[i], r.course.y[i]);
             }
             shadow.distance = plan.d0;
+            shadow.growth = 0;
             start_memory(shadow.memory);
         }
     }

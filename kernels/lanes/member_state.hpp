@@ -19,9 +19,12 @@ template <class Real> struct ResetHistory {
 struct NoResets {};
 struct NoShadows {};
 
-/// What a member's time has beyond the last bit of t: member and shadow meet an event at times that t itself could not tell apart.
-template <class Real> struct FineTime { Real rest; };
-struct NoFineTime {};
+/// What a member has on account of its shadows.
+template <class Real> struct ShadowCourse {
+    Real fine_time;  // beyond the last bit of t [s]: member and shadow meet an event at times that t itself could not tell apart
+    Real lost;       // times that an offset had shrunk into rounding
+};
+struct NoShadowCourse {};
 
 /// All that a member takes along from one stint in the lanes to the next.  `Real = double` is one member's record, a pack is the
 /// transpose of its lanes' records; both hold nothing but Reals, so that a record moves in and out number by number.
@@ -48,7 +51,7 @@ template <class Model, class Real> struct MemberState {
         Real stiff;         // 1 where the next stint is the stiff method's, else 0
         Real stiffness;     // explicit: looks that found the member stiff; stiff: calm steps in a row
         Real rate_squared;  // Ω² [1/s²] of its stiffest contacts, of late
-        [[no_unique_address]] std::conditional_t<Model::has_shadows, FineTime<Real>, NoFineTime> fine_time;
+        [[no_unique_address]] std::conditional_t<Model::has_shadows, ShadowCourse<Real>, NoShadowCourse> shadowed;
         [[no_unique_address]] typename Model::template Memory<Real> memory;
         [[no_unique_address]] typename Model::template Watch<Real> watch;
         [[no_unique_address]] std::conditional_t<(Model::events > 0), ResetHistory<Real>, NoResets> resets;
@@ -64,6 +67,7 @@ template <class Model, class Real> struct MemberState {
     struct Shadow {
         Real y[Model::size], rates[Model::size];
         Real distance;  // from the member, after the last stop; dimensionless
+        Real growth;    // ln of it since the last record
         [[no_unique_address]] typename Model::template Memory<Real> memory;
         [[no_unique_address]] typename Model::template Watch<Real> watch;
     };

@@ -32,22 +32,28 @@ public:
             std::size_t const stop = number(c.stop, i);
             if (!holds(at, i) || stop < plan.transient || (stop - plan.transient) % plan.section_every != 0) continue;
             std::size_t const section = (stop - plan.transient) / plan.section_every;
-            double* const row = block_.section_values + (number(c.member, i) * plan.sections() + section) * Model::size;
-            for (int j = 0; j < Model::size; ++j) row[j] = lane(c.y[j], i);
+            double* const row = block_.section_values + (number(c.member, i) * plan.sections() + section) * (1 + Model::size);
+            row[0] = lane(c.t, i);
+            for (int j = 0; j < Model::size; ++j) row[1 + j] = lane(c.y[j], i);
         }
     }
 
-    /// How the offsets of members at a stop have grown since the last.
-    template <class Real> SLIDEWAY_HD void take_growth(Pack<Model, Real> const& pack, Mask<Real> at, Real const* growth) {
+    /// How the offsets of members at a stop have grown, if it ends the transient or a record.
+    template <class Real> SLIDEWAY_HD void take_growth(Pack<Model, Real>& pack, Mask<Real> at) {
         StopPlan const& plan = block_.stops;
-        auto const& c = pack.state.course;
+        auto& c = pack.state.course;
         auto const shadows = static_cast<std::size_t>(block_.shadows.count);
         for (int i = 0; i < lanes<Real>; ++i) {
             std::size_t const stop = number(c.stop, i);
-            if (!holds(at, i) || stop <= plan.transient) continue;
-            std::size_t const interval = stop - plan.transient - 1;
-            double* const row = block_.growth_values + (number(c.member, i) * plan.intervals() + interval) * shadows;
-            for (std::size_t j = 0; j < shadows; ++j) row[j] = lane(growth[j], i);
+            if (!holds(at, i) || stop < plan.transient || (stop - plan.transient) % plan.growth_every != 0) continue;
+            std::size_t const record = (stop - plan.transient) / plan.growth_every;
+            if (record == 0) set_lane(c.shadowed.lost, i, 0.0);
+            double* const rows = block_.growth_values + number(c.member, i) * plan.growths() * shadows;
+            for (std::size_t j = 0; j < shadows; ++j) {
+                Real& growth = pack.state.shadows[j].growth;
+                if (record > 0) rows[(record - 1) * shadows + j] = lane(growth, i);
+                set_lane(growth, i, 0.0);
+            }
         }
     }
 
@@ -128,6 +134,7 @@ public:
             double const time = lane(c.t, i);
             block_.records[member] = {status, number(c.accepted, i),  number(c.rejected, i),   number(c.evaluations, i),
                                       time,   number(c.jacobians, i), number(c.stiff_steps, i)};
+            if constexpr (Model::has_shadows) block_.records[member].lost_offsets = number(c.shadowed.lost, i);
             for (int j = 0; j < Model::size; ++j) block_.final_states[member * Model::size + j] = lane(c.y[j], i);
             if (block_.quantities != 0) {
                 constexpr auto columns = Pack<Model, Real>::Observer::columns;
@@ -154,10 +161,10 @@ private:
         std::size_t const past = from > plan.transient ? from - plan.transient : 0;  // recorded stops behind it
         if (block_.section_values != nullptr) {
             std::size_t const taken = (past + plan.section_every - 1) / plan.section_every;
-            fill(block_.section_values, member, plan.sections(), taken, Model::size);
+            fill(block_.section_values, member, plan.sections(), taken, 1 + Model::size);
         }
         if (block_.growth_values != nullptr) {
-            fill(block_.growth_values, member, plan.intervals(), past > 0 ? past - 1 : 0,
+            fill(block_.growth_values, member, plan.growths(), past > 0 ? (past - 1) / plan.growth_every : 0,
                  static_cast<std::size_t>(block_.shadows.count));
         }
     }

@@ -100,19 +100,19 @@ public:
 
     /// At a stop: how the offsets have grown since the last one, and the shadows put back to d0 in the directions they went.  One is
     /// left alone within its bounds; several are made orthogonal, so that the j-th shows the j-th largest rate (Benettin et al. 1980).
-    /// @param growth [count] ln of the growth
-    SLIDEWAY_NOINLINE void rescale(Pack<Model, Real>& pack, Mask<Real> at, Real* growth) {
+    SLIDEWAY_NOINLINE void rescale(Pack<Model, Real>& pack, Mask<Real> at) {
         Real w[most_shadows][width], length[most_shadows];
-        int const count = plan_.count;
-        for (int s = 0; s < count; ++s) read_offset(pack, pack.state.shadows[s], w[s]);
-        orthonormalise<size, width>(w, count, Real(least_distance), length);
+        for (int s = 0; s < plan_.count; ++s) read_offset(pack, pack.state.shadows[s], w[s]);
+        orthonormalise<size, width>(w, plan_.count, Real(least_distance), length);
         Real const d0(plan_.d0);
-        for (int s = 0; s < count; ++s) {
+        for (int s = 0; s < plan_.count; ++s) {
             auto& shadow = pack.state.shadows[s];
             Real const reached = max(length[s], Real(least_distance));
-            growth[s] = log_positive(reached / shadow.distance);
+            shadow.growth = select(at, shadow.growth + log_positive(reached / shadow.distance), shadow.growth);
+            auto& lost = pack.state.course.shadowed.lost;
+            lost = lost + count<Real>(at & !(length[s] > Real(least_distance)));
             auto moved = at;
-            if (count == 1) moved = at & !((reached >= Real(plan_.lower)) & (reached <= Real(plan_.upper)));
+            if (plan_.count == 1) moved = at & !((reached >= Real(plan_.lower)) & (reached <= Real(plan_.upper)));
             shadow.distance = select(at, select(moved, d0, reached), shadow.distance);
             if (none(moved)) continue;
             write_offset(pack, moved, w[s], d0, shadow);

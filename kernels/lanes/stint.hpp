@@ -217,10 +217,10 @@ private:
             return c.t + pack_.step;
         } else {
             // Two sums without loss (Knuth); a landing starts a new count.
-            Real const step = pack_.step + c.fine_time.rest, sum = c.t + step;
+            Real const step = pack_.step + c.shadowed.fine_time, sum = c.t + step;
             Real const of_step = sum - c.t;
             Real const rest = (c.t - (sum - of_step)) + (step - of_step);
-            c.fine_time.rest = select(accepted, select(landed, Real(0.0), rest), c.fine_time.rest);
+            c.shadowed.fine_time = select(accepted, select(landed, Real(0.0), rest), c.shadowed.fine_time);
             return sum;
         }
     }
@@ -232,9 +232,8 @@ private:
         if (none(at)) return;
         results_.take_section(pack_, at);
         if constexpr (Model::has_shadows) {
-            Real growth[most_shadows];
-            shadows_.rescale(pack_, at, growth);
-            results_.take_growth(pack_, at, growth);
+            shadows_.rescale(pack_, at);
+            results_.take_growth(pack_, at);
         }
         c.stop = c.stop + count<Real>(at);
     }
