@@ -162,7 +162,7 @@ std::vector<double> uniform_times(double end_time, std::size_t count) {
 
 void read_study(Node const& root, Scene& scene) {
     if (Node const* const kind = root.find_path("study.kind")) {
-        scene.study = study_names[read_available(*kind, "study", study_names, available_studies)];
+        scene.study = static_cast<StudyKind>(read_available(*kind, "study", study_names, available_studies));
     }
     if (Node const* const node = root.find_path("study.members")) {
         scene.members = read_count(*node, "number of members", 1, most_members);

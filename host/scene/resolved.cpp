@@ -108,7 +108,7 @@ std::string resolved_toml(Scene const& scene) {
     text += fmt::format(
         "\n[study]\nkind = \"{}\"\nmembers = {}\nseed = {}\nduration = {}  # s\nsamples = {}\n"
         "quantities = [{}]\n",
-        scene.study, scene.members, scene.seed, number(scene.integrator.end_time), scene.sample_times.size(),
+        name_of(scene.study), scene.members, scene.seed, number(scene.integrator.end_time), scene.sample_times.size(),
         quantities_text(scene));
     if (!scene.variations.empty()) text += "\n[study.vary]\n";
     for (Variation const& variation : scene.variations) {

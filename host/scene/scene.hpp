@@ -9,6 +9,7 @@
 #include "host/scene/distribution.hpp"
 #include "host/scene/error.hpp"
 #include "host/scene/keys.hpp"
+#include "host/scene/study_settings.hpp"
 #include "kernels/block.hpp"
 
 namespace slideway {
@@ -26,7 +27,8 @@ struct Scene {
     Inputs inputs;                          // as given; entries that follow others are NaN
     Parts parts;
     IntegratorSettings integrator;          // end_time and max_step resolved
-    std::string study = "ensemble";
+    StudyKind study = StudyKind::ensemble;
+    ChaosSettings chaos;                    // of the studies that ask for it
     std::uint64_t members = 1;
     std::uint64_t seed = 1;
     std::vector<double> sample_times;       // empty: no time series

@@ -1,0 +1,70 @@
+// What the studies of chaos are asked for: [study] of lyapunov, poincare and sweep, in SI units.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <string_view>
+#include <vector>
+
+#include "host/scene/keys.hpp"
+
+namespace slideway {
+
+enum class StudyKind { ensemble, lyapunov, poincare, sweep };
+
+inline constexpr std::string_view study_kind_names[] = {"ensemble", "lyapunov", "poincare", "sweep"};
+constexpr std::string_view name_of(StudyKind kind) { return study_kind_names[static_cast<int>(kind)]; }
+
+/// A length of time: seconds, or revolutions of the member's own crank.
+struct Span {
+    double value = 0;
+    bool revolutions = false;
+
+    /// Infinite where revolutions are asked of a crank at rest.
+    double seconds(double crank_speed) const {
+        if (!revolutions || value == 0) return value;
+        return value * (2 * std::numbers::pi / std::abs(crank_speed));
+    }
+    friend bool operator==(Span const&, Span const&) = default;
+};
+
+enum class CrossingDirection { rising, falling, both };
+
+inline constexpr std::string_view crossing_direction_names[] = {"rising", "falling", "both"};
+constexpr std::string_view name_of(CrossingDirection direction) {
+    return crossing_direction_names[static_cast<int>(direction)];
+}
+
+/// Where a section of the orbit is taken: at a crank angle, a known time, or where a state or a gap crosses a level.
+/// A gap is the penetration of an apex, negated: > 0 apart.
+struct SectionSurface {
+    enum class On { phase, state, gap_y, gap_z };
+    On on = On::phase;
+    int index = 0;     // of the state (y z vy vz roll yaw pitch wx wy wz), or of the apex, P1…P8 from 0
+    double level = 0;  // crank angle [rad], any turn of it; else the state's unit, or [m] of the gap
+    CrossingDirection direction = CrossingDirection::rising;  // a phase has none
+
+    friend bool operator==(SectionSurface const&, SectionSurface const&) = default;
+};
+
+/// Each study reads what it names; the rest stays as it is here.
+struct ChaosSettings {
+    Span transient;                    // left out before anything is recorded
+    Span span;                         // recorded after it
+    SectionSurface section;            // poincare; sweep: a phase
+    std::size_t max_crossings = 1000;  // recorded of a member; poincare, not of a phase
+    int exponents = 0;                 // the largest ones; sweep: 0 for none; at most most_shadows
+    // Distances of neighbours, in the scales of integrator.atol.
+    double d0 = 1e-6;
+    double d0_lower = 1e-9, d0_upper = 1e-3;  // a single neighbour is rescaled beyond them
+    Span dt;                                  // between rescalings; sweep: a whole fraction of a revolution
+    std::size_t history = 0;                  // points of the convergence history; lyapunov
+    // sweep
+    Key const* parameter = nullptr;
+    std::vector<double> values;  // SI
+    bool continued = false;      // a column starts from the last states of the one before
+};
+
+}  // namespace slideway
