@@ -19,13 +19,14 @@ std::string default_output(RunArguments const& arguments) {
 }
 
 MemberRange member_range(RunArguments const& arguments, Scene const& scene) {
-    if (!arguments.members) return {0, scene.members};
+    std::uint64_t const members = member_count(scene);
+    if (!arguments.members) return {0, members};
     MemberRange const range = *arguments.members;
-    if (range.count > scene.members || range.first > scene.members - range.count) {
+    if (range.count > members || range.first > members - range.count) {
         std::string const asked = range.count == 1
                                       ? fmt::format("--member {}", range.first)
                                       : fmt::format("--members {}..{}", range.first, range.first + range.count - 1);
-        throw SceneError(fmt::format("{}: {} has members 0 to {}", asked, scene.path, scene.members - 1));
+        throw SceneError(fmt::format("{}: {} has members 0 to {}", asked, scene.path, members - 1));
     }
     return range;
 }

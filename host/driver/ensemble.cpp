@@ -34,6 +34,21 @@ std::uint64_t EnsembleTotals::failed() const {
            ended[static_cast<std::size_t>(Status::finished)];
 }
 
+EnsembleTotals& EnsembleTotals::operator+=(EnsembleTotals const& later) {
+    for (std::size_t i = 0; i < ended.size(); ++i) ended[i] += later.ended[i];
+    not_run += later.not_run;
+    steps_accepted += later.steps_accepted;
+    steps_rejected += later.steps_rejected;
+    stiff_steps += later.stiff_steps;
+    rhs_evaluations += later.rhs_evaluations;
+    jacobian_evaluations += later.jacobian_evaluations;
+    lane_steps_executed += later.lane_steps_executed;
+    lane_steps_useful += later.lane_steps_useful;
+    seconds += later.seconds;
+    stopped = later.stopped;
+    return *this;
+}
+
 double EnsembleTotals::lane_utilisation() const {
     if (lane_steps_executed == 0) return 1;
     return static_cast<double>(lane_steps_useful) / static_cast<double>(lane_steps_executed);

@@ -33,6 +33,7 @@ struct EnsembleTotals {
 
     std::uint64_t failed() const;     // members that ended otherwise than finished
     double lane_utilisation() const;  // useful / executed lane steps; 1 if there were none
+    EnsembleTotals& operator+=(EnsembleTotals const& later);
 };
 
 /// Threads that this process may use at once (OMP_NUM_THREADS, else the processors it may run on).

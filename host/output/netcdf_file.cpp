@@ -11,6 +11,8 @@
 #include "host/scene/error.hpp"
 
 namespace slideway {
+
+static_assert(NetcdfFile::unlimited == NC_UNLIMITED);
 namespace {
 
 constexpr int closed = -1;

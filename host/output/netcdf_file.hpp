@@ -31,6 +31,7 @@ public:
     ~NetcdfFile();  // closes; what fails then is lost: call close()
     void close();
 
+    static constexpr std::size_t unlimited = 0;  // as `length`: grows with what is written
     int add_dimension(std::string const& name, std::size_t length);
     /// A float64 variable reads as NaN wherever nothing was written, if `fill` is set.
     int add_variable(std::string const& name, Type type, std::span<int const> dimensions, bool fill = false);

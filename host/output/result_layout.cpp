@@ -3,6 +3,8 @@
 #include <bit>
 #include <iterator>
 
+#include "host/driver/block_result.hpp"
+
 namespace slideway {
 
 std::vector<std::string> labels_of(std::string const& dimension) {
@@ -20,6 +22,8 @@ std::uint64_t payload_bytes(ResultLayout const& layout) {
     }
     std::uint64_t const samples = layout.sample_times.size();
     if (samples > 0) columns += static_cast<std::uint64_t>(std::popcount(layout.series)) * samples;
+    if (layout.sections > 0) columns += 1 + layout.sections * section_columns;
+    for (StudyColumn const& column : layout.study.columns) columns += layout.study.width(column);
     constexpr std::uint64_t member_and_status = 5;
     return layout.members * (member_and_status + columns * sizeof(double)) + samples * sizeof(double);
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/output/study_columns.hpp"
 #include "kernels/block.hpp"
 
 namespace slideway {
@@ -24,6 +25,8 @@ struct ResultLayout {
     Selection quantities = 0;
     Selection series = 0;
     std::vector<ParameterColumn> parameters;
+    std::size_t sections = 0;  // of a member, at most; 0: none are stored
+    StudyTable study;          // what the study concludes of each member
 };
 
 /// Labels along a dimension of the quantity table: "P1" … "P8", the mode classes, "roll" "yaw" "pitch".

@@ -54,7 +54,7 @@ void remove_leftover(std::string const& path, std::string const& part) {
 }  // namespace
 
 ResultWriter::ResultWriter(std::string path, ResultLayout layout, Provenance const& provenance)
-    : path_(std::move(path)), part_(path_ + ".part"), layout_(std::move(layout)) {
+    : path_(std::move(path)), part_(path_ + ".part"), layout_(std::move(layout)), study_(layout_.study) {
     constexpr std::uint64_t largest = std::numeric_limits<int>::max();
     if (layout_.members > largest || layout_.first_member > largest - layout_.members) {
         throw FileError(fmt::format("{}: cannot number members beyond {}", path_, largest));
@@ -84,8 +84,11 @@ ResultWriter::ResultWriter(std::string path, ResultLayout layout, Provenance con
         define_members();
         define_quantities();
         define_series();
+        study_.define(*file_, member_dimension_);
+        if (layout_.sections > 0) sections_.emplace().define(*file_, member_dimension_);
         file_->end_definitions();
         write_coordinates();
+        study_.write_axes(*file_);
         reserve_space();
     } catch (...) {
         file_.reset();
@@ -226,9 +229,10 @@ void ResultWriter::reserve_space() {
     // The first value makes HDF5 allocate a variable's storage and fill it with NaN.  A full disk so shows before the
     // work instead of after it, and the storage lies in the order of definition whichever block comes first.
     double const nan = std::numeric_limits<double>::quiet_NaN();
-    std::size_t const origin[2] = {0, 0}, one[2] = {1, 1};
+    std::size_t const origin[3] = {0, 0, 0}, one[3] = {1, 1, 1};
     for (NetcdfFile::Variable const& variable : file_->variables()) {
         if (variable.type != Type::float64 || variable.id == time_ || variable.size() == 0) continue;
+        if (study_.is_axis(variable.id)) continue;
         file_->write(variable.id, {origin, variable.shape.size()}, {one, variable.shape.size()}, &nan);
     }
 }
@@ -239,7 +243,7 @@ void ResultWriter::write_column(int variable, BlockResult const& block, std::vec
     file_->write(variable, start, count, values.data());
 }
 
-void ResultWriter::write(BlockResult const& block) {
+void ResultWriter::write(BlockResult const& block, StudyValues const& study) {
     std::size_t const members = block.records.size();
     std::size_t const start[2] = {static_cast<std::size_t>(block.first), 0};
     std::vector<double> column(members);
@@ -280,9 +284,12 @@ void ResultWriter::write(BlockResult const& block) {
         std::size_t const count[2] = {members, samples};
         file_->write(series_[k], start, count, block.series.data() + k * members * samples);
     }
+    study_.write(*file_, start[0], members, study);
+    if (sections_) sections_->write(*file_, block);
 }
 
 void ResultWriter::finish(double lane_utilisation, StopReason stopped) {
+    if (sections_) sections_->finish(*file_, layout_.members);
     file_->put_number(NetcdfFile::global, "lane_utilisation", lane_utilisation);
     char const* const end = stopped == StopReason::none     ? "complete"
                             : stopped == StopReason::signal ? "stopped by a signal"

@@ -10,6 +10,8 @@
 #include "host/output/netcdf_file.hpp"
 #include "host/output/provenance.hpp"
 #include "host/output/result_layout.hpp"
+#include "host/output/section_writer.hpp"
+#include "host/output/study_columns.hpp"
 
 namespace slideway {
 
@@ -25,8 +27,8 @@ public:
     ResultWriter(ResultWriter const&) = delete;
     ResultWriter& operator=(ResultWriter const&) = delete;
 
-    /// Blocks in any order; the file is the same.  @throws FileError.
-    void write(BlockResult const& block);
+    /// Blocks in any order; the file is the same.  @param study the study's columns of these members  @throws FileError.
+    void write(BlockResult const& block, StudyValues const& study = {});
 
     /// Hashes, closes and renames.  @throws FileError; if only the renaming failed, the file stays as `path`.part.
     void finish(double lane_utilisation, StopReason stopped);
@@ -59,6 +61,8 @@ private:
         std::vector<std::string> labels;
     };
     std::vector<LabelVariable> labels_;
+    std::optional<SectionWriter> sections_;
+    StudyColumnWriter study_;
 };
 
 }  // namespace slideway

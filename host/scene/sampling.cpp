@@ -33,9 +33,18 @@ double draw(Scene const& scene, Variation const& variation, std::uint64_t member
     return variation.distribution.quantile(uniform_draw(scene.seed, member, variation.key->name));
 }
 
+std::uint64_t member_count(Scene const& scene) {
+    return scene.study == StudyKind::sweep ? scene.members * scene.chaos.values.size() : scene.members;
+}
+
 Inputs member_inputs(Scene const& scene, std::uint64_t member) {
     Inputs inputs = scene.inputs;
-    for (Variation const& variation : scene.variations) variation.key->set(inputs, draw(scene, variation, member));
+    std::uint64_t start = member;
+    if (scene.study == StudyKind::sweep) {
+        start = member % scene.members;
+        scene.chaos.parameter->set(inputs, scene.chaos.values.at(static_cast<std::size_t>(member / scene.members)));
+    }
+    for (Variation const& variation : scene.variations) variation.key->set(inputs, draw(scene, variation, start));
     return complete_inputs(inputs);
 }
 

@@ -47,8 +47,12 @@ Scene read_scene(std::string const& path, Overrides const& overrides = {});
 /// The same from the text of a scene; `name` stands for the path in messages.
 Scene parse_scene(std::string const& text, std::string const& name, Overrides const& overrides = {});
 
+/// Members of all columns of a sweep, else `members`.
+std::uint64_t member_count(Scene const& scene);
+
 /// Inputs of one member, complete; `defect` tells whether the draw can be used.  Depends on the scene and the member's
 /// number only (Philox keyed by seed, member and key name), so any member can be drawn alone, on any thread or machine.
+/// In a sweep members [0, members) are the starts of the first column, and so on: each column has the same starts.
 Inputs member_inputs(Scene const& scene, std::uint64_t member);
 
 /// The value that member draws for a variation, in SI units.

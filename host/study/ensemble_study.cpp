@@ -4,6 +4,9 @@
 #include <optional>
 
 #include "host/output/result_writer.hpp"
+#include "host/study/continued_sweep.hpp"
+#include "host/study/exponent_table.hpp"
+#include "host/study/orbit_schedule.hpp"
 
 namespace slideway {
 
@@ -15,13 +18,17 @@ double predicted_cost(Inputs const& inputs) { return 1 / std::min(inputs.clearan
 }  // namespace
 
 ResultLayout result_layout(Scene const& scene, MemberRange range) {
-    ResultLayout layout{range.first, range.count, scene.sample_times, scene.quantities, scene.series, {}};
-    for (Variation const& variation : scene.variations) {
-        std::string name(variation.key->name);
+    ResultLayout layout{range.first, range.count, scene.sample_times, scene.quantities, scene.series, {}, 0, {}};
+    auto const add = [&layout](Key const& key) {
+        std::string name(key.name);
         std::replace(name.begin(), name.end(), '.', '_');
-        layout.parameters.push_back({std::move(name), std::string(variation.key->unit),
-                                     std::string(variation.key->meaning), variation.key->member});
-    }
+        layout.parameters.push_back({std::move(name), std::string(key.unit), std::string(key.meaning), key.member});
+    };
+    if (scene.study == StudyKind::sweep) add(*scene.chaos.parameter);
+    for (Variation const& variation : scene.variations) add(*variation.key);
+    OrbitSchedule const schedule = orbit_schedule(scene);
+    if (schedule.sections) layout.sections = schedule.stops.sections();
+    layout.study = ExponentTable(scene).layout();
     return layout;
 }
 
@@ -31,7 +38,12 @@ EnsemblePlan ensemble_plan(Scene const& scene, MemberRange range, Isa isa, int t
     plan.members = range.count;
     plan.block_members = default_block_members(range.count, threads, lanes_of(isa));
     plan.threads = threads;
-    plan.request = {scene.integrator, scene.sample_times, scene.quantities, scene.series, predicted_cost};
+    OrbitSchedule const schedule = orbit_schedule(scene);
+    plan.request = {scene.integrator, scene.sample_times, scene.quantities,  scene.series,       predicted_cost,
+                    schedule.timing,  schedule.stops,     schedule.sections, shadow_plan(scene), {}};
+    plan.request.directions = [seed = scene.seed, shadows = plan.request.shadows.count](std::uint64_t member, double* out) {
+        draw_directions(seed, member, shadows, out);
+    };
     plan.source = [&scene](std::uint64_t member, Inputs& inputs) {
         inputs = member_inputs(scene, member);
         return !defect(inputs);
@@ -50,9 +62,12 @@ EnsembleTotals run_ensemble_study(Scene const& scene, EnsembleOptions const& opt
     EnsembleTotals totals;
     {
         Progress progress(options.range.count, options.progress, stderr, stop);
-        totals = run_ensemble(
-            plan, find_instance(options.isa, scene.parts), [&writer](BlockResult const& block) { writer.write(block); },
-            stop, &progress);
+        ExponentTable const exponents(scene);
+        KernelInstance const kernel = find_instance(options.isa, scene.parts);
+        auto const sink = [&](BlockResult const& block) { writer.write(block, exponents.values(block)); };
+        totals = scene.study == StudyKind::sweep && scene.chaos.continued
+                     ? run_continued(scene, plan, kernel, sink, stop, progress)
+                     : run_ensemble(plan, kernel, sink, stop, &progress);
     }
     writer.finish(totals.lane_utilisation(), totals.stopped);
     return totals;

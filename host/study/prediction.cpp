@@ -39,7 +39,7 @@ std::uint64_t summary_bytes(Scene const& scene) {
     for (int q = 0; q < quantity_count; ++q) {
         if (selects(scene.quantities, static_cast<Quantity>(q))) widest = std::max(widest, quantity_table[q].columns);
     }
-    return scene.members * sizeof(double) * (1 + (widest > 0 ? static_cast<std::uint64_t>(widest) + 2 : 0));
+    return member_count(scene) * sizeof(double) * (1 + (widest > 0 ? static_cast<std::uint64_t>(widest) + 2 : 0));
 }
 
 }  // namespace
@@ -58,9 +58,9 @@ double stiffest_rate(Inputs const& in) {
 }
 
 Prediction predict(Scene const& scene, Isa isa, int threads) {
-    MemberRange const all{0, scene.members};
+    MemberRange const all{0, member_count(scene)};
     EnsemblePlan const plan = ensemble_plan(scene, all, isa, threads);
-    auto const members = static_cast<double>(scene.members);
+    auto const members = static_cast<double>(plan.members);
     std::uint64_t const blocks = (plan.members + plan.block_members - 1) / plan.block_members;
     std::uint64_t const busy = std::min<std::uint64_t>(static_cast<std::uint64_t>(threads), blocks);
 
@@ -69,7 +69,7 @@ Prediction predict(Scene const& scene, Isa isa, int threads) {
     prediction.busy_threads = static_cast<int>(std::max<std::uint64_t>(busy, 1));
     prediction.buffer_bytes =
         busy *
-        block_bytes(plan.request, static_cast<std::size_t>(std::min<std::uint64_t>(plan.block_members, scene.members)));
+        block_bytes(plan.request, static_cast<std::size_t>(std::min<std::uint64_t>(plan.block_members, plan.members)));
     prediction.summary_bytes = summary_bytes(scene);
     prediction.output_bytes = payload_bytes(result_layout(scene, all));
     double const end = scene.integrator.end_time;

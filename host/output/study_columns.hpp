@@ -1,0 +1,52 @@
+// What a study concludes of its members, as further variables of the result file.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "host/output/netcdf_file.hpp"
+
+namespace slideway {
+
+/// A dimension of its own with the values along it.
+struct StudyAxis {
+    std::string name;
+    std::string unit;
+    std::string long_name;
+    std::vector<double> values;
+};
+
+/// One value, or a row of values along axes, per member.
+struct StudyColumn {
+    std::string name;
+    std::string unit;
+    std::string long_name;
+    std::vector<std::string> axes;  // names of StudyAxis, slowest first
+};
+
+struct StudyTable {
+    std::vector<StudyAxis> axes;
+    std::vector<StudyColumn> columns;
+
+    /// Values of a column per member.
+    std::size_t width(StudyColumn const& column) const;
+};
+
+/// Values of a table's columns for the members of one block: [column][members × width].
+using StudyValues = std::vector<std::vector<double>>;
+
+class StudyColumnWriter {
+public:
+    explicit StudyColumnWriter(StudyTable table) : table_(std::move(table)) {}
+    void define(NetcdfFile& file, int member_dimension);
+    void write_axes(NetcdfFile& file) const;
+    bool is_axis(int variable) const;
+    void write(NetcdfFile& file, std::size_t first, std::size_t members, StudyValues const& values) const;
+
+private:
+    StudyTable const table_;
+    std::vector<int> axes_, columns_;
+};
+
+}  // namespace slideway

@@ -1,0 +1,87 @@
+#include "host/study/exponent_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "host/chaos/exponents.hpp"
+
+namespace slideway {
+namespace {
+
+constexpr std::size_t from_exponents = 2;  // fewer tell no dimension
+
+/// Largest first, each with its error: QR sorts them only in the limit.
+void sort(FiniteTimeExponents& exponents) {
+    std::vector<std::pair<double, double>> pairs;
+    for (std::size_t j = 0; j < exponents.values.size(); ++j) {
+        if (std::isnan(exponents.values[j])) return;
+        pairs.emplace_back(exponents.values[j], exponents.errors[j]);
+    }
+    std::stable_sort(pairs.begin(), pairs.end(), [](auto const& a, auto const& b) { return a.first > b.first; });
+    for (std::size_t j = 0; j < pairs.size(); ++j) std::tie(exponents.values[j], exponents.errors[j]) = pairs[j];
+}
+
+/// `points` of the records, the last among them, at equal distances.
+std::vector<std::size_t> history_records(std::size_t records, std::size_t points) {
+    std::size_t const count = std::min(records, points);
+    std::vector<std::size_t> after;
+    for (std::size_t i = 1; i <= count; ++i) after.push_back(i * records / count);
+    return after;
+}
+
+}  // namespace
+
+ExponentTable::ExponentTable(Scene const& scene)
+    : schedule_(orbit_schedule(scene)), exponents_(static_cast<std::size_t>(shadow_plan(scene).count)) {
+    if (exponents_ == 0) return;
+    history_ = history_records(schedule_.stops.growths(), scene.chaos.history);
+    StudyAxis exponent{"exponent", "1", "number of the exponent, the largest first", {}};
+    for (std::size_t j = 1; j <= exponents_; ++j) exponent.values.push_back(static_cast<double>(j));
+    layout_.axes.push_back(exponent);
+    layout_.columns = {
+        {"lyapunov_exponent", "s-1", "finite-time Lyapunov exponents, by shadows", {"exponent"}},
+        {"lyapunov_exponent_error", "s-1", "standard error of the exponent, by batch means", {"exponent"}},
+        {"lyapunov_time", "s", "time over which the exponents are taken, after the transient", {}},
+        {"lost_offsets", "1", "times that an offset had shrunk into rounding: then exponents are upper bounds", {}},
+    };
+    if (exponents_ >= from_exponents) {
+        layout_.columns.push_back({"kaplan_yorke_dimension", "1",
+                                   "Kaplan-Yorke dimension of the section at a crank angle; one more for the flow", {}});
+    }
+    if (history_.empty()) return;
+    StudyAxis history{"history", "1", "rescalings after the transient", {}};
+    for (std::size_t const records : history_) {
+        history.values.push_back(static_cast<double>(records * schedule_.stops.growth_every));
+    }
+    layout_.axes.push_back(history);
+    layout_.columns.push_back(
+        {"lyapunov_history", "s-1", "running exponents after so many rescalings", {"history", "exponent"}});
+}
+
+StudyValues ExponentTable::values(BlockResult const& block) const {
+    StudyValues columns(layout_.columns.size());
+    if (exponents_ == 0) return columns;
+    std::size_t const per_member = schedule_.stops.growths() * exponents_;
+    auto const append = [](std::vector<double>& column, std::vector<double> const& row) {
+        column.insert(column.end(), row.begin(), row.end());
+    };
+    for (std::size_t i = 0; i < block.records.size(); ++i) {
+        auto const growths = block.growths.subspan(i * per_member, per_member);
+        double const spacing = schedule_.timing(block.inputs[i]).period;
+        double const record = spacing * static_cast<double>(schedule_.stops.growth_every);
+        FiniteTimeExponents exponents = finite_time_exponents(growths, exponents_, record);
+        sort(exponents);
+        append(columns[0], exponents.values);
+        append(columns[1], exponents.errors);
+        auto const whole = std::find_if(growths.begin(), growths.end(), [](double g) { return std::isnan(g); });
+        columns[2].push_back(record * static_cast<double>(static_cast<std::size_t>(whole - growths.begin()) / exponents_));
+        columns[3].push_back(static_cast<double>(block.records[i].lost_offsets));
+        if (exponents_ >= from_exponents) columns[4].push_back(kaplan_yorke_dimension(exponents.values));
+        if (!history_.empty()) append(columns.back(), exponent_history(growths, exponents_, record, history_));
+    }
+    return columns;
+}
+
+}  // namespace slideway

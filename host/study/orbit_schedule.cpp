@@ -1,0 +1,99 @@
+#include "host/study/orbit_schedule.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/scene/sampling.hpp"
+
+namespace slideway {
+namespace {
+
+constexpr std::size_t growth_records = 256;  // at least, where there are as many rescalings: for the history and its errors
+
+double period(Inputs const& inputs) { return 2 * std::numbers::pi / std::abs(inputs.crank_speed); }
+
+std::size_t whole(double ratio) { return static_cast<std::size_t>(std::max(0.0, std::round(ratio))); }
+
+/// The end is the last stop, to the last bit as the kernels compute it.
+MemberClock clock(double first, double spacing, std::size_t stops) {
+    return {std::fma(static_cast<double>(stops - 1), spacing, first), first, spacing};
+}
+
+/// Rescalings every dt from the start; those of the transient leave no record.
+OrbitSchedule of_exponents(Scene const& scene) {
+    ChaosSettings const& chaos = scene.chaos;
+    double const speed = scene.inputs.crank_speed, dt = chaos.dt.seconds(speed);
+    OrbitSchedule schedule;
+    StopPlan& stops = schedule.stops;
+    std::size_t const rescalings = std::max<std::size_t>(1, whole(chaos.span.seconds(speed) / dt));
+    stops.growth_every = std::max<std::size_t>(1, rescalings / growth_records);
+    std::size_t const records = (rescalings + stops.growth_every - 1) / stops.growth_every;
+    stops.transient = std::max<std::size_t>(1, whole(chaos.transient.seconds(speed) / dt)) - 1;
+    stops.count = stops.transient + records * stops.growth_every + 1;
+    schedule.timing = [spacing = chaos.dt, count = stops.count](Inputs const& inputs) {
+        double const length = spacing.seconds(inputs.crank_speed);
+        return clock(length, length, count);
+    };
+    return schedule;
+}
+
+/// Sections once a revolution, with rescalings at equal times between them if there are shadows.
+OrbitSchedule of_sections(Scene const& scene) {
+    ChaosSettings const& chaos = scene.chaos;
+    double const speed = scene.inputs.crank_speed, turn = period(scene.inputs);
+    std::size_t const per_turn =
+        chaos.exponents > 0 ? std::max<std::size_t>(1, whole(turn / chaos.dt.seconds(speed))) : 1;
+    std::size_t const transient = whole(std::ceil(chaos.transient.seconds(speed) / turn - 1e-9));
+    std::size_t const sections = std::max<std::size_t>(1, whole(chaos.span.seconds(speed) / turn));
+    OrbitSchedule schedule;
+    schedule.sections = true;
+    schedule.stops.transient = transient * per_turn;
+    schedule.stops.count = schedule.stops.transient + (sections - 1) * per_turn + 1;
+    schedule.stops.section_every = schedule.stops.growth_every = per_turn;
+    schedule.timing = [phase = chaos.section.level, per_turn, count = schedule.stops.count](Inputs const& inputs) {
+        return clock(first_time_at(phase, inputs), period(inputs) / static_cast<double>(per_turn), count);
+    };
+    return schedule;
+}
+
+}  // namespace
+
+double first_time_at(double phase, Inputs const& inputs) {
+    double const turn = period(inputs);
+    double const time = std::fmod((phase - inputs.start_angle) / inputs.crank_speed, turn);
+    double const positive = time > 0 ? time : time + turn;
+    // A start at the angle itself is no return to it.
+    return positive > 1e-9 * turn ? positive : positive + turn;
+}
+
+OrbitSchedule orbit_schedule(Scene const& scene) {
+    OrbitSchedule schedule;
+    if (scene.study == StudyKind::lyapunov) schedule = of_exponents(scene);
+    if (scene.study == StudyKind::poincare || scene.study == StudyKind::sweep) schedule = of_sections(scene);
+    if (schedule.timing) schedule.longest = schedule.timing(scene.inputs).end;
+    return schedule;
+}
+
+ShadowPlan shadow_plan(Scene const& scene) {
+    if (scene.study == StudyKind::ensemble || scene.study == StudyKind::poincare) return {};
+    ChaosSettings const& chaos = scene.chaos;
+    return {chaos.exponents, chaos.d0, chaos.d0_lower, chaos.d0_upper, nullptr};
+}
+
+void draw_directions(std::uint64_t seed, std::uint64_t member, int shadows, double* directions) {
+    for (int shadow = 0; shadow < shadows; ++shadow) {
+        double* const w = directions + shadow * state_size;
+        double squares = 0;
+        for (int i = 0; i < state_size; ++i) {
+            auto const place = static_cast<std::uint64_t>(shadow * state_size + i);
+            std::uint64_t const word = philox({member, place, 0, 0}, {seed, name_hash("shadow")})[0];
+            w[i] = static_cast<double>(static_cast<std::int64_t>(word >> 11)) * 0x1p-52 - 1;  // in [-1, 1)
+            squares += w[i] * w[i];
+        }
+        double const length = std::sqrt(squares);
+        for (int i = 0; i < state_size; ++i) w[i] /= length;
+    }
+}
+
+}  // namespace slideway

@@ -1,0 +1,32 @@
+// When the members of a study of orbits stop: for a section, or to have their shadows rescaled.
+#pragma once
+
+#include <cstdint>
+
+#include "host/driver/block_buffers.hpp"
+#include "host/scene/scene.hpp"
+
+namespace slideway {
+
+/// A study's stops.  All members have as many, at times of their own: a revolution is that of the member's crank.  How many is
+/// decided by the crank speed of the scene.
+struct OrbitSchedule {
+    StopPlan stops;
+    MemberTiming timing;
+    bool sections = false;     // the states at the stops' sections are kept
+    double longest = 0;        // [s] of the scene's own member
+};
+
+/// Empty for an ensemble.
+OrbitSchedule orbit_schedule(Scene const& scene);
+
+/// First time in (0, T] at which the crank has the angle `phase` [s]; T = 2π/|ω|.
+double first_time_at(double phase, Inputs const& inputs);
+
+/// Shadows as a study asks for them, without directions.
+ShadowPlan shadow_plan(Scene const& scene);
+
+/// Unit vectors [shadows][state_size], drawn by seed, member and shadow alone.
+void draw_directions(std::uint64_t seed, std::uint64_t member, int shadows, double* directions);
+
+}  // namespace slideway
