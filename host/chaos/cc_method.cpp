@@ -17,7 +17,10 @@ using Radii = std::array<double, radii>;
 /// [m - 1][j]: pairs within rⱼ, then their share.
 using Counts = std::array<std::array<double, radii>, largest_dimension>;
 
+/// 0 for a constant, whatever its mean rounds to.
 double standard_deviation(std::span<double const> series) {
+    auto const [low, high] = std::minmax_element(series.begin(), series.end());
+    if (*low == *high) return 0;
     auto const n = static_cast<double>(series.size());
     double mean = 0, squares = 0;
     for (double const x : series) mean += x / n;

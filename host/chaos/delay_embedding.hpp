@@ -1,6 +1,7 @@
 // Points in delay coordinates, seen over the series: nothing is copied.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 
@@ -22,6 +23,12 @@ public:
         return series_.size() - span();
     }
     double operator()(std::size_t point, std::size_t coordinate) const { return series_[point + coordinate * delay_]; }
+
+    double range() const {  // of the series; 0 for an empty one
+        if (series_.empty()) return 0;
+        auto const [low, high] = std::minmax_element(series_.begin(), series_.end());
+        return *high - *low;
+    }
 
     /// Euclidean, squared; in squared units of the series.
     double squared_distance(std::size_t i, std::size_t j) const {

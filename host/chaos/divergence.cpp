@@ -14,6 +14,7 @@ constexpr std::size_t parts = 10;
 constexpr std::size_t fewest_points = 4;  // of a window that is chosen
 constexpr double share_of_rise = 0.7;
 constexpr double periods_wanted = 1.5;
+constexpr double rounding = 1e-10;  // of the range of the series
 
 /// Sums over the pairs whose reference point lies in one part, per k.
 struct PartSums {
@@ -22,14 +23,14 @@ struct PartSums {
 };
 
 PartSums sums_of_part(DelayEmbedding const& embedding, std::vector<Neighbour> const& neighbours, std::size_t from,
-                      std::size_t to, std::size_t longest) {
+                      std::size_t to, std::size_t longest, double resolution) {
     PartSums sums{std::vector<double>(longest + 1), std::vector<std::size_t>(longest + 1)};
     for (std::size_t i = from; i < to; ++i) {
         std::size_t const j = neighbours[i].index;
         if (j == Neighbour::none) continue;
         for (std::size_t k = 0; k <= longest; ++k) {
             double const squared = embedding.squared_distance(i + k, j + k);
-            if (!(squared > 0)) continue;
+            if (!(squared > resolution * resolution)) continue;
             sums.log[k] += 0.5 * std::log(squared);
             ++sums.pairs[k];
         }
@@ -132,11 +133,12 @@ DivergenceCurve divergence_curve(DelayEmbedding const& embedding, std::size_t th
     DivergenceCurve curve{{}, {}, mean_log_of_strangers(embedding), {}};
     if (embedding.size() <= longest + 1) return curve;
     std::size_t const points = embedding.size() - longest;
-    std::vector<Neighbour> const neighbours = nearest_neighbours(embedding, points, theiler);
+    double const resolution = rounding * embedding.range();
+    std::vector<Neighbour> const neighbours = nearest_neighbours(embedding, points, theiler, resolution);
     std::vector<PartSums> sums;
     for (std::size_t part = 0; part < parts; ++part) {
-        sums.push_back(
-            sums_of_part(embedding, neighbours, part * points / parts, (part + 1) * points / parts, longest));
+        sums.push_back(sums_of_part(embedding, neighbours, part * points / parts, (part + 1) * points / parts, longest,
+                                    resolution));
     }
     for (std::size_t k = 0; k <= longest; ++k) {
         std::size_t pairs = 0;

@@ -14,7 +14,7 @@ namespace slideway {
 /// dᵢ(k) = |Xᵢ₊ₖ - Xⱼ₊ₖ| grows as e^(λ₁ k Δt) until it is as large as the attractor.
 struct DivergenceCurve {
     std::vector<double> mean_log;    // ⟨ln dᵢ(k)⟩ for k = 0, 1, …; d in units of the series
-    std::vector<std::size_t> pairs;  // that the mean is of: those with d > 0
+    std::vector<std::size_t> pairs;  // that the mean is of: those with a distance
     /// ⟨ln d⟩ of points that have nothing to do with each other, half the series apart: where the growth ends.
     double saturation;
     /// [part][k]: the curve without the reference points of one of ten successive parts of the series.
@@ -22,7 +22,8 @@ struct DivergenceCurve {
 };
 
 /// Deviates from the paper in one point: only points with `longest` samples behind them are paired, so that every pair
-/// lives at all k, and the curve does not change for a change of pairs.  It ends before a k at which no pair has a distance.
+/// lives at all k, and the curve does not change for a change of pairs.  It ends before a k at which no pair has a
+/// distance; what is below 1e-10 of the range of the series is rounding and counts as none.
 /// @param theiler neighbours are more than this many samples apart in time.  @param longest largest k [samples].
 /// @return curves without entries if no pair is found.
 DivergenceCurve divergence_curve(DelayEmbedding const& embedding, std::size_t theiler, std::size_t longest);

@@ -16,9 +16,12 @@ struct Neighbour {
 };
 
 /// For each of the first `points` points Xᵢ the nearest Xⱼ among them with |i - j| > theiler (Theiler 1986) and
-/// Xⱼ ≠ Xᵢ: a repeated point has no distance that could grow.  Of equally near ones the first.
+/// |Xᵢ - Xⱼ| > resolution: the distance to a repeated point is none, or rounding, and tells nothing by its growth.  Of equally
+/// near ones the first.
 /// @param points at most embedding.size(); the points behind them are neither asked nor found.
+/// @param resolution in units of the series, ≥ 0.
 /// @return one entry per point; `none` where no point is left.
-std::vector<Neighbour> nearest_neighbours(DelayEmbedding const& embedding, std::size_t points, std::size_t theiler);
+std::vector<Neighbour> nearest_neighbours(DelayEmbedding const& embedding, std::size_t points, std::size_t theiler,
+                                          double resolution = 0);
 
 }  // namespace slideway
