@@ -11,12 +11,13 @@
 namespace slideway::cli {
 namespace {
 
-constexpr std::string_view command_names[] = {"run", "check", "probe", "info", "list"};
+constexpr std::string_view command_names[] = {"run", "check", "probe", "info", "stats", "list"};
 /// Texts of the options as CLI11 fills them in; checked and turned into arguments afterwards.
 struct Words {
     std::string scene, output, isa = "auto", backend = "auto", table, file;
     std::vector<std::string> overrides;
     std::string max_failures, max_hours, member, members, threads;
+    std::string variable, column, spacing, skip_time, skip_samples, max_points, delay, dimension, theiler, fit;
     bool quiet = false;
 };
 
@@ -30,6 +31,25 @@ void add_scene_options(CLI::App& command, Words& words) {
 
 void add_threads(CLI::App& command, Words& words) {
     command.add_option("--threads", words.threads, "Threads (default: all that this process may use)")->type_name("N");
+}
+
+void add_stats_options(CLI::App& command, Words& words) {
+    auto const add = [&](char const* name, std::string& word, char const* help, char const* type) {
+        command.add_option(name, word, help)->type_name(type);
+    };
+    command.add_option("FILE", words.file, "Result file, or a table in CSV")->required()->type_name("");
+    add("--variable", words.variable, "Variable of a result (default y)", "NAME");
+    add("--member", words.member, "Member of a result (default: its first)", "K");
+    add("--column", words.column, "Column of a table, by name or number from 1 (default: the last)", "NAME|N");
+    add("--dt", words.spacing, "Spacing of a table's samples (default: from its column time or t)", "SECONDS");
+    add("--skip", words.skip_time, "Leave out a transient", "SECONDS");
+    add("--skip-samples", words.skip_samples, "Leave out a transient", "N");
+    add("--max-points", words.max_points, "Use at most so many samples", "N");
+    add("--delay", words.delay, "Delay of the embedding in samples (default: C-C method)", "N");
+    add("--dimension", words.dimension, "Dimension of the embedding (default: C-C method)", "M");
+    add("--theiler", words.theiler, "Neighbours are farther apart in time, samples (default: the average period)", "N");
+    add("--fit", words.fit, "Fit the exponent over these samples of the divergence curve (default: found)", "A..B");
+    add("-o,--output", words.output, "Write the C-C curves and the divergence curve to this file", "OUT.csv");
 }
 
 /// `--set` takes all words up to the next option, the scene too where it stands behind: only that has no `=`.
@@ -69,17 +89,42 @@ RunArguments run_arguments(Words const& words) {
     return run;
 }
 
+StatsArguments stats_arguments(Words const& words) {
+    StatsArguments stats;
+    stats.path = words.file;
+    stats.output = words.output;
+    if (!words.variable.empty()) stats.variable = words.variable;
+    if (!words.column.empty()) stats.column = words.column;
+    if (!words.member.empty()) stats.member = parse_member(words.member).first;
+    if (!words.spacing.empty()) stats.spacing = parse_seconds("--dt", words.spacing);
+    if (!words.skip_time.empty()) stats.skip_time = parse_seconds("--skip", words.skip_time);
+    auto const count = [](std::string_view option, std::string const& word, std::size_t least) {
+        return word.empty() ? std::nullopt : std::optional(parse_count(option, word, least));
+    };
+    stats.skip_samples = count("--skip-samples", words.skip_samples, 0);
+    stats.max_points = count("--max-points", words.max_points, 1);
+    stats.options.delay = count("--delay", words.delay, 1);
+    stats.options.dimension = count("--dimension", words.dimension, 1);
+    stats.options.theiler = count("--theiler", words.theiler, 0);
+    if (!words.fit.empty()) stats.options.fit = parse_fit(words.fit);
+    if (stats.skip_time && stats.skip_samples) {
+        throw SceneError("--skip and --skip-samples exclude each other; use one");
+    }
+    return stats;
+}
+
 /// CLI11's own message for an unknown command names all words behind it, but not what was meant.
 void require_known_command(int argc, char const* const* argv) {
     if (argc < 2)
-        throw SceneError("slideway: a command is missing; use run, check, probe, info or list (see slideway --help)");
+        throw SceneError(
+            "slideway: a command is missing; use run, check, probe, info, stats or list (see slideway --help)");
     std::string_view const word = argv[1];
     if (word == "--help" || word == "-h" || word == "--version") return;
     if (std::find(std::begin(command_names), std::end(command_names), word) != std::end(command_names)) return;
     std::string_view const meant = nearest_name(word, command_names);
-    throw SceneError(
-        fmt::format("slideway: there is no command '{}'; {}", word,
-                    meant.empty() ? "use run, check, probe, info or list" : fmt::format("did you mean {}?", meant)));
+    throw SceneError(fmt::format(
+        "slideway: there is no command '{}'; {}", word,
+        meant.empty() ? "use run, check, probe, info, stats or list" : fmt::format("did you mean {}?", meant)));
 }
 
 std::string one_line(std::string text) {
@@ -127,6 +172,9 @@ Arguments parse_arguments(int argc, char const* const* argv) {
     CLI::App* const info = app.add_subcommand("info", "Provenance, statuses and statistics of a result file");
     info->add_option("FILE", words.file, "Result file")->required()->type_name("");
 
+    CLI::App* const stats = app.add_subcommand("stats", "Chaos statistics of a stored series (NetCDF result or CSV)");
+    add_stats_options(*stats, words);
+
     CLI::App* const list = app.add_subcommand("list", "Mechanisms, laws, quantities, keys: what a scene may ask for");
 
     try {
@@ -145,6 +193,7 @@ Arguments parse_arguments(int argc, char const* const* argv) {
     if (check->parsed()) return CheckArguments{scene_arguments(words), threads(words)};
     if (probe->parsed()) return ProbeArguments{scene_arguments(words), words.table, words.output};
     if (info->parsed()) return InfoArguments{words.file};
+    if (stats->parsed()) return stats_arguments(words);
     if (list->parsed()) return ListArguments{};
     throw SceneError("slideway: a command is missing; see slideway --help");
 }

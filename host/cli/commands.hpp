@@ -1,6 +1,8 @@
 // The commands: what the user gave, and what runs.  Each returns the process's exit code.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -8,6 +10,7 @@
 
 #include "host/cli/options.hpp"
 #include "host/scene/scene.hpp"
+#include "host/study/series_analysis.hpp"
 
 namespace slideway::cli {
 
@@ -56,6 +59,19 @@ struct InfoArguments {
 };
 int info(InfoArguments const& arguments);
 
+struct StatsArguments {
+    std::string path;
+    std::optional<std::string> variable, column;  // of a result, of a table
+    std::optional<std::uint64_t> member;          // of a result; empty: its first
+    std::optional<double> spacing;                // of a table [s]
+    std::optional<double> skip_time;              // transient [s]
+    std::optional<std::size_t> skip_samples;
+    std::optional<std::size_t> max_points;  // behind the transient
+    SeriesOptions options;
+    std::string output;  // empty: no curves
+};
+int stats(StatsArguments const& arguments);
+
 struct ListArguments {};
 int list(ListArguments const& arguments);
 
@@ -64,7 +80,8 @@ struct TextOnly {
     std::string text;
 };
 
-using Arguments = std::variant<RunArguments, CheckArguments, ProbeArguments, InfoArguments, ListArguments, TextOnly>;
+using Arguments =
+    std::variant<RunArguments, CheckArguments, ProbeArguments, InfoArguments, StatsArguments, ListArguments, TextOnly>;
 
 /// @throws SceneError with one line for a command line that cannot be used.
 Arguments parse_arguments(int argc, char const* const* argv);

@@ -20,6 +20,7 @@ int dispatch(Arguments const& arguments) {
         int operator()(CheckArguments const& given) const { return check(given); }
         int operator()(ProbeArguments const& given) const { return probe(given); }
         int operator()(InfoArguments const& given) const { return info(given); }
+        int operator()(StatsArguments const& given) const { return stats(given); }
         int operator()(ListArguments const& given) const { return list(given); }
         int operator()(TextOnly const& only) const {
             fmt::print("{}", only.text);

@@ -70,6 +70,29 @@ MemberRange parse_member_range(std::string_view text) {
     throw SceneError(fmt::format("--members {}: give the first and the last member as A..B, counted from 0", text));
 }
 
+std::size_t parse_count(std::string_view option, std::string_view text, std::size_t least) {
+    auto const count = parse_number<std::uint32_t>(text);
+    if (count && *count >= least) return *count;
+    throw SceneError(fmt::format("{} {}: give a whole number, {} or more", option, text, least));
+}
+
+double parse_seconds(std::string_view option, std::string_view text) {
+    auto const seconds = parse_number<double>(text);
+    if (seconds && *seconds > 0 && std::isfinite(*seconds)) return *seconds;
+    throw SceneError(fmt::format("{} {}: give a number of seconds, more than 0", option, text));
+}
+
+FitWindow parse_fit(std::string_view text) {
+    auto const dots = text.find("..");
+    if (dots != text.npos) {
+        auto const first = parse_number<std::uint32_t>(text.substr(0, dots));
+        auto const last = parse_number<std::uint32_t>(text.substr(dots + 2));
+        if (first && last && *first < *last) return {*first, *last};
+    }
+    throw SceneError(
+        fmt::format("--fit {}: give the first and the last sample of the fit as A..B, A less than B", text));
+}
+
 std::pair<std::string, std::string> parse_override(std::string_view text) {
     auto const sign = text.find('=');
     if (sign == text.npos || sign == 0) {

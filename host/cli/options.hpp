@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/backend/backend.hpp"
+#include "host/chaos/divergence.hpp"
 #include "host/study/ensemble_study.hpp"
 
 namespace slideway::cli {
@@ -23,9 +24,12 @@ struct FailureLimit {
 
 int parse_threads(std::string_view text);
 double parse_hours(std::string_view text);
-MemberRange parse_member(std::string_view text);                            // "A", from 0
-FailureLimit parse_failure_limit(std::string_view text);                    // "3", "0.5%"
-MemberRange parse_member_range(std::string_view text);                      // "A..B", both included, from 0
+MemberRange parse_member(std::string_view text);          // "A", from 0
+FailureLimit parse_failure_limit(std::string_view text);  // "3", "0.5%"
+MemberRange parse_member_range(std::string_view text);    // "A..B", both included, from 0
+std::size_t parse_count(std::string_view option, std::string_view text, std::size_t least);
+double parse_seconds(std::string_view option, std::string_view text);       // finite, > 0
+FitWindow parse_fit(std::string_view text);                                 // "A..B", both included, A < B, from 0
 std::pair<std::string, std::string> parse_override(std::string_view text);  // "key=value"
 Isa parse_isa(std::string_view text);                                       // also "auto"; supported by this machine
 void require_backend(std::string_view text);                                // one that this build has

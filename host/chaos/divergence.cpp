@@ -1,0 +1,185 @@
+#include "host/chaos/divergence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/chaos/nearest_neighbours.hpp"
+
+namespace slideway {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t parts = 10;
+constexpr std::size_t fewest_points = 4;  // of a window that is chosen
+constexpr double share_of_rise = 0.7;
+constexpr double periods_wanted = 1.5;
+constexpr double rounding = 1e-10;  // of the range of the series
+
+/// Sums over the pairs whose reference point lies in one part, per k.
+struct PartSums {
+    std::vector<double> log;
+    std::vector<std::size_t> pairs;
+};
+
+PartSums sums_of_part(DelayEmbedding const& embedding, std::vector<Neighbour> const& neighbours, std::size_t from,
+                      std::size_t to, std::size_t longest, double resolution) {
+    PartSums sums{std::vector<double>(longest + 1), std::vector<std::size_t>(longest + 1)};
+    for (std::size_t i = from; i < to; ++i) {
+        std::size_t const j = neighbours[i].index;
+        if (j == Neighbour::none) continue;
+        for (std::size_t k = 0; k <= longest; ++k) {
+            double const squared = embedding.squared_distance(i + k, j + k);
+            if (!(squared > resolution * resolution)) continue;
+            sums.log[k] += 0.5 * std::log(squared);
+            ++sums.pairs[k];
+        }
+    }
+    return sums;
+}
+
+double mean_log_of_strangers(DelayEmbedding const& embedding) {
+    std::size_t const half = embedding.size() / 2;
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < half; ++i) {
+        double const squared = embedding.squared_distance(i, i + half);
+        if (!(squared > 0)) continue;
+        sum += 0.5 * std::log(squared);
+        ++count;
+    }
+    return count > 0 ? sum / static_cast<double>(count) : nan;
+}
+
+/// Mean over all parts but one; `omitted` beyond the last: over all.
+std::vector<double> mean_without(std::vector<PartSums> const& sums, std::size_t omitted, std::size_t length) {
+    std::vector<double> mean(length, nan);
+    for (std::size_t k = 0; k < length; ++k) {
+        double log = 0;
+        std::size_t pairs = 0;
+        for (std::size_t part = 0; part < sums.size(); ++part) {
+            if (part == omitted) continue;
+            log += sums[part].log[k];
+            pairs += sums[part].pairs[k];
+        }
+        if (pairs > 0) mean[k] = log / static_cast<double>(pairs);
+    }
+    return mean;
+}
+
+/// Fits over any window of a curve in constant time.
+class WindowFits {
+public:
+    explicit WindowFits(std::vector<double> const& y) : sums_(y.size() + 1) {
+        // About the middle, or the squares would cancel.
+        double const middle = static_cast<double>(y.size()) / 2;
+        double mean = 0;
+        for (double const value : y) mean += value / static_cast<double>(y.size());
+        for (std::size_t k = 0; k < y.size(); ++k) {
+            double const u = static_cast<double>(k) - middle, v = y[k] - mean;
+            Sums const& s = sums_[k];
+            sums_[k + 1] = {s.x + u, s.y + v, s.xx + u * u, s.xy + u * v, s.yy + v * v};
+        }
+    }
+
+    /// Squared, of the slope over [from, to); infinite where the curve does not rise.
+    double relative_error(std::size_t from, std::size_t to) const {
+        Sums const &a = sums_[from], &b = sums_[to];
+        double const n = static_cast<double>(to - from), x = b.x - a.x, y = b.y - a.y;
+        double const xx = b.xx - a.xx - x * x / n, xy = b.xy - a.xy - x * y / n, yy = b.yy - a.yy - y * y / n;
+        if (!(xy > 0)) return std::numeric_limits<double>::infinity();
+        return std::max(0.0, yy * xx / (xy * xy) - 1) / (n - 2);
+    }
+
+private:
+    struct Sums {
+        double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+    };
+    std::vector<Sums> sums_;
+};
+
+std::size_t end_of_growth(DivergenceCurve const& curve) {
+    double const start = curve.mean_log.front();
+    double const level = start + share_of_rise * (curve.saturation - start);
+    if (!(level > start)) return curve.mean_log.size();
+    auto const reached =
+        std::find_if(curve.mean_log.begin(), curve.mean_log.end(), [&](double y) { return y >= level; });
+    auto const count = static_cast<std::size_t>(reached - curve.mean_log.begin());
+    return std::min(count + 1, curve.mean_log.size());
+}
+
+LinearFit fit_part(std::vector<double> const& curve, FitWindow window, double spacing) {
+    std::vector<double> time;
+    for (std::size_t k = window.first; k <= window.last; ++k) time.push_back(static_cast<double>(k) * spacing);
+    return fit_line(time, std::span(curve).subspan(window.first, time.size()));
+}
+
+double jackknife_error(DivergenceCurve const& curve, FitWindow window, double spacing) {
+    std::vector<double> slopes;
+    double mean = 0;
+    for (auto const& rest : curve.without) {
+        slopes.push_back(fit_part(rest, window, spacing).slope);
+        mean += slopes.back() / static_cast<double>(curve.without.size());
+    }
+    double squares = 0;
+    for (double const slope : slopes) squares += (slope - mean) * (slope - mean);
+    auto const n = static_cast<double>(slopes.size());
+    return std::sqrt((n - 1) / n * squares);
+}
+
+}  // namespace
+
+DivergenceCurve divergence_curve(DelayEmbedding const& embedding, std::size_t theiler, std::size_t longest) {
+    DivergenceCurve curve{{}, {}, mean_log_of_strangers(embedding), {}};
+    if (embedding.size() <= longest + 1) return curve;
+    std::size_t const points = embedding.size() - longest;
+    double const resolution = rounding * embedding.range();
+    std::vector<Neighbour> const neighbours = nearest_neighbours(embedding, points, theiler, resolution);
+    std::vector<PartSums> sums;
+    for (std::size_t part = 0; part < parts; ++part) {
+        sums.push_back(sums_of_part(embedding, neighbours, part * points / parts, (part + 1) * points / parts, longest,
+                                    resolution));
+    }
+    for (std::size_t k = 0; k <= longest; ++k) {
+        std::size_t pairs = 0;
+        for (PartSums const& part : sums) pairs += part.pairs[k];
+        if (pairs == 0) break;
+        curve.pairs.push_back(pairs);
+    }
+    curve.mean_log = mean_without(sums, parts, curve.pairs.size());
+    for (std::size_t part = 0; part < parts; ++part) {
+        curve.without.push_back(mean_without(sums, part, curve.pairs.size()));
+    }
+    return curve;
+}
+
+std::optional<FitWindow> growth_window(DivergenceCurve const& curve, std::size_t span, double period) {
+    if (curve.mean_log.size() < fewest_points) return std::nullopt;
+    std::size_t const end = end_of_growth(curve), start = std::min(span / 2, end / 3);
+    if (end - start < fewest_points) return std::nullopt;
+    auto const most = static_cast<double>((end - start) * 2 / 3);
+    double const wanted = std::isfinite(period) ? std::min(periods_wanted * period, most) : most;
+    std::size_t const shortest = std::max(fewest_points, static_cast<std::size_t>(wanted));
+
+    WindowFits const fits(curve.mean_log);
+    double least = std::numeric_limits<double>::infinity();
+    std::optional<FitWindow> best;
+    for (std::size_t from = start; from + shortest <= end; ++from) {
+        for (std::size_t to = from + shortest; to <= end; ++to) {
+            double const error = fits.relative_error(from, to);
+            if (!(error < least)) continue;
+            least = error;
+            best = FitWindow{from, to - 1};
+        }
+    }
+    return best;
+}
+
+std::optional<Growth> fit_growth(DivergenceCurve const& curve, FitWindow window, double spacing) {
+    if (window.last <= window.first || window.last >= curve.mean_log.size()) return std::nullopt;
+    LinearFit const line = fit_part(curve.mean_log, window, spacing);
+    double const length = static_cast<double>(window.last - window.first) * spacing;
+    return Growth{window, line, line.slope, jackknife_error(curve, window, spacing), line.slope * length};
+}
+
+}  // namespace slideway

@@ -1,0 +1,59 @@
+// How fast neighbours part: the largest Lyapunov exponent of small data sets.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "host/chaos/delay_embedding.hpp"
+#include "host/chaos/linear_fit.hpp"
+
+namespace slideway {
+
+/// Rosenstein, Collins and De Luca, Physica D 65 (1993) 117–134: with Xⱼ the nearest neighbour of Xᵢ (nearest_neighbours.hpp),
+/// dᵢ(k) = |Xᵢ₊ₖ - Xⱼ₊ₖ| grows as e^(λ₁ k Δt) until it is as large as the attractor.
+struct DivergenceCurve {
+    std::vector<double> mean_log;    // ⟨ln dᵢ(k)⟩ for k = 0, 1, …; d in units of the series
+    std::vector<std::size_t> pairs;  // that the mean is of: those with a distance
+    /// ⟨ln d⟩ of points that have nothing to do with each other, half the series apart: where the growth ends.
+    double saturation;
+    /// [part][k]: the curve without the reference points of one of ten successive parts of the series.
+    std::vector<std::vector<double>> without;
+};
+
+/// Deviates from the paper in one point: only points with `longest` samples behind them are paired, so that every pair
+/// lives at all k, and the curve does not change for a change of pairs.  It ends before a k at which no pair has a
+/// distance; what is below 1e-10 of the range of the series is rounding and counts as none.
+/// @param theiler neighbours are more than this many samples apart in time.  @param longest largest k [samples].
+/// @return curves without entries if no pair is found.
+DivergenceCurve divergence_curve(DelayEmbedding const& embedding, std::size_t theiler, std::size_t longest);
+
+/// Samples k of the curve, both included.
+struct FitWindow {
+    std::size_t first, last;
+};
+
+/// Where the curve is most nearly a line.  Let k₁ be the first k at which it has done 0.7 of its way from its start to
+/// saturation, or its end: beyond, too many pairs have grown to the size of the attractor.  k₀ is half of the embedding
+/// window, in which coordinates still remember that the neighbours were chosen near, at most k₁/3.  Candidates are all windows
+/// within [k₀, k₁] of at least four points that last one and a half periods, so that the swing of the curve with the period
+/// averages out, or two thirds of k₁ - k₀ if that is shorter.  Taken is the one whose slope has the least relative standard
+/// error: it falls with a window's length to the power 3/2 and rises with every bend.
+/// @param span (m - 1)τ [samples].  @param period on average [samples]; NaN: unknown.
+/// @return nothing if there are less than four points between k₀ and k₁, or the curve rises in no window.
+std::optional<FitWindow> growth_window(DivergenceCurve const& curve, std::size_t span, double period);
+
+struct Growth {
+    FitWindow window;
+    LinearFit line;   // ⟨ln d⟩ over time
+    double exponent;  // λ₁ = line.slope [1/unit of spacing]
+    double error;     // standard error of λ₁ by the jackknife over the parts of `without`
+    double rise;      // exponent times the length of the window: e-foldings seen
+};
+
+/// Line through the curve in the window.  The error of the regression takes the points of the curve as independent, which
+/// they are not; the jackknife asks how the slope changes with the stretches of trajectory that happened to be there.
+/// @param spacing of samples.  @return nothing for a window with less than two points or outside the curve.
+std::optional<Growth> fit_growth(DivergenceCurve const& curve, FitWindow window, double spacing);
+
+}  // namespace slideway

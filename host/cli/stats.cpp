@@ -1,0 +1,134 @@
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "host/cli/commands.hpp"
+#include "host/scene/error.hpp"
+#include "host/study/series_analysis.hpp"
+#include "host/study/series_file.hpp"
+
+namespace slideway::cli {
+namespace {
+
+void row(std::string_view label, std::string_view text) { fmt::print("{:<16} {}\n", label, text); }
+
+StoredSeries read_series(StatsArguments const& arguments) {
+    if (is_netcdf(arguments.path)) {
+        if (arguments.column) throw SceneError("--column is for tables; use --variable for a result file");
+        if (arguments.spacing) throw SceneError("--dt is for tables; a result file has its own times");
+        return read_result_series(arguments.path, arguments.variable.value_or("y"), arguments.member);
+    }
+    if (arguments.variable) throw SceneError("--variable is for result files; use --column for a table");
+    if (arguments.member) throw SceneError("--member is for result files; use --column for a table");
+    std::ifstream in(arguments.path);
+    return read_csv_series(in, arguments.path, arguments.column.value_or(""), arguments.spacing);
+}
+
+/// Without the transient, and not longer than asked for.
+void cut(StoredSeries& series, StatsArguments const& arguments) {
+    std::size_t const count = series.values.size();
+    std::size_t skipped = arguments.skip_samples.value_or(0);
+    // A step that is a hair short of the skipped time belongs to it only by rounding.
+    if (arguments.skip_time) {
+        double const samples = std::ceil(*arguments.skip_time / series.spacing - 1e-6);
+        skipped = static_cast<std::size_t>(std::min(samples, static_cast<double>(count)));
+    }
+    if (skipped >= count) throw SceneError(fmt::format("nothing is left: {} samples, all of them skipped", count));
+    series.values.erase(series.values.begin(), series.values.begin() + static_cast<std::ptrdiff_t>(skipped));
+    if (arguments.max_points && *arguments.max_points < series.values.size()) {
+        series.values.resize(*arguments.max_points);
+    }
+}
+
+std::string samples_text(std::size_t samples, double spacing) {
+    return fmt::format("{} sample{} ({:.4g} s)", samples, samples == 1 ? "" : "s",
+                       static_cast<double>(samples) * spacing);
+}
+
+std::string found_text(std::optional<std::size_t> samples) {
+    return samples ? fmt::format("{}", *samples) : std::string("none");
+}
+
+void print_embedding(SeriesAnalysis const& a, SeriesOptions const& given) {
+    row("C-C method",
+        fmt::format("first minimum of ΔS {}, first zero of S {}, minimum of S_cor {} samples",
+                    found_text(a.choice.first_minimum), found_text(a.choice.first_zero), found_text(a.choice.window)));
+    char const* const by = given.delay ? ", as given" : a.from_map ? ", as for iterates of a map" : "";
+    row("delay", samples_text(a.delay, a.spacing) + by);
+    bool const is_cut = !given.dimension && a.dimension < a.wanted_dimension;
+    row("dimension",
+        fmt::format("{}{}", a.dimension,
+                    given.dimension ? ", as given"
+                    : is_cut ? fmt::format(", the window asks for {}, too many for these points", a.wanted_dimension)
+                             : ""));
+    row("window", samples_text(a.window, a.spacing));
+    row("Theiler window", samples_text(a.theiler, a.spacing) + (given.theiler ? ", as given" : ""));
+}
+
+void print_growth(SeriesAnalysis const& a, SeriesOptions const& given) {
+    if (!a.growth) return row("exponent", "none");
+    Growth const& g = *a.growth;
+    row("exponent", fmt::format("{:.4g} ± {:.2g} 1/s, {:.3g} ± {:.2g} per average period", g.exponent, g.error,
+                                g.exponent * a.average_period, g.error * a.average_period));
+    row("fit window", fmt::format("samples {} to {}{}, R² = {:.4f}, distances grow by e^{:.2f}, {} pairs",
+                                  g.window.first, g.window.last, given.fit ? ", as given" : "", g.line.r_squared,
+                                  g.rise, a.divergence.pairs[g.window.first]));
+}
+
+/// One row per sample: t of C–C and k of the divergence; cells beyond a curve's end are empty.
+void write_curves(std::string const& path, SeriesAnalysis const& a) {
+    std::ofstream out(path);
+    out << "sample,time,S,delta_S,S_cor,mean_log_distance,pairs\n";
+    std::size_t const rows = std::max(a.curves.mean.size() + 1, a.divergence.mean_log.size());
+    for (std::size_t i = 0; i < rows; ++i) {
+        out << fmt::format("{},{:.17g}", i, static_cast<double>(i) * a.spacing);
+        if (i >= 1 && i <= a.curves.mean.size()) {
+            out << fmt::format(",{:.17g},{:.17g},{:.17g}", a.curves.mean[i - 1], a.curves.spread[i - 1],
+                               a.curves.correlation[i - 1]);
+        } else {
+            out << ",,,";
+        }
+        if (i < a.divergence.mean_log.size()) {
+            out << fmt::format(",{:.17g},{}\n", a.divergence.mean_log[i], a.divergence.pairs[i]);
+        } else {
+            out << ",,\n";
+        }
+    }
+    out.close();
+    if (!out) throw FileError(fmt::format("{}: cannot write: {}", path, std::strerror(errno)));
+}
+
+SeriesAnalysis analyse(StoredSeries const& series, StatsArguments const& arguments) {
+    try {
+        return analyse_series(series.values, series.spacing, arguments.options);
+    } catch (SceneError const& error) {
+        throw SceneError(fmt::format("{}: {}: {}", arguments.path, series.name, error.what()));
+    }
+}
+
+}  // namespace
+
+int stats(StatsArguments const& arguments) {
+    StoredSeries series = read_series(arguments);
+    cut(series, arguments);
+    SeriesAnalysis const a = analyse(series, arguments);
+    if (!arguments.output.empty()) write_curves(arguments.output, a);
+
+    row("series", fmt::format("{} of {}", series.name, arguments.path));
+    row("points", fmt::format("{}, every {:.6g} s", a.points, a.spacing));
+    row("average period", fmt::format("{:.4g} s ({:.4g} samples)", a.average_period, a.average_period / a.spacing));
+    print_embedding(a, arguments.options);
+    print_growth(a, arguments.options);
+    row("0-1 test",
+        fmt::format("K = {:.3f} from {} samples, one of every {}", a.zero_one.k, a.zero_one.points, a.stride));
+    row("verdict", verdict(a));
+    for (std::string const& line : reservations(a)) row("", "- " + line);
+    if (!arguments.output.empty()) row("curves", arguments.output);
+    return exit_code::done;
+}
+
+}  // namespace slideway::cli

@@ -1,0 +1,211 @@
+#include "host/study/series_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "host/output/result_reader.hpp"
+#include "host/scene/error.hpp"
+
+namespace slideway {
+namespace {
+
+constexpr std::string_view blanks = " \t\r";
+constexpr std::size_t no_column = static_cast<std::size_t>(-1);
+
+struct Table {
+    std::vector<std::string> names;  // empty: no header
+    std::vector<std::vector<double>> columns;
+};
+
+std::string_view trimmed(std::string_view text) {
+    auto const first = text.find_first_not_of(blanks);
+    if (first == text.npos) return {};
+    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::vector<std::string_view> cells_of(std::string_view line, char separator) {
+    std::vector<std::string_view> cells;
+    for (line = trimmed(line);;) {
+        auto const end = line.find_first_of(separator == ' ' ? blanks : std::string_view(&separator, 1));
+        cells.push_back(trimmed(line.substr(0, end)));
+        if (end == line.npos) return cells;
+        line.remove_prefix(end + 1);
+        if (separator == ' ') line = trimmed(line);
+    }
+}
+
+char separator_of(std::string_view line) {
+    for (char const separator : {',', ';'}) {
+        if (line.find(separator) != line.npos) return separator;
+    }
+    return ' ';
+}
+
+std::optional<double> number(std::string_view text) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    double value = 0;
+    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (text.empty() || end != text.data() + text.size()) return std::nullopt;
+    if (error == std::errc::result_out_of_range) return std::strtod(std::string(text).c_str(), nullptr);
+    return error == std::errc{} ? std::optional(value) : std::nullopt;
+}
+
+/// Reads the lines that count and knows where it is.
+class TableReader {
+public:
+    TableReader(std::istream& in, std::string const& name) : in_(in), name_(name) {}
+
+    Table read() {
+        Table table;
+        if (!next()) fail("the table is empty");
+        separator_ = separator_of(line_);
+        auto const first = cells_of(line_, separator_);
+        table.columns.resize(first.size());
+        auto const is_number = [](std::string_view cell) { return number(cell).has_value(); };
+        if (std::none_of(first.begin(), first.end(), is_number)) {
+            for (std::string_view cell : first) {
+                if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"')
+                    cell = cell.substr(1, cell.size() - 2);
+                table.names.emplace_back(cell);
+            }
+            if (!next()) fail("the table has a header but no row");
+        }
+        do add_row(table);
+        while (next());
+        return table;
+    }
+
+private:
+    bool next() {
+        while (std::getline(in_, line_)) {
+            ++number_;
+            if (number_ == 1 && line_.starts_with("\xEF\xBB\xBF")) line_.erase(0, 3);  // byte order mark
+            std::string_view const text = trimmed(line_);
+            if (!text.empty() && text.front() != '#') return true;
+        }
+        return false;
+    }
+
+    void add_row(Table& table) const {
+        auto const cells = cells_of(line_, separator_);
+        if (cells.size() != table.columns.size()) {
+            fail(fmt::format("the row has {} cells, the first line {}", cells.size(), table.columns.size()));
+        }
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            // Columns of text may stand beside those that are asked for.
+            table.columns[i].push_back(number(cells[i]).value_or(std::nan("")));
+        }
+    }
+
+    [[noreturn]] void fail(std::string const& message) const {
+        throw SceneError(fmt::format("{}:{}: {}", name_, std::max(number_, 1), message));
+    }
+
+    std::istream& in_;
+    std::string const& name_;
+    std::string line_;
+    int number_ = 0;
+    char separator_ = ',';
+};
+
+std::size_t time_column(Table const& table) {
+    auto const found = std::find_if(table.names.begin(), table.names.end(),
+                                    [](std::string const& name) { return name == "time" || name == "t"; });
+    return found == table.names.end() ? no_column : static_cast<std::size_t>(found - table.names.begin());
+}
+
+std::size_t column_of(Table const& table, std::string const& table_name, std::string const& wanted) {
+    std::size_t const count = table.columns.size();
+    if (wanted.empty()) return time_column(table) == count - 1 && count > 1 ? count - 2 : count - 1;
+    auto const named = std::find(table.names.begin(), table.names.end(), wanted);
+    if (named != table.names.end()) return static_cast<std::size_t>(named - table.names.begin());
+    std::size_t place = 0;
+    auto const [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), place);
+    bool const whole = error == std::errc{} && end == wanted.data() + wanted.size();
+    if (whole && place >= 1 && place <= count) return place - 1;
+    std::string known;
+    for (std::string const& name : table.names) known += fmt::format("{}{}", known.empty() ? "" : ", ", name);
+    throw SceneError(fmt::format("{}: there is no column '{}'; give {}a number from 1 to {}", table_name, wanted,
+                                 known.empty() ? "" : fmt::format("one of {}, or ", known), count));
+}
+
+std::uint64_t place_of(ResultReader const& file, std::string const& path, std::optional<std::uint64_t> member) {
+    if (!member) return 0;
+    auto const numbers = file.values("member");
+    auto const found = std::find(numbers.begin(), numbers.end(), static_cast<double>(*member));
+    if (found != numbers.end()) return static_cast<std::uint64_t>(found - numbers.begin());
+    throw SceneError(numbers.empty() ? fmt::format("{}: has no members", path)
+                                     : fmt::format("{}: has no member {}; it has {:.0f} to {:.0f}", path, *member,
+                                                   numbers.front(), numbers.back()));
+}
+
+}  // namespace
+
+std::optional<double> equal_spacing(std::vector<double> const& times) {
+    if (times.size() < 2) return std::nullopt;
+    double const spacing = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+    if (!(spacing > 0) || !std::isfinite(spacing)) return std::nullopt;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        double const off = times[i] - (times.front() + static_cast<double>(i) * spacing);
+        if (!(std::abs(off) <= 0.01 * spacing)) return std::nullopt;
+    }
+    return spacing;
+}
+
+bool is_netcdf(std::string const& path) {
+    std::ifstream in(path, std::ios::binary);
+    char first[4] = {};
+    // A folder opens, and only fails to read.
+    if (!in || (in.peek() == std::ifstream::traits_type::eof() && in.bad())) {
+        throw FileError(fmt::format("{}: cannot read: {}", path, std::strerror(errno)));
+    }
+    in.read(first, sizeof first);
+    std::string_view const bytes(first, static_cast<std::size_t>(in.gcount()));
+    return bytes == "\x89HDF" || bytes.starts_with("CDF");
+}
+
+StoredSeries read_result_series(std::string const& path, std::string const& variable,
+                                std::optional<std::uint64_t> member) {
+    ResultReader const file(path);
+    if (!file.has("time")) throw SceneError(path + ": has no time series; run the scene with study.samples");
+    std::vector<double> const times = file.values("time");
+    auto const is_series = [&](std::string const& name) {
+        auto const shape = file.shape(name);
+        return shape.size() == 2 && shape[1] == times.size();
+    };
+    if (!file.has(variable) || !is_series(variable)) {
+        std::string known;
+        for (std::string const& name : file.variable_names()) {
+            if (is_series(name)) known += fmt::format("{}{}", known.empty() ? "" : ", ", name);
+        }
+        throw SceneError(fmt::format("{}: has no series '{}'; use one of {}", path, variable, known));
+    }
+    auto const spacing = equal_spacing(times);
+    if (!spacing) throw SceneError(path + ": the sample times are not equally spaced");
+    std::uint64_t const place = place_of(file, path, member);
+    auto const all = file.values(variable);
+    auto const first = all.begin() + static_cast<std::ptrdiff_t>(place * times.size());
+    return {variable, file.unit(variable), {first, first + static_cast<std::ptrdiff_t>(times.size())}, *spacing};
+}
+
+StoredSeries read_csv_series(std::istream& in, std::string const& name, std::string const& column,
+                             std::optional<double> spacing) {
+    Table table = TableReader(in, name).read();
+    if (in.bad()) throw FileError(fmt::format("{}: cannot read", name));
+    std::size_t const place = column_of(table, name, column), time = time_column(table);
+    if (!spacing) {
+        if (time == no_column) throw SceneError(fmt::format("{}: has no column time or t; give --dt SECONDS", name));
+        spacing = equal_spacing(table.columns[time]);
+        if (!spacing) throw SceneError(fmt::format("{}: the times are not equally spaced; resample the series", name));
+    }
+    std::string const label = table.names.empty() ? fmt::format("column {}", place + 1) : table.names[place];
+    return {label, "", std::move(table.columns[place]), *spacing};
+}
+
+}  // namespace slideway
