@@ -40,15 +40,20 @@ ExponentTable::ExponentTable(Scene const& scene)
     StudyAxis exponent{"exponent", "1", "number of the exponent, the largest first", {}};
     for (std::size_t j = 1; j <= exponents_; ++j) exponent.values.push_back(static_cast<double>(j));
     layout_.axes.push_back(exponent);
-    layout_.columns = {
-        {"lyapunov_exponent", "s-1", "finite-time Lyapunov exponents, by shadows", {"exponent"}},
-        {"lyapunov_exponent_error", "s-1", "standard error of the exponent, by batch means", {"exponent"}},
-        {"lyapunov_time", "s", "time over which the exponents are taken, after the transient", {}},
-        {"lost_offsets", "1", "times that an offset had shrunk into rounding: then exponents are upper bounds", {}},
+    auto const add = [this](char const* name, char const* unit, char const* long_name, char const* axis = nullptr) {
+        StudyColumn& column = layout_.columns.emplace_back();
+        column.name = name;
+        column.unit = unit;
+        column.long_name = long_name;
+        if (axis != nullptr) column.axes.emplace_back(axis);
     };
+    add("lyapunov_exponent", "s-1", "finite-time Lyapunov exponents, by shadows", "exponent");
+    add("lyapunov_exponent_error", "s-1", "standard error of the exponent, by batch means", "exponent");
+    add("lyapunov_time", "s", "time over which the exponents are taken, after the transient");
+    add("lost_offsets", "1", "times that an offset had shrunk into rounding: then exponents are upper bounds");
     if (exponents_ >= from_exponents) {
-        layout_.columns.push_back({"kaplan_yorke_dimension", "1",
-                                   "Kaplan-Yorke dimension of the section at a crank angle; one more for the flow", {}});
+        add("kaplan_yorke_dimension", "1",
+            "Kaplan-Yorke dimension of the section at a crank angle; one more for the flow");
     }
     if (history_.empty()) return;
     StudyAxis history{"history", "1", "rescalings after the transient", {}};
@@ -56,8 +61,8 @@ ExponentTable::ExponentTable(Scene const& scene)
         history.values.push_back(static_cast<double>(records * schedule_.stops.growth_every));
     }
     layout_.axes.push_back(history);
-    layout_.columns.push_back(
-        {"lyapunov_history", "s-1", "running exponents after so many rescalings", {"history", "exponent"}});
+    add("lyapunov_history", "s-1", "running exponents after so many rescalings", "history");
+    layout_.columns.back().axes.emplace_back("exponent");
 }
 
 StudyValues ExponentTable::values(BlockResult const& block) const {
