@@ -149,6 +149,19 @@ std::vector<std::string_view> rivals_of(std::string_view name) {
         {"study.duration", "study.revolutions"},
         {"study.samples", "study.samples_per_revolution"},
         {"study.samples_per_revolution", "study.samples"},
+        {"study.phase", "study.section"},
+        {"study.section", "study.phase"},
+        {"study.Ttr", "study.transient_revolutions"},
+        {"study.transient_revolutions", "study.Ttr"},
+        {"study.dt", "study.rescalings_per_revolution"},
+        {"study.rescalings_per_revolution", "study.dt"},
+        {"study.values", "study.from"},
+        {"study.values", "study.to"},
+        {"study.values", "study.points"},
+        {"study.values", "study.spacing"},
+        {"study.from", "study.values"},
+        {"study.to", "study.values"},
+        {"study.points", "study.values"},
     };
     std::vector<std::string_view> result;
     for (auto const& [key, rival] : rivals) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "host/scene/scene_text.hpp"
+#include "host/scene/study_keys.hpp"
 #include "host/scene/suggest.hpp"
 #include "host/scene/values.hpp"
 
@@ -28,19 +29,11 @@ constexpr std::string_view other_names[] = {
     "integrator.locate_modes",
     "integrator.stiff_max_step",
     "integrator.stiff_tolerance",
-    "study.kind",
-    "study.members",
-    "study.seed",
-    "study.revolutions",
-    "study.duration",
-    "study.samples_per_revolution",
-    "study.samples",
-    "study.quantities",
-    "study.vary",
 };
 
 std::vector<std::string_view> known_names() {
     std::vector<std::string_view> names(std::begin(other_names), std::end(other_names));
+    for (StudyKey const& key : study_keys) names.push_back(key.name);
     for (auto const table : {keys(), twin_keys()}) {
         for (Key const& key : table) names.push_back(key.name);
     }
@@ -105,6 +98,15 @@ void check_inputs(Node const& root, Inputs const& inputs) {
 
 }  // namespace
 
+void refuse_both(Node const& root, std::string_view first, std::string_view second) {
+    Node const* const a = root.find_path(first);
+    Node const* const b = root.find_path(second);
+    if (a == nullptr || b == nullptr) return;
+    bool const a_is_later = a->order != b->order ? a->order > b->order : a->line > b->line;
+    refuse(a_is_later ? *a : *b,
+           {fmt::format("{} says it too", a_is_later ? second : first), "remove one of the two"});
+}
+
 void refuse_unknown(Node const& node, std::string_view what, std::span<std::string_view const> known) {
     std::string_view const near = nearest_name(node.name, known);
     std::string const advice = near.empty()        ? std::string("remove it, or see `slideway list`")
@@ -139,8 +141,9 @@ Scene parse_scene(std::string const& text, std::string const& name, Overrides co
     read_physics(root, scene);
     check_inputs(root, scene.inputs);
     read_variations(root, scene);
-    read_integrator(root, scene);
     read_study(root, scene);
+    read_integrator(root, scene);
+    read_recording(root, scene);
     return scene;
 }
 

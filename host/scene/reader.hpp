@@ -18,16 +18,51 @@ std::vector<GivenKey> given_keys(Node const& root);
 void read_physics(Node const& root, Scene& scene);
 /// [study.vary]; adds the kernel parts that the varied keys need.
 void read_variations(Node const& root, Scene& scene);
-/// [integrator]; needs the crank speed.
-void read_integrator(Node const& root, Scene& scene);
-/// [study] without [study.vary]; needs the crank speed.
+/// Which study, of how many members, and what it is asked for; adds the kernel parts that a swept key needs.
 void read_study(Node const& root, Scene& scene);
+/// The keys of a study that is no ensemble: Scene::chaos.
+void read_chaos(Node const& root, Scene& scene);
+/// What a sweep sweeps, through which values.
+void read_sweep(Node const& root, Scene& scene);
+/// What a sweep asks of the lengths of time.
+void check_columns(Node const& root, Scene const& scene);
+/// [integrator]; needs the crank speed and the study.
+void read_integrator(Node const& root, Scene& scene);
+/// Until when, and what of [study] is recorded on the way; needs everything above.
+void read_recording(Node const& root, Scene& scene);
+
+/// Whether a varied or swept key counts beside the scene's other ones.  @throws SceneError at `node`, or at a key that
+/// it replaces
+void check_counts(Node const& root, Node const& node, Key const& key, Scene const& scene);
+/// What to write instead of a name that is no numeric key of the physics.
+std::string key_advice(std::string_view name);
+/// Crank speeds that members may have, by magnitude [rad/s]; the least is 0 where the limits include it.
+struct SpeedRange {
+    double least, most;
+    bool several;  // members may differ
+};
+SpeedRange crank_speeds(Scene const& scene);
+
+/// How long the members of a study that is no ensemble run [s], and how often their steps end at known times.
+struct RunLength {
+    double seconds;  // at the scene's own crank speed
+    double longest;
+    double stops;
+};
+RunLength run_length(Scene const& scene);
 
 /// Largest integrator.max_steps.
 inline constexpr std::uint64_t most_steps = 1'000'000'000'000'000;
+/// Longest study [s].
+inline constexpr double longest_time = 1e9;
+/// Most numbers of one kind in a result file, 80 GB.
+inline constexpr double most_values = 1e10;
 
 /// `count` times from 0 to end_time, both included; count is 0 or at least 2.
 std::vector<double> uniform_times(double end_time, std::size_t count);
+
+/// Refuses the later one of two keys that say the same, if both are given.
+void refuse_both(Node const& root, std::string_view first, std::string_view second);
 
 /// Refuses a node that no part of the scene reads.
 [[noreturn]] void refuse_unknown(Node const& node, std::string_view what, std::span<std::string_view const> known);

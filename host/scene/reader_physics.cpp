@@ -58,6 +58,22 @@ void check_located_modes(Node const& node, Scene const& scene) {
     }
 }
 
+void read_located_modes(Node const& root, Scene& scene) {
+    IntegratorSettings& settings = scene.integrator;
+    Node const* const node = root.find_path("integrator.locate_modes");
+    bool const switches = scene.parts.law == Law::paper && scene.parts.damping != Damping::restitution;
+    bool const neighbours = scene.chaos.exponents > 0;
+    bool const can = has_effect("locate_modes", settings.method);
+    settings.locate_modes = node != nullptr ? read_boolean(*node) : switches && neighbours && can;
+    if (node != nullptr && settings.locate_modes) check_located_modes(*node, scene);
+    if (!switches || !neighbours || settings.locate_modes) return;
+    // In trials exponents came out up to half as large again.
+    scene.warnings.push_back(fmt::format(
+        "{}: steps leap over mode switches of contact.law \"paper\" and miss how they separate neighbours, so that exponents come out wrong; {}",
+        can ? std::string("integrator.locate_modes is false") : fmt::format("integrator.method is {}", name_of(settings.method)),
+        can ? "leave it out" : "use method \"auto\", \"dopri5\" or \"bs32\""));
+}
+
 void warn_of_idle_keys(Node const& table, Scene& scene) {
     for (Node const& node : table.children) {
         if (has_effect(node.key, scene.integrator.method)) continue;
@@ -119,10 +135,7 @@ void read_integrator(Node const& root, Scene& scene) {
                {"contact.restitution wants the speed at each touch, where the method's steps do not end",
                 "use method \"auto\", \"dopri5\", \"bs32\" or \"ros34pw2\""});
     }
-    if (Node const* const node = root.find_path("integrator.locate_modes")) {
-        settings.locate_modes = read_boolean(*node);
-        if (settings.locate_modes) check_located_modes(*node, scene);
-    }
+    read_located_modes(root, scene);
     if (Node const* const node = root.find_path("integrator.rtol")) {
         // Below some 50 roundings of a double the error estimate is noise.
         settings.rtol = read_number(*node, "1", "relative tolerance", {1e-14, 0.1});
@@ -130,7 +143,9 @@ void read_integrator(Node const& root, Scene& scene) {
     if (Node const* const node = root.find_path("integrator.atol")) {
         settings.atol = read_number(*node, "1", "absolute tolerance", {0, 0.1, false});
     }
-    double const speed = std::abs(scene.inputs.crank_speed);
+    // A sweep goes by its fastest crank.
+    double const speed =
+        scene.study == StudyKind::sweep ? crank_speeds(scene).most : std::abs(scene.inputs.crank_speed);
     // A step may not leap over an impact: between two of them the slider flies for milliseconds.
     constexpr double longest_step = 1e-3;
     settings.max_step = speed > 0 ? std::min(longest_step, 2 * std::numbers::pi / speed / 2000) : longest_step;

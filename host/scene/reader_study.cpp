@@ -2,6 +2,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
@@ -9,32 +10,22 @@
 
 #include "host/scene/integrator_keys.hpp"
 #include "host/scene/reader.hpp"
+#include "host/scene/study_keys.hpp"
 #include "host/scene/values.hpp"
 
 namespace slideway {
 namespace {
 
 constexpr std::string_view study_names[] = {"ensemble", "lyapunov", "poincare", "sweep", "tolerance"};
-constexpr std::size_t available_studies = 1;
+constexpr std::size_t available_studies = std::size(study_kind_names);
 
 constexpr std::uint64_t most_members = 1'000'000'000;
 constexpr std::uint64_t most_samples = 1'000'000;  // of one member: they stay in memory while it runs
-constexpr double most_values = 1e10;               // members × samples × series of one file, 80 GB
-constexpr double longest_time = 1e9;               // [s]
 
 struct EndTime {
     double seconds;
     double revolutions;  // NaN when the crank does not turn
 };
-
-void refuse_both(Node const& root, std::string_view first, std::string_view second) {
-    Node const* const a = root.find_path(first);
-    Node const* const b = root.find_path(second);
-    if (a == nullptr || b == nullptr) return;
-    bool const a_is_later = a->order != b->order ? a->order > b->order : a->line > b->line;
-    refuse(a_is_later ? *a : *b,
-           {fmt::format("{} says it too", a_is_later ? second : first), "remove one of the two"});
-}
 
 EndTime read_end_time(Node const& root, double crank_speed) {
     refuse_both(root, "study.revolutions", "study.duration");
@@ -110,7 +101,8 @@ void read_quantities(Node const& list, Scene& scene) {
         }
         if (scene.sample_times.empty()) {
             refuse(node, {"it is a time series and the study stores none",
-                          "set study.samples_per_revolution or study.samples"});
+                          scene.study == StudyKind::ensemble ? "set study.samples_per_revolution or study.samples"
+                                                             : "remove it, or use kind = \"ensemble\""});
         }
         scene.series |= Selection{1} << (index - quantity_count);
     }
@@ -128,14 +120,17 @@ void check_size(Sampling const& sampling, Scene const& scene) {
 
 /// Settled contact asks an explicit method for some 0.5 million steps a second; a member that wants twenty times that is
 /// hopeless and should not hold a lane for minutes.
-std::uint64_t default_max_steps(double seconds, double max_step) {
+std::uint64_t default_max_steps(RunLength const& length, double max_step) {
     constexpr double start = 1e7, per_second = 1e7, largest = most_steps;
-    return static_cast<std::uint64_t>(std::min(start + per_second * seconds + 2 * seconds / max_step, largest));
+    double const steps = start + per_second * length.longest + 2 * (length.longest / max_step + length.stops);
+    return static_cast<std::uint64_t>(std::min(steps, largest));
 }
 
 /// Fixed steps are known beforehand, but for what the rounding of the time adds to very many.
-void read_max_steps_of_fixed(Node const& root, IntegratorSettings& settings) {
-    double const steps = fixed_steps(settings), enough = 1000 + std::ceil(1.001 * steps);
+void read_max_steps_of_fixed(Node const& root, IntegratorSettings& settings, RunLength const& length) {
+    IntegratorSettings longest = settings;
+    longest.end_time = length.longest;
+    double const steps = fixed_steps(longest) + length.stops, enough = 1000 + std::ceil(1.001 * steps);
     if (!(enough <= static_cast<double>(most_steps))) {
         refuse(*root.find_path("integrator.step"),
                {fmt::format("that makes {:.3g} steps", steps), "use a larger one, or method \"auto\""});
@@ -146,6 +141,34 @@ void read_max_steps_of_fixed(Node const& root, IntegratorSettings& settings) {
     } else if (static_cast<double>(settings.max_steps) < steps) {
         refuse(*node, {fmt::format("the fixed steps are {:.0f}", steps),
                        fmt::format("use a value >= {:.0f}, or a larger integrator.step", steps)});
+    }
+}
+
+/// Why a study has no such key, where there is more to say than that.
+Problem foreign_key(StudyKey const& key, StudyKind kind) {
+    bool const sweep = kind == StudyKind::sweep;
+    if (key.studies == study_sets::ensemble) {
+        return {fmt::format("kind = \"{}\" stores no time series", name_of(kind)), "remove it, or use kind = \"ensemble\""};
+    }
+    if (sweep && key.name == "study.duration") return {"a sweep records whole revolutions", "use study.revolutions"};
+    if (sweep && key.name == "study.section") return {"a sweep takes its sections at a crank angle", "use study.phase"};
+    if (sweep && key.name == "study.dt") {
+        return {"rescalings of a sweep fall on its sections", "use study.rescalings_per_revolution"};
+    }
+    std::string owners;
+    for (int i = 0; i < static_cast<int>(std::size(study_kind_names)); ++i) {
+        if ((key.studies & set_of(static_cast<StudyKind>(i))) == 0) continue;
+        owners += fmt::format("{}\"{}\"", owners.empty() ? "" : " or ", study_kind_names[i]);
+    }
+    return {fmt::format("it has no effect with kind = \"{}\"", name_of(kind)),
+            fmt::format("remove it, or use kind = {}", owners)};
+}
+
+void refuse_foreign_keys(Node const& table, StudyKind kind) {
+    for (Node const& node : table.children) {
+        for (StudyKey const& key : study_keys) {
+            if (key.name == node.name && (key.studies & set_of(kind)) == 0) refuse(node, foreign_key(key, kind));
+        }
     }
 }
 
@@ -164,20 +187,28 @@ void read_study(Node const& root, Scene& scene) {
     if (Node const* const kind = root.find_path("study.kind")) {
         scene.study = static_cast<StudyKind>(read_available(*kind, "study", study_names, available_studies));
     }
+    if (Node const* const table = root.find("study")) refuse_foreign_keys(*table, scene.study);
     if (Node const* const node = root.find_path("study.members")) {
         scene.members = read_count(*node, "number of members", 1, most_members);
     }
     if (Node const* const node = root.find_path("study.seed")) {
         scene.seed = read_count(*node, "seed", 0, std::numeric_limits<std::int64_t>::max());
     }
-    EndTime const end = read_end_time(root, scene.inputs.crank_speed);
+    if (scene.study == StudyKind::sweep) read_sweep(root, scene);
+    if (scene.study != StudyKind::ensemble) read_chaos(root, scene);
+}
+
+void read_recording(Node const& root, Scene& scene) {
+    bool const samples = scene.study == StudyKind::ensemble;
+    EndTime const end = samples ? read_end_time(root, scene.inputs.crank_speed) : EndTime{run_length(scene).seconds, NAN};
+    RunLength const length = samples ? RunLength{end.seconds, end.seconds, 0} : run_length(scene);
     scene.integrator.end_time = end.seconds;
     if (scene.integrator.method == Method::rk4) {
-        read_max_steps_of_fixed(root, scene.integrator);
+        read_max_steps_of_fixed(root, scene.integrator, length);
     } else if (root.find_path("integrator.max_steps") == nullptr) {
-        scene.integrator.max_steps = default_max_steps(end.seconds, scene.integrator.max_step);
+        scene.integrator.max_steps = default_max_steps(length, scene.integrator.max_step);
     }
-    Sampling const sampling = read_sampling(root, end);
+    Sampling const sampling = samples ? read_sampling(root, end) : Sampling{};
     scene.sample_times = uniform_times(end.seconds, sampling.count);
     if (!scene.sample_times.empty()) scene.series = (Selection{1} << state_series) - 1;
     if (Node const* const list = root.find_path("study.quantities")) read_quantities(*list, scene);

@@ -86,15 +86,8 @@ void check_support(Node const& node, Form const& form, Key const& key, Distribut
 Variation read_variation(Node const& node, std::string_view name) {
     Key const* const key = find_key(name);
     if (key == nullptr) {
-        std::vector<std::string_view> names;
-        for (auto const table : {keys(), twin_keys()}) {
-            for (Key const& known : table) names.push_back(known.name);
-        }
-        std::string_view const near = nearest_name(name, names);
         throw SceneError(fmt::format("{}: {} cannot vary (only numeric keys of the physics can); {}", node.where,
-                                     one_line(node.name),
-                                     near.empty() ? std::string("use a dotted key like \"joint.clearance\"")
-                                                  : fmt::format("did you mean \"{}\"?", near)));
+                                     one_line(node.name), key_advice(name)));
     }
     Form const& form = read_form(node);
     Distribution distribution;
@@ -151,29 +144,43 @@ void check_clashes(Node const& root, NamedNode const& entry, Scene const& scene,
                                              variation.key->name)});
         }
     }
-    std::string_view const name = variation.key->name;
+    check_counts(root, *entry.node, *variation.key, scene);
+}
+
+}  // namespace
+
+std::string key_advice(std::string_view name) {
+    std::vector<std::string_view> names;
+    for (auto const table : {keys(), twin_keys()}) {
+        for (Key const& known : table) names.push_back(known.name);
+    }
+    std::string_view const near = nearest_name(name, names);
+    return near.empty() ? std::string("use a dotted key like \"joint.clearance\"")
+                        : fmt::format("did you mean \"{}\"?", near);
+}
+
+void check_counts(Node const& root, Node const& node, Key const& key, Scene const& scene) {
+    std::string_view const name = key.name;
     if (name.starts_with("friction.") && !scene.parts.friction) {
-        refuse(*entry.node, {"friction is off", "add a [friction] table"});
+        refuse(node, {"friction is off", "add a [friction] table"});
     }
     bool const rate = name == "contact.eta" || name.starts_with("contact.chi_");
     if (rate && scene.parts.damping == Damping::restitution) {
-        refuse(*entry.node, {"contact.restitution replaces it", "remove one of the two"});
+        refuse(node, {"contact.restitution replaces it", "remove one of the two"});
     }
     if (name != "contact.restitution") return;
     for (std::string_view const replaced : {"contact.eta", "contact.chi_line", "contact.chi_surface"}) {
-        if (Node const* const node = root.find_path(replaced)) {
-            refuse(*node, {"contact.restitution is varied and replaces it", "remove one of the two"});
+        if (Node const* const given = root.find_path(replaced)) {
+            refuse(*given, {"contact.restitution is varied and replaces it", "remove one of the two"});
         }
         for (Variation const& other : scene.variations) {
             if (other.key->name == replaced) {
-                refuse(*entry.node,
+                refuse(node,
                        {fmt::format("it replaces {}, which varies too", replaced), "remove one of the two"});
             }
         }
     }
 }
-
-}  // namespace
 
 void read_variations(Node const& root, Scene& scene) {
     Node const* const table = root.find_path("study.vary");

@@ -92,6 +92,61 @@ std::string integrator_table(IntegratorSettings const& settings) {
     return text;
 }
 
+std::string span_line(Span const& span, std::string_view turns, std::string_view time) {
+    return span.revolutions ? fmt::format("{} = {}\n", turns, number(span.value))
+                            : fmt::format("{} = {}  # s\n", time, number(span.value));
+}
+
+std::string section_line(SectionSurface const& section) {
+    using On = SectionSurface::On;
+    if (section.on == On::phase) return fmt::format("phase = {}  # rad\n", number(section.level));
+    std::string const on = section.on == On::state
+                               ? std::string(series_table[section.index].name)
+                               : fmt::format("{}[P{}]", section.on == On::gap_y ? "gap_y" : "gap_z", section.index + 1);
+    return fmt::format("section = {{ on = \"{}\", value = {}, direction = \"{}\" }}  # {}\n", on, number(section.level),
+                       name_of(section.direction), section_unit(section));
+}
+
+std::string neighbours_text(ChaosSettings const& chaos) {
+    std::string text = fmt::format("exponents = {}\n", chaos.exponents);
+    if (chaos.exponents == 0) return text;
+    text += fmt::format("d0 = {}\n", number(chaos.d0));
+    if (chaos.exponents == 1) {
+        text += fmt::format("d0_lower = {}\nd0_upper = {}\n", number(chaos.d0_lower), number(chaos.d0_upper));
+    }
+    if (!chaos.dt.revolutions) return text + fmt::format("dt = {}  # s\n", number(chaos.dt.value));
+    return text + fmt::format("rescalings_per_revolution = {:.0f}\n", std::round(1 / chaos.dt.value));
+}
+
+std::string sweep_text(ChaosSettings const& chaos) {
+    std::string text = fmt::format("parameter = \"{}\"\nvalues = [", chaos.parameter->name);
+    // Lines of a scene have a longest length.
+    for (double const value : chaos.values) text += fmt::format("\n    {},", number(value));
+    std::string_view const unit = chaos.parameter->unit;
+    text += fmt::format("\n]{}{}\n", unit == "1" ? "" : "  # ", unit == "1" ? "" : unit);
+    return text + fmt::format("start = \"{}\"\n", chaos.continued ? "continue" : "fresh");
+}
+
+/// Only what counts in the scene's study.
+std::string study_table(Scene const& scene) {
+    ChaosSettings const& chaos = scene.chaos;
+    std::string text = fmt::format("\n[study]\nkind = \"{}\"\nmembers = {}\nseed = {}\n", name_of(scene.study),
+                                   scene.members, scene.seed);
+    if (scene.study == StudyKind::ensemble) {
+        text += fmt::format("duration = {}  # s\nsamples = {}\n", number(scene.integrator.end_time),
+                            scene.sample_times.size());
+    } else {
+        text += span_line(chaos.transient, "transient_revolutions", "Ttr");
+        text += span_line(chaos.span, "revolutions", "duration");
+    }
+    if (scene.study == StudyKind::sweep) text += sweep_text(chaos);
+    if (scene.study == StudyKind::poincare || scene.study == StudyKind::sweep) text += section_line(chaos.section);
+    if (chaos.section.on != SectionSurface::On::phase) text += fmt::format("max_crossings = {}\n", chaos.max_crossings);
+    if (scene.study == StudyKind::lyapunov || scene.study == StudyKind::sweep) text += neighbours_text(chaos);
+    if (scene.study == StudyKind::lyapunov) text += fmt::format("history = {}\n", chaos.history);
+    return text + fmt::format("quantities = [{}]\n", quantities_text(scene));
+}
+
 }  // namespace
 
 std::string resolved_toml(Scene const& scene) {
@@ -105,11 +160,7 @@ std::string resolved_toml(Scene const& scene) {
     text += physics_table(scene, complete, "friction", fmt::format("enabled = {}\n", scene.parts.friction));
     text += physics_table(scene, complete, "initial", "");
     text += integrator_table(scene.integrator);
-    text += fmt::format(
-        "\n[study]\nkind = \"{}\"\nmembers = {}\nseed = {}\nduration = {}  # s\nsamples = {}\n"
-        "quantities = [{}]\n",
-        name_of(scene.study), scene.members, scene.seed, number(scene.integrator.end_time), scene.sample_times.size(),
-        quantities_text(scene));
+    text += study_table(scene);
     if (!scene.variations.empty()) text += "\n[study.vary]\n";
     for (Variation const& variation : scene.variations) {
         std::string_view const unit = variation.key->unit;

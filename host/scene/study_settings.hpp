@@ -49,6 +49,17 @@ struct SectionSurface {
     friend bool operator==(SectionSurface const&, SectionSurface const&) = default;
 };
 
+/// SI unit of a section's level, as keys have it.
+std::string_view section_unit(SectionSurface const& section);
+
+/// How many parts of this length fit into the whole, but for rounding.  Where both count revolutions, or both seconds,
+/// all members have as many.
+inline double parts_of(Span const& whole, Span const& part, double crank_speed) {
+    bool const same = whole.revolutions == part.revolutions;
+    double const parts = same ? whole.value / part.value : whole.seconds(crank_speed) / part.seconds(crank_speed);
+    return std::floor(parts * (1 + 1e-12) + 1e-9);
+}
+
 /// Each study reads what it names; the rest stays as it is here.
 struct ChaosSettings {
     Span transient;                    // left out before anything is recorded

@@ -1,0 +1,326 @@
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "host/scene/reader.hpp"
+#include "host/scene/suggest.hpp"
+#include "host/scene/values.hpp"
+
+namespace slideway {
+namespace {
+
+constexpr std::uint64_t most_per_turn = 1'000'000;  // rescalings
+constexpr double most_growths = 1e7;                // of one member, which keeps them in memory while it runs
+constexpr std::uint64_t most_crossings = 1'000'000;
+
+/// The two keys of a length of time.
+struct SpanKeys {
+    std::string_view time, turns;  // dotted names
+    std::string_view what;
+    bool may_be_zero;
+};
+constexpr SpanKeys span_keys{"study.duration", "study.revolutions", "duration", false};
+constexpr SpanKeys transient_keys{"study.Ttr", "study.transient_revolutions", "transient", true};
+constexpr SpanKeys dt_keys{"study.dt", "study.rescalings_per_revolution", "time between rescalings", false};
+
+Node const* given_of(Node const& root, SpanKeys const& keys) {
+    Node const* const node = root.find_path(keys.time);
+    return node != nullptr ? node : root.find_path(keys.turns);
+}
+
+/// Blames a node if it is given, else the study.
+[[noreturn]] void refuse_study(Node const& root, Node const* node, std::string_view key, Problem const& problem) {
+    if (node != nullptr) refuse(*node, problem);
+    Node const& kind = *root.find_path("study.kind");
+    throw SceneError(fmt::format("{}: {} is not given ({}); {}", kind.where, key, problem.reason, problem.advice));
+}
+
+[[noreturn]] void refuse_at_rest(Node const& node, std::string_view advice) {
+    refuse(node, {"mechanism.crank_speed is 0, so there are no revolutions", std::string(advice)});
+}
+
+/// A crank at rest has no revolutions; each that would be the default is a second, as in an ensemble.
+Span read_span(Node const& root, Scene const& scene, SpanKeys const& keys, double default_turns) {
+    refuse_both(root, keys.turns, keys.time);
+    Range const range{0, longest_time, keys.may_be_zero};
+    if (Node const* const node = root.find_path(keys.time)) {
+        return {read_number(*node, "s", keys.what, range), false};
+    }
+    bool const turns = scene.inputs.crank_speed != 0;
+    Node const* const node = root.find_path(keys.turns);
+    if (node == nullptr) return {default_turns, turns};
+    double const value = read_number(*node, "1", "number of revolutions", range);
+    if (!turns) refuse_at_rest(*node, fmt::format("use {} instead", keys.time));
+    return {value, true};
+}
+
+Span read_dt(Node const& root, Scene const& scene) {
+    refuse_both(root, dt_keys.turns, dt_keys.time);
+    if (Node const* const node = root.find_path(dt_keys.time)) {
+        return {read_number(*node, "s", dt_keys.what, {0, longest_time, false}), false};
+    }
+    Node const* const node = root.find_path(dt_keys.turns);
+    std::uint64_t const per_turn =
+        node != nullptr ? read_count(*node, "number of rescalings per revolution", 1, most_per_turn) : 2000;
+    if (node != nullptr && scene.inputs.crank_speed == 0) refuse_at_rest(*node, "use study.dt instead");
+    return {1 / static_cast<double>(per_turn), scene.inputs.crank_speed != 0};
+}
+
+void read_phase(Node const& root, Scene& scene) {
+    Node const* const node = root.find_path("study.phase");
+    if (node != nullptr) scene.chaos.section.level = read_number(*node, "rad");
+    if (scene.inputs.crank_speed != 0) return;
+    refuse_study(root, node, "study.phase",
+                 {"mechanism.crank_speed is 0, so no crank angle comes round",
+                  scene.study == StudyKind::sweep ? "give the crank a speed" : "give study.section"});
+}
+
+/// Names of what a section may be taken of: states, then gaps.
+std::vector<std::string> surface_names() {
+    std::vector<std::string> names;
+    for (int i = 0; i < state_series; ++i) names.emplace_back(series_table[i].name);
+    for (char const* const face : {"gap_y", "gap_z"}) {
+        for (int apex = 1; apex <= 8; ++apex) names.push_back(fmt::format("{}[P{}]", face, apex));
+    }
+    return names;
+}
+
+void read_section_table(Node const& table, SectionSurface& section) {
+    constexpr std::string_view example = "{ on = \"vy\", value = \"0 mm/s\", direction = \"rising\" }";
+    if (!table.is_table()) refuse(table, {"not a section", fmt::format("write for example {}", example)});
+    for (Node const& node : table.children) {
+        if (node.key != "on" && node.key != "value" && node.key != "direction") {
+            refuse(node, {"no argument of a section", "use on, value, direction"});
+        }
+    }
+    Node const* const on = table.find("on");
+    if (on == nullptr) {
+        throw SceneError(fmt::format("{}: study.section has no on (what crosses the section); write for example {}",
+                                     table.where, example));
+    }
+    std::string const& name = read_text_value(*on);
+    auto const known = surface_names();
+    auto const found = std::find(known.begin(), known.end(), name);
+    if (found == known.end()) {
+        std::vector<std::string_view> const names(known.begin(), known.end());
+        std::string_view const near = nearest_name(name, names);
+        refuse(*on, {"neither a state nor a gap",
+                     near.empty() ? std::string("use one of y, z, vy, vz, roll, yaw, pitch, wx, wy, wz, gap_y[P1] to "
+                                                "gap_y[P8], gap_z[P1] to gap_z[P8]")
+                                  : fmt::format("did you mean \"{}\"?", near)});
+    }
+    int const index = static_cast<int>(found - known.begin());
+    using On = SectionSurface::On;
+    bool const state = index < state_series;
+    section.on = state ? On::state : index < state_series + 8 ? On::gap_y : On::gap_z;
+    section.index = state ? index : (index - state_series) % 8;
+    if (Node const* const value = table.find("value")) {
+        section.level = read_number(*value, section_unit(section));
+    }
+    if (Node const* const direction = table.find("direction")) {
+        section.direction =
+            static_cast<CrossingDirection>(read_choice(*direction, "direction", crossing_direction_names));
+    }
+}
+
+void read_section(Node const& root, Scene& scene) {
+    refuse_both(root, "study.phase", "study.section");
+    Node const* const table = root.find_path("study.section");
+    Node const* const crossings = root.find_path("study.max_crossings");
+    if (table == nullptr) {
+        if (crossings != nullptr) {
+            refuse(*crossings, {"a crank angle comes once a revolution", "remove it, or give study.section"});
+        }
+        return read_phase(root, scene);
+    }
+    read_section_table(*table, scene.chaos.section);
+    if (crossings != nullptr) {
+        scene.chaos.max_crossings = read_count(*crossings, "number of crossings", 1, most_crossings);
+    }
+}
+
+void read_neighbours(Node const& root, Scene& scene) {
+    ChaosSettings& chaos = scene.chaos;
+    Node const* const count = root.find_path("study.exponents");
+    int const least = scene.study == StudyKind::sweep ? 0 : 1;
+    chaos.exponents =
+        count != nullptr ? static_cast<int>(read_count(*count, "number of exponents", least, most_shadows)) : 1;
+    // Distances of some 1e-15 are rounding.
+    Range const range{1e-14, 1e3, true};
+    Node const *const d0 = root.find_path("study.d0"), *const lower = root.find_path("study.d0_lower"),
+                     *const upper = root.find_path("study.d0_upper");
+    ChaosSettings given;
+    if (d0 != nullptr) given.d0 = read_number(*d0, "1", "distance of neighbours", {1e-12, 1, true});
+    given.d0_lower = lower != nullptr ? read_number(*lower, "1", "least distance", range) : given.d0 / 1e3;
+    given.d0_upper = upper != nullptr ? read_number(*upper, "1", "largest distance", range) : given.d0 * 1e3;
+    auto const name_d0 = [&](std::string_view side) {
+        return Problem{fmt::format("not {} study.d0, {}", side, given.d0), "use d0_lower < d0 < d0_upper"};
+    };
+    if (lower != nullptr && !(given.d0_lower < given.d0)) refuse(*lower, name_d0("below"));
+    if (upper != nullptr && !(given.d0_upper > given.d0)) refuse(*upper, name_d0("above"));
+    given.dt = read_dt(root, scene);
+
+    auto const warn = [&](Node const* node, std::string_view why) {
+        if (node != nullptr) scene.warnings.push_back(fmt::format("{} has no effect with {}", node->name, why));
+    };
+    if (chaos.exponents == 0) {
+        for (Node const* const node : {d0, lower, upper, given_of(root, dt_keys)}) warn(node, "study.exponents = 0");
+        return;
+    }
+    if (chaos.exponents > 1) {
+        for (Node const* const node : {lower, upper}) {
+            warn(node, "several exponents: their neighbours are rescaled every time");
+        }
+        given.d0_lower = given.d0 / 1e3;
+        given.d0_upper = given.d0 * 1e3;
+    }
+    chaos.d0 = given.d0, chaos.d0_lower = given.d0_lower, chaos.d0_upper = given.d0_upper, chaos.dt = given.dt;
+}
+
+/// A block's members stop equally often: what they count by must not differ between them.
+void check_common_count(Node const& root, Scene const& scene) {
+    ChaosSettings const& chaos = scene.chaos;
+    bool const by_phase = scene.study != StudyKind::lyapunov && chaos.section.on == SectionSurface::On::phase;
+    bool const counts = by_phase || chaos.exponents > 0;
+    if (!counts || !crank_speeds(scene).several) return;
+    bool const turns = by_phase || chaos.dt.revolutions;
+    struct Length {
+        Span const& span;
+        SpanKeys const& keys;
+    };
+    for (auto const& [span, keys] : {Length{chaos.span, span_keys}, Length{chaos.transient, transient_keys}}) {
+        if (span.value == 0 || span.revolutions == turns) continue;
+        std::string const reason = fmt::format("mechanism.crank_speed differs between members, and so would their number of {}",
+                                               by_phase ? "sections" : "rescalings");
+        if (span.revolutions) refuse(*root.find_path(dt_keys.time), {reason, fmt::format("use {}", dt_keys.turns)});
+        refuse(*root.find_path(keys.time), {reason, fmt::format("use {}", by_phase || chaos.dt.revolutions ? keys.turns : keys.time)});
+    }
+}
+
+void check_length(Node const& root, Scene const& scene) {
+    ChaosSettings const& chaos = scene.chaos;
+    bool const turns = chaos.span.revolutions || chaos.transient.revolutions;
+    SpeedRange const speeds = crank_speeds(scene);
+    Node const* const given = given_of(root, span_keys);
+    if (turns && speeds.several && speeds.least == 0) {
+        refuse_study(root, given, "study.revolutions",
+                     {"mechanism.crank_speed may be 0, where revolutions do not end",
+                      "vary it within limits of one sign"});
+    }
+    double const longest = run_length(scene).longest;
+    if (!(longest <= longest_time)) {
+        refuse_study(root, given, "study.revolutions",
+                     {fmt::format("with the transient a member lasts {:.3g} s", longest),
+                      fmt::format("stay below {} s", longest_time)});
+    }
+}
+
+void read_history(Node const& root, Scene& scene) {
+    ChaosSettings& chaos = scene.chaos;
+    double const rescalings = parts_of(chaos.span, chaos.dt, scene.inputs.crank_speed);
+    if (!(rescalings >= 1)) {
+        refuse_study(root, given_of(root, span_keys), "study.revolutions",
+                     {"it ends before the first rescaling", "record for longer, or rescale oftener"});
+    }
+    chaos.history = static_cast<std::size_t>(std::min(100.0, rescalings));
+    Node const* const node = root.find_path("study.history");
+    if (node == nullptr) return;
+    constexpr std::uint64_t most = static_cast<std::uint64_t>(most_growths);
+    chaos.history = read_count(*node, "number of points", 0, most);
+    if (static_cast<double>(chaos.history) > rescalings) {
+        refuse(*node, {fmt::format("there are {:.0f} rescalings", rescalings),
+                       fmt::format("use a value <= {:.0f}", rescalings)});
+    }
+}
+
+void check_memory(Node const& root, Scene const& scene) {
+    ChaosSettings const& chaos = scene.chaos;
+    double const speed = scene.inputs.crank_speed;
+    bool const by_phase = chaos.section.on == SectionSurface::On::phase;
+    double sections = 0;
+    if (scene.study != StudyKind::lyapunov) {
+        sections = by_phase ? parts_of(chaos.span, {1, true}, speed) + 1 : static_cast<double>(chaos.max_crossings);
+    }
+    double const growths = chaos.exponents > 0 ? parts_of(chaos.span, chaos.dt, speed) * chaos.exponents : 0;
+    Node const* const given = given_of(root, span_keys);
+    if (std::max(sections * state_size, growths) > most_growths) {
+        refuse_study(root, given, "study.revolutions",
+                     {fmt::format("each member would hold {:.3g} numbers while it runs", std::max(sections * state_size, growths)),
+                      fmt::format("record for a shorter time, or less often, at most {:g} numbers", most_growths)});
+    }
+    double const columns = static_cast<double>(std::max<std::size_t>(chaos.values.size(), 1));
+    double const kept = sections * state_size + static_cast<double>(chaos.history) * chaos.exponents;
+    double const values = static_cast<double>(scene.members) * columns * kept;
+    if (values > most_values) {
+        refuse_study(root, root.find_path("study.members"), "study.members",
+                     {fmt::format("the results would hold {:.3g} numbers", values),
+                      fmt::format("ask for fewer members or less of each, at most {:g} numbers", most_values)});
+    }
+}
+
+}  // namespace
+
+std::string_view section_unit(SectionSurface const& section) {
+    switch (section.on) {
+        case SectionSurface::On::phase: return "rad";
+        case SectionSurface::On::state: return find_key(fmt::format("initial.{}", series_table[section.index].name))->unit;
+        default: return "m";
+    }
+}
+
+SpeedRange crank_speeds(Scene const& scene) {
+    Key const& key = *find_key("mechanism.crank_speed");
+    SpeedRange range{std::abs(scene.inputs.crank_speed), std::abs(scene.inputs.crank_speed), false};
+    auto const take = [&](double low, double high) {
+        if (!range.several) range.least = range.most = std::abs(low);
+        range.several = true;
+        double const least = low <= 0 && high >= 0 ? 0 : std::min(std::abs(low), std::abs(high));
+        range.least = std::min(range.least, least);
+        range.most = std::max({range.most, std::abs(low), std::abs(high)});
+    };
+    for (Variation const& variation : scene.variations) {
+        if (variation.key != &key) continue;
+        Distribution const& d = variation.distribution;
+        switch (d.kind) {
+            case Distribution::Kind::constant: take(d.mean, d.mean); break;
+            case Distribution::Kind::normal: take(d.mean - 8 * d.sd, d.mean + 8 * d.sd); break;  // none of 1e15 draws is beyond
+            default: take(d.low, d.high);
+        }
+    }
+    if (scene.chaos.parameter == &key) {
+        for (double const value : scene.chaos.values) take(value, value);
+    }
+    return range;
+}
+
+RunLength run_length(Scene const& scene) {
+    ChaosSettings const& chaos = scene.chaos;
+    auto const at = [&](double speed) { return chaos.transient.seconds(speed) + chaos.span.seconds(speed); };
+    SpeedRange const speeds = crank_speeds(scene);
+    double stops = 0;
+    if (chaos.exponents > 0) {
+        stops = at(scene.inputs.crank_speed) / chaos.dt.seconds(scene.inputs.crank_speed);
+    } else if (chaos.section.on == SectionSurface::On::phase) {
+        stops = at(scene.inputs.crank_speed) / Span{1, true}.seconds(scene.inputs.crank_speed);
+    }
+    return {at(scene.inputs.crank_speed), std::max(at(scene.inputs.crank_speed), at(speeds.least)), std::ceil(stops)};
+}
+
+void read_chaos(Node const& root, Scene& scene) {
+    ChaosSettings& chaos = scene.chaos;
+    bool const lyapunov = scene.study == StudyKind::lyapunov, sweep = scene.study == StudyKind::sweep;
+    chaos.transient = read_span(root, scene, transient_keys, lyapunov ? 2 : 20);
+    chaos.span = read_span(root, scene, span_keys, lyapunov ? 10 : sweep ? 50 : 150);
+    if (sweep) read_phase(root, scene);
+    if (scene.study == StudyKind::poincare) read_section(root, scene);
+    if (lyapunov || sweep) read_neighbours(root, scene);
+    if (sweep) check_columns(root, scene);
+    check_common_count(root, scene);
+    check_length(root, scene);
+    if (lyapunov) read_history(root, scene);
+    check_memory(root, scene);
+}
+
+}  // namespace slideway

@@ -1,0 +1,135 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "host/scene/reader.hpp"
+#include "host/scene/values.hpp"
+
+namespace slideway {
+namespace {
+
+constexpr std::uint64_t most_columns = 10'000;
+
+[[noreturn]] void refuse_missing(Node const& root, std::string_view key, std::string_view why, std::string_view advice) {
+    throw SceneError(
+        fmt::format("{}: {} is missing ({}); {}", root.find_path("study.kind")->where, key, why, advice));
+}
+
+Key const& read_parameter(Node const& root, Scene const& scene) {
+    Node const* const node = root.find_path("study.parameter");
+    if (node == nullptr) {
+        refuse_missing(root, "study.parameter", "a sweep changes one key", "add parameter = \"joint.clearance\"");
+    }
+    std::string const& name = read_text_value(*node);
+    Key const* const key = find_key(name);
+    if (key == nullptr) refuse(*node, {"only numeric keys of the physics can be swept", key_advice(name)});
+    for (Variation const& other : scene.variations) {
+        if (other.key->overlaps(*key)) {
+            refuse(*node, {fmt::format("study.vary.{} varies the same", other.key->name), "remove one of the two"});
+        }
+    }
+    for (GivenKey const& given : given_keys(root)) {
+        if (given.node->order > 0 && given.key->overlaps(*key)) {
+            refuse(*given.node, {"the sweep sets it in every column, so this has no effect",
+                                 "use --set 'study.values=[...]'"});
+        }
+    }
+    check_counts(root, *node, *key, scene);
+    return *key;
+}
+
+double read_end(Node const& root, std::string_view name, Key const& key) {
+    Node const* const node = root.find_path(name);
+    if (node == nullptr) {
+        refuse_missing(root, name, "a sweep needs its values",
+                       "give study.values, or study.from, study.to and study.points");
+    }
+    return read_number(*node, key);
+}
+
+std::vector<double> read_range(Node const& root, Key const& key) {
+    double const from = read_end(root, "study.from", key), to = read_end(root, "study.to", key);
+    Node const* const count = root.find_path("study.points");
+    if (count == nullptr) refuse_missing(root, "study.points", "how many columns there are", "add points = 50");
+    std::uint64_t const points = read_count(*count, "number of columns", 2, most_columns);
+    Node const& last = *root.find_path("study.to");
+    if (from == to) refuse(last, with_unit(to, key.unit), {"equal to study.from", "use another value, or study.values"});
+    bool logarithmic = false;
+    if (Node const* const spacing = root.find_path("study.spacing")) {
+        constexpr std::string_view spacings[] = {"linear", "log"};
+        logarithmic = read_choice(*spacing, "spacing", spacings) == 1;
+        if (logarithmic && !(from * to > 0)) {
+            refuse(*spacing, {fmt::format("from {} to {} there is no common ratio", with_unit(from, key.unit),
+                                          with_unit(to, key.unit)),
+                              "use ends of one sign, or \"linear\""});
+        }
+    }
+    std::vector<double> values(points);
+    for (std::uint64_t i = 0; i < points; ++i) {
+        double const part = static_cast<double>(i) / static_cast<double>(points - 1);
+        values[i] = logarithmic ? from * std::pow(to / from, part) : from + (to - from) * part;
+    }
+    values.back() = to;
+    return values;
+}
+
+std::vector<double> read_list(Node const& list, Key const& key) {
+    if (list.type != Node::Type::array || list.children.empty() || list.children.size() > most_columns) {
+        refuse(list, {fmt::format("not a list of 1 to {} values", most_columns),
+                      "write for example [\"0.1 mm\", \"0.2 mm\"]"});
+    }
+    std::vector<double> values;
+    for (Node const& node : list.children) values.push_back(read_number(node, key));
+    return values;
+}
+
+/// The node that a column's value comes from; between from and to nothing can be wrong that is right at both.
+Node const& node_of(Node const& root, std::size_t column) {
+    if (Node const* const list = root.find_path("study.values")) return list->children[column];
+    return *root.find_path(column == 0 ? "study.from" : "study.to");
+}
+
+}  // namespace
+
+void read_sweep(Node const& root, Scene& scene) {
+    for (std::string_view const name : {"study.from", "study.to", "study.points", "study.spacing"}) {
+        refuse_both(root, "study.values", name);
+    }
+    Key const& key = read_parameter(root, scene);
+    Node const* const list = root.find_path("study.values");
+    scene.chaos.parameter = &key;
+    scene.chaos.values = list != nullptr ? read_list(*list, key) : read_range(root, key);
+    require_part(scene.parts, key);
+    for (std::size_t i = 0; i < scene.chaos.values.size(); ++i) {
+        double const value = scene.chaos.values[i];
+        Inputs inputs = scene.inputs;
+        key.set(inputs, value);
+        if (auto const found = find_defect(inputs)) {
+            refuse(node_of(root, i), with_unit(value, key.unit),
+                   {fmt::format("{} would be {}: {}", found->key->name, with_unit(found->value, found->key->unit),
+                                found->problem.reason),
+                    found->problem.advice});
+        }
+        if (key.name == "mechanism.crank_speed" && value == 0) {
+            refuse(node_of(root, i), with_unit(value, key.unit),
+                   {"a crank at rest comes to no section", "leave the value out"});
+        }
+    }
+    if (Node const* const node = root.find_path("study.start")) {
+        constexpr std::string_view starts[] = {"fresh", "continue"};
+        scene.chaos.continued = read_choice(*node, "start", starts) == 1;
+    }
+}
+
+void check_columns(Node const& root, Scene const& scene) {
+    ChaosSettings const& chaos = scene.chaos;
+    auto const whole = [](Span const& span) { return span.revolutions && span.value == std::floor(span.value); };
+    if (!whole(chaos.span)) refuse(*root.find_path("study.revolutions"), {"a sweep records whole revolutions", "use an integer"});
+    if (!chaos.continued || whole(chaos.transient) || chaos.transient.value == 0) return;
+    Node const* const time = root.find_path("study.Ttr");
+    refuse(time != nullptr ? *time : *root.find_path("study.transient_revolutions"),
+           {"with start = \"continue\" columns begin at the crank angle where the one before ended",
+            "use a whole number of study.transient_revolutions"});
+}
+
+}  // namespace slideway
