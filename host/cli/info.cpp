@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "host/cli/commands.hpp"
+#include "host/cli/orbit_text.hpp"
 #include "host/cli/text.hpp"
 #include "host/output/result_reader.hpp"
 #include "host/study/result_summary.hpp"
@@ -27,6 +28,8 @@ int info(InfoArguments const& arguments) {
     print_statuses(count_statuses(results));
     auto const quantities = summarise_quantities(results);
     print_quantities(quantities);
+    print_exponents(results);
+    print_sections(results);
     fmt::print("\nscene\n{}\n", results.attribute("scene"));
     if (intact) return exit_code::done;
     throw FileError(

@@ -1,10 +1,14 @@
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "host/cli/commands.hpp"
+#include "host/cli/orbit_text.hpp"
 #include "host/cli/text.hpp"
+#include "host/study/orbit_schedule.hpp"
 
 namespace slideway::cli {
 namespace {
@@ -136,16 +140,20 @@ void print_summary(RunArguments const& arguments, Scene const& scene, EnsembleOp
     print_field("scene", scene.title.empty() ? scene.path : fmt::format("{} ({})", scene.title, scene.path));
     print_field("members", fmt::format("{}", options.range.count));
     print_statuses(count_statuses(results));
-    print_field("throughput", fmt::format("{:.4g} members/s, {} wall time ({} threads, {}, {} lanes)",
-                                          totals.seconds > 0 ? static_cast<double>(ran) / totals.seconds : 0.0,
-                                          duration_text(totals.seconds), options.threads, name_of(options.isa),
-                                          lanes_of(options.isa)));
+    double const rate = totals.seconds > 0 ? static_cast<double>(ran) / totals.seconds : 0.0;
+    double const turns = orbit_schedule(scene).longest * std::abs(scene.inputs.crank_speed) / (2 * std::numbers::pi);
+    print_field("throughput",
+                fmt::format("{:.4g} members/s, {}{} wall time ({} threads, {}, {} lanes)", rate,
+                            turns > 0 ? fmt::format("{:.4g} members x revolutions/s, ", rate * turns) : "",
+                            duration_text(totals.seconds), options.threads, name_of(options.isa), lanes_of(options.isa)));
     print_field("steps", fmt::format("{} accepted ({} by the stiff method), {} rejected", totals.steps_accepted,
                                      totals.stiff_steps, totals.steps_rejected));
     print_field("evaluations",
                 fmt::format("{} right-hand sides, {} Jacobians", totals.rhs_evaluations, totals.jacobian_evaluations));
     print_field("lanes in use", fmt::format("{:.1f} %", 100 * totals.lane_utilisation()));
     print_quantities(quantities);
+    print_exponents(results);
+    print_sections(results);
     print_energy_made(scene, totals, quantities);
     print_instability(scene, totals);
     print_spent(scene, totals);

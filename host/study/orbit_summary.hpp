@@ -1,0 +1,40 @@
+// What a result file tells about the orbits of its members: exponents and sections.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "host/chaos/exponents.hpp"
+#include "host/output/result_reader.hpp"
+#include "host/study/statistics.hpp"
+
+namespace slideway {
+
+/// One exponent over the members that finished [1/s].
+struct ExponentSummary {
+    MeanInterval mean;
+    Summary values;
+    double low, high;  // 5 % and 95 % quantiles
+    /// Members whose own 95 % interval, value ± t · standard error, lies above zero, below it, or holds it.
+    std::uint64_t positive = 0, negative = 0, undecided = 0;
+};
+
+/// By the exponent's number; empty if the file holds none.
+std::vector<ExponentSummary> summarise_exponents(ResultReader const& results);
+
+/// Ensemble mean of the largest exponent after so many rescalings, with its confidence interval.
+struct HistoryPoint {
+    double rescalings;
+    MeanInterval mean;
+};
+std::vector<HistoryPoint> exponent_history(ResultReader const& results);
+
+struct SectionSummary {
+    std::uint64_t sections = 0;  // of all members
+    std::uint64_t without = 0;   // members that finished and have none
+};
+/// Nothing if the file holds no sections.
+std::optional<SectionSummary> summarise_sections(ResultReader const& results);
+
+}  // namespace slideway
