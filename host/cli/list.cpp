@@ -1,12 +1,26 @@
+#include <iterator>
+#include <string>
+
 #include <fmt/format.h>
 
 #include "host/cli/commands.hpp"
+#include "host/scene/study_keys.hpp"
 
 namespace slideway::cli {
 namespace {
 
 void print_keys(std::span<Key const> table) {
     for (Key const& key : table) fmt::print("  {:<30} {:<8} {}\n", key.name, key.unit, key.meaning);
+}
+
+std::string studies_of(StudyKey const& key) {
+    if (key.studies == study_sets::all) return "all";
+    std::string names;
+    for (std::size_t i = 0; i < std::size(study_kind_names); ++i) {
+        if ((key.studies & set_of(static_cast<StudyKind>(i))) == 0) continue;
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", study_kind_names[i]);
+    }
+    return names;
 }
 
 }  // namespace
@@ -28,6 +42,14 @@ int list(ListArguments const&) {
     fmt::print(
         "\nstudies (study.kind)\n"
         "  ensemble                       every member to the end time, summary statistics\n"
+        "  lyapunov                       the largest Lyapunov exponents of every member, and how they converged\n"
+        "  poincare                       states at a crank angle, or where a state or a gap crosses a level\n"
+        "  sweep                          sections and exponents, column by column, as one key changes\n");
+    fmt::print("\nkeys of the studies ([study])\n");
+    for (StudyKey const& key : study_keys) {
+        fmt::print("  {:<30} {:<8} {}: {}\n", key.name, key.unit, studies_of(key), key.meaning);
+    }
+    fmt::print(
         "\ndistributions (study.vary)\n"
         "  const                          value\n"
         "  unif                           low, high\n"

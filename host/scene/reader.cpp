@@ -103,8 +103,13 @@ void refuse_both(Node const& root, std::string_view first, std::string_view seco
     Node const* const b = root.find_path(second);
     if (a == nullptr || b == nullptr) return;
     bool const a_is_later = a->order != b->order ? a->order > b->order : a->line > b->line;
-    refuse(a_is_later ? *a : *b,
-           {fmt::format("{} says it too", a_is_later ? second : first), "remove one of the two"});
+    refuse(a_is_later ? *a : *b, {fmt::format("{} says it too", a_is_later ? second : first), "remove one of the two"});
+}
+
+void refuse_study(Node const& root, Node const* node, std::string_view key, Problem const& problem) {
+    if (node != nullptr) refuse(*node, problem);
+    Node const& kind = *root.find_path("study.kind");
+    throw SceneError(fmt::format("{}: {} is not given ({}); {}", kind.where, key, problem.reason, problem.advice));
 }
 
 void refuse_unknown(Node const& node, std::string_view what, std::span<std::string_view const> known) {

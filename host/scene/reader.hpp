@@ -22,6 +22,8 @@ void read_variations(Node const& root, Scene& scene);
 void read_study(Node const& root, Scene& scene);
 /// The keys of a study that is no ensemble: Scene::chaos.
 void read_chaos(Node const& root, Scene& scene);
+/// Where the sections of a poincare or sweep are taken.
+void read_section(Node const& root, Scene& scene);
 /// What a sweep sweeps, through which values.
 void read_sweep(Node const& root, Scene& scene);
 /// What a sweep asks of the lengths of time.
@@ -63,6 +65,9 @@ std::vector<double> uniform_times(double end_time, std::size_t count);
 
 /// Refuses the later one of two keys that say the same, if both are given.
 void refuse_both(Node const& root, std::string_view first, std::string_view second);
+
+/// Refuses what is given, or the study whose default it is; `key` is the dotted name.
+[[noreturn]] void refuse_study(Node const& root, Node const* given, std::string_view key, Problem const& problem);
 
 /// Refuses a node that no part of the scene reads.
 [[noreturn]] void refuse_unknown(Node const& node, std::string_view what, std::span<std::string_view const> known);

@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include <fmt/format.h>
 
 #include "host/scene/reader.hpp"
-#include "host/scene/suggest.hpp"
 #include "host/scene/values.hpp"
 
 namespace slideway {
@@ -13,7 +11,6 @@ namespace {
 
 constexpr std::uint64_t most_per_turn = 1'000'000;  // rescalings
 constexpr double most_growths = 1e7;                // of one member, which keeps them in memory while it runs
-constexpr std::uint64_t most_crossings = 1'000'000;
 
 /// The two keys of a length of time.
 struct SpanKeys {
@@ -28,13 +25,6 @@ constexpr SpanKeys dt_keys{"study.dt", "study.rescalings_per_revolution", "time 
 Node const* given_of(Node const& root, SpanKeys const& keys) {
     Node const* const node = root.find_path(keys.time);
     return node != nullptr ? node : root.find_path(keys.turns);
-}
-
-/// Blames a node if it is given, else the study.
-[[noreturn]] void refuse_study(Node const& root, Node const* node, std::string_view key, Problem const& problem) {
-    if (node != nullptr) refuse(*node, problem);
-    Node const& kind = *root.find_path("study.kind");
-    throw SceneError(fmt::format("{}: {} is not given ({}); {}", kind.where, key, problem.reason, problem.advice));
 }
 
 [[noreturn]] void refuse_at_rest(Node const& node, std::string_view advice) {
@@ -68,79 +58,6 @@ Span read_dt(Node const& root, Scene const& scene) {
     return {1 / static_cast<double>(per_turn), scene.inputs.crank_speed != 0};
 }
 
-void read_phase(Node const& root, Scene& scene) {
-    Node const* const node = root.find_path("study.phase");
-    if (node != nullptr) scene.chaos.section.level = read_number(*node, "rad");
-    if (scene.inputs.crank_speed != 0) return;
-    refuse_study(root, node, "study.phase",
-                 {"mechanism.crank_speed is 0, so no crank angle comes round",
-                  scene.study == StudyKind::sweep ? "give the crank a speed" : "give study.section"});
-}
-
-/// Names of what a section may be taken of: states, then gaps.
-std::vector<std::string> surface_names() {
-    std::vector<std::string> names;
-    for (int i = 0; i < state_series; ++i) names.emplace_back(series_table[i].name);
-    for (char const* const face : {"gap_y", "gap_z"}) {
-        for (int apex = 1; apex <= 8; ++apex) names.push_back(fmt::format("{}[P{}]", face, apex));
-    }
-    return names;
-}
-
-void read_section_table(Node const& table, SectionSurface& section) {
-    constexpr std::string_view example = "{ on = \"vy\", value = \"0 mm/s\", direction = \"rising\" }";
-    if (!table.is_table()) refuse(table, {"not a section", fmt::format("write for example {}", example)});
-    for (Node const& node : table.children) {
-        if (node.key != "on" && node.key != "value" && node.key != "direction") {
-            refuse(node, {"no argument of a section", "use on, value, direction"});
-        }
-    }
-    Node const* const on = table.find("on");
-    if (on == nullptr) {
-        throw SceneError(fmt::format("{}: study.section has no on (what crosses the section); write for example {}",
-                                     table.where, example));
-    }
-    std::string const& name = read_text_value(*on);
-    auto const known = surface_names();
-    auto const found = std::find(known.begin(), known.end(), name);
-    if (found == known.end()) {
-        std::vector<std::string_view> const names(known.begin(), known.end());
-        std::string_view const near = nearest_name(name, names);
-        refuse(*on, {"neither a state nor a gap",
-                     near.empty() ? std::string("use one of y, z, vy, vz, roll, yaw, pitch, wx, wy, wz, gap_y[P1] to "
-                                                "gap_y[P8], gap_z[P1] to gap_z[P8]")
-                                  : fmt::format("did you mean \"{}\"?", near)});
-    }
-    int const index = static_cast<int>(found - known.begin());
-    using On = SectionSurface::On;
-    bool const state = index < state_series;
-    section.on = state ? On::state : index < state_series + 8 ? On::gap_y : On::gap_z;
-    section.index = state ? index : (index - state_series) % 8;
-    if (Node const* const value = table.find("value")) {
-        section.level = read_number(*value, section_unit(section));
-    }
-    if (Node const* const direction = table.find("direction")) {
-        section.direction =
-            static_cast<CrossingDirection>(read_choice(*direction, "direction", crossing_direction_names));
-    }
-}
-
-void read_section(Node const& root, Scene& scene) {
-    refuse_both(root, "study.phase", "study.section");
-    Node const* const table = root.find_path("study.section");
-    Node const* const crossings = root.find_path("study.max_crossings");
-    if (table == nullptr) {
-        if (crossings != nullptr) {
-            refuse(*crossings, {"a crank angle comes once a revolution", "remove it, or give study.section"});
-        }
-        return read_phase(root, scene);
-    }
-    read_section_table(*table, scene.chaos.section);
-    if (crossings != nullptr) {
-        scene.chaos.max_crossings = read_count(*crossings, "number of crossings", 1, most_crossings);
-    }
-}
-
 void read_neighbours(Node const& root, Scene& scene) {
     ChaosSettings& chaos = scene.chaos;
     Node const* const count = root.find_path("study.exponents");
@@ -150,7 +67,7 @@ void read_neighbours(Node const& root, Scene& scene) {
     // Distances of some 1e-15 are rounding.
     Range const range{1e-14, 1e3, true};
     Node const *const d0 = root.find_path("study.d0"), *const lower = root.find_path("study.d0_lower"),
-                     *const upper = root.find_path("study.d0_upper");
+                      *const upper = root.find_path("study.d0_upper");
     ChaosSettings given;
     if (d0 != nullptr) given.d0 = read_number(*d0, "1", "distance of neighbours", {1e-12, 1, true});
     given.d0_lower = lower != nullptr ? read_number(*lower, "1", "least distance", range) : given.d0 / 1e3;
@@ -192,10 +109,12 @@ void check_common_count(Node const& root, Scene const& scene) {
     };
     for (auto const& [span, keys] : {Length{chaos.span, span_keys}, Length{chaos.transient, transient_keys}}) {
         if (span.value == 0 || span.revolutions == turns) continue;
-        std::string const reason = fmt::format("mechanism.crank_speed differs between members, and so would their number of {}",
-                                               by_phase ? "sections" : "rescalings");
+        std::string const reason =
+            fmt::format("mechanism.crank_speed differs between members, and so would their number of {}",
+                        by_phase ? "sections" : "rescalings");
         if (span.revolutions) refuse(*root.find_path(dt_keys.time), {reason, fmt::format("use {}", dt_keys.turns)});
-        refuse(*root.find_path(keys.time), {reason, fmt::format("use {}", by_phase || chaos.dt.revolutions ? keys.turns : keys.time)});
+        refuse(*root.find_path(keys.time),
+               {reason, fmt::format("use {}", by_phase || chaos.dt.revolutions ? keys.turns : keys.time)});
     }
 }
 
@@ -205,9 +124,9 @@ void check_length(Node const& root, Scene const& scene) {
     SpeedRange const speeds = crank_speeds(scene);
     Node const* const given = given_of(root, span_keys);
     if (turns && speeds.several && speeds.least == 0) {
-        refuse_study(root, given, "study.revolutions",
-                     {"mechanism.crank_speed may be 0, where revolutions do not end",
-                      "vary it within limits of one sign"});
+        refuse_study(
+            root, given, "study.revolutions",
+            {"mechanism.crank_speed may be 0, where revolutions do not end", "vary it within limits of one sign"});
     }
     double const longest = run_length(scene).longest;
     if (!(longest <= longest_time)) {
@@ -247,7 +166,8 @@ void check_memory(Node const& root, Scene const& scene) {
     Node const* const given = given_of(root, span_keys);
     if (std::max(sections * state_size, growths) > most_growths) {
         refuse_study(root, given, "study.revolutions",
-                     {fmt::format("each member would hold {:.3g} numbers while it runs", std::max(sections * state_size, growths)),
+                     {fmt::format("each member would hold {:.3g} numbers while it runs",
+                                  std::max(sections * state_size, growths)),
                       fmt::format("record for a shorter time, or less often, at most {:g} numbers", most_growths)});
     }
     double const columns = static_cast<double>(std::max<std::size_t>(chaos.values.size(), 1));
@@ -261,14 +181,6 @@ void check_memory(Node const& root, Scene const& scene) {
 }
 
 }  // namespace
-
-std::string_view section_unit(SectionSurface const& section) {
-    switch (section.on) {
-        case SectionSurface::On::phase: return "rad";
-        case SectionSurface::On::state: return find_key(fmt::format("initial.{}", series_table[section.index].name))->unit;
-        default: return "m";
-    }
-}
 
 SpeedRange crank_speeds(Scene const& scene) {
     Key const& key = *find_key("mechanism.crank_speed");
@@ -284,9 +196,14 @@ SpeedRange crank_speeds(Scene const& scene) {
         if (variation.key != &key) continue;
         Distribution const& d = variation.distribution;
         switch (d.kind) {
-            case Distribution::Kind::constant: take(d.mean, d.mean); break;
-            case Distribution::Kind::normal: take(d.mean - 8 * d.sd, d.mean + 8 * d.sd); break;  // none of 1e15 draws is beyond
-            default: take(d.low, d.high);
+            case Distribution::Kind::constant:
+                take(d.mean, d.mean);
+                break;
+            case Distribution::Kind::normal:
+                take(d.mean - 8 * d.sd, d.mean + 8 * d.sd);
+                break;  // none of 1e15 draws is beyond
+            default:
+                take(d.low, d.high);
         }
     }
     if (scene.chaos.parameter == &key) {
@@ -313,8 +230,7 @@ void read_chaos(Node const& root, Scene& scene) {
     bool const lyapunov = scene.study == StudyKind::lyapunov, sweep = scene.study == StudyKind::sweep;
     chaos.transient = read_span(root, scene, transient_keys, lyapunov ? 2 : 20);
     chaos.span = read_span(root, scene, span_keys, lyapunov ? 10 : sweep ? 50 : 150);
-    if (sweep) read_phase(root, scene);
-    if (scene.study == StudyKind::poincare) read_section(root, scene);
+    if (!lyapunov) read_section(root, scene);
     if (lyapunov || sweep) read_neighbours(root, scene);
     if (sweep) check_columns(root, scene);
     check_common_count(root, scene);

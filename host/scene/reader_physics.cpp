@@ -68,10 +68,12 @@ void read_located_modes(Node const& root, Scene& scene) {
     if (node != nullptr && settings.locate_modes) check_located_modes(*node, scene);
     if (!switches || !neighbours || settings.locate_modes) return;
     // In trials exponents came out up to half as large again.
-    scene.warnings.push_back(fmt::format(
-        "{}: steps leap over mode switches of contact.law \"paper\" and miss how they separate neighbours, so that exponents come out wrong; {}",
-        can ? std::string("integrator.locate_modes is false") : fmt::format("integrator.method is {}", name_of(settings.method)),
-        can ? "leave it out" : "use method \"auto\", \"dopri5\" or \"bs32\""));
+    scene.warnings.push_back(
+        fmt::format("{}: steps leap over mode switches of contact.law \"paper\" and miss how they separate neighbours, "
+                    "so that exponents come out wrong; {}",
+                    can ? std::string("integrator.locate_modes is false")
+                        : fmt::format("integrator.method is {}", name_of(settings.method)),
+                    can ? "leave it out" : "use method \"auto\", \"dopri5\" or \"bs32\""));
 }
 
 void warn_of_idle_keys(Node const& table, Scene& scene) {

@@ -148,7 +148,8 @@ void read_max_steps_of_fixed(Node const& root, IntegratorSettings& settings, Run
 Problem foreign_key(StudyKey const& key, StudyKind kind) {
     bool const sweep = kind == StudyKind::sweep;
     if (key.studies == study_sets::ensemble) {
-        return {fmt::format("kind = \"{}\" stores no time series", name_of(kind)), "remove it, or use kind = \"ensemble\""};
+        return {fmt::format("kind = \"{}\" stores no time series", name_of(kind)),
+                "remove it, or use kind = \"ensemble\""};
     }
     if (sweep && key.name == "study.duration") return {"a sweep records whole revolutions", "use study.revolutions"};
     if (sweep && key.name == "study.section") return {"a sweep takes its sections at a crank angle", "use study.phase"};
@@ -200,7 +201,8 @@ void read_study(Node const& root, Scene& scene) {
 
 void read_recording(Node const& root, Scene& scene) {
     bool const samples = scene.study == StudyKind::ensemble;
-    EndTime const end = samples ? read_end_time(root, scene.inputs.crank_speed) : EndTime{run_length(scene).seconds, NAN};
+    EndTime const end =
+        samples ? read_end_time(root, scene.inputs.crank_speed) : EndTime{run_length(scene).seconds, NAN};
     RunLength const length = samples ? RunLength{end.seconds, end.seconds, 0} : run_length(scene);
     scene.integrator.end_time = end.seconds;
     if (scene.integrator.method == Method::rk4) {

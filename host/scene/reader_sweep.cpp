@@ -10,9 +10,9 @@ namespace {
 
 constexpr std::uint64_t most_columns = 10'000;
 
-[[noreturn]] void refuse_missing(Node const& root, std::string_view key, std::string_view why, std::string_view advice) {
-    throw SceneError(
-        fmt::format("{}: {} is missing ({}); {}", root.find_path("study.kind")->where, key, why, advice));
+[[noreturn]] void refuse_missing(Node const& root, std::string_view key, std::string_view why,
+                                 std::string_view advice) {
+    throw SceneError(fmt::format("{}: {} is missing ({}); {}", root.find_path("study.kind")->where, key, why, advice));
 }
 
 Key const& read_parameter(Node const& root, Scene const& scene) {
@@ -30,8 +30,8 @@ Key const& read_parameter(Node const& root, Scene const& scene) {
     }
     for (GivenKey const& given : given_keys(root)) {
         if (given.node->order > 0 && given.key->overlaps(*key)) {
-            refuse(*given.node, {"the sweep sets it in every column, so this has no effect",
-                                 "use --set 'study.values=[...]'"});
+            refuse(*given.node,
+                   {"the sweep sets it in every column, so this has no effect", "use --set 'study.values=[...]'"});
         }
     }
     check_counts(root, *node, *key, scene);
@@ -53,7 +53,8 @@ std::vector<double> read_range(Node const& root, Key const& key) {
     if (count == nullptr) refuse_missing(root, "study.points", "how many columns there are", "add points = 50");
     std::uint64_t const points = read_count(*count, "number of columns", 2, most_columns);
     Node const& last = *root.find_path("study.to");
-    if (from == to) refuse(last, with_unit(to, key.unit), {"equal to study.from", "use another value, or study.values"});
+    if (from == to)
+        refuse(last, with_unit(to, key.unit), {"equal to study.from", "use another value, or study.values"});
     bool logarithmic = false;
     if (Node const* const spacing = root.find_path("study.spacing")) {
         constexpr std::string_view spacings[] = {"linear", "log"};
@@ -124,7 +125,8 @@ void read_sweep(Node const& root, Scene& scene) {
 void check_columns(Node const& root, Scene const& scene) {
     ChaosSettings const& chaos = scene.chaos;
     auto const whole = [](Span const& span) { return span.revolutions && span.value == std::floor(span.value); };
-    if (!whole(chaos.span)) refuse(*root.find_path("study.revolutions"), {"a sweep records whole revolutions", "use an integer"});
+    if (!whole(chaos.span))
+        refuse(*root.find_path("study.revolutions"), {"a sweep records whole revolutions", "use an integer"});
     if (!chaos.continued || whole(chaos.transient) || chaos.transient.value == 0) return;
     Node const* const time = root.find_path("study.Ttr");
     refuse(time != nullptr ? *time : *root.find_path("study.transient_revolutions"),

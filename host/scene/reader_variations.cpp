@@ -139,9 +139,9 @@ void check_clashes(Node const& root, NamedNode const& entry, Scene const& scene,
     }
     for (GivenKey const& given : given_keys(root)) {
         if (given.node->order > 0 && given.key->overlaps(*variation.key)) {
-            refuse(*given.node, {"[study.vary] draws it for every member, so this has no effect",
-                                 fmt::format("use --set 'study.vary.\"{}\"={{dist=\"const\", value=...}}'",
-                                             variation.key->name)});
+            refuse(*given.node,
+                   {"[study.vary] draws it for every member, so this has no effect",
+                    fmt::format("use --set 'study.vary.\"{}\"={{dist=\"const\", value=...}}'", variation.key->name)});
         }
     }
     check_counts(root, *entry.node, *variation.key, scene);
@@ -175,8 +175,7 @@ void check_counts(Node const& root, Node const& node, Key const& key, Scene cons
         }
         for (Variation const& other : scene.variations) {
             if (other.key->name == replaced) {
-                refuse(node,
-                       {fmt::format("it replaces {}, which varies too", replaced), "remove one of the two"});
+                refuse(node, {fmt::format("it replaces {}, which varies too", replaced), "remove one of the two"});
             }
         }
     }

@@ -37,9 +37,11 @@ inline constexpr StudyKey study_keys[] = {
     {"study.Ttr", "s", study_sets::chaos, "the same as a time"},
     {"study.phase", "rad", study_sets::poincare | study_sets::sweep, "crank angle of the sections"},
     {"study.section", "", study_sets::poincare,
-     "{ on = \"vy\", value = \"0 mm/s\", direction = \"rising\" }: a state, or a gap like gap_y[P1]; rising, falling, both"},
+     "{ on = \"vy\", value = \"0 mm/s\", direction = \"rising\" }: a state, or a gap like gap_y[P1]; rising, falling, "
+     "both"},
     {"study.max_crossings", "1", study_sets::poincare, "of study.section, recorded of a member"},
-    {"study.exponents", "1", study_sets::lyapunov | study_sets::sweep, "how many Lyapunov exponents; sweep: 0 for none"},
+    {"study.exponents", "1", study_sets::lyapunov | study_sets::sweep,
+     "how many Lyapunov exponents; sweep: 0 for none"},
     {"study.d0", "1", study_sets::lyapunov | study_sets::sweep, "distance of neighbours, in the scales of atol"},
     {"study.d0_lower", "1", study_sets::lyapunov | study_sets::sweep, "below it one is rescaled; d0/1000"},
     {"study.d0_upper", "1", study_sets::lyapunov | study_sets::sweep, "above it one is rescaled; 1000 d0"},
