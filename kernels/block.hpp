@@ -36,6 +36,7 @@ struct MemberRecord {
     double time = 0;                         // [s] where it ended
     std::uint64_t jacobian_evaluations = 0;  // each costs one to two right-hand sides
     std::uint64_t stiff_steps = 0;           // accepted steps of the stiff method
+    std::uint64_t crossings = 0;             // also those for which there was no room
     std::uint64_t lost_offsets = 0;          // recorded times that a shadow's offset had shrunk into rounding
 };
 
@@ -55,6 +56,16 @@ struct StopPlan {
     constexpr std::size_t sections() const { return count > transient ? (count - transient - 1) / section_every + 1 : 0; }
     /// Recorded growths; the first begins with the stop that ends the transient.
     constexpr std::size_t growths() const { return count > transient ? (count - transient - 1) / growth_every : 0; }
+};
+
+/// A surface in state space whose crossings are recorded: a component of the state, or the gap of an apex to its Y or Z faces (the
+/// penetration negated, > 0 apart), at a level.
+struct CrossingPlan {
+    enum class On { nothing, state, gap_y, gap_z } on = On::nothing;
+    enum class Direction { rising, falling, both } direction = Direction::rising;
+    int index = 0;         // of the component, or of the apex, P1…P8 from 0
+    double level = 0;      // [unit of the component, or m]
+    std::size_t room = 0;  // of each member; later crossings are counted only
 };
 
 /// Shadows: copies of a member that start a little off it and take its steps, to tell how offsets grow.  Distances are
@@ -79,7 +90,8 @@ struct BlockBase {
     Selection series = 0;
     MemberClock const* clocks = nullptr;  // [members]; nullptr: all end at settings.end_time and nobody stops
     StopPlan stops;
-    ShadowPlan shadows;  // of models with shadows
+    ShadowPlan shadows;      // of models with shadows
+    CrossingPlan crossings;  // from each member's first_stop on; of models without shadows
     /// Asked now and then; true ends the block at once.  Members that have not ended keep what their results held before; their series are NaN.
     bool (*stop)(void const* context) = nullptr;
     void const* stop_context = nullptr;
@@ -88,7 +100,8 @@ struct BlockBase {
     double* final_states = nullptr;         // [members][states of the model]
     double* quantity_values = nullptr;      // [members][columns of the model's observer], only selected columns written
     double* series_values = nullptr;        // [selected series, in table order][members][samples]; NaN after a failure
-    double* section_values = nullptr;       // [members][stops.sections()][1 + states of the model]: time and state; NaN after a failure
+    /// [members][stops.sections(), or crossings.room][1 + states of the model]: time and state; NaN where there is none.
+    double* section_values = nullptr;
     double* growth_values = nullptr;        // [members][stops.growths()][shadows.count], ln of the growth; NaN likewise
     std::uint64_t lane_steps_executed = 0;  // step attempts × lanes
     std::uint64_t lane_steps_useful = 0;    // those that served a member

@@ -32,7 +32,8 @@ void spread_rows(std::vector<T>& values, std::vector<char> const& is_usable, std
 }
 
 std::size_t section_width(BlockRequest const& request) {
-    return request.sections ? request.stops.sections() * section_columns : 0;
+    std::size_t const rows = request.crossings.room > 0 ? request.crossings.room : request.stops.sections();
+    return request.sections ? rows * section_columns : 0;
 }
 
 std::size_t shadow_count(BlockRequest const& request) { return static_cast<std::size_t>(request.shadows.count); }
@@ -98,6 +99,7 @@ void BlockBuffers::run(KernelInstance const& kernel, BlockRequest const& request
     block.series = request.sample_times.empty() ? Selection{0} : request.series;
     block.clocks = clocks_.empty() ? nullptr : clocks_.data();
     block.stops = request.stops;
+    block.crossings = request.crossings;
     block.shadows = request.shadows;
     block.shadows.directions = directions_.data();
     block.stop = [](void const* context) { return static_cast<StopRequest const*>(context)->reason() != StopReason::none; };

@@ -33,6 +33,7 @@ struct BlockRequest {
     MemberTiming timing;          // empty: all end at integrator.end_time and nobody stops
     StopPlan stops;
     bool sections = false;        // the states at the stops' sections are kept
+    CrossingPlan crossings;
     ShadowPlan shadows;           // its directions are those of
     ShadowDirections directions;
 };

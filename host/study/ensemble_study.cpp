@@ -27,7 +27,7 @@ ResultLayout result_layout(Scene const& scene, MemberRange range) {
     if (scene.study == StudyKind::sweep) add(*scene.chaos.parameter);
     for (Variation const& variation : scene.variations) add(*variation.key);
     OrbitSchedule const schedule = orbit_schedule(scene);
-    if (schedule.sections) layout.sections = schedule.stops.sections();
+    layout.sections = schedule.section_rows();
     layout.study = ExponentTable(scene).layout();
     return layout;
 }
@@ -39,8 +39,8 @@ EnsemblePlan ensemble_plan(Scene const& scene, MemberRange range, Isa isa, int t
     plan.block_members = default_block_members(range.count, threads, lanes_of(isa));
     plan.threads = threads;
     OrbitSchedule const schedule = orbit_schedule(scene);
-    plan.request = {scene.integrator, scene.sample_times, scene.quantities,  scene.series,       predicted_cost,
-                    schedule.timing,  schedule.stops,     schedule.sections, shadow_plan(scene), {}};
+    plan.request = {scene.integrator, scene.sample_times, scene.quantities,   scene.series,       predicted_cost, schedule.timing,
+                    schedule.stops,   schedule.sections,  schedule.crossings, shadow_plan(scene), {}};
     plan.request.directions = [seed = scene.seed, shadows = plan.request.shadows.count](std::uint64_t member, double* out) {
         draw_directions(seed, member, shadows, out);
     };

@@ -57,6 +57,29 @@ OrbitSchedule of_sections(Scene const& scene) {
     return schedule;
 }
 
+/// Crossings from the end of the transient on.
+OrbitSchedule of_crossings(Scene const& scene) {
+    ChaosSettings const& chaos = scene.chaos;
+    using On = SectionSurface::On;
+    auto const direction = [](CrossingDirection given) {
+        return given == CrossingDirection::rising    ? CrossingPlan::Direction::rising
+               : given == CrossingDirection::falling ? CrossingPlan::Direction::falling
+                                                     : CrossingPlan::Direction::both;
+    };
+    OrbitSchedule schedule;
+    schedule.sections = true;
+    schedule.crossings = {chaos.section.on == On::state   ? CrossingPlan::On::state
+                          : chaos.section.on == On::gap_y ? CrossingPlan::On::gap_y
+                                                          : CrossingPlan::On::gap_z,
+                          direction(chaos.section.direction), chaos.section.index, chaos.section.level,
+                          chaos.max_crossings};
+    schedule.timing = [transient = chaos.transient, span = chaos.span](Inputs const& inputs) {
+        double const from = transient.seconds(inputs.crank_speed);
+        return MemberClock{from + span.seconds(inputs.crank_speed), from, 0};
+    };
+    return schedule;
+}
+
 }  // namespace
 
 double first_time_at(double phase, Inputs const& inputs) {
@@ -70,7 +93,9 @@ double first_time_at(double phase, Inputs const& inputs) {
 OrbitSchedule orbit_schedule(Scene const& scene) {
     OrbitSchedule schedule;
     if (scene.study == StudyKind::lyapunov) schedule = of_exponents(scene);
-    if (scene.study == StudyKind::poincare || scene.study == StudyKind::sweep) schedule = of_sections(scene);
+    if (scene.study == StudyKind::poincare || scene.study == StudyKind::sweep) {
+        schedule = scene.chaos.section.on == SectionSurface::On::phase ? of_sections(scene) : of_crossings(scene);
+    }
     if (schedule.timing) schedule.longest = schedule.timing(scene.inputs).end;
     return schedule;
 }

@@ -54,6 +54,21 @@ template <class Law, class Friction, class Damping> struct Joint {
         return fma(Real(16.0), axis_pattern(z_depths(motion, g)), axis_pattern(y_depths(motion, g)));
     }
 
+    /// Penetration of one apex in the Y or the Z face on its side [m].
+    template <class Real>
+    SLIDEWAY_FN static Real penetration(JointMotion<Real> const& motion, JointGeometry<Real> const& g, bool z_faces, int apex) {
+        auto const depths = z_faces ? z_depths(motion, g) : y_depths(motion, g);
+        int const first = z_faces ? 2 : 0;
+        for (int side = 0; side < 2; ++side) {
+            auto const of_face = apices(depths, Real(side == 0 ? 1.0 : -1.0));
+            if (face_apex(first + side, 0) == apex) return of_face.a;
+            if (face_apex(first + side, 1) == apex) return of_face.b;
+            if (face_apex(first + side, 2) == apex) return of_face.c;
+            if (face_apex(first + side, 3) == apex) return of_face.d;
+        }
+        return Real(not_a_number);
+    }
+
     /// The longest way [m] that an apex made between two poses towards a face which it touches only in the second; 0 where none does.
     template <class Real>
     SLIDEWAY_FN static Real approach(JointMotion<Real> const& before, JointMotion<Real> const& after,

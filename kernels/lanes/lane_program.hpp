@@ -77,7 +77,7 @@ private:
         c.h = 1e-3 * block_.settings.max_step;
         c.error_memory = step_control_start;
         Model::initial_state(inputs, c.y);
-        c.stop = 0;
+        c.stop = c.crossings = 0;
         MemberClock const clock = block_.clocks != nullptr ? block_.clocks[member] : MemberClock{block_.settings.end_time};
         r.constants.end = clock.end;
         r.constants.first_stop = clock.first_stop;

@@ -43,6 +43,7 @@ template <class Model, class Real> struct MemberState {
         Real member;        // its number in the block
         Real sample;        // the next sample
         Real stop;          // the next stop
+        Real crossings;     // so far
         Real t, h;          // time, next step [s]
         Real error_memory;  // of the step control
         Real y[Model::size], rates[Model::size];

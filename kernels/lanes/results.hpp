@@ -38,6 +38,22 @@ public:
         }
     }
 
+    SLIDEWAY_HD CrossingPlan const& crossings() const { return block_.crossings; }
+
+    /// A crossing of the lanes in the mask.
+    template <class Real>
+    SLIDEWAY_HD void take_crossing(Pack<Model, Real>& pack, Mask<Real> at, Real t, Real const* state) {
+        auto& c = pack.state.course;
+        for (int i = 0; i < lanes<Real>; ++i) {
+            std::size_t const place = number(c.crossings, i), room = block_.crossings.room;
+            if (!holds(at, i) || place >= room) continue;
+            double* const row = block_.section_values + (number(c.member, i) * room + place) * (1 + Model::size);
+            row[0] = lane(t, i);
+            for (int j = 0; j < Model::size; ++j) row[1 + j] = lane(state[j], i);
+        }
+        c.crossings = c.crossings + count<Real>(at);
+    }
+
     /// How the offsets of members at a stop have grown, if it ends the transient or a record.
     template <class Real> SLIDEWAY_HD void take_growth(Pack<Model, Real>& pack, Mask<Real> at) {
         StopPlan const& plan = block_.stops;
@@ -134,6 +150,7 @@ public:
             double const time = lane(c.t, i);
             block_.records[member] = {status, number(c.accepted, i),  number(c.rejected, i),   number(c.evaluations, i),
                                       time,   number(c.jacobians, i), number(c.stiff_steps, i)};
+            block_.records[member].crossings = number(c.crossings, i);
             if constexpr (Model::has_shadows) block_.records[member].lost_offsets = number(c.shadowed.lost, i);
             for (int j = 0; j < Model::size; ++j) block_.final_states[member * Model::size + j] = lane(c.y[j], i);
             if (block_.quantities != 0) {
@@ -142,24 +159,26 @@ public:
                                                        block_.quantity_values + member * columns);
             }
             if (block_.samples > 0) sampler_.fill_missing(member, number(c.sample, i));
-            fill_missing_stops(member, number(c.stop, i));
+            fill_missing_stops(member, number(c.stop, i), number(c.crossings, i));
         }
     }
 
     /// Leaves a member that has not ended as if it had never begun.
     SLIDEWAY_HD void abandon(std::size_t member) {
         if (block_.samples > 0) sampler_.fill_missing(member, 0);
-        fill_missing_stops(member, 0);
+        fill_missing_stops(member, 0, 0);
     }
 
 private:
     static constexpr double endless = 1e300;
 
-    /// Marks what a member that ended before stop `from` has not come to.
-    SLIDEWAY_HD void fill_missing_stops(std::size_t member, std::size_t from) {
+    /// Marks what a member that ended before stop `from` and after some crossings has not come to.
+    SLIDEWAY_HD void fill_missing_stops(std::size_t member, std::size_t from, std::size_t crossings) {
         StopPlan const& plan = block_.stops;
         std::size_t const past = from > plan.transient ? from - plan.transient : 0;  // recorded stops behind it
-        if (block_.section_values != nullptr) {
+        if (block_.crossings.room > 0) {
+            fill(block_.section_values, member, block_.crossings.room, crossings, 1 + Model::size);
+        } else if (block_.section_values != nullptr) {
             std::size_t const taken = (past + plan.section_every - 1) / plan.section_every;
             fill(block_.section_values, member, plan.sections(), taken, 1 + Model::size);
         }

@@ -2,6 +2,7 @@
 
 #include <type_traits>
 
+#include "kernels/lanes/crossing_search.hpp"
 #include "kernels/lanes/event_search.hpp"
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/results.hpp"
@@ -182,6 +183,9 @@ private:
             search_.run(pack_, stepper_, accepted);
             t_end = select(search_.ended(), fma(pack_.step, search_.fraction(), c.t), t_end);
             landed = landed & !search_.ended();
+        }
+        if constexpr (Model::has_crossings && !Model::has_shadows) {
+            if (results_.crossings().room > 0) CrossingSearch<Stepper, Model, Real>::run(pack_, results_, accepted);
         }
         if (results_.samples() > 0) results_.take_samples(pack_, stepper_, accepted, t_end);
         if constexpr (Model::events > 0) search_.reset(pack_);

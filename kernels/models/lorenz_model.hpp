@@ -12,6 +12,7 @@ struct LorenzModel : Lorenz {
     static constexpr int events = 0;
     static constexpr bool has_patterns = false;
     static constexpr bool has_shadows = false;
+    static constexpr bool has_crossings = false;
     static constexpr bool has_linearisation = false;
     template <class Real> using Observer = EventRecorder<Real, 0, 0>;
     template <class Real> using Watch = NoWatch<Real>;

@@ -12,6 +12,7 @@ struct ReliefValveModel : ReliefValve {
     static constexpr int series = size;
     static constexpr bool has_patterns = false;
     static constexpr bool has_shadows = false;
+    static constexpr bool has_crossings = false;
     static constexpr bool has_linearisation = false;
     template <class Real> using Observer = EventRecorder<Real, 2048, 64>;
     template <class Real> using Watch = NoWatch<Real>;

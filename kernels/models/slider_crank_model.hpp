@@ -18,6 +18,7 @@ template <bool conserving> struct SliderCrankLanes {
     static constexpr int events = 0;
     static constexpr bool has_patterns = true;
     static constexpr bool has_shadows = false;
+    static constexpr bool has_crossings = true;
     static constexpr bool has_linearisation = true;
     template <class Real> using Observer = SliderCrankObserver<Real, conserving>;
     template <class Real> using Linearisation = SliderCrankLinearisation<Real>;

@@ -23,6 +23,7 @@ struct SliderCrankTable : SliderCrankBase, SliderCrankLanes<conserving> {
                           SliderCrankLinearisation<Real>&);
     Real (*pattern)(Real, Real const*, Parameters<Real> const&);
     Real (*approach)(Real, Real const*, Real, Real const*, Parameters<Real> const&);
+    Real (*apex_gap)(Real, Real const*, Parameters<Real> const&, bool, int);
 
     /// The table of one `SliderCrankModel`.
     template <class Model> static constexpr SliderCrankTable of() {
@@ -32,6 +33,7 @@ struct SliderCrankTable : SliderCrankBase, SliderCrankLanes<conserving> {
         table.linearisation = &Model::template linearise<Real>;
         table.pattern = &Model::template contact_pattern<Real>;
         table.approach = &Model::template approach_speed<Real>;
+        table.apex_gap = &Model::template gap<Real>;
         return table;
     }
 
@@ -45,6 +47,9 @@ struct SliderCrankTable : SliderCrankBase, SliderCrankLanes<conserving> {
         linearisation(t, state, p, memory, out);
     }
     Real contact_pattern(Real t, Real const* state, Parameters<Real> const& p) const { return pattern(t, state, p); }
+    Real gap(Real t, Real const* state, Parameters<Real> const& p, bool z_faces, int apex) const {
+        return apex_gap(t, state, p, z_faces, apex);
+    }
     Real approach_speed(Real t, Real const* state, Real step, Real const* end, Parameters<Real> const& p) const {
         return approach(t, state, step, end, p);
     }

@@ -17,6 +17,7 @@ template <int components> struct PlainModel {
     static constexpr bool has_memory = false, can_hold = false;
     static constexpr bool has_patterns = false;
     static constexpr bool has_shadows = false;
+    static constexpr bool has_crossings = false;
     static constexpr bool has_linearisation = false;
     template <class Real> struct Report {};
     template <class Real> using Memory = NoMemory<Real>;

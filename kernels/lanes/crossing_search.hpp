@@ -1,0 +1,105 @@
+#pragma once
+
+#include "kernels/lanes/pack.hpp"
+#include "kernels/lanes/results.hpp"
+#include "kernels/real.hpp"
+#include "kernels/steppers/cubic_roots.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Finds where members cross the surface of a section inside their accepted steps, and records time and state.  The cubic through the
+/// ends' values and slopes tells in which steps, up to three times in each; a step of the same method from the same start then ends
+/// there, so that a section has the accuracy of the steps themselves, and the orbit does not know of it.
+template <class Stepper, class Model, class Real> class CrossingSearch {
+public:
+    /// @param accepted lanes with an accepted step, which the pack still holds.
+    SLIDEWAY_HD static void run(Pack<Model, Real>& pack, Results<Model>& results, Mask<Real> accepted) {
+        auto const& c = pack.state.course;
+        Surface const surface{pack, results.crossings()};
+        auto const recorded = accepted & (c.t + pack.step > pack.state.constants.first_stop);
+        if (none(recorded)) return;
+        Real const v0 = surface.value(c.t, c.y), v1 = surface.value(c.t + pack.step, pack.end);
+        // Derivatives at the ends of a stiff step belong to fast motions that the method damps.
+        Real const chord = v1 - v0;
+        Real const s0 = Stepper::stiff ? chord : pack.step * surface.slope(c.t, c.y, c.rates, v0);
+        Real const s1 = Stepper::stiff ? chord : pack.step * surface.slope(c.t + pack.step, pack.end, pack.end_rates, v1);
+        auto const candidates = recorded & may_cross(v0, s0, v1, s1);
+        if (any(candidates)) record(pack, results, candidates, surface, v0, s0, v1, s1);
+    }
+
+private:
+    static constexpr int size = Model::size;
+    static constexpr int corrections = 3;  // of Newton's method, from the cubic's zero
+
+    struct Surface {
+        Pack<Model, Real> const& pack;
+        CrossingPlan const& plan;
+
+        SLIDEWAY_HD Real value(Real t, Real const* state) const {
+            if (plan.on == CrossingPlan::On::state) return state[plan.index] - Real(plan.level);
+            auto const& p = pack.state.constants.parameters;
+            return pack.model.gap(t, state, p, plan.on == CrossingPlan::On::gap_z, plan.index) - Real(plan.level);
+        }
+
+        /// Time derivative where the value is known; of a gap by a difference over a thousandth of the step, along the motion.
+        SLIDEWAY_HD Real slope(Real t, Real const* state, Real const* rates, Real value_here) const {
+            if (plan.on == CrossingPlan::On::state) return rates[plan.index];
+            Real const ahead = Real(1e-3) * pack.step;
+            Real moved[size];
+            for (int i = 0; i < size; ++i) moved[i] = fma(ahead, rates[i], state[i]);
+            auto const steps = pack.step > Real(0.0);
+            return select(steps, (value(t + ahead, moved) - value_here) / select(steps, ahead, Real(1.0)), Real(0.0));
+        }
+    };
+
+    SLIDEWAY_NOINLINE static void record(Pack<Model, Real>& pack, Results<Model>& results, Mask<Real> candidates,
+                                         Surface const& surface, Real v0, Real s0, Real v1, Real s1) {
+        auto const zeros = cubic_zeros(candidates, v0, s0, v1, s1, direction_of(surface.plan));
+        if (none(zeros.any)) return;
+        // The attempt is the stint's; another stepper makes its own.
+        Pack<Model, Real> const attempt = pack;
+        pack.needs = {};
+        for (auto const& zero : zeros.at) {
+            auto at = candidates & (zero.theta <= Real(1.0));
+            if (none(at)) continue;
+            Real theta = select(at, zero.theta, Real(1.0));
+            Real const whole = attempt.step;
+            auto& c = pack.state.course;
+            for (int i = 0;; ++i) {
+                pack.step = select(at, whole * theta, Real(0.0));
+                Stepper stepper;
+                stepper.attempt(pack);
+                pack.count_evaluations(at, Stepper::evaluations);
+                if (i == corrections) break;
+                Real const here = surface.value(c.t + pack.step, pack.end);
+                Real const slope = whole * surface.slope(c.t + pack.step, pack.end, pack.end_rates, here);
+                Real const moved = theta - here / slope;
+                // A grazing zero has no slope to go by, and a NaN stays where the cubic has it.
+                auto const inside = (moved > zero.low) & (moved <= zero.high);
+                theta = select(inside, moved, theta);
+            }
+            Real const t = c.t + pack.step;
+            at = at & (t >= pack.state.constants.first_stop);
+            results.take_crossing(pack, at, t, pack.end);
+        }
+        restore(pack, attempt);
+    }
+
+    /// Puts back all but what was counted.
+    SLIDEWAY_HD static void restore(Pack<Model, Real>& pack, Pack<Model, Real> const& attempt) {
+        Real const evaluations = pack.state.course.evaluations, jacobians = pack.state.course.jacobians;
+        Real const crossings = pack.state.course.crossings;
+        pack = attempt;
+        pack.state.course.evaluations = evaluations;
+        pack.state.course.jacobians = jacobians;
+        pack.state.course.crossings = crossings;
+    }
+
+    SLIDEWAY_HD static Direction direction_of(CrossingPlan const& plan) {
+        return plan.direction == CrossingPlan::Direction::rising    ? Direction::rising
+               : plan.direction == CrossingPlan::Direction::falling ? Direction::falling
+                                                                    : Direction::both;
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA
