@@ -111,8 +111,8 @@ TEST(SceneChaos, LyapunovDefaults) {
     Scene const scene = study("lyapunov");
     EXPECT_EQ(scene.chaos.exponents, 1);
     EXPECT_EQ(scene.chaos.d0, 1e-6);
-    EXPECT_DOUBLE_EQ(scene.chaos.d0_lower, 1e-9);
-    EXPECT_DOUBLE_EQ(scene.chaos.d0_upper, 1e-3);
+    EXPECT_EQ(scene.chaos.d0_lower, 1e-9);
+    EXPECT_EQ(scene.chaos.d0_upper, 1e-3);
     EXPECT_EQ(scene.chaos.transient, turns(2));
     EXPECT_EQ(scene.chaos.span, turns(10));
     EXPECT_EQ(scene.chaos.dt, turns(1.0 / 2000));
