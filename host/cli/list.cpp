@@ -47,7 +47,8 @@ int list(ListArguments const&) {
         "  sweep                          sections and exponents, column by column, as one key changes\n");
     fmt::print("\nkeys of the studies ([study])\n");
     for (StudyKey const& key : study_keys) {
-        fmt::print("  {:<30} {:<8} {}: {}\n", key.name, key.unit, studies_of(key), key.meaning);
+        fmt::print("  {:<30} {:<8} {}: {}\n", key.name.substr(key.name.find('.') + 1), key.unit, studies_of(key),
+                   key.meaning);
     }
     fmt::print(
         "\ndistributions (study.vary)\n"

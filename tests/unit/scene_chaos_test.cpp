@@ -86,8 +86,7 @@ TEST(SceneChaos, PoincareWhereAStateCrosses) {
     EXPECT_EQ(scene.chaos.max_crossings, 77u);
     for (int i = 0; i < state_series; ++i) {
         auto const lines = fmt::format("section = {{ on = \"{}\" }}", series_table[i].name);
-        EXPECT_EQ(study("poincare", lines).chaos.section,
-                  (SectionSurface{On::state, i, 0, CrossingDirection::rising}));
+        EXPECT_EQ(study("poincare", lines).chaos.section, (SectionSurface{On::state, i, 0, CrossingDirection::rising}));
     }
     EXPECT_DOUBLE_EQ(study("poincare", "section = {on=\"wx\", value=\"1 rpm\"}").chaos.section.level, pi / 30);
     EXPECT_DOUBLE_EQ(study("poincare", "section = {on=\"roll\", value=\"1 deg\"}").chaos.section.level, pi / 180);
@@ -112,8 +111,8 @@ TEST(SceneChaos, LyapunovDefaults) {
     Scene const scene = study("lyapunov");
     EXPECT_EQ(scene.chaos.exponents, 1);
     EXPECT_EQ(scene.chaos.d0, 1e-6);
-    EXPECT_DOUBLE_EQ(scene.chaos.d0_lower, 1e-9);
-    EXPECT_DOUBLE_EQ(scene.chaos.d0_upper, 1e-3);
+    EXPECT_EQ(scene.chaos.d0_lower, 1e-9);
+    EXPECT_EQ(scene.chaos.d0_upper, 1e-3);
     EXPECT_EQ(scene.chaos.transient, turns(2));
     EXPECT_EQ(scene.chaos.span, turns(10));
     EXPECT_EQ(scene.chaos.dt, turns(1.0 / 2000));
@@ -161,8 +160,9 @@ TEST(SceneChaos, SweepDefaults) {
 }
 
 TEST(SceneChaos, SweepAsGiven) {
-    Scene const scene = sweep("start = \"continue\"\nphase = \"1 rad\"\nrevolutions = 7\ntransient_revolutions = 3\n"
-                              "exponents = 2\nd0 = 1e-5\nrescalings_per_revolution = 10");
+    Scene const scene = sweep(
+        "start = \"continue\"\nphase = \"1 rad\"\nrevolutions = 7\ntransient_revolutions = 3\n"
+        "exponents = 2\nd0 = 1e-5\nrescalings_per_revolution = 10");
     EXPECT_TRUE(scene.chaos.continued);
     EXPECT_EQ(scene.chaos.section.level, 1);
     EXPECT_EQ(scene.chaos.span, turns(7));
@@ -249,7 +249,8 @@ TEST(SceneChaos, ModesAreLocatedForExponents) {
 
 TEST(SceneChaos, FixedStepsLeaveRoomForStops) {
     auto const steps = [](std::string const& lines) {
-        return study("lyapunov", lines + "Ttr = 0\nduration = 1\ndt = 0.001\n[integrator]\nmethod = \"rk4\"\nstep = 0.01")
+        return study("lyapunov",
+                     lines + "Ttr = 0\nduration = 1\ndt = 0.001\n[integrator]\nmethod = \"rk4\"\nstep = 0.01")
             .integrator.max_steps;
     };
     EXPECT_GE(steps(""), 1100u) << "a step ends at each of the 1000 stops";

@@ -1,6 +1,7 @@
 // The scenes of the paper and the demo.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -103,11 +104,61 @@ TEST(SceneFiles, TheEnsembleIsTheDemo) {
     EXPECT_EQ(scene.variations.size(), 5u);
 }
 
-TEST(SceneFiles, ResolveToThemselves) {
-    for (Case const& c : cases) {
-        std::string const resolved = resolved_toml(read_scene(path_of(c.file)));
-        EXPECT_EQ(resolved_toml(testing::scene_of(resolved)), resolved) << c.file;
+/// Every member of the scene begins in free flight.
+void expect_free_starts(Scene const& scene) {
+    for (std::uint64_t member = 0; member < scene.members; ++member) {
+        Inputs in = member_inputs(scene, member);
+        if (scene.chaos.parameter != nullptr) scene.chaos.parameter->set(in, scene.chaos.values.front());
+        ASSERT_EQ(defect(in), std::nullopt);
+        EXPECT_LT(deepest(in), 0) << member;
     }
+}
+
+TEST(SceneFiles, ThePoincareSectionIsThePapers) {
+    Scene const scene = read_scene(path_of("poincare_0.1mm.toml"));
+    EXPECT_EQ(scene.study, StudyKind::poincare);
+    EXPECT_EQ(scene.chaos.section, SectionSurface{});
+    EXPECT_EQ(scene.chaos.span, (Span{150, true}));
+    EXPECT_EQ(scene.chaos.transient, (Span{20, true}));
+    EXPECT_EQ(scene.parts, (Parts{Law::paper, Damping::point, true, false}));
+    EXPECT_TRUE(scene.warnings.empty());
+    expect_free_starts(scene);
+    Scene const conservative = read_scene(path_of("poincare_0.1mm.toml"), {{"contact.law", "conservative"}});
+    EXPECT_EQ(conservative.parts.law, Law::conservative);
+}
+
+TEST(SceneFiles, TheExponentsAreOfAThousandStarts) {
+    Scene const scene = read_scene(path_of("lyapunov_0.1mm.toml"));
+    EXPECT_EQ(scene.study, StudyKind::lyapunov);
+    EXPECT_EQ(scene.members, 1000u);
+    EXPECT_EQ(scene.chaos.exponents, 1);
+    EXPECT_EQ(scene.parts, (Parts{Law::paper, Damping::point, true, false}));
+    EXPECT_TRUE(scene.integrator.locate_modes);
+    EXPECT_TRUE(scene.warnings.empty());
+    expect_free_starts(scene);
+}
+
+TEST(SceneFiles, TheSweepIsOfTheClearance) {
+    Scene const scene = read_scene(path_of("sweep_clearance.toml"));
+    EXPECT_EQ(scene.study, StudyKind::sweep);
+    EXPECT_EQ(scene.chaos.parameter, find_key("joint.clearance"));
+    ASSERT_EQ(scene.chaos.values.size(), 46u);
+    EXPECT_EQ(scene.chaos.values.front(), 0.05e-3);
+    EXPECT_EQ(scene.chaos.values.back(), 0.5e-3);
+    EXPECT_EQ(scene.chaos.values[5], 1e-4) << "the bits of a scene of that clearance";
+    EXPECT_EQ(scene.parts, (Parts{Law::paper, Damping::point, true, false}));
+    EXPECT_TRUE(scene.warnings.empty());
+    expect_free_starts(scene);
+}
+
+TEST(SceneFiles, ResolveToThemselves) {
+    int files = 0;
+    for (auto const& entry : std::filesystem::directory_iterator(SLIDEWAY_SCENES)) {
+        std::string const resolved = resolved_toml(read_scene(entry.path().string()));
+        EXPECT_EQ(resolved_toml(testing::scene_of(resolved)), resolved) << entry.path();
+        ++files;
+    }
+    EXPECT_GE(files, 11);
 }
 
 }  // namespace

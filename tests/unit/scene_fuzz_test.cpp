@@ -37,6 +37,24 @@ TEST(SceneFuzz, TruncationsReadOrAreRefused) {
     EXPECT_GT(accepted, 0);
 }
 
+TEST(SceneFuzz, TruncatedStudiesReadOrAreRefused) {
+    for (char const* file : {"/poincare_0.1mm.toml", "/lyapunov_0.1mm.toml", "/sweep_clearance.toml"}) {
+        std::string const text = testing::read_text(std::string(SLIDEWAY_SCENES) + file);
+        ASSERT_GT(text.size(), 500u);
+        int accepted = 0;
+        for (std::size_t length = 0; length < text.size(); ++length) {
+            ASSERT_EQ(misread(text.substr(0, length), accepted), "") << file << ", the first " << length << " bytes";
+        }
+        std::size_t const begin = text.find("[study]");
+        for (std::size_t at = begin; at < text.size(); ++at) {
+            std::string damaged = text;
+            damaged[at] = damaged[at] == '0' ? '9' : '0';
+            ASSERT_EQ(misread(damaged, accepted), "") << file << ", byte " << at;
+        }
+        EXPECT_GT(accepted, 0);
+    }
+}
+
 TEST(SceneFuzz, FlippedBytesReadOrAreRefused) {
     std::string const text = standard_scene();
     int accepted = 0;

@@ -38,6 +38,19 @@ void expect_equal(Scene const& a, Scene const& b) {
     EXPECT_EQ(a.integrator.locate_modes, b.integrator.locate_modes);
     EXPECT_EQ(a.integrator.max_steps, b.integrator.max_steps);
     EXPECT_EQ(a.study, b.study);
+    EXPECT_EQ(a.chaos.transient, b.chaos.transient);
+    EXPECT_EQ(a.chaos.span, b.chaos.span);
+    EXPECT_EQ(a.chaos.section, b.chaos.section);
+    EXPECT_EQ(a.chaos.max_crossings, b.chaos.max_crossings);
+    EXPECT_EQ(a.chaos.exponents, b.chaos.exponents);
+    EXPECT_EQ(a.chaos.d0, b.chaos.d0);
+    EXPECT_EQ(a.chaos.d0_lower, b.chaos.d0_lower);
+    EXPECT_EQ(a.chaos.d0_upper, b.chaos.d0_upper);
+    EXPECT_EQ(a.chaos.dt, b.chaos.dt);
+    EXPECT_EQ(a.chaos.history, b.chaos.history);
+    EXPECT_EQ(a.chaos.parameter, b.chaos.parameter);
+    EXPECT_EQ(a.chaos.values, b.chaos.values);
+    EXPECT_EQ(a.chaos.continued, b.chaos.continued);
     EXPECT_EQ(a.members, b.members);
     EXPECT_EQ(a.seed, b.seed);
     EXPECT_EQ(a.sample_times, b.sample_times);
@@ -115,6 +128,41 @@ TEST(ResolvedScene, RestitutionReadsBack) {
                       "[study]\nduration = 0.1\nsamples = 7");
     expect_round_trip("schema = 1\n[study.vary]\n\"contact.restitution\" = {dist=\"unif\", low=0.1, high=1}\n"
                       "\"contact.young_modulus\" = {dist=\"unif\", low=1e9, high=1e10}");
+}
+
+void expect_study_round_trip(std::string_view study, std::string_view lines) {
+    SCOPED_TRACE(study);
+    SCOPED_TRACE(lines);
+    expect_round_trip("schema = 1\n[study]\nkind = \"" + std::string(study) + "\"\n" + std::string(lines));
+}
+
+TEST(ResolvedScene, StudiesOfChaosReadBack) {
+    for (char const* lines :
+         {"", "phase = \"77 deg\"\nTtr = 0.1\nduration = 7.3\nmembers = 3\nseed = 4", "revolutions = 0.3",
+          "section = {on=\"wy\", value=\"1 rpm\", direction=\"both\"}\nmax_crossings = 3\ntransient_revolutions = 0",
+          "section = {on=\"gap_z[P8]\", value=-1e-7, direction=\"falling\"}\n[mechanism]\ncrank_speed = 0",
+          "section = {on=\"gap_y[P1]\"}\nquantities = [\"mode_time\"]"}) {
+        expect_study_round_trip("poincare", lines);
+    }
+    for (char const* lines :
+         {"", "exponents = 10\nd0 = 3e-7\nd0_lower = 1e-9", "d0 = 3e-7\nd0_lower = 1e-9\nd0_upper = 0.7\nhistory = 0",
+          "rescalings_per_revolution = 49\nrevolutions = 0.37", "dt = \"3 ms\"\nduration = 1\nTtr = 0",
+          "[mechanism]\ncrank_speed = 0", "[integrator]\nlocate_modes = false",
+          "[contact]\nrestitution = 0.5", "[contact]\nlaw = \"conservative\"",
+          "[integrator]\nmethod = \"rk4\"\nstep = 1e-5"}) {
+        expect_study_round_trip("lyapunov", lines);
+    }
+    for (char const* lines :
+         {"parameter = \"joint.clearance\"\nvalues = [\"0.1 mm\", 1e-3, \"7 um\"]",
+          "parameter = \"mechanism.crank_speed\"\nfrom = \"30 rpm\"\nto = \"-60 rpm\"\npoints = 8\nstart = \"continue\"",
+          "parameter = \"contact.young_modulus\"\nfrom = 1e9\nto = 1e11\npoints = 10000\nspacing = \"log\"\nexponents = 0",
+          "parameter = \"way.roll\"\nvalues = [-0.0, 1]\nexponents = 3\nd0 = 1e-4\nrescalings_per_revolution = 20",
+          "parameter = \"contact.restitution\"\nvalues = [0.3]\nTtr = 3\nphase = 7",
+          "parameter = \"contact.chi_line\"\nvalues = [0, 0.1]\nexponents = 0\nd0 = 1e-3\nrescalings_per_revolution = 3",
+          "parameter = \"friction.static\"\nvalues = [0, 0.1]\n[friction]\n[study.vary]\n\"initial.y\" = "
+          "{dist=\"unif\", low=0, high=1e-5}"}) {
+        expect_study_round_trip("sweep", lines);
+    }
 }
 
 TEST(ResolvedScene, NumbersAreInSiUnits) {
