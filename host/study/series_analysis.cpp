@@ -43,7 +43,7 @@ std::size_t cc_window(CcCurves const& curves, std::size_t delay) {
 void choose_embedding(SeriesAnalysis& analysis, std::span<double const> series, SeriesOptions const& options) {
     double const period = analysis.average_period / analysis.spacing;
     auto const n = static_cast<double>(series.size());
-    // S_cor goes on falling slowly as long as one looks.  For the Lorenz series of the paper this is its range, 200 samples.
+    // S_cor goes on falling slowly as long as one looks.  For x of Lorenz, 0.01 apart, this is about 200 samples.
     CcOptions cc;
     cc.longest = static_cast<std::size_t>(std::clamp(1.5 * period, 30.0, std::max(30.0, n / 10)));
     analysis.curves = cc_curves(series, cc);

@@ -21,7 +21,6 @@ protected:
         write("bare.csv", bare);
     }
 
-    /// A result of three members; the last ends at once.
     void write_result() const {
         write("s.toml", R"(
 schema = 1
