@@ -14,26 +14,36 @@ constexpr std::size_t parts = 10;
 constexpr std::size_t fewest_points = 4;  // of a window that is chosen
 constexpr double share_of_rise = 0.7;
 constexpr double periods_wanted = 1.5;
+constexpr double share_in_window = 0.5;
 constexpr double rounding = 1e-10;  // of the range of the series
 
-/// Sums over the pairs whose reference point lies in one part, per k.
-struct PartSums {
+/// Sums over pairs, per k.
+struct PairSums {
+    explicit PairSums(std::size_t longest) : log(longest + 1), pairs(longest + 1) {}
     std::vector<double> log;
     std::vector<std::size_t> pairs;
 };
 
-PartSums sums_of_part(DelayEmbedding const& embedding, std::vector<Neighbour> const& neighbours, std::size_t from,
-                      std::size_t to, std::size_t longest, double resolution) {
-    PartSums sums{std::vector<double>(longest + 1), std::vector<std::size_t>(longest + 1)};
-    for (std::size_t i = from; i < to; ++i) {
+/// [part of i][part of j]: a pair belongs to two stretches of the series.
+using PartSums = std::vector<std::vector<PairSums>>;
+
+void add_pair(PairSums& sums, DelayEmbedding const& embedding, std::size_t i, std::size_t j, double resolution) {
+    for (std::size_t k = 0; k < sums.log.size(); ++k) {
+        double const squared = embedding.squared_distance(i + k, j + k);
+        if (!(squared > resolution * resolution)) continue;
+        sums.log[k] += 0.5 * std::log(squared);
+        ++sums.pairs[k];
+    }
+}
+
+PartSums sums_by_parts(DelayEmbedding const& embedding, std::size_t points, std::size_t theiler, std::size_t longest) {
+    double const resolution = rounding * embedding.range();
+    std::vector<Neighbour> const neighbours = nearest_neighbours(embedding, points, theiler, resolution);
+    PartSums sums(parts, std::vector<PairSums>(parts, PairSums(longest)));
+    for (std::size_t i = 0; i < points; ++i) {
         std::size_t const j = neighbours[i].index;
         if (j == Neighbour::none) continue;
-        for (std::size_t k = 0; k <= longest; ++k) {
-            double const squared = embedding.squared_distance(i + k, j + k);
-            if (!(squared > resolution * resolution)) continue;
-            sums.log[k] += 0.5 * std::log(squared);
-            ++sums.pairs[k];
-        }
+        add_pair(sums[i * parts / points][j * parts / points], embedding, i, j, resolution);
     }
     return sums;
 }
@@ -51,18 +61,27 @@ double mean_log_of_strangers(DelayEmbedding const& embedding) {
     return count > 0 ? sum / static_cast<double>(count) : nan;
 }
 
-/// Mean over all parts but one; `omitted` beyond the last: over all.
-std::vector<double> mean_without(std::vector<PartSums> const& sums, std::size_t omitted, std::size_t length) {
+constexpr std::size_t nothing = parts;  // as `omitted`
+
+/// Over the pairs that have neither end in the omitted part.
+PairSums sums_without(PartSums const& sums, std::size_t omitted, std::size_t longest) {
+    PairSums total(longest);
+    for (std::size_t i = 0; i < parts; ++i) {
+        for (std::size_t j = 0; j < parts; ++j) {
+            if (i == omitted || j == omitted) continue;
+            for (std::size_t k = 0; k <= longest; ++k) {
+                total.log[k] += sums[i][j].log[k];
+                total.pairs[k] += sums[i][j].pairs[k];
+            }
+        }
+    }
+    return total;
+}
+
+std::vector<double> means(PairSums const& sums, std::size_t length) {
     std::vector<double> mean(length, nan);
     for (std::size_t k = 0; k < length; ++k) {
-        double log = 0;
-        std::size_t pairs = 0;
-        for (std::size_t part = 0; part < sums.size(); ++part) {
-            if (part == omitted) continue;
-            log += sums[part].log[k];
-            pairs += sums[part].pairs[k];
-        }
-        if (pairs > 0) mean[k] = log / static_cast<double>(pairs);
+        if (sums.pairs[k] > 0) mean[k] = sums.log[k] / static_cast<double>(sums.pairs[k]);
     }
     return mean;
 }
@@ -82,12 +101,12 @@ public:
         }
     }
 
-    /// Squared, of the slope over [from, to); infinite where the curve does not rise.
-    double relative_error(std::size_t from, std::size_t to) const {
+    /// Squared, of the slope over [from, to); infinite where the line rises by less than `least_rise`, or not at all.
+    double relative_error(std::size_t from, std::size_t to, double least_rise) const {
         Sums const &a = sums_[from], &b = sums_[to];
         double const n = static_cast<double>(to - from), x = b.x - a.x, y = b.y - a.y;
         double const xx = b.xx - a.xx - x * x / n, xy = b.xy - a.xy - x * y / n, yy = b.yy - a.yy - y * y / n;
-        if (!(xy > 0)) return std::numeric_limits<double>::infinity();
+        if (!(xy > 0) || xy / xx * (n - 1) < least_rise) return std::numeric_limits<double>::infinity();
         return std::max(0.0, yy * xx / (xy * xy) - 1) / (n - 2);
     }
 
@@ -132,23 +151,13 @@ double jackknife_error(DivergenceCurve const& curve, FitWindow window, double sp
 DivergenceCurve divergence_curve(DelayEmbedding const& embedding, std::size_t theiler, std::size_t longest) {
     DivergenceCurve curve{{}, {}, mean_log_of_strangers(embedding), {}};
     if (embedding.size() <= longest + 1) return curve;
-    std::size_t const points = embedding.size() - longest;
-    double const resolution = rounding * embedding.range();
-    std::vector<Neighbour> const neighbours = nearest_neighbours(embedding, points, theiler, resolution);
-    std::vector<PartSums> sums;
+    PartSums const sums = sums_by_parts(embedding, embedding.size() - longest, theiler, longest);
+    PairSums const all = sums_without(sums, nothing, longest);
+    auto const length = std::find(all.pairs.begin(), all.pairs.end(), std::size_t{0}) - all.pairs.begin();
+    curve.pairs.assign(all.pairs.begin(), all.pairs.begin() + length);
+    curve.mean_log = means(all, curve.pairs.size());
     for (std::size_t part = 0; part < parts; ++part) {
-        sums.push_back(sums_of_part(embedding, neighbours, part * points / parts, (part + 1) * points / parts, longest,
-                                    resolution));
-    }
-    for (std::size_t k = 0; k <= longest; ++k) {
-        std::size_t pairs = 0;
-        for (PartSums const& part : sums) pairs += part.pairs[k];
-        if (pairs == 0) break;
-        curve.pairs.push_back(pairs);
-    }
-    curve.mean_log = mean_without(sums, parts, curve.pairs.size());
-    for (std::size_t part = 0; part < parts; ++part) {
-        curve.without.push_back(mean_without(sums, part, curve.pairs.size()));
+        curve.without.push_back(means(sums_without(sums, part, longest), curve.pairs.size()));
     }
     return curve;
 }
@@ -162,11 +171,12 @@ std::optional<FitWindow> growth_window(DivergenceCurve const& curve, std::size_t
     std::size_t const shortest = std::max(fewest_points, static_cast<std::size_t>(wanted));
 
     WindowFits const fits(curve.mean_log);
+    double const least_rise = share_in_window * (curve.mean_log[end - 1] - curve.mean_log[start]);
     double least = std::numeric_limits<double>::infinity();
     std::optional<FitWindow> best;
     for (std::size_t from = start; from + shortest <= end; ++from) {
         for (std::size_t to = from + shortest; to <= end; ++to) {
-            double const error = fits.relative_error(from, to);
+            double const error = fits.relative_error(from, to, least_rise);
             if (!(error < least)) continue;
             least = error;
             best = FitWindow{from, to - 1};

@@ -17,7 +17,7 @@ struct DivergenceCurve {
     std::vector<std::size_t> pairs;  // that the mean is of: those with a distance
     /// ⟨ln d⟩ of points that have nothing to do with each other, half the series apart: where the growth ends.
     double saturation;
-    /// [part][k]: the curve without the reference points of one of ten successive parts of the series.
+    /// [part][k]: the curve of the pairs that have neither point in one of ten successive parts of the series.
     std::vector<std::vector<double>> without;
 };
 
@@ -37,8 +37,9 @@ struct FitWindow {
 /// saturation, or its end: beyond, too many pairs have grown to the size of the attractor.  k₀ is half of the embedding
 /// window, in which coordinates still remember that the neighbours were chosen near, at most k₁/3.  Candidates are all windows
 /// within [k₀, k₁] of at least four points that last one and a half periods, so that the swing of the curve with the period
-/// averages out, or two thirds of k₁ - k₀ if that is shorter.  Taken is the one whose slope has the least relative standard
-/// error: it falls with a window's length to the power 3/2 and rises with every bend.
+/// averages out, or two thirds of k₁ - k₀ if that is shorter, and whose line makes at least half of the rise from k₀ to k₁: a slow
+/// stretch is not the growth.  Taken is the one whose slope has the least relative standard error: it falls with a window's
+/// length to the power 3/2 and rises with every bend.
 /// @param span (m - 1)τ [samples].  @param period on average [samples]; NaN: unknown.
 /// @return nothing if there are less than four points between k₀ and k₁, or the curve rises in no window.
 std::optional<FitWindow> growth_window(DivergenceCurve const& curve, std::size_t span, double period);
@@ -52,7 +53,8 @@ struct Growth {
 };
 
 /// Line through the curve in the window.  The error of the regression takes the points of the curve as independent, which
-/// they are not; the jackknife asks how the slope changes with the stretches of trajectory that happened to be there.
+/// they are not; the jackknife asks how the slope changes with the stretches of trajectory that happened to be there.  A pair
+/// counts for both its stretches, which is cautious: over 5,000 points of Lorenz the error is half as large again as the scatter.
 /// @param spacing of samples.  @return nothing for a window with less than two points or outside the curve.
 std::optional<Growth> fit_growth(DivergenceCurve const& curve, FitWindow window, double spacing);
 

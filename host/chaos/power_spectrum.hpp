@@ -22,7 +22,7 @@ struct PowerSpectrum {
 /// @return empty for less than four samples, numbers that are not finite, or a spacing that is not positive.
 PowerSpectrum power_spectrum(std::span<double const> series, double spacing, Taper taper = Taper::hann);
 
-/// Reciprocal of the mean frequency: Σ P(f)/Σ f P(f) (Rosenstein, Collins and De Luca 1993, section 3).  Without taper the side lobes
+/// Reciprocal of the mean frequency: Σ P(f)/Σ f P(f) (Rosenstein, Collins and De Luca 1993).  Without taper the side lobes
 /// of a line fall off with 1/f² only and their share in Σ f P never ends; with Hann's it is as 1/f⁶.
 /// @return in units of spacing; NaN where there is no spectrum, and for a series that is constant to rounding.
 double average_period(std::span<double const> series, double spacing, Taper taper = Taper::hann);

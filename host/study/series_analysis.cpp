@@ -43,7 +43,7 @@ std::size_t cc_window(CcCurves const& curves, std::size_t delay) {
 void choose_embedding(SeriesAnalysis& analysis, std::span<double const> series, SeriesOptions const& options) {
     double const period = analysis.average_period / analysis.spacing;
     auto const n = static_cast<double>(series.size());
-    // S_cor goes on falling slowly as long as one looks.  For the Lorenz series of the paper this is its range, 200 samples.
+    // S_cor goes on falling slowly as long as one looks.  For x of Lorenz, 0.01 apart, this is about 200 samples.
     CcOptions cc;
     cc.longest = static_cast<std::size_t>(std::clamp(1.5 * period, 30.0, std::max(30.0, n / 10)));
     analysis.curves = cc_curves(series, cc);
@@ -79,6 +79,15 @@ std::size_t longest_growth(SeriesAnalysis const& analysis, SeriesOptions const& 
             fmt::format("--fit ends at sample {}; it must lie below half of the {} points", options.fit->last, points));
     }
     return std::max(found, options.fit->last);
+}
+
+char const* why_no_growth(DivergenceCurve const& curve) {
+    if (curve.mean_log.empty())
+        return "no neighbours: points are alike, or all near ones lie within the Theiler window";
+    double const top = *std::max_element(curve.mean_log.begin(), curve.mean_log.end()), start = curve.mean_log.front();
+    if (top - start < 0.5 * (curve.saturation - start))
+        return "neighbours stay near each other: there is no growth to fit";
+    return "neighbours are as far apart as any points within a few samples: there is nothing to fit";
 }
 
 std::string exponent_text(Growth const& growth) {
@@ -149,10 +158,7 @@ std::vector<std::string> reservations(SeriesAnalysis const& analysis) {
             fmt::format("R² = {:.3f}: the curve is no line in the fit window", analysis.growth->line.r_squared));
     }
     if (!analysis.growth) {
-        lines.push_back(
-            analysis.divergence.mean_log.empty()
-                ? "no neighbours: all points are alike, or all near ones lie within the Theiler window"
-                : "neighbours are as far apart as any points within a few samples: there is nothing to fit");
+        lines.emplace_back(why_no_growth(analysis.divergence));
     } else if (analysis.growth->rise < 1.5 && analysis.growth_is_seen()) {
         lines.push_back(fmt::format("distances grow by e^{:.1f} only within the fit window", analysis.growth->rise));
     }
@@ -160,7 +166,7 @@ std::vector<std::string> reservations(SeriesAnalysis const& analysis) {
         lines.push_back(fmt::format("the 0–1 test had {} samples only, one of every {}", analysis.zero_one.points,
                                     analysis.stride));
     }
-    if (analysis.growth_is_seen()) lines.push_back("coloured noise can look alike; compare with surrogate data");
+    if (analysis.growth_is_seen()) lines.emplace_back("coloured noise can look alike; compare with surrogate data");
     return lines;
 }
 

@@ -15,8 +15,10 @@ namespace slideway {
 
 /// What the user fixes; the rest is found.
 struct SeriesOptions {
-    std::optional<std::size_t> delay, dimension, theiler;  // [samples], coordinates, [samples]
-    std::optional<FitWindow> fit;                          // [samples]
+    std::optional<std::size_t> delay = {};      // [samples]
+    std::optional<std::size_t> dimension = {};  // coordinates
+    std::optional<std::size_t> theiler = {};    // [samples]
+    std::optional<FitWindow> fit = {};          // [samples]
 };
 
 struct SeriesAnalysis {
