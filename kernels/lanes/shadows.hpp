@@ -144,10 +144,12 @@ private:
         for (int i = 0; i < size; ++i) {
             shadow.y[i] = select(in, fma(length * s.constants.scale[i], w[i], s.course.y[i]), shadow.y[i]);
         }
-        for (int i = 0; i < remembered; ++i) {
-            Real& number = numbers(shadow.memory)[i];
-            Real const own = numbers(s.course.memory)[i];
-            number = select(in, Model::remembered(fma(length, w[size + i], own)), number);
+        if constexpr (remembered > 0) {
+            for (int i = 0; i < remembered; ++i) {
+                Real& number = numbers(shadow.memory)[i];
+                Real const own = numbers(s.course.memory)[i];
+                number = select(in, Model::remembered(fma(length, w[size + i], own)), number);
+            }
         }
     }
 
