@@ -18,7 +18,8 @@ template <class MapInputs> struct MapBlockOf {
     // results; NaN from where a member's state, or one of its shadows', is not finite
     double* final_states = nullptr;    // [members][size]
     double* section_values = nullptr;  // [members][stops.sections()][size], or none
-    double* growth_values = nullptr;   // [members][stops.intervals()][shadows.count], ln of the growth; unused without shadows
+    double* growth_values =
+        nullptr;  // [members][stops.intervals()][shadows.count], ln of the growth; unused without shadows
 };
 
 }  // namespace slideway

@@ -27,7 +27,8 @@ public:
             ShadowPlan const& plan = block.shadows;
             auto const shadows = static_cast<std::size_t>(plan.count);
             for (int s = 0; s < plan.count; ++s) {
-                double const* const direction = plan.directions + (member * shadows + static_cast<std::size_t>(s)) * size;
+                double const* const direction =
+                    plan.directions + (member * shadows + static_cast<std::size_t>(s)) * size;
                 for (int j = 0; j < size; ++j) set_lane(shadow_[s][j], i, fma(plan.d0, direction[j], y[j]));
             }
         }
@@ -64,7 +65,8 @@ private:
         int const count = block_.shadows.count;
         check(y_);
         for (int s = 0; s < count; ++s) check(shadow_[s]);
-        if (block_.section_values != nullptr && stop >= plan.transient && (stop - plan.transient) % plan.section_every == 0) {
+        if (block_.section_values != nullptr && stop >= plan.transient &&
+            (stop - plan.transient) % plan.section_every == 0) {
             write(block_.section_values, plan.sections(), (stop - plan.transient) / plan.section_every, size, y_);
         }
         if (count == 0) return;

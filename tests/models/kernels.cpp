@@ -20,7 +20,9 @@ namespace {
 struct ValveModel : ReliefValveModel {
     using Inputs = testing::ValveInputs;
     static Parameters<double> parameters(Inputs const& in) { return {in.inflow}; }
-    static void initial_state(Inputs const& in, double* s) { ReliefValveModel::initial_state({.inflow = in.inflow}, s); }
+    static void initial_state(Inputs const& in, double* s) {
+        ReliefValveModel::initial_state({.inflow = in.inflow}, s);
+    }
 };
 
 struct PlainLorenzModel : LorenzModel {
@@ -44,10 +46,13 @@ struct PlainHenon : Henon {
 }  // namespace
 
 extern testing::ModelKernels const model_kernels;
-testing::ModelKernels const model_kernels{integrate<BallModel, IsaReal>, integrate<OscillatorModel, IsaReal>,
-                                          integrate<TrackerModel, IsaReal>, integrate<ValveModel, IsaReal>,
+testing::ModelKernels const model_kernels{integrate<BallModel, IsaReal>,
+                                          integrate<OscillatorModel, IsaReal>,
+                                          integrate<TrackerModel, IsaReal>,
+                                          integrate<ValveModel, IsaReal>,
                                           integrate<Shadowed<PlainLorenzModel>, IsaReal>,
                                           integrate<Shadowed<TableBallModel>, IsaReal>,
-                                          map_orbit<PlainLogistic, IsaReal>, map_orbit<PlainHenon, IsaReal>};
+                                          map_orbit<PlainLogistic, IsaReal>,
+                                          map_orbit<PlainHenon, IsaReal>};
 
 }  // namespace slideway::inline SLIDEWAY_ISA

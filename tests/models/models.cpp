@@ -97,8 +97,8 @@ ModelResult run(void (*kernel)(MapBlockOf<Inputs>&), std::vector<Inputs> const& 
     MapBlockOf<Inputs> block;
     block.inputs = members.data();
     block.members = members.size();
-    block.first_stop = static_cast<std::uint64_t>(f.clocks.at(0).first_stop);
-    block.period = static_cast<std::uint64_t>(f.clocks.at(0).period);
+    block.first_stop = static_cast<std::uint64_t>(following.clocks.at(0).first_stop);
+    block.period = static_cast<std::uint64_t>(following.clocks.at(0).period);
     block.stops = f.stops;
     block.shadows = plan_of(f);
     block.final_states = r.states.data();
@@ -130,11 +130,13 @@ ModelResult run(Isa isa, IntegratorSettings const& settings, std::vector<ValveIn
     return run(model_kernels(isa).valve, recorded_valve_events, settings, members, sample_times);
 }
 
-ModelResult run(Isa isa, IntegratorSettings const& settings, std::vector<LorenzInputs> const& members, Following const& f) {
+ModelResult run(Isa isa, IntegratorSettings const& settings, std::vector<LorenzInputs> const& members,
+                Following const& f) {
     return run(model_kernels(isa).lorenz, 0, settings, members, {}, &f);
 }
 
-ModelResult run(Isa isa, IntegratorSettings const& settings, std::vector<TableBallInputs> const& members, Following const& f) {
+ModelResult run(Isa isa, IntegratorSettings const& settings, std::vector<TableBallInputs> const& members,
+                Following const& f) {
     return run(model_kernels(isa).table_ball, 0, settings, members, {}, &f);
 }
 

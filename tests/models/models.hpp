@@ -134,13 +134,16 @@ struct Following {
     std::vector<double> directions;    // [member][shadow][size]; empty: axes
     std::vector<std::uint32_t> order;  // in which the block takes its members; empty: as they stand
 };
-ModelResult run(Isa isa, IntegratorSettings const& settings, std::vector<LorenzInputs> const& members, Following const& f);
-ModelResult run(Isa isa, IntegratorSettings const& settings, std::vector<TableBallInputs> const& members, Following const& f);
+ModelResult run(Isa isa, IntegratorSettings const& settings, std::vector<LorenzInputs> const& members,
+                Following const& f);
+ModelResult run(Isa isa, IntegratorSettings const& settings, std::vector<TableBallInputs> const& members,
+                Following const& f);
 ModelResult run(Isa isa, std::vector<LogisticInputs> const& members, Following const& f);
 ModelResult run(Isa isa, std::vector<HenonInputs> const& members, Following const& f);
 
 /// Mean growth per interval of one member's shadow, from `first` on.
-double mean_growth(ModelResult const& result, Following const& f, std::size_t member, int shadow, std::size_t first = 0);
+double mean_growth(ModelResult const& result, Following const& f, std::size_t member, int shadow,
+                   std::size_t first = 0);
 
 /// The events of one ball.
 std::vector<BallEvent> ball_events(ModelResult const& result, std::size_t member);

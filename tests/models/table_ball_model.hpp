@@ -69,8 +69,8 @@ struct TableBallModel : PlainModel<2> {
     template <class Real> using Observer = TableBallObserver<Real>;
 
     template <bool Full, class Real>
-    SLIDEWAY_FN static Faults<Real> derivative(Real t, Real const* s, Parameters<Real> const& p, Memory<Real> const& memory,
-                                               Real* rates, Report<Real>* report) {
+    SLIDEWAY_FN static Faults<Real> derivative(Real t, Real const* s, Parameters<Real> const& p,
+                                               Memory<Real> const& memory, Real* rates, Report<Real>* report) {
         rates[0] = s[1];
         rates[1] = fma(p.thrust, memory.speed, fms(p.amplitude, sincos(fma(p.frequency, t, p.phase)).cos, p.gravity));
         if constexpr (Full) report->contact = {s[0], s[1], p.restitution};
