@@ -1,0 +1,60 @@
+// What logs of growth say: exponents of offsets between stops, their errors, dimension and mean over members.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace slideway {
+
+/// Growth of offsets between stops: ln of it as the kernels record it, [intervals][count], every interval `length` long
+/// (seconds; steps of a map).  A member that failed has NaN from some interval on; only what is before it counts.
+struct GrowthLog {
+    std::span<double const> values;
+    std::size_t count = 1;  // offsets, >= 1
+    double length = 1;      // > 0
+
+    std::size_t intervals() const;  // before the first NaN
+    double at(std::size_t interval, std::size_t offset) const { return values[interval * count + offset]; }
+};
+
+/// Means with the spread that their parts show.
+struct Exponents {
+    std::vector<double> value;  // [count], Σ growth / time: finite-time exponents [1/s]; NaN without intervals
+    std::vector<double> standard_error;  // [count], by batch means; NaN with fewer than 4 intervals
+};
+
+/// λ_j = Σ_i g_ij / (n Δ).  Source: Benettin et al., Meccanica 15 (1980) 9–20 and 21–30.
+/// Error by batch means: a = ⌊n/b⌋ batches of b = ⌊√n⌋ consecutive intervals, s.e. = s(batch means)/√a; a remainder, at the
+/// start, is left out of it.  Source: Flegal & Jones, Annals of Statistics 38 (2010) 1034–1070.  It is honest where growth is independent over √n
+/// intervals.
+Exponents exponents_of(GrowthLog const& log);
+
+/// The mean of offset j over the first intervals, at `points` places spread evenly over the record; the last is all of it.  Fewer
+/// where there are fewer intervals.
+struct RunningMean {
+    std::vector<double> time;  // since the record began
+    std::vector<double> value;
+};
+RunningMean running_mean(GrowthLog const& log, std::size_t offset, std::size_t points);
+
+/// Dimension by Kaplan and Yorke: k + (λ_1 + … + λ_k)/|λ_{k+1}| with the largest k whose sum is not negative.  Source: Frederickson,
+/// Kaplan, Yorke & Yorke, J. Differ. Equations 49 (1983) 185–207.
+/// @param exponents descending.  @return 0 if all are negative; their number if no sum is negative (of a part of the spectrum a
+/// lower bound); NaN where one is NaN, or none is given.
+double kaplan_yorke_dimension(std::span<double const> exponents);
+
+/// Mean over members, and half the width of its interval of confidence by Student's t.
+struct MeanOfMembers {
+    std::size_t count = 0;  // members that are not NaN
+    double mean;            // NaN of none
+    double half_width;      // t_{count−1} s/√count; NaN of fewer than two
+};
+MeanOfMembers mean_of_members(std::span<double const> values, double confidence = 0.95);
+
+/// Intervals in which an offset shrank into rounding: its growth is ln(least/d0), within one part in 10⁹, and the true one is that or less.  Of
+/// such a record the exponent is an upper bound only.
+/// @param d0 distance after a rescaling.  @param least that the kernels tell from rounding, ShadowPlan's own.
+std::size_t intervals_at_floor(GrowthLog const& log, std::size_t offset, double d0, double least = 1e-15);
+
+}  // namespace slideway
