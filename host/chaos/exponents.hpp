@@ -1,4 +1,4 @@
-// Finite-time Lyapunov exponents from the logarithms of growth that an ensemble's shadows leave.
+// What logs of growth say: exponents of offsets between stops, their errors, dimension and mean over members.
 #pragma once
 
 #include <cstddef>
@@ -7,37 +7,49 @@
 
 namespace slideway {
 
-/// The exponents of one orbit.  Growth is ln(d after/d before) over a record of equal length; the exponents are its mean rate,
-/// λ_j = Σ_i g_ij / Σ time (Benettin, Galgani, Giorgilli, Strelcyn, Meccanica 15 (1980) 9–30).
-struct FiniteTimeExponents {
-    std::vector<double> values;  // [k] in 1/time; NaN where no record is
-    std::vector<double> errors;  // [k] standard errors by batch means; NaN for fewer than 4 records
+/// Growth of offsets between stops: ln of it as the kernels record it, [intervals][count], every interval `length` long
+/// (seconds; steps of a map).  A member that failed has NaN from some interval on; only what is before it counts.
+struct GrowthLog {
+    std::span<double const> values;
+    std::size_t count = 1;  // offsets, >= 1
+    double length = 1;      // > 0
+
+    std::size_t intervals() const;  // before the first NaN
+    double at(std::size_t interval, std::size_t offset) const { return values[interval * count + offset]; }
 };
 
-/// @param growths [records][k], NaN from where the orbit ended before its time; what is behind a NaN does not count.
-/// @param record length of a record [time]
-/// The error comes from the spread of some √records batches of neighbouring records, at most 32: they are nearly independent where a
-/// batch outlasts the memory of the orbit.
-FiniteTimeExponents finite_time_exponents(std::span<double const> growths, std::size_t k, double record);
+/// Means with the spread that their parts show.
+struct Exponents {
+    std::vector<double> value;  // [count], Σ growth / time: finite-time exponents [1/s]; NaN without intervals
+    std::vector<double> standard_error;  // [count], by batch means; NaN with fewer than 4 intervals
+};
 
-/// Running exponents: those after the first n records, for each n of `after` (ascending).  [after][k]
-std::vector<double> exponent_history(std::span<double const> growths, std::size_t k, double record,
-                                     std::span<std::size_t const> after);
+/// λ_j = Σ_i g_ij / (n Δ).  Source: Benettin et al., Meccanica 15 (1980) 9–20 and 21–30.
+/// Error by batch means: a = ⌊n/b⌋ batches of b = ⌊√n⌋ consecutive intervals, s.e. = s(batch means)/√a; a remainder, at the
+/// start, is left out of it.  Source: Flegal & Jones, Annals of Statistics 38 (2010) 1034–1070.  It is honest where growth is independent over √n
+/// intervals.
+Exponents exponents_of(GrowthLog const& log);
 
-/// Kaplan–Yorke dimension: j + (λ_1 + … + λ_j)/|λ_{j+1}|, j the most exponents whose sum is not negative (Kaplan & Yorke 1979).
-/// 0 where all are negative.  Where the sum of all that are given is not negative, that bounds nothing: NaN.
-/// @param exponents sorted, largest first
+/// The mean of offset j over the first intervals, at `points` places spread evenly over the record; the last is all of it.  Fewer
+/// where there are fewer intervals.
+struct RunningMean {
+    std::vector<double> time;  // since the record began
+    std::vector<double> value;
+};
+RunningMean running_mean(GrowthLog const& log, std::size_t offset, std::size_t points);
+
+/// Dimension by Kaplan and Yorke: k + (λ_1 + … + λ_k)/|λ_{k+1}| with the largest k whose sum is not negative.  Source: Frederickson,
+/// Kaplan, Yorke & Yorke, J. Differ. Equations 49 (1983) 185–207.
+/// @param exponents descending.  @return 0 if all are negative; their number if no sum is negative (of a part of the spectrum a
+/// lower bound); NaN where one is NaN, or none is given.
 double kaplan_yorke_dimension(std::span<double const> exponents);
 
-/// A mean with its confidence interval: mean ± half_width holds the true one in 95 % of the cases, by Student's t for
-/// independent, nearly normal values; NaN for fewer than 2.
-struct MeanInterval {
-    std::size_t count = 0;  // numbers used, NaN left out
-    double mean, half_width;
+/// Mean over members, and half the width of its interval of confidence by Student's t.
+struct MeanOfMembers {
+    std::size_t count = 0;  // members that are not NaN
+    double mean;            // NaN of none
+    double half_width;      // t_{count−1} s/√count; NaN of fewer than two
 };
-MeanInterval mean_interval(std::span<double const> values);
-
-/// 97.5 % quantile of Student's t with n degrees of freedom.
-double student_quantile(double degrees);
+MeanOfMembers mean_of_members(std::span<double const> values, double confidence = 0.95);
 
 }  // namespace slideway

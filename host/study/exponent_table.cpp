@@ -2,28 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
-
-#include "host/chaos/exponents.hpp"
 
 namespace slideway {
 namespace {
 
 constexpr std::size_t from_exponents = 2;  // fewer tell no dimension
+constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
 /// Largest first, each with its error: QR sorts them only in the limit.
-void sort(FiniteTimeExponents& exponents) {
+void sort(Exponents& exponents) {
     std::vector<std::pair<double, double>> pairs;
-    for (std::size_t j = 0; j < exponents.values.size(); ++j) {
-        if (std::isnan(exponents.values[j])) return;
-        pairs.emplace_back(exponents.values[j], exponents.errors[j]);
+    for (std::size_t j = 0; j < exponents.value.size(); ++j) {
+        if (std::isnan(exponents.value[j])) return;
+        pairs.emplace_back(exponents.value[j], exponents.standard_error[j]);
     }
     std::stable_sort(pairs.begin(), pairs.end(), [](auto const& a, auto const& b) { return a.first > b.first; });
-    for (std::size_t j = 0; j < pairs.size(); ++j) std::tie(exponents.values[j], exponents.errors[j]) = pairs[j];
+    for (std::size_t j = 0; j < pairs.size(); ++j) std::tie(exponents.value[j], exponents.standard_error[j]) = pairs[j];
 }
 
-/// `points` of the records, the last among them, at equal distances.
+/// Where `running_mean` has its points.
 std::vector<std::size_t> history_records(std::size_t records, std::size_t points) {
     std::size_t const count = std::min(records, points);
     std::vector<std::size_t> after;
@@ -68,25 +68,34 @@ ExponentTable::ExponentTable(Scene const& scene)
 StudyValues ExponentTable::values(BlockResult const& block) const {
     StudyValues columns(layout_.columns.size());
     if (exponents_ == 0) return columns;
-    std::size_t const per_member = schedule_.stops.growths() * exponents_;
+    std::size_t const records = schedule_.stops.growths(), per_member = records * exponents_;
     auto const append = [](std::vector<double>& column, std::vector<double> const& row) {
         column.insert(column.end(), row.begin(), row.end());
     };
     for (std::size_t i = 0; i < block.records.size(); ++i) {
-        auto const growths = block.growths.subspan(i * per_member, per_member);
         double const spacing = schedule_.timing(block.inputs[i]).period;
-        double const record = spacing * static_cast<double>(schedule_.stops.growth_every);
-        FiniteTimeExponents exponents = finite_time_exponents(growths, exponents_, record);
+        GrowthLog const log{block.growths.subspan(i * per_member, per_member), exponents_,
+                            spacing * static_cast<double>(schedule_.stops.growth_every)};
+        Exponents exponents = exponents_of(log);
         sort(exponents);
-        append(columns[0], exponents.values);
-        append(columns[1], exponents.errors);
-        auto const whole = std::find_if(growths.begin(), growths.end(), [](double g) { return std::isnan(g); });
-        columns[2].push_back(record * static_cast<double>(static_cast<std::size_t>(whole - growths.begin()) / exponents_));
+        append(columns[0], exponents.value);
+        append(columns[1], exponents.standard_error);
+        columns[2].push_back(log.length * static_cast<double>(log.intervals()));
         columns[3].push_back(static_cast<double>(block.records[i].lost_offsets));
-        if (exponents_ >= from_exponents) columns[4].push_back(kaplan_yorke_dimension(exponents.values));
-        if (!history_.empty()) append(columns.back(), exponent_history(growths, exponents_, record, history_));
+        if (exponents_ >= from_exponents) columns[4].push_back(kaplan_yorke_dimension(exponents.value));
+        if (!history_.empty()) append(columns.back(), history_of(log));
     }
     return columns;
+}
+
+std::vector<double> ExponentTable::history_of(GrowthLog const& log) const {
+    std::vector<double> history(history_.size() * exponents_, not_there);
+    if (log.intervals() != schedule_.stops.growths()) return history;
+    for (std::size_t j = 0; j < exponents_; ++j) {
+        RunningMean const mean = running_mean(log, j, history_.size());
+        for (std::size_t n = 0; n < history_.size(); ++n) history[n * exponents_ + j] = mean.value[n];
+    }
+    return history;
 }
 
 }  // namespace slideway

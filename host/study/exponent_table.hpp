@@ -1,6 +1,7 @@
 // The exponents of a study's members as columns of its result file.
 #pragma once
 
+#include "host/chaos/exponents.hpp"
 #include "host/driver/block_result.hpp"
 #include "host/output/study_columns.hpp"
 #include "host/scene/scene.hpp"
@@ -18,6 +19,8 @@ public:
     StudyValues values(BlockResult const& block) const;
 
 private:
+    std::vector<double> history_of(GrowthLog const& log) const;
+
     OrbitSchedule const schedule_;
     std::size_t const exponents_;
     std::vector<std::size_t> history_;  // records after which the running exponents are kept

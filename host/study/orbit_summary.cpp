@@ -26,8 +26,8 @@ std::vector<double> column_of(std::vector<double> const& values, std::vector<cha
     return column;
 }
 
-/// Batches are at most 32, and a member's own error has one degree less; fewer are rare and a little too sure.
-constexpr double batch_degrees = 15;
+/// 97.5 % quantile of Student's t for some 15 batches, the fewest of a member with as many records as a study has at least.
+constexpr double quantile_of_batches = 2.13;
 
 }  // namespace
 
@@ -37,12 +37,11 @@ std::vector<ExponentSummary> summarise_exponents(ResultReader const& results) {
     auto const finished = finished_members(results);
     auto const values = results.values("lyapunov_exponent"), errors = results.values("lyapunov_exponent_error");
     std::size_t const exponents = results.shape("lyapunov_exponent").at(1);
-    double const t = student_quantile(batch_degrees);
     for (std::size_t j = 0; j < exponents; ++j) {
         std::vector<double> const of_members = column_of(values, finished, exponents, j);
         std::vector<double> const their_errors = column_of(errors, finished, exponents, j);
         ExponentSummary& summary = summaries.emplace_back();
-        summary.mean = mean_interval(of_members);
+        summary.mean = mean_of_members(of_members);
         summary.values = summarise(of_members);
         std::vector<double> sorted;
         for (double const x : of_members) {
@@ -52,7 +51,7 @@ std::vector<ExponentSummary> summarise_exponents(ResultReader const& results) {
         summary.low = quantile(sorted, 0.05);
         summary.high = quantile(sorted, 0.95);
         for (std::size_t i = 0; i < of_members.size(); ++i) {
-            double const reach = t * their_errors[i];
+            double const reach = quantile_of_batches * their_errors[i];
             if (of_members[i] - reach > 0)
                 ++summary.positive;
             else if (of_members[i] + reach < 0)
@@ -73,7 +72,7 @@ std::vector<HistoryPoint> exponent_history(ResultReader const& results) {
     for (std::size_t n = 0; n < rescalings.size(); ++n) {
         history.push_back(
             {rescalings[n],
-             mean_interval(column_of(values, finished, rescalings.size() * exponents, n * exponents))});
+             mean_of_members(column_of(values, finished, rescalings.size() * exponents, n * exponents))});
     }
     return history;
 }

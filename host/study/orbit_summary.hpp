@@ -13,7 +13,7 @@ namespace slideway {
 
 /// One exponent over the members that finished [1/s].
 struct ExponentSummary {
-    MeanInterval mean;
+    MeanOfMembers mean;
     Summary values;
     double low, high;  // 5 % and 95 % quantiles
     /// Members whose own 95 % interval, value ± t · standard error, lies above zero, below it, or holds it.
@@ -26,7 +26,7 @@ std::vector<ExponentSummary> summarise_exponents(ResultReader const& results);
 /// Ensemble mean of the largest exponent after so many rescalings, with its confidence interval.
 struct HistoryPoint {
     double rescalings;
-    MeanInterval mean;
+    MeanOfMembers mean;
 };
 std::vector<HistoryPoint> exponent_history(ResultReader const& results);
 

@@ -2,13 +2,10 @@
 
 #include "kernels/lanes/pack.hpp"
 #include "kernels/math/gram_schmidt.hpp"
-#include "kernels/math/logarithm.hpp"
+#include "kernels/math/offset_growth.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
-
-/// Distance between member and shadow below which it is rounding [dimensionless]: what shrinks below counts as this.
-inline constexpr double least_distance = 1e-15;
 
 /// The shadows of the members at work.  A shadow takes its member's steps, which meet the tolerance for all of them: the numerical
 /// solution is then one and the same map of member and shadow, and their offset is free of what two sequences of steps would differ
@@ -107,16 +104,14 @@ public:
         Real const d0(plan_.d0);
         for (int s = 0; s < plan_.count; ++s) {
             auto& shadow = pack.state.shadows[s];
-            Real const reached = max(length[s], Real(least_distance));
-            shadow.growth = select(at, shadow.growth + log_positive(reached / shadow.distance), shadow.growth);
+            auto const found = offset_growth(plan_, at, length[s], shadow.distance);
+            shadow.growth = select(at, shadow.growth + found.growth, shadow.growth);
+            shadow.distance = found.distance;
             auto& lost = pack.state.course.shadowed.lost;
             lost = lost + count<Real>(at & !(length[s] > Real(least_distance)));
-            auto moved = at;
-            if (plan_.count == 1) moved = at & !((reached >= Real(plan_.lower)) & (reached <= Real(plan_.upper)));
-            shadow.distance = select(at, select(moved, d0, reached), shadow.distance);
-            if (none(moved)) continue;
-            write_offset(pack, moved, w[s], d0, shadow);
-            refresh(pack, shadow, moved);
+            if (none(found.moved)) continue;
+            write_offset(pack, found.moved, w[s], d0, shadow);
+            refresh(pack, shadow, found.moved);
         }
     }
 
@@ -144,10 +139,12 @@ private:
         for (int i = 0; i < size; ++i) {
             shadow.y[i] = select(in, fma(length * s.constants.scale[i], w[i], s.course.y[i]), shadow.y[i]);
         }
-        for (int i = 0; i < remembered; ++i) {
-            Real& number = numbers(shadow.memory)[i];
-            Real const own = numbers(s.course.memory)[i];
-            number = select(in, Model::remembered(fma(length, w[size + i], own)), number);
+        if constexpr (remembered > 0) {
+            for (int i = 0; i < remembered; ++i) {
+                Real& number = numbers(shadow.memory)[i];
+                Real const own = numbers(s.course.memory)[i];
+                number = select(in, Model::remembered(fma(length, w[size + i], own)), number);
+            }
         }
     }
 

@@ -8,6 +8,7 @@
 
 #include "host/backend/backend.hpp"
 #include "kernels/block.hpp"
+#include "kernels/map_block.hpp"
 
 namespace slideway::testing {
 
@@ -56,12 +57,47 @@ struct ValveInputs {
 };
 inline constexpr int recorded_valve_events = 64;
 
+/// The Lorenz equations.
+struct LorenzInputs {
+    double sigma = 10, rho = 28, beta = 8.0 / 3.0;
+    double x = 10, y = 10, z = 10;
+    static constexpr int size = 3;  // x y z
+};
+
+/// A ball over a vibrating table, in the table's frame: x'' = −g + a cos(ω t + φ) + b u, at x = 0 with v < 0: u ← −v, v ← −e v.
+/// What it remembers is u, the speed of its last impact, 0 before the first; b [1/s] makes it matter.
+struct TableBallInputs {
+    double height = 1, speed = 0;
+    double gravity = 1;
+    double amplitude = 0, frequency = 0, phase = 0;  // a, ω, φ
+    double restitution = 1;
+    double thrust = 0;              // b
+    static constexpr int size = 2;  // x v
+};
+
+/// x ← r x (1 − x).
+struct LogisticInputs {
+    double r = 4, x = 0.3;
+    static constexpr int size = 1;
+};
+
+/// x ← 1 − a x² + y, y ← b x.
+struct HenonInputs {
+    double a = 1.4, b = 0.3;
+    double x = 0, y = 0;
+    static constexpr int size = 2;
+};
+
 /// Each instruction set has one.
 struct ModelKernels {
     void (*ball)(BlockOf<BallInputs>&);
     void (*oscillator)(BlockOf<OscillatorInputs>&);
     void (*tracker)(BlockOf<TrackerInputs>&);
     void (*valve)(BlockOf<ValveInputs>&);
+    void (*lorenz)(BlockOf<LorenzInputs>&);         // with shadows
+    void (*table_ball)(BlockOf<TableBallInputs>&);  // with shadows
+    void (*logistic)(MapBlockOf<LogisticInputs>&);
+    void (*henon)(MapBlockOf<HenonInputs>&);
 };
 ModelKernels const& model_kernels(Isa isa);
 
@@ -70,6 +106,9 @@ struct ModelResult {
     std::vector<double> states;      // [member][size], at the end
     std::vector<double> quantities;  // [member][columns]
     std::vector<double> series;      // [component][member][sample]
+    std::vector<double> sections;    // [member][section][size]
+    std::vector<double> section_times;  // [member][section]; not of maps
+    std::vector<double> growth;      // [member][interval][shadow]
     std::uint64_t lane_steps_executed = 0, lane_steps_useful = 0;
 
     double utilisation() const {
@@ -86,6 +125,26 @@ ModelResult run(Isa isa, IntegratorSettings const& settings, std::vector<Tracker
                 std::vector<double> const& sample_times = {});
 ModelResult run(Isa isa, IntegratorSettings const& settings, std::vector<ValveInputs> const& members,
                 std::vector<double> const& sample_times = {});
+
+/// How offsets from the members of a block are to be followed.
+struct Following {
+    std::vector<MemberClock> clocks;  // of all or one for all; in steps of a map, whose clock ends with its last stop
+    StopPlan stops;
+    int shadows = 0;
+    double d0 = 1e-7, lower = 0, upper = 0;
+    std::vector<double> directions;    // [member][shadow][size]; empty: axes
+    std::vector<std::uint32_t> order;  // in which the block takes its members; empty: as they stand
+};
+ModelResult run(Isa isa, IntegratorSettings const& settings, std::vector<LorenzInputs> const& members,
+                Following const& f);
+ModelResult run(Isa isa, IntegratorSettings const& settings, std::vector<TableBallInputs> const& members,
+                Following const& f);
+ModelResult run(Isa isa, std::vector<LogisticInputs> const& members, Following const& f);
+ModelResult run(Isa isa, std::vector<HenonInputs> const& members, Following const& f);
+
+/// Mean growth per interval of one member's shadow, from `first` on.
+double mean_growth(ModelResult const& result, Following const& f, std::size_t member, int shadow,
+                   std::size_t first = 0);
 
 /// The events of one ball.
 std::vector<BallEvent> ball_events(ModelResult const& result, std::size_t member);

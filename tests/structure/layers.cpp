@@ -25,12 +25,14 @@ constexpr std::array layers = {
     Layer{"kernels/laws", 3},
     Layer{"kernels/joint", 4},
     Layer{"kernels/mechanisms", 5},
+    Layer{"kernels/maps", 5},
     Layer{"kernels/observers", 6},
     Layer{"kernels/steppers", 6},
     Layer{"kernels/lanes", 7},
     Layer{"kernels/models", 8},
     Layer{"kernels/integrate.hpp", 8},
     Layer{"kernels/fixed_step.hpp", 7},
+    Layer{"kernels/map_orbit.hpp", 7},
     Layer{"host/scene", 10},
     Layer{"host/backend", 10},
     Layer{"host/output", 11},
@@ -42,12 +44,9 @@ constexpr std::array layers = {
 };
 
 // Plain data without code of any instruction set: every layer may share it, the host included.
-constexpr std::array<std::string_view, 5> plain_data = {
-    "kernels/inputs.hpp",
-    "kernels/status.hpp",
-    "kernels/methods.hpp",
-    "kernels/block.hpp",
-    "kernels/observers/quantities.hpp",
+constexpr std::array<std::string_view, 6> plain_data = {
+    "kernels/inputs.hpp", "kernels/status.hpp",    "kernels/methods.hpp",
+    "kernels/block.hpp",  "kernels/map_block.hpp", "kernels/observers/quantities.hpp",
 };
 
 bool is_plain_data(std::string_view path) { return std::ranges::find(plain_data, path) != plain_data.end(); }

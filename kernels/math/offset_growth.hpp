@@ -1,0 +1,30 @@
+#pragma once
+
+#include "kernels/block.hpp"
+#include "kernels/math/logarithm.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Distance between member and shadow below which it is rounding [dimensionless]: what shrinks below counts as this.
+inline constexpr double least_distance = 1e-15;
+
+/// What a stop finds of one offset.
+template <class Real> struct OffsetGrowth {
+    Real growth;       // ln of it since the last stop
+    Real distance;     // that the next interval starts from
+    Mask<Real> moved;  // lanes where the shadow goes back to d0
+};
+
+/// One shadow is left alone within its bounds; several, made orthogonal, always go back.
+/// @param at lanes at a stop.  @param length of the offset, of several what the earlier ones left of it.
+/// @param distance after the last stop, > 0
+template <class Real>
+SLIDEWAY_FN OffsetGrowth<Real> offset_growth(ShadowPlan const& plan, Mask<Real> at, Real length, Real distance) {
+    Real const reached = max(length, Real(least_distance));
+    auto moved = at;
+    if (plan.count == 1) moved = at & !((reached >= Real(plan.lower)) & (reached <= Real(plan.upper)));
+    return {log_positive(reached / distance), select(at, select(moved, Real(plan.d0), reached), distance), moved};
+}
+
+}  // namespace slideway::inline SLIDEWAY_ISA
