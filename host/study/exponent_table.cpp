@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -10,6 +11,7 @@ namespace slideway {
 namespace {
 
 constexpr std::size_t from_exponents = 2;  // fewer tell no dimension
+constexpr double rounding = 1e-15;  // of an offset, in the scales of the joint: the positions' last bits
 constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
 /// Largest first, each with its error: QR sorts them only in the limit.
@@ -34,22 +36,21 @@ std::vector<std::size_t> history_records(std::size_t records, std::size_t points
 }  // namespace
 
 ExponentTable::ExponentTable(Scene const& scene)
-    : schedule_(orbit_schedule(scene)), exponents_(static_cast<std::size_t>(shadow_plan(scene).count)) {
+    : schedule_(orbit_schedule(scene)), exponents_(static_cast<std::size_t>(shadow_plan(scene).count)), d0_(scene.chaos.d0) {
     if (exponents_ == 0) return;
     history_ = history_records(schedule_.stops.growths(), scene.chaos.history);
     StudyAxis exponent{"exponent", "1", "number of the exponent, the largest first", {}};
     for (std::size_t j = 1; j <= exponents_; ++j) exponent.values.push_back(static_cast<double>(j));
     layout_.axes.push_back(exponent);
-    auto const add = [this](char const* name, char const* unit, char const* long_name, char const* axis = nullptr) {
-        StudyColumn& column = layout_.columns.emplace_back();
-        column.name = name;
-        column.unit = unit;
-        column.long_name = long_name;
-        if (axis != nullptr) column.axes.emplace_back(axis);
+    auto const add = [this](std::string_view name, std::string_view unit, std::string_view long_name,
+                            std::vector<std::string> axes = {}) {
+        layout_.columns.push_back({std::string(name), std::string(unit), std::string(long_name), std::move(axes)});
     };
-    add("lyapunov_exponent", "s-1", "finite-time Lyapunov exponents, by shadows", "exponent");
-    add("lyapunov_exponent_error", "s-1", "standard error of the exponent, by batch means", "exponent");
+    std::vector<std::string> const along_exponents(1, exponent.name);
+    add("lyapunov_exponent", "s-1", "finite-time Lyapunov exponents, by shadows", along_exponents);
+    add("lyapunov_exponent_error", "s-1", "standard error of the exponent, by batch means", along_exponents);
     add("lyapunov_time", "s", "time over which the exponents are taken, after the transient");
+    add("lyapunov_resolution", "s-1", "rounding of the offsets: a smaller exponent is none");
     add("lost_offsets", "1", "times that an offset had shrunk into rounding: then exponents are upper bounds");
     if (exponents_ >= from_exponents) {
         add("kaplan_yorke_dimension", "1",
@@ -61,8 +62,7 @@ ExponentTable::ExponentTable(Scene const& scene)
         history.values.push_back(static_cast<double>(records * schedule_.stops.growth_every));
     }
     layout_.axes.push_back(history);
-    add("lyapunov_history", "s-1", "running exponents after so many rescalings", "history");
-    layout_.columns.back().axes.emplace_back("exponent");
+    add("lyapunov_history", "s-1", "running exponents after so many rescalings", {history.name, exponent.name});
 }
 
 StudyValues ExponentTable::values(BlockResult const& block) const {
@@ -81,8 +81,9 @@ StudyValues ExponentTable::values(BlockResult const& block) const {
         append(columns[0], exponents.value);
         append(columns[1], exponents.standard_error);
         columns[2].push_back(log.length * static_cast<double>(log.intervals()));
-        columns[3].push_back(static_cast<double>(block.records[i].lost_offsets));
-        if (exponents_ >= from_exponents) columns[4].push_back(kaplan_yorke_dimension(exponents.value));
+        columns[3].push_back(rounding / (d0_ * spacing));
+        columns[4].push_back(static_cast<double>(block.records[i].lost_offsets));
+        if (exponents_ >= from_exponents) columns[5].push_back(kaplan_yorke_dimension(exponents.value));
         if (!history_.empty()) append(columns.back(), history_of(log));
     }
     return columns;

@@ -9,8 +9,8 @@
 
 namespace slideway {
 
-/// Axes and columns: `lyapunov_exponent(member, exponent)`, its standard error, the running exponents along `history`,
-/// how often an offset was lost, and from two exponents on the Kaplan–Yorke dimension.  Empty without shadows.
+/// Axes and columns: `lyapunov_exponent(member, exponent)`, its standard error and resolution, the running exponents along
+/// `history`, how often an offset was lost, and from two exponents on the Kaplan–Yorke dimension.  Empty without shadows.
 class ExponentTable {
 public:
     explicit ExponentTable(Scene const& scene);
@@ -23,6 +23,7 @@ private:
 
     OrbitSchedule const schedule_;
     std::size_t const exponents_;
+    double const d0_;
     std::vector<std::size_t> history_;  // records after which the running exponents are kept
     StudyTable layout_;
 };

@@ -36,6 +36,7 @@ std::vector<ExponentSummary> summarise_exponents(ResultReader const& results) {
     if (!results.has("lyapunov_exponent")) return summaries;
     auto const finished = finished_members(results);
     auto const values = results.values("lyapunov_exponent"), errors = results.values("lyapunov_exponent_error");
+    auto const resolutions = column_of(results.values("lyapunov_resolution"), finished, 1, 0);
     std::size_t const exponents = results.shape("lyapunov_exponent").at(1);
     for (std::size_t j = 0; j < exponents; ++j) {
         std::vector<double> const of_members = column_of(values, finished, exponents, j);
@@ -51,7 +52,7 @@ std::vector<ExponentSummary> summarise_exponents(ResultReader const& results) {
         summary.low = quantile(sorted, 0.05);
         summary.high = quantile(sorted, 0.95);
         for (std::size_t i = 0; i < of_members.size(); ++i) {
-            double const reach = quantile_of_batches * their_errors[i];
+            double const reach = quantile_of_batches * their_errors[i] + resolutions[i];
             if (of_members[i] - reach > 0)
                 ++summary.positive;
             else if (of_members[i] + reach < 0)

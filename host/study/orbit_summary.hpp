@@ -16,7 +16,7 @@ struct ExponentSummary {
     MeanOfMembers mean;
     Summary values;
     double low, high;  // 5 % and 95 % quantiles
-    /// Members whose own 95 % interval, value ± t · standard error, lies above zero, below it, or holds it.
+    /// Members whose own 95 % interval, value ± (t · standard error + resolution), lies above zero, below it, or holds it.
     std::uint64_t positive = 0, negative = 0, undecided = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "tests/models/models.hpp"
 
+#include <algorithm>
+
 namespace slideway {
 
 namespace scalar {

@@ -55,8 +55,8 @@ TEST(TouchLocator, FindsWhereAnyPairMeetsItsFace) {
         depth(start, p) = -gap, rate(start, p) = v;
         depth(end, p) = -gap + v * step + 0.5 * b * step * step, rate(end, p) = v + b * step;
         touches.keep(true, start);
-        EXPECT_NEAR(touches.earliest(true, end, step, clearance, memory_of(0.05)), touch / step, 1e-6) << p.face;
-        EXPECT_EQ(touches.earliest(false, end, step, clearance, memory_of(0.05)), 1.0)
+        EXPECT_NEAR(touches.earliest(true, end, step, clearance * touches.tolerance, memory_of(0.05)), touch / step, 1e-6) << p.face;
+        EXPECT_EQ(touches.earliest(false, end, step, clearance * touches.tolerance, memory_of(0.05)), 1.0)
             << "a rejected lane is not searched";
     }
 }
@@ -71,7 +71,7 @@ TEST(TouchLocator, TakesTheFirstOfSeveral) {
         depth(start, all[i]) = -1e-5, depth(end, all[i]) = 3e-5, rate(start, all[i]) = rate(end, all[i]) = 4e-5;
         depth(start, other) = -1e-5, depth(end, other) = 1e-5, rate(start, other) = rate(end, other) = 2e-5;
         touches.keep(true, start);
-        EXPECT_NEAR(touches.earliest(true, end, 1.0, clearance, memory_of(0.05)), 0.25, 1e-6);
+        EXPECT_NEAR(touches.earliest(true, end, 1.0, clearance * touches.tolerance, memory_of(0.05)), 0.25, 1e-6);
     }
 }
 
@@ -82,9 +82,9 @@ TEST(TouchLocator, LeavesAStepThatEndsAtItsTouch) {
     auto const p = pairs()[5];
     rate(end, p) = 0.1;
     depth(end, p) = 0.9 * TouchLocator<double>::tolerance * clearance;
-    EXPECT_EQ(touches.earliest(true, end, 1e-3, clearance, memory_of(0.05)), 1.0);
+    EXPECT_EQ(touches.earliest(true, end, 1e-3, clearance * touches.tolerance, memory_of(0.05)), 1.0);
     depth(end, p) = 1.1 * TouchLocator<double>::tolerance * clearance;
-    EXPECT_LT(touches.earliest(true, end, 1e-3, clearance, memory_of(0.05)), 1.0);
+    EXPECT_LT(touches.earliest(true, end, 1e-3, clearance * touches.tolerance, memory_of(0.05)), 1.0);
 }
 
 TEST(TouchLocator, SetsTheSpeedOfThePairThatTouched) {
@@ -96,15 +96,15 @@ TEST(TouchLocator, SetsTheSpeedOfThePairThatTouched) {
         depth(end, touching) = 1e-13;
         rate(end, touching) = 0.3;
         auto memory = memory_of(0.05);
-        EXPECT_FALSE(touches.update(false, end, memory)) << "a rejected step touches nothing";
+        EXPECT_FALSE(touches.update(false, end, memory, nullptr)) << "a rejected step touches nothing";
         for (auto const& p : pairs()) EXPECT_EQ(memory.speeds[p.face].*p.apex, 0.05);
-        EXPECT_TRUE(touches.update(true, end, memory));
+        EXPECT_TRUE(touches.update(true, end, memory, nullptr));
         for (auto const& p : pairs()) {
             bool const same = p.face == touching.face && p.apex == touching.apex;
             EXPECT_EQ(memory.speeds[p.face].*p.apex, same ? 0.3 : 0.05);
         }
         rate(end, touching) = 0.9;
-        EXPECT_FALSE(touches.update(true, end, memory)) << "what touches already does not touch again";
+        EXPECT_FALSE(touches.update(true, end, memory, nullptr)) << "what touches already does not touch again";
         EXPECT_EQ(memory.speeds[touching.face].*touching.apex, 0.3);
     }
 }
@@ -115,7 +115,7 @@ TEST(TouchLocator, NeverRemembersLessThanTheLeastSpeed) {
     auto end = apart();
     for (auto const& p : pairs()) depth(end, p) = 1e-13, rate(end, p) = 1e-9;
     auto memory = memory_of(0.05);
-    EXPECT_TRUE(touches.update(true, end, memory));
+    EXPECT_TRUE(touches.update(true, end, memory, nullptr));
     for (auto const& p : pairs()) EXPECT_EQ(memory.speeds[p.face].*p.apex, least_impact_speed);
     EXPECT_EQ(least_impact_speed, 1e-4);
 }
@@ -128,9 +128,9 @@ TEST(TouchLocator, KeepsTheGapsOfTheLastAcceptedStep) {
     touches.keep(true, inside);
     touches.keep(false, apart());
     auto memory = memory_of(0.05);
-    EXPECT_FALSE(touches.update(true, inside, memory)) << "a lane that was not taken keeps its old gaps";
+    EXPECT_FALSE(touches.update(true, inside, memory, nullptr)) << "a lane that was not taken keeps its old gaps";
     touches.keep(true, apart());
-    EXPECT_TRUE(touches.update(true, inside, memory));
+    EXPECT_TRUE(touches.update(true, inside, memory, nullptr));
 }
 
 /// The ends of a step of length 1 in which the depth of `p` follows scale (θ − a)(θ − b), an arch or a valley.
@@ -145,7 +145,7 @@ struct Arc {
 double earliest_touch(Arc const& arc) {
     TouchLocator<double> touches;
     touches.keep(true, arc.start);
-    return touches.earliest(true, arc.end, 1.0, clearance, memory_of(0.05));
+    return touches.earliest(true, arc.end, 1.0, clearance * touches.tolerance, memory_of(0.05));
 }
 
 double earliest_change(Arc const& arc) {
@@ -153,7 +153,7 @@ double earliest_change(Arc const& arc) {
     HeldContacts<double> held;
     start_memory(held);
     modes.begin(true, arc.start, held);
-    return modes.earliest(true, arc.end, 1.0, clearance, held);
+    return modes.earliest(true, arc.end, 1.0, clearance * modes.tolerance, held);
 }
 
 TEST(Locators, FindAPairThatMeetsAndLeavesItsFaceInOneStep) {

@@ -66,7 +66,7 @@ struct FakeBlock {
             }
         }
     }
-    BlockResult view() const { return {first, inputs, records, states, quantities, series}; }
+    BlockResult view() const { return {first, inputs, records, states, quantities, series, {}, {}}; }
 };
 
 void write_file(std::string const& path, std::vector<FakeBlock> const& blocks, int threads = 1) {
