@@ -52,9 +52,9 @@ struct MeanOfMembers {
 };
 MeanOfMembers mean_of_members(std::span<double const> values, double confidence = 0.95);
 
-/// Intervals in which an offset shrank into rounding: its growth is ln(least/d0), within one part in 10⁹, and the true one is that or less.  Of
-/// such a record the exponent is an upper bound only.
-/// @param d0 distance after a rescaling.  @param least that the kernels tell from rounding, ShadowPlan's own.
+/// Intervals in which an offset shrank into rounding: its growth is then ln(least/d0) (within one part in 10⁹), the true one that or
+/// less, and the exponent of such a record an upper bound only.  For shadows that go back to d0 at every stop.
+/// @param d0 distance after a rescaling.  @param least what counts as rounding, least_distance of kernels/math/offset_growth.hpp
 std::size_t intervals_at_floor(GrowthLog const& log, std::size_t offset, double d0, double least = 1e-15);
 
 }  // namespace slideway
