@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/lane_copy.hpp"
 #include "kernels/map_block.hpp"
 #include "kernels/math/gram_schmidt.hpp"
 #include "kernels/math/offset_growth.hpp"

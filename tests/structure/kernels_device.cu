@@ -9,6 +9,13 @@ template <class Model> __global__ void integrate_blocks(Block* blocks, int count
     if (i < count) integrate<Model, double>(blocks[i]);
 }
 
+template <class Map> __global__ void map_orbits(MapBlockOf<typename Map::Inputs>* blocks, int count) {
+    int const i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+    if (i < count) map_orbit<Map, double>(blocks[i]);
+}
+template __global__ void map_orbits<Henon>(MapBlockOf<Henon::Inputs>*, int);
+template __global__ void map_orbits<Logistic>(MapBlockOf<Logistic::Inputs>*, int);
+
 template <class Model> __global__ void probe_table(ProbeTable table) { probe<Model, double>(table); }
 
 template <class Law, class Friction, class Way, class Damping> void launch(Block* blocks, ProbeTable const& table) {

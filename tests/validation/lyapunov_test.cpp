@@ -189,6 +189,28 @@ TEST(LorenzShadows, NeverTouchTheirMember) {
     }
 }
 
+TEST(LorenzShadows, AreSolutionsOfTheirOwn) {
+    // The member rests on the unstable origin, whose every step is free of error: the shadow alone keeps them short.  It goes where a
+    // member goes that starts in its place.
+    LorenzInputs rest, moving;
+    rest.x = rest.y = rest.z = 0;
+    moving.x = 0.5, moving.y = moving.z = 0;
+    auto f = following(0.5, 0, 4, 1);
+    f.d0 = 0.5;
+    f.upper = 1e300;  // never put back
+    f.directions = {1, 0, 0};
+    auto const followed = testing::run(best_isa(), adaptive(1e-10), std::vector{rest}, f);
+    auto const alone = testing::run(best_isa(), adaptive(1e-10), std::vector{moving}, following(0.5, 0, 4, 0));
+    auto const distance = [&](std::size_t stop) {
+        double const* y = &alone.sections[3 * stop];
+        return std::hypot(y[0], y[1], y[2]);
+    };
+    for (std::size_t i = 0; i < f.stops.intervals(); ++i) {
+        EXPECT_NEAR(followed.growth[i], std::log(distance(i + 1) / distance(i)), 1e-7) << i;
+    }
+    EXPECT_EQ(followed.states, (std::vector<double>{0, 0, 0}));
+}
+
 TEST(LorenzShadows, LeftAloneGrowByTheSumOfTheirLogarithms) {
     // While offsets are small the exponent does not depend on when they are put back.
     auto const s = testing::equal_steps(Method::rk4, 0x1p-8, 5);
@@ -216,6 +238,20 @@ TEST(LorenzShadows, OfAFixedPointShrinkAtItsEigenvalues) {
     double const root = std::sqrt(121.0 - 4 * 10 * 0.5);
     double const want[3] = {(-11 + root) / 2, -8.0 / 3, (-11 - root) / 2};
     for (int j = 0; j < 3; ++j) EXPECT_NEAR(mean_growth(r, f, 0, j) / 0.25, want[j], 2e-6) << j;
+}
+
+TEST(LorenzShadows, ThatShrinkIntoRoundingStopAtTheFloor) {
+    // At the origin the second and third offsets shrink by e^(20 β) and more between two stops, to 1e-15 by the rule.
+    LorenzInputs in;
+    in.rho = 0.5, in.x = in.y = in.z = 0;
+    auto const f = following(20, 0, 100, 3);
+    auto settings = adaptive(1e-10);
+    settings.max_step = 0.05;
+    auto const r = testing::run(best_isa(), settings, std::vector{in}, f);
+    for (std::size_t i = 0; i < f.stops.intervals(); ++i) {
+        EXPECT_NEAR(r.growth[3 * i], 20 * (-11 + std::sqrt(101.0)) / 2, 1e-3) << "the first is not, " << i;
+        for (std::size_t j : {1u, 2u}) EXPECT_NEAR(r.growth[3 * i + j], std::log(1e-8), 1e-12) << i;
+    }
 }
 
 TEST(LorenzShadows, OfNoneAndOfNoIntervalLeaveNoGrowth) {
