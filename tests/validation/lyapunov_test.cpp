@@ -205,7 +205,7 @@ TEST(LorenzShadows, AreSolutionsOfTheirOwn) {
         double const* y = &alone.sections[3 * stop];
         return std::hypot(y[0], y[1], y[2]);
     };
-    for (std::size_t i = 0; i < f.stops.intervals(); ++i) {
+    for (std::size_t i = 0; i < f.stops.growths(); ++i) {
         EXPECT_NEAR(followed.growth[i], std::log(distance(i + 1) / distance(i)), 1e-7) << i;
     }
     EXPECT_EQ(followed.states, (std::vector<double>{0, 0, 0}));
@@ -248,7 +248,7 @@ TEST(LorenzShadows, ThatShrinkIntoRoundingStopAtTheFloor) {
     auto settings = adaptive(1e-10);
     settings.max_step = 0.05;
     auto const r = testing::run(best_isa(), settings, std::vector{in}, f);
-    for (std::size_t i = 0; i < f.stops.intervals(); ++i) {
+    for (std::size_t i = 0; i < f.stops.growths(); ++i) {
         EXPECT_NEAR(r.growth[3 * i], 20 * (-11 + std::sqrt(101.0)) / 2, 1e-3) << "the first is not, " << i;
         for (std::size_t j : {1u, 2u}) EXPECT_NEAR(r.growth[3 * i + j], std::log(1e-8), 1e-12) << i;
     }

@@ -1,0 +1,158 @@
+// Lyapunov exponents of slider-cranks whose sign, sum or pairs theory knows.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "host/chaos/exponents.hpp"
+#include "host/study/ensemble_study.hpp"
+#include "host/study/exponent_table.hpp"
+
+namespace slideway {
+namespace {
+
+constexpr char const* scattered_starts = R"(
+[study.vary]
+"initial.y" = { dist = "unif", low = "-0.03 mm", high = "0.03 mm" }
+"initial.z" = { dist = "unif", low = "-0.03 mm", high = "0.03 mm" }
+"initial.roll" = { dist = "unif", low = -1e-3, high = 1e-3 }
+"initial.yaw" = { dist = "unif", low = -1e-3, high = 1e-3 }
+"initial.pitch" = { dist = "unif", low = -1e-3, high = 1e-3 }
+)";
+
+/// Exponents and their standard errors, [member][k].
+struct Found {
+    std::size_t k = 0;
+    std::vector<double> values, errors;
+    std::vector<double> of(std::size_t j) const {
+        std::vector<double> column;
+        for (std::size_t i = j; i < values.size(); i += k) column.push_back(values[i]);
+        return column;
+    }
+};
+
+/// Of a scene whose starts are scattered.
+Found exponents(std::string_view study) {
+    Scene const scene = parse_scene(fmt::format("schema = 1\n{}{}", study, scattered_starts), "test.toml");
+    MemberRange const all{0, member_count(scene)};
+    EnsemblePlan const plan = ensemble_plan(scene, all, best_isa(), 1);
+    ExponentTable const table(scene);
+    Found found;
+    found.k = static_cast<std::size_t>(scene.chaos.exponents);
+    found.values.resize(all.count * found.k);
+    found.errors = found.values;
+    auto const keep = [&](BlockResult const& block) {
+        StudyValues const values = table.values(block);
+        auto const at = static_cast<std::ptrdiff_t>(block.first * found.k);
+        std::copy(values[0].begin(), values[0].end(), found.values.begin() + at);
+        std::copy(values[1].begin(), values[1].end(), found.errors.begin() + at);
+    };
+    EnsembleTotals const totals = run_ensemble(plan, find_instance(best_isa(), scene.parts), keep, StopRequest{});
+    EXPECT_EQ(totals.failed(), 0u);
+    return found;
+}
+
+/// Crank at rest, no friction and no damping: a Hamiltonian system of five degrees of freedom.  Its flow keeps phase volume, so that all
+/// exponents add up to 0, and is symplectic, so that they come in pairs ±λ.  An impact grows and shrinks offsets by factors of 1e5.
+TEST(ConservativeBounce, ExponentsComeInPairs) {
+    Found const found = exponents(R"(
+[mechanism]
+crank_speed = 0
+start_angle = "30 deg"
+[contact]
+law = "conservative"
+eta = 0
+[study]
+kind = "lyapunov"
+members = 8
+exponents = 10
+Ttr = "5 ms"
+duration = "40 ms"
+dt = "2 us"
+d0 = 1e-8
+)");
+    double sum = 0, size = 0;
+    for (std::size_t j = 0; j < 5; ++j) {
+        double const up = mean_of_members(found.of(j)).mean, down = mean_of_members(found.of(9 - j)).mean;
+        EXPECT_GT(up, 0) << j;
+        EXPECT_NEAR(up + down, 0, 0.05 * up + 15) << j << ": " << up << ' ' << down;
+        sum += up + down;
+        size += up - down;
+    }
+    EXPECT_LT(std::abs(sum), 0.02 * size);
+}
+
+TEST(RestingSlider, HasNoPositiveExponent) {
+    Found const found = exponents(R"(
+[mechanism]
+crank_speed = 0
+start_angle = "30 deg"
+[contact]
+law = "conservative"
+chi_line = 10
+chi_surface = 10
+[friction]
+[study]
+kind = "lyapunov"
+members = 16
+Ttr = "0.3 s"
+duration = "0.5 s"
+dt = "1 ms"
+)");
+    // On a way without slope every place is as good as any: one exponent is 0, to the rounding of offsets, 1e-15/(d0 dt).
+    for (double const exponent : found.values) EXPECT_NEAR(exponent, 0, 1e-6);
+}
+
+/// A slider that glides back and forth repeats itself every turn.
+TEST(GlidingSlider, HasNoPositiveExponent) {
+    Found const found = exponents(R"(
+[contact]
+law = "conservative"
+chi_line = 10
+chi_surface = 10
+[friction]
+[study]
+kind = "lyapunov"
+members = 32
+transient_revolutions = 1
+revolutions = 3
+)");
+    MeanOfMembers const mean = mean_of_members(found.values);
+    EXPECT_LT(mean.mean + mean.half_width, 0) << mean.mean;
+    for (double const exponent : found.values) EXPECT_LT(exponent, 0.02);
+}
+
+std::string paper_law(std::string_view more, std::string_view integrator = "") {
+    return fmt::format(
+        "[contact]\nlaw = \"paper\"\n[friction]\n[integrator]\n{}[study]\nkind = \"lyapunov\"\nmembers = 32\n"
+        "transient_revolutions = 0.05\nrevolutions = 0.15\n{}",
+        integrator, more);
+}
+
+/// Converged: neither the distance of the shadows nor the time between rescalings, nor the tolerance of the steps, has a say.
+TEST(PaperLaw, ExponentDependsOnNeitherOffsetNorRescalings) {
+    MeanOfMembers const usual = mean_of_members(exponents(paper_law("")).values);
+    EXPECT_GT(usual.mean - usual.half_width, 300);
+    for (std::string const& other :
+         {paper_law("d0 = 1e-4\n"), paper_law("d0 = 1e-8\nrescalings_per_revolution = 20000\n"),
+          paper_law("", "rtol = 1e-8\natol = 1e-8\n")}) {
+        MeanOfMembers const mean = mean_of_members(exponents(other).values);
+        EXPECT_NEAR(mean.mean, usual.mean, 1.5 * (mean.half_width + usual.half_width)) << other;
+    }
+}
+
+/// Where steps leap over the switches of the contact modes, member and shadow switch in the same stage of the same step, and the jump of
+/// the force between their switches is lost: the exponent is another one.
+TEST(PaperLaw, StepsThatLeapOverSwitchesMissHowTheySeparate) {
+    MeanOfMembers const located = mean_of_members(exponents(paper_law("")).values);
+    MeanOfMembers const leaping = mean_of_members(exponents(paper_law("", "locate_modes = false\n")).values);
+    EXPECT_GT(std::abs(leaping.mean - located.mean), 2 * (leaping.half_width + located.half_width))
+        << leaping.mean << ' ' << located.mean;
+}
+
+}  // namespace
+}  // namespace slideway
