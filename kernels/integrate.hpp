@@ -15,6 +15,9 @@ namespace slideway::inline SLIDEWAY_ISA {
 ///  - `derivative<Full>(t, state, parameters, memory, rates, report)`, which fills the report if Full and returns `Faults`;
 ///  - `scales(parameters, scale)`: sizes of the state's components that the absolute tolerance is meant against;
 ///  - `has_linearisation`: then `Linearisation<Real>` and `linearise(…)` serve the stiff method;
+///  - `has_shadows`: then members have shadows beside them (kernels/lanes/shadows.hpp; kernels/models/shadowed.hpp makes such a model of
+///    another), with a memory also `remembered(number)`, a number of it as it may be carried on;
+///  - `has_crossings`: then `gap(…)`, beside the components of the state, may serve as a section (kernels/lanes/crossing_search.hpp);
 ///  - `has_patterns`: then `contact_pattern(…)` says which lanes have like work to do, and with a linearisation `squared_speed(…)`,
 ///    `approach_speed(…)` and `energy_scale(…)` what is a creep and what an impact;
 ///  - `events`: then `event_table`, `event_values(…)`, whose values follow from the state alone, and `reset(…)`

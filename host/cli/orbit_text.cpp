@@ -52,6 +52,9 @@ void print_sections(ResultReader const& results) {
     if (!sections) return;
     fmt::print("\n");
     print_field("sections", fmt::format("{} of all members", sections->sections));
+    if (sections->beyond > 0) {
+        fmt::print(stderr, "warning: {} more crossings are not stored: raise study.max_crossings\n", sections->beyond);
+    }
     if (sections->without > 0) {
         fmt::print(stderr, "warning: {} member{} never crossed the section: look at study.section, or at the orbit\n",
                    sections->without, sections->without == 1 ? "" : "s");

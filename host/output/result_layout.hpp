@@ -26,6 +26,7 @@ struct ResultLayout {
     Selection series = 0;
     std::vector<ParameterColumn> parameters;
     std::size_t sections = 0;  // of a member, at most; 0: none are stored
+    bool crossings = false;    // of a surface, not of a crank angle
     StudyTable study;          // what the study concludes of each member
 };
 

@@ -85,7 +85,7 @@ ResultWriter::ResultWriter(std::string path, ResultLayout layout, Provenance con
         define_quantities();
         define_series();
         study_.define(*file_, member_dimension_);
-        if (layout_.sections > 0) sections_.emplace().define(*file_, member_dimension_);
+        if (layout_.sections > 0) sections_.emplace().define(*file_, member_dimension_, layout_.crossings);
         file_->end_definitions();
         write_coordinates();
         study_.write_axes(*file_);

@@ -15,7 +15,8 @@ namespace slideway {
 /// is the same whatever the order.
 class SectionWriter {
 public:
-    void define(NetcdfFile& file, int member_dimension);
+    /// @param crossings of a surface: members may have more than are stored, and `section_crossings(member)` says how many.
+    void define(NetcdfFile& file, int member_dimension, bool crossings);
     void write(NetcdfFile& file, BlockResult const& block);
     /// Writes what still waits; members that never came have no rows.
     void finish(NetcdfFile& file, std::uint64_t members);
@@ -23,13 +24,15 @@ public:
 private:
     /// The rows of a block's members, one after another.
     struct Rows {
-        std::vector<int> counts;                              // [members]
+        std::vector<int> counts;     // [members]
+        std::vector<int> crossings;  // [members]
         std::vector<double> columns[section_columns];
     };
     static Rows rows_of(BlockResult const& block);
     void append(NetcdfFile& file, Rows const& rows);
 
     int count_ = -1;
+    int crossings_ = -1;  // not there
     int columns_[section_columns] = {};
     std::map<std::uint64_t, Rows> waiting_;  // by their first member
     std::uint64_t next_member_ = 0;

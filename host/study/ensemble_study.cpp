@@ -18,7 +18,7 @@ double predicted_cost(Inputs const& inputs) { return 1 / std::min(inputs.clearan
 }  // namespace
 
 ResultLayout result_layout(Scene const& scene, MemberRange range) {
-    ResultLayout layout{range.first, range.count, scene.sample_times, scene.quantities, scene.series, {}, 0, {}};
+    ResultLayout layout{range.first, range.count, scene.sample_times, scene.quantities, scene.series, {}, 0, false, {}};
     auto const add = [&layout](Key const& key) {
         std::string name(key.name);
         std::replace(name.begin(), name.end(), '.', '_');
@@ -28,6 +28,7 @@ ResultLayout result_layout(Scene const& scene, MemberRange range) {
     for (Variation const& variation : scene.variations) add(*variation.key);
     OrbitSchedule const schedule = orbit_schedule(scene);
     layout.sections = schedule.section_rows();
+    layout.crossings = schedule.crossings.room > 0;
     layout.study = ExponentTable(scene).layout();
     return layout;
 }

@@ -82,8 +82,10 @@ std::optional<SectionSummary> summarise_sections(ResultReader const& results) {
     if (!results.has("section_count")) return std::nullopt;
     auto const finished = finished_members(results);
     auto const counts = results.values("section_count");
+    auto const crossings = results.has("section_crossings") ? results.values("section_crossings") : counts;
     SectionSummary summary;
     for (std::size_t i = 0; i < counts.size(); ++i) {
+        summary.beyond += static_cast<std::uint64_t>(crossings[i] - counts[i]);
         summary.sections += static_cast<std::uint64_t>(counts[i]);
         if (finished[i] && counts[i] == 0) ++summary.without;
     }

@@ -33,6 +33,7 @@ std::vector<HistoryPoint> exponent_history(ResultReader const& results);
 struct SectionSummary {
     std::uint64_t sections = 0;  // of all members
     std::uint64_t without = 0;   // members that finished and have none
+    std::uint64_t beyond = 0;    // crossings for which there was no room
 };
 /// Nothing if the file holds no sections.
 std::optional<SectionSummary> summarise_sections(ResultReader const& results);
