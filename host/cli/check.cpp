@@ -3,6 +3,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/text.hpp"
 #include "host/driver/ensemble.hpp"
+#include "host/study/orbit_schedule.hpp"
 #include "host/study/prediction.hpp"
 
 namespace slideway::cli {
@@ -60,6 +61,23 @@ std::string cost_text(Scene const& scene, Prediction const& prediction) {
         range_text(duration_text(prediction.least_seconds), duration_text(prediction.most_seconds)), threads);
 }
 
+/// What a study of orbits records of each member.
+void print_orbits(Scene const& scene, OrbitSchedule const& schedule) {
+    if (!schedule.timing) return;
+    if (scene.study == StudyKind::sweep) {
+        print_field("columns", fmt::format("{} values of {}, {} start{} each", scene.chaos.values.size(),
+                                           scene.chaos.parameter->name, scene.members, scene.members == 1 ? "" : "s"));
+    }
+    if (schedule.sections) {
+        print_field("sections", fmt::format("{}{} of each member", schedule.crossings.room > 0 ? "at most " : "",
+                                            schedule.section_rows()));
+    }
+    ShadowPlan const shadows = shadow_plan(scene);
+    if (shadows.count == 0) return;
+    print_field("exponents", fmt::format("{} by as many shadows, rescaled every {:.6g} s", shadows.count,
+                                         schedule.timing(scene.inputs).period));
+}
+
 }  // namespace
 
 int check(CheckArguments const& arguments) {
@@ -75,7 +93,10 @@ int check(CheckArguments const& arguments) {
     print_parts(scene);
     print_field("kernels", fmt::format("{}, {} lanes, {} threads, blocks of {} members", name_of(isa), lanes_of(isa),
                                        threads, prediction.block_members));
-    print_field("members", fmt::format("{}, each over {:.6g} s", scene.members, scene.integrator.end_time));
+    OrbitSchedule const schedule = orbit_schedule(scene);
+    print_field("members", fmt::format("{}, each over {:.6g} s", member_count(scene),
+                                       schedule.timing ? schedule.longest : scene.integrator.end_time));
+    print_orbits(scene, schedule);
     print_field("memory", fmt::format("{} for blocks in work, {} for the statistics at the end",
                                       bytes_text(static_cast<double>(prediction.buffer_bytes)),
                                       bytes_text(static_cast<double>(prediction.summary_bytes))));

@@ -5,6 +5,7 @@
 
 #include "host/scene/integrator_keys.hpp"
 #include "host/study/ensemble_study.hpp"
+#include "host/study/orbit_schedule.hpp"
 
 namespace slideway {
 namespace {
@@ -72,18 +73,21 @@ Prediction predict(Scene const& scene, Isa isa, int threads) {
         block_bytes(plan.request, static_cast<std::size_t>(std::min<std::uint64_t>(plan.block_members, plan.members)));
     prediction.summary_bytes = summary_bytes(scene);
     prediction.output_bytes = payload_bytes(result_layout(scene, all));
-    double const end = scene.integrator.end_time;
+    OrbitSchedule const schedule = orbit_schedule(scene);
+    double const end = schedule.timing ? schedule.longest : scene.integrator.end_time;
+    double const stops = members * static_cast<double>(schedule.stops.count);
     if (scene.integrator.method == Method::rk4) {
-        prediction.least_steps = prediction.most_steps = members * fixed_steps(scene.integrator);
+        prediction.least_steps = prediction.most_steps = members * fixed_steps(scene.integrator) + stops;
     } else {
-        prediction.least_steps = members * end / scene.integrator.max_step;
+        prediction.least_steps = members * end / scene.integrator.max_step + stops;
         double const rate = stiffest_rate(complete_inputs(scene.inputs));
         prediction.most_steps = prediction.least_steps + members * end * rate * contact_steps(scene.integrator);
     }
     // Packs are full except where a block has fewer members than lanes.
     double const filled = std::min(1.0, members / lanes_of(isa));
+    double const copies = 1 + shadow_plan(scene).count;
     double const seconds_per_step =
-        seconds_per_member_step(isa) / filled / static_cast<double>(prediction.busy_threads);
+        copies * seconds_per_member_step(isa) / filled / static_cast<double>(prediction.busy_threads);
     prediction.least_seconds = prediction.least_steps * seconds_per_step;
     prediction.most_seconds = prediction.most_steps * seconds_per_step;
     return prediction;

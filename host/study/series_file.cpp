@@ -145,6 +145,36 @@ std::uint64_t place_of(ResultReader const& file, std::string const& path, std::o
                                                    numbers.front(), numbers.back()));
 }
 
+/// The values of a variable at one member's sections.  Crossings that are not equally spaced are iterates all the same, their mean
+/// spacing apart.
+StoredSeries read_sections(ResultReader const& file, std::string const& path, std::string variable, std::uint64_t place) {
+    if (file.has("section_" + variable)) variable = "section_" + variable;
+    auto const times = file.values("section_time");
+    auto const is_column = [&](std::string const& name) {
+        auto const shape = file.shape(name);
+        return name.starts_with("section_") && shape.size() == 1 && shape[0] == times.size() && name != "section_time" &&
+               name != "section_count" && name != "section_crossings";
+    };
+    if (!file.has(variable) || !is_column(variable)) {
+        std::string known;
+        for (std::string const& name : file.variable_names()) {
+            if (is_column(name)) known += fmt::format("{}{}", known.empty() ? "" : ", ", name);
+        }
+        throw SceneError(fmt::format("{}: has no sections of '{}'; use one of {}", path, variable, known));
+    }
+    auto const counts = file.values("section_count");
+    double first = 0;
+    for (std::size_t i = 0; i < place; ++i) first += counts[i];
+    double const count = counts.at(static_cast<std::size_t>(place));
+    if (count < 2) throw SceneError(fmt::format("{}: the member has {} sections; a series needs at least 2", path, count));
+    auto const of_member = [&](std::vector<double> const& all) {
+        auto const begin = all.begin() + static_cast<std::ptrdiff_t>(first);
+        return std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(count));
+    };
+    auto const own = of_member(times);
+    return {variable, file.unit(variable), of_member(file.values(variable)), (own.back() - own.front()) / (count - 1)};
+}
+
 }  // namespace
 
 std::optional<double> equal_spacing(std::vector<double> const& times) {
@@ -173,6 +203,9 @@ bool is_netcdf(std::string const& path) {
 StoredSeries read_result_series(std::string const& path, std::string const& variable,
                                 std::optional<std::uint64_t> member) {
     ResultReader const file(path);
+    if (!file.has("time") && file.has("section_count")) {
+        return read_sections(file, path, variable, place_of(file, path, member));
+    }
     if (!file.has("time")) throw SceneError(path + ": has no time series; run the scene with study.samples");
     std::vector<double> const times = file.values("time");
     auto const is_series = [&](std::string const& name) {
