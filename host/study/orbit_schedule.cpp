@@ -9,7 +9,8 @@
 namespace slideway {
 namespace {
 
-constexpr std::size_t growth_records = 256;  // at least, where there are as many rescalings: for the history and its errors
+// Records of growth, for the history and its errors: at least as many where there are as many rescalings, and not far more.
+constexpr std::size_t least_records = 256, most_records = 4096;
 
 double period(Inputs const& inputs) { return 2 * std::numbers::pi / std::abs(inputs.crank_speed); }
 
@@ -20,6 +21,15 @@ MemberClock clock(double first, double spacing, std::size_t stops) {
     return {std::fma(static_cast<double>(stops - 1), spacing, first), first, spacing};
 }
 
+/// Rescalings to a record: a divisor of their number if there is one that leaves neither too few records nor too many.
+std::size_t rescalings_per_record(std::size_t rescalings) {
+    std::size_t const most = std::max<std::size_t>(1, rescalings / least_records);
+    for (std::size_t n = most; n >= std::max<std::size_t>(1, rescalings / most_records); --n) {
+        if (rescalings % n == 0) return n;
+    }
+    return most;
+}
+
 /// Rescalings every dt from the start; those of the transient leave no record.
 OrbitSchedule of_exponents(Scene const& scene) {
     ChaosSettings const& chaos = scene.chaos;
@@ -27,7 +37,7 @@ OrbitSchedule of_exponents(Scene const& scene) {
     OrbitSchedule schedule;
     StopPlan& stops = schedule.stops;
     std::size_t const rescalings = std::max<std::size_t>(1, whole(chaos.span.seconds(speed) / dt));
-    stops.growth_every = std::max<std::size_t>(1, rescalings / growth_records);
+    stops.growth_every = rescalings_per_record(rescalings);
     std::size_t const records = (rescalings + stops.growth_every - 1) / stops.growth_every;
     stops.transient = std::max<std::size_t>(1, whole(chaos.transient.seconds(speed) / dt)) - 1;
     stops.count = stops.transient + records * stops.growth_every + 1;
