@@ -83,7 +83,7 @@ private:
         r.constants.first_stop = clock.first_stop;
         r.constants.stop_period = clock.period;
         if constexpr (Model::has_shadows) {
-            c.shadowed.fine_time = c.shadowed.lost = 0;
+            c.shadowed.fine_time = c.shadowed.uncut = c.shadowed.lost = 0;
             place_shadows(r, member);
         }
         c.accepted = c.rejected = c.evaluations = c.jacobians = c.stiff_steps = 0;

@@ -138,6 +138,12 @@ private:
                     c.error_memory = select(cut, former_memory, c.error_memory);
                     accepted = accepted & !cut;
                     wish = select(cut, max(step * fraction, resolution * Real(32.0)), wish);
+                    if constexpr (Model::has_shadows) {
+                        // Events of member and shadow are next to each other: after the second nothing would be left of the step.
+                        Real& uncut = c.shadowed.uncut;
+                        wish = select(accepted, max(wish, uncut), wish);
+                        uncut = select(accepted, Real(0.0), select(cut, max(uncut, step), uncut));
+                    }
                 }
             }
         } else {
