@@ -24,8 +24,10 @@ std::uint64_t payload_bytes(ResultLayout const& layout) {
     if (samples > 0) columns += static_cast<std::uint64_t>(std::popcount(layout.series)) * samples;
     if (layout.sections > 0) columns += 1 + layout.sections * section_columns;
     for (StudyColumn const& column : layout.study.columns) columns += layout.study.width(column);
+    std::uint64_t coordinates = samples;
+    for (StudyAxis const& axis : layout.study.axes) coordinates += axis.values.size();
     constexpr std::uint64_t member_and_status = 5;
-    return layout.members * (member_and_status + columns * sizeof(double)) + samples * sizeof(double);
+    return layout.members * (member_and_status + columns * sizeof(double)) + coordinates * sizeof(double);
 }
 
 }  // namespace slideway
