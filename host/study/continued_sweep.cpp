@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <vector>
 
 namespace slideway {
@@ -11,54 +10,84 @@ namespace {
 using State = std::array<double, state_size>;
 
 /// Initial state of the inputs, in the order of the state.
-constexpr double Inputs::*initial[state_size] = {&Inputs::y,    &Inputs::z,   &Inputs::vy,    &Inputs::vz, &Inputs::roll,
-                                                 &Inputs::yaw,  &Inputs::pitch, &Inputs::wx,  &Inputs::wy, &Inputs::wz};
+constexpr double Inputs::*initial[state_size] = {&Inputs::y,   &Inputs::z,     &Inputs::vy, &Inputs::vz, &Inputs::roll,
+                                                 &Inputs::yaw, &Inputs::pitch, &Inputs::wx, &Inputs::wy, &Inputs::wz};
+
+/// Members [first, end).
+struct Members {
+    std::uint64_t first, end;
+    std::uint64_t count() const { return end > first ? end - first : 0; }
+};
+
+Members common(Members a, Members b) { return {std::max(a.first, b.first), std::min(a.end, b.end)}; }
+
+/// Where each start stands: the state in which its member of the last column ended, if that one finished.
+struct Places {
+    std::vector<State> states;
+    std::vector<char> is_known;
+    explicit Places(std::uint64_t starts) : states(starts), is_known(starts, 0) {}
+};
 
 }  // namespace
 
 EnsembleTotals run_continued(Scene const& scene, EnsemblePlan plan, KernelInstance const& kernel, BlockSink const& sink,
                              StopRequest const& stop, Progress& progress) {
-    std::uint64_t const starts = scene.members, columns = plan.members / starts;
-    std::vector<State> states(static_cast<std::size_t>(starts));
-    std::vector<char> is_known(states.size(), 0);
+    std::uint64_t const starts = scene.members;
+    Members const asked{plan.first_member, plan.first_member + plan.members};
+    std::uint64_t const first_column = asked.first / starts, last_column = (asked.end - 1) / starts;
+    // Within one column a start needs none but its own places; of several, the last may need all.
+    Members const needed =
+        first_column == last_column ? Members{asked.first % starts, (asked.end - 1) % starts + 1} : Members{0, starts};
     MemberSource const draw = plan.source;
-    plan.members = starts;
-    plan.block_members = std::min<std::size_t>(plan.block_members, static_cast<std::size_t>(starts));
+    std::size_t const block_members =
+        std::min<std::size_t>(plan.block_members, static_cast<std::size_t>(needed.count()));
+    Places places(starts);
     EnsembleTotals totals;
-    for (std::uint64_t column = 0; column < columns; ++column) {
+
+    for (std::uint64_t column = 0; column <= last_column; ++column) {
         std::uint64_t const first = column * starts;
-        plan.first_member = first;
         plan.source = [&](std::uint64_t member, Inputs& inputs) {
             if (!draw(member, inputs)) return false;
             auto const start = static_cast<std::size_t>(member - first);
-            if (!is_known[start]) return true;
-            for (std::size_t i = 0; i < state_size; ++i) inputs.*initial[i] = states[start][i];
+            if (!places.is_known[start]) return true;
+            for (std::size_t i = 0; i < state_size; ++i) inputs.*initial[i] = places.states[start][i];
             inputs.start_angle = scene.chaos.section.level;  // where the column before has ended
             return true;
         };
         // Blocks read what a column before them has left: what this one leaves must wait for its end.
-        std::vector<State> ends = states;
-        std::vector<char> has_ended(states.size(), 0);
-        EnsembleTotals const of_column = run_ensemble(
-            plan, kernel,
-            [&](BlockResult block) {
-                for (std::size_t i = 0; i < block.records.size(); ++i) {
-                    auto const start = static_cast<std::size_t>(block.first) + i;
-                    has_ended[start] = block.records[i].status == Status::finished;
-                    std::copy_n(block.final_states.begin() + static_cast<std::ptrdiff_t>(i * state_size), state_size,
-                                ends[start].begin());
-                }
-                block.first += first;
-                sink(block);
-            },
-            stop, &progress);
-        states = ends;
-        is_known = has_ended;
-        totals += of_column;
-        if (of_column.stopped != StopReason::none) {
-            totals.not_run += (columns - column - 1) * starts;
-            break;
+        Places ends = places;
+        auto const run = [&](Members members, bool is_asked) {
+            plan.first_member = members.first;
+            plan.members = members.count();
+            plan.block_members = block_members;
+            return run_ensemble(
+                plan, kernel,
+                [&](BlockResult block) {
+                    for (std::size_t i = 0; i < block.records.size(); ++i) {
+                        auto const start = static_cast<std::size_t>(members.first - first + block.first) + i;
+                        ends.is_known[start] = block.records[i].status == Status::finished;
+                        std::copy_n(block.final_states.begin() + static_cast<std::ptrdiff_t>(i * state_size),
+                                    state_size, ends.states[start].begin());
+                    }
+                    block.first += members.first - asked.first;
+                    if (is_asked) sink(block);
+                },
+                stop, is_asked ? &progress : nullptr);
+        };
+        // Those before and after what is asked for only lead to it.
+        Members const in_column{first + needed.first, first + needed.end}, here = common(in_column, asked);
+        if (here.count() == 0) {
+            run(in_column, false);
+        } else {
+            run({in_column.first, here.first}, false);
+            totals += run(here, true);
+            if (column < last_column) run({here.end, in_column.end}, false);
         }
+        places = ends;
+        if (stop.reason() == StopReason::none) continue;
+        totals.not_run = asked.count() - (totals.failed() + totals.ended[static_cast<std::size_t>(Status::finished)]);
+        totals.stopped = totals.not_run > 0 ? stop.reason() : StopReason::none;
+        break;
     }
     return totals;
 }

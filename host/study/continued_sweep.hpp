@@ -6,8 +6,9 @@
 
 namespace slideway {
 
-/// Runs the columns of the plan, which holds all members, one after another; `plan.members` are whole columns.  A start whose
-/// member has failed goes on from the scene's start.  @return totals over all columns.
+/// Runs the members of the plan column by column, and before them, without a result, those of earlier columns that lead to them: a member
+/// is the same whichever others are asked for.  A start whose member has failed goes on from the scene's start.
+/// @return totals over the members of the plan.
 EnsembleTotals run_continued(Scene const& scene, EnsemblePlan plan, KernelInstance const& kernel, BlockSink const& sink,
                              StopRequest const& stop, Progress& progress);
 
