@@ -66,6 +66,7 @@ struct FakeBlock {
         for (std::size_t i = 0; i < count; ++i) {
             std::size_t const member = first + i;
             records[i].status = status_of(member);
+            records[i].crossings = rows_of_members[member] == room ? room + member : rows_of_members[member];
             for (std::size_t row = 0; row < rows_of_members[member]; ++row) {
                 for (std::size_t j = 0; j < section_columns; ++j) {
                     sections[(i * room + row) * section_columns + j] = entry(member, row, j);
@@ -219,6 +220,21 @@ TEST_F(SectionsFile, HasNoSectionsIfNoneAreAskedFor) {
     writer.finish(1, StopReason::none);
     EXPECT_FALSE(ResultReader(path()).has("section_count"));
     EXPECT_FALSE(ResultReader(path()).has("section_time"));
+}
+
+TEST_F(SectionsFile, OfCrossingsSaysHowManyThereWere) {
+    ResultLayout crossings = layout();
+    crossings.crossings = true;
+    FakeBlock const first(0, 2), last(4, 2);
+    ResultWriter writer(path(), crossings, {});
+    writer.write(last.view(), last.study);
+    writer.write(first.view(), first.study);
+    writer.finish(1, StopReason::signal);
+    ResultReader const results(path());
+    EXPECT_EQ(results.values("section_count"), (std::vector<double>{3, 0, 0, 0, 3, 0, 0, 0}));
+    EXPECT_EQ(results.values("section_crossings"), (std::vector<double>{3, 0, 0, 0, 7, 0, 0, 0}));
+    write({first});
+    EXPECT_FALSE(ResultReader(path()).has("section_crossings"));
 }
 
 TEST_F(SectionsFile, HashNoticesThatARowBelongsToAnotherMember) {
