@@ -1,5 +1,6 @@
 #include "host/cli/orbit_text.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -13,10 +14,10 @@ std::string number(double value) { return std::isnan(value) ? std::string("-") :
 
 void print_history(std::vector<HistoryPoint> const& history) {
     if (history.empty()) return;
-    constexpr std::size_t shown = 5;
+    std::size_t const shown = std::min<std::size_t>(5, history.size());
     std::string line;
     for (std::size_t i = 1; i <= shown; ++i) {
-        HistoryPoint const& point = history[i * history.size() / shown - (i * history.size() / shown > 0 ? 1 : 0)];
+        HistoryPoint const& point = history[i * history.size() / shown - 1];
         line += fmt::format("{}{} ± {} after {:.0f}", line.empty() ? "" : ", ", number(point.mean.mean),
                             number(point.mean.half_width), point.rescalings);
     }
