@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 namespace slideway {
@@ -14,15 +14,19 @@ constexpr std::size_t from_exponents = 2;  // fewer tell no dimension
 constexpr double rounding = 1e-15;  // of an offset, in the scales of the joint: the positions' last bits
 constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
-/// Largest first, each with its error: QR sorts them only in the limit.
-void sort(Exponents& exponents) {
-    std::vector<std::pair<double, double>> pairs;
-    for (std::size_t j = 0; j < exponents.value.size(); ++j) {
-        if (std::isnan(exponents.value[j])) return;
-        pairs.emplace_back(exponents.value[j], exponents.standard_error[j]);
-    }
-    std::stable_sort(pairs.begin(), pairs.end(), [](auto const& a, auto const& b) { return a.first > b.first; });
-    for (std::size_t j = 0; j < pairs.size(); ++j) std::tie(exponents.value[j], exponents.standard_error[j]) = pairs[j];
+/// The offsets by their exponents, the largest first: QR sorts them only in the limit.  As they stand where one has none.
+std::vector<std::size_t> ranking(std::vector<double> const& exponents) {
+    std::vector<std::size_t> order(exponents.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    if (std::any_of(exponents.begin(), exponents.end(), [](double value) { return std::isnan(value); })) return order;
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return exponents[a] > exponents[b]; });
+    return order;
+}
+
+std::vector<double> arranged(std::vector<double> const& values, std::vector<std::size_t> const& order) {
+    std::vector<double> result;
+    for (std::size_t const j : order) result.push_back(values[j]);
+    return result;
 }
 
 /// Where `running_mean` has its points.
@@ -76,24 +80,25 @@ StudyValues ExponentTable::values(BlockResult const& block) const {
         double const spacing = schedule_.timing(block.inputs[i]).period;
         GrowthLog const log{block.growths.subspan(i * per_member, per_member), exponents_,
                             spacing * static_cast<double>(schedule_.stops.growth_every)};
-        Exponents exponents = exponents_of(log);
-        sort(exponents);
-        append(columns[0], exponents.value);
-        append(columns[1], exponents.standard_error);
+        Exponents const exponents = exponents_of(log);
+        auto const order = ranking(exponents.value);
+        auto const values = arranged(exponents.value, order);
+        append(columns[0], values);
+        append(columns[1], arranged(exponents.standard_error, order));
         columns[2].push_back(log.length * static_cast<double>(log.intervals()));
         columns[3].push_back(rounding / (d0_ * spacing));
         columns[4].push_back(static_cast<double>(block.records[i].lost_offsets));
-        if (exponents_ >= from_exponents) columns[5].push_back(kaplan_yorke_dimension(exponents.value));
-        if (!history_.empty()) append(columns.back(), history_of(log));
+        if (exponents_ >= from_exponents) columns[5].push_back(kaplan_yorke_dimension(values));
+        if (!history_.empty()) append(columns.back(), history_of(log, order));
     }
     return columns;
 }
 
-std::vector<double> ExponentTable::history_of(GrowthLog const& log) const {
+std::vector<double> ExponentTable::history_of(GrowthLog const& log, std::vector<std::size_t> const& order) const {
     std::vector<double> history(history_.size() * exponents_, not_there);
     if (log.intervals() != schedule_.stops.growths()) return history;
     for (std::size_t j = 0; j < exponents_; ++j) {
-        RunningMean const mean = running_mean(log, j, history_.size());
+        RunningMean const mean = running_mean(log, order[j], history_.size());
         for (std::size_t n = 0; n < history_.size(); ++n) history[n * exponents_ + j] = mean.value[n];
     }
     return history;

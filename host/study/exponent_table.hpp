@@ -19,7 +19,8 @@ public:
     StudyValues values(BlockResult const& block) const;
 
 private:
-    std::vector<double> history_of(GrowthLog const& log) const;
+    /// @param order of the offsets by their exponents.
+    std::vector<double> history_of(GrowthLog const& log, std::vector<std::size_t> const& order) const;
 
     OrbitSchedule const schedule_;
     std::size_t const exponents_;
