@@ -153,6 +153,14 @@ TEST(OrbitSchedule, GathersManyRescalingsIntoWholeRecords) {
     }
 }
 
+TEST(OrbitSchedule, RecordsNoMoreThanAskedForWhereTheNumberDivides) {
+    for (int const rescalings : {1000, 3000, 20000, 400000}) {
+        StopPlan const stops =
+            orbit_schedule(study("lyapunov", fmt::format("dt = 0.001\nTtr = 0\nduration = {}e-3\n", rescalings))).stops;
+        EXPECT_EQ(stops.growths() * stops.growth_every, static_cast<std::size_t>(rescalings));
+    }
+}
+
 TEST(OrbitSchedule, OfASweepWithoutExponentsIsThatOfItsSections) {
     StopPlan const stops = orbit_schedule(sweep("exponents = 0\ntransient_revolutions = 2\nrevolutions = 5\n")).stops;
     EXPECT_EQ(stops.count, 7u);
