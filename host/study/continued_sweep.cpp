@@ -74,15 +74,10 @@ EnsembleTotals run_continued(Scene const& scene, EnsemblePlan plan, KernelInstan
                 },
                 stop, is_asked ? &progress : nullptr);
         };
-        // Those before and after what is asked for only lead to it.
+        // Those before what is asked for only lead to it; those after it, in the last column, lead nowhere.
         Members const in_column{first + needed.first, first + needed.end}, here = common(in_column, asked);
-        if (here.count() == 0) {
-            run(in_column, false);
-        } else {
-            run({in_column.first, here.first}, false);
-            totals += run(here, true);
-            if (column < last_column) run({here.end, in_column.end}, false);
-        }
+        run({in_column.first, here.count() > 0 ? here.first : in_column.end}, false);
+        if (here.count() > 0) totals += run(here, true);
         places = ends;
         if (stop.reason() == StopReason::none) continue;
         totals.not_run = asked.count() - (totals.failed() + totals.ended[static_cast<std::size_t>(Status::finished)]);
