@@ -38,6 +38,7 @@ struct MemberRecord {
     std::uint64_t stiff_steps = 0;           // accepted steps of the stiff method
     std::uint64_t crossings = 0;             // also those for which there was no room
     std::uint64_t lost_offsets = 0;          // recorded times that a shadow's offset had shrunk into rounding
+    std::uint64_t grown_offsets = 0;         // recorded times that one had grown to the size of the joint
 };
 
 /// When a member ends and when its steps end on the way.
@@ -51,11 +52,13 @@ struct StopPlan {
     std::size_t count = 0;
     std::size_t transient = 0;      // as many leave no record
     std::size_t section_every = 1;  // of the later ones the first, and then each such one, is a section: its state is recorded
-    std::size_t growth_every = 1;   // the growth of offsets is recorded summed over as many
+    std::size_t growth_lead = 0;    // the growth of offsets is recorded from as many stops before the end of the transient on
+    std::size_t growth_every = 1;   // summed over as many
 
     constexpr std::size_t sections() const { return count > transient ? (count - transient - 1) / section_every + 1 : 0; }
-    /// Recorded growths; the first begins with the stop that ends the transient.
-    constexpr std::size_t growths() const { return count > transient ? (count - transient - 1) / growth_every : 0; }
+    /// The stop with which the first recorded growth begins.
+    constexpr std::size_t growth_from() const { return transient - growth_lead; }
+    constexpr std::size_t growths() const { return count > growth_from() ? (count - growth_from() - 1) / growth_every : 0; }
 };
 
 /// A surface in state space whose crossings are recorded: a component of the state, or the gap of an apex to its Y or Z faces (the

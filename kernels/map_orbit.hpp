@@ -75,8 +75,8 @@ private:
         }
         if (count == 0) return;
         rescale();
-        if (stop < plan.transient || (stop - plan.transient) % plan.growth_every != 0) return;
-        std::size_t const record = (stop - plan.transient) / plan.growth_every;
+        if (stop < plan.growth_from() || (stop - plan.growth_from()) % plan.growth_every != 0) return;
+        std::size_t const record = (stop - plan.growth_from()) / plan.growth_every;
         if (record > 0) write(block_.growth_values, plan.growths(), record - 1, count, growth_);
         for (int s = 0; s < count; ++s) growth_[s] = Real(0.0);
     }

@@ -25,17 +25,37 @@ double error_of_mean(std::span<double const> numbers) {
     return std::sqrt(squares / (n * (n - 1)));
 }
 
-double error_by_batches(GrowthLog const& log, std::size_t offset) {
+constexpr std::size_t least_batches = 8;  // of fewer the spread is a guess
+
+std::size_t batch_size(GrowthLog const& log) {
     std::size_t const n = log.intervals();
-    if (n < 4) return nan;
-    auto const size = static_cast<std::size_t>(std::sqrt(static_cast<double>(n)));
-    std::size_t const batches = n / size, first = n - batches * size;
+    auto const root = static_cast<std::size_t>(std::sqrt(static_cast<double>(n)));
+    if (log.period == 0 || n / log.period < least_batches) return root;
+    std::size_t const periods = std::max<std::size_t>(1, root / log.period);
+    return periods * log.period;
+}
+
+/// Mean rates of the batches; empty with fewer than 4 intervals.
+std::vector<double> batch_means(GrowthLog const& log, std::size_t offset) {
     std::vector<double> means;
+    std::size_t const n = log.intervals();
+    if (n < 4) return means;
+    std::size_t const size = batch_size(log), batches = n / size, first = n - batches * size;
     for (std::size_t b = 0; b < batches; ++b) {
         std::size_t const from = first + b * size;
         means.push_back(sum_of(log, offset, from, from + size) / (static_cast<double>(size) * log.length));
     }
-    return error_of_mean(means);
+    return means;
+}
+
+double student_quantile(std::size_t numbers, double confidence) {
+    boost::math::students_t const distribution(static_cast<double>(numbers - 1));
+    return boost::math::quantile(distribution, 0.5 + 0.5 * confidence);
+}
+
+double rate_from(GrowthLog const& log, std::size_t offset, std::size_t first, std::size_t last) {
+    if (last <= first) return nan;
+    return sum_of(log, offset, first, last) / (static_cast<double>(last - first) * log.length);
 }
 
 }  // namespace
@@ -49,9 +69,13 @@ Exponents exponents_of(GrowthLog const& log) {
     std::size_t const n = log.intervals();
     Exponents exponents;
     for (std::size_t j = 0; j < log.count; ++j) {
-        double const time = static_cast<double>(n) * log.length;
-        exponents.value.push_back(n > 0 ? sum_of(log, j, 0, n) / time : nan);
-        exponents.standard_error.push_back(error_by_batches(log, j));
+        auto const means = batch_means(log, j);
+        double const error = means.size() < 2 ? nan : error_of_mean(means);
+        bool const enough = means.size() >= least_batches;
+        exponents.value.push_back(rate_from(log, j, 0, n));
+        exponents.standard_error.push_back(error);
+        exponents.half_width.push_back(enough ? student_quantile(means.size(), 0.95) * error : nan);
+        exponents.late.push_back(n < 2 ? nan : rate_from(log, j, n / 2, n));
     }
     return exponents;
 }
@@ -92,8 +116,7 @@ MeanOfMembers mean_of_members(std::span<double const> values, double confidence)
     result.mean = 0;
     for (double const x : numbers) result.mean += x / n;
     if (numbers.size() < 2) return result;
-    boost::math::students_t const distribution(n - 1);
-    result.half_width = boost::math::quantile(distribution, 0.5 + 0.5 * confidence) * error_of_mean(numbers);
+    result.half_width = student_quantile(numbers.size(), confidence) * error_of_mean(numbers);
     return result;
 }
 

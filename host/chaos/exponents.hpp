@@ -13,6 +13,7 @@ struct GrowthLog {
     std::span<double const> values;
     std::size_t count = 1;  // offsets, >= 1
     double length = 1;      // > 0
+    std::size_t period = 0;  // intervals of a period of the forcing; 0: there is none
 
     std::size_t intervals() const;  // before the first NaN
     double at(std::size_t interval, std::size_t offset) const { return values[interval * count + offset]; }
@@ -22,11 +23,13 @@ struct GrowthLog {
 struct Exponents {
     std::vector<double> value;  // [count], Σ growth / time: finite-time exponents [1/s]; NaN without intervals
     std::vector<double> standard_error;  // [count], by batch means; NaN with fewer than 4 intervals
+    std::vector<double> half_width;      // [count], of the 95 % interval by Student's t; NaN with fewer than 8 batches
+    std::vector<double> late;            // [count], of the second half alone; NaN with fewer than 2 intervals
 };
 
 /// λ_j = Σ_i g_ij / (n Δ).  Source: Benettin et al., Meccanica 15 (1980) 9–20 and 21–30.
 /// Error by batch means: a = ⌊n/b⌋ batches of b = ⌊√n⌋ consecutive intervals, s.e. = s(batch means)/√a; a remainder, at the
-/// start, is left out of it.  Source: Flegal & Jones, Annals of Statistics 38 (2010) 1034–1070.  It is honest where growth is independent over √n
+/// start, is left out of it.  Where the record has 8 periods of the forcing or more, batches are whole periods.  Source: Flegal & Jones, Annals of Statistics 38 (2010) 1034–1070.  It is honest where growth is independent over √n
 /// intervals.
 Exponents exponents_of(GrowthLog const& log);
 

@@ -1,5 +1,6 @@
 #include "host/output/netcdf_file.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -101,8 +102,13 @@ int NetcdfFile::add_variable(std::string const& name, Type type, std::span<int c
 }
 
 void NetcdfFile::put_text(int variable, std::string const& name, std::string_view value) {
-    require(nc_put_att_text(id_, variable_or_global(variable), name.c_str(), value.size(), value.data()),
-            "write attribute " + name);
+    // netCDF marks texts as ASCII; only its strings are UTF-8 to other readers.
+    bool const ascii = std::all_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+    std::string const text(value);
+    char const* string = text.c_str();
+    int const code = ascii ? nc_put_att_text(id_, variable_or_global(variable), name.c_str(), value.size(), value.data())
+                           : nc_put_att_string(id_, variable_or_global(variable), name.c_str(), 1, &string);
+    require(code, "write attribute " + name);
 }
 
 void NetcdfFile::put_number(int variable, std::string const& name, double value) {
@@ -187,7 +193,15 @@ std::string NetcdfFile::text(int variable, std::string const& name) const {
     std::size_t length = 0;
     nc_type type = NC_NAT;
     int const where = variable_or_global(variable);
-    if (nc_inq_att(id_, where, name.c_str(), &type, &length) != NC_NOERR || type != NC_CHAR) return {};
+    if (nc_inq_att(id_, where, name.c_str(), &type, &length) != NC_NOERR) return {};
+    if (type == NC_STRING && length == 1) {
+        char* string = nullptr;
+        require(nc_get_att_string(id_, where, name.c_str(), &string), "read attribute " + name);
+        std::string const value = string != nullptr ? string : "";
+        nc_free_string(1, &string);
+        return value;
+    }
+    if (type != NC_CHAR) return {};
     std::string value(length, '\0');
     require(nc_get_att_text(id_, where, name.c_str(), value.data()), "read attribute " + name);
     return value;

@@ -27,6 +27,7 @@ struct ResultLayout {
     std::vector<ParameterColumn> parameters;
     std::size_t sections = 0;  // of a member, at most; 0: none are stored
     bool crossings = false;    // of a surface, not of a crank angle
+    std::string sweep;         // name of the parameter column that a sweep goes by; "": no sweep
     StudyTable study;          // what the study concludes of each member
 };
 

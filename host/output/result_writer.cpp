@@ -80,6 +80,7 @@ ResultWriter::ResultWriter(std::string path, ResultLayout layout, Provenance con
         attribute("seed", fmt::format("{}", provenance.seed));  // CF-1.8 has no 64-bit integers
         attribute("created", creation_time());
         attribute("scene", provenance.scene);
+        if (!layout_.sweep.empty()) attribute("sweep_parameter", layout_.sweep);
         define_coordinates();
         define_members();
         define_quantities();

@@ -10,7 +10,7 @@ namespace slideway {
 namespace {
 
 constexpr std::uint64_t most_per_turn = 1'000'000;  // rescalings
-constexpr double most_growths = 1e7;                // of one member, which keeps them in memory while it runs
+constexpr double most_numbers = 1e7;                // of one member, which keeps them in memory while it runs
 
 /// The two keys of a length of time.
 struct SpanKeys {
@@ -64,14 +64,14 @@ void read_neighbours(Node const& root, Scene& scene) {
     int const least = scene.study == StudyKind::sweep ? 0 : 1;
     chaos.exponents =
         count != nullptr ? static_cast<int>(read_count(*count, "number of exponents", least, most_shadows)) : 1;
-    // Distances of some 1e-15 are rounding.
-    Range const range{1e-14, 1e3, true};
+    // Distances of some 1e-15 are rounding, and at 1 an offset is as large as the joint.
+    Range const range{1e-14, 1, true};
     Node const *const d0 = root.find_path("study.d0"), *const lower = root.find_path("study.d0_lower"),
                       *const upper = root.find_path("study.d0_upper");
     ChaosSettings given;
-    if (d0 != nullptr) given.d0 = read_number(*d0, "1", "distance of neighbours", {1e-12, 1, true});
-    given.d0_lower = lower != nullptr ? read_number(*lower, "1", "least distance", range) : given.d0 * 1e-3;
-    given.d0_upper = upper != nullptr ? read_number(*upper, "1", "largest distance", range) : given.d0 * 1e3;
+    if (d0 != nullptr) given.d0 = read_number(*d0, "1", "distance of neighbours", {1e-11, 1e-2, true});
+    given.d0_lower = lower != nullptr ? read_number(*lower, "1", "least distance", range) : std::max(given.d0 * 1e-3, 1e-14);
+    given.d0_upper = upper != nullptr ? read_number(*upper, "1", "largest distance", range) : std::min(given.d0 * 1e3, 1.0);
     auto const name_d0 = [&](std::string_view side) {
         return Problem{fmt::format("not {} study.d0, {}", side, given.d0), "use d0_lower < d0 < d0_upper"};
     };
@@ -82,6 +82,10 @@ void read_neighbours(Node const& root, Scene& scene) {
     auto const warn = [&](Node const* node, std::string_view why) {
         if (node != nullptr) scene.warnings.push_back(fmt::format("{} has no effect with {}", node->name, why));
     };
+    if (given.d0 < 1e-9) {
+        scene.warnings.push_back(fmt::format(
+            "study.d0 is {} and below 1e-9 rounding shows: in impacts an offset's part in the positions is 1e-5 of it", given.d0));
+    }
     if (chaos.exponents == 0) {
         for (Node const* const node : {d0, lower, upper, given_of(root, dt_keys)}) warn(node, "study.exponents = 0");
         return;
@@ -146,7 +150,7 @@ void read_history(Node const& root, Scene& scene) {
     chaos.history = static_cast<std::size_t>(std::min(100.0, rescalings));
     Node const* const node = root.find_path("study.history");
     if (node == nullptr) return;
-    constexpr std::uint64_t most = static_cast<std::uint64_t>(most_growths);
+    constexpr std::uint64_t most = static_cast<std::uint64_t>(most_numbers);
     chaos.history = read_count(*node, "number of points", 0, most);
     if (static_cast<double>(chaos.history) > rescalings) {
         refuse(*node, {fmt::format("there are {:.0f} rescalings", rescalings),
@@ -162,13 +166,16 @@ void check_memory(Node const& root, Scene const& scene) {
     if (scene.study != StudyKind::lyapunov) {
         sections = by_phase ? parts_of(chaos.span, {1, true}, speed) + 1 : static_cast<double>(chaos.max_crossings);
     }
-    double const growths = chaos.exponents > 0 ? parts_of(chaos.span, chaos.dt, speed) * chaos.exponents : 0;
+    // Rescalings are recorded in sums, some thousands at most, or as many as the history asks for.
+    double const records = std::min(parts_of(chaos.span, chaos.dt, speed),
+                                    std::max(4096.0, 2 * static_cast<double>(chaos.history)));
+    double const growths = chaos.exponents > 0 ? records * chaos.exponents : 0;
     Node const* const given = given_of(root, span_keys);
-    if (std::max(sections * state_size, growths) > most_growths) {
+    if (std::max(sections * state_size, growths) > most_numbers) {
         refuse_study(root, given, "study.revolutions",
                      {fmt::format("each member would hold {:.3g} numbers while it runs",
                                   std::max(sections * state_size, growths)),
-                      fmt::format("record for a shorter time, or less often, at most {:g} numbers", most_growths)});
+                      fmt::format("record for a shorter time, or less often, at most {:g} numbers", most_numbers)});
     }
     double const columns = static_cast<double>(std::max<std::size_t>(chaos.values.size(), 1));
     double const kept = sections * state_size + static_cast<double>(chaos.history) * chaos.exponents;

@@ -147,6 +147,10 @@ void read_sweep(Node const& root, Scene& scene) {
     if (Node const* const node = root.find_path("study.start")) {
         constexpr std::string_view starts[] = {"fresh", "continue"};
         scene.chaos.continued = read_choice(*node, "start", starts) == 1;
+        if (scene.chaos.continued && (key.name.starts_with("initial.") || key.name == "mechanism.start_angle")) {
+            refuse(*node, {fmt::format("{} is where a member starts, and columns start where the one before ended", key.name),
+                           "use start = \"fresh\", or another parameter"});
+        }
     }
 }
 

@@ -21,12 +21,27 @@ struct Members {
 
 Members common(Members a, Members b) { return {std::max(a.first, b.first), std::min(a.end, b.end)}; }
 
+/// Clearances of the joint that a state comes from.
+struct Gaps {
+    double y = 1, z = 1;
+};
+
 /// Where each start stands: the state in which its member of the last column ended, if that one finished.
 struct Places {
     std::vector<State> states;
+    std::vector<Gaps> gaps;
     std::vector<char> is_known;
-    explicit Places(std::uint64_t starts) : states(starts), is_known(starts, 0) {}
+    explicit Places(std::uint64_t starts) : states(starts), gaps(starts), is_known(starts, 0) {}
 };
+
+/// A state of a joint in another one: places and velocities keep their share of the clearance, tilts that of the tighter
+/// gap.  Else a slider that lay on its way would begin the next column inside it, or in the air.
+void place(Inputs& inputs, State const& state, Gaps const& gaps) {
+    double const along_y = inputs.clearance_y / gaps.y, along_z = inputs.clearance_z / gaps.z;
+    double const tilt = std::min(along_y, along_z);
+    double const share[state_size] = {along_y, along_z, along_y, along_z, tilt, tilt, tilt, tilt, tilt, tilt};
+    for (std::size_t i = 0; i < state_size; ++i) inputs.*initial[i] = share[i] * state[i];
+}
 
 }  // namespace
 
@@ -50,7 +65,7 @@ EnsembleTotals run_continued(Scene const& scene, EnsemblePlan plan, KernelInstan
             if (!draw(member, inputs)) return false;
             auto const start = static_cast<std::size_t>(member - first);
             if (!places.is_known[start]) return true;
-            for (std::size_t i = 0; i < state_size; ++i) inputs.*initial[i] = places.states[start][i];
+            place(inputs, places.states[start], places.gaps[start]);
             inputs.start_angle = scene.chaos.section.level;  // where the column before has ended
             return true;
         };
@@ -65,6 +80,7 @@ EnsembleTotals run_continued(Scene const& scene, EnsemblePlan plan, KernelInstan
                 [&](BlockResult block) {
                     for (std::size_t i = 0; i < block.records.size(); ++i) {
                         auto const start = static_cast<std::size_t>(members.first - first + block.first) + i;
+                        ends.gaps[start] = {block.inputs[i].clearance_y, block.inputs[i].clearance_z};
                         ends.is_known[start] = block.records[i].status == Status::finished;
                         std::copy_n(block.final_states.begin() + static_cast<std::ptrdiff_t>(i * state_size),
                                     state_size, ends.states[start].begin());

@@ -18,13 +18,16 @@ double predicted_cost(Inputs const& inputs) { return 1 / std::min(inputs.clearan
 }  // namespace
 
 ResultLayout result_layout(Scene const& scene, MemberRange range) {
-    ResultLayout layout{range.first, range.count, scene.sample_times, scene.quantities, scene.series, {}, 0, false, {}};
+    ResultLayout layout{range.first, range.count, scene.sample_times, scene.quantities, scene.series, {}, 0, false, "", {}};
     auto const add = [&layout](Key const& key) {
         std::string name(key.name);
         std::replace(name.begin(), name.end(), '.', '_');
         layout.parameters.push_back({std::move(name), std::string(key.unit), std::string(key.meaning), key.member});
     };
-    if (scene.study == StudyKind::sweep) add(*scene.chaos.parameter);
+    if (scene.study == StudyKind::sweep) {
+        add(*scene.chaos.parameter);
+        layout.sweep = layout.parameters.front().name;
+    }
     for (Variation const& variation : scene.variations) add(*variation.key);
     OrbitSchedule const schedule = orbit_schedule(scene);
     layout.sections = schedule.section_rows();

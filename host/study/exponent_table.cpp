@@ -3,38 +3,26 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <string_view>
+#include <numbers>
 #include <utility>
 
 namespace slideway {
 namespace {
 
-constexpr std::size_t from_exponents = 2;  // fewer tell no dimension
 constexpr double rounding = 1e-15;  // of an offset, in the scales of the joint: the positions' last bits
 constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
-/// The offsets by their exponents, the largest first: QR sorts them only in the limit.  As they stand where one has none.
-std::vector<std::size_t> ranking(std::vector<double> const& exponents) {
-    std::vector<std::size_t> order(exponents.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    if (std::any_of(exponents.begin(), exponents.end(), [](double value) { return std::isnan(value); })) return order;
-    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return exponents[a] > exponents[b]; });
-    return order;
+void append(std::vector<double>& column, std::vector<double> const& row) {
+    column.insert(column.end(), row.begin(), row.end());
 }
 
-std::vector<double> arranged(std::vector<double> const& values, std::vector<std::size_t> const& order) {
-    std::vector<double> result;
-    for (std::size_t const j : order) result.push_back(values[j]);
-    return result;
-}
-
-/// Where `running_mean` has its points.
-std::vector<std::size_t> history_records(std::size_t records, std::size_t points) {
-    std::size_t const count = std::min(records, points);
-    std::vector<std::size_t> after;
-    for (std::size_t i = 1; i <= count; ++i) after.push_back(i * records / count);
-    return after;
+/// Sorted, and 0 where it is but rounding: an orbit at rest would have any dimension else.
+double dimension(std::vector<double> exponents, double resolution) {
+    for (double& exponent : exponents) {
+        if (std::abs(exponent) < resolution) exponent = 0;
+    }
+    std::sort(exponents.begin(), exponents.end(), std::greater<>());
+    return kaplan_yorke_dimension(exponents);
 }
 
 }  // namespace
@@ -42,66 +30,103 @@ std::vector<std::size_t> history_records(std::size_t records, std::size_t points
 ExponentTable::ExponentTable(Scene const& scene)
     : schedule_(orbit_schedule(scene)), exponents_(static_cast<std::size_t>(shadow_plan(scene).count)), d0_(scene.chaos.d0) {
     if (exponents_ == 0) return;
-    history_ = history_records(schedule_.stops.growths(), scene.chaos.history);
     StudyAxis exponent{"exponent", "1", "number of the exponent, the largest first", {}};
     for (std::size_t j = 1; j <= exponents_; ++j) exponent.values.push_back(static_cast<double>(j));
     layout_.axes.push_back(exponent);
-    auto const add = [this](std::string_view name, std::string_view unit, std::string_view long_name,
-                            std::vector<std::string> axes = {}) {
-        layout_.columns.push_back({std::string(name), std::string(unit), std::string(long_name), std::move(axes)});
-    };
-    std::vector<std::string> const along_exponents(1, exponent.name);
-    add("lyapunov_exponent", "s-1", "finite-time Lyapunov exponents, by shadows", along_exponents);
-    add("lyapunov_exponent_error", "s-1", "standard error of the exponent, by batch means", along_exponents);
-    add("lyapunov_time", "s", "time over which the exponents are taken, after the transient");
-    add("lyapunov_resolution", "s-1", "rounding of the offsets: a smaller exponent is none");
-    add("lost_offsets", "1", "times that an offset had shrunk into rounding: then exponents are upper bounds");
-    if (exponents_ >= from_exponents) {
-        add("kaplan_yorke_dimension", "1",
-            "Kaplan-Yorke dimension of the section at a crank angle; one more for the flow");
-    }
-    if (history_.empty()) return;
+    add_exponents();
+    add_health();
+    add_history(scene.chaos.history);
+}
+
+void ExponentTable::add(char const* name, char const* unit, char const* long_name, std::vector<std::string> axes, Row row) {
+    layout_.columns.push_back({std::string(name), std::string(unit), std::string(long_name), std::move(axes)});
+    rows_.push_back(std::move(row));
+}
+
+void ExponentTable::add_exponents() {
+    std::vector<std::string> const along(1, layout_.axes.front().name);
+    using Column = std::vector<double>;
+    add("lyapunov_exponent", "s-1", "finite-time Lyapunov exponents, by shadows", along,
+        [](Member const& m, Column& column) { append(column, m.exponents.value); });
+    add("lyapunov_exponent_error", "s-1", "standard error of the exponent, by batch means", along,
+        [](Member const& m, Column& column) { append(column, m.exponents.standard_error); });
+    add("lyapunov_exponent_half_width", "s-1",
+        "half the width of the exponent's 95 % interval, by Student's t of at least 8 batches, resolution included", along,
+        [](Member const& m, Column& column) {
+            for (double const width : m.exponents.half_width) column.push_back(width + m.resolution);
+        });
+    add("lyapunov_exponent_late", "s-1", "exponent of the second half of the record alone", along,
+        [](Member const& m, Column& column) { append(column, m.exponents.late); });
+    add("lyapunov_time", "s", "time over which the exponents are taken, after the transient", {},
+        [](Member const& m, Column& column) {
+            column.push_back(m.log.length * static_cast<double>(m.log.intervals()));
+        });
+    if (exponents_ < 2) return;
+    add("kaplan_yorke_dimension", "1",
+        "Kaplan-Yorke dimension of the map over a turn of the crank, one less than the flow's; a lower bound where it is the "
+        "number of exponents",
+        {}, [](Member const& m, Column& column) { column.push_back(dimension(m.exponents.value, m.resolution)); });
+}
+
+void ExponentTable::add_health() {
+    using Column = std::vector<double>;
+    add("lyapunov_resolution", "s-1", "least exponent that is more than the rounding of resting offsets", {},
+        [](Member const& m, Column& column) { column.push_back(m.resolution); });
+    add("rescalings", "1", "times that offsets were rescaled while the exponents were taken", {},
+        [every = static_cast<double>(schedule_.stops.growth_every)](Member const& m, Column& column) {
+            column.push_back(every * static_cast<double>(m.log.intervals()));
+        });
+    add("lost_offsets", "1", "times that an offset had shrunk into rounding: then exponents are upper bounds", {},
+        [](Member const& m, Column& column) { column.push_back(static_cast<double>(m.record.lost_offsets)); });
+    add("grown_offsets", "1", "times that an offset had grown to the size of the joint: then exponents are too small", {},
+        [](Member const& m, Column& column) { column.push_back(static_cast<double>(m.record.grown_offsets)); });
+}
+
+void ExponentTable::add_history(std::size_t points) {
+    std::size_t const records = schedule_.stops.growths(), count = std::min(records, points);
+    if (count == 0) return;
     StudyAxis history{"history", "1", "rescalings after the transient", {}};
-    for (std::size_t const records : history_) {
-        history.values.push_back(static_cast<double>(records * schedule_.stops.growth_every));
+    std::vector<std::size_t> after;
+    for (std::size_t i = 1; i <= count; ++i) {
+        after.push_back(i * records / count);
+        history.values.push_back(static_cast<double>(after.back() * schedule_.stops.growth_every));
     }
     layout_.axes.push_back(history);
-    add("lyapunov_history", "s-1", "running exponents after so many rescalings", {history.name, exponent.name});
+    add("lyapunov_history", "s-1", "running exponents after so many rescalings", {history.name, layout_.axes.front().name},
+        [after, exponents = exponents_](Member const& m, std::vector<double>& column) {
+            std::vector<double> sums(exponents, 0.0);
+            std::size_t const there = m.log.intervals();
+            std::size_t done = 0;
+            for (std::size_t const until : after) {
+                for (; done < std::min(until, there); ++done) {
+                    for (std::size_t j = 0; j < exponents; ++j) sums[j] += m.log.at(done, j);
+                }
+                double const time = static_cast<double>(until) * m.log.length;
+                for (double const sum : sums) column.push_back(until > there ? not_there : sum / time);
+            }
+        });
+}
+
+ExponentTable::Member ExponentTable::member(BlockResult const& block, std::size_t i) const {
+    Inputs const& inputs = block.inputs[i];
+    double const spacing = schedule_.timing(inputs).period;
+    std::size_t const per_member = schedule_.stops.growths() * exponents_;
+    GrowthLog log{block.growths.subspan(i * per_member, per_member), exponents_,
+                  spacing * static_cast<double>(schedule_.stops.growth_every)};
+    double const per_turn = 2 * std::numbers::pi / (std::abs(inputs.crank_speed) * log.length);
+    // Records that do not divide a turn have no period of its own.
+    bool const divides = std::abs(per_turn - std::round(per_turn)) < 1e-6 * per_turn && per_turn >= 0.5;
+    if (divides && per_turn < 1e9) log.period = static_cast<std::size_t>(std::round(per_turn));
+    return {log, exponents_of(log), rounding / (d0_ * spacing), block.records[i]};
 }
 
 StudyValues ExponentTable::values(BlockResult const& block) const {
-    StudyValues columns(layout_.columns.size());
-    if (exponents_ == 0) return columns;
-    std::size_t const records = schedule_.stops.growths(), per_member = records * exponents_;
-    auto const append = [](std::vector<double>& column, std::vector<double> const& row) {
-        column.insert(column.end(), row.begin(), row.end());
-    };
-    for (std::size_t i = 0; i < block.records.size(); ++i) {
-        double const spacing = schedule_.timing(block.inputs[i]).period;
-        GrowthLog const log{block.growths.subspan(i * per_member, per_member), exponents_,
-                            spacing * static_cast<double>(schedule_.stops.growth_every)};
-        Exponents const exponents = exponents_of(log);
-        auto const order = ranking(exponents.value);
-        auto const values = arranged(exponents.value, order);
-        append(columns[0], values);
-        append(columns[1], arranged(exponents.standard_error, order));
-        columns[2].push_back(log.length * static_cast<double>(log.intervals()));
-        columns[3].push_back(rounding / (d0_ * spacing));
-        columns[4].push_back(static_cast<double>(block.records[i].lost_offsets));
-        if (exponents_ >= from_exponents) columns[5].push_back(kaplan_yorke_dimension(values));
-        if (!history_.empty()) append(columns.back(), history_of(log, order));
+    StudyValues columns(rows_.size());
+    for (std::size_t i = 0; i < block.records.size() && exponents_ > 0; ++i) {
+        Member const of_member = member(block, i);
+        for (std::size_t column = 0; column < rows_.size(); ++column) rows_[column](of_member, columns[column]);
     }
     return columns;
-}
-
-std::vector<double> ExponentTable::history_of(GrowthLog const& log, std::vector<std::size_t> const& order) const {
-    std::vector<double> history(history_.size() * exponents_, not_there);
-    if (log.intervals() != schedule_.stops.growths()) return history;
-    for (std::size_t j = 0; j < exponents_; ++j) {
-        RunningMean const mean = running_mean(log, order[j], history_.size());
-        for (std::size_t n = 0; n < history_.size(); ++n) history[n * exponents_ + j] = mean.value[n];
-    }
-    return history;
 }
 
 }  // namespace slideway

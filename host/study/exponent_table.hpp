@@ -1,6 +1,10 @@
 // The exponents of a study's members as columns of its result file.
 #pragma once
 
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "host/chaos/exponents.hpp"
 #include "host/driver/block_result.hpp"
 #include "host/output/study_columns.hpp"
@@ -9,8 +13,10 @@
 
 namespace slideway {
 
-/// Axes and columns: `lyapunov_exponent(member, exponent)`, its standard error and resolution, the running exponents along
-/// `history`, how often an offset was lost, and from two exponents on the Kaplan–Yorke dimension.  Empty without shadows.
+/// Axes and columns: `lyapunov_exponent(member, exponent)`, its error, interval and resolution, that of the second half of the record, the
+/// running exponents along `history`, how often offsets left their range, and from two exponents on the Kaplan–Yorke dimension.
+/// The j-th exponent is that of the j-th shadow: QR sorts them in the limit, and sorting each member's would push near ones
+/// apart.  Empty without shadows.
 class ExponentTable {
 public:
     explicit ExponentTable(Scene const& scene);
@@ -19,14 +25,26 @@ public:
     StudyValues values(BlockResult const& block) const;
 
 private:
-    /// @param order of the offsets by their exponents.
-    std::vector<double> history_of(GrowthLog const& log, std::vector<std::size_t> const& order) const;
+    struct Member {
+        GrowthLog log;
+        Exponents exponents;
+        double resolution;  // [1/s]
+        MemberRecord const& record;
+    };
+    /// Appends a member's row to a column.
+    using Row = std::function<void(Member const& member, std::vector<double>& column)>;
+
+    void add(char const* name, char const* unit, char const* long_name, std::vector<std::string> axes, Row row);
+    void add_exponents();
+    void add_health();
+    void add_history(std::size_t points);
+    Member member(BlockResult const& block, std::size_t i) const;
 
     OrbitSchedule const schedule_;
     std::size_t const exponents_;
     double const d0_;
-    std::vector<std::size_t> history_;  // records after which the running exponents are kept
     StudyTable layout_;
+    std::vector<Row> rows_;  // of the layout's columns
 };
 
 }  // namespace slideway

@@ -21,10 +21,11 @@ MemberClock clock(double first, double spacing, std::size_t stops) {
     return {std::fma(static_cast<double>(stops - 1), spacing, first), first, spacing};
 }
 
-/// Rescalings to a record: a divisor of their number if there is one that leaves neither too few records nor too many.
-std::size_t rescalings_per_record(std::size_t rescalings) {
-    std::size_t const most = std::max<std::size_t>(1, rescalings / least_records);
-    for (std::size_t n = most; n >= std::max<std::size_t>(1, rescalings / most_records); --n) {
+/// Rescalings to a record: a divisor of `rescalings` if there is one that leaves neither too few records nor too many.
+std::size_t rescalings_per_record(std::size_t rescalings, std::size_t repetitions = 1, std::size_t records = least_records) {
+    std::size_t const all = rescalings * repetitions;
+    std::size_t const most = std::clamp<std::size_t>(all / records, 1, rescalings);
+    for (std::size_t n = most; n >= std::max<std::size_t>(1, all / most_records); --n) {
         if (rescalings % n == 0) return n;
     }
     return most;
@@ -37,7 +38,7 @@ OrbitSchedule of_exponents(Scene const& scene) {
     OrbitSchedule schedule;
     StopPlan& stops = schedule.stops;
     std::size_t const rescalings = std::max<std::size_t>(1, whole(chaos.span.seconds(speed) / dt));
-    stops.growth_every = rescalings_per_record(rescalings);
+    stops.growth_every = rescalings_per_record(rescalings, 1, std::max(least_records, chaos.history));
     std::size_t const records = (rescalings + stops.growth_every - 1) / stops.growth_every;
     stops.transient = std::max<std::size_t>(1, whole(chaos.transient.seconds(speed) / dt)) - 1;
     stops.count = stops.transient + records * stops.growth_every + 1;
@@ -60,7 +61,12 @@ OrbitSchedule of_sections(Scene const& scene) {
     schedule.sections = true;
     schedule.stops.transient = transient * per_turn;
     schedule.stops.count = schedule.stops.transient + (sections - 1) * per_turn + 1;
-    schedule.stops.section_every = schedule.stops.growth_every = per_turn;
+    schedule.stops.section_every = per_turn;
+    // The revolution before the first section counts too: growth over as many revolutions as there are sections.
+    if (chaos.exponents > 0) {
+        schedule.stops.growth_lead = transient > 0 ? per_turn : 0;
+        schedule.stops.growth_every = rescalings_per_record(per_turn, sections);
+    }
     schedule.timing = [phase = chaos.section.level, per_turn, count = schedule.stops.count](Inputs const& inputs) {
         return clock(first_time_at(phase, inputs), period(inputs) / static_cast<double>(per_turn), count);
     };

@@ -26,8 +26,18 @@ std::vector<double> column_of(std::vector<double> const& values, std::vector<cha
     return column;
 }
 
-/// 97.5 % quantile of Student's t for some 15 batches, the fewest of a member with as many records as a study has at least.
-constexpr double quantile_of_batches = 2.13;
+/// What rounding may have added does not average out over members.
+MeanOfMembers mean_with_rounding(std::vector<double> const& values, double resolution) {
+    MeanOfMembers mean = mean_of_members(values);
+    mean.half_width += resolution;
+    return mean;
+}
+
+double largest_of(std::vector<double> const& values) {
+    double largest = 0;
+    for (double const x : values) largest = std::max(largest, std::isnan(x) ? 0.0 : x);
+    return largest;
+}
 
 }  // namespace
 
@@ -35,14 +45,17 @@ std::vector<ExponentSummary> summarise_exponents(ResultReader const& results) {
     std::vector<ExponentSummary> summaries;
     if (!results.has("lyapunov_exponent")) return summaries;
     auto const finished = finished_members(results);
-    auto const values = results.values("lyapunov_exponent"), errors = results.values("lyapunov_exponent_error");
-    auto const resolutions = column_of(results.values("lyapunov_resolution"), finished, 1, 0);
     std::size_t const exponents = results.shape("lyapunov_exponent").at(1);
+    auto const values = results.values("lyapunov_exponent"), late = results.values("lyapunov_exponent_late");
+    auto const half_widths = results.values("lyapunov_exponent_half_width");
+    double const resolution = largest_of(column_of(results.values("lyapunov_resolution"), finished, 1, 0));
     for (std::size_t j = 0; j < exponents; ++j) {
-        std::vector<double> const of_members = column_of(values, finished, exponents, j);
-        std::vector<double> const their_errors = column_of(errors, finished, exponents, j);
+        auto const of_members = column_of(values, finished, exponents, j);
+        auto const reach = column_of(half_widths, finished, exponents, j);
+        auto const of_late = column_of(late, finished, exponents, j);
         ExponentSummary& summary = summaries.emplace_back();
-        summary.mean = mean_of_members(of_members);
+        summary.mean = mean_with_rounding(of_members, resolution);
+        summary.late = mean_with_rounding(of_late, resolution);
         summary.values = summarise(of_members);
         std::vector<double> sorted;
         for (double const x : of_members) {
@@ -52,16 +65,57 @@ std::vector<ExponentSummary> summarise_exponents(ResultReader const& results) {
         summary.low = quantile(sorted, 0.05);
         summary.high = quantile(sorted, 0.95);
         for (std::size_t i = 0; i < of_members.size(); ++i) {
-            double const reach = quantile_of_batches * their_errors[i] + resolutions[i];
-            if (of_members[i] - reach > 0)
+            // Of growth at the start alone nothing is left in the second half.
+            if (of_members[i] - reach[i] > 0 && of_late[i] > 0)
                 ++summary.positive;
-            else if (of_members[i] + reach < 0)
+            else if (of_members[i] + reach[i] < 0)
                 ++summary.negative;
             else
                 ++summary.undecided;
         }
     }
+    std::stable_sort(summaries.begin(), summaries.end(),
+                     [](auto const& a, auto const& b) { return a.mean.mean > b.mean.mean; });
     return summaries;
+}
+
+OffsetHealth offset_health(ResultReader const& results) {
+    auto const finished = finished_members(results);
+    double const exponents = static_cast<double>(results.shape("lyapunov_exponent").at(1));
+    auto const share = [&](char const* name) {
+        auto const counts = column_of(results.values(name), finished, 1, 0);
+        auto const rescalings = column_of(results.values("rescalings"), finished, 1, 0);
+        double counted = 0, all = 0;
+        for (std::size_t i = 0; i < counts.size(); ++i) counted += counts[i], all += exponents * rescalings[i];
+        return all > 0 ? counted / all : 0.0;
+    };
+    return {share("lost_offsets"), share("grown_offsets")};
+}
+
+std::vector<SweepColumn> summarise_columns(ResultReader const& results) {
+    std::vector<SweepColumn> columns;
+    std::string const parameter = results.attribute("sweep_parameter");
+    if (parameter.empty()) return columns;
+    auto const finished = finished_members(results);
+    auto const values = results.values(parameter);
+    bool const has_exponents = results.has("lyapunov_exponent");
+    auto const exponents = has_exponents ? results.values("lyapunov_exponent") : std::vector<double>{};
+    std::size_t const width = has_exponents ? results.shape("lyapunov_exponent").at(1) : 0;
+    std::vector<double> of_column;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        bool const is_new = columns.empty() || values[i] != columns.back().value;
+        if (is_new) {
+            columns.push_back({values[i], 0, 0, {}});
+            of_column.clear();
+        }
+        SweepColumn& column = columns.back();
+        ++column.members;
+        if (!finished[i]) continue;
+        ++column.finished;
+        if (has_exponents) of_column.push_back(exponents[i * width]);
+        column.exponent = mean_of_members(of_column);
+    }
+    return columns;
 }
 
 std::vector<HistoryPoint> exponent_history(ResultReader const& results) {

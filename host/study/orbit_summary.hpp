@@ -13,15 +13,31 @@ namespace slideway {
 
 /// One exponent over the members that finished [1/s].
 struct ExponentSummary {
-    MeanOfMembers mean;
+    MeanOfMembers mean;  // the interval with the offsets' rounding
+    MeanOfMembers late;  // of the second half of the record alone
     Summary values;
     double low, high;  // 5 % and 95 % quantiles
-    /// Members whose own 95 % interval, value ± (t · standard error + resolution), lies above zero, below it, or holds it.
+    /// Members whose own 95 % interval lies above zero, in the second half too; below zero; neither.
     std::uint64_t positive = 0, negative = 0, undecided = 0;
 };
 
-/// By the exponent's number; empty if the file holds none.
+/// The largest mean first; empty if the file holds none.
 std::vector<ExponentSummary> summarise_exponents(ResultReader const& results);
+
+/// Shares of the rescalings at which an offset had shrunk into rounding, or grown to the size of the joint.
+struct OffsetHealth {
+    double lost, grown;
+};
+OffsetHealth offset_health(ResultReader const& results);
+
+/// Members of one value of a sweep's parameter.
+struct SweepColumn {
+    double value;
+    std::uint64_t members, finished;
+    MeanOfMembers exponent;  // the largest one; of no members without exponents
+};
+/// In the file's order; empty if it is no sweep.
+std::vector<SweepColumn> summarise_columns(ResultReader const& results);
 
 /// Ensemble mean of the largest exponent after so many rescalings, with its confidence interval.
 struct HistoryPoint {

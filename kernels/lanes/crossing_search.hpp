@@ -62,27 +62,60 @@ private:
         for (auto const& zero : zeros.at) {
             auto at = candidates & (zero.theta <= Real(1.0));
             if (none(at)) continue;
-            Real theta = select(at, zero.theta, Real(1.0));
-            Real const whole = attempt.step;
-            auto& c = pack.state.course;
-            for (int i = 0;; ++i) {
-                pack.step = select(at, whole * theta, Real(0.0));
-                Stepper stepper;
-                stepper.attempt(pack);
-                pack.count_evaluations(at, Stepper::evaluations);
-                if (i == corrections) break;
-                Real const here = surface.value(c.t + pack.step, pack.end);
-                Real const slope = whole * surface.slope(c.t + pack.step, pack.end, pack.end_rates, here);
-                Real const moved = theta - here / slope;
-                // A grazing zero has no slope to go by, and a NaN stays where the cubic has it.
-                auto const inside = (moved > zero.low) & (moved <= zero.high);
-                theta = select(inside, moved, theta);
-            }
-            Real const t = c.t + pack.step;
+            place(pack, surface, attempt.step, at, zero, v0, v1);
+            Real const t = pack.state.course.t + pack.step;
             at = at & (t >= pack.state.constants.first_stop);
             results.take_crossing(pack, at, t, pack.end);
         }
         restore(pack, attempt);
+    }
+
+    /// Ends a step at the crossing: the pack's `step` and `end` are then those of the section.
+    SLIDEWAY_HD static void place(Pack<Model, Real>& pack, Surface const& surface, Real whole, Mask<Real> at,
+                                  CubicZero<Real> const& zero, Real v0, Real v1) {
+        Real theta = select(at, zero.theta, Real(0.0));
+        if constexpr (Stepper::stiff) {
+            // The bracket of a false position (Illinois: an end that stays counts half), for there is no slope to go by.
+            Real low(0.0), high(1.0), of_low = v0, of_high = v1;
+            auto wanted = at;
+            for (int i = 0; i < 60 && any(wanted); ++i) {
+                Real const here = value_after(pack, surface, whole, theta, wanted);
+                auto const below = here < Real(0.0), low_below = of_low < Real(0.0);
+                auto const as_low = (below & low_below) | ((!below) & (!low_below));
+                auto const is_low = wanted & as_low, is_high = wanted & !as_low;
+                of_high = select(is_low, Real(0.5) * of_high, select(is_high, here, of_high));
+                of_low = select(is_high, Real(0.5) * of_low, select(is_low, here, of_low));
+                low = select(is_low, theta, low);
+                high = select(is_high, theta, high);
+                Real const next = low - of_low * ((high - low) / (of_high - of_low));
+                auto const inside = (next > low) & (next < high);
+                wanted = wanted & inside & !(here == Real(0.0));
+                theta = select(wanted, next, theta);
+            }
+        } else {
+            for (int i = 0; i < corrections; ++i) {
+                Real const here = value_after(pack, surface, whole, theta, at);
+                Real const t = pack.state.course.t + pack.step;
+                Real const slope = whole * surface.slope(t, pack.end, pack.end_rates, here);
+                Real const moved = theta - here / slope;
+                // A grazing zero has no slope to go by, and a NaN stays where the cubic has it.
+                auto const inside = (moved > zero.low) & (moved <= zero.high);
+                theta = select(inside & at, moved, theta);
+            }
+        }
+        value_after(pack, surface, whole, theta, at);
+    }
+
+    /// The surface's value after a step of a fraction of the whole one.
+    /// @param at lanes that need it: what it costs must not depend on what others need.
+    SLIDEWAY_HD static Real value_after(Pack<Model, Real>& pack, Surface const& surface, Real whole, Real theta,
+                                        Mask<Real> at) {
+        pack.busy = at;
+        pack.step = select(at, whole * theta, Real(0.0));
+        Stepper stepper;
+        stepper.attempt(pack);
+        pack.count_evaluations(at, Stepper::evaluations);
+        return surface.value(pack.state.course.t + pack.step, pack.end);
     }
 
     /// Puts back all but what was counted.

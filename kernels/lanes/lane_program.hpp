@@ -83,7 +83,7 @@ private:
         r.constants.first_stop = clock.first_stop;
         r.constants.stop_period = clock.period;
         if constexpr (Model::has_shadows) {
-            c.shadowed.fine_time = c.shadowed.uncut = c.shadowed.lost = 0;
+            c.shadowed.fine_time = c.shadowed.uncut = c.shadowed.lost = c.shadowed.grown = 0;
             place_shadows(r, member);
         }
         c.accepted = c.rejected = c.evaluations = c.jacobians = c.stiff_steps = 0;
@@ -189,7 +189,7 @@ private:
     /// First evaluation of new members.  A start that cannot be evaluated ends its member before the first step.
     SLIDEWAY_HD void start() {
         auto& c = pack_.state.course;
-        auto const faults = pack_.evaluate(c.t, c.y, pack_.end_rates, pack_.needs.ends, pack_.end_report);
+        auto faults = pack_.evaluate(c.t, c.y, pack_.end_rates, pack_.needs.ends, pack_.end_report);
         pack_.count_evaluations(pack_.busy, 1);
         auto const whole = is_finite(c.y, pack_.end_rates);
         if (pack_.needs.quantities) pack_.state.observation.observer.start(pack_.busy, pack_.end_report, c.y);
@@ -207,7 +207,9 @@ private:
         }
         auto broken = pack_.busy & !whole;
         if constexpr (Model::has_shadows) {
-            broken = broken | Shadows<Model, Real>(block_.shadows).start(pack_, pack_.busy & whole);
+            Shadows<Model, Real> shadows(block_.shadows);
+            broken = broken | shadows.start(pack_, pack_.busy & whole);
+            faults = faults.or_else(shadows.faults());
         }
         auto const failed = broken | (pack_.busy & (faults.geometry | faults.contact_domain));
         if (none(failed)) return;

@@ -61,9 +61,13 @@ public:
         auto const shadows = static_cast<std::size_t>(block_.shadows.count);
         for (int i = 0; i < lanes<Real>; ++i) {
             std::size_t const stop = number(c.stop, i);
-            if (!holds(at, i) || stop < plan.transient || (stop - plan.transient) % plan.growth_every != 0) continue;
-            std::size_t const record = (stop - plan.transient) / plan.growth_every;
-            if (record == 0) set_lane(c.shadowed.lost, i, 0.0);
+            std::size_t const from = plan.growth_from();
+            if (!holds(at, i) || stop < from || (stop - from) % plan.growth_every != 0) continue;
+            std::size_t const record = (stop - from) / plan.growth_every;
+            if (record == 0) {
+                set_lane(c.shadowed.lost, i, 0.0);
+                set_lane(c.shadowed.grown, i, 0.0);
+            }
             double* const rows = block_.growth_values + number(c.member, i) * plan.growths() * shadows;
             for (std::size_t j = 0; j < shadows; ++j) {
                 Real& growth = pack.state.shadows[j].growth;
@@ -151,7 +155,10 @@ public:
             block_.records[member] = {status, number(c.accepted, i),  number(c.rejected, i),   number(c.evaluations, i),
                                       time,   number(c.jacobians, i), number(c.stiff_steps, i)};
             block_.records[member].crossings = number(c.crossings, i);
-            if constexpr (Model::has_shadows) block_.records[member].lost_offsets = number(c.shadowed.lost, i);
+            if constexpr (Model::has_shadows) {
+                block_.records[member].lost_offsets = number(c.shadowed.lost, i);
+                block_.records[member].grown_offsets = number(c.shadowed.grown, i);
+            }
             for (int j = 0; j < Model::size; ++j) block_.final_states[member * Model::size + j] = lane(c.y[j], i);
             if (block_.quantities != 0) {
                 constexpr auto columns = Pack<Model, Real>::Observer::columns;
@@ -183,7 +190,8 @@ private:
             fill(block_.section_values, member, plan.sections(), taken, 1 + Model::size);
         }
         if (block_.growth_values != nullptr) {
-            fill(block_.growth_values, member, plan.growths(), past > 0 ? (past - 1) / plan.growth_every : 0,
+            std::size_t const from_growth = plan.growth_from() + 1;
+            fill(block_.growth_values, member, plan.growths(), from > from_growth ? (from - from_growth) / plan.growth_every : 0,
                  static_cast<std::size_t>(block_.shadows.count));
         }
     }

@@ -9,7 +9,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// The shadows of the members at work.  A shadow takes its member's steps, which meet the tolerance for all of them: the numerical
 /// solution is then one and the same map of member and shadow, and their offset is free of what two sequences of steps would differ
-/// by.  Where steps end at events they end at those of every shadow too.  Each meets its contacts a little earlier or later than
+/// by.  Where steps end at events they end at those of every shadow too (which method a member is left to, and whether a stiff step
+/// met an impact, is decided by the member alone: its shadows are near).  Each meets its contacts a little earlier or later than
 /// its member; that is how a jump of the velocity or of the force enters the growth of the offset, and linearised equations would need
 /// saltation matrices for it.
 template <class Model, class Real> class Shadows {
@@ -23,12 +24,14 @@ public:
 
     explicit SLIDEWAY_HD Shadows(ShadowPlan const& plan) : plan_(plan) {}
 
-    /// First evaluation of new members' shadows.  @return lanes where one has no derivative.
+    /// First evaluation of new members' shadows; `faults` then has theirs.  @return lanes where one has no derivative.
     SLIDEWAY_HD Mask<Real> start(Pack<Model, Real>& pack, Mask<Real> fresh) {
         auto broken = mask_of<Real>(false);
+        faults_ = Faults<Real>::none();
         for (int s = 0; s < plan_.count; ++s) {
-            refresh(pack, pack.state.shadows[s], fresh);
-            broken = broken | (fresh & !is_finite(pack.state.shadows[s].y, pack.state.shadows[s].rates));
+            auto& shadow = pack.state.shadows[s];
+            faults_ = faults_.or_else(refresh(pack, shadow, fresh));
+            broken = broken | (fresh & !is_finite(shadow.y, shadow.rates));
         }
         return broken;
     }
@@ -99,7 +102,12 @@ public:
     /// left alone within its bounds; several are made orthogonal, so that the j-th shows the j-th largest rate (Benettin et al. 1980).
     SLIDEWAY_NOINLINE void rescale(Pack<Model, Real>& pack, Mask<Real> at) {
         Real w[most_shadows][width], length[most_shadows];
-        for (int s = 0; s < plan_.count; ++s) read_offset(pack, pack.state.shadows[s], w[s]);
+        auto& counts = pack.state.course.shadowed;
+        for (int s = 0; s < plan_.count; ++s) {
+            read_offset(pack, pack.state.shadows[s], w[s]);
+            auto const large = detail::product<size>(w[s], w[s]) > Real(largest_distance * largest_distance);
+            counts.grown = counts.grown + count<Real>(at & large);
+        }
         orthonormalise<size, width>(w, plan_.count, Real(least_distance), length);
         Real const d0(plan_.d0);
         for (int s = 0; s < plan_.count; ++s) {
@@ -107,8 +115,7 @@ public:
             auto const found = offset_growth(plan_, at, length[s], shadow.distance);
             shadow.growth = select(at, shadow.growth + found.growth, shadow.growth);
             shadow.distance = found.distance;
-            auto& lost = pack.state.course.shadowed.lost;
-            lost = lost + count<Real>(at & !(length[s] > Real(least_distance)));
+            counts.lost = counts.lost + count<Real>(at & !(length[s] > Real(least_distance)));
             if (none(found.moved)) continue;
             write_offset(pack, found.moved, w[s], d0, shadow);
             refresh(pack, shadow, found.moved);
@@ -149,24 +156,27 @@ private:
     }
 
     /// All that follows from a state that was put somewhere.
-    SLIDEWAY_HD void refresh(Pack<Model, Real>& pack, Shadow& shadow, Mask<Real> in) {
+    SLIDEWAY_HD Faults<Real> refresh(Pack<Model, Real>& pack, Shadow& shadow, Mask<Real> in) {
+        auto faults = evaluate(pack, shadow, in);
         if constexpr (Model::has_memory || Model::can_hold) {
+            if (pack.needs.watch) shadow.watch.begin(in, report_.contact, shadow.memory);
+        }
+        if constexpr (Model::can_hold) {
+            // Other contacts are held now, and another derivative.
             if (pack.needs.watch) {
-                evaluate(pack, shadow, in);
-                shadow.watch.begin(in, report_.contact, shadow.memory);
+                faults = evaluate(pack, shadow, in);
+                shadow.watch.keep(in, report_.contact);
             }
         }
-        evaluate(pack, shadow, in);
-        if constexpr (Model::can_hold) {
-            if (pack.needs.watch) shadow.watch.keep(in, report_.contact);
-        }
+        return faults;
     }
 
-    SLIDEWAY_HD void evaluate(Pack<Model, Real>& pack, Shadow& shadow, Mask<Real> in) {
+    SLIDEWAY_HD Faults<Real> evaluate(Pack<Model, Real>& pack, Shadow& shadow, Mask<Real> in) {
         Real rates[size];
-        pack.evaluate(pack.state.course.t, shadow.y, shadow.memory, rates, pack.needs.watch, report_);
+        auto const faults = pack.evaluate(pack.state.course.t, shadow.y, shadow.memory, rates, pack.needs.watch, report_);
         pack.count_evaluations(in, 1);
         for (int i = 0; i < size; ++i) shadow.rates[i] = select(in, rates[i], shadow.rates[i]);
+        return faults.within(in);
     }
 
     /// Puts the shadow in its member's place, or back.

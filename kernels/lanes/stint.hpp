@@ -226,7 +226,7 @@ private:
         if constexpr (!Model::has_shadows) {
             return c.t + pack_.step;
         } else {
-            // Two sums without loss (Knuth); a landing starts a new count.
+            // The sum and what it rounds off (Knuth's two-sum); a landing starts a new count.
             Real const step = pack_.step + c.shadowed.fine_time, sum = c.t + step;
             Real const of_step = sum - c.t;
             Real const rest = (c.t - (sum - of_step)) + (step - of_step);

@@ -9,6 +9,9 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// Distance between member and shadow below which it is rounding [dimensionless]: what shrinks below counts as this.
 inline constexpr double least_distance = 1e-15;
 
+/// Distance from which on an offset is no longer small beside the joint: its growth ends, whatever the exponent.
+inline constexpr double largest_distance = 1;
+
 /// What a stop finds of one offset.
 template <class Real> struct OffsetGrowth {
     Real growth;       // ln of it since the last stop
@@ -23,7 +26,8 @@ template <class Real>
 SLIDEWAY_FN OffsetGrowth<Real> offset_growth(ShadowPlan const& plan, Mask<Real> at, Real length, Real distance) {
     Real const reached = max(length, Real(least_distance));
     auto moved = at;
-    if (plan.count == 1) moved = at & !((reached >= Real(plan.lower)) & (reached <= Real(plan.upper)));
+    auto const lost = !(length > Real(least_distance));
+    if (plan.count == 1) moved = at & (lost | !((reached >= Real(plan.lower)) & (reached <= Real(plan.upper))));
     return {log_positive(reached / distance), select(at, select(moved, Real(plan.d0), reached), distance), moved};
 }
 

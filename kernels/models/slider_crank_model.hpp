@@ -45,16 +45,24 @@ template <bool conserving> struct SliderCrankLanes {
 };
 
 /// What finds the events that a slider-crank's memory records.
-template <class Memory> struct SliderCrankWatch;
-template <class Real> struct SliderCrankWatch<ImpactMemory<Real>> { using Type = TouchLocator<Real>; };
-template <class Real> struct SliderCrankWatch<HeldContacts<Real>> { using Type = ModeLocator<Real>; };
-template <class Real> struct SliderCrankWatch<NoMemory<Real>> { using Type = NoWatch<Real>; };
+/// @tparam partings where the law switches at the partings that the memory does not record
+template <class Memory, bool partings> struct SliderCrankWatch;
+template <class Real, bool partings> struct SliderCrankWatch<ImpactMemory<Real>, partings> {
+    using Type = TouchLocator<Real, partings>;
+};
+template <class Real, bool partings> struct SliderCrankWatch<HeldContacts<Real>, partings> {
+    using Type = ModeLocator<Real>;
+};
+template <class Real, bool partings> struct SliderCrankWatch<NoMemory<Real>, partings> { using Type = NoWatch<Real>; };
 
 /// A slider-crank whose parts are known when the lanes are compiled.
 template <class Law, class Friction, class Way, class Damping>
 struct SliderCrankModel : SliderCrank<Law, Friction, Way, Damping>, SliderCrankLanes<!Law::switches> {
     using Mechanism = SliderCrank<Law, Friction, Way, Damping>;
-    template <class Real> using Watch = typename SliderCrankWatch<typename Mechanism::template Memory<Real>>::Type;
+    template <class Real>
+    using Watch = typename SliderCrankWatch<typename Mechanism::template Memory<Real>, false>::Type;
+    template <class Real>
+    using ShadowWatch = typename SliderCrankWatch<typename Mechanism::template Memory<Real>, Law::switches>::Type;
 
     template <class Real>
     SLIDEWAY_HD static void linearise(Real t, Real const* state, SliderCrankParameters<Real> const& p,

@@ -10,7 +10,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Real, template <class> class Memory_, bool conserving>
 struct SliderCrankTable : SliderCrankBase, SliderCrankLanes<conserving> {
     template <class Number> using Memory = Memory_<Number>;
-    template <class Number> using Watch = typename SliderCrankWatch<Memory<Number>>::Type;
+    template <class Number> using Watch = typename SliderCrankWatch<Memory<Number>, false>::Type;
+    template <class Number> using ShadowWatch = typename SliderCrankWatch<Memory<Number>, !conserving>::Type;
     static constexpr bool has_memory = std::is_same_v<Memory<Real>, ImpactMemory<Real>>;
     static constexpr bool can_hold = std::is_same_v<Memory<Real>, HeldContacts<Real>>;
 

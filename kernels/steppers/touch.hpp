@@ -8,7 +8,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// Finds where apex–face pairs touch inside an accepted step, so that steps end there, and keeps the speeds of touch that
 /// restitution needs (model.md 4: v0 changes only at accepted touch events).
-template <class Real> class TouchLocator : public GapHistory<Real> {
+/// @tparam partings steps end where pairs part too: for a law that switches there, between shadows and their member
+template <class Real, bool partings = false> class TouchLocator : public GapHistory<Real> {
 public:
     /// Depth [clearances] up to which a new touch counts as located: below it the contact force is nil.
     static constexpr double tolerance = 1e-8;
@@ -53,6 +54,7 @@ private:
     SLIDEWAY_FN static Real touching_at(Mask<Real> candidates, Real d0, Real v0, Real d1, Real v1, Real step,
                                         Real located) {
         auto const change = GapHistory<Real>::first_change(candidates, d0, v0, d1, v1, step, located);
+        if constexpr (partings) return change.fraction;
         return select((d0 <= Real(0.0)) | change.returns, change.fraction, Real(1.0));
     }
 
