@@ -70,8 +70,8 @@ void read_neighbours(Node const& root, Scene& scene) {
                       *const upper = root.find_path("study.d0_upper");
     ChaosSettings given;
     if (d0 != nullptr) given.d0 = read_number(*d0, "1", "distance of neighbours", {1e-11, 1e-2, true});
-    given.d0_lower = lower != nullptr ? read_number(*lower, "1", "least distance", range) : std::max(given.d0 * 1e-3, 1e-14);
-    given.d0_upper = upper != nullptr ? read_number(*upper, "1", "largest distance", range) : std::min(given.d0 * 1e3, 1.0);
+    given.d0_lower = lower != nullptr ? read_number(*lower, "1", "least distance", range) : std::max(given.d0 * 0.3, 1e-14);
+    given.d0_upper = upper != nullptr ? read_number(*upper, "1", "largest distance", range) : std::min(given.d0 * 3, 1.0);
     auto const name_d0 = [&](std::string_view side) {
         return Problem{fmt::format("not {} study.d0, {}", side, given.d0), "use d0_lower < d0 < d0_upper"};
     };
@@ -94,8 +94,8 @@ void read_neighbours(Node const& root, Scene& scene) {
         for (Node const* const node : {lower, upper}) {
             warn(node, "several exponents: their neighbours are rescaled every time");
         }
-        given.d0_lower = given.d0 * 1e-3;
-        given.d0_upper = given.d0 * 1e3;
+        given.d0_lower = given.d0 * 0.3;
+        given.d0_upper = given.d0 * 3;
     }
     chaos.d0 = given.d0, chaos.d0_lower = given.d0_lower, chaos.d0_upper = given.d0_upper, chaos.dt = given.dt;
 }

@@ -69,7 +69,8 @@ struct ChaosSettings {
     int exponents = 0;                 // the largest ones; sweep: 0 for none; at most most_shadows
     // Distances of neighbours, in the scales of integrator.atol.
     double d0 = 1e-6;
-    double d0_lower = 1e-9, d0_upper = 1e-3;  // a single neighbour is rescaled beyond them
+    // A single neighbour is rescaled beyond them.  They are near d0: a resting slider has other places to rest some 1e-5 away.
+    double d0_lower = 3e-7, d0_upper = 3e-6;
     Span dt;                                  // between rescalings; sweep: a whole fraction of a revolution
     std::size_t history = 0;                  // points of the convergence history; lyapunov
     // sweep

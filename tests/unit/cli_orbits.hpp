@@ -43,7 +43,7 @@ inline std::string const by_gap = scene(
     "section = { on = \"gap_y[P2]\", value = \"0.02 mm\" }");
 inline std::string const sweep = scene(
     "kind = \"sweep\"\nmembers = 3\nparameter = \"joint.clearance\"\nvalues = [\"0.2 mm\", \"0.1 mm\"]\n"
-    "transient_revolutions = 0\nrevolutions = 2\nphase = \"90 deg\"\nexponents = 1\nrescalings_per_revolution = 20");
+    "transient_revolutions = 0\nrevolutions = 2\nphase = \"90 deg\"\nexponents = 1\nrescalings_per_revolution = 100");
 inline std::string const plain_sweep = scene(
     "kind = \"sweep\"\nmembers = 3\nparameter = \"joint.clearance\"\nvalues = [\"0.2 mm\", \"0.1 mm\"]\n"
     "transient_revolutions = 0\nrevolutions = 2\nphase = \"90 deg\"\nexponents = 0");

@@ -174,8 +174,8 @@ TEST(SceneChaosErrors, Neighbours) {
 }
 
 TEST(SceneChaosErrors, Sizes) {
-    EXPECT_TRUE(contains(error("lyapunov", "revolutions = 10000"),
-                         "scene.toml:4: study.revolutions is 10000 (each member would hold 2e+07 numbers"));
+    EXPECT_TRUE(contains(error("lyapunov", "revolutions = 10000\nhistory = 6000000"),
+                         "scene.toml:4: study.revolutions is 10000 (each member would hold 1.2e+07 numbers"));
     EXPECT_TRUE(contains(error("poincare", "members = 1000000000"),
                          "scene.toml:4: study.members is 1000000000 (the results would hold 1.51e+12 numbers)"));
 }

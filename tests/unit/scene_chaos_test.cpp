@@ -111,8 +111,8 @@ TEST(SceneChaos, LyapunovDefaults) {
     Scene const scene = study("lyapunov");
     EXPECT_EQ(scene.chaos.exponents, 1);
     EXPECT_EQ(scene.chaos.d0, 1e-6);
-    EXPECT_EQ(scene.chaos.d0_lower, 1e-9);
-    EXPECT_EQ(scene.chaos.d0_upper, 1e-3);
+    EXPECT_DOUBLE_EQ(scene.chaos.d0_lower, 3e-7);
+    EXPECT_DOUBLE_EQ(scene.chaos.d0_upper, 3e-6);
     EXPECT_EQ(scene.chaos.transient, turns(2));
     EXPECT_EQ(scene.chaos.span, turns(10));
     EXPECT_EQ(scene.chaos.dt, turns(1.0 / 2000));
@@ -134,8 +134,8 @@ TEST(SceneChaos, LyapunovAsGiven) {
     EXPECT_TRUE(scene.warnings.empty());
     Scene const several = study("lyapunov", "exponents = 10\nd0 = 1e-4\nrescalings_per_revolution = 7\nhistory = 0");
     EXPECT_EQ(several.chaos.exponents, 10);
-    EXPECT_DOUBLE_EQ(several.chaos.d0_lower, 1e-7);
-    EXPECT_DOUBLE_EQ(several.chaos.d0_upper, 1e-1);
+    EXPECT_DOUBLE_EQ(several.chaos.d0_lower, 3e-5);
+    EXPECT_DOUBLE_EQ(several.chaos.d0_upper, 3e-4);
     EXPECT_EQ(several.chaos.dt, turns(1.0 / 7));
     EXPECT_EQ(several.chaos.history, 0u);
 }

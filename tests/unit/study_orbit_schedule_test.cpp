@@ -174,7 +174,10 @@ TEST(OrbitSchedule, OfASweepWithExponentsRescalesBetweenItsSections) {
     EXPECT_EQ(schedule.stops.transient, 100u);
     EXPECT_EQ(schedule.stops.count, 301u);  // two turns of transient, four between five sections, and the last stop
     EXPECT_EQ(schedule.stops.sections(), 5u);
-    EXPECT_EQ(schedule.stops.growths(), 4u);
+    // Growth over as many turns as there are sections: the turn before the first counts too.
+    EXPECT_EQ(schedule.stops.growths() * schedule.stops.growth_every, 250u);
+    EXPECT_EQ(schedule.stops.growth_from(), 50u);
+    EXPECT_EQ(50u % schedule.stops.growth_every, 0u);
     MemberClock const clock = schedule.timing(crank(2));
     EXPECT_DOUBLE_EQ(clock.first_stop, 1.5);
     EXPECT_DOUBLE_EQ(clock.period, pi / 50);
