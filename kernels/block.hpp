@@ -43,22 +43,28 @@ struct MemberRecord {
 
 /// When a member ends and when its steps end on the way.
 struct MemberClock {
-    double end = 0;                  // [s]
+    double end = 0;                     // [s]
     double first_stop = 0, period = 0;  // stop i is at first_stop + i · period, > 0 and <= end [s]
 };
 
 /// Stops of every member of a block: known times at which a step ends, to the last bit.
 struct StopPlan {
     std::size_t count = 0;
-    std::size_t transient = 0;      // as many leave no record
-    std::size_t section_every = 1;  // of the later ones the first, and then each such one, is a section: its state is recorded
-    std::size_t growth_lead = 0;    // the growth of offsets is recorded from as many stops before the end of the transient on
-    std::size_t growth_every = 1;   // summed over as many
+    std::size_t transient = 0;  // as many leave no record
+    std::size_t section_every =
+        1;  // of the later ones the first, and then each such one, is a section: its state is recorded
+    std::size_t growth_lead =
+        0;  // the growth of offsets is recorded from as many stops before the end of the transient on
+    std::size_t growth_every = 1;  // summed over as many
 
-    constexpr std::size_t sections() const { return count > transient ? (count - transient - 1) / section_every + 1 : 0; }
+    constexpr std::size_t sections() const {
+        return count > transient ? (count - transient - 1) / section_every + 1 : 0;
+    }
     /// The stop with which the first recorded growth begins.
     constexpr std::size_t growth_from() const { return transient - growth_lead; }
-    constexpr std::size_t growths() const { return count > growth_from() ? (count - growth_from() - 1) / growth_every : 0; }
+    constexpr std::size_t growths() const {
+        return count > growth_from() ? (count - growth_from() - 1) / growth_every : 0;
+    }
 };
 
 /// A surface in state space whose crossings are recorded: a component of the state, or the gap of an apex to its Y or Z faces (the
@@ -74,10 +80,10 @@ struct CrossingPlan {
 /// Shadows: copies of a member that start a little off it and take its steps, to tell how offsets grow.  Distances are
 /// dimensionless, in the scales that integrator.atol is meant against.
 struct ShadowPlan {
-    int count = 0;       // per member, at most `most_shadows`
-    double d0 = 1e-7;    // distance after a rescaling
-    double lower = 0;    // a single shadow is rescaled at a stop where its distance is not within [lower, upper]; several
-    double upper = 0;    // are made orthogonal at every stop
+    int count = 0;     // per member, at most `most_shadows`
+    double d0 = 1e-7;  // distance after a rescaling
+    double lower = 0;  // a single shadow is rescaled at a stop where its distance is not within [lower, upper]; several
+    double upper = 0;  // are made orthogonal at every stop
     double const* directions = nullptr;  // [members][count][states of the model], of unit length
 };
 inline constexpr int most_shadows = 10;
@@ -94,15 +100,15 @@ struct BlockBase {
     MemberClock const* clocks = nullptr;  // [members]; nullptr: all end at settings.end_time and nobody stops
     StopPlan stops;
     ShadowPlan shadows;      // of models with shadows
-    CrossingPlan crossings;  // from each member's first_stop on; of models without shadows
+    CrossingPlan crossings;  // from each member's first_stop on; of models without shadows, and without stops
     /// Asked now and then; true ends the block at once.  Members that have not ended keep what their results held before; their series are NaN.
     bool (*stop)(void const* context) = nullptr;
     void const* stop_context = nullptr;
     // results
-    MemberRecord* records = nullptr;        // [members]
-    double* final_states = nullptr;         // [members][states of the model]
-    double* quantity_values = nullptr;      // [members][columns of the model's observer], only selected columns written
-    double* series_values = nullptr;        // [selected series, in table order][members][samples]; NaN after a failure
+    MemberRecord* records = nullptr;    // [members]
+    double* final_states = nullptr;     // [members][states of the model]
+    double* quantity_values = nullptr;  // [members][columns of the model's observer], only selected columns written
+    double* series_values = nullptr;    // [selected series, in table order][members][samples]; NaN after a failure
     /// [members][stops.sections(), or crossings.room][1 + states of the model]: time and state; NaN where there is none.
     double* section_values = nullptr;
     double* growth_values = nullptr;        // [members][stops.growths()][shadows.count], ln of the growth; NaN likewise

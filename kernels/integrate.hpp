@@ -13,6 +13,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 ///  - `Parameters<Real>`, `Report<Real>` (what a state tells beside its derivative), `Memory<Real>` (what events leave behind) and
 ///    `Watch<Real>` (what finds them), which hold Reals only, and `Observer<Real>` (quantities on the way);
 ///  - `derivative<Full>(t, state, parameters, memory, rates, report)`, which fills the report if Full and returns `Faults`;
+///  - `series`: how many columns a sample may have, the state first; `has_memory` or `can_hold`: the report then has a `contact`, and the
+///    watch `begin`, `earliest`, `update` and `keep` (kernels/steppers/touch.hpp), `touch_scale(parameters)` being its length;
 ///  - `scales(parameters, scale)`: sizes of the state's components that the absolute tolerance is meant against;
 ///  - `has_linearisation`: then `Linearisation<Real>` and `linearise(…)` serve the stiff method;
 ///  - `has_shadows`: then members have shadows beside them (kernels/lanes/shadows.hpp; kernels/models/shadowed.hpp makes such a model of

@@ -118,7 +118,7 @@ private:
     typename Map::template Parameters<Real> parameters_;
     Real y_[size], shadow_[most_shadows][size], distance_[most_shadows];
     Real growth_[most_shadows];  // ln, since the last record
-    Real whole_;  // 1, NaN in lanes that left the finite numbers
+    Real whole_;                 // 1, NaN in lanes that left the finite numbers
 };
 
 /// Iterates a block of members of a map, one per lane.  A member's results depend on its own inputs alone.

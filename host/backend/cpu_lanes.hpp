@@ -18,12 +18,11 @@ using IsaTable = SliderCrankTable<IsaReal, Memory, conserving>;
                                                                            IsaTable<memory, conserving> const&); \
     keyword template void probe<IsaTable<memory, conserving>, IsaReal>(ProbeTable const&,                        \
                                                                        IsaTable<memory, conserving> const&);
-#define SLIDEWAY_shadowed_LANES_OF(memory, conserving, keyword)                      \
+#define SLIDEWAY_shadowed_LANES_OF(memory, conserving, keyword)                       \
     keyword template void integrate<Shadowed<IsaTable<memory, conserving>>, IsaReal>( \
         Block&, Shadowed<IsaTable<memory, conserving>> const&);
-#define SLIDEWAY_LANES_ELSEWHERE(memory, conserving)     \
-    SLIDEWAY_plain_LANES_OF(memory, conserving, extern) \
-    SLIDEWAY_shadowed_LANES_OF(memory, conserving, extern)
+#define SLIDEWAY_LANES_ELSEWHERE(memory, conserving) \
+    SLIDEWAY_plain_LANES_OF(memory, conserving, extern) SLIDEWAY_shadowed_LANES_OF(memory, conserving, extern)
 
 SLIDEWAY_LANES_ELSEWHERE(NoMemory, true)
 SLIDEWAY_LANES_ELSEWHERE(HeldContacts, false)

@@ -11,8 +11,8 @@ namespace slideway {
 /// (seconds; steps of a map).  A member that failed has NaN from some interval on; only what is before it counts.
 struct GrowthLog {
     std::span<double const> values;
-    std::size_t count = 1;  // offsets, >= 1
-    double length = 1;      // > 0
+    std::size_t count = 1;   // offsets, >= 1
+    double length = 1;       // > 0
     std::size_t period = 0;  // intervals of a period of the forcing; 0: there is none
 
     std::size_t intervals() const;  // before the first NaN

@@ -24,22 +24,26 @@ void print_history(std::vector<HistoryPoint> const& history) {
     fmt::print("  running mean of the largest [1/s]: {} rescalings\n", line);
 }
 
-std::string text(MeanOfMembers const& mean) { return fmt::format("{} ± {}", number(mean.mean), number(mean.half_width)); }
+std::string text(MeanOfMembers const& mean) {
+    return fmt::format("{} ± {}", number(mean.mean), number(mean.half_width));
+}
 
 /// What makes exponents wrong without a sign in their intervals.
 void print_doubts(ResultReader const& results, ExponentSummary const& largest) {
     OffsetHealth const health = offset_health(results);
     if (health.grown > 0.01) {
         fmt::print(stderr,
-                   "warning: at {:.0f} % of the rescalings an offset had grown to the size of the joint: exponents are too small; "
+                   "warning: at {:.0f} % of the rescalings an offset had grown to the size of the joint: exponents are "
+                   "too small; "
                    "rescale oftener (study.rescalings_per_revolution, study.dt) or use a smaller study.d0\n",
                    100 * health.grown);
     }
     if (health.lost > 0.01) {
-        fmt::print(stderr,
-                   "warning: at {:.0f} % of the rescalings an offset had shrunk into rounding: exponents are upper bounds; "
-                   "rescale oftener or use a larger study.d0\n",
-                   100 * health.lost);
+        fmt::print(
+            stderr,
+            "warning: at {:.0f} % of the rescalings an offset had shrunk into rounding: exponents are upper bounds; "
+            "rescale oftener or use a larger study.d0\n",
+            100 * health.lost);
     }
     if (largest.mean.mean > largest.mean.half_width && !(largest.late.mean > largest.late.half_width)) {
         fmt::print("  The second half alone is not above zero: what grew, grew early. Leave out a longer transient.\n");
@@ -58,7 +62,8 @@ void print_columns(ResultReader const& results) {
                fmt::format("{} [{}]", parameter, results.unit(parameter)), "finished", "exponent");
     for (std::size_t i = 0; i < columns.size(); i += every) {
         SweepColumn const& c = columns[i];
-        fmt::print("  {:>16.6g}  {:>10}  {:>22}\n", c.value, fmt::format("{} of {}", c.finished, c.members), text(c.exponent));
+        fmt::print("  {:>16.6g}  {:>10}  {:>22}\n", c.value, fmt::format("{} of {}", c.finished, c.members),
+                   text(c.exponent));
     }
 }
 
@@ -81,13 +86,12 @@ void print_exponents(ResultReader const& results) {
                "95 %", "max");
     for (std::size_t j = 0; j < exponents.size(); ++j) {
         ExponentSummary const& e = exponents[j];
-        fmt::print("  {:<8}  {:>22}  {:>10}  {:>10}  {:>10}  {:>10}  {:>10}\n", j + 1,
-                   text(e.mean), number(e.values.sd),
-                   number(e.low), number(e.values.median), number(e.high), number(e.values.max));
+        fmt::print("  {:<8}  {:>22}  {:>10}  {:>10}  {:>10}  {:>10}  {:>10}\n", j + 1, text(e.mean),
+                   number(e.values.sd), number(e.low), number(e.values.median), number(e.high), number(e.values.max));
     }
     ExponentSummary const& largest = exponents.front();
-    fmt::print("  largest: {} members above zero, {} below, {} undecided by their own 95 % intervals\n", largest.positive,
-               largest.negative, largest.undecided);
+    fmt::print("  largest: {} members above zero, {} below, {} undecided by their own 95 % intervals\n",
+               largest.positive, largest.negative, largest.undecided);
     fmt::print("  its second half alone: {}\n", text(largest.late));
     print_history(exponent_history(results));
     if (results.has("kaplan_yorke_dimension")) {

@@ -142,10 +142,11 @@ void print_summary(RunArguments const& arguments, Scene const& scene, EnsembleOp
     print_statuses(count_statuses(results));
     double const rate = totals.seconds > 0 ? static_cast<double>(ran) / totals.seconds : 0.0;
     double const turns = orbit_schedule(scene).longest * std::abs(scene.inputs.crank_speed) / (2 * std::numbers::pi);
-    print_field("throughput",
-                fmt::format("{:.4g} members/s, {}{} wall time ({} threads, {}, {} lanes)", rate,
-                            turns > 0 ? fmt::format("{:.4g} members x revolutions/s, ", rate * turns) : "",
-                            duration_text(totals.seconds), options.threads, name_of(options.isa), lanes_of(options.isa)));
+    print_field(
+        "throughput",
+        fmt::format("{:.4g} members/s, {}{} wall time ({} threads, {}, {} lanes)", rate,
+                    turns > 0 ? fmt::format("{:.4g} members x revolutions/s, ", rate * turns) : "",
+                    duration_text(totals.seconds), options.threads, name_of(options.isa), lanes_of(options.isa)));
     print_field("steps", fmt::format("{} accepted ({} by the stiff method), {} rejected", totals.steps_accepted,
                                      totals.stiff_steps, totals.steps_rejected));
     print_field("evaluations",

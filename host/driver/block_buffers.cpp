@@ -102,7 +102,9 @@ void BlockBuffers::run(KernelInstance const& kernel, BlockRequest const& request
     block.crossings = request.crossings;
     block.shadows = request.shadows;
     block.shadows.directions = directions_.data();
-    block.stop = [](void const* context) { return static_cast<StopRequest const*>(context)->reason() != StopReason::none; };
+    block.stop = [](void const* context) {
+        return static_cast<StopRequest const*>(context)->reason() != StopReason::none;
+    };
     block.stop_context = &stop;
     block.records = records_.data();
     block.final_states = final_states_.data();

@@ -29,12 +29,12 @@ struct BlockRequest {
     std::vector<double> sample_times;  // empty: no time series
     Selection quantities = 0;
     Selection series = 0;
-    MemberCost cost;              // empty: members start in their order
-    MemberTiming timing;          // empty: all end at integrator.end_time and nobody stops
+    MemberCost cost;      // empty: members start in their order
+    MemberTiming timing;  // empty: all end at integrator.end_time and nobody stops
     StopPlan stops;
-    bool sections = false;        // the states at the stops' sections are kept
+    bool sections = false;  // the states at the stops' sections are kept
     CrossingPlan crossings;
-    ShadowPlan shadows;           // its directions are those of
+    ShadowPlan shadows;  // its directions are those of
     ShadowDirections directions;
 };
 

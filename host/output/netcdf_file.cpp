@@ -103,11 +103,13 @@ int NetcdfFile::add_variable(std::string const& name, Type type, std::span<int c
 
 void NetcdfFile::put_text(int variable, std::string const& name, std::string_view value) {
     // netCDF marks texts as ASCII; only its strings are UTF-8 to other readers.
-    bool const ascii = std::all_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+    bool const ascii =
+        std::all_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
     std::string const text(value);
     char const* string = text.c_str();
-    int const code = ascii ? nc_put_att_text(id_, variable_or_global(variable), name.c_str(), value.size(), value.data())
-                           : nc_put_att_string(id_, variable_or_global(variable), name.c_str(), 1, &string);
+    int const code = ascii
+                         ? nc_put_att_text(id_, variable_or_global(variable), name.c_str(), value.size(), value.data())
+                         : nc_put_att_string(id_, variable_or_global(variable), name.c_str(), 1, &string);
     require(code, "write attribute " + name);
 }
 

@@ -53,7 +53,8 @@ private:
     std::optional<NetcdfFile> file_;
     int member_dimension_ = 0, sample_dimension_ = 0;
     int member_ = -1, status_ = -1, time_ = -1;
-    int steps_accepted_ = 0, steps_rejected_ = 0, rhs_evaluations_ = 0, jacobian_evaluations_ = 0, stiff_steps_ = 0, end_time_ = 0;
+    int steps_accepted_ = 0, steps_rejected_ = 0, rhs_evaluations_ = 0, jacobian_evaluations_ = 0, stiff_steps_ = 0,
+        end_time_ = 0;
     std::vector<int> final_states_, parameters_, series_;
     std::vector<QuantityVariable> quantities_;
     struct LabelVariable {

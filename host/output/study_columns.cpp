@@ -9,8 +9,9 @@ namespace slideway {
 std::size_t StudyTable::width(StudyColumn const& column) const {
     std::size_t width = 1;
     for (std::string const& name : column.axes) {
-        width *= std::find_if(axes.begin(), axes.end(), [&](StudyAxis const& axis) { return axis.name == name; })
-                     ->values.size();
+        width *= std::find_if(axes.begin(), axes.end(), [&](StudyAxis const& axis) {
+                     return axis.name == name;
+                 })->values.size();
     }
     return width;
 }
@@ -46,7 +47,8 @@ void StudyColumnWriter::write_axes(NetcdfFile& file) const {
     }
 }
 
-void StudyColumnWriter::write(NetcdfFile& file, std::size_t first, std::size_t members, StudyValues const& values) const {
+void StudyColumnWriter::write(NetcdfFile& file, std::size_t first, std::size_t members,
+                              StudyValues const& values) const {
     for (std::size_t i = 0; i < columns_.size(); ++i) {
         std::vector<std::size_t> start{first}, count{members};
         for (std::string const& name : table_.columns[i].axes) {

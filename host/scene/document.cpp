@@ -18,7 +18,7 @@
 namespace slideway {
 namespace {
 
-constexpr int deepest = 10;                    // levels; a scene has five: study.vary.joint.clearance.low
+constexpr int deepest = 10;  // levels; a scene has five: study.vary.joint.clearance.low
 
 struct Origin {
     std::string path;    // of the file, or empty
@@ -53,8 +53,8 @@ Node convert(toml::node const& from, std::string key, std::string name, toml::so
             std::string child_name = node.name.empty() ? child_part : fmt::format("{}.{}", node.name, child_part);
             // toml++ sorts by name; the position of the key restores the order of the file.
             auto const position = child_key.source().begin;
-            placed.push_back({position, convert(child, std::move(child_part), std::move(child_name), position, origin,
-                                                depth + 1)});
+            placed.push_back(
+                {position, convert(child, std::move(child_part), std::move(child_name), position, origin, depth + 1)});
         }
         std::stable_sort(placed.begin(), placed.end(), [](Placed const& a, Placed const& b) {
             return a.position.line != b.position.line ? a.position.line < b.position.line
@@ -134,9 +134,10 @@ Node parse_override(std::string const& key, std::string const& value, int order)
         std::string const literal = is_number(value, number) ? fmt::format("{}", number) : toml_string(value);
         if (auto node = parse_pair(key, literal, origin)) return *node;
     }
-    throw SceneError(fmt::format("{}: no key=value (the part before = must be a dotted key); "
-                                 "write for example --set joint.clearance=\"0.1 mm\"",
-                                 origin.option));
+    throw SceneError(
+        fmt::format("{}: no key=value (the part before = must be a dotted key); "
+                    "write for example --set joint.clearance=\"0.1 mm\"",
+                    origin.option));
 }
 
 /// What an override of a key makes void in the file: keys that say the same in other words.
@@ -229,13 +230,20 @@ void refuse(Node const& node, Problem const& problem) { refuse(node, shown_value
 
 std::string shown_value(Node const& node) {
     switch (node.type) {
-    case Node::Type::boolean: return node.boolean ? "true" : "false";
-    case Node::Type::integer: return fmt::format("{}", node.integer);
-    case Node::Type::real: return fmt::format("{}", node.real);
-    case Node::Type::text: return fmt::format("\"{}\"", one_line(node.text));
-    case Node::Type::array: return "a list";
-    case Node::Type::table: return "a table";
-    case Node::Type::other: break;
+        case Node::Type::boolean:
+            return node.boolean ? "true" : "false";
+        case Node::Type::integer:
+            return fmt::format("{}", node.integer);
+        case Node::Type::real:
+            return fmt::format("{}", node.real);
+        case Node::Type::text:
+            return fmt::format("\"{}\"", one_line(node.text));
+        case Node::Type::array:
+            return "a list";
+        case Node::Type::table:
+            return "a table";
+        case Node::Type::other:
+            break;
     }
     return "a date or time";
 }

@@ -70,8 +70,10 @@ void read_neighbours(Node const& root, Scene& scene) {
                       *const upper = root.find_path("study.d0_upper");
     ChaosSettings given;
     if (d0 != nullptr) given.d0 = read_number(*d0, "1", "distance of neighbours", {1e-11, 1e-2, true});
-    given.d0_lower = lower != nullptr ? read_number(*lower, "1", "least distance", range) : std::max(given.d0 * 0.3, 1e-14);
-    given.d0_upper = upper != nullptr ? read_number(*upper, "1", "largest distance", range) : std::min(given.d0 * 3, 1.0);
+    given.d0_lower =
+        lower != nullptr ? read_number(*lower, "1", "least distance", range) : std::max(given.d0 * 0.3, 1e-14);
+    given.d0_upper =
+        upper != nullptr ? read_number(*upper, "1", "largest distance", range) : std::min(given.d0 * 3, 1.0);
     auto const name_d0 = [&](std::string_view side) {
         return Problem{fmt::format("not {} study.d0, {}", side, given.d0), "use d0_lower < d0 < d0_upper"};
     };
@@ -84,7 +86,8 @@ void read_neighbours(Node const& root, Scene& scene) {
     };
     if (given.d0 < 1e-9) {
         scene.warnings.push_back(fmt::format(
-            "study.d0 is {} and below 1e-9 rounding shows: in impacts an offset's part in the positions is 1e-5 of it", given.d0));
+            "study.d0 is {} and below 1e-9 rounding shows: in impacts an offset's part in the positions is 1e-5 of it",
+            given.d0));
     }
     if (chaos.exponents == 0) {
         for (Node const* const node : {d0, lower, upper, given_of(root, dt_keys)}) warn(node, "study.exponents = 0");
@@ -167,8 +170,8 @@ void check_memory(Node const& root, Scene const& scene) {
         sections = by_phase ? parts_of(chaos.span, {1, true}, speed) + 1 : static_cast<double>(chaos.max_crossings);
     }
     // Rescalings are recorded in sums, some thousands at most, or as many as the history asks for.
-    double const records = std::min(parts_of(chaos.span, chaos.dt, speed),
-                                    std::max(4096.0, 2 * static_cast<double>(chaos.history)));
+    double const records =
+        std::min(parts_of(chaos.span, chaos.dt, speed), std::max(4096.0, 2 * static_cast<double>(chaos.history)));
     double const growths = chaos.exponents > 0 ? records * chaos.exponents : 0;
     Node const* const given = given_of(root, span_keys);
     if (std::max(sections * state_size, growths) > most_numbers) {

@@ -148,8 +148,9 @@ void read_sweep(Node const& root, Scene& scene) {
         constexpr std::string_view starts[] = {"fresh", "continue"};
         scene.chaos.continued = read_choice(*node, "start", starts) == 1;
         if (scene.chaos.continued && (key.name.starts_with("initial.") || key.name == "mechanism.start_angle")) {
-            refuse(*node, {fmt::format("{} is where a member starts, and columns start where the one before ended", key.name),
-                           "use start = \"fresh\", or another parameter"});
+            refuse(*node,
+                   {fmt::format("{} is where a member starts, and columns start where the one before ended", key.name),
+                    "use start = \"fresh\", or another parameter"});
         }
     }
 }

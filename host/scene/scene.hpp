@@ -17,25 +17,25 @@ namespace slideway {
 struct Variation {
     Key const* key;
     Distribution distribution;
-    int line;                               // of the scene file, for messages
+    int line;  // of the scene file, for messages
 };
 
 struct Scene {
-    std::string path;                       // as the user gave it
+    std::string path;  // as the user gave it
     std::string title;
     std::string mechanism = "slider_crank";
-    Inputs inputs;                          // as given; entries that follow others are NaN
+    Inputs inputs;  // as given; entries that follow others are NaN
     Parts parts;
-    IntegratorSettings integrator;          // end_time and max_step resolved
+    IntegratorSettings integrator;  // end_time and max_step resolved
     StudyKind study = StudyKind::ensemble;
-    ChaosSettings chaos;                    // of the studies that ask for it
+    ChaosSettings chaos;  // of the studies that ask for it
     std::uint64_t members = 1;
     std::uint64_t seed = 1;
-    std::vector<double> sample_times;       // empty: no time series
+    std::vector<double> sample_times;  // empty: no time series
     Selection quantities = 0;
-    Selection series = 0;                   // state series included when sample_times is not empty
-    std::vector<Variation> variations;      // in the order of the file
-    std::vector<std::string> warnings;      // one line each: what was given and has no effect
+    Selection series = 0;               // state series included when sample_times is not empty
+    std::vector<Variation> variations;  // in the order of the file
+    std::vector<std::string> warnings;  // one line each: what was given and has no effect
 };
 
 using Overrides = std::vector<std::pair<std::string, std::string>>;  // --set key=value, in order

@@ -71,8 +71,8 @@ struct ChaosSettings {
     double d0 = 1e-6;
     // A single neighbour is rescaled beyond them.  They are near d0: a resting slider has other places to rest some 1e-5 away.
     double d0_lower = 3e-7, d0_upper = 3e-6;
-    Span dt;                                  // between rescalings; sweep: a whole fraction of a revolution
-    std::size_t history = 0;                  // points of the convergence history; lyapunov
+    Span dt;                  // between rescalings; sweep: a whole fraction of a revolution
+    std::size_t history = 0;  // points of the convergence history; lyapunov
     // sweep
     Key const* parameter = nullptr;
     std::vector<double> values;  // SI

@@ -18,7 +18,8 @@ double predicted_cost(Inputs const& inputs) { return 1 / std::min(inputs.clearan
 }  // namespace
 
 ResultLayout result_layout(Scene const& scene, MemberRange range) {
-    ResultLayout layout{range.first, range.count, scene.sample_times, scene.quantities, scene.series, {}, 0, false, "", {}};
+    ResultLayout layout{range.first, range.count, scene.sample_times, scene.quantities, scene.series, {}, 0, false,
+                        "",          {}};
     auto const add = [&layout](Key const& key) {
         std::string name(key.name);
         std::replace(name.begin(), name.end(), '.', '_');
@@ -43,11 +44,19 @@ EnsemblePlan ensemble_plan(Scene const& scene, MemberRange range, Isa isa, int t
     plan.block_members = default_block_members(range.count, threads, lanes_of(isa));
     plan.threads = threads;
     OrbitSchedule const schedule = orbit_schedule(scene);
-    plan.request = {scene.integrator, scene.sample_times, scene.quantities,   scene.series,       predicted_cost, schedule.timing,
-                    schedule.stops,   schedule.sections,  schedule.crossings, shadow_plan(scene), {}};
-    plan.request.directions = [seed = scene.seed, shadows = plan.request.shadows.count](std::uint64_t member, double* out) {
-        draw_directions(seed, member, shadows, out);
-    };
+    plan.request = {scene.integrator,
+                    scene.sample_times,
+                    scene.quantities,
+                    scene.series,
+                    predicted_cost,
+                    schedule.timing,
+                    schedule.stops,
+                    schedule.sections,
+                    schedule.crossings,
+                    shadow_plan(scene),
+                    {}};
+    plan.request.directions = [seed = scene.seed, shadows = plan.request.shadows.count](
+                                  std::uint64_t member, double* out) { draw_directions(seed, member, shadows, out); };
     plan.source = [&scene](std::uint64_t member, Inputs& inputs) {
         inputs = member_inputs(scene, member);
         return !defect(inputs);

@@ -28,7 +28,9 @@ double dimension(std::vector<double> exponents, double resolution) {
 }  // namespace
 
 ExponentTable::ExponentTable(Scene const& scene)
-    : schedule_(orbit_schedule(scene)), exponents_(static_cast<std::size_t>(shadow_plan(scene).count)), d0_(scene.chaos.d0) {
+    : schedule_(orbit_schedule(scene)),
+      exponents_(static_cast<std::size_t>(shadow_plan(scene).count)),
+      d0_(scene.chaos.d0) {
     if (exponents_ == 0) return;
     StudyAxis exponent{"exponent", "1", "number of the exponent, the largest first", {}};
     for (std::size_t j = 1; j <= exponents_; ++j) exponent.values.push_back(static_cast<double>(j));
@@ -38,7 +40,8 @@ ExponentTable::ExponentTable(Scene const& scene)
     add_history(scene.chaos.history);
 }
 
-void ExponentTable::add(char const* name, char const* unit, char const* long_name, std::vector<std::string> axes, Row row) {
+void ExponentTable::add(char const* name, char const* unit, char const* long_name, std::vector<std::string> axes,
+                        Row row) {
     layout_.columns.push_back({std::string(name), std::string(unit), std::string(long_name), std::move(axes)});
     rows_.push_back(std::move(row));
 }
@@ -51,8 +54,8 @@ void ExponentTable::add_exponents() {
     add("lyapunov_exponent_error", "s-1", "standard error of the exponent, by batch means", along,
         [](Member const& m, Column& column) { append(column, m.exponents.standard_error); });
     add("lyapunov_exponent_half_width", "s-1",
-        "half the width of the exponent's 95 % interval, by Student's t of at least 8 batches, resolution included", along,
-        [](Member const& m, Column& column) {
+        "half the width of the exponent's 95 % interval, by Student's t of at least 8 batches, resolution included",
+        along, [](Member const& m, Column& column) {
             for (double const width : m.exponents.half_width) column.push_back(width + m.resolution);
         });
     add("lyapunov_exponent_late", "s-1", "exponent of the second half of the record alone", along,
@@ -63,7 +66,8 @@ void ExponentTable::add_exponents() {
         });
     if (exponents_ < 2) return;
     add("kaplan_yorke_dimension", "1",
-        "Kaplan-Yorke dimension of the map over a turn of the crank, one less than the flow's; a lower bound where it is the "
+        "Kaplan-Yorke dimension of the map over a turn of the crank, one less than the flow's; a lower bound where it "
+        "is the "
         "number of exponents",
         {}, [](Member const& m, Column& column) { column.push_back(dimension(m.exponents.value, m.resolution)); });
 }
@@ -78,8 +82,8 @@ void ExponentTable::add_health() {
         });
     add("lost_offsets", "1", "times that an offset had shrunk into rounding: then exponents are upper bounds", {},
         [](Member const& m, Column& column) { column.push_back(static_cast<double>(m.record.lost_offsets)); });
-    add("grown_offsets", "1", "times that an offset had grown to the size of the joint: then exponents are too small", {},
-        [](Member const& m, Column& column) { column.push_back(static_cast<double>(m.record.grown_offsets)); });
+    add("grown_offsets", "1", "times that an offset had grown to the size of the joint: then exponents are too small",
+        {}, [](Member const& m, Column& column) { column.push_back(static_cast<double>(m.record.grown_offsets)); });
 }
 
 void ExponentTable::add_history(std::size_t points) {
@@ -92,7 +96,8 @@ void ExponentTable::add_history(std::size_t points) {
         history.values.push_back(static_cast<double>(after.back() * schedule_.stops.growth_every));
     }
     layout_.axes.push_back(history);
-    add("lyapunov_history", "s-1", "running exponents after so many rescalings", {history.name, layout_.axes.front().name},
+    add("lyapunov_history", "s-1", "running exponents after so many rescalings",
+        {history.name, layout_.axes.front().name},
         [after, exponents = exponents_](Member const& m, std::vector<double>& column) {
             std::vector<double> sums(exponents, 0.0);
             std::size_t const there = m.log.intervals();

@@ -22,7 +22,8 @@ MemberClock clock(double first, double spacing, std::size_t stops) {
 }
 
 /// Rescalings to a record: a divisor of `rescalings` if there is one that leaves neither too few records nor too many.
-std::size_t rescalings_per_record(std::size_t rescalings, std::size_t repetitions = 1, std::size_t records = least_records) {
+std::size_t rescalings_per_record(std::size_t rescalings, std::size_t repetitions = 1,
+                                  std::size_t records = least_records) {
     std::size_t const all = rescalings * repetitions;
     std::size_t const most = std::clamp<std::size_t>(all / records, 1, rescalings);
     for (std::size_t n = most; n >= std::max<std::size_t>(1, all / most_records); --n) {

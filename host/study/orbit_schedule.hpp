@@ -13,9 +13,9 @@ namespace slideway {
 struct OrbitSchedule {
     StopPlan stops;
     MemberTiming timing;
-    CrossingPlan crossings;    // of sections on a state or a gap
-    bool sections = false;     // the states at the stops' sections are kept
-    double longest = 0;        // [s] of the scene's own member
+    CrossingPlan crossings;  // of sections on a state or a gap
+    bool sections = false;   // the states at the stops' sections are kept
+    double longest = 0;      // [s] of the scene's own member
 
     /// Rows of a member in the file, at most.
     std::size_t section_rows() const { return !sections ? 0 : crossings.room > 0 ? crossings.room : stops.sections(); }

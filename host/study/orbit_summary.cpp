@@ -125,9 +125,8 @@ std::vector<HistoryPoint> exponent_history(ResultReader const& results) {
     auto const values = results.values("lyapunov_history"), rescalings = results.values("history");
     std::size_t const exponents = results.shape("lyapunov_history").at(2);
     for (std::size_t n = 0; n < rescalings.size(); ++n) {
-        history.push_back(
-            {rescalings[n],
-             mean_of_members(column_of(values, finished, rescalings.size() * exponents, n * exponents))});
+        history.push_back({rescalings[n],
+                           mean_of_members(column_of(values, finished, rescalings.size() * exponents, n * exponents))});
     }
     return history;
 }

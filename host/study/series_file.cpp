@@ -147,13 +147,14 @@ std::uint64_t place_of(ResultReader const& file, std::string const& path, std::o
 
 /// The values of a variable at one member's sections.  Crossings that are not equally spaced are iterates all the same, their mean
 /// spacing apart.
-StoredSeries read_sections(ResultReader const& file, std::string const& path, std::string variable, std::uint64_t place) {
+StoredSeries read_sections(ResultReader const& file, std::string const& path, std::string variable,
+                           std::uint64_t place) {
     if (file.has("section_" + variable)) variable = "section_" + variable;
     auto const times = file.values("section_time");
     auto const is_column = [&](std::string const& name) {
         auto const shape = file.shape(name);
-        return name.starts_with("section_") && shape.size() == 1 && shape[0] == times.size() && name != "section_time" &&
-               name != "section_count" && name != "section_crossings";
+        return name.starts_with("section_") && shape.size() == 1 && shape[0] == times.size() &&
+               name != "section_time" && name != "section_count" && name != "section_crossings";
     };
     if (!file.has(variable) || !is_column(variable)) {
         std::string known;
@@ -166,7 +167,8 @@ StoredSeries read_sections(ResultReader const& file, std::string const& path, st
     double first = 0;
     for (std::size_t i = 0; i < place; ++i) first += counts[i];
     double const count = counts.at(static_cast<std::size_t>(place));
-    if (count < 2) throw SceneError(fmt::format("{}: the member has {} sections; a series needs at least 2", path, count));
+    if (count < 2)
+        throw SceneError(fmt::format("{}: the member has {} sections; a series needs at least 2", path, count));
     auto const of_member = [&](std::vector<double> const& all) {
         auto const begin = all.begin() + static_cast<std::ptrdiff_t>(first);
         return std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(count));

@@ -56,7 +56,8 @@ template <class Law, class Friction, class Damping> struct Joint {
 
     /// Penetration of one apex in the Y or the Z face on its side [m].
     template <class Real>
-    SLIDEWAY_FN static Real penetration(JointMotion<Real> const& motion, JointGeometry<Real> const& g, bool z_faces, int apex) {
+    SLIDEWAY_FN static Real penetration(JointMotion<Real> const& motion, JointGeometry<Real> const& g, bool z_faces,
+                                        int apex) {
         auto const depths = z_faces ? z_depths(motion, g) : y_depths(motion, g);
         int const first = z_faces ? 2 : 0;
         for (int side = 0; side < 2; ++side) {

@@ -22,14 +22,15 @@ public:
         // Derivatives at the ends of a stiff step belong to fast motions that the method damps.
         Real const chord = v1 - v0;
         Real const s0 = Stepper::stiff ? chord : pack.step * surface.slope(c.t, c.y, c.rates, v0);
-        Real const s1 = Stepper::stiff ? chord : pack.step * surface.slope(c.t + pack.step, pack.end, pack.end_rates, v1);
+        Real const s1 =
+            Stepper::stiff ? chord : pack.step * surface.slope(c.t + pack.step, pack.end, pack.end_rates, v1);
         auto const candidates = recorded & may_cross(v0, s0, v1, s1);
         if (any(candidates)) record(pack, results, candidates, surface, v0, s0, v1, s1);
     }
 
 private:
     static constexpr int size = Model::size;
-    static constexpr int corrections = 3;  // of Newton's method, from the cubic's zero
+    static constexpr int corrections = 5;  // of Newton's method, from the cubic's zero
 
     struct Surface {
         Pack<Model, Real> const& pack;

@@ -27,6 +27,9 @@ public:
         Model::events == 0 || (MemberState<Model, Real>::Observer::integrals == 0 && !Model::has_linearisation),
         "an event ends its step early: integrals over the step and the stiff method's straight line do not know");
 
+    static_assert(Model::events == 0 || !(Model::has_shadows || Model::has_crossings),
+                  "an event ends its step early, which neither shadows nor sections know of");
+
     SLIDEWAY_HD LaneProgram(Block& block, Model const& model) : block_(block), results_(block) {
         pack_.model = model;
         // What is observed for the status alone is not written.
@@ -78,7 +81,8 @@ private:
         c.error_memory = step_control_start;
         Model::initial_state(inputs, c.y);
         c.stop = c.crossings = 0;
-        MemberClock const clock = block_.clocks != nullptr ? block_.clocks[member] : MemberClock{block_.settings.end_time};
+        MemberClock const clock =
+            block_.clocks != nullptr ? block_.clocks[member] : MemberClock{block_.settings.end_time};
         r.constants.end = clock.end;
         r.constants.first_stop = clock.first_stop;
         r.constants.stop_period = clock.period;

@@ -21,10 +21,11 @@ struct NoShadows {};
 
 /// What a member has on account of its shadows.
 template <class Real> struct ShadowCourse {
-    Real fine_time;  // beyond the last bit of t [s]: member and shadow meet an event at times that t itself could not tell apart
-    Real uncut;      // a step that was cut at an event, which the member is to go on with [s]
-    Real lost;       // times that an offset had shrunk into rounding
-    Real grown;      // times that one had grown to the size of the joint
+    Real
+        fine_time;  // beyond the last bit of t [s]: member and shadow meet an event at times that t itself could not tell apart
+    Real uncut;  // a step that was cut at an event, which the member is to go on with [s]
+    Real lost;   // times that an offset had shrunk into rounding
+    Real grown;  // times that one had grown to the size of the joint
 };
 struct NoShadowCourse {};
 

@@ -32,7 +32,8 @@ public:
             std::size_t const stop = number(c.stop, i);
             if (!holds(at, i) || stop < plan.transient || (stop - plan.transient) % plan.section_every != 0) continue;
             std::size_t const section = (stop - plan.transient) / plan.section_every;
-            double* const row = block_.section_values + (number(c.member, i) * plan.sections() + section) * (1 + Model::size);
+            double* const row =
+                block_.section_values + (number(c.member, i) * plan.sections() + section) * (1 + Model::size);
             row[0] = lane(c.t, i);
             for (int j = 0; j < Model::size; ++j) row[1 + j] = lane(c.y[j], i);
         }
@@ -191,7 +192,8 @@ private:
         }
         if (block_.growth_values != nullptr) {
             std::size_t const from_growth = plan.growth_from() + 1;
-            fill(block_.growth_values, member, plan.growths(), from > from_growth ? (from - from_growth) / plan.growth_every : 0,
+            fill(block_.growth_values, member, plan.growths(),
+                 from > from_growth ? (from - from_growth) / plan.growth_every : 0,
                  static_cast<std::size_t>(block_.shadows.count));
         }
     }

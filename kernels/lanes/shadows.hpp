@@ -75,7 +75,8 @@ public:
         if constexpr (Model::has_memory || Model::can_hold) {
             for (int s = 0; s < plan_.count; ++s) {
                 auto const& shadow = pack.state.shadows[s];
-                fraction = min(fraction, shadow.watch.earliest(candidates, ends_[s].report.contact, pack.step, located_depth, shadow.memory));
+                fraction = min(fraction, shadow.watch.earliest(candidates, ends_[s].report.contact, pack.step,
+                                                               located_depth, shadow.memory));
             }
         }
         return fraction;
@@ -141,7 +142,8 @@ private:
         for (int i = 0; i < remembered; ++i) w[size + i] = numbers(shadow.memory)[i] - numbers(s.course.memory)[i];
     }
 
-    SLIDEWAY_HD static void write_offset(Pack<Model, Real> const& pack, Mask<Real> in, Real const* w, Real length, Shadow& shadow) {
+    SLIDEWAY_HD static void write_offset(Pack<Model, Real> const& pack, Mask<Real> in, Real const* w, Real length,
+                                         Shadow& shadow) {
         auto const& s = pack.state;
         for (int i = 0; i < size; ++i) {
             shadow.y[i] = select(in, fma(length * s.constants.scale[i], w[i], s.course.y[i]), shadow.y[i]);
@@ -173,7 +175,8 @@ private:
 
     SLIDEWAY_HD Faults<Real> evaluate(Pack<Model, Real>& pack, Shadow& shadow, Mask<Real> in) {
         Real rates[size];
-        auto const faults = pack.evaluate(pack.state.course.t, shadow.y, shadow.memory, rates, pack.needs.watch, report_);
+        auto const faults =
+            pack.evaluate(pack.state.course.t, shadow.y, shadow.memory, rates, pack.needs.watch, report_);
         pack.count_evaluations(in, 1);
         for (int i = 0; i < size; ++i) shadow.rates[i] = select(in, rates[i], shadow.rates[i]);
         return faults.within(in);

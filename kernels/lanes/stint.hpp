@@ -133,7 +133,8 @@ private:
                     constexpr double tolerance = Model::has_shadows ? Shadows<Model, Real>::located : Watch::tolerance;
                     Real const located = Real(tolerance) * Model::touch_scale(pack_.state.constants.parameters);
                     Real fraction = c.watch.earliest(early, pack_.end_report.contact, step, located, c.memory);
-                    if constexpr (Model::has_shadows) fraction = min(fraction, shadows_.earliest(pack_, early, located));
+                    if constexpr (Model::has_shadows)
+                        fraction = min(fraction, shadows_.earliest(pack_, early, located));
                     cut = fraction < Real(1.0);
                     c.error_memory = select(cut, former_memory, c.error_memory);
                     accepted = accepted & !cut;

@@ -123,7 +123,8 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
 
     /// Gap of an apex to the face on its side along Y, or along Z: its penetration negated [m].  @param apex P1…P8 from 0
     template <class Real>
-    SLIDEWAY_NOINLINE static Real gap(Real t, Real const* s, SliderCrankParameters<Real> const& p, bool z_faces, int apex) {
+    SLIDEWAY_NOINLINE static Real gap(Real t, Real const* s, SliderCrankParameters<Real> const& p, bool z_faces,
+                                      int apex) {
         return negated(Contact::penetration(pose(t, s, p), p.joint.geometry, z_faces, apex));
     }
 

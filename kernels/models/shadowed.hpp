@@ -6,7 +6,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Model> struct Shadowed : Model { static constexpr bool has_shadows = true; };
 
 template <class Model>
-    requires requires { typename Model::template ShadowWatch<double>; }
+requires requires { typename Model::template ShadowWatch<double>; }
 struct Shadowed<Model> : Model {
     static constexpr bool has_shadows = true;
     template <class Real> using Watch = typename Model::template ShadowWatch<Real>;

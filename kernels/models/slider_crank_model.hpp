@@ -34,7 +34,9 @@ template <bool conserving> struct SliderCrankLanes {
     }
 
     /// An impact speed as it may be remembered: a shadow's is carried on from the member's.
-    template <class Real> SLIDEWAY_HD static Real remembered(Real speed) { return max(speed, Real(least_impact_speed)); }
+    template <class Real> SLIDEWAY_HD static Real remembered(Real speed) {
+        return max(speed, Real(least_impact_speed));
+    }
 
     /// Members whose energy audit says that their method left its stable range.
     template <class Real>

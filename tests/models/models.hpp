@@ -103,12 +103,12 @@ ModelKernels const& model_kernels(Isa isa);
 
 struct ModelResult {
     std::vector<MemberRecord> records;
-    std::vector<double> states;      // [member][size], at the end
-    std::vector<double> quantities;  // [member][columns]
-    std::vector<double> series;      // [component][member][sample]
-    std::vector<double> sections;    // [member][section][size]
+    std::vector<double> states;         // [member][size], at the end
+    std::vector<double> quantities;     // [member][columns]
+    std::vector<double> series;         // [component][member][sample]
+    std::vector<double> sections;       // [member][section][size]
     std::vector<double> section_times;  // [member][section]; not of maps
-    std::vector<double> growth;      // [member][interval][shadow]
+    std::vector<double> growth;         // [member][interval][shadow]
     std::uint64_t lane_steps_executed = 0, lane_steps_useful = 0;
 
     double utilisation() const {

@@ -55,7 +55,9 @@ TEST(TouchLocator, FindsWhereAnyPairMeetsItsFace) {
         depth(start, p) = -gap, rate(start, p) = v;
         depth(end, p) = -gap + v * step + 0.5 * b * step * step, rate(end, p) = v + b * step;
         touches.keep(true, start);
-        EXPECT_NEAR(touches.earliest(true, end, step, clearance * touches.tolerance, memory_of(0.05)), touch / step, 1e-6) << p.face;
+        EXPECT_NEAR(touches.earliest(true, end, step, clearance * touches.tolerance, memory_of(0.05)), touch / step,
+                    1e-6)
+            << p.face;
         EXPECT_EQ(touches.earliest(false, end, step, clearance * touches.tolerance, memory_of(0.05)), 1.0)
             << "a rejected lane is not searched";
     }

@@ -56,10 +56,12 @@ TEST(SceneErrors, WrongTypes) {
 }
 
 TEST(SceneErrors, UnknownNamesComeWithASuggestion) {
-    EXPECT_EQ(error_in("joint", "clearence = 1"), "scene.toml:3: joint.clearence is no key of a scene "
-                                                  "(mistyped, it would have no effect); did you mean joint.clearance?");
-    EXPECT_EQ(error_of("schema = 1\n\n[joints]"), "scene.toml:3: joints is no table of a scene "
-                                                  "(mistyped, it would have no effect); did you mean joint?");
+    EXPECT_EQ(error_in("joint", "clearence = 1"),
+              "scene.toml:3: joint.clearence is no key of a scene "
+              "(mistyped, it would have no effect); did you mean joint.clearance?");
+    EXPECT_EQ(error_of("schema = 1\n\n[joints]"),
+              "scene.toml:3: joints is no table of a scene "
+              "(mistyped, it would have no effect); did you mean joint?");
     EXPECT_EQ(error_of("schema = 1\ncrank_length = 1"),
               "scene.toml:2: crank_length is no key of a scene (mistyped, it would have no effect); "
               "did you mean mechanism.crank_length?");
@@ -77,7 +79,8 @@ TEST(SceneErrors, UnknownNamesComeWithASuggestion) {
     EXPECT_EQ(error_in("integrator", "method = \"rk5\""),
               "scene.toml:3: integrator.method is \"rk5\" (there is no such method); did you mean \"rk4\"?");
     EXPECT_EQ(error_in("integrator", "method = \"euler\""),
-              "scene.toml:3: integrator.method is \"euler\" (there is no such method); use one of auto, dopri5, bs32, ros34pw2, rk4");
+              "scene.toml:3: integrator.method is \"euler\" (there is no such method); use one of auto, dopri5, bs32, "
+              "ros34pw2, rk4");
     EXPECT_EQ(error_in("study", "quantities = [\"peak_normal_forse\"]"),
               "scene.toml:3: study.quantities is \"peak_normal_forse\" (there is no such quantity); "
               "did you mean \"peak_normal_force\"?");
@@ -130,8 +133,8 @@ TEST(SceneErrors, NanAnywhere) {
         auto const dot = key.name.find('.');
         std::string const line = std::string(key.name.substr(dot + 1)) + " = nan";
         std::string const error = error_in(key.name.substr(0, dot), line);
-        EXPECT_EQ(error, "scene.toml:3: " + std::string(key.name) +
-                             " is nan (not a finite number); use a finite number");
+        EXPECT_EQ(error,
+                  "scene.toml:3: " + std::string(key.name) + " is nan (not a finite number); use a finite number");
     }
     for (char const* key : {"integrator.rtol", "integrator.atol", "integrator.max_step", "integrator.max_steps",
                             "study.members", "study.seed", "study.revolutions", "study.duration", "study.samples",
@@ -239,8 +242,8 @@ TEST(SceneErrors, Distributions) {
     EXPECT_EQ(error("\"joint.clearence\" = {dist=\"const\", value=1}"),
               "scene.toml:3: study.vary.joint.clearence cannot vary (only numeric keys of the physics can); "
               "did you mean \"joint.clearance\"?");
-    EXPECT_TRUE(contains(error("\"study.members\" = {dist=\"const\", value=1}"),
-                         "study.vary.study.members cannot vary"));
+    EXPECT_TRUE(
+        contains(error("\"study.members\" = {dist=\"const\", value=1}"), "study.vary.study.members cannot vary"));
     EXPECT_EQ(error("\"joint.clearance\" = \"0.1 mm\""),
               "scene.toml:3: study.vary.joint.clearance is \"0.1 mm\" (not a distribution); "
               "write for example { dist = \"unif\", low = 0, high = 1 }");
@@ -258,8 +261,8 @@ TEST(SceneErrors, Distributions) {
     EXPECT_TRUE(contains(error("\"initial.y\" = {dist=\"unif\", low=1, high=1}"), "initial.y.high is 1 m (not above"));
     EXPECT_TRUE(contains(error("\"initial.y\" = {dist=\"norm\", mean=0, sd=0}"), "initial.y.sd is 0 m"));
     EXPECT_TRUE(contains(error("\"initial.y\" = {dist=\"norm\", mean=0, sd=-1}"), "initial.y.sd is -1 m"));
-    EXPECT_TRUE(contains(error("\"initial.y\" = {dist=\"norm\", mean=\"0 rad\", sd=1}"),
-                         "initial.y.mean is \"0 rad\""));
+    EXPECT_TRUE(
+        contains(error("\"initial.y\" = {dist=\"norm\", mean=\"0 rad\", sd=1}"), "initial.y.mean is \"0 rad\""));
     EXPECT_TRUE(contains(error("\"initial.y\" = {dist=\"truncnorm\", mean=100, sd=1, low=0, high=1}"),
                          "initial.y.mean is 100 m (it lies more than 30 sd outside"));
     EXPECT_EQ(error("\"joint.clearance\" = {dist=\"unif\", low=0, high=1}"),
@@ -294,14 +297,14 @@ TEST(SceneErrors, OptionsAreNamedByTheirText) {
               "did you mean \"paper\"?");
     EXPECT_TRUE(contains(error_of("schema = 1", {{"contact.low", "paper"}}), "did you mean contact.law?"));
     EXPECT_EQ(error_of("schema = 1", {{"contact.law", ""}}).find("--set contact.law=: contact.law is \"\""), 0u);
-    EXPECT_TRUE(contains(error_of("schema = 1\n[study.vary]\n\"initial.y\"={dist=\"unif\",low=0,high=1}",
-                                  {{"initial.y", "0"}}),
-                         "--set initial.y=0: initial.y is 0 ([study.vary] draws it for every member"));
+    EXPECT_TRUE(
+        contains(error_of("schema = 1\n[study.vary]\n\"initial.y\"={dist=\"unif\",low=0,high=1}", {{"initial.y", "0"}}),
+                 "--set initial.y=0: initial.y is 0 ([study.vary] draws it for every member"));
 }
 
 TEST(SceneErrors, OptionsThatAreNoKeyAndValue) {
-    for (char const* key : {"", " ", ".", "a b", "a.", "=", "[joint]", "a\nb", "joint.clearance = 1\n#", "\xff",
-                            "\"\u00e9"}) {
+    for (char const* key :
+         {"", " ", ".", "a b", "a.", "=", "[joint]", "a\nb", "joint.clearance = 1\n#", "\xff", "\"\u00e9"}) {
         std::string const error = error_of("schema = 1", {{key, "1"}});
         EXPECT_EQ(error.find("--set "), 0u) << key;
         EXPECT_EQ(error.find('\n'), std::string::npos);
@@ -322,8 +325,9 @@ TEST(SceneErrors, FilesThatCannotBeRead) {
         }
         return {};
     };
-    EXPECT_EQ(error_at("/nowhere/a.toml"), "/nowhere/a.toml: the scene cannot be read (No such file or directory); "
-                                           "check the path and its permissions");
+    EXPECT_EQ(error_at("/nowhere/a.toml"),
+              "/nowhere/a.toml: the scene cannot be read (No such file or directory); "
+              "check the path and its permissions");
     EXPECT_EQ(error_at("/"), "/: the scene cannot be read (it is a directory); name a scene file in it");
     EXPECT_TRUE(contains(error_at(""), "the scene cannot be read"));
     EXPECT_TRUE(contains(error_at("/dev/zero"), "larger than 1 MiB"));
@@ -336,8 +340,8 @@ TEST(SceneErrors, FilesThatAreNoScene) {
     EXPECT_TRUE(contains(error_of("schema = 1\n<html>\n"), "scene.toml:2: not TOML ("));
     EXPECT_TRUE(contains(error_of("schema = 1\n[=]\n"), "scene.toml:2: not TOML ("));
     EXPECT_TRUE(contains(error_of("schema = 1\n[joint\nclearance = 1"), "scene.toml:2: not TOML ("));
-    EXPECT_TRUE(contains(error_of(std::string_view("schema = 1\n\0\1", 13)),
-                         "scene.toml:2: not TOML (it holds a zero"));
+    EXPECT_TRUE(
+        contains(error_of(std::string_view("schema = 1\n\0\1", 13)), "scene.toml:2: not TOML (it holds a zero"));
     EXPECT_TRUE(contains(error_of("\x89HDF\r\n\x1a\n"), "scene.toml:1: not TOML ("));
     EXPECT_TRUE(contains(error_of("schema = 1\ntitle = \"\xff\xfe\""), "scene.toml:2: not TOML ("));
     EXPECT_TRUE(contains(error_of("schema = 1\n# " + std::string(5000, 'x')), "scene.toml:2: not TOML of a scene"));
@@ -352,8 +356,8 @@ TEST(SceneErrors, CharactersBeyondAsciiBelongInQuotes) {
     EXPECT_EQ(error_of("schema = 1", {{"study.members", "\u00a01"}}).find("--set study.members=\u00a01: "), 0u);
     EXPECT_TRUE(contains(error_of("schema = 1\n\u00e9 = 1"), "scene.toml:2: not TOML ("));
     EXPECT_TRUE(contains(error_of("schema = 1\ntitle = \"\u00e9\" \u00e9"), "scene.toml:2: not TOML ("));
-    for (char const* title : {R"("é\"é")", R"('é\')", "\"\"\"\né\"\"é\\\"\"\"\"\"", "'''é''é'''''", R"("" # é")",
-                              R"("π" # "π)"}) {
+    for (char const* title :
+         {R"("é\"é")", R"('é\')", "\"\"\"\né\"\"é\\\"\"\"\"\"", "'''é''é'''''", R"("" # é")", R"("π" # "π)"}) {
         EXPECT_EQ(error_of("# é\nschema = 1\ntitle = " + std::string(title)), "") << title;
     }
     EXPECT_TRUE(contains(error_of("schema = 1\n[joint]\nclearance = 7\"\u00b5m\""), "scene.toml:3: not TOML ("));

@@ -124,10 +124,12 @@ quantities = ["mode_time", "lines", "peak_tilt", "x"]
 }
 
 TEST(ResolvedScene, RestitutionReadsBack) {
-    expect_round_trip("schema = 1\n[contact]\nrestitution = 0.4\n[friction]\nenabled = false\nstatic = 0.3\n[way]\n"
-                      "[study]\nduration = 0.1\nsamples = 7");
-    expect_round_trip("schema = 1\n[study.vary]\n\"contact.restitution\" = {dist=\"unif\", low=0.1, high=1}\n"
-                      "\"contact.young_modulus\" = {dist=\"unif\", low=1e9, high=1e10}");
+    expect_round_trip(
+        "schema = 1\n[contact]\nrestitution = 0.4\n[friction]\nenabled = false\nstatic = 0.3\n[way]\n"
+        "[study]\nduration = 0.1\nsamples = 7");
+    expect_round_trip(
+        "schema = 1\n[study.vary]\n\"contact.restitution\" = {dist=\"unif\", low=0.1, high=1}\n"
+        "\"contact.young_modulus\" = {dist=\"unif\", low=1e9, high=1e10}");
 }
 
 void expect_study_round_trip(std::string_view study, std::string_view lines) {
@@ -147,36 +149,38 @@ TEST(ResolvedScene, StudiesOfChaosReadBack) {
     for (char const* lines :
          {"", "exponents = 10\nd0 = 3e-7\nd0_lower = 1e-9", "d0 = 3e-7\nd0_lower = 1e-9\nd0_upper = 0.7\nhistory = 0",
           "rescalings_per_revolution = 49\nrevolutions = 0.37", "dt = \"3 ms\"\nduration = 1\nTtr = 0",
-          "[mechanism]\ncrank_speed = 0", "[integrator]\nlocate_modes = false",
-          "[contact]\nrestitution = 0.5", "[contact]\nlaw = \"conservative\"",
-          "[integrator]\nmethod = \"rk4\"\nstep = 1e-5"}) {
+          "[mechanism]\ncrank_speed = 0", "[integrator]\nlocate_modes = false", "[contact]\nrestitution = 0.5",
+          "[contact]\nlaw = \"conservative\"", "[integrator]\nmethod = \"rk4\"\nstep = 1e-5"}) {
         expect_study_round_trip("lyapunov", lines);
     }
-    for (char const* lines :
-         {"parameter = \"joint.clearance\"\nvalues = [\"0.1 mm\", 1e-3, \"7 um\"]",
-          "parameter = \"mechanism.crank_speed\"\nfrom = \"30 rpm\"\nto = \"-60 rpm\"\npoints = 8\nstart = \"continue\"",
-          "parameter = \"contact.young_modulus\"\nfrom = 1e9\nto = 1e11\npoints = 10000\nspacing = \"log\"\nexponents = 0",
-          "parameter = \"way.roll\"\nvalues = [-0.0, 1]\nexponents = 3\nd0 = 1e-4\nrescalings_per_revolution = 20",
-          "parameter = \"contact.restitution\"\nvalues = [0.3]\nTtr = 3\nphase = 7",
-          "parameter = \"contact.chi_line\"\nvalues = [0, 0.1]\nexponents = 0\nd0 = 1e-3\nrescalings_per_revolution = 3",
-          "parameter = \"friction.static\"\nvalues = [0, 0.1]\n[friction]\n[study.vary]\n\"initial.y\" = "
-          "{dist=\"unif\", low=0, high=1e-5}"}) {
+    for (
+        char const* lines :
+        {"parameter = \"joint.clearance\"\nvalues = [\"0.1 mm\", 1e-3, \"7 um\"]",
+         "parameter = \"mechanism.crank_speed\"\nfrom = \"30 rpm\"\nto = \"-60 rpm\"\npoints = 8\nstart = \"continue\"",
+         "parameter = \"contact.young_modulus\"\nfrom = 1e9\nto = 1e11\npoints = 10000\nspacing = \"log\"\nexponents = "
+         "0",
+         "parameter = \"way.roll\"\nvalues = [-0.0, 1]\nexponents = 3\nd0 = 1e-4\nrescalings_per_revolution = 20",
+         "parameter = \"contact.restitution\"\nvalues = [0.3]\nTtr = 3\nphase = 7",
+         "parameter = \"contact.chi_line\"\nvalues = [0, 0.1]\nexponents = 0\nd0 = 1e-3\nrescalings_per_revolution = 3",
+         "parameter = \"friction.static\"\nvalues = [0, 0.1]\n[friction]\n[study.vary]\n\"initial.y\" = "
+         "{dist=\"unif\", low=0, high=1e-5}"}) {
         expect_study_round_trip("sweep", lines);
     }
 }
 
 TEST(ResolvedScene, NumbersAreInSiUnits) {
-    std::string const text = resolved_toml(scene_of("schema = 1\n[joint]\nclearance = \"0.1 mm\"\n[mechanism]\n"
-                                                    "crank_speed = \"3.141592653589793 rad/s\""));
+    std::string const text =
+        resolved_toml(scene_of("schema = 1\n[joint]\nclearance = \"0.1 mm\"\n[mechanism]\n"
+                               "crank_speed = \"3.141592653589793 rad/s\""));
     EXPECT_TRUE(contains(text, "clearance_y = 0.0001  # m\n"));
     EXPECT_TRUE(contains(text, "crank_speed = 3.141592653589793  # rad/s\n"));
     EXPECT_TRUE(contains(text, "method = \"auto\"\n"));
-    EXPECT_TRUE(contains(text, "# slider_mass = 0.1872  # kg, follows from other keys\n"))  << text;
+    EXPECT_TRUE(contains(text, "# slider_mass = 0.1872  # kg, follows from other keys\n")) << text;
 }
 
 TEST(ResolvedScene, WhatFollowsStillFollowsWhenItsSourceVaries) {
-    Scene const scene = scene_of(resolved_toml(scene_of(
-        "schema = 1\n[study.vary]\n\"mechanism.slider_mass\" = {dist=\"const\", value=0.3744}")));
+    Scene const scene = scene_of(resolved_toml(
+        scene_of("schema = 1\n[study.vary]\n\"mechanism.slider_mass\" = {dist=\"const\", value=0.3744}")));
     EXPECT_NEAR(member_inputs(scene, 0).slider_inertia_x, 2 * 2.028e-5, 1e-18);
 }
 

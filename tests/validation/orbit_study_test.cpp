@@ -111,7 +111,9 @@ members = 16
 Ttr = "0.2 s"
 duration = "0.4 s"
 dt = "{}"
-)", dt), "");
+)",
+                                                  dt),
+                                      "");
         // On a way without slope every place is as good as any: one exponent is 0, to the rounding of offsets, 1e-15/(d0 dt).
         for (double const exponent : found.values) EXPECT_NEAR(exponent, 0, 1e-5) << dt;
     }
