@@ -109,8 +109,8 @@ private:
 
     /// The surface's value after a step of a fraction of the whole one.
     /// @param at lanes that need it: what it costs must not depend on what others need.
-    SLIDEWAY_HD static Real value_after(Pack<Model, Real>& pack, Surface const& surface, Real whole, Real theta,
-                                        Mask<Real> at) {
+    SLIDEWAY_NOINLINE static Real value_after(Pack<Model, Real>& pack, Surface const& surface, Real whole, Real theta,
+                                              Mask<Real> at) {
         pack.busy = at;
         pack.step = select(at, whole * theta, Real(0.0));
         Stepper stepper;
