@@ -80,20 +80,17 @@ Exponents exponents_of(GrowthLog const& log) {
     return exponents;
 }
 
-RunningMean running_mean(GrowthLog const& log, std::size_t offset, std::size_t points) {
-    std::size_t const n = log.intervals();
-    points = std::min(points, n);
-    RunningMean history;
+std::vector<double> running_exponents(GrowthLog const& log, std::size_t offset, std::span<std::size_t const> after) {
+    std::size_t const there = log.intervals();
+    std::vector<double> exponents;
     double sum = 0;
     std::size_t done = 0;
-    for (std::size_t p = 1; p <= points; ++p) {
-        std::size_t const until = n * p / points;
-        sum += sum_of(log, offset, done, until);
-        done = until;
-        history.time.push_back(static_cast<double>(done) * log.length);
-        history.value.push_back(sum / history.time.back());
+    for (std::size_t const n : after) {
+        sum += sum_of(log, offset, done, std::min(n, there));
+        done = std::min(n, there);
+        exponents.push_back(n == 0 || n > there ? nan : sum / (static_cast<double>(n) * log.length));
     }
-    return history;
+    return exponents;
 }
 
 double kaplan_yorke_dimension(std::span<double const> exponents) {

@@ -33,13 +33,8 @@ struct Exponents {
 /// intervals.
 Exponents exponents_of(GrowthLog const& log);
 
-/// The mean of offset j over the first intervals, at `points` places spread evenly over the record; the last is all of it.  Fewer
-/// where there are fewer intervals.
-struct RunningMean {
-    std::vector<double> time;  // since the record began
-    std::vector<double> value;
-};
-RunningMean running_mean(GrowthLog const& log, std::size_t offset, std::size_t points);
+/// Running exponents of an offset: those of the first n intervals, for each n of `after` (ascending).  NaN where there are fewer.
+std::vector<double> running_exponents(GrowthLog const& log, std::size_t offset, std::span<std::size_t const> after);
 
 /// Dimension by Kaplan and Yorke: k + (λ_1 + … + λ_k)/|λ_{k+1}| with the largest k whose sum is not negative.  Source: Frederickson,
 /// Kaplan, Yorke & Yorke, J. Differ. Equations 49 (1983) 185–207.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -10,7 +9,6 @@ namespace slideway {
 namespace {
 
 constexpr double rounding = 1e-15;  // of an offset, in the scales of the joint: the positions' last bits
-constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
 void append(std::vector<double>& column, std::vector<double> const& row) {
     column.insert(column.end(), row.begin(), row.end());
@@ -97,17 +95,11 @@ void ExponentTable::add_history(std::size_t points) {
     }
     layout_.axes.push_back(history);
     add("lyapunov_history", "s-1", "running exponents after so many rescalings",
-        {history.name, layout_.axes.front().name},
-        [after, exponents = exponents_](Member const& m, std::vector<double>& column) {
-            std::vector<double> sums(exponents, 0.0);
-            std::size_t const there = m.log.intervals();
-            std::size_t done = 0;
-            for (std::size_t const until : after) {
-                for (; done < std::min(until, there); ++done) {
-                    for (std::size_t j = 0; j < exponents; ++j) sums[j] += m.log.at(done, j);
-                }
-                double const time = static_cast<double>(until) * m.log.length;
-                for (double const sum : sums) column.push_back(until > there ? not_there : sum / time);
+        {history.name, layout_.axes.front().name}, [after](Member const& m, std::vector<double>& column) {
+            std::vector<std::vector<double>> running;
+            for (std::size_t j = 0; j < m.log.count; ++j) running.push_back(running_exponents(m.log, j, after));
+            for (std::size_t i = 0; i < after.size(); ++i) {
+                for (auto const& of_offset : running) column.push_back(of_offset[i]);
             }
         });
 }

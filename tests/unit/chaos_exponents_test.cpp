@@ -49,21 +49,54 @@ TEST(Exponents, EndWhereAMemberFailed) {
     EXPECT_TRUE(std::isnan(exponents_of({{}, 1, 1}).value[0]));
 }
 
-TEST(Exponents, RunningMeanEndsWithTheValue) {
+TEST(RunningExponents, EndWithTheValue) {
     // Growth 1, 3, 5 … has mean n over its first n intervals.
     std::vector<double> values;
-    for (int i = 0; i < 10; ++i) values.push_back(2 * i + 1), values.push_back(nan);
-    for (std::size_t i = 1; i < values.size(); i += 2) values[i] = -1;
+    for (int i = 0; i < 10; ++i) values.push_back(2 * i + 1), values.push_back(-1);
     GrowthLog const log{values, 2, 0.25};
-    auto const history = running_mean(log, 0, 4);
-    EXPECT_EQ(history.time, (std::vector<double>{2 * 0.25, 5 * 0.25, 7 * 0.25, 10 * 0.25}));
-    ASSERT_EQ(history.value.size(), 4u);
-    double const want[] = {2 / 0.25, 5 / 0.25, 7 / 0.25, 10 / 0.25};
-    for (std::size_t i = 0; i < 4; ++i) EXPECT_DOUBLE_EQ(history.value[i], want[i]);
-    EXPECT_DOUBLE_EQ(history.value.back(), exponents_of(log).value[0]);
-    EXPECT_EQ(running_mean(log, 1, 100).value, std::vector<double>(10, -4.0)) << "no more points than intervals";
-    EXPECT_TRUE(running_mean({{}, 1, 1}, 0, 5).value.empty());
-    EXPECT_TRUE(running_mean(log, 0, 0).value.empty());
+    std::size_t const after[] = {2, 5, 7, 10};
+    auto const running = running_exponents(log, 0, after);
+    ASSERT_EQ(running.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_DOUBLE_EQ(running[i], static_cast<double>(after[i]) / 0.25);
+    EXPECT_DOUBLE_EQ(running.back(), exponents_of(log).value[0]);
+    EXPECT_EQ(running_exponents(log, 1, after), std::vector<double>(4, -4.0));
+    EXPECT_TRUE(running_exponents(log, 0, {}).empty());
+}
+
+TEST(RunningExponents, OfAMemberThatFailedEndWithIt) {
+    std::vector<double> const values = {1, 2, 3, nan, nan, nan};
+    std::size_t const after[] = {0, 2, 3, 4, 6};
+    auto const running = running_exponents({values, 1, 1}, 0, after);
+    EXPECT_TRUE(std::isnan(running[0]));
+    EXPECT_DOUBLE_EQ(running[1], 1.5);
+    EXPECT_DOUBLE_EQ(running[2], 2);
+    EXPECT_TRUE(std::isnan(running[3]) && std::isnan(running[4]));
+}
+
+TEST(Exponents, HaveBatchesOfWholePeriodsAndNoIntervalFromFew) {
+    // A growth that alternates with the forcing, three up and three down: batches of ⌊√48⌋ = 6 are a period, and all alike.
+    std::vector<double> values;
+    for (int i = 0; i < 48; ++i) values.push_back(i % 6 < 3 ? 5 : -3);
+    auto const e = exponents_of({values, 1, 1, 6});
+    EXPECT_DOUBLE_EQ(e.value[0], 1);
+    EXPECT_NEAR(e.standard_error[0], 0, 1e-14);
+    EXPECT_NEAR(e.half_width[0], 0, 1e-14);
+    EXPECT_DOUBLE_EQ(e.late[0], 1);
+    // 60 intervals, batches of 7 without the period: they differ.
+    for (int i = 0; i < 12; ++i) values.push_back(i % 6 < 3 ? 5 : -3);
+    EXPECT_GT(exponents_of({values, 1, 1}).standard_error[0], 0.1);
+    EXPECT_NEAR(exponents_of({values, 1, 1, 6}).standard_error[0], 0, 1e-14);
+    // 16 intervals make 4 batches: an error, but no interval.
+    values.resize(16);
+    EXPECT_FALSE(std::isnan(exponents_of({values, 1, 1}).standard_error[0]));
+    EXPECT_TRUE(std::isnan(exponents_of({values, 1, 1}).half_width[0]));
+}
+
+TEST(Exponents, OfTheSecondHalfForgetEarlyGrowth) {
+    std::vector<double> const values = {10, 10, 0, 0, -1, -1, -1, -1};
+    auto const e = exponents_of({values, 1, 1});
+    EXPECT_GT(e.value[0], 1);
+    EXPECT_DOUBLE_EQ(e.late[0], -1);
 }
 
 TEST(KaplanYorke, InterpolatesWhereTheSumChangesItsSign) {
