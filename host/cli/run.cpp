@@ -153,6 +153,7 @@ void print_summary(RunArguments const& arguments, Scene const& scene, EnsembleOp
                 fmt::format("{} right-hand sides, {} Jacobians", totals.rhs_evaluations, totals.jacobian_evaluations));
     print_field("lanes in use", fmt::format("{:.1f} %", 100 * totals.lane_utilisation()));
     print_quantities(quantities);
+    if (!quantities.empty() && turns > 0) fmt::print("  (over the whole run, its transient included)\n");
     print_exponents(results);
     print_sections(results);
     print_energy_made(scene, totals, quantities);

@@ -62,9 +62,10 @@ void read_located_modes(Node const& root, Scene& scene) {
     IntegratorSettings& settings = scene.integrator;
     Node const* const node = root.find_path("integrator.locate_modes");
     bool const switches = scene.parts.law == Law::paper && scene.parts.damping != Damping::restitution;
-    bool const neighbours = scene.chaos.exponents > 0;
+    bool const orbits = scene.study != StudyKind::ensemble, neighbours = scene.chaos.exponents > 0;
     bool const can = has_effect("locate_modes", settings.method);
-    settings.locate_modes = node != nullptr ? read_boolean(*node) : switches && neighbours && can;
+    // Long orbits under the law that switches take half the steps so, and neighbours need it.
+    settings.locate_modes = node != nullptr ? read_boolean(*node) : switches && orbits && can;
     if (node != nullptr && settings.locate_modes) check_located_modes(*node, scene);
     if (!switches || !neighbours || settings.locate_modes) return;
     // In trials exponents came out up to half as large again.

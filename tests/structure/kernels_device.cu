@@ -24,6 +24,8 @@ template <class Law, class Friction, class Way, class Damping> void launch(Block
     probe_table<Model><<<1, 1>>>(table);
 }
 
+template __global__ void integrate_blocks<
+    Shadowed<SliderCrankModel<PaperLaw, StickSlipFriction, AlignedWay, PointDamping>>>(Block*, int);
 template void launch<PaperLaw, StickSlipFriction, AlignedWay, PointDamping>(Block*, ProbeTable const&);
 template void launch<ConservativeLaw, NoFriction, MisalignedWay, RateDamping>(Block*, ProbeTable const&);
 template void launch<ConservativeLaw, StickSlipFriction, AlignedWay, RestitutionDamping>(Block*, ProbeTable const&);

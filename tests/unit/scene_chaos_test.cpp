@@ -61,7 +61,7 @@ TEST(SceneChaos, PoincareDefaultsToThePapersSections) {
     EXPECT_EQ(scene.chaos.exponents, 0) << "no neighbours";
     EXPECT_DOUBLE_EQ(scene.integrator.end_time, 340);
     EXPECT_GE(scene.integrator.max_steps, 340u * 30'000u) << "what the paper's law takes";
-    EXPECT_FALSE(scene.integrator.locate_modes);
+    EXPECT_TRUE(scene.integrator.locate_modes);
     EXPECT_TRUE(scene.sample_times.empty());
     EXPECT_EQ(scene.series, 0u);
     EXPECT_TRUE(scene.warnings.empty());
@@ -225,11 +225,13 @@ TEST(SceneChaos, SpeedsMayVaryWhereAllCountRevolutions) {
     EXPECT_EQ(sweep(vary).variations.size(), 1u);
 }
 
-TEST(SceneChaos, ModesAreLocatedForExponents) {
+TEST(SceneChaos, ModesAreLocatedForOrbits) {
     auto const located = [](Scene const& scene) { return scene.integrator.locate_modes; };
     EXPECT_TRUE(located(study("lyapunov")));
     EXPECT_TRUE(located(sweep()));
-    EXPECT_FALSE(located(sweep("exponents = 0")));
+    EXPECT_TRUE(located(sweep("exponents = 0")));
+    EXPECT_TRUE(located(study("poincare")));
+    EXPECT_FALSE(located(study("ensemble")));
     EXPECT_FALSE(located(study("lyapunov", "[contact]\nlaw = \"conservative\"")));
     EXPECT_FALSE(located(study("lyapunov", "[contact]\nrestitution = 0.5")));
     EXPECT_TRUE(located(study("lyapunov", "[integrator]\nlocate_modes = true")));

@@ -166,5 +166,80 @@ TEST(PaperLaw, StepsThatLeapOverSwitchesMissHowTheySeparate) {
         << leaping.mean << ' ' << located.mean;
 }
 
+/// With restitution the paper's law jumps where pairs part, which no memory records: steps end there too.
+TEST(PaperLaw, WithRestitutionHasAnExponentThatToleranceDoesNotChange) {
+    auto const with = [](double tolerance) {
+        return mean_of_members(
+            exponents(fmt::format("[contact]\nlaw = \"paper\"\nrestitution = 0.9\n[friction]\n[integrator]\n"
+                                  "rtol = {0}\natol = {0}\n[study]\nkind = \"lyapunov\"\nmembers = 32\n"
+                                  "transient_revolutions = 0.1\nrevolutions = 0.3\n",
+                                  tolerance))
+                .values);
+    };
+    MeanOfMembers const loose = with(1e-5), tight = with(1e-8);
+    EXPECT_NEAR(loose.mean, tight.mean, 1.5 * (loose.half_width + tight.half_width));
+}
+
+/// Sections of members that change between the explicit pair and the stiff method, and what they cost.
+struct Sections {
+    std::vector<double> rows;  // [member][place][time and state]
+    std::vector<MemberRecord> records;
+};
+
+Sections sections(Isa isa, std::string_view method) {
+    Scene const scene = parse_scene(fmt::format(R"(schema = 1
+[contact]
+law = "conservative"
+chi_line = 10
+chi_surface = 10
+[friction]
+[integrator]
+method = "{}"
+[study]
+kind = "poincare"
+members = 12
+section = {{ on = "vy", direction = "both" }}
+max_crossings = 400
+transient_revolutions = 0
+revolutions = 0.3
+{})",
+                                                method, scattered_starts),
+                                    "test.toml");
+    EnsemblePlan const plan = ensemble_plan(scene, {0, scene.members}, isa, 1);
+    Sections found;
+    found.records.resize(scene.members);
+    found.rows.resize(scene.members * scene.chaos.max_crossings * section_columns);
+    auto const keep = [&](BlockResult const& block) {
+        auto const rows = static_cast<std::ptrdiff_t>(block.first * scene.chaos.max_crossings * section_columns);
+        std::copy(block.sections.begin(), block.sections.end(), found.rows.begin() + rows);
+        std::copy(block.records.begin(), block.records.end(),
+                  found.records.begin() + static_cast<std::ptrdiff_t>(block.first));
+    };
+    run_ensemble(plan, find_instance(isa, scene.parts), keep, StopRequest{});
+    return found;
+}
+
+TEST(SectionsOfStiffSteps, LieOnTheirSurfaceAndCostWhatTheirMemberNeeds) {
+    for (char const* const method : {"auto", "ros34pw2"}) {
+        Sections const one = sections(is_supported(Isa::scalar) ? Isa::scalar : Isa::sse2, method);
+        std::size_t count = 0, stiff = 0;
+        for (std::size_t i = 0; i < one.rows.size(); i += section_columns) {
+            if (std::isnan(one.rows[i])) continue;
+            ++count;
+            EXPECT_LT(std::abs(one.rows[i + 3]), 1e-11) << method;  // vy [m/s], of impacts of 1e-2 m/s
+        }
+        for (MemberRecord const& record : one.records) stiff += record.stiff_steps;
+        EXPECT_GT(count, 1000u) << method;
+        EXPECT_GT(stiff, 100u) << method;
+        if (!is_supported(Isa::scalar) || lanes_of(best_isa()) == 1) continue;
+        Sections const packed = sections(best_isa(), method);
+        for (std::size_t i = 0; i < one.records.size(); ++i) {
+            EXPECT_EQ(packed.records[i].jacobian_evaluations, one.records[i].jacobian_evaluations) << method << i;
+            EXPECT_EQ(packed.records[i].rhs_evaluations, one.records[i].rhs_evaluations) << method << i;
+            EXPECT_EQ(packed.records[i].crossings, one.records[i].crossings) << method << i;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace slideway
