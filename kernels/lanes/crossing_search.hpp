@@ -30,7 +30,7 @@ public:
 
 private:
     static constexpr int size = Model::size;
-    static constexpr int corrections = 5;  // of Newton's method, from the cubic's zero
+    static constexpr int corrections = 5;  // of Newton's method
 
     struct Surface {
         Pack<Model, Real> const& pack;
@@ -60,10 +60,16 @@ private:
         // The attempt is the stint's; another stepper makes its own.
         Pack<Model, Real> const attempt = pack;
         pack.needs = {};
+        auto const starts_below = v0 < Real(0.0), ends_below = v1 < Real(0.0);
+        auto sides = mask_of<Real>(false);  // of those that are looked for
+        if (surface.plan.direction != CrossingPlan::Direction::falling) sides = sides | (starts_below & !ends_below);
+        if (surface.plan.direction != CrossingPlan::Direction::rising) sides = sides | ((!starts_below) & ends_below);
+        Real const found = present(zeros.at[0]) + present(zeros.at[1]) + present(zeros.at[2]);
+        auto const single = sides & (found == Real(1.0));
         for (auto const& zero : zeros.at) {
             auto at = candidates & (zero.theta <= Real(1.0));
             if (none(at)) continue;
-            place(pack, surface, attempt.step, at, zero, v0, v1);
+            place(pack, surface, attempt.step, at, single, zero, v0, v1);
             Real const t = pack.state.course.t + pack.step;
             at = at & (t >= pack.state.constants.first_stop);
             results.take_crossing(pack, at, t, pack.end);
@@ -71,38 +77,37 @@ private:
         restore(pack, attempt);
     }
 
-    /// Ends a step at the crossing: the pack's `step` and `end` are then those of the section.
+    /// Ends a step at the crossing: the pack's `step` and `end` are then those of the section.  Newton's method from the cubic's zero,
+    /// within its monotone stretch; where the step's ends lie on two sides and the cubic has one zero, they bracket it, and a false
+    /// position (Illinois: an end that stays counts half) ends what Newton has not, or what has no slope to go by.
     SLIDEWAY_HD static void place(Pack<Model, Real>& pack, Surface const& surface, Real whole, Mask<Real> at,
-                                  CubicZero<Real> const& zero, Real v0, Real v1) {
+                                  Mask<Real> bracketed, CubicZero<Real> const& zero, Real v0, Real v1) {
         Real theta = select(at, zero.theta, Real(0.0));
-        if constexpr (Stepper::stiff) {
-            // The bracket of a false position (Illinois: an end that stays counts half), for there is no slope to go by.
-            Real low(0.0), high(1.0), of_low = v0, of_high = v1;
-            auto wanted = at;
-            for (int i = 0; i < 60 && any(wanted); ++i) {
-                Real const here = value_after(pack, surface, whole, theta, wanted);
-                auto const below = here < Real(0.0), low_below = of_low < Real(0.0);
-                auto const as_low = (below & low_below) | ((!below) & (!low_below));
-                auto const is_low = wanted & as_low, is_high = wanted & !as_low;
-                of_high = select(is_low, Real(0.5) * of_high, select(is_high, here, of_high));
-                of_low = select(is_high, Real(0.5) * of_low, select(is_low, here, of_low));
-                low = select(is_low, theta, low);
-                high = select(is_high, theta, high);
-                Real const next = low - of_low * ((high - low) / (of_high - of_low));
-                auto const inside = (next > low) & (next < high);
-                wanted = wanted & inside & !(here == Real(0.0));
-                theta = select(wanted, next, theta);
-            }
-        } else {
-            for (int i = 0; i < corrections; ++i) {
-                Real const here = value_after(pack, surface, whole, theta, at);
+        Real low = select(bracketed, Real(0.0), zero.low), high = select(bracketed, Real(1.0), zero.high);
+        Real of_low = v0, of_high = v1;
+        auto wanted = at;
+        for (int i = 0; i < 60 && any(wanted); ++i) {
+            Real const here = value_after(pack, surface, whole, theta, wanted);
+            auto const below = here < Real(0.0), low_below = of_low < Real(0.0);
+            auto const as_low = (below & low_below) | ((!below) & (!low_below));
+            auto const is_low = wanted & bracketed & as_low, is_high = wanted & bracketed & !as_low;
+            of_high = select(is_low, Real(0.5) * of_high, select(is_high, here, of_high));
+            of_low = select(is_high, Real(0.5) * of_low, select(is_low, here, of_low));
+            low = select(is_low, theta, low);
+            high = select(is_high, theta, high);
+            Real next = low - of_low * ((high - low) / (of_high - of_low));
+            if (!Stepper::stiff && i < corrections) {
                 Real const t = pack.state.course.t + pack.step;
                 Real const slope = whole * surface.slope(t, pack.end, pack.end_rates, here);
                 Real const moved = theta - here / slope;
-                // A grazing zero has no slope to go by, and a NaN stays where the cubic has it.
-                auto const inside = (moved > zero.low) & (moved <= zero.high);
-                theta = select(inside & at, moved, theta);
+                // A grazing zero has no slope to go by, and a NaN goes nowhere.
+                auto const inside = (moved > low) & (moved < high);
+                next = select(inside, moved, select(bracketed, next, theta));
+            } else {
+                wanted = wanted & bracketed;
             }
+            wanted = wanted & (next > low) & (next < high) & !(next == theta) & !(here == Real(0.0));
+            theta = select(wanted, next, theta);
         }
         value_after(pack, surface, whole, theta, at);
     }
@@ -118,6 +123,8 @@ private:
         pack.count_evaluations(at, Stepper::evaluations);
         return surface.value(pack.state.course.t + pack.step, pack.end);
     }
+
+    SLIDEWAY_FN static Real present(CubicZero<Real> const& zero) { return count<Real>(zero.theta <= Real(1.0)); }
 
     /// Puts back all but what was counted.
     SLIDEWAY_HD static void restore(Pack<Model, Real>& pack, Pack<Model, Real> const& attempt) {
