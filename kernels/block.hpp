@@ -51,19 +51,31 @@ struct MemberClock {
 struct StopPlan {
     std::size_t count = 0;
     std::size_t transient = 0;  // as many leave no record
-    std::size_t section_every =
-        1;  // of the later ones the first, and then each such one, is a section: its state is recorded
-    std::size_t growth_lead =
-        0;  // the growth of offsets is recorded from as many stops before the end of the transient on
-    std::size_t growth_every = 1;  // summed over as many
+    /// Of the later stops the first, and then each such one, is a section: its state is recorded.
+    std::size_t section_every = 1;
+    /// The growth of offsets is recorded from as many stops before the end of the transient on, summed over `growth_every`.
+    std::size_t growth_lead = 0;
+    std::size_t growth_every = 1;
+
+    static constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
 
     constexpr std::size_t sections() const {
         return count > transient ? (count - transient - 1) / section_every + 1 : 0;
     }
+    /// Which section a stop is; `nowhere` if it is none.
+    constexpr std::size_t section_at(std::size_t stop) const { return place(stop, transient, section_every); }
+
     /// The stop with which the first recorded growth begins.
     constexpr std::size_t growth_from() const { return transient - growth_lead; }
     constexpr std::size_t growths() const {
         return count > growth_from() ? (count - growth_from() - 1) / growth_every : 0;
+    }
+    /// How many growths a stop has behind it if it ends one, 0 where the first begins; else `nowhere`.
+    constexpr std::size_t growths_at(std::size_t stop) const { return place(stop, growth_from(), growth_every); }
+
+private:
+    static constexpr std::size_t place(std::size_t stop, std::size_t from, std::size_t every) {
+        return stop >= from && (stop - from) % every == 0 ? (stop - from) / every : nowhere;
     }
 };
 
@@ -87,6 +99,11 @@ struct ShadowPlan {
     double const* directions = nullptr;  // [members][count][states of the model], of unit length
 };
 inline constexpr int most_shadows = 10;
+
+/// Distance between member and shadow below which it is rounding [dimensionless]: what shrinks below counts as this.
+inline constexpr double least_distance = 1e-15;
+/// Distance from which on an offset is no longer small beside the joint: its growth ends, whatever the exponent.
+inline constexpr double largest_distance = 1;
 
 /// Members [0, members) of a block: what every model's block holds.
 struct BlockBase {

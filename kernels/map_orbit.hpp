@@ -69,14 +69,14 @@ private:
         int const count = block_.shadows.count;
         check(y_);
         for (int s = 0; s < count; ++s) check(shadow_[s]);
-        if (block_.section_values != nullptr && stop >= plan.transient &&
-            (stop - plan.transient) % plan.section_every == 0) {
-            write(block_.section_values, plan.sections(), (stop - plan.transient) / plan.section_every, size, y_);
+        std::size_t const section = plan.section_at(stop);
+        if (block_.section_values != nullptr && section != StopPlan::nowhere) {
+            write(block_.section_values, plan.sections(), section, size, y_);
         }
         if (count == 0) return;
         rescale();
-        if (stop < plan.growth_from() || (stop - plan.growth_from()) % plan.growth_every != 0) return;
-        std::size_t const record = (stop - plan.growth_from()) / plan.growth_every;
+        std::size_t const record = plan.growths_at(stop);
+        if (record == StopPlan::nowhere) return;
         if (record > 0) write(block_.growth_values, plan.growths(), record - 1, count, growth_);
         for (int s = 0; s < count; ++s) growth_[s] = Real(0.0);
     }

@@ -6,13 +6,18 @@
 
 namespace slideway {
 
+std::vector<std::size_t> StudyTable::shape(StudyColumn const& column) const {
+    std::vector<std::size_t> lengths;
+    for (std::string const& name : column.axes) {
+        auto const axis = std::find_if(axes.begin(), axes.end(), [&](StudyAxis const& a) { return a.name == name; });
+        lengths.push_back(axis->values.size());
+    }
+    return lengths;
+}
+
 std::size_t StudyTable::width(StudyColumn const& column) const {
     std::size_t width = 1;
-    for (std::string const& name : column.axes) {
-        width *= std::find_if(axes.begin(), axes.end(), [&](StudyAxis const& axis) {
-                     return axis.name == name;
-                 })->values.size();
-    }
+    for (std::size_t const length : shape(column)) width *= length;
     return width;
 }
 
@@ -50,13 +55,10 @@ void StudyColumnWriter::write_axes(NetcdfFile& file) const {
 void StudyColumnWriter::write(NetcdfFile& file, std::size_t first, std::size_t members,
                               StudyValues const& values) const {
     for (std::size_t i = 0; i < columns_.size(); ++i) {
-        std::vector<std::size_t> start{first}, count{members};
-        for (std::string const& name : table_.columns[i].axes) {
-            start.push_back(0);
-            auto const axis = std::find_if(table_.axes.begin(), table_.axes.end(),
-                                           [&](StudyAxis const& candidate) { return candidate.name == name; });
-            count.push_back(axis->values.size());
-        }
+        std::vector<std::size_t> count = table_.shape(table_.columns[i]);
+        count.insert(count.begin(), members);
+        std::vector<std::size_t> start(count.size(), 0);
+        start[0] = first;
         file.write(columns_[i], start, count, values[i].data());
     }
 }

@@ -29,6 +29,8 @@ struct StudyTable {
     std::vector<StudyAxis> axes;
     std::vector<StudyColumn> columns;
 
+    /// Lengths of a column's axes.
+    std::vector<std::size_t> shape(StudyColumn const& column) const;
     /// Values of a column per member.
     std::size_t width(StudyColumn const& column) const;
 };

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/scene/keys.hpp"
+#include "kernels/block.hpp"
 
 namespace slideway {
 
@@ -30,7 +31,7 @@ struct Span {
     friend bool operator==(Span const&, Span const&) = default;
 };
 
-enum class CrossingDirection { rising, falling, both };
+using CrossingDirection = CrossingPlan::Direction;
 
 inline constexpr std::string_view crossing_direction_names[] = {"rising", "falling", "both"};
 constexpr std::string_view name_of(CrossingDirection direction) {

@@ -4,14 +4,12 @@
 #include <array>
 #include <vector>
 
+#include "host/study/state_table.hpp"
+
 namespace slideway {
 namespace {
 
 using State = std::array<double, state_size>;
-
-/// Initial state of the inputs, in the order of the state.
-constexpr double Inputs::*initial[state_size] = {&Inputs::y,   &Inputs::z,     &Inputs::vy, &Inputs::vz, &Inputs::roll,
-                                                 &Inputs::yaw, &Inputs::pitch, &Inputs::wx, &Inputs::wy, &Inputs::wz};
 
 /// Members [first, end).
 struct Members {
@@ -40,7 +38,7 @@ void place(Inputs& inputs, State const& state, Gaps const& gaps) {
     double const along_y = inputs.clearance_y / gaps.y, along_z = inputs.clearance_z / gaps.z;
     double const tilt = std::min(along_y, along_z);
     double const share[state_size] = {along_y, along_z, along_y, along_z, tilt, tilt, tilt, tilt, tilt, tilt};
-    for (std::size_t i = 0; i < state_size; ++i) inputs.*initial[i] = share[i] * state[i];
+    for (std::size_t i = 0; i < state_size; ++i) inputs.*state_inputs[i] = share[i] * state[i];
 }
 
 }  // namespace

@@ -8,8 +8,6 @@
 namespace slideway {
 namespace {
 
-constexpr double rounding = 1e-15;  // of an offset, in the scales of the joint: the positions' last bits
-
 void append(std::vector<double>& column, std::vector<double> const& row) {
     column.insert(column.end(), row.begin(), row.end());
 }
@@ -65,8 +63,7 @@ void ExponentTable::add_exponents() {
     if (exponents_ < 2) return;
     add("kaplan_yorke_dimension", "1",
         "Kaplan-Yorke dimension of the map over a turn of the crank, one less than the flow's; a lower bound where it "
-        "is the "
-        "number of exponents",
+        "is the number of exponents",
         {}, [](Member const& m, Column& column) { column.push_back(dimension(m.exponents.value, m.resolution)); });
 }
 
@@ -114,7 +111,7 @@ ExponentTable::Member ExponentTable::member(BlockResult const& block, std::size_
     // Records that do not divide a turn have no period of its own.
     bool const divides = std::abs(per_turn - std::round(per_turn)) < 1e-6 * per_turn && per_turn >= 0.5;
     if (divides && per_turn < 1e9) log.period = static_cast<std::size_t>(std::round(per_turn));
-    return {log, exponents_of(log), rounding / (d0_ * spacing), block.records[i]};
+    return {log, exponents_of(log), least_distance / (d0_ * spacing), block.records[i]};
 }
 
 StudyValues ExponentTable::values(BlockResult const& block) const {

@@ -78,18 +78,12 @@ OrbitSchedule of_sections(Scene const& scene) {
 OrbitSchedule of_crossings(Scene const& scene) {
     ChaosSettings const& chaos = scene.chaos;
     using On = SectionSurface::On;
-    auto const direction = [](CrossingDirection given) {
-        return given == CrossingDirection::rising    ? CrossingPlan::Direction::rising
-               : given == CrossingDirection::falling ? CrossingPlan::Direction::falling
-                                                     : CrossingPlan::Direction::both;
-    };
     OrbitSchedule schedule;
     schedule.sections = true;
     schedule.crossings = {chaos.section.on == On::state   ? CrossingPlan::On::state
                           : chaos.section.on == On::gap_y ? CrossingPlan::On::gap_y
                                                           : CrossingPlan::On::gap_z,
-                          direction(chaos.section.direction), chaos.section.index, chaos.section.level,
-                          chaos.max_crossings};
+                          chaos.section.direction, chaos.section.index, chaos.section.level, chaos.max_crossings};
     schedule.timing = [transient = chaos.transient, span = chaos.span](Inputs const& inputs) {
         double const from = transient.seconds(inputs.crank_speed);
         return MemberClock{from + span.seconds(inputs.crank_speed), from, 0};

@@ -29,9 +29,8 @@ public:
         auto const& c = pack.state.course;
         if (block_.section_values == nullptr) return;
         for (int i = 0; i < lanes<Real>; ++i) {
-            std::size_t const stop = number(c.stop, i);
-            if (!holds(at, i) || stop < plan.transient || (stop - plan.transient) % plan.section_every != 0) continue;
-            std::size_t const section = (stop - plan.transient) / plan.section_every;
+            std::size_t const section = plan.section_at(number(c.stop, i));
+            if (!holds(at, i) || section == StopPlan::nowhere) continue;
             double* const row =
                 block_.section_values + (number(c.member, i) * plan.sections() + section) * (1 + Model::size);
             row[0] = lane(c.t, i);
@@ -61,10 +60,8 @@ public:
         auto& c = pack.state.course;
         auto const shadows = static_cast<std::size_t>(block_.shadows.count);
         for (int i = 0; i < lanes<Real>; ++i) {
-            std::size_t const stop = number(c.stop, i);
-            std::size_t const from = plan.growth_from();
-            if (!holds(at, i) || stop < from || (stop - from) % plan.growth_every != 0) continue;
-            std::size_t const record = (stop - from) / plan.growth_every;
+            std::size_t const record = plan.growths_at(number(c.stop, i));
+            if (!holds(at, i) || record == StopPlan::nowhere) continue;
             if (record == 0) {
                 set_lane(c.shadowed.lost, i, 0.0);
                 set_lane(c.shadowed.grown, i, 0.0);

@@ -3,6 +3,7 @@
 #include "kernels/lanes/pack.hpp"
 #include "kernels/math/gram_schmidt.hpp"
 #include "kernels/math/offset_growth.hpp"
+#include "kernels/math/squared_ratios.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -50,8 +51,7 @@ public:
             exchange(pack.state.course, shadow);
             stepper.attempt(pack);
             if constexpr (Stepper::adaptive) {
-                Real const norm = squared_norm();
-                squared_norm_ = max(norm, squared_norm_) + Real(0.0) * (norm + squared_norm_);  // NaN stays
+                squared_norm_ = larger_norm(squared_norm(), squared_norm_);
             } else {
                 finite_ = finite_ & is_finite(pack.end, pack.end_rates);
             }
@@ -106,7 +106,7 @@ public:
         auto& counts = pack.state.course.shadowed;
         for (int s = 0; s < plan_.count; ++s) {
             read_offset(pack, pack.state.shadows[s], w[s]);
-            auto const large = detail::product<size>(w[s], w[s]) > Real(largest_distance * largest_distance);
+            auto const large = inner_product<size>(w[s], w[s]) > Real(largest_distance * largest_distance);
             counts.grown = counts.grown + count<Real>(at & large);
         }
         orthonormalise<size, width>(w, plan_.count, Real(least_distance), length);
@@ -116,7 +116,7 @@ public:
             auto const found = offset_growth(plan_, at, length[s], shadow.distance);
             shadow.growth = select(at, shadow.growth + found.growth, shadow.growth);
             shadow.distance = found.distance;
-            counts.lost = counts.lost + count<Real>(at & !(length[s] > Real(least_distance)));
+            counts.lost = counts.lost + count<Real>(at & found.lost);
             if (none(found.moved)) continue;
             write_offset(pack, found.moved, w[s], d0, shadow);
             refresh(pack, shadow, found.moved);

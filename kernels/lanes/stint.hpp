@@ -116,8 +116,7 @@ private:
         if constexpr (Stepper::adaptive) {
             Real squared_norm = squared_error_norm();
             if constexpr (Model::has_shadows) {
-                Real const of_shadows = shadows_.squared_norm();
-                squared_norm = max(squared_norm, of_shadows) + Real(0.0) * (squared_norm + of_shadows);  // NaN stays
+                squared_norm = larger_norm(squared_norm, shadows_.squared_norm());
             }
             accepted = busy & (squared_norm <= Real(1.0));
             divergent = !(squared_norm < Real(1e300));

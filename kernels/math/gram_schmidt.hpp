@@ -4,13 +4,13 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-namespace detail {
-
-template <int n, class Real> SLIDEWAY_FN Real product(Real const* a, Real const* b) {
+template <int n, class Real> SLIDEWAY_FN Real inner_product(Real const* a, Real const* b) {
     Real sum(0.0);
     for (int i = 0; i < n; ++i) sum = fma(a[i], b[i], sum);
     return sum;
 }
+
+namespace detail {
 
 /// In the lanes of the mask, the axis that the unit vectors before `w` span least, less what they span of it, as a unit vector.
 template <int n, int width, class Real>
@@ -26,10 +26,10 @@ SLIDEWAY_HD void place_least_spanned(Mask<Real> in, Real const (*unit)[width], i
     Real axis[n];
     for (int i = 0; i < n; ++i) axis[i] = count<Real>(which == Real(static_cast<double>(i)));
     for (int j = 0; j < units; ++j) {
-        Real const along = product<n>(unit[j], axis);
+        Real const along = inner_product<n>(unit[j], axis);
         for (int i = 0; i < n; ++i) axis[i] = fnma(along, unit[j][i], axis[i]);
     }
-    Real const length = sqrt(product<n>(axis, axis));
+    Real const length = sqrt(inner_product<n>(axis, axis));
     for (int i = 0; i < n; ++i) w[i] = select(in, axis[i] / length, w[i]);
     for (int i = n; i < width; ++i) w[i] = select(in, Real(0.0), w[i]);
 }
@@ -43,10 +43,10 @@ template <int n, int width, class Real>
 SLIDEWAY_HD void orthonormalise(Real (*w)[width], int vectors, Real least, Real* length) {
     for (int j = 0; j < vectors; ++j) {
         for (int k = 0; k < j; ++k) {
-            Real const along = detail::product<n>(w[k], w[j]);
+            Real const along = inner_product<n>(w[k], w[j]);
             for (int i = 0; i < width; ++i) w[j][i] = fnma(along, w[k][i], w[j][i]);
         }
-        length[j] = sqrt(detail::product<n>(w[j], w[j]));
+        length[j] = sqrt(inner_product<n>(w[j], w[j]));
         auto const lost = !(length[j] > least);  // NaN too
         Real const inverse = Real(1.0) / select(lost, Real(1.0), length[j]);
         for (int i = 0; i < width; ++i) w[j][i] = inverse * w[j][i];

@@ -6,17 +6,12 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Distance between member and shadow below which it is rounding [dimensionless]: what shrinks below counts as this.
-inline constexpr double least_distance = 1e-15;
-
-/// Distance from which on an offset is no longer small beside the joint: its growth ends, whatever the exponent.
-inline constexpr double largest_distance = 1;
-
 /// What a stop finds of one offset.
 template <class Real> struct OffsetGrowth {
     Real growth;       // ln of it since the last stop
     Real distance;     // that the next interval starts from
     Mask<Real> moved;  // lanes where the shadow goes back to d0
+    Mask<Real> lost;   // lanes where the offset had shrunk into rounding
 };
 
 /// One shadow is left alone within its bounds; several, made orthogonal, always go back.
@@ -28,7 +23,7 @@ SLIDEWAY_FN OffsetGrowth<Real> offset_growth(ShadowPlan const& plan, Mask<Real> 
     auto moved = at;
     auto const lost = !(length > Real(least_distance));
     if (plan.count == 1) moved = at & (lost | !((reached >= Real(plan.lower)) & (reached <= Real(plan.upper))));
-    return {log_positive(reached / distance), select(at, select(moved, Real(plan.d0), reached), distance), moved};
+    return {log_positive(reached / distance), select(at, select(moved, Real(plan.d0), reached), distance), moved, lost};
 }
 
 }  // namespace slideway::inline SLIDEWAY_ISA

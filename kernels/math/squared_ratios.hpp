@@ -34,4 +34,7 @@ private:
     int held_ = 0;  // pairs that wait for a division
 };
 
+/// The larger of two squared norms; NaN where either is.
+template <class Real> SLIDEWAY_FN Real larger_norm(Real a, Real b) { return max(a, b) + Real(0.0) * (a + b); }
+
 }  // namespace slideway::inline SLIDEWAY_ISA
