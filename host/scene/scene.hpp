@@ -6,19 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "host/scene/distribution.hpp"
+#include "host/scene/design.hpp"
 #include "host/scene/error.hpp"
 #include "host/scene/keys.hpp"
 #include "host/scene/study_settings.hpp"
 #include "kernels/block.hpp"
 
 namespace slideway {
-
-struct Variation {
-    Key const* key;
-    Distribution distribution;
-    int line;  // of the scene file, for messages
-};
 
 struct Scene {
     std::string path;  // as the user gave it
@@ -35,6 +29,8 @@ struct Scene {
     Selection quantities = 0;
     Selection series = 0;               // state series included when sample_times is not empty
     std::vector<Variation> variations;  // in the order of the file
+    Design design;                      // how members are spread over them
+    std::vector<Limit> limits;          // [study.limits]
     std::vector<std::string> warnings;  // one line each: what was given and has no effect
 };
 

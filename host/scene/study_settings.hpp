@@ -13,9 +13,9 @@
 
 namespace slideway {
 
-enum class StudyKind { ensemble, lyapunov, poincare, sweep };
+enum class StudyKind { ensemble, lyapunov, poincare, sweep, tolerance };
 
-inline constexpr std::string_view study_kind_names[] = {"ensemble", "lyapunov", "poincare", "sweep"};
+inline constexpr std::string_view study_kind_names[] = {"ensemble", "lyapunov", "poincare", "sweep", "tolerance"};
 constexpr std::string_view name_of(StudyKind kind) { return study_kind_names[static_cast<int>(kind)]; }
 
 /// A length of time: seconds, or revolutions of the member's own crank.

@@ -6,17 +6,12 @@
 
 #include "host/backend/backend.hpp"
 #include "host/driver/ensemble.hpp"
+#include "host/driver/member_set.hpp"
 #include "host/output/provenance.hpp"
 #include "host/output/result_layout.hpp"
 #include "host/scene/scene.hpp"
 
 namespace slideway {
-
-/// Members [first, first + count) of a scene.
-struct MemberRange {
-    std::uint64_t first = 0;
-    std::uint64_t count = 1;
-};
 
 ResultLayout result_layout(Scene const& scene, MemberRange range);
 EnsemblePlan ensemble_plan(Scene const& scene, MemberRange range, Isa isa, int threads);

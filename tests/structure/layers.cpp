@@ -38,6 +38,7 @@ constexpr std::array layers = {
     Layer{"host/output", 11},
     Layer{"host/driver", 11},
     Layer{"host/chaos", 11},
+    Layer{"host/statistics", 11},
     Layer{"host/study", 12},
     Layer{"host/report", 13},
     Layer{"host/cli", 14},

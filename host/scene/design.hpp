@@ -1,0 +1,78 @@
+// How the members of a study are spread over the ranges of what varies.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/scene/distribution.hpp"
+#include "host/scene/keys.hpp"
+
+namespace slideway {
+
+struct Variation {
+    Key const* key;
+    Distribution distribution;       // of a column of a table: unused
+    int line;                        // of the scene file, for messages
+    std::size_t column = no_column;  // of the table of members that holds its values
+    static constexpr std::size_t no_column = std::numeric_limits<std::size_t>::max();
+};
+
+enum class DesignKind { mc, lhs, sobol, saltelli, grid, table };
+
+inline constexpr std::string_view design_names[] = {"mc", "lhs", "sobol", "saltelli", "grid", "table"};
+constexpr std::string_view name_of(DesignKind kind) { return design_names[static_cast<int>(kind)]; }
+
+/// Members as a table says: values in SI units [rows][columns].
+struct MemberTable {
+    std::string path;
+    std::uint64_t checksum = 0;  // FNV-1a of the file's bytes
+    std::size_t columns = 0;
+    std::vector<double> values;
+    std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
+};
+
+/// Correlated variations: a normal copula.  x_i = Q_i(Φ(z_i)), z normal with this correlation matrix; for normal marginals the matrix is
+/// that of the values themselves.
+struct Correlation {
+    std::vector<std::size_t> variations;  // indices into those of the scene
+    std::vector<double> matrix;           // [n][n], symmetric, positive definite, ones on the diagonal
+};
+
+struct Design {
+    DesignKind kind = DesignKind::mc;
+    std::uint64_t base =
+        0;  // saltelli: N; the members are N (d + 2), d variations: A, B, AB_1 … AB_d of one row, row by row
+    std::vector<std::uint64_t> levels;  // grid: of each variation
+    Correlation correlation;            // of none: empty
+    std::shared_ptr<MemberTable const> table;
+};
+
+/// One limit of [study.limits]: met where low <= value <= high.
+struct Limit {
+    std::string quantity;  // name of the variable in the result file: "peak_normal_force", "mode_time"
+    std::string label;     // along its dimension: "free" of "mode_time[free]"; "" where it has none
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
+    std::string name() const { return label.empty() ? quantity : quantity + "[" + label + "]"; }
+};
+
+/// Draws members of a design.  A member's values depend on the design, the seed and its number only: any member can be drawn
+/// alone, on any thread or machine.
+class Sampler {
+public:
+    /// @param members of the whole design (lhs stratifies over them).
+    Sampler(Design const& design, std::span<Variation const> variations, std::uint64_t seed, std::uint64_t members);
+    /// The value of each variation, SI.  From any thread.
+    void draw(std::uint64_t member, std::span<double> values) const;
+
+private:
+    struct Plan;
+    std::shared_ptr<Plan const> plan_;
+};
+
+}  // namespace slideway
