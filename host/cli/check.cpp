@@ -91,17 +91,20 @@ int check(CheckArguments const& arguments) {
     std::string const resolved = resolved_toml(scene);
     fmt::print("{}{}\n", resolved, resolved.ends_with('\n') ? "" : "\n");
     print_parts(scene);
-    print_field("kernels", fmt::format("{}, {} lanes, {} threads, blocks of {} members", name_of(isa), lanes_of(isa),
-                                       threads, prediction.block_members));
+    print_field("kernels", fmt::format("{}, {} lanes, {} threads, blocks of at most {} members", name_of(isa),
+                                       lanes_of(isa), threads, prediction.largest_block));
     OrbitSchedule const schedule = orbit_schedule(scene);
     print_field("members", fmt::format("{}, each over {:.6g} s", member_count(scene),
                                        schedule.timing ? schedule.longest : scene.integrator.end_time));
     print_orbits(scene, schedule);
-    print_field("memory", fmt::format("{} for blocks in work, {} for the statistics at the end",
-                                      bytes_text(static_cast<double>(prediction.buffer_bytes)),
-                                      bytes_text(static_cast<double>(prediction.summary_bytes))));
-    print_field("output", fmt::format("{} and a header of some tens of kB",
-                                      bytes_text(static_cast<double>(prediction.output_bytes))));
+    print_field("memory",
+                fmt::format("{} for blocks in work, {} for shards on their way, {} for the statistics at the end",
+                            bytes_text(static_cast<double>(prediction.buffer_bytes)),
+                            bytes_text(static_cast<double>(prediction.image_bytes)),
+                            bytes_text(static_cast<double>(prediction.summary_bytes))));
+    print_field("disk",
+                fmt::format("{} and some tens of kB for the result, as much again for its shards until it is whole",
+                            bytes_text(static_cast<double>(prediction.output_bytes))));
     print_field("cost", cost_text(scene, prediction));
     return exit_code::done;
 }

@@ -27,7 +27,7 @@ std::uint64_t payload_bytes(ResultLayout const& layout) {
     std::uint64_t coordinates = samples;
     for (StudyAxis const& axis : layout.study.axes) coordinates += axis.values.size();
     constexpr std::uint64_t member_and_status = 5;
-    return layout.members * (member_and_status + columns * sizeof(double)) + coordinates * sizeof(double);
+    return layout.members.count() * (member_and_status + columns * sizeof(double)) + coordinates * sizeof(double);
 }
 
 }  // namespace slideway

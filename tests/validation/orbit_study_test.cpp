@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "host/chaos/exponents.hpp"
-#include "host/study/ensemble_study.hpp"
+#include "host/study/ensemble_plan.hpp"
 #include "host/study/exponent_table.hpp"
 
 namespace slideway {
