@@ -67,14 +67,6 @@ void announce(Scene const& scene, StudyOptions const& options, StudyRun const& r
                bytes_text(static_cast<double>(prediction.output_bytes)));
 }
 
-EnsembleTotals compute(RunArguments const& arguments, Scene const& scene, StudyOptions const& options,
-                       StudyWork const& work, Ranks& ranks) {
-    StopRequest stop;
-    if (arguments.max_hours) stop.stop_after(std::chrono::duration<double, std::ratio<3600>>(*arguments.max_hours));
-    SignalScope const signals(stop);
-    return run_work(scene, options, work, ranks, stop);
-}
-
 /// Where members are left, or wait for those of other parts.
 int end_with_shards(StudyOptions const& options, EnsembleTotals const& totals, std::uint64_t left) {
     std::string const folder = shard_folder_of(options.output);
@@ -106,7 +98,8 @@ int conclude(RunArguments const& arguments, Scene const& scene, StudyOptions con
 }
 
 /// Rank 0.
-int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& options, StudyRun& run, Ranks& ranks) {
+int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& options, StudyRun& run, Ranks& ranks,
+         StopRequest const& stop) {
     print_field("scene", scene.title.empty() ? scene.path : fmt::format("{} ({})", scene.title, scene.path));
     if (run.is_complete()) {
         fmt::print(stderr, "resuming: {} is complete already\n", options.output);
@@ -114,11 +107,15 @@ int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& 
     }
     std::error_code ignored;
     bool const replaced = std::filesystem::exists(options.output, ignored);
-    EnsembleTotals const totals = compute(arguments, scene, options, run.work(), ranks);
+    EnsembleTotals const totals = run_work(scene, options, run.work(), ranks, stop);
     print_throughput(scene, options, totals, ranks.count());
     std::uint64_t const left = run.left();
     if (left > 0 || options.part.of_array) return end_with_shards(options, totals, left);
-    run.finish({});
+    if (!run.finish({}, stop)) {
+        fmt::print(stderr, "slideway: stopped (signal): all members are done and kept in {}; add --resume to go on\n",
+                   shard_folder_of(options.output));
+        return exit_code::stopped_early;
+    }
     return conclude(arguments, scene, options, replaced);
 }
 
@@ -128,7 +125,7 @@ std::string invitation(StudyRun const& run) {
 }
 
 /// The other ranks: they only compute.
-int help(RunArguments const& arguments, Ranks& ranks) {
+int help(RunArguments const& arguments, Ranks& ranks, StopRequest const& stop) {
     std::string const invited = ranks.broadcast({});
     if (invited.empty()) return ranks.agree(0);
     auto const space = invited.find(' ');
@@ -136,7 +133,7 @@ int help(RunArguments const& arguments, Ranks& ranks) {
     StudyOptions options = study_options(arguments, scene, parse_isa(arguments.scene.isa));
     options.progress = Progress::Style::none;
     StudyWork const work{MemberSet::parse(invited.substr(space + 1)).value(), std::stoull(invited.substr(0, space))};
-    compute(arguments, scene, options, work, ranks);
+    run_work(scene, options, work, ranks, stop);
     return ranks.agree(0);
 }
 
@@ -144,7 +141,10 @@ int help(RunArguments const& arguments, Ranks& ranks) {
 
 int run(RunArguments const& arguments) {
     std::unique_ptr<Ranks> const ranks = Ranks::join();
-    if (ranks->rank() > 0) return help(arguments, *ranks);
+    StopRequest stop;
+    if (arguments.max_hours) stop.stop_after(std::chrono::duration<double, std::ratio<3600>>(*arguments.max_hours));
+    SignalScope const signals(stop);
+    if (ranks->rank() > 0) return help(arguments, *ranks, stop);
     bool invited = false;
     try {
         require_backend(arguments.backend);
@@ -155,7 +155,7 @@ int run(RunArguments const& arguments) {
         if (!arguments.quiet && !study.is_complete()) announce(scene, options, study);
         invited = true;
         ranks->broadcast(invitation(study));
-        return ranks->agree(lead(arguments, scene, options, study, *ranks));
+        return ranks->agree(lead(arguments, scene, options, study, *ranks, stop));
     } catch (...) {
         // The others wait for what rank 0 says.
         if (!invited) ranks->broadcast({});

@@ -90,21 +90,32 @@ std::uint64_t StudyRun::left() const {
     return mine_.without(members_of(folder.listed())).count();
 }
 
-void StudyRun::finish(std::function<void(NetcdfFile&)> conclude) {
+bool StudyRun::finish(std::function<void(NetcdfFile&)> conclude, StopRequest const& stop) {
+    struct Interrupted {};
+    auto const pause = [&stop] {
+        if (stop.reason() == StopReason::signal) throw Interrupted();
+    };
     ShardFolder const folder(shard_folder_of(options_.output));
-    merge_study(scene_, folder, provenance(scene_, options_.isa, options_.threads), options_.output,
-                std::move(conclude));
+    try {
+        merge_study(scene_, folder, provenance(scene_, options_.isa, options_.threads), options_.output,
+                    std::move(conclude), pause);
+    } catch (Interrupted const&) {
+        return false;
+    }
     claim_->remove_folder();
+    return true;
 }
 
 std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, Provenance const& provenance,
-                          std::string const& output, std::function<void(NetcdfFile&)> conclude) {
+                          std::string const& output, std::function<void(NetcdfFile&)> conclude,
+                          std::function<void()> pause) {
     std::vector<Shard> const shards = folder.listed();
     MemberSet const& members = folder.identity().members;
     std::uint64_t const left = members.without(members_of(shards)).count();
     std::string const completeness =
         left == 0 ? "complete" : fmt::format("{} of {} members not run", left, members.count());
-    merge_shards(folder, shards, {result_layout(scene, members), provenance, completeness, std::move(conclude)},
+    merge_shards(folder, shards,
+                 {result_layout(scene, members), provenance, completeness, std::move(conclude), std::move(pause)},
                  output);
     return left;
 }

@@ -63,7 +63,8 @@ public:
     /// Members that have not run, of the part that is this run's.
     std::uint64_t left() const;
     /// Makes the result file of all shards and removes them.  @param conclude what is added to the file, may be empty
-    void finish(std::function<void(NetcdfFile&)> conclude);
+    /// @return false if a signal came: there is no file then, and the shards are still there.
+    bool finish(std::function<void(NetcdfFile&)> conclude, StopRequest const& stop);
 
 private:
     void require_room() const;
@@ -79,6 +80,7 @@ private:
 /// A result file of the shards in a folder; members without one have status not_run.  The shards stay.
 /// @return how many members have none.  @throws FileError
 std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, Provenance const& provenance,
-                          std::string const& output, std::function<void(NetcdfFile&)> conclude);
+                          std::string const& output, std::function<void(NetcdfFile&)> conclude,
+                          std::function<void()> pause = {});
 
 }  // namespace slideway
