@@ -67,6 +67,16 @@ void announce(Scene const& scene, StudyOptions const& options, StudyRun const& r
                bytes_text(static_cast<double>(prediction.output_bytes)));
 }
 
+int end_stopped(StudyOptions const& options, std::string_view why, std::uint64_t left) {
+    std::string const folder = shard_folder_of(options.output);
+    fmt::print(
+        stderr,
+        "slideway: stopped early{}: {} members have not run; those that did are kept in {}: add --resume to go on, or "
+        "make a file of them with slideway merge\n",
+        why, left, folder);
+    return exit_code::stopped_early;
+}
+
 /// Where members are left, or wait for those of other parts.
 int end_with_shards(StudyOptions const& options, EnsembleTotals const& totals, std::uint64_t left) {
     std::string const folder = shard_folder_of(options.output);
@@ -107,14 +117,15 @@ int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& 
     }
     std::error_code ignored;
     bool const replaced = std::filesystem::exists(options.output, ignored);
-    EnsembleTotals const totals = run_work(scene, options, run.work(), ranks, stop);
-    print_throughput(scene, options, totals, ranks.count());
-    std::uint64_t const left = run.left();
-    if (left > 0 || options.part.of_array) return end_with_shards(options, totals, left);
-    if (!run.finish({}, stop)) {
-        fmt::print(stderr, "slideway: stopped (signal): all members are done and kept in {}; add --resume to go on\n",
-                   shard_folder_of(options.output));
-        return exit_code::stopped_early;
+    try {
+        EnsembleTotals const totals = run_work(scene, options, run.work(), ranks, stop);
+        print_throughput(scene, options, totals, ranks.count());
+        std::uint64_t const left = run.left();
+        if (left > 0 || options.part.of_array) return end_with_shards(options, totals, left);
+        if (!run.finish({}, stop)) return end_stopped(options, " (signal)", 0);
+    } catch (FileError const& error) {
+        throw FileError(fmt::format("{}; what is finished is kept in {}: add --resume to go on", error.what(),
+                                    shard_folder_of(options.output)));
     }
     return conclude(arguments, scene, options, replaced);
 }
