@@ -88,11 +88,7 @@ int end_with_shards(StudyOptions const& options, EnsembleTotals const& totals, s
     std::string const why = totals.stopped == StopReason::signal       ? " (signal)"
                             : totals.stopped == StopReason::time_limit ? " (--max-hours)"
                                                                        : "";
-    fmt::print(
-        stderr,
-        "slideway: stopped early{}: {} members have not run; those that did are kept in {}; add --resume to go on\n",
-        why, left, folder);
-    return exit_code::stopped_early;
+    return end_stopped(options, why, left);
 }
 
 int conclude(RunArguments const& arguments, Scene const& scene, StudyOptions const& options, bool replaced) {
