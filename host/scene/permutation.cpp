@@ -1,21 +1,23 @@
 #include "host/scene/permutation.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <stdexcept>
 
 namespace slideway {
 namespace {
 
-// Four would do for large sizes (Luby & Rackoff 1988).  Halves of one or two bits mix slowly: over the keys, the orders of 2 … 8 indices
-// are equally likely to within what 1e5 keys can tell from this number on.
-constexpr std::uint64_t rounds = 16;
+// Four would do for large sizes (Luby & Rackoff, SIAM J. Comput. 17 (1988) 373).  Halves of one and two bits mix slowly: even after
+// sixteen rounds some orders of five indices are likelier than others, so small sizes walk a larger domain.
+constexpr std::uint64_t rounds = 12;
+constexpr int least_bits = 6;
 
-std::uint64_t mask_of(int bits) { return bits == 0 ? 0 : ~std::uint64_t(0) >> (64 - bits); }
+std::uint64_t mask_of(int bits) { return ~std::uint64_t(0) >> (64 - bits); }
 
 }  // namespace
 
 Permutation::Permutation(std::uint64_t size, StreamKey const& key) : size_(size), key_(key) {
-    int const bits = size > 1 ? std::bit_width(size - 1) : 0;
+    int const bits = std::max(least_bits, static_cast<int>(std::bit_width(size == 0 ? 0 : size - 1)));
     right_bits_ = bits - bits / 2;
     left_mask_ = mask_of(bits / 2);
     right_mask_ = mask_of(right_bits_);
@@ -33,7 +35,6 @@ std::uint64_t Permutation::shuffle(std::uint64_t index) const {
 
 std::uint64_t Permutation::operator()(std::uint64_t index) const {
     if (index >= size_) throw std::out_of_range("Permutation: index beyond its size");
-    if (size_ == 1) return 0;
     do {
         index = shuffle(index);
     } while (index >= size_);
