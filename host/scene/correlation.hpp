@@ -9,8 +9,8 @@
 
 namespace slideway {
 
-/// Why a matrix is no correlation matrix, and what to do; nothing if it is one: |r| <= 1, ones on the diagonal, symmetric, positive
-/// definite.  Rows and columns are counted from 1 in the text, "row 1, column 2 is 1.5 (…); …".
+/// Why a matrix is no correlation matrix, and what to do; nothing if it is one: |r| <= 1, ones on the diagonal,
+/// symmetric, positive definite.  Rows and columns are counted from 1 in the text, "row 1, column 2 is 1.5 (…); …".
 /// @param matrix [n][n].
 std::optional<std::string> matrix_defect(std::span<double const> matrix, std::size_t n);
 

@@ -7,8 +7,9 @@
 namespace slideway {
 namespace {
 
-// Four would do for large sizes (Luby & Rackoff, SIAM J. Comput. 17 (1988) 373).  Halves of one and two bits mix slowly: even after
-// sixteen rounds some orders of five indices are likelier than others, so small sizes walk a larger domain.
+// Four would do for large sizes (Luby & Rackoff, SIAM J. Comput. 17 (1988) 373).  Halves of one and two bits mix
+// slowly: even after sixteen rounds some orders of five indices are likelier than others, so small sizes walk a larger
+// domain.
 constexpr std::uint64_t rounds = 12;
 constexpr int least_bits = 6;
 

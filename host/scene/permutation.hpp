@@ -7,9 +7,10 @@
 
 namespace slideway {
 
-/// Pseudo-random permutation of [0, size) in O(1) memory: a Feistel network over the bits of size − 1, at least six, its round
-/// functions by Philox; what falls beyond the end goes through again (cycle walking: Black & Rogaway, CT-RSA 2002, section 3).
-/// The halves differ by a bit where the number of bits is odd (Schneier & Kelsey, FSE 1996: unbalanced networks).
+/// Pseudo-random permutation of [0, size) in O(1) memory: a Feistel network over the bits of size − 1, at least six,
+/// its round functions by Philox; what falls beyond the end goes through again (cycle walking: Black & Rogaway, CT-RSA
+/// 2002, section 3).  The halves differ by a bit where the number of bits is odd (Schneier & Kelsey, FSE 1996:
+/// unbalanced networks).
 class Permutation {
 public:
     /// @param size >= 1.

@@ -11,7 +11,8 @@
 namespace slideway {
 
 /// One coordinate of the sequence.  Point i, in the order of the Gray code g = i ⊕ ⌊i/2⌋ (Antonov & Saleev 1979), is
-/// x_i = shift ⊕ ⊕_r g_r v_r, its leading 52 bits read as a fraction.  So point i costs as many operations as g has bits.
+/// x_i = shift ⊕ ⊕_r g_r v_r, its leading 52 bits read as a fraction.  So point i costs as many operations as g has
+/// bits.
 class SobolAxis {
 public:
     static constexpr int bits = 64;
@@ -20,8 +21,9 @@ public:
     /// The axis as it is.
     explicit SobolAxis(Directions const& directions) : directions_(directions) {}
 
-    /// Scrambled: x → L x ⊕ shift over the digits, L random, lower triangular with ones on its diagonal (J. Matoušek, J. Complexity 14
-    /// (1998) 527, "random linear scrambling"), the shift random.  Points of a (t, k, d)-net remain one, and each alone is uniform.
+    /// Scrambled: x → L x ⊕ shift over the digits, L random, lower triangular with ones on its diagonal (J. Matoušek,
+    /// J. Complexity 14 (1998) 527, "random linear scrambling"), the shift random.  Points of a (t, k, d)-net remain
+    /// one, and each alone is uniform.
     SobolAxis(Directions const& directions, StreamKey const& key, Stream stream);
 
     /// Coordinate of a point, in (0, 1): an odd multiple of 2^-53.

@@ -1,4 +1,5 @@
-// Distributions and correlated draws against OpenTURNS (Baudin, Dutfoy, Iooss & Popelin, Handbook of Uncertainty Quantification, 2016).
+// Distributions and correlated draws against OpenTURNS (Baudin, Dutfoy, Iooss & Popelin, Handbook of Uncertainty
+// Quantification, 2016).
 #include <cmath>
 #include <memory>
 #include <string>
@@ -57,7 +58,8 @@ TEST(OpenTurns, QuantilesAgree) {
 TEST(OpenTurns, UpperTailsAgree) {
     // By the complement on both sides: from z through Φ(−z).
     for (auto const& [name, ours, theirs] : pairs()) {
-        // OpenTURNS 1.20 takes the cut normal's tail from 1 − F and loses its digits; Distribution.CutTailsKeepTheirDigits goes on.
+        // OpenTURNS 1.20 takes the cut normal's tail from 1 − F and loses its digits;
+        // Distribution.CutTailsKeepTheirDigits goes on.
         double const farthest = name == "truncated normal, a tail" ? 2.5 : 6;
         for (double z = 0.5; z <= farthest; z += 0.25) {
             double const expected = theirs.computeQuantile(testing::normal_cdf(-z), true)[0];

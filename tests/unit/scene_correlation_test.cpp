@@ -94,7 +94,8 @@ TEST(Correlation, UniformDrawsFollowTheCopula) {
 }
 
 TEST(Correlation, LognormalDrawsFollowTheCopula) {
-    // Pearson's of lognormals of log-deviation σ is (e^(σ² r) − 1)/(e^(σ²) − 1); sd = mean √(e^(σ²) − 1), here σ² = ln 1.25.
+    // Pearson's of lognormals of log-deviation σ is (e^(σ² r) − 1)/(e^(σ²) − 1);
+    // sd = mean √(e^(σ²) − 1), here σ² = ln 1.25.
     auto const x = columns_of(correlated_design(DesignKind::sobol, {0, 1}, {1, -0.6, -0.6, 1}),
                               variations_of(2, {Kind::lognormal, 4, 2}), draws);
     EXPECT_NEAR(correlation_of(x[0], x[1]), (std::pow(1.25, -0.6) - 1) / 0.25, tolerance);
