@@ -39,9 +39,15 @@ TEST(Design, LatinHypercubesSpreadWithinTheirStrataAndPairUpFreely) {
     for (std::uint64_t i = 0; i < members; ++i) numbers[i] = static_cast<double>(i);
     double const limit = 5 / std::sqrt(static_cast<double>(members));
     for (std::size_t i = 0; i < columns.size(); ++i) {
-        double place = 0;
-        for (double const u : columns[i]) place += u * members - std::floor(u * members);
-        EXPECT_NEAR(place / members, 0.5, limit * 0.29);
+        std::vector<double> places;
+        double square = 0;
+        for (double const u : columns[i]) {
+            places.push_back(u * members - std::floor(u * members));
+            square += (places.back() - 0.5) * (places.back() - 0.5);
+        }
+        EXPECT_NEAR(testing::mean_of(places), 0.5, limit * 0.29);
+        EXPECT_NEAR(square / members, 1.0 / 12, limit * 0.075);  // deviation of (v − ½)² is 1/√180
+        EXPECT_NEAR(testing::correlation_of(places, columns[i]), 0, limit);
         EXPECT_NEAR(testing::correlation_of(columns[i], numbers), 0, limit);
         for (std::size_t j = 0; j < i; ++j) EXPECT_NEAR(testing::correlation_of(columns[i], columns[j]), 0, limit);
     }
@@ -60,6 +66,7 @@ TEST(Design, SobolMembersArePointsOfTheirOwnDimension) {
                 ++counts[static_cast<std::size_t>(columns[i][m] * 4) * 4 + static_cast<std::size_t>(columns[j][m] * 4)];
             }
             EXPECT_EQ(std::count(counts.begin(), counts.end(), 64), 16) << i << " " << j;
+            EXPECT_NE(columns[i][0], columns[j][0]);  // point 0 is the shift of the key alone
         }
     }
 }

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <set>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -112,7 +114,6 @@ TEST(SobolPoints, ScramblesDifferBySeedNameAndStream) {
     auto const directions = sobol_directions(1)[0];
     auto const points = [&](StreamKey const& key, Stream stream) {
         SobolAxis const axis(directions, key, stream);
-
         std::vector<double> found;
         for (std::uint64_t i = 0; i < 64; ++i) found.push_back(axis(i));
         return found;
@@ -122,6 +123,29 @@ TEST(SobolPoints, ScramblesDifferBySeedNameAndStream) {
     EXPECT_NE(one, points({2, 2}, Stream::scramble));
     EXPECT_NE(one, points({1, 3}, Stream::scramble));
     EXPECT_NE(one, points({1, 2}, Stream::second_scramble));
+}
+
+TEST(SobolPoints, ScramblesMixTheDigitsBesidesShiftingThem) {
+    // Against point 0 the shift cancels; what is left is L x.
+    auto const digits = [](double u) { return static_cast<std::uint64_t>(std::ldexp(u, 52)); };
+    auto const plain = plain_axes(2)[1];
+    std::set<std::vector<std::uint64_t>> found;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        auto const axis = scrambled_axes(2, seed)[1];
+        std::vector<std::uint64_t> moved;
+        for (std::uint64_t i = 0; i < 16; ++i) moved.push_back(digits(axis(i)) ^ digits(axis(0)));
+        for (std::size_t i = 0; i < 16; ++i) {
+            std::uint64_t const before = digits(plain(i));
+            EXPECT_EQ(std::bit_width(moved[i]), std::bit_width(before)) << i;  // triangular, ones on the diagonal
+            for (std::size_t j = 0; j < i; ++j) {                              // linear
+                std::uint64_t const both = (i ^ i >> 1) ^ (j ^ j >> 1);
+                std::uint64_t const sum = both ^ both >> 1 ^ both >> 2 ^ both >> 3;  // whose Gray code is `both`
+                EXPECT_EQ(moved[i] ^ moved[j], moved[sum]);
+            }
+        }
+        found.insert(moved);
+    }
+    EXPECT_EQ(found.size(), 20u);
 }
 
 TEST(SobolPoints, HaveFiftyTwoBits) {
