@@ -149,6 +149,7 @@ Scene parse_scene(std::string const& text, std::string const& name, Overrides co
     read_study(root, scene);
     read_integrator(root, scene);
     read_recording(root, scene);
+    prepare_sampler(scene);
     return scene;
 }
 
