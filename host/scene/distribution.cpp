@@ -25,6 +25,10 @@ double truncated_standard_normal(double low, double high, double u) {
 double Distribution::quantile(double u) const {
     switch (kind) {
     case Kind::constant: break;
+    case Kind::triangular:
+    case Kind::lognormal:
+    case Kind::weibull:
+    case Kind::values: break;
     case Kind::uniform: return std::clamp(low + u * (high - low), low, high);
     case Kind::normal: return mean + sd * boost::math::quantile(boost::math::normal(), u);
     case Kind::truncated_normal: {
