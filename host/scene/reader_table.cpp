@@ -108,7 +108,7 @@ std::vector<Column> read_header(CsvReader const& table, Node const& root, Scene&
 
 void read_row(CsvReader const& table, std::vector<Column> const& columns, std::vector<double>& values) {
     if (table.fields().size() != columns.size()) {
-        table.fail(fmt::format("the row is of {} numbers (the header has {} columns); write one number for each column",
+        table.fail(fmt::format("the row has {} fields (the header has {} columns); write one number for each column",
                                table.fields().size(), columns.size()));
     }
     for (std::size_t i = 0; i < columns.size(); ++i) {

@@ -158,7 +158,9 @@ bool is_unit_text(std::string_view text) {
 }  // namespace
 
 double UnitFactor::operator()(std::string_view number, double value) const {
-    return std::isfinite(value) && factor_ != 1 ? scaled(number, value, factor_) : value;
+    if (factor_ == 1 || !std::isfinite(value)) return value;
+    double const si = scaled(number, value, factor_);
+    return std::isnan(si) ? value * factor_ : si;  // beyond the range of double: infinite or zero
 }
 
 std::variant<UnitFactor, Problem> unit_factor(std::string_view given, std::string_view unit) {
