@@ -8,8 +8,8 @@
 
 namespace slideway {
 
-/// Reads rows and knows where it is.  Empty lines and lines that begin with # are skipped, blanks around fields too.  A
-/// field in double quotes may hold commas, and "" for a quote; it ends on its own line.
+/// Reads rows and knows where it is.  Empty lines and lines that begin with # are skipped, blanks around fields too.
+/// A field in double quotes may hold commas, and "" for a quote; it ends on its own line.
 class CsvReader {
 public:
     CsvReader(std::istream& in, std::string name) : in_(in), name_(std::move(name)) {}
@@ -33,8 +33,8 @@ private:
     int number_ = 0;
 };
 
-/// Whether the text is one number and nothing else, with or without a +: nan and inf are.  Beyond the range of double it
-/// is infinite or zero.
+/// Whether the text is one number and nothing else, with or without a +: nan and inf are.  Beyond the range of double
+/// it is infinite or zero.
 bool read_plain_number(std::string_view text, double& value);
 
 }  // namespace slideway

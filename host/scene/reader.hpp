@@ -91,7 +91,8 @@ void refuse_both(Node const& root, std::string_view first, std::string_view seco
 /// Refuses a node that no part of the scene reads.
 [[noreturn]] void refuse_unknown(Node const& node, std::string_view what, std::span<std::string_view const> known);
 
-/// Refuses what asks for a key that is not there: "study.points is missing (how many columns there are); add points = 50".
+/// Refuses what asks for a key that is not there:
+/// "study.points is missing (how many columns there are); add points = 50".
 [[noreturn]] void refuse_missing(Node const& asking, std::string_view key, std::string_view why,
                                  std::string_view advice);
 

@@ -67,8 +67,8 @@ Matrix attitude(double roll, double yaw, double pitch) {
              {-sy, cy * sr, cy * cr}}};
 }
 
-/// Largest penetration of the sixteen apex–face pairs (model.md 3), by rotation matrices without any shortcut, in the frame
-/// of the way.
+/// Largest penetration of the sixteen apex–face pairs (model.md 3), by rotation matrices without any shortcut, in the
+/// frame of the way.
 double deepest(Inputs const& in) {
     EXPECT_EQ(in.start_angle, 0);
     Matrix const slider = attitude(in.roll, in.yaw, in.pitch), way = attitude(in.way_roll, in.way_yaw, in.way_pitch);
