@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/output/result_reader.hpp"
-#include "host/study/statistics.hpp"
+#include "host/statistics/summary.hpp"
 #include "kernels/status.hpp"
 
 namespace slideway {
