@@ -29,9 +29,8 @@ double value_of(std::uint32_t bin) {
 }
 
 void put(std::vector<std::byte>& bytes, std::uint64_t word) {
-    std::byte raw[sizeof word];
-    std::memcpy(raw, &word, sizeof word);
-    bytes.insert(bytes.end(), raw, raw + sizeof word);
+    bytes.resize(bytes.size() + sizeof word);
+    std::memcpy(bytes.data() + bytes.size() - sizeof word, &word, sizeof word);
 }
 
 }  // namespace

@@ -1,0 +1,408 @@
+#include "host/study/tolerance_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+
+#include "host/output/payload_hash.hpp"
+#include "host/study/statistics_groups.hpp"
+#include "tests/unit/tolerance_file.hpp"
+
+namespace slideway::testing {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+using ToleranceReportOf = ToleranceFile;
+
+/// Members [first, first + count): force is the number, mode_time[line] twice that; 10 k + 3 fail, 10 k + 7 did not run.
+std::vector<MadeUpMember> numbered_members(std::uint64_t first, std::size_t count) {
+    std::vector<MadeUpMember> members(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        MadeUpMember& m = members[i];
+        m.number = first + i;
+        auto const x = static_cast<double>(m.number);
+        m.clearance = x * x * x;  // rank correlation with the force: 1
+        m.eta = std::abs(static_cast<double>(m.number % 100) - 49.5);
+        m.force = x;
+        m.mode_time = {0.5, nan, 2 * x, -x};
+        if (m.number % 10 == 3) m.status = m.number % 20 == 3 ? Status::max_steps : Status::geometry;
+        if (m.number % 10 == 7) m.status = Status::not_run;
+        if (m.status != Status::finished) m.force = 1e9, m.mode_time = {1e9, 1e9, 1e9, 1e9};
+    }
+    return members;
+}
+
+void shuffle(std::vector<MadeUpMember>& members) {
+    std::mt19937_64 engine(21);
+    for (std::size_t i = members.size(); i > 1; --i) std::swap(members[i - 1], members[engine() % i]);
+}
+
+std::uint64_t count_of(std::vector<StatusCount> const& counts, Status status) {
+    for (StatusCount const& count : counts) {
+        if (count.status == status) return count.members;
+    }
+    return 0;
+}
+
+TEST_F(ToleranceReportOf, IndependentDrawsIsOfThoseThatFinished) {
+    auto members = numbered_members(1000, 1000);
+    shuffle(members);
+    NetcdfFile const file = write(members);
+    ToleranceReport const report = tolerance_report(ResultView(file), scene(DesignKind::mc, 5000));
+
+    EXPECT_EQ(count_of(report.statuses, Status::finished), 800u);
+    EXPECT_EQ(count_of(report.statuses, Status::max_steps), 50u);
+    EXPECT_EQ(count_of(report.statuses, Status::geometry), 50u);
+    EXPECT_EQ(count_of(report.statuses, Status::not_run), 100u);
+    EXPECT_EQ(report.statuses.back().status, Status::not_run);
+    ASSERT_EQ(report.columns.size(), 5u);
+    EXPECT_EQ(report.columns[0].column.name(), "peak_normal_force");
+    EXPECT_EQ(report.columns[3].column.name(), "mode_time[line]");
+
+    // 1000 … 1999 without those that end in 3 and 7, by hand.
+    std::vector<double> kept;
+    for (int x = 1000; x < 2000; ++x) {
+        if (x % 10 != 3 && x % 10 != 7) kept.push_back(x);
+    }
+    double const mean = std::accumulate(kept.begin(), kept.end(), 0.0) / 800;
+    double squares = 0;
+    for (double const x : kept) squares += (x - mean) * (x - mean);
+    double const sd = std::sqrt(squares / 799);
+    for (auto const& [index, factor] : {std::pair{0u, 1.0}, std::pair{3u, 2.0}}) {
+        ColumnStatistics const& column = report.columns[index];
+        EXPECT_EQ(column.summary.count, 800u);
+        EXPECT_NEAR(column.summary.mean, factor * mean, 1e-9);
+        EXPECT_NEAR(column.summary.sd, factor * sd, 1e-9);
+        EXPECT_EQ(column.summary.min, factor * 1000);
+        EXPECT_EQ(column.summary.max, factor * 1999);
+        // t(799, 0.975) = 1.96293.
+        EXPECT_NEAR(column.mean.high - column.mean.low, factor * 2 * 1.96293 * sd / std::sqrt(800), 1e-4 * sd);
+        ASSERT_EQ(column.quantiles.size(), 9u);
+        EXPECT_EQ(column.quantiles[4].p, 0.5);
+        EXPECT_EQ(column.quantiles[4].value, factor * 0.5 * (kept[399] + kept[400]));
+        EXPECT_LT(column.quantiles[4].interval.low, column.quantiles[4].value);
+        EXPECT_TRUE(std::isnan(column.quantiles[8].interval.high));  // 99.9 % of 800
+        auto const& counts = column.histogram.counts;
+        EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}), 800u);
+    }
+    EXPECT_EQ(report.columns[2].summary.count, 0u);  // NaN of everyone
+    EXPECT_EQ(report.columns[2].summary.missing, 800u);
+    EXPECT_TRUE(report.columns[2].histogram.counts.empty());
+    EXPECT_FALSE(report.all_met.has_value());
+    EXPECT_FALSE(report.indices.has_value());
+    EXPECT_NE(report.policy.find("meet no limit"), std::string::npos);
+}
+
+TEST_F(ToleranceReportOf, LimitsCountsFailedMembersAsRefused) {
+    Scene study = scene(DesignKind::lhs, 5000);
+    study.limits = {limit("peak_normal_force", "", -infinity, 1499), limit("mode_time", "line", 2200, infinity),
+                    limit("mode_time", "point", 0, 1)};
+    NetcdfFile const file = write(numbered_members(1000, 1000));
+    ToleranceReport const report = tolerance_report(ResultView(file), study);
+    ASSERT_EQ(report.limits.size(), 3u);
+    for (LimitYield const& limit : report.limits) EXPECT_EQ(limit.met.trials, 900u);  // not_run has no say
+    EXPECT_EQ(report.limits[0].met.successes, 400u);                                  // of 1000 … 1499
+    EXPECT_EQ(report.limits[1].met.successes, 720u);                                  // of 1100 … 1999
+    EXPECT_EQ(report.limits[2].met.successes, 0u);                                    // NaN meets nothing
+    EXPECT_EQ(report.limits[1].unit, "s");
+    ASSERT_TRUE(report.all_met.has_value());
+    EXPECT_EQ(report.all_met->successes, 0u);
+    EXPECT_EQ(report.all_met->interval.low, 0);
+    EXPECT_NE(report.intervals.find("conservative"), std::string::npos);
+
+    study.limits.pop_back();
+    Proportion const both = *tolerance_report(ResultView(file), study).all_met;
+    EXPECT_EQ(both.successes, 320u);  // of 1100 … 1499
+    EXPECT_EQ(both.trials, 900u);
+    EXPECT_LT(both.interval.low, 320.0 / 900);
+    EXPECT_GT(both.interval.high, 320.0 / 900);
+}
+
+TEST_F(ToleranceReportOf, ADesignThatIsNotRandomHasNoIntervals) {
+    Scene study = scene(DesignKind::grid, 5000);
+    study.limits = {limit("peak_normal_force", "", 0, 1499)};
+    NetcdfFile const file = write(numbered_members(0, 1000));
+    ToleranceReport const report = tolerance_report(ResultView(file), study);
+    EXPECT_TRUE(std::isnan(report.columns[0].mean.low));
+    EXPECT_TRUE(std::isnan(report.columns[0].quantiles[4].interval.low));
+    EXPECT_TRUE(std::isnan(report.all_met->interval.low));
+    EXPECT_FALSE(std::isnan(report.all_met->value));
+    EXPECT_TRUE(std::isnan(report.correlations[0].ranks[0].interval.low));
+    EXPECT_NEAR(report.correlations[0].ranks[0].value, 1, 1e-14);
+    EXPECT_EQ(report.intervals.find("none"), 0u);
+}
+
+TEST_F(ToleranceReportOf, CorrelationsBelongToTheirMembers) {
+    auto members = numbered_members(0, 1000);
+    shuffle(members);
+    NetcdfFile const file = write(members);
+    ToleranceReport const report = tolerance_report(ResultView(file), scene(DesignKind::sobol, 5000));
+    ASSERT_EQ(report.correlations.size(), 5u);
+    ColumnCorrelations const& force = report.correlations[0];
+    EXPECT_EQ(force.members, 800u);
+    EXPECT_NEAR(force.ranks[0].value, 1, 1e-14);  // a cube does not change ranks
+    EXPECT_NEAR(force.ranks[1].value, 0, 0.05);
+    EXPECT_LT(force.ranks[1].interval.low, 0);
+    EXPECT_GT(force.ranks[1].interval.high, 0);
+    EXPECT_EQ(force.ranking, (std::vector<std::size_t>{0, 1}));
+    // A uniform x against x³: r = Cov/σσ = (1/5 - 1/8)/√(1/12 · (1/7 - 1/16)) = 0.9165.
+    EXPECT_NEAR(force.regression.r_squared, 0.9165 * 0.9165, 0.005);
+    EXPECT_NEAR(report.correlations[4].ranks[0].value, -1, 1e-14);   // mode_time[surface] falls
+    EXPECT_TRUE(std::isnan(report.correlations[1].ranks[0].value));  // mode_time[free] is constant
+    EXPECT_EQ(report.correlations[2].members, 0u);                   // mode_time[point] is not there
+}
+
+/// Rows [first, first + rows) of a saltelli design of two inputs, force 2 x1 + x2 of uniform inputs.
+std::vector<MadeUpMember> radial_members(std::uint64_t first, std::size_t rows) {
+    std::vector<MadeUpMember> members;
+    for (std::uint64_t r = first; r < first + rows; ++r) {
+        double x[4];                               // A, then B
+        constexpr double primes[] = {2, 3, 5, 7};  // Kronecker's sequence: independent coordinates
+        for (int k = 0; k < 4; ++k) x[k] = std::fmod(static_cast<double>(r + 1) * std::sqrt(primes[k]), 1.0);
+        double const inputs[4][2] = {{x[0], x[1]}, {x[2], x[3]}, {x[2], x[1]}, {x[0], x[3]}};
+        for (std::uint64_t k = 0; k < 4; ++k) {
+            MadeUpMember m;
+            m.number = 4 * r + k;
+            m.clearance = inputs[k][0];
+            m.eta = inputs[k][1];
+            m.force = 2 * m.clearance + m.eta;
+            m.mode_time = {m.eta, m.eta * m.eta, 0.25, m.clearance};
+            members.push_back(m);
+        }
+    }
+    return members;
+}
+
+TEST_F(ToleranceReportOf, ASaltelliDesignTellsInputsApart) {
+    auto members = radial_members(0, 4096);
+    shuffle(members);
+    NetcdfFile const file = write(members);
+    ToleranceReport const report = tolerance_report(ResultView(file), scene(DesignKind::saltelli, 4 * 4096));
+    EXPECT_EQ(report.inputs, (std::vector<std::string>{"joint.clearance", "contact.eta"}));
+    EXPECT_TRUE(report.correlations.empty());
+    ASSERT_TRUE(report.indices.has_value());
+    EXPECT_EQ(report.indices->used(), 4096u);
+    ASSERT_EQ(report.indices->columns.size(), 5u);
+    // Of 2 x1 + x2 the variances are as 4 to 1, without interaction; mode_time[free] is x2 alone.
+    SobolIndices const& force = report.indices->columns[0].indices;
+    EXPECT_NEAR(force.total[0].value, 0.8, 0.01);
+    EXPECT_NEAR(force.total[1].value, 0.2, 0.01);
+    EXPECT_NEAR(force.first_sum.value, 1, 0.02);
+    EXPECT_LT(force.total[0].interval.low, 0.8);
+    EXPECT_GT(force.total[0].interval.high, 0.8);
+    EXPECT_EQ(report.indices->columns[0].ranking, (std::vector<std::size_t>{0, 1}));
+    SobolIndices const& free = report.indices->columns[1].indices;
+    EXPECT_EQ(free.total[0].value, 0);
+    EXPECT_NEAR(free.total[1].value, 1, 0.02);
+    EXPECT_EQ(report.indices->columns[1].ranking, (std::vector<std::size_t>{1, 0}));
+    EXPECT_TRUE(std::isnan(report.indices->columns[3].indices.total[0].value));  // constant
+}
+
+TEST_F(ToleranceReportOf, ASaltelliDesignUsesDrawsForDistributionsAndWholeRowsForIndices) {
+    // Members 4·100 + 2 to 4·300 + 1 of the design: half a row at both ends.
+    auto members = radial_members(100, 201);
+    members.erase(members.begin(), members.begin() + 2);
+    members.erase(members.end() - 2, members.end());
+    auto const at = [&](std::uint64_t number) -> MadeUpMember& { return members[number - 402]; };
+    at(4 * 150).status = Status::geometry;      // A of row 150
+    at(4 * 160 + 3).status = Status::unstable;  // AB of row 160: no draw
+    at(4 * 170 + 1).status = Status::not_run;   // B of row 170
+    at(4 * 180 + 2).force = nan;                // finished, but has no number
+    shuffle(members);
+    Scene study = scene(DesignKind::saltelli, 4 * 1000);
+    study.limits = {limit("peak_normal_force", "", -infinity, 1.5)};
+    NetcdfFile const file = write(members);
+    ToleranceReport const report = tolerance_report(ResultView(file), study);
+
+    // Draws: A and B of rows 101 … 300, by their numbers.
+    auto const all = radial_members(101, 200);
+    std::vector<double> draws, rows, whole_rows;
+    std::uint64_t met = 0;
+    for (MadeUpMember const& m : all) {
+        std::uint64_t const row = m.number / 4;
+        if (row < 300 && row != 150 && row != 160 && row != 170) {
+            whole_rows.push_back(m.mode_time[0]);
+            if (row != 180) rows.push_back(m.force);
+        }
+        if (m.number % 4 >= 2 || m.number == 4 * 150 || m.number == 4 * 170 + 1) continue;
+        draws.push_back(m.force);
+        met += m.force <= 1.5;
+    }
+    EXPECT_EQ(report.columns[0].summary.count, draws.size());
+    EXPECT_EQ(report.columns[0].summary.missing, 0u);
+    EXPECT_NEAR(report.columns[0].summary.mean, std::accumulate(draws.begin(), draws.end(), 0.0) / 398, 1e-12);
+    EXPECT_EQ(report.all_met->trials, 399u);  // the failed one ran
+    EXPECT_EQ(report.all_met->successes, met);
+    EXPECT_EQ(count_of(report.draws, Status::finished), 398u);
+    EXPECT_EQ(count_of(report.draws, Status::geometry), 1u);
+    EXPECT_EQ(count_of(report.draws, Status::unstable), 0u);
+    EXPECT_EQ(count_of(report.statuses, Status::unstable), 1u);
+
+    EXPECT_EQ(report.indices->rows, 201u);
+    EXPECT_EQ(report.indices->failed, 2u);
+    EXPECT_EQ(report.indices->incomplete, 3u);
+    EXPECT_EQ(report.indices->used(), 196u);
+    SobolIndices const& force = report.indices->columns[0].indices;
+    EXPECT_EQ(force.missing, 1u);
+    EXPECT_EQ(force.rows, 195u);
+    EXPECT_EQ(report.indices->columns[1].indices.missing, 0u);
+    BootstrapSettings const bootstrap{500, 0.95, study.seed};
+    SobolIndices const expected = sobol_indices({2, rows}, bootstrap);
+    SobolIndices const expected_free = sobol_indices({2, whole_rows}, bootstrap);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(force.first[i].value, expected.first[i].value);
+        EXPECT_EQ(force.total[i].interval.low, expected.total[i].interval.low);
+        EXPECT_EQ(report.indices->columns[1].indices.total[i].value, expected_free.total[i].value);
+    }
+    EXPECT_NE(report.policy.find("members of A and B"), std::string::npos);
+}
+
+TEST_F(ToleranceReportOf, AnotherScenesResultIsRefused) {
+    auto members = numbered_members(1000, 20);
+    {
+        NetcdfFile const file = write(members);
+        EXPECT_THROW(tolerance_report(ResultView(file), scene(DesignKind::mc, 1019)), FileError);
+        EXPECT_NO_THROW(tolerance_report(ResultView(file), scene(DesignKind::mc, 1020)));
+        Scene study = scene(DesignKind::mc, 1020);
+        study.limits = {limit("crank_work", "", 0, 1)};
+        try {
+            tolerance_report(ResultView(file), study);
+            FAIL() << "crank_work is not there";
+        } catch (FileError const& error) {
+            EXPECT_NE(std::string(error.what()).find("has no crank_work"), std::string::npos) << error.what();
+        }
+    }
+    members[3].number = members[11].number;
+    NetcdfFile const file = write(members);
+    EXPECT_THROW(tolerance_report(ResultView(file), scene(DesignKind::mc, 5000)), FileError);
+}
+
+// ---- groups of the file ----
+
+struct Stored {
+    std::vector<double> values;
+    std::vector<std::size_t> shape;
+    std::string unit, long_name, coordinates;
+};
+
+Stored stored(NetcdfFile const& group, std::string const& name) {
+    for (auto const& variable : group.variables()) {
+        if (variable.name != name) continue;
+        Stored result{std::vector<double>(variable.size()), variable.shape, group.text(variable.id, "units"),
+                      group.text(variable.id, "long_name"), group.text(variable.id, "coordinates")};
+        std::vector<std::size_t> const start(variable.shape.size() + 1, 0);
+        std::span const origin = std::span(start).first(variable.shape.size());
+        std::span const count(variable.shape.empty() ? start.data() : variable.shape.data(), variable.shape.size());
+        if (variable.type == NetcdfFile::Type::float64) {
+            group.read(variable.id, origin, count, result.values.data());
+        } else if (variable.type == NetcdfFile::Type::int32) {
+            std::vector<int> whole(variable.size());
+            group.read(variable.id, origin, count, whole.data());
+            result.values.assign(whole.begin(), whole.end());
+        }
+        return result;
+    }
+    ADD_FAILURE() << "no variable " << name;
+    return {};
+}
+
+std::vector<std::string> texts(NetcdfFile const& group, std::string const& name) {
+    for (auto const& variable : group.variables()) {
+        if (variable.name != name) continue;
+        std::vector<char> letters(variable.size());
+        group.read(variable.id, std::array<std::size_t, 2>{0, 0}, variable.shape, letters.data());
+        std::vector<std::string> result;
+        std::size_t const width = variable.shape[1];
+        for (std::size_t i = 0; i < variable.shape[0]; ++i) {
+            std::string const text(letters.data() + i * width, width);
+            result.push_back(text.substr(0, text.find('\0')));
+        }
+        return result;
+    }
+    return {};
+}
+
+TEST_F(ToleranceReportOf, ARandomDesignIsStoredInGroups) {
+    Scene study = scene(DesignKind::mc, 5000);
+    study.limits = {limit("peak_normal_force", "", -infinity, 1499), limit("mode_time", "line", 2200, infinity)};
+    NetcdfFile file = write(numbered_members(1000, 1000));
+    std::string const before = payload_hash(file);
+    ToleranceReport const report = tolerance_report(ResultView(file), study);
+    write_statistics(file, report);
+    EXPECT_NE(payload_hash(file), before);
+    file.close();
+
+    NetcdfFile const back = NetcdfFile::open(path());
+    EXPECT_EQ(back.groups(), (std::vector<std::string>{"statistics", "yield", "sensitivity"}));
+    for (std::string const& name : back.groups()) {
+        NetcdfFile const group = back.group(name);
+        EXPECT_EQ(group.text(NetcdfFile::global, "policy"), report.policy);
+        EXPECT_EQ(group.text(NetcdfFile::global, "design"), "mc");
+        for (auto const& variable : group.variables()) {
+            EXPECT_NE(group.text(variable.id, "long_name"), "") << variable.name;
+        }
+    }
+    NetcdfFile const statistics = back.group("statistics");
+    Stored const mean = stored(statistics, "mode_time_mean");
+    EXPECT_EQ(mean.shape, (std::vector<std::size_t>{4}));
+    EXPECT_EQ(mean.values[2], report.columns[3].summary.mean);
+    EXPECT_EQ(mean.unit, "s");
+    EXPECT_EQ(mean.long_name, "mean: time spent in the mode class");
+    EXPECT_EQ(mean.coordinates, "mode_class_name");
+    EXPECT_TRUE(stored(statistics, "peak_normal_force_mean").shape.empty());
+    Stored const quantiles = stored(statistics, "mode_time_quantile_interval");
+    EXPECT_EQ(quantiles.shape, (std::vector<std::size_t>{4, 9, 2}));
+    EXPECT_EQ(quantiles.values[(2 * 9 + 4) * 2 + 1], report.columns[3].quantiles[4].interval.high);
+    EXPECT_EQ(stored(statistics, "probability").values[1], 0.01);
+    EXPECT_EQ(texts(statistics, "bound_name"), (std::vector<std::string>{"low", "high"}));
+    EXPECT_EQ(texts(statistics, "ending_name"),
+              (std::vector<std::string>{"finished", "max_steps", "geometry", "not_run"}));
+    EXPECT_EQ(stored(statistics, "members").values, (std::vector<double>{800, 50, 50, 100}));
+    Stored const bins = stored(statistics, "peak_normal_force_bin_count");
+    EXPECT_EQ(bins.values.size(), 64u);
+    EXPECT_EQ(std::accumulate(bins.values.begin(), bins.values.end(), 0.0), 800);
+    Stored const edges = stored(statistics, "peak_normal_force_bin_edge");
+    EXPECT_EQ(edges.values[0], 1000);
+    EXPECT_EQ(edges.unit, "N");
+    EXPECT_TRUE(std::isnan(edges.values.back()));
+
+    NetcdfFile const yield = back.group("yield");
+    EXPECT_EQ(texts(yield, "limit_name"), (std::vector<std::string>{"peak_normal_force", "mode_time[line]"}));
+    EXPECT_EQ(texts(yield, "unit_name"), (std::vector<std::string>{"N", "s"}));
+    EXPECT_EQ(stored(yield, "met").values, (std::vector<double>{400, 720}));
+    EXPECT_EQ(stored(yield, "high").values, (std::vector<double>{1499, infinity}));
+    EXPECT_EQ(stored(yield, "all_met").values, (std::vector<double>{320}));
+    EXPECT_EQ(stored(yield, "trials").values, (std::vector<double>{900}));
+    EXPECT_EQ(stored(yield, "all_share_interval").values[1], report.all_met->interval.high);
+
+    NetcdfFile const sensitivity = back.group("sensitivity");
+    EXPECT_EQ(texts(sensitivity, "input_name"), (std::vector<std::string>{"joint.clearance", "contact.eta"}));
+    Stored const ranks = stored(sensitivity, "mode_time_rank_correlation");
+    EXPECT_EQ(ranks.shape, (std::vector<std::size_t>{4, 2}));
+    EXPECT_EQ(ranks.coordinates, "mode_class_name input_name");
+    EXPECT_NEAR(ranks.values[3 * 2], -1, 1e-14);
+    EXPECT_EQ(stored(sensitivity, "peak_normal_force_rank").values, (std::vector<double>{1, 2}));
+}
+
+TEST_F(ToleranceReportOf, IndicesAreStoredInAGroup) {
+    NetcdfFile file = write(radial_members(0, 100));
+    ToleranceReport const report = tolerance_report(ResultView(file), scene(DesignKind::saltelli, 400));
+    write_statistics(file, report);
+    EXPECT_FALSE(file.has_group("yield"));
+    NetcdfFile const sensitivity = file.group("sensitivity");
+    EXPECT_EQ(stored(sensitivity, "rows_used").values, (std::vector<double>{100}));
+    EXPECT_EQ(stored(sensitivity, "mode_time_total").shape, (std::vector<std::size_t>{4, 2}));
+    EXPECT_EQ(stored(sensitivity, "mode_time_total").values[1], report.indices->columns[1].indices.total[1].value);
+    EXPECT_EQ(stored(sensitivity, "peak_normal_force_first_interval").values[2],
+              report.indices->columns[0].indices.first[1].interval.low);
+    EXPECT_EQ(stored(sensitivity, "mode_time_rank").values, (std::vector<double>{2, 1, 2, 1, 1, 2, 1, 2}));
+    EXPECT_EQ(stored(sensitivity, "peak_normal_force_first_sum").values[0],
+              report.indices->columns[0].indices.first_sum.value);
+}
+
+}  // namespace
+}  // namespace slideway::testing
