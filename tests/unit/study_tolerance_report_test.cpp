@@ -156,6 +156,22 @@ TEST_F(ToleranceReportOf, CorrelationsBelongToTheirMembers) {
     EXPECT_EQ(report.correlations[2].members, 0u);                   // mode_time[point] is not there
 }
 
+TEST_F(ToleranceReportOf, CorrelationsLeaveMembersWithoutANumberOut) {
+    auto members = numbered_members(0, 400);
+    for (MadeUpMember& m : members) {
+        bool const there = m.number % 4 != 0;
+        m.mode_time[1] = there ? -m.force : nan;
+        if (!there) m.clearance = -m.clearance;  // of these the input would spoil the order
+    }
+    NetcdfFile const file = write(members);
+    ToleranceReport const report = tolerance_report(ResultView(file), scene(DesignKind::mc, 400));
+    ColumnCorrelations const& point = report.correlations[2];
+    EXPECT_EQ(point.members, 220u);  // of the 320 that finished 100 are multiples of 4
+    EXPECT_NEAR(point.ranks[0].value, -1, 1e-14);
+    EXPECT_EQ(report.correlations[0].members, 320u);
+    EXPECT_LT(report.correlations[0].ranks[0].value, 0.7);
+}
+
 /// Rows [first, first + rows) of a saltelli design of two inputs, force 2 x1 + x2 of uniform inputs.
 std::vector<MadeUpMember> radial_members(std::uint64_t first, std::size_t rows) {
     std::vector<MadeUpMember> members;
