@@ -75,9 +75,9 @@ double processor_seconds() {
 
 Run run(Case const& c, std::vector<Inputs> const& members, Isa isa, int threads) {
     EnsemblePlan plan;
-    plan.members = members.size();
+    plan.members = MemberSet(MemberRange{0, members.size()});
     plan.threads = threads;
-    plan.block_members = default_block_members(plan.members, threads, lanes_of(isa));
+    plan.blocks.lanes = static_cast<std::size_t>(lanes_of(isa));
     auto& settings = plan.request.integrator;
     settings.end_time = c.end_time;
     settings.rtol = settings.atol = c.rtol;
@@ -93,7 +93,7 @@ Run run(Case const& c, std::vector<Inputs> const& members, Isa isa, int threads)
         plan, find_instance(isa, c.parts),
         [&](BlockResult const& block) {
             std::ranges::copy(block.final_states,
-                              result.states.begin() + static_cast<std::ptrdiff_t>(block.first * state_size));
+                              result.states.begin() + static_cast<std::ptrdiff_t>(block.members.front() * state_size));
         },
         stop);
     result.processor_seconds = processor_seconds() - start;
@@ -132,7 +132,7 @@ std::string row_text(Row const& row, Row const& scalar) {
     return fmt::format(
         "| {} | {} | {:.0f} | {:.2f} | {:.4g} | {:.1f} | {:.0f} | {:.3f} | {} | {} | {:.2f} | {:.2f} | {:.2f} |\n",
         row.scene->name, name_of(row.isa), members / seconds, median(scalar.one) / seconds, steps / seconds,
-        1e9 * seconds / evaluations, evaluations / members, t.lane_utilisation(), t.failed() + t.not_run,
+        1e9 * seconds / evaluations, evaluations / members, t.lane_utilisation(), row.members->size() - (t.done() - t.failed()),
         same ? "yes" : "no", median(row.wall_one) / median(row.wall_two),
         std::ranges::min(row.wall_one) / std::ranges::min(row.wall_two), median(row.processor));
 }

@@ -11,14 +11,15 @@
 namespace slideway::cli {
 namespace {
 
-constexpr std::string_view command_names[] = {"run", "check", "probe", "info", "stats", "list"};
+constexpr std::string_view command_names[] = {"run", "check", "probe", "info", "stats", "merge", "list"};
+
 /// Texts of the options as CLI11 fills them in; checked and turned into arguments afterwards.
 struct Words {
     std::string scene, output, isa = "auto", backend = "auto", table, file;
     std::vector<std::string> overrides;
-    std::string max_failures, max_hours, member, members, threads;
+    std::string max_failures, max_hours, member, members, threads, shard, block_members;
     std::string variable, column, spacing, skip_time, skip_samples, max_points, delay, dimension, theiler, fit;
-    bool quiet = false;
+    bool quiet = false, resume = false;
 };
 
 void add_scene_options(CLI::App& command, Words& words) {
@@ -79,11 +80,14 @@ RunArguments run_arguments(Words const& words) {
     run.backend = words.backend;
     run.threads = threads(words);
     run.quiet = words.quiet;
+    run.resume = words.resume;
     if (!words.max_failures.empty()) run.max_failures = parse_failure_limit(words.max_failures);
     if (!words.max_hours.empty()) run.max_hours = parse_hours(words.max_hours);
     if (!words.member.empty() && !words.members.empty()) {
         throw SceneError("--member and --members exclude each other; use one");
     }
+    if (!words.shard.empty()) run.part = parse_part(words.shard);
+    if (!words.block_members.empty()) run.block_members = parse_block_members(words.block_members);
     if (!words.member.empty()) run.members = parse_member(words.member);
     if (!words.members.empty()) run.members = parse_member_range(words.members);
     return run;
@@ -117,14 +121,14 @@ StatsArguments stats_arguments(Words const& words) {
 void require_known_command(int argc, char const* const* argv) {
     if (argc < 2)
         throw SceneError(
-            "slideway: a command is missing; use run, check, probe, info, stats or list (see slideway --help)");
+            "slideway: a command is missing; use run, check, probe, info, stats, merge or list (see slideway --help)");
     std::string_view const word = argv[1];
     if (word == "--help" || word == "-h" || word == "--version") return;
     if (std::find(std::begin(command_names), std::end(command_names), word) != std::end(command_names)) return;
     std::string_view const meant = nearest_name(word, command_names);
     throw SceneError(fmt::format(
         "slideway: there is no command '{}'; {}", word,
-        meant.empty() ? "use run, check, probe, info, stats or list" : fmt::format("did you mean {}?", meant)));
+        meant.empty() ? "use run, check, probe, info, stats, merge or list" : fmt::format("did you mean {}?", meant)));
 }
 
 std::string one_line(std::string text) {
@@ -148,7 +152,9 @@ Arguments parse_arguments(int argc, char const* const* argv) {
         ->type_name("OUT.nc");
     add_threads(*run, words);
     run->add_option("--backend", words.backend, "auto, cpu or cuda")->type_name("NAME");
-    run->add_option("--max-hours", words.max_hours, "Stop after this time and write what is finished (exit code 5)")
+    run->add_flag("--resume", words.resume, "Go on with what an earlier run has left in OUT.nc.shards");
+    run->add_option("--max-hours", words.max_hours,
+                    "Stop after this time and keep what is finished in OUT.nc.shards (exit code 5)")
         ->type_name("H");
     run->add_option("--max-failures", words.max_failures,
                     "Members that may fail before the exit code is 3 (default 1%)")
@@ -157,6 +163,13 @@ Arguments parse_arguments(int argc, char const* const* argv) {
                     "Run this member alone, counted from 0, with the inputs it has in the ensemble")
         ->type_name("N");
     run->add_option("--members", words.members, "Run these members alone, both ends included")->type_name("A..B");
+    run->add_option(
+           "--shard", words.shard,
+           "Run the I-th of N parts, as a job of an array; the jobs share OUT.nc.shards, and merge makes OUT.nc")
+        ->type_name("I/N");
+    run->add_option("--block-members", words.block_members,
+                    "Members that a thread takes at once (default: by their cost); a crash loses those under way")
+        ->type_name("N");
     run->add_flag("--quiet", words.quiet, "No progress on stderr");
 
     CLI::App* const check =
@@ -174,6 +187,10 @@ Arguments parse_arguments(int argc, char const* const* argv) {
 
     CLI::App* const stats = app.add_subcommand("stats", "Chaos statistics of a stored series (NetCDF result or CSV)");
     add_stats_options(*stats, words);
+
+    CLI::App* const merge = app.add_subcommand("merge", "Shards of a run or of a job array to one result file");
+    merge->add_option("DIR", words.file, "Folder of shards, OUT.nc.shards")->required()->type_name("");
+    merge->add_option("-o,--output", words.output, "Result file")->required()->type_name("OUT.nc");
 
     CLI::App* const list = app.add_subcommand("list", "Mechanisms, laws, quantities, keys: what a scene may ask for");
 
@@ -194,6 +211,7 @@ Arguments parse_arguments(int argc, char const* const* argv) {
     if (probe->parsed()) return ProbeArguments{scene_arguments(words), words.table, words.output};
     if (info->parsed()) return InfoArguments{words.file};
     if (stats->parsed()) return stats_arguments(words);
+    if (merge->parsed()) return MergeArguments{words.file, words.output};
     if (list->parsed()) return ListArguments{};
     throw SceneError("slideway: a command is missing; see slideway --help");
 }

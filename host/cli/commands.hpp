@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <optional>
 #include <string>
 #include <variant>
@@ -23,6 +24,9 @@ inline constexpr int file_trouble = 4;  // also a lack of memory
 inline constexpr int stopped_early = 5;
 }  // namespace exit_code
 
+/// What an exception that ends a command makes the exit code.
+int exit_code_of(std::exception_ptr error);
+
 struct SceneArguments {
     std::string path;
     Overrides overrides;
@@ -37,6 +41,9 @@ struct RunArguments {
     std::optional<double> max_hours;
     FailureLimit max_failures;
     std::optional<MemberRange> members;  // empty: all
+    RunPart part;
+    std::size_t block_members = 0;  // 0: by their cost
+    bool resume = false;
     bool quiet = false;
 };
 int run(RunArguments const& arguments);
@@ -72,6 +79,11 @@ struct StatsArguments {
 };
 int stats(StatsArguments const& arguments);
 
+struct MergeArguments {
+    std::string folder, output;
+};
+int merge(MergeArguments const& arguments);
+
 struct ListArguments {};
 int list(ListArguments const& arguments);
 
@@ -80,8 +92,8 @@ struct TextOnly {
     std::string text;
 };
 
-using Arguments =
-    std::variant<RunArguments, CheckArguments, ProbeArguments, InfoArguments, StatsArguments, ListArguments, TextOnly>;
+using Arguments = std::variant<RunArguments, CheckArguments, ProbeArguments, InfoArguments, StatsArguments,
+                               MergeArguments, ListArguments, TextOnly>;
 
 /// @throws SceneError with one line for a command line that cannot be used.
 Arguments parse_arguments(int argc, char const* const* argv);

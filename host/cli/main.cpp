@@ -1,8 +1,10 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <iostream>
 #include <new>
+#include <string>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -21,6 +23,7 @@ int dispatch(Arguments const& arguments) {
         int operator()(ProbeArguments const& given) const { return probe(given); }
         int operator()(InfoArguments const& given) const { return info(given); }
         int operator()(StatsArguments const& given) const { return stats(given); }
+        int operator()(MergeArguments const& given) const { return merge(given); }
         int operator()(ListArguments const& given) const { return list(given); }
         int operator()(TextOnly const& only) const {
             fmt::print("{}", only.text);
@@ -28,6 +31,20 @@ int dispatch(Arguments const& arguments) {
         }
     };
     return std::visit(Visitor{}, arguments);
+}
+
+std::string line_of(std::exception_ptr const& error) {
+    try {
+        std::rethrow_exception(error);
+    } catch (SceneError const& known) {
+        return known.what();
+    } catch (std::bad_alloc const&) {
+        return "slideway: not enough memory; ask for fewer members or samples";
+    } catch (std::system_error const& known) {
+        return fmt::format("slideway: {}", known.what());
+    } catch (std::exception const& unknown) {
+        return fmt::format("slideway: internal error: {}", unknown.what());
+    }
 }
 
 int complain(int code, std::string_view line) {
@@ -54,15 +71,10 @@ int main(int argc, char** argv) {
             return complain(exit_code::file_trouble, "slideway: cannot write to the standard output");
         }
         return code;
-    } catch (SceneError const& error) {
-        return complain(exit_code::bad_usage, error.what());
     } catch (FileError const& error) {
         complain_of_file(error.what());
-    } catch (std::bad_alloc const&) {
-        return complain(exit_code::file_trouble, "slideway: not enough memory; ask for fewer members or samples");
-    } catch (std::system_error const& error) {
-        return complain(exit_code::file_trouble, fmt::format("slideway: {}", error.what()));
-    } catch (std::exception const& error) {
-        return complain(exit_code::internal_error, fmt::format("slideway: internal error: {}", error.what()));
+    } catch (std::exception const&) {
+        std::exception_ptr const error = std::current_exception();
+        return complain(exit_code_of(error), line_of(error));
     }
 }

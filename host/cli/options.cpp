@@ -47,6 +47,23 @@ MemberRange parse_member(std::string_view text) {
     throw SceneError(fmt::format("--member {}: give the number of a member, counted from 0", text));
 }
 
+RunPart parse_part(std::string_view text) {
+    auto const slash = text.find('/');
+    if (slash != text.npos) {
+        auto const number = parse_number<std::uint32_t>(text.substr(0, slash));
+        auto const parts = parse_number<std::uint32_t>(text.substr(slash + 1));
+        if (number && parts && *number >= 1 && *number <= *parts) return {*number, *parts, true};
+    }
+    throw SceneError(fmt::format("--shard {}: give the part and how many there are as I/N, from 1/N to N/N", text));
+}
+
+std::size_t parse_block_members(std::string_view text) {
+    constexpr std::uint32_t most = 1'000'000;  // results of a block stay in memory while it runs
+    auto const members = parse_number<std::uint32_t>(text);
+    if (members && *members >= 1 && *members <= most) return *members;
+    throw SceneError(fmt::format("--block-members {}: give a whole number from 1 to {}", text, most));
+}
+
 FailureLimit parse_failure_limit(std::string_view text) {
     bool const percent = text.ends_with('%');
     std::string_view const number = percent ? text.substr(0, text.size() - 1) : text;

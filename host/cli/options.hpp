@@ -8,7 +8,7 @@
 
 #include "host/backend/backend.hpp"
 #include "host/chaos/divergence.hpp"
-#include "host/study/ensemble_study.hpp"
+#include "host/study/study_run.hpp"
 
 namespace slideway::cli {
 
@@ -24,7 +24,9 @@ struct FailureLimit {
 
 int parse_threads(std::string_view text);
 double parse_hours(std::string_view text);
-MemberRange parse_member(std::string_view text);          // "A", from 0
+MemberRange parse_member(std::string_view text);  // "A", from 0
+RunPart parse_part(std::string_view text);        // "I/N", 1 <= I <= N
+std::size_t parse_block_members(std::string_view text);
 FailureLimit parse_failure_limit(std::string_view text);  // "3", "0.5%"
 MemberRange parse_member_range(std::string_view text);    // "A..B", both included, from 0
 std::size_t parse_count(std::string_view option, std::string_view text, std::size_t least);

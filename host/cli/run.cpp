@@ -1,14 +1,13 @@
-#include <cmath>
+#include <exception>
 #include <filesystem>
-#include <numbers>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "host/cli/commands.hpp"
-#include "host/cli/orbit_text.hpp"
+#include "host/cli/run_summary.hpp"
 #include "host/cli/text.hpp"
-#include "host/study/orbit_schedule.hpp"
+#include "host/study/prediction.hpp"
 
 namespace slideway::cli {
 namespace {
@@ -35,175 +34,141 @@ MemberRange member_range(RunArguments const& arguments, Scene const& scene) {
     return range;
 }
 
-std::string replay_command(RunArguments const& arguments, Isa isa, std::uint64_t member) {
-    std::string command = "slideway run " + shell_quoted(arguments.scene.path);
-    for (auto const& [key, value] : arguments.scene.overrides) command += " --set " + shell_quoted(key + "=" + value);
-    return command + fmt::format(" --isa {} --member {}", name_of(isa), member);
-}
-
-std::string_view advice_on(Method method) {
-    switch (method) {
-        case Method::rk4:
-            return "use a smaller integrator.step, or method = \"auto\"";
-        case Method::ros34pw2:
-            return "it is for lasting contact alone; use method = \"auto\" where there are impacts";
-        default:
-            return "use smaller rtol and atol";
-    }
-}
-
-/// What became of members whose method left its stable range, and the way out (docs/stability.md).
-void print_instability(Scene const& scene, EnsembleTotals const& totals) {
-    Method const method = scene.integrator.method;
-    auto const ended = [&](Status status) { return totals.ended[static_cast<std::size_t>(status)]; };
-    std::uint64_t const unstable = ended(Status::unstable);
-    // A step beyond the limit throws the slider out of its joint, if it does not end in infinity.
-    std::uint64_t const broken =
-        method == Method::rk4 ? ended(Status::nonfinite) + ended(Status::geometry) + ended(Status::contact_domain) : 0;
-    if (unstable + broken == 0) return;
-    std::string const name = method == Method::rk4
-                                 ? fmt::format("rk4 with a step of {:.3g} s", scene.integrator.fixed_step)
-                                 : std::string(name_of(method));
-    std::string what;
-    if (unstable > 0) what = fmt::format("{} unstable by the energy audit", unstable);
-    if (broken > 0) what += fmt::format("{}{} broke down", what.empty() ? "" : ", ", broken);
-    fmt::print("\n{} failed in {} member{} ({}): {}.\n", name, unstable + broken, unstable + broken == 1 ? "" : "s",
-               what, advice_on(method));
-}
-
-/// Members that spent their steps before their end.
-void print_spent(Scene const& scene, EnsembleTotals const& totals) {
-    std::uint64_t const spent = totals.ended[static_cast<std::size_t>(Status::max_steps)];
-    if (spent == 0) return;
-    bool const pair = scene.integrator.method == Method::dopri5 || scene.integrator.method == Method::bs32;
-    fmt::print(
-        "\n{} member{} spent integrator.max_steps = {}: try a larger one, {}looser rtol and atol, or look at one "
-        "with --member K.\n",
-        spent, spent == 1 ? "" : "s", scene.integrator.max_steps, pair ? "method = \"auto\", " : "");
-}
-
-void print_failures(RunArguments const& arguments, Scene const& scene, Isa isa, EnsembleTotals const& totals,
-                    ResultReader const& results) {
-    if (totals.failed() == 0) return;
-    constexpr std::size_t listed = 5;
-    auto const failed = failed_members(results, listed);
-    fmt::print("\n{} failed member{}{}:\n", totals.failed(), totals.failed() == 1 ? "" : "s",
-               totals.failed() > listed ? fmt::format(", the first {}", listed) : "");
-    for (FailedMember const& member : failed) {
-        fmt::print("  member {}: {}", member.member, name_of(member.status));
-        auto const why = defect(member_inputs(scene, member.member));
-        if (why)
-            fmt::print(": {}", *why);
-        else
-            fmt::print(" at t = {:.6g} s", member.time);
-        fmt::print("\n    {}\n", replay_command(arguments, isa, member.member));
-    }
-}
-
-/// The paper's law makes energy where its modes switch (model.md 8); a reader of results has to know how much.
-void print_energy_made(Scene const& scene, EnsembleTotals const& totals,
-                       std::vector<QuantitySummary> const& quantities) {
-    if (scene.parts.law != Law::paper) return;
-    auto const mean_of = [&](std::string_view label) -> QuantitySummary const* {
-        for (QuantitySummary const& quantity : quantities) {
-            if (quantity.label == label && quantity.values.count > 0) return &quantity;
-        }
-        return nullptr;
-    };
-    QuantitySummary const* const residual = mean_of("energy_residual");
-    if (residual == nullptr) return;
-    double const made = residual->values.mean;
-    // Where the method may have failed the law is not to blame alone.
-    Method const method = scene.integrator.method;
-    bool const doubtful = is_always_audited(method) || totals.ended[static_cast<std::size_t>(Status::unstable)] > 0;
-    std::string const cause =
-        doubtful ? fmt::format("The paper law's mode switching and the errors of {} together", name_of(method))
-                 : "Mode switching of the paper law";
-    fmt::print("\n{} made {:.3g} J of energy per member on average", cause, made);
-    QuantitySummary const* const work = mean_of("crank_work");
-    if (work != nullptr && work->values.mean != 0) {
-        fmt::print(", {:.3g} % of the crank's work of {:.3g} J", 100 * made / std::abs(work->values.mean),
-                   work->values.mean);
-    }
-    if (doubtful) {
-        fmt::print("; {} tells them apart",
-                   is_always_audited(method) ? "method = \"auto\"" : "a smaller rtol and atol");
-    }
-    fmt::print(".\n");
-}
-
-void print_summary(RunArguments const& arguments, Scene const& scene, EnsembleOptions const& options,
-                   EnsembleTotals const& totals, bool replaced) {
-    ResultReader const results(options.output);
-    auto const quantities = summarise_quantities(results);
-    std::uint64_t const ran = options.range.count - totals.not_run;
-    print_field("scene", scene.title.empty() ? scene.path : fmt::format("{} ({})", scene.title, scene.path));
-    print_field("members", fmt::format("{}", options.range.count));
-    print_statuses(count_statuses(results));
-    double const rate = totals.seconds > 0 ? static_cast<double>(ran) / totals.seconds : 0.0;
-    double const turns = orbit_schedule(scene).longest * std::abs(scene.inputs.crank_speed) / (2 * std::numbers::pi);
-    print_field(
-        "throughput",
-        fmt::format("{:.4g} members/s, {}{} wall time ({} threads, {}, {} lanes)", rate,
-                    turns > 0 ? fmt::format("{:.4g} members x revolutions/s, ", rate * turns) : "",
-                    duration_text(totals.seconds), options.threads, name_of(options.isa), lanes_of(options.isa)));
-    print_field("steps", fmt::format("{} accepted ({} by the stiff method), {} rejected", totals.steps_accepted,
-                                     totals.stiff_steps, totals.steps_rejected));
-    print_field("evaluations",
-                fmt::format("{} right-hand sides, {} Jacobians", totals.rhs_evaluations, totals.jacobian_evaluations));
-    print_field("lanes in use", fmt::format("{:.1f} %", 100 * totals.lane_utilisation()));
-    print_quantities(quantities);
-    if (!quantities.empty() && turns > 0) fmt::print("  (over the whole run, its transient included)\n");
-    print_exponents(results);
-    print_sections(results);
-    print_energy_made(scene, totals, quantities);
-    print_instability(scene, totals);
-    print_spent(scene, totals);
-    print_failures(arguments, scene, options.isa, totals, results);
-    fmt::print("\n");
-    print_field("results", fmt::format("{}{}", options.output, replaced ? " (replaced a former file)" : ""));
-}
-
-}  // namespace
-
-int run(RunArguments const& arguments) {
-    require_backend(arguments.backend);
-    Isa const isa = parse_isa(arguments.scene.isa);
-    Scene const scene = load_scene(arguments.scene);
-    print_warnings(scene);
-    EnsembleOptions options;
+StudyOptions study_options(RunArguments const& arguments, Scene const& scene, Isa isa) {
+    StudyOptions options;
     options.range = member_range(arguments, scene);
     options.output = arguments.output.empty() ? default_output(arguments) : arguments.output;
+    options.part = arguments.part;
     options.isa = isa;
     options.threads = arguments.threads.value_or(default_threads());
+    options.block_members = arguments.block_members;
+    options.resume = arguments.resume;
     options.progress = Progress::style_for(stderr, arguments.quiet);
     std::error_code ignored;
     if (std::filesystem::equivalent(options.output, scene.path, ignored)) {
         throw SceneError(options.output + ": is the scene itself; give another name with -o");
     }
-    bool const replaced = std::filesystem::exists(options.output, ignored);
+    return options;
+}
 
+/// Before the start: what it will take, and what there is already.
+void announce(Scene const& scene, StudyOptions const& options, StudyRun const& run) {
+    Prediction const prediction = predict(scene, options.isa, options.threads);
+    StudyWork const& work = run.work();
+    for (std::string const& name : run.damaged()) {
+        fmt::print(stderr, "warning: {}/{}: is not what was written (its checksum differs); its members run again\n",
+                   shard_folder_of(options.output), name);
+    }
+    if (work.before > 0) {
+        fmt::print(stderr, "resuming: {} of {} members are done\n", work.before, work.before + work.todo.count());
+    }
+    fmt::print(stderr, "memory {}, disk {} and as much again for the shards until the end\n",
+               bytes_text(static_cast<double>(prediction.memory())),
+               bytes_text(static_cast<double>(prediction.output_bytes)));
+}
+
+int end_stopped(StudyOptions const& options, std::string_view why, std::uint64_t left) {
+    std::string const folder = shard_folder_of(options.output);
+    fmt::print(
+        stderr,
+        "slideway: stopped early{}: {} members have not run; those that did are kept in {}: add --resume to go on, or "
+        "make a file of them with slideway merge\n",
+        why, left, folder);
+    return exit_code::stopped_early;
+}
+
+/// Where members are left, or wait for those of other parts.
+int end_with_shards(StudyOptions const& options, EnsembleTotals const& totals, std::uint64_t left) {
+    std::string const folder = shard_folder_of(options.output);
+    if (left == 0) {
+        print_field("results", fmt::format("part {} is done, in {}; slideway merge makes one file of all parts",
+                                           options.part.name(), folder));
+        return exit_code::done;
+    }
+    std::string const why = totals.stopped == StopReason::signal       ? " (signal)"
+                            : totals.stopped == StopReason::time_limit ? " (--max-hours)"
+                                                                       : "";
+    return end_stopped(options, why, left);
+}
+
+int conclude(RunArguments const& arguments, Scene const& scene, StudyOptions const& options, bool replaced) {
+    ResultReader const results(options.output);
+    print_results(arguments, scene, options.isa, results);
+    fmt::print("\n");
+    print_field("results", fmt::format("{}{}", options.output, replaced ? " (replaced a former file)" : ""));
+    std::uint64_t const failed = failed_count(results), members = options.range.count;
+    if (!arguments.max_failures.exceeded(failed, members)) return exit_code::done;
+    fmt::print(stderr, "slideway: {} of {} members failed, more than --max-failures {}\n", failed, members,
+               arguments.max_failures.text());
+    return exit_code::too_many_failures;
+}
+
+/// Rank 0.
+int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& options, StudyRun& run, Ranks& ranks,
+         StopRequest const& stop) {
+    print_field("scene", scene.title.empty() ? scene.path : fmt::format("{} ({})", scene.title, scene.path));
+    if (run.is_complete()) {
+        fmt::print(stderr, "resuming: {} is complete already\n", options.output);
+        return conclude(arguments, scene, options, false);
+    }
+    std::error_code ignored;
+    bool const replaced = std::filesystem::exists(options.output, ignored);
+    try {
+        EnsembleTotals const totals = run_work(scene, options, run.work(), ranks, stop);
+        print_throughput(scene, options, totals, ranks.count());
+        std::uint64_t const left = run.left();
+        if (left > 0 || options.part.of_array) return end_with_shards(options, totals, left);
+        if (!run.finish({}, stop)) return end_stopped(options, " (signal)", 0);
+    } catch (FileError const& error) {
+        throw FileError(fmt::format("{}; what is finished is kept in {}: add --resume to go on", error.what(),
+                                    shard_folder_of(options.output)));
+    }
+    return conclude(arguments, scene, options, replaced);
+}
+
+/// What rank 0 tells the others before they begin; empty if there is nothing to do.
+std::string invitation(StudyRun const& run) {
+    return run.is_complete() ? std::string() : fmt::format("{} {}", run.work().before, run.work().todo.text());
+}
+
+/// The other ranks: they only compute.
+int help(RunArguments const& arguments, Ranks& ranks, StopRequest const& stop) {
+    std::string const invited = ranks.broadcast({});
+    if (invited.empty()) return ranks.agree(0);
+    auto const space = invited.find(' ');
+    Scene const scene = load_scene(arguments.scene);
+    StudyOptions options = study_options(arguments, scene, parse_isa(arguments.scene.isa));
+    options.progress = Progress::Style::none;
+    StudyWork const work{MemberSet::parse(invited.substr(space + 1)).value(), std::stoull(invited.substr(0, space))};
+    run_work(scene, options, work, ranks, stop);
+    return ranks.agree(0);
+}
+
+}  // namespace
+
+int run(RunArguments const& arguments) {
+    std::unique_ptr<Ranks> const ranks = Ranks::join();
     StopRequest stop;
     if (arguments.max_hours) stop.stop_after(std::chrono::duration<double, std::ratio<3600>>(*arguments.max_hours));
-    EnsembleTotals totals;
-    {
-        SignalScope const signals(stop);
-        totals = run_ensemble_study(scene, options, stop);
+    SignalScope const signals(stop);
+    if (ranks->rank() > 0) return help(arguments, *ranks, stop);
+    bool invited = false;
+    try {
+        require_backend(arguments.backend);
+        Scene const scene = load_scene(arguments.scene);
+        print_warnings(scene);
+        StudyOptions const options = study_options(arguments, scene, parse_isa(arguments.scene.isa));
+        StudyRun study(scene, options);
+        if (!arguments.quiet && !study.is_complete()) announce(scene, options, study);
+        invited = true;
+        ranks->broadcast(invitation(study));
+        return ranks->agree(lead(arguments, scene, options, study, *ranks, stop));
+    } catch (...) {
+        // The others wait for what rank 0 says.
+        if (!invited) ranks->broadcast({});
+        ranks->agree(exit_code_of(std::current_exception()));
+        throw;
     }
-    print_summary(arguments, scene, options, totals, replaced);
-
-    if (totals.stopped != StopReason::none) {
-        fmt::print(stderr, "slideway: stopped early ({}): {} of {} members were not run\n",
-                   totals.stopped == StopReason::signal ? "signal" : "--max-hours", totals.not_run,
-                   options.range.count);
-        return exit_code::stopped_early;
-    }
-    if (arguments.max_failures.exceeded(totals.failed(), options.range.count)) {
-        fmt::print(stderr, "slideway: {} of {} members failed, more than --max-failures {}\n", totals.failed(),
-                   options.range.count, arguments.max_failures.text());
-        return exit_code::too_many_failures;
-    }
-    return exit_code::done;
 }
 
 }  // namespace slideway::cli

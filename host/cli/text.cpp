@@ -2,10 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
+#include <system_error>
 
 #include <fmt/format.h>
 
 namespace slideway::cli {
+
+int exit_code_of(std::exception_ptr error) {
+    try {
+        std::rethrow_exception(std::move(error));
+    } catch (SceneError const&) {
+        return exit_code::bad_usage;
+    } catch (FileError const&) {
+        return exit_code::file_trouble;
+    } catch (std::bad_alloc const&) {
+        return exit_code::file_trouble;
+    } catch (std::system_error const&) {
+        return exit_code::file_trouble;
+    } catch (...) {
+        return exit_code::internal_error;
+    }
+}
 
 Scene load_scene(SceneArguments const& arguments) {
     try {

@@ -104,7 +104,8 @@ void print_yields(ToleranceReport const& report) {
     row("all limits", "", *report.all_met);
 }
 
-/// The first inputs of a ranking after the quantity's name, as many as asked for; lines go on below where they are full.
+/// The first inputs of a ranking after the quantity's name, as many as asked for; lines go on below where they are
+/// full.
 void print_ranked(std::string const& name, std::size_t width, std::vector<std::string> const& cells) {
     std::string line = fmt::format("  {:<{}}", name, width);
     std::size_t const indent = line.size();

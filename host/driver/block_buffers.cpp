@@ -58,27 +58,29 @@ void BlockBuffers::sort_by_cost(MemberCost const& cost) {
     std::stable_sort(order_.begin(), order_.end(), [&](auto a, auto b) { return costs[a] > costs[b]; });
 }
 
-void BlockBuffers::draw(BlockRequest const& request, MemberSource const& source, std::uint64_t first_member,
-                        std::size_t members) {
+void BlockBuffers::draw(BlockRequest const& request, MemberSource const& source) {
+    std::size_t const members = members_.size();
     drawn_.assign(members, Inputs{});
     is_usable_.assign(members, 0);
     usable_.clear();
     clocks_.clear();
     directions_.clear();
     for (std::size_t i = 0; i < members; ++i) {
-        is_usable_[i] = source(first_member + i, drawn_[i]);
+        is_usable_[i] = source(members_[i], drawn_[i]);
         if (!is_usable_[i]) continue;
         usable_.push_back(drawn_[i]);
         if (request.timing) clocks_.push_back(request.timing(drawn_[i]));
         if (request.shadows.count == 0) continue;
         directions_.resize(usable_.size() * shadow_count(request) * state_size);
-        request.directions(first_member + i, &directions_[(usable_.size() - 1) * shadow_count(request) * state_size]);
+        request.directions(members_[i], &directions_[(usable_.size() - 1) * shadow_count(request) * state_size]);
     }
 }
 
 void BlockBuffers::run(KernelInstance const& kernel, BlockRequest const& request, MemberSource const& source,
-                       StopRequest const& stop, std::uint64_t first_member, std::size_t members) {
-    draw(request, source, first_member, members);
+                       StopRequest const& stop, std::span<std::uint64_t const> numbers) {
+    members_.assign(numbers.begin(), numbers.end());
+    std::size_t const members = members_.size();
+    draw(request, source);
     records_.assign(members, MemberRecord{});
     final_states_.assign(members * state_size, nan);
     quantities_.assign(members * static_cast<std::size_t>(quantity_columns), nan);
@@ -128,8 +130,8 @@ void BlockBuffers::run(KernelInstance const& kernel, BlockRequest const& request
     spread_rows(series_, is_usable_, usable, static_cast<std::size_t>(std::popcount(block.series)), block.samples, nan);
 }
 
-BlockResult BlockBuffers::result(std::uint64_t first) const {
-    return {first, drawn_, records_, final_states_, quantities_, series_, sections_, growths_};
+BlockResult BlockBuffers::result() const {
+    return {members_, drawn_, records_, final_states_, quantities_, series_, sections_, growths_};
 }
 
 }  // namespace slideway

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "host/backend/backend.hpp"
@@ -43,21 +44,22 @@ std::uint64_t block_bytes(BlockRequest const& request, std::size_t members);
 
 class BlockBuffers {
 public:
-    /// Draws members [first_member, first_member + members) and integrates those with usable inputs.  The others get
-    /// status `invalid_inputs` and NaN results; those that `stop` cut short get `not_run` and NaN.
+    /// Draws these members and integrates those with usable inputs.  The others get status `invalid_inputs` and NaN results;
+    /// those that `stop` cut short get `not_run` and NaN.
     void run(KernelInstance const& kernel, BlockRequest const& request, MemberSource const& source,
-             StopRequest const& stop, std::uint64_t first_member, std::size_t members);
+             StopRequest const& stop, std::span<std::uint64_t const> members);
 
-    /// Views of the last run.  @param first where the block lies in the whole run.
-    BlockResult result(std::uint64_t first) const;
+    /// Views of the last run.
+    BlockResult result() const;
 
     std::uint64_t lane_steps_executed() const { return lane_steps_executed_; }
     std::uint64_t lane_steps_useful() const { return lane_steps_useful_; }
 
 private:
-    void draw(BlockRequest const& request, MemberSource const& source, std::uint64_t first_member, std::size_t members);
+    void draw(BlockRequest const& request, MemberSource const& source);
     void sort_by_cost(MemberCost const& cost);
 
+    std::vector<std::uint64_t> members_;
     std::vector<Inputs> drawn_, usable_;
     std::vector<char> is_usable_;
     std::vector<std::uint32_t> order_;

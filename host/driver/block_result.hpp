@@ -10,14 +10,14 @@
 namespace slideway {
 
 struct BlockResult {
-    std::uint64_t first = 0;                // the block's first member, counted from the run's first
-    std::span<Inputs const> inputs;         // [members], as drawn, also those that cannot be used
-    std::span<MemberRecord const> records;  // [members]
-    std::span<double const> final_states;   // [members][state_size]; NaN for a member that was not integrated
-    std::span<double const> quantities;     // [members][quantity_columns]; NaN where not selected or not integrated
-    std::span<double const> series;         // [selected series, in table order][members][samples]
-    std::span<double const> sections;       // [members][sections][section_columns]; NaN where not reached
-    std::span<double const> growths;        // [members][growths][shadows], ln; NaN where not reached
+    std::span<std::uint64_t const> members;  // their numbers in the scene, ascending
+    std::span<Inputs const> inputs;          // [members], as drawn, also those that cannot be used
+    std::span<MemberRecord const> records;   // [members]
+    std::span<double const> final_states;    // [members][state_size]; NaN for a member that was not integrated
+    std::span<double const> quantities;      // [members][quantity_columns]; NaN where not selected or not integrated
+    std::span<double const> series;          // [selected series, in table order][members][samples]
+    std::span<double const> sections;        // [members][sections][section_columns]; NaN where not reached
+    std::span<double const> growths;         // [members][growths][shadows], ln; NaN where not reached
 };
 
 /// Time and state of a section.

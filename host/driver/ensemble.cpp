@@ -5,6 +5,8 @@
 #include <exception>
 #include <mutex>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 #include <omp.h>
 
@@ -13,10 +15,8 @@ namespace {
 
 void add_block(EnsembleTotals& totals, BlockBuffers const& buffers, BlockResult const& result) {
     for (MemberRecord const& record : result.records) {
-        if (record.status == Status::not_run)
-            ++totals.not_run;
-        else
-            ++totals.ended[static_cast<std::size_t>(record.status)];
+        if (record.status == Status::not_run) continue;
+        ++totals.ended[static_cast<std::size_t>(record.status)];
         totals.steps_accepted += record.steps_accepted;
         totals.steps_rejected += record.steps_rejected;
         totals.stiff_steps += record.stiff_steps;
@@ -29,14 +29,12 @@ void add_block(EnsembleTotals& totals, BlockBuffers const& buffers, BlockResult 
 
 }  // namespace
 
-std::uint64_t EnsembleTotals::failed() const {
-    return std::accumulate(ended.begin(), ended.end(), std::uint64_t{0}) -
-           ended[static_cast<std::size_t>(Status::finished)];
-}
+std::uint64_t EnsembleTotals::done() const { return std::accumulate(ended.begin(), ended.end(), std::uint64_t{0}); }
+
+std::uint64_t EnsembleTotals::failed() const { return done() - ended[static_cast<std::size_t>(Status::finished)]; }
 
 EnsembleTotals& EnsembleTotals::operator+=(EnsembleTotals const& later) {
     for (std::size_t i = 0; i < ended.size(); ++i) ended[i] += later.ended[i];
-    not_run += later.not_run;
     steps_accepted += later.steps_accepted;
     steps_rejected += later.steps_rejected;
     stiff_steps += later.stiff_steps;
@@ -45,7 +43,7 @@ EnsembleTotals& EnsembleTotals::operator+=(EnsembleTotals const& later) {
     lane_steps_executed += later.lane_steps_executed;
     lane_steps_useful += later.lane_steps_useful;
     seconds += later.seconds;
-    stopped = later.stopped;
+    if (stopped == StopReason::none) stopped = later.stopped;
     return *this;
 }
 
@@ -56,75 +54,130 @@ double EnsembleTotals::lane_utilisation() const {
 
 int default_threads() { return omp_get_max_threads(); }
 
-std::size_t default_block_members(std::uint64_t members, int threads, int lanes) {
-    // The last members of a block leave lanes idle: several for each lane keep that small, several blocks for each
-    // thread keep the threads even.
-    constexpr std::uint64_t largest = 512, blocks_per_thread = 2, members_per_lane = 8;
-    auto const width = static_cast<std::uint64_t>(lanes), workers = static_cast<std::uint64_t>(threads);
-    std::uint64_t const share = (members + workers - 1) / workers;
-    std::uint64_t const least = std::clamp<std::uint64_t>(share, 1, members_per_lane * width);
-    std::uint64_t const size = std::clamp(share / blocks_per_thread, least, largest);
-    return static_cast<std::size_t>((size + width - 1) / width * width);
+namespace {
+
+/// The threads' common part of a run.
+class Team {
+public:
+    Team(EnsemblePlan const& plan, MemberQueue& queue, BlockSink const& sink, StopRequest const& stop,
+         Progress* progress)
+        : plan_(plan),
+          queue_(queue),
+          sink_(sink),
+          stop_(stop),
+          progress_(progress),
+          sizer_(plan.blocks, plan.members.count(), std::max(plan.workers, plan.threads)) {}
+
+    /// Empty: there is nothing more to do.
+    std::vector<std::uint64_t> next_places() {
+        std::uint64_t wanted = 0, finished = 0;
+        {
+            std::lock_guard const lock(mutex_);
+            if (reason_ == StopReason::none) reason_ = stop_.reason();
+            if (failure_ || reason_ != StopReason::none) return {};
+            wanted = sizer_.next(queue_.left());
+            finished = std::exchange(unreported_, 0);
+        }
+        Stretch const stretch = queue_.take(wanted, finished);
+        return plan_.members.members(stretch.first, stretch.count);
+    }
+
+    bool emit(BlockBuffers const& buffers) {
+        BlockResult const result = buffers.result();
+        std::lock_guard const lock(mutex_);
+        if (failure_) return false;
+        // Recorded before the lock is given up: no other thread may offer its block to a sink that failed.
+        try {
+            sink_(result);
+        } catch (...) {
+            fail_locked(std::current_exception());
+            return false;
+        }
+        add_block(totals_, buffers, result);
+        auto const members = static_cast<std::uint64_t>(result.records.size());
+        unreported_ += members;
+        if (progress_) progress_->add(members);
+        return true;
+    }
+
+    void measured(std::uint64_t places, double seconds) {
+        std::lock_guard const lock(mutex_);
+        sizer_.measured(places, seconds);
+    }
+
+    void fail(std::exception_ptr failure) {
+        std::lock_guard const lock(mutex_);
+        fail_locked(std::move(failure));
+    }
+
+    /// After all threads have ended.
+    EnsembleTotals totals() {
+        if (failure_) std::rethrow_exception(failure_);
+        // A block in work may be the first to hear of the stop.
+        totals_.stopped = reason_ == StopReason::none ? stop_.reason() : reason_;
+        return totals_;
+    }
+
+private:
+    void fail_locked(std::exception_ptr failure) {
+        if (failure_) return;
+        failure_ = std::move(failure);
+        queue_.abandon();
+    }
+
+    EnsemblePlan const& plan_;
+    MemberQueue& queue_;
+    BlockSink const& sink_;
+    StopRequest const& stop_;
+    Progress* const progress_;
+    std::mutex mutex_;  // guards what follows and the sink
+    BlockSizer sizer_;
+    EnsembleTotals totals_;
+    std::uint64_t unreported_ = 0;  // members that the queue does not know to be finished
+    StopReason reason_ = StopReason::none;
+    std::exception_ptr failure_;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+EnsembleTotals run_ensemble(EnsemblePlan const& plan, MemberQueue& queue, KernelInstance const& kernel,
+                            BlockSink const& sink, StopRequest const& stop, Progress* progress) {
+    auto const start = std::chrono::steady_clock::now();
+    Team team(plan, queue, sink, stop, progress);
+    BlockEmit const emit = [&team](BlockBuffers const& buffers) { return team.emit(buffers); };
+    BlockProgram const once = [&](BlockBuffers& buffers, std::span<std::uint64_t const> members, BlockEmit const&) {
+        buffers.run(kernel, plan.request, plan.source, stop, members);
+        emit(buffers);
+    };
+    BlockProgram const& program = plan.program ? plan.program : once;
+
+#pragma omp parallel num_threads(plan.threads)
+    {
+        // No exception may leave the parallel region.
+        try {
+            BlockBuffers buffers;
+            for (auto places = team.next_places(); !places.empty(); places = team.next_places()) {
+                auto const begin = std::chrono::steady_clock::now();
+                program(buffers, places, emit);
+                team.measured(places.size(), seconds_since(begin));
+            }
+        } catch (...) {
+            team.fail(std::current_exception());
+        }
+    }
+    EnsembleTotals totals = team.totals();
+    totals.seconds = seconds_since(start);
+    return totals;
 }
 
 EnsembleTotals run_ensemble(EnsemblePlan const& plan, KernelInstance const& kernel, BlockSink const& sink,
                             StopRequest const& stop, Progress* progress) {
-    auto const start = std::chrono::steady_clock::now();
-    std::uint64_t const blocks = (plan.members + plan.block_members - 1) / plan.block_members;
-    EnsembleTotals totals;
-    std::uint64_t handed_out = 0;
-    StopReason reason = StopReason::none;
-    std::exception_ptr failure;
-    std::mutex mutex;  // guards the four above and the sink
-
-    auto const next_block_allowed = [&] {
-        std::lock_guard const lock(mutex);
-        if (reason == StopReason::none) reason = stop.reason();
-        return !failure && reason == StopReason::none;
-    };
-    auto const run_block = [&](BlockBuffers& buffers, std::uint64_t block) {
-        std::uint64_t const first = block * plan.block_members;
-        auto const members =
-            static_cast<std::size_t>(std::min<std::uint64_t>(plan.block_members, plan.members - first));
-        buffers.run(kernel, plan.request, plan.source, stop, plan.first_member + first, members);
-        BlockResult const result = buffers.result(first);
-        {
-            std::lock_guard const lock(mutex);
-            if (failure) return;
-            // Recorded before the lock is given up: no other thread may offer its block to a sink that failed.
-            try {
-                sink(result);
-            } catch (...) {
-                failure = std::current_exception();
-                return;
-            }
-            add_block(totals, buffers, result);
-            handed_out += members;
-        }
-        if (progress) progress->add(members);
-    };
-
-#pragma omp parallel num_threads(plan.threads)
-    {
-        BlockBuffers buffers;
-#pragma omp for schedule(dynamic, 1)
-        for (std::uint64_t block = 0; block < blocks; ++block) {
-            // No exception may leave the parallel region.
-            try {
-                if (next_block_allowed()) run_block(buffers, block);
-            } catch (...) {
-                std::lock_guard const lock(mutex);
-                if (!failure) failure = std::current_exception();
-            }
-        }
-    }
-    if (failure) std::rethrow_exception(failure);
-    totals.not_run += plan.members - handed_out;
-    // A block in work may be the first to hear of the stop.
-    if (reason == StopReason::none) reason = stop.reason();
-    totals.stopped = totals.not_run > 0 ? reason : StopReason::none;
-    totals.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return totals;
+    LocalQueue queue(plan.members.count());
+    return run_ensemble(plan, queue, kernel, sink, stop, progress);
 }
 
 }  // namespace slideway

@@ -66,6 +66,15 @@ bool MemberSet::contains(std::uint64_t member) const {
     return range != ranges_.end() && range->first <= member;
 }
 
+std::uint64_t MemberSet::place(std::uint64_t member) const {
+    std::uint64_t smaller = 0;
+    for (MemberRange const& range : ranges_) {
+        if (range.first >= member) break;
+        smaller += std::min(range.count, member - range.first);
+    }
+    return smaller;
+}
+
 std::vector<std::uint64_t> MemberSet::members(std::uint64_t offset, std::uint64_t count) const {
     std::vector<std::uint64_t> found;
     for (MemberRange const& range : ranges_) {

@@ -33,6 +33,8 @@ public:
     bool empty() const { return ranges_.empty(); }
     std::uint64_t count() const;
     bool contains(std::uint64_t member) const;
+    /// How many members are smaller.
+    std::uint64_t place(std::uint64_t member) const;
     /// The members from the `offset`-th smallest on, `count` of them or as many as there are.
     std::vector<std::uint64_t> members(std::uint64_t offset, std::uint64_t count) const;
     std::span<MemberRange const> ranges() const { return ranges_; }

@@ -18,8 +18,8 @@ std::string clock_text(double seconds) {
 
 }  // namespace
 
-std::string progress_line(std::uint64_t done, std::uint64_t members, double seconds) {
-    double const rate = seconds > 0 ? static_cast<double>(done) / seconds : 0;
+std::string progress_line(std::uint64_t done, std::uint64_t members, double seconds, std::uint64_t before) {
+    double const rate = seconds > 0 ? static_cast<double>(done - before) / seconds : 0;
     double const percent = members > 0 ? 100.0 * static_cast<double>(done) / static_cast<double>(members) : 100.0;
     std::string const left = rate > 0 ? clock_text(static_cast<double>(members - done) / rate) : "--";
     return fmt::format("{:5.1f} %  {} of {} members  {:.3g} members/s  ETA {}", percent, done, members, rate, left);
@@ -30,8 +30,8 @@ Progress::Style Progress::style_for(std::FILE* out, bool quiet) {
     return isatty(fileno(out)) ? Style::terminal : Style::lines;
 }
 
-Progress::Progress(std::uint64_t members, Style style, std::FILE* out, StopRequest const& stop)
-    : members_(members), style_(style), out_(out), stop_(stop) {
+Progress::Progress(std::uint64_t members, std::uint64_t before, Style style, std::FILE* out, StopRequest const& stop)
+    : members_(members), before_(before), style_(style), out_(out), stop_(stop) {
     if (style_ != Style::none) reporter_ = std::thread([this] { report(); });
 }
 
@@ -51,7 +51,8 @@ Progress::~Progress() {
 
 void Progress::print_line() {
     std::chrono::duration<double> const elapsed = std::chrono::steady_clock::now() - start_;
-    std::string const line = progress_line(done_.load(std::memory_order_relaxed), members_, elapsed.count());
+    std::string const line =
+        progress_line(before_ + done_.load(std::memory_order_relaxed), members_, elapsed.count(), before_);
     // Erase to the end of the line: the next one may be shorter.
     if (style_ == Style::terminal)
         fmt::print(out_, "\r{}\x1b[K", line);

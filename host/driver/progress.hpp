@@ -15,7 +15,8 @@
 namespace slideway {
 
 /// ` 37.5 %  384 of 1024 members  12.3 members/s  ETA 0:52`.  The ETA is the rate so far carried on.
-std::string progress_line(std::uint64_t done, std::uint64_t members, double seconds);
+/// @param before of `done`, those done before the clock started.
+std::string progress_line(std::uint64_t done, std::uint64_t members, double seconds, std::uint64_t before = 0);
 
 /// Writes from a thread of its own: a line redrawn four times a second on a terminal, else a line every ten seconds.
 class Progress {
@@ -24,7 +25,8 @@ public:
     /// terminal if `out` is one, lines if not, none if quiet.
     static Style style_for(std::FILE* out, bool quiet);
 
-    Progress(std::uint64_t members, Style style, std::FILE* out, StopRequest const& stop);
+    /// @param before members that were done before the start: they count, but not towards the rate.
+    Progress(std::uint64_t members, std::uint64_t before, Style style, std::FILE* out, StopRequest const& stop);
     ~Progress();
     Progress(Progress const&) = delete;
     Progress& operator=(Progress const&) = delete;
@@ -36,7 +38,7 @@ private:
     void report();
     void print_line();
 
-    std::uint64_t const members_;
+    std::uint64_t const members_, before_;
     Style const style_;
     std::FILE* const out_;
     StopRequest const& stop_;

@@ -1,13 +1,16 @@
 #include "host/output/netcdf_file.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
+#include <hdf5.h>
 #include <netcdf.h>
+#include <netcdf_mem.h>
 
 #include "host/scene/error.hpp"
 
@@ -23,6 +26,12 @@ constexpr int closed = -1;
 }
 
 int variable_or_global(int variable) { return variable == NetcdfFile::global ? NC_GLOBAL : variable; }
+
+/// netCDF asks HDF5 for attributes that need not be there, and silences its complaints in the first thread alone.
+void silence_hdf5() {
+    thread_local herr_t const silent = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    static_cast<void>(silent);
+}
 
 nc_type type_of(NetcdfFile::Type type) {
     switch (type) {
@@ -60,6 +69,7 @@ void NetcdfFile::require(int code, std::string_view action) const {
 }
 
 NetcdfFile NetcdfFile::create(std::string const& path) {
+    silence_hdf5();
     int id = closed;
     if (int const code = nc_create(path.c_str(), NC_NOCLOBBER | NC_NETCDF4, &id); code != NC_NOERR) {
         fail(path, "create", code);
@@ -68,11 +78,42 @@ NetcdfFile NetcdfFile::create(std::string const& path) {
 }
 
 NetcdfFile NetcdfFile::open(std::string const& path) {
+    silence_hdf5();
     int id = closed;
     int const code = nc_open(path.c_str(), NC_NOWRITE, &id);
     if (code == NC_ENOTNC) throw FileError(path + ": is no netCDF file; give a result of slideway run");
     if (code != NC_NOERR) fail(path, "open", code);
     return {path, id};
+}
+
+NetcdfFile NetcdfFile::create_in_memory(std::string const& name) {
+    silence_hdf5();
+    int id = closed;
+    constexpr std::size_t first_size = 1 << 16;  // it grows
+    if (int const code = nc_create_mem(name.c_str(), NC_NETCDF4, first_size, &id); code != NC_NOERR) {
+        fail(name, "create", code);
+    }
+    return {name, id};
+}
+
+std::vector<std::byte> NetcdfFile::close_to_bytes() {
+    NC_memio memory{};
+    require(nc_close_memio(std::exchange(id_, closed), &memory), "close");
+    auto const* const begin = static_cast<std::byte const*>(memory.memory);
+    std::vector<std::byte> bytes(begin, begin + memory.size);
+    std::free(memory.memory);
+    return bytes;
+}
+
+NetcdfFile NetcdfFile::open_in_memory(std::string const& name, std::span<std::byte const> bytes) {
+    silence_hdf5();
+    int id = closed;
+    // It only reads.
+    auto* const memory = const_cast<std::byte*>(bytes.data());
+    if (int const code = nc_open_mem(name.c_str(), NC_NOWRITE, bytes.size(), memory, &id); code != NC_NOERR) {
+        fail(name, "open", code);
+    }
+    return {name, id};
 }
 
 NetcdfFile::NetcdfFile(NetcdfFile&& other) noexcept
@@ -229,6 +270,15 @@ std::vector<NetcdfFile::Variable> NetcdfFile::variables() const {
         variables.push_back(std::move(variable));
     }
     return variables;
+}
+
+std::string NetcdfFile::first_dimension(Variable const& variable) const {
+    if (variable.shape.empty()) return {};
+    int dimensions[NC_MAX_VAR_DIMS];
+    char name[NC_MAX_NAME + 1];
+    require(nc_inq_vardimid(id_, variable.id, dimensions), "read the header");
+    require(nc_inq_dimname(id_, dimensions[0], name), "read the header");
+    return name;
 }
 
 std::string NetcdfFile::text(int variable, std::string const& name) const {

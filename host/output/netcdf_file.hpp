@@ -2,6 +2,7 @@
 // netCDF-C is not thread-safe: one thread at a time may be in here, whatever file it works on.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,6 +27,11 @@ public:
 
     static NetcdfFile create(std::string const& path);  // netCDF-4; the file must not exist
     static NetcdfFile open(std::string const& path);    // to read
+    /// In memory; `name` stands for the path in messages.  `close_to_bytes` gives what the file would hold.
+    static NetcdfFile create_in_memory(std::string const& name);
+    std::vector<std::byte> close_to_bytes();
+    /// To read from `bytes`, which must outlive the file.
+    static NetcdfFile open_in_memory(std::string const& name, std::span<std::byte const> bytes);
     NetcdfFile(NetcdfFile&& other) noexcept;
     NetcdfFile& operator=(NetcdfFile&&) = delete;
     ~NetcdfFile();  // closes; what fails then is lost: call close()
@@ -48,8 +54,8 @@ public:
                void const* values);
     void read(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count, void* values) const;
 
-    /// Groups: handles that share this file and must not outlive it.  They do what the file does but flush and close; they
-    /// see the dimensions of what they lie in.  Moving the file leaves them valid.
+    /// Groups: handles that share this file and must not outlive it.  They do what the file does but flush and close;
+    /// they see the dimensions of what they lie in.  Moving the file leaves them valid.
     NetcdfFile add_group(std::string const& name);
     NetcdfFile group(std::string const& name) const;  // @throws FileError if there is none
     bool has_group(std::string const& name) const;
@@ -59,6 +65,7 @@ public:
 
     std::vector<Dimension> dimensions() const;                      // of a group: its own
     std::vector<Variable> variables() const;                        // in the order of their definition
+    std::string first_dimension(Variable const& variable) const;    // its name; "" of a scalar
     std::string text(int variable, std::string const& name) const;  // "" when there is none
     bool number(int variable, std::string const& name, double& value) const;
 

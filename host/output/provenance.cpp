@@ -17,6 +17,8 @@ BuildInfo const& build_info() {
     return info;
 }
 
+std::string BuildInfo::text() const { return fmt::format("slideway {}, commit {}, {}", version, commit, compiler); }
+
 std::string creation_time() {
     std::time_t seconds = std::time(nullptr);
     if (char const* const text = std::getenv("SOURCE_DATE_EPOCH")) {

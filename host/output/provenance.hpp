@@ -11,6 +11,7 @@ struct BuildInfo {
     std::string version;   // "0.1.0"
     std::string commit;    // short name, "-dirty" behind it if tracked files differed; "unknown" without git
     std::string compiler;  // "GNU 12.2.0"
+    std::string text() const;  // "slideway 0.1.0, commit 60e6457, GNU 12.2.0": of two alike, members have the same bits
 };
 BuildInfo const& build_info();
 

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "host/driver/member_set.hpp"
 #include "host/output/study_columns.hpp"
+#include "host/scene/labels.hpp"
 #include "kernels/block.hpp"
 
 namespace slideway {
@@ -19,21 +21,17 @@ struct ParameterColumn {
 };
 
 struct ResultLayout {
-    std::uint64_t first_member = 0;
-    std::uint64_t members = 0;
+    MemberSet members;
     std::vector<double> sample_times;  // empty: no time series
     Selection quantities = 0;
     Selection series = 0;
     std::vector<ParameterColumn> parameters;
-    std::size_t sections = 0;  // of a member, at most; 0: none are stored
-    bool crossings = false;    // of a surface, not of a crank angle
-    std::string sweep;         // name of the parameter column that a sweep goes by; "": no sweep
-    StudyTable study;          // what the study concludes of each member
+    std::size_t sections = 0;        // of a member, at most; 0: none are stored
+    std::uint64_t section_rows = 0;  // of all members
+    bool crossings = false;          // of a surface, not of a crank angle
+    std::string sweep;               // name of the parameter column that a sweep goes by; "": no sweep
+    StudyTable study;                // what the study concludes of each member
 };
-
-/// Labels along a dimension of the quantity table: "P1" … "P8", the mode classes, "roll" "yaw" "pitch".
-/// Empty for an unknown dimension.
-std::vector<std::string> labels_of(std::string const& dimension);
 
 /// Bytes of data in the file; its header adds some tens of kilobytes.
 std::uint64_t payload_bytes(ResultLayout const& layout);

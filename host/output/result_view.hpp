@@ -8,8 +8,8 @@
 
 namespace slideway {
 
-/// Reads a result through a file that somebody else keeps open; also one that is still being written.  The variables are
-/// those defined when the view was made.  The file must not be moved or closed while the view is in use.
+/// Reads a result through a file that somebody else keeps open; also one that is still being written.  The variables
+/// are those defined when the view was made.  The file must not be moved or closed while the view is in use.
 class ResultView {
 public:
     /// @throws FileError if the file has no `status` of members, so is no result of slideway.

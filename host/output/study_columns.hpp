@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "host/output/netcdf_file.hpp"
-
 namespace slideway {
 
 /// A dimension of its own with the values along it.
@@ -37,18 +35,5 @@ struct StudyTable {
 
 /// Values of a table's columns for the members of one block: [column][members × width].
 using StudyValues = std::vector<std::vector<double>>;
-
-class StudyColumnWriter {
-public:
-    explicit StudyColumnWriter(StudyTable table) : table_(std::move(table)) {}
-    void define(NetcdfFile& file, int member_dimension);
-    void write_axes(NetcdfFile& file) const;
-    bool is_axis(int variable) const;
-    void write(NetcdfFile& file, std::size_t first, std::size_t members, StudyValues const& values) const;
-
-private:
-    StudyTable const table_;
-    std::vector<int> axes_, columns_;
-};
 
 }  // namespace slideway

@@ -38,9 +38,9 @@ struct StandardisedRegression {
     double r_squared;                  // share of the output's variance that the linear function explains
 };
 
-/// Least squares of (y-ȳ)/s_y on (x_i-x̄_i)/s_i by a QR decomposition with column pivoting (Eigen).  Columns that depend
-/// linearly on others share the effect by the minimum norm.  Rows are taken in blocks that are folded into a triangle one after the
-/// other, so that no matrix of all rows is needed.
+/// Least squares of (y-ȳ)/s_y on (x_i-x̄_i)/s_i by a QR decomposition with column pivoting (Eigen).  Columns that
+/// depend linearly on others share the effect by the minimum norm.  Rows are taken in blocks that are folded into a
+/// triangle one after the other, so that no matrix of all rows is needed.
 /// Source: Saltelli et al. (2008), Global Sensitivity Analysis, 1.2.5; Golub and Van Loan (2013), 5.3.
 /// @param inputs [columns] of [n] each; @param output [n]; no NaN.
 /// @return NaN where n <= inputs or the output is constant or not finite.

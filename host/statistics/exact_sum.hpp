@@ -7,8 +7,8 @@
 
 namespace slideway {
 
-/// Sum of up to 2^64 doubles as a fixed-point number over the whole range of doubles; it does not depend on the order in
-/// which they come, nor on how they are divided into partial sums.  Plain bytes: may be copied between processes.
+/// Sum of up to 2^64 doubles as a fixed-point number over the whole range of doubles; it does not depend on the order
+/// in which they come, nor on how they are divided into partial sums.  Plain bytes: may be copied between processes.
 /// Source: Kulisch (2013), Computer Arithmetic and Validity, 8 (the long accumulator).
 ///
 /// Bit 64·i + j of the two's complement number `limbs_` counts 2^(64 i + j - 1074), the least subnormal.  A NaN, or

@@ -17,10 +17,10 @@ struct Histogram {
     std::uint64_t below = 0, above = 0;  // -infinity, +infinity: in no bin
 };
 
-/// Equal bins from the least to the largest finite number.  Their number is that of Freedman and Diaconis, the range over
-/// 2 IQR n^(-1/3), rounded up and limited to [1, 64]; where the quartiles coincide but not the ends it is 64.  A sample
-/// of one value alone has one bin of no width, both edges that value.  Infinite numbers are counted apart and take no
-/// part in range, quartiles and n.
+/// Equal bins from the least to the largest finite number.  Their number is that of Freedman and Diaconis, the range
+/// over 2 IQR n^(-1/3), rounded up and limited to [1, 64]; where the quartiles coincide but not the ends it is 64.  A
+/// sample of one value alone has one bin of no width, both edges that value.  Infinite numbers are counted apart and
+/// take no part in range, quartiles and n.
 /// Source: Freedman and Diaconis (1981), On the histogram as a density estimator, Z. Wahrscheinlichkeitstheorie 57.
 /// @param sorted ascending, no NaN.
 Histogram histogram(std::span<double const> sorted);

@@ -9,14 +9,15 @@
 
 namespace slideway {
 
-/// Counts of numbers in bins of bounded relative width, for quantiles of bounded relative error; merging adds integers, so a
-/// sketch depends on neither the order of its numbers nor their division into parts.
+/// Counts of numbers in bins of bounded relative width, for quantiles of bounded relative error; merging adds integers,
+/// so a sketch depends on neither the order of its numbers nor their division into parts.
 /// Source: Masson, Rim and Lee (2019), DDSketch: a fast and fully-mergeable quantile sketch with relative-error
 /// guarantees, PVLDB 12.  We deviate in the bins: each octave is cut into 512 equal ones, so that a bin is the first
 /// bits of the double and no logarithm is needed, at 1.4 times the bins of geometric ones.
 ///
 /// Bin [l, u) answers with 2 l u/(l + u), whose relative distance from l and u is (u - l)/(u + l) <= 2^-9/(2 + 2^-9) <
-/// `error`.  Numbers below the least normal double (2.2e-308) count as 0; infinities are numbers; NaN are counted apart.
+/// `error`.  Numbers below the least normal double (2.2e-308) count as 0; infinities are numbers; NaN are counted
+/// apart.
 class QuantileSketch {
 public:
     static constexpr double error = 0x1p-10;  // α = 0.00098

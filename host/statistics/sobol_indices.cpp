@@ -14,7 +14,8 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_groups = std::size_t{1} << 16;
 
-/// Sums over rows from which all estimates follow: rows, a + b, a² + b², and for each input b (ab - a), ab - a, (ab - a)².
+/// Sums over rows from which all estimates follow: rows, a + b, a² + b², and for each input b (ab - a), ab - a, (ab -
+/// a)².
 struct Sums {
     static constexpr std::size_t common = 3, per_input = 3;
     static std::size_t size(std::size_t inputs) { return common + per_input * inputs; }

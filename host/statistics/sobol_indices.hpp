@@ -42,13 +42,13 @@ struct SobolIndices {
 /// Source: Saltelli et al. (2010), Variance based sensitivity analysis of model output, Comput. Phys. Commun. 181,
 /// table 2 (b) and (f); (f) is Jansen (1999), ibid. 117.
 ///
-/// Intervals are percentiles of bootstrap replicates (Efron and Tibshirani 1993, 13.3) that draw rows with replacement.  Of
-/// more than 2^16 rows, 2^16 groups of neighbouring rows are drawn instead; estimates are functions of sums over rows, so
-/// groups are as good.  Draws are Philox words keyed by seed and counted by replicate: results depend on neither the
-/// threads nor their number.
+/// Intervals are percentiles of bootstrap replicates (Efron and Tibshirani 1993, 13.3) that draw rows with replacement.
+/// Of more than 2^16 rows, 2^16 groups of neighbouring rows are drawn instead; estimates are functions of sums over
+/// rows, so groups are as good.  Draws are Philox words keyed by seed and counted by replicate: results depend on
+/// neither the threads nor their number.
 ///
-/// @return dimensionless indices; NaN where V is 0 or an infinite output is involved, intervals NaN with fewer than two rows.
-/// Estimates of small indices can be negative, of large ones above 1.
+/// @return dimensionless indices; NaN where V is 0 or an infinite output is involved, intervals NaN with fewer than two
+/// rows. Estimates of small indices can be negative, of large ones above 1.
 SobolIndices sobol_indices(RadialValues const& design, BootstrapSettings const& bootstrap = {});
 
 }  // namespace slideway

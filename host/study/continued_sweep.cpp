@@ -1,7 +1,8 @@
 #include "host/study/continued_sweep.hpp"
 
 #include <algorithm>
-#include <array>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "host/study/state_table.hpp"
@@ -11,94 +12,130 @@ namespace {
 
 using State = std::array<double, state_size>;
 
-/// Members [first, end).
-struct Members {
-    std::uint64_t first, end;
-    std::uint64_t count() const { return end > first ? end - first : 0; }
-};
-
-Members common(Members a, Members b) { return {std::max(a.first, b.first), std::min(a.end, b.end)}; }
-
-/// Clearances of the joint that a state comes from.
-struct Gaps {
-    double y = 1, z = 1;
-};
-
-/// Where each start stands: the state in which its member of the last column ended, if that one finished.
-struct Places {
-    std::vector<State> states;
-    std::vector<Gaps> gaps;
-    std::vector<char> is_known;
-    explicit Places(std::uint64_t starts) : states(starts), gaps(starts), is_known(starts, 0) {}
+/// Where a start stands: the state in which its member of the last column ended, if that one finished, and the gaps there.
+struct Place {
+    State state{};
+    double gap_y = 1, gap_z = 1;
+    bool is_known = false;
 };
 
 /// A state of a joint in another one: places and velocities keep their share of the clearance, tilts that of the tighter
 /// gap.  Else a slider that lay on its way would begin the next column inside it, or in the air.
-void place(Inputs& inputs, State const& state, Gaps const& gaps) {
-    double const along_y = inputs.clearance_y / gaps.y, along_z = inputs.clearance_z / gaps.z;
+void put(Inputs& inputs, Place const& place) {
+    double const along_y = inputs.clearance_y / place.gap_y, along_z = inputs.clearance_z / place.gap_z;
     double const tilt = std::min(along_y, along_z);
     double const share[state_size] = {along_y, along_z, along_y, along_z, tilt, tilt, tilt, tilt, tilt, tilt};
-    for (std::size_t i = 0; i < state_size; ++i) inputs.*state_inputs[i] = share[i] * state[i];
+    for (std::size_t i = 0; i < state_size; ++i) inputs.*state_inputs[i] = share[i] * place.state[i];
 }
+
+/// Runs some starts through the columns.
+class Chain {
+public:
+    Chain(Scene const& scene, BlockRequest const& request, MemberSource source, MemberSet asked,
+          KernelInstance const& kernel, MemberEnds ends, StopRequest const& stop)
+        : scene_(scene),
+          request_(request),
+          draw_(std::move(source)),
+          asked_(std::move(asked)),
+          kernel_(kernel),
+          ends_(std::move(ends)),
+          stop_(stop) {}
+
+    void run(BlockBuffers& buffers, std::span<std::uint64_t const> starts, BlockEmit const& emit) const {
+        std::vector<Place> places(starts.size());
+        for (std::uint64_t column = 0; column < scene_.chaos.values.size(); ++column) {
+            if (!run_column(column, buffers, starts, places, emit) || stop_.reason() != StopReason::none) return;
+        }
+    }
+
+private:
+    std::uint64_t member(std::uint64_t column, std::uint64_t start) const { return column * scene_.members + start; }
+
+    /// Whether a start's member of this column or of a later one is asked for.
+    bool leads_on(std::uint64_t column, std::uint64_t start) const {
+        for (std::uint64_t later = column; later < scene_.chaos.values.size(); ++later) {
+            if (asked_.contains(member(later, start))) return true;
+        }
+        return false;
+    }
+
+    void remember(Place& place, std::uint64_t of_member, bool finished, std::span<double const> state) const {
+        Inputs const inputs = member_inputs(scene_, of_member);
+        place.gap_y = inputs.clearance_y;
+        place.gap_z = inputs.clearance_z;
+        place.is_known = finished;
+        std::copy_n(state.begin(), state_size, place.state.begin());
+    }
+
+    bool run_column(std::uint64_t column, BlockBuffers& buffers, std::span<std::uint64_t const> starts,
+                    std::vector<Place>& places, BlockEmit const& emit) const {
+        std::vector<std::uint64_t> asked, leading;
+        std::vector<std::size_t> place_of_asked, place_of_leading;
+        for (std::size_t i = 0; i < starts.size(); ++i) {
+            std::uint64_t const m = member(column, starts[i]);
+            if (!leads_on(column, starts[i])) continue;
+            if (auto const end = ends_ ? ends_(m) : std::nullopt) {
+                remember(places[i], m, end->finished, end->state);
+                continue;
+            }
+            bool const is_asked = asked_.contains(m);
+            (is_asked ? asked : leading).push_back(m);
+            (is_asked ? place_of_asked : place_of_leading).push_back(i);
+        }
+        return run_members(leading, place_of_leading, buffers, places, {}) &&
+               run_members(asked, place_of_asked, buffers, places, emit);
+    }
+
+    bool run_members(std::vector<std::uint64_t> const& members, std::vector<std::size_t> const& places_of,
+                     BlockBuffers& buffers, std::vector<Place>& places, BlockEmit const& emit) const {
+        if (members.empty()) return true;
+        MemberSource const source = [&](std::uint64_t m, Inputs& inputs) {
+            if (!draw_(m, inputs)) return false;
+            auto const at = std::lower_bound(members.begin(), members.end(), m) - members.begin();
+            Place const& place = places[places_of[static_cast<std::size_t>(at)]];
+            if (!place.is_known) return true;
+            put(inputs, place);
+            inputs.start_angle = scene_.chaos.section.level;  // where the column before has ended
+            return true;
+        };
+        buffers.run(kernel_, request_, source, stop_, members);
+        BlockResult const result = buffers.result();
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            remember(places[places_of[i]], members[i], result.records[i].status == Status::finished,
+                     result.final_states.subspan(i * state_size, state_size));
+        }
+        return !emit || emit(buffers);
+    }
+
+    Scene const& scene_;
+    BlockRequest const& request_;
+    MemberSource const draw_;
+    MemberSet const asked_;
+    KernelInstance const kernel_;
+    MemberEnds const ends_;
+    StopRequest const& stop_;
+};
 
 }  // namespace
 
-EnsembleTotals run_continued(Scene const& scene, EnsemblePlan plan, KernelInstance const& kernel, BlockSink const& sink,
-                             StopRequest const& stop, Progress& progress) {
-    std::uint64_t const starts = scene.members;
-    Members const asked{plan.first_member, plan.first_member + plan.members};
-    std::uint64_t const first_column = asked.first / starts, last_column = (asked.end - 1) / starts;
-    // Within one column a start needs none but its own places; of several, the last may need all.
-    Members const needed =
-        first_column == last_column ? Members{asked.first % starts, (asked.end - 1) % starts + 1} : Members{0, starts};
-    MemberSource const draw = plan.source;
-    std::size_t const block_members =
-        std::min<std::size_t>(plan.block_members, static_cast<std::size_t>(needed.count()));
-    Places places(starts);
-    EnsembleTotals totals;
-
-    for (std::uint64_t column = 0; column <= last_column; ++column) {
-        std::uint64_t const first = column * starts;
-        plan.source = [&](std::uint64_t member, Inputs& inputs) {
-            if (!draw(member, inputs)) return false;
-            auto const start = static_cast<std::size_t>(member - first);
-            if (!places.is_known[start]) return true;
-            place(inputs, places.states[start], places.gaps[start]);
-            inputs.start_angle = scene.chaos.section.level;  // where the column before has ended
-            return true;
-        };
-        // Blocks read what a column before them has left: what this one leaves must wait for its end.
-        Places ends = places;
-        auto const run = [&](Members members, bool is_asked) {
-            plan.first_member = members.first;
-            plan.members = members.count();
-            plan.block_members = block_members;
-            return run_ensemble(
-                plan, kernel,
-                [&](BlockResult block) {
-                    for (std::size_t i = 0; i < block.records.size(); ++i) {
-                        auto const start = static_cast<std::size_t>(members.first - first + block.first) + i;
-                        ends.gaps[start] = {block.inputs[i].clearance_y, block.inputs[i].clearance_z};
-                        ends.is_known[start] = block.records[i].status == Status::finished;
-                        std::copy_n(block.final_states.begin() + static_cast<std::ptrdiff_t>(i * state_size),
-                                    state_size, ends.states[start].begin());
-                    }
-                    block.first += members.first - asked.first;
-                    if (is_asked) sink(block);
-                },
-                stop, is_asked ? &progress : nullptr);
-        };
-        // Those before what is asked for only lead to it; those after it, in the last column, lead nowhere.
-        Members const in_column{first + needed.first, first + needed.end}, here = common(in_column, asked);
-        run({in_column.first, here.count() > 0 ? here.first : in_column.end}, false);
-        if (here.count() > 0) totals += run(here, true);
-        places = ends;
-        if (stop.reason() == StopReason::none) continue;
-        totals.not_run = asked.count() - (totals.failed() + totals.ended[static_cast<std::size_t>(Status::finished)]);
-        totals.stopped = totals.not_run > 0 ? stop.reason() : StopReason::none;
-        break;
+void continue_columns(Scene const& scene, EnsemblePlan& plan, MemberSet const& asked, KernelInstance const& kernel,
+                      MemberEnds ends, StopRequest const& stop) {
+    MemberSet starts;
+    for (MemberRange const& range : asked.ranges()) {
+        if (range.count >= scene.members) {
+            starts.add({0, scene.members});
+            continue;
+        }
+        std::uint64_t const first = range.first % scene.members;
+        std::uint64_t const before_turn = std::min(range.count, scene.members - first);
+        starts.add({first, before_turn});
+        starts.add({0, range.count - before_turn});
     }
-    return totals;
+    plan.members = starts;
+    auto const chain = std::make_shared<Chain>(scene, plan.request, plan.source, asked, kernel, std::move(ends), stop);
+    plan.program = [chain](BlockBuffers& buffers, std::span<std::uint64_t const> places, BlockEmit const& emit) {
+        chain->run(buffers, places, emit);
+    };
 }
 
 }  // namespace slideway

@@ -1,15 +1,28 @@
-// A sweep whose columns follow one another: each starts from the states in which the one before has ended.
+// A sweep whose columns go on from each other.
 #pragma once
 
+#include <array>
+#include <functional>
+#include <optional>
+
+#include "host/backend/backend.hpp"
 #include "host/driver/ensemble.hpp"
 #include "host/scene/scene.hpp"
 
 namespace slideway {
 
-/// Runs the members of the plan column by column, and before them, without a result, those of earlier columns that lead to them: a member
-/// is the same whichever others are asked for.  A start whose member has failed goes on from the scene's start.
-/// @return totals over the members of the plan.
-EnsembleTotals run_continued(Scene const& scene, EnsemblePlan plan, KernelInstance const& kernel, BlockSink const& sink,
-                             StopRequest const& stop, Progress& progress);
+/// How a member ended in an earlier run.
+struct MemberEnd {
+    bool finished;
+    std::array<double, state_size> state;
+};
+using MemberEnds = std::function<std::optional<MemberEnd>(std::uint64_t member)>;
+
+/// Starts do not depend on each other: a worker takes some and runs them through the columns.
+/// The plan of the members `asked` becomes one whose places are the starts.  Members before those asked for, which only lead to them,
+/// run too, but are not handed on.
+/// @param ends of members that ran before and need not run again
+void continue_columns(Scene const& scene, EnsemblePlan& plan, MemberSet const& asked, KernelInstance const& kernel,
+                      MemberEnds ends, StopRequest const& stop);
 
 }  // namespace slideway

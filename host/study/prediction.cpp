@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "host/scene/integrator_keys.hpp"
-#include "host/study/ensemble_study.hpp"
+#include "host/study/ensemble_plan.hpp"
 #include "host/study/orbit_schedule.hpp"
 
 namespace slideway {
@@ -59,20 +59,25 @@ double stiffest_rate(Inputs const& in) {
 }
 
 Prediction predict(Scene const& scene, Isa isa, int threads) {
-    MemberRange const all{0, member_count(scene)};
+    std::uint64_t const count = member_count(scene);
+    MemberSet const all(MemberRange{0, count});
     EnsemblePlan const plan = ensemble_plan(scene, all, isa, threads);
-    auto const members = static_cast<double>(plan.members);
-    std::uint64_t const blocks = (plan.members + plan.block_members - 1) / plan.block_members;
-    std::uint64_t const busy = std::min<std::uint64_t>(static_cast<std::uint64_t>(threads), blocks);
+    auto const members = static_cast<double>(count);
+    auto const workers = static_cast<std::uint64_t>(threads);
+    std::uint64_t const first_block = std::min(BlockSizer(plan.blocks, count, threads).next(count), count);
+    std::uint64_t const busy = std::min((count + first_block - 1) / first_block, workers);
+    std::uint64_t const largest = std::min<std::uint64_t>((count + workers - 1) / workers, plan.blocks.most);
 
     Prediction prediction{};
-    prediction.block_members = plan.block_members;
     prediction.busy_threads = static_cast<int>(std::max<std::uint64_t>(busy, 1));
-    prediction.buffer_bytes =
-        busy *
-        block_bytes(plan.request, static_cast<std::size_t>(std::min<std::uint64_t>(plan.block_members, plan.members)));
+    prediction.largest_block = static_cast<std::size_t>(largest);
+    prediction.buffer_bytes = busy * block_bytes(plan.request, static_cast<std::size_t>(largest));
+    // A shard is built, waits and is written.
+    constexpr std::uint64_t images = 4;
+    prediction.image_bytes = images * payload_bytes(result_layout(scene, MemberSet(MemberRange{0, largest})));
     prediction.summary_bytes = summary_bytes(scene);
     prediction.output_bytes = payload_bytes(result_layout(scene, all));
+    prediction.shard_bytes = prediction.output_bytes;
     OrbitSchedule const schedule = orbit_schedule(scene);
     double const end = schedule.timing ? schedule.longest : scene.integrator.end_time;
     double const stops = members * static_cast<double>(schedule.stops.count);

@@ -13,12 +13,16 @@ namespace slideway {
 /// before the run how long the slider flies.
 struct Prediction {
     std::uint64_t buffer_bytes;   // of all threads' blocks; the program itself needs some tens of MB more
+    std::uint64_t image_bytes;    // of shards on their way to the disk
     std::uint64_t summary_bytes;  // of the statistics over all members at the end
     std::uint64_t output_bytes;
-    std::size_t block_members;
+    std::uint64_t shard_bytes;       // beside the output, until it is whole
+    std::size_t largest_block;       // members
     int busy_threads;                // that find a block to work on
     double least_steps, most_steps;  // of all members; the same where steps are fixed
     double least_seconds, most_seconds;
+
+    std::uint64_t memory() const { return buffer_bytes + image_bytes + summary_bytes; }
 };
 
 /// Rate Ω [rad/s] of the stiffest motion of a slider that lies on one of its faces: with the surface's stiffness k it moves as a

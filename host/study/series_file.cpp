@@ -208,7 +208,8 @@ StoredSeries read_result_series(std::string const& path, std::string const& vari
     if (!file.has("time") && file.has("section_count")) {
         return read_sections(file, path, variable, place_of(file, path, member));
     }
-    if (!file.has("time")) throw SceneError(path + ": has no time series; run the scene as kind = \"ensemble\" with study.samples");
+    if (!file.has("time"))
+        throw SceneError(path + ": has no time series; run the scene as kind = \"ensemble\" with study.samples");
     std::vector<double> const times = file.values("time");
     auto const is_series = [&](std::string const& name) {
         auto const shape = file.shape(name);

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "host/output/result_layout.hpp"
 #include "host/scene/error.hpp"
+#include "host/scene/labels.hpp"
 #include "host/study/tolerance_members.hpp"
 #include "host/study/tolerance_sensitivity.hpp"
 
@@ -30,10 +30,8 @@ std::string policy_of(DesignKind design) {
 std::string intervals_of(DesignKind design) {
     std::string const level = fmt::format("{:.0f} % intervals of independent draws", 100 * confidence_level);
     if (!is_random(design)) return "none: the members are no random draws";
-    if (design == DesignKind::lhs || design == DesignKind::sobol) {
-        return level + "; conservative, for the draws of this design are spread more evenly";
-    }
-    return level;
+    if (design == DesignKind::mc) return level;
+    return level + "; conservative, for the draws of this design are spread more evenly";
 }
 
 std::vector<QuantityColumn> quantity_columns_of(ResultView const& results) {

@@ -93,13 +93,14 @@ inline constexpr std::size_t most_correlated = std::size_t{1} << 20;
 /// - moments, quantiles and histograms are of members that finished;
 /// - members that failed are counted by status, and meet no limit;
 /// - members that did not run are counted, and left out everywhere else;
-/// - of a saltelli design distributions and yields are of the 2N members of A and B, which are independent draws; rows with a member
-///   that failed or is missing are left out of the indices whole, and counted.
-/// Members are known by their number (variable `member`), so the file may hold a part of the design, in any order.  One column
-/// of all members is in memory at a time, and the inputs of at most `most_correlated` members.
-/// Intervals are those of independent draws (so too wide for lhs and sobol, whose draws are spread more evenly); of grid and
-/// table designs, whose members are no random draws, there are none.
-/// @throws FileError if the result lacks a quantity that a limit names, or its members are not those of the scene's design.
+/// - of a saltelli design distributions and yields are of the 2N members of A and B, each a draw of all inputs; rows
+///   with a member that failed or is missing are left out of the indices whole, and counted.
+/// Members are known by their number (variable `member`), so the file may hold a part of the design, in any order.  One
+/// column of all members is in memory at a time, and the inputs of at most `most_correlated` members.
+/// Intervals are those of independent draws (so too wide for lhs, sobol and saltelli, whose draws are spread more
+/// evenly); of grid and table designs, whose members are no random draws, there are none.
+/// @throws FileError if the result lacks a quantity that a limit names, or its members are not those of the scene's
+/// design.
 ToleranceReport tolerance_report(ResultView const& results, Scene const& scene);
 
 }  // namespace slideway

@@ -8,6 +8,7 @@
 
 #include "host/output/payload_hash.hpp"
 #include "host/study/statistics_groups.hpp"
+#include "tests/unit/scene_fixture.hpp"
 #include "tests/unit/tolerance_file.hpp"
 
 namespace slideway::testing {
@@ -18,7 +19,8 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 using ToleranceReportOf = ToleranceFile;
 
-/// Members [first, first + count): force is the number, mode_time[line] twice that; 10 k + 3 fail, 10 k + 7 did not run.
+/// Members [first, first + count): force is the number, mode_time[line] twice that; 10 k + 3 fail, 10 k + 7 did not
+/// run.
 std::vector<MadeUpMember> numbered_members(std::uint64_t first, std::size_t count) {
     std::vector<MadeUpMember> members(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -275,6 +277,54 @@ TEST_F(ToleranceReportOf, ASaltelliDesignUsesDrawsForDistributionsAndWholeRowsFo
         EXPECT_EQ(report.indices->columns[1].indices.total[i].value, expected_free.total[i].value);
     }
     EXPECT_NE(report.policy.find("members of A and B"), std::string::npos);
+}
+
+TEST_F(ToleranceReportOf, ASceneGoesByTheNumbersOfItsOwnDesign) {
+    // With the members that the scene draws; the force is of unit-free inputs, 3 x1 + 2 x2 + x3, variances as 9 : 4 : 1.
+    Scene const study = scene_of(R"(
+        schema = 1
+        [mechanism]
+        kind = "slider_crank"
+        [study]
+        kind = "tolerance"
+        design = "saltelli"
+        base = 1024
+        duration = "0.1 s"
+        quantities = ["peak_normal_force", "mode_time"]
+        [study.vary]
+        "joint.clearance" = { dist = "unif", low = 1e-4, high = 2e-4 }
+        "contact.eta" = { dist = "unif", low = 0.01, high = 0.02 }
+        "initial.z" = { dist = "unif", low = 0, high = 1e-5 }
+        [study.limits]
+        "peak_normal_force" = { max = 11.5 }
+        "mode_time[free]" = { min = 0.012 }
+    )");
+    ASSERT_EQ(study.members, 5u * 1024);
+    std::vector<MadeUpMember> members(study.members);
+    std::uint64_t within = 0;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        Inputs const inputs = member_inputs(study, i);
+        MadeUpMember& m = members[i];
+        m.number = i;
+        m.force = 3e4 * inputs.clearance_y + 200 * inputs.eta + 1e5 * inputs.z;
+        m.mode_time[0] = inputs.eta;
+        within += i % 5 < 2 && m.force <= 11.5 && inputs.eta >= 0.012;
+    }
+    shuffle(members);
+    NetcdfFile const file = write(members);
+    ToleranceReport const report = tolerance_report(ResultView(file), study);
+    SobolIndices const& force = report.indices->columns[0].indices;
+    double const expected[] = {9.0 / 14, 4.0 / 14, 1.0 / 14};
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_NEAR(force.first[i].value, expected[i], 0.02) << i;
+        EXPECT_NEAR(force.total[i].value, expected[i], 0.02) << i;
+    }
+    EXPECT_EQ(report.indices->columns[0].ranking, (std::vector<std::size_t>{0, 1, 2}));
+    EXPECT_EQ(report.inputs, (std::vector<std::string>{"joint.clearance", "contact.eta", "initial.z"}));
+    EXPECT_NEAR(report.limits[1].met.value, 0.8, 0.005);  // eta, uniform from 0.01 to 0.02
+    EXPECT_EQ(report.limits[1].limit.name(), "mode_time[free]");
+    EXPECT_EQ(report.all_met->successes, within);
+    EXPECT_EQ(report.all_met->trials, 2048u);
 }
 
 TEST_F(ToleranceReportOf, AnotherScenesResultIsRefused) {

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "host/chaos/exponents.hpp"
-#include "host/study/ensemble_study.hpp"
+#include "host/study/ensemble_plan.hpp"
 #include "host/study/exponent_table.hpp"
 
 namespace slideway {
@@ -39,16 +39,16 @@ struct Found {
 
 Found exponents(std::string_view study, std::string_view starts = scattered_starts) {
     Scene const scene = parse_scene(fmt::format("schema = 1\n{}{}", study, starts), "test.toml");
-    MemberRange const all{0, member_count(scene)};
+    MemberSet const all(MemberRange{0, member_count(scene)});
     EnsemblePlan const plan = ensemble_plan(scene, all, best_isa(), 1);
     ExponentTable const table(scene);
     Found found;
     found.k = static_cast<std::size_t>(scene.chaos.exponents);
-    found.values.resize(all.count * found.k);
+    found.values.resize(all.count() * found.k);
     found.errors = found.values;
     auto const keep = [&](BlockResult const& block) {
         StudyValues const values = table.values(block);
-        auto const at = static_cast<std::ptrdiff_t>(block.first * found.k);
+        auto const at = static_cast<std::ptrdiff_t>(block.members.front() * found.k);
         std::copy(values[0].begin(), values[0].end(), found.values.begin() + at);
         std::copy(values[1].begin(), values[1].end(), found.errors.begin() + at);
     };
@@ -205,15 +205,16 @@ revolutions = 0.3
 {})",
                                                 method, scattered_starts),
                                     "test.toml");
-    EnsemblePlan const plan = ensemble_plan(scene, {0, scene.members}, isa, 1);
+    EnsemblePlan const plan = ensemble_plan(scene, MemberSet(MemberRange{0, scene.members}), isa, 1);
     Sections found;
     found.records.resize(scene.members);
     found.rows.resize(scene.members * scene.chaos.max_crossings * section_columns);
     auto const keep = [&](BlockResult const& block) {
-        auto const rows = static_cast<std::ptrdiff_t>(block.first * scene.chaos.max_crossings * section_columns);
+        auto const rows =
+            static_cast<std::ptrdiff_t>(block.members.front() * scene.chaos.max_crossings * section_columns);
         std::copy(block.sections.begin(), block.sections.end(), found.rows.begin() + rows);
         std::copy(block.records.begin(), block.records.end(),
-                  found.records.begin() + static_cast<std::ptrdiff_t>(block.first));
+                  found.records.begin() + static_cast<std::ptrdiff_t>(block.members.front()));
     };
     run_ensemble(plan, find_instance(isa, scene.parts), keep, StopRequest{});
     return found;

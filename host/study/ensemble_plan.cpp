@@ -1,10 +1,9 @@
-#include "host/study/ensemble_study.hpp"
+#include "host/study/ensemble_plan.hpp"
 
 #include <algorithm>
-#include <optional>
 
-#include "host/output/result_writer.hpp"
-#include "host/study/continued_sweep.hpp"
+#include <fmt/format.h>
+
 #include "host/study/exponent_table.hpp"
 #include "host/study/orbit_schedule.hpp"
 
@@ -17,9 +16,12 @@ double predicted_cost(Inputs const& inputs) { return 1 / std::min(inputs.clearan
 
 }  // namespace
 
-ResultLayout result_layout(Scene const& scene, MemberRange range) {
-    ResultLayout layout{range.first, range.count, scene.sample_times, scene.quantities, scene.series, {}, 0, false,
-                        "",          {}};
+ResultLayout result_layout(Scene const& scene, MemberSet const& members) {
+    ResultLayout layout;
+    layout.members = members;
+    layout.sample_times = scene.sample_times;
+    layout.quantities = scene.quantities;
+    layout.series = scene.series;
     auto const add = [&layout](Key const& key) {
         std::string name(key.name);
         std::replace(name.begin(), name.end(), '.', '_');
@@ -37,12 +39,11 @@ ResultLayout result_layout(Scene const& scene, MemberRange range) {
     return layout;
 }
 
-EnsemblePlan ensemble_plan(Scene const& scene, MemberRange range, Isa isa, int threads) {
+EnsemblePlan ensemble_plan(Scene const& scene, MemberSet const& members, Isa isa, int threads,
+                           std::size_t block_members) {
     EnsemblePlan plan;
-    plan.first_member = range.first;
-    plan.members = range.count;
-    plan.block_members = default_block_members(range.count, threads, lanes_of(isa));
-    plan.threads = threads;
+    plan.members = members;
+    plan.threads = plan.workers = threads;
     OrbitSchedule const schedule = orbit_schedule(scene);
     plan.request = {scene.integrator,
                     scene.sample_times,
@@ -57,6 +58,11 @@ EnsemblePlan ensemble_plan(Scene const& scene, MemberRange range, Isa isa, int t
                     {}};
     plan.request.directions = [seed = scene.seed, shadows = plan.request.shadows.count](
                                   std::uint64_t member, double* out) { draw_directions(seed, member, shadows, out); };
+    plan.blocks.fixed = block_members;
+    plan.blocks.lanes = static_cast<std::size_t>(lanes_of(isa));
+    constexpr std::uint64_t block_memory = 64'000'000, small_block = 64;
+    plan.blocks.most = static_cast<std::size_t>(
+        std::clamp<std::uint64_t>(block_memory / block_bytes(plan.request, 1), small_block, plan.blocks.most));
     plan.source = [&scene](std::uint64_t member, Inputs& inputs) {
         inputs = member_inputs(scene, member);
         return !defect(inputs);
@@ -68,22 +74,8 @@ Provenance provenance(Scene const& scene, Isa isa, int threads) {
     return {scene.title, resolved_toml(scene), scene.seed, "cpu", std::string(name_of(isa)), flags_of(isa), threads};
 }
 
-EnsembleTotals run_ensemble_study(Scene const& scene, EnsembleOptions const& options, StopRequest const& stop) {
-    ResultWriter writer(options.output, result_layout(scene, options.range),
-                        provenance(scene, options.isa, options.threads));
-    EnsemblePlan const plan = ensemble_plan(scene, options.range, options.isa, options.threads);
-    EnsembleTotals totals;
-    {
-        Progress progress(options.range.count, options.progress, stderr, stop);
-        ExponentTable const exponents(scene);
-        KernelInstance const kernel = find_instance(options.isa, scene.parts);
-        auto const sink = [&](BlockResult const& block) { writer.write(block, exponents.values(block)); };
-        totals = scene.study == StudyKind::sweep && scene.chaos.continued
-                     ? run_continued(scene, plan, kernel, sink, stop, progress)
-                     : run_ensemble(plan, kernel, sink, stop, &progress);
-    }
-    writer.finish(totals.lane_utilisation(), totals.stopped);
-    return totals;
+RunIdentity run_identity(Scene const& scene, MemberSet const& members) {
+    return {build_info().text(), members, resolved_toml(scene)};
 }
 
 }  // namespace slideway

@@ -1,0 +1,180 @@
+#include "host/cli/run_summary.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "host/cli/orbit_text.hpp"
+#include "host/cli/text.hpp"
+#include "host/study/orbit_schedule.hpp"
+
+namespace slideway::cli {
+namespace {
+
+/// How many members ended how, as the result file has it.
+class EndedMembers {
+public:
+    explicit EndedMembers(ResultReader const& results) : counts_(count_statuses(results)) {}
+    std::uint64_t count(Status status) const {
+        for (StatusCount const& count : counts_) {
+            if (count.status == status) return count.members;
+        }
+        return 0;
+    }
+    std::uint64_t failed() const {
+        std::uint64_t sum = 0;
+        for (StatusCount const& count : counts_) {
+            if (count.status != Status::finished && count.status != Status::not_run) sum += count.members;
+        }
+        return sum;
+    }
+
+private:
+    std::vector<StatusCount> const counts_;
+};
+
+std::string replay_command(RunArguments const& arguments, Isa isa, std::uint64_t member) {
+    std::string command = "slideway run " + shell_quoted(arguments.scene.path);
+    for (auto const& [key, value] : arguments.scene.overrides) command += " --set " + shell_quoted(key + "=" + value);
+    return command + fmt::format(" --isa {} --member {}", name_of(isa), member);
+}
+
+std::string_view advice_on(Method method) {
+    switch (method) {
+        case Method::rk4:
+            return "use a smaller integrator.step, or method = \"auto\"";
+        case Method::ros34pw2:
+            return "it is for lasting contact alone; use method = \"auto\" where there are impacts";
+        default:
+            return "use smaller rtol and atol";
+    }
+}
+
+/// What became of members whose method left its stable range, and the way out (docs/stability.md).
+void print_instability(Scene const& scene, EndedMembers const& ended) {
+    Method const method = scene.integrator.method;
+    std::uint64_t const unstable = ended.count(Status::unstable);
+    // A step beyond the limit throws the slider out of its joint, if it does not end in infinity.
+    std::uint64_t const broken =
+        method == Method::rk4
+            ? ended.count(Status::nonfinite) + ended.count(Status::geometry) + ended.count(Status::contact_domain)
+            : 0;
+    if (unstable + broken == 0) return;
+    std::string const name = method == Method::rk4
+                                 ? fmt::format("rk4 with a step of {:.3g} s", scene.integrator.fixed_step)
+                                 : std::string(name_of(method));
+    std::string what;
+    if (unstable > 0) what = fmt::format("{} unstable by the energy audit", unstable);
+    if (broken > 0) what += fmt::format("{}{} broke down", what.empty() ? "" : ", ", broken);
+    fmt::print("\n{} failed in {} member{} ({}): {}.\n", name, unstable + broken, unstable + broken == 1 ? "" : "s",
+               what, advice_on(method));
+}
+
+/// Members that spent their steps before their end.
+void print_spent(Scene const& scene, EndedMembers const& ended) {
+    std::uint64_t const spent = ended.count(Status::max_steps);
+    if (spent == 0) return;
+    bool const pair = scene.integrator.method == Method::dopri5 || scene.integrator.method == Method::bs32;
+    fmt::print(
+        "\n{} member{} spent integrator.max_steps = {}: try a larger one, {}looser rtol and atol, or look at one "
+        "with --member K.\n",
+        spent, spent == 1 ? "" : "s", scene.integrator.max_steps, pair ? "method = \"auto\", " : "");
+}
+
+void print_failures(RunArguments const& arguments, Scene const& scene, Isa isa, EndedMembers const& ended,
+                    ResultReader const& results) {
+    if (ended.failed() == 0) return;
+    constexpr std::size_t listed = 5;
+    auto const failed = failed_members(results, listed);
+    fmt::print("\n{} failed member{}{}:\n", ended.failed(), ended.failed() == 1 ? "" : "s",
+               ended.failed() > listed ? fmt::format(", the first {}", listed) : "");
+    for (FailedMember const& member : failed) {
+        fmt::print("  member {}: {}", member.member, name_of(member.status));
+        auto const why = defect(member_inputs(scene, member.member));
+        if (why)
+            fmt::print(": {}", *why);
+        else
+            fmt::print(" at t = {:.6g} s", member.time);
+        fmt::print("\n    {}\n", replay_command(arguments, isa, member.member));
+    }
+}
+
+/// The paper's law makes energy where its modes switch (model.md 8); a reader of results has to know how much.
+void print_energy_made(Scene const& scene, EndedMembers const& ended, std::vector<QuantitySummary> const& quantities) {
+    if (scene.parts.law != Law::paper) return;
+    auto const mean_of = [&](std::string_view label) -> QuantitySummary const* {
+        for (QuantitySummary const& quantity : quantities) {
+            if (quantity.label == label && quantity.values.count > 0) return &quantity;
+        }
+        return nullptr;
+    };
+    QuantitySummary const* const residual = mean_of("energy_residual");
+    if (residual == nullptr) return;
+    double const made = residual->values.mean;
+    // Where the method may have failed the law is not to blame alone.
+    Method const method = scene.integrator.method;
+    bool const doubtful = is_always_audited(method) || ended.count(Status::unstable) > 0;
+    std::string const cause =
+        doubtful ? fmt::format("The paper law's mode switching and the errors of {} together", name_of(method))
+                 : "Mode switching of the paper law";
+    fmt::print("\n{} made {:.3g} J of energy per member on average", cause, made);
+    QuantitySummary const* const work = mean_of("crank_work");
+    if (work != nullptr && work->values.mean != 0) {
+        fmt::print(", {:.3g} % of the crank's work of {:.3g} J", 100 * made / std::abs(work->values.mean),
+                   work->values.mean);
+    }
+    if (doubtful) {
+        fmt::print("; {} tells them apart",
+                   is_always_audited(method) ? "method = \"auto\"" : "a smaller rtol and atol");
+    }
+    fmt::print(".\n");
+}
+
+double sum_of(ResultReader const& results, std::string const& variable) {
+    double sum = 0;
+    for (double const value : results.values(variable)) {
+        if (!std::isnan(value)) sum += value;  // of members that were not run
+    }
+    return sum;
+}
+
+}  // namespace
+
+std::uint64_t failed_count(ResultReader const& results) { return EndedMembers(results).failed(); }
+
+void print_throughput(Scene const& scene, StudyOptions const& options, EnsembleTotals const& totals, int ranks) {
+    double const rate = totals.seconds > 0 ? static_cast<double>(totals.done()) / totals.seconds : 0.0;
+    double const turns = orbit_schedule(scene).longest * std::abs(scene.inputs.crank_speed) / (2 * std::numbers::pi);
+    print_field("throughput",
+                fmt::format("{:.4g} members/s, {}{} wall time ({}{} threads, {}, {} lanes)", rate,
+                            turns > 0 ? fmt::format("{:.4g} members x revolutions/s, ", rate * turns) : "",
+                            duration_text(totals.seconds), ranks > 1 ? fmt::format("{} ranks of ", ranks) : "",
+                            options.threads, name_of(options.isa), lanes_of(options.isa)));
+    print_field("lanes in use", fmt::format("{:.1f} %", 100 * totals.lane_utilisation()));
+}
+
+void print_results(RunArguments const& arguments, Scene const& scene, Isa isa, ResultReader const& results) {
+    auto const quantities = summarise_quantities(results);
+    EndedMembers const ended(results);
+    print_field("members", fmt::format("{}", results.shape("status").front()));
+    print_statuses(count_statuses(results));
+    print_field("steps", fmt::format("{:.0f} accepted ({:.0f} by the stiff method), {:.0f} rejected",
+                                     sum_of(results, "steps_accepted"), sum_of(results, "stiff_steps"),
+                                     sum_of(results, "steps_rejected")));
+    print_field("evaluations",
+                fmt::format("{:.0f} right-hand sides, {:.0f} Jacobians", sum_of(results, "rhs_evaluations"),
+                            sum_of(results, "jacobian_evaluations")));
+    print_quantities(quantities);
+    if (!quantities.empty() && scene.inputs.crank_speed != 0) {
+        fmt::print("  (over the whole run, its transient included)\n");
+    }
+    print_exponents(results);
+    print_sections(results);
+    print_energy_made(scene, ended, quantities);
+    print_instability(scene, ended);
+    print_spent(scene, ended);
+    print_failures(arguments, scene, isa, ended, results);
+}
+
+}  // namespace slideway::cli

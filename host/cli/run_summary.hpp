@@ -1,0 +1,23 @@
+// What a run tells when it has ended.
+#pragma once
+
+#include <cstdint>
+
+#include "host/cli/commands.hpp"
+#include "host/driver/ensemble.hpp"
+#include "host/output/result_reader.hpp"
+#include "host/scene/scene.hpp"
+
+namespace slideway::cli {
+
+/// Members that ended otherwise than finished.
+std::uint64_t failed_count(ResultReader const& results);
+
+/// What this run computed, and how fast.
+void print_throughput(Scene const& scene, StudyOptions const& options, EnsembleTotals const& totals, int ranks);
+
+/// All members of the file: how they ended, statistics, and what to do about those that failed.
+/// @param arguments those of the command that replays a member
+void print_results(RunArguments const& arguments, Scene const& scene, Isa isa, ResultReader const& results);
+
+}  // namespace slideway::cli

@@ -1,0 +1,34 @@
+// How many members a worker takes at once.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace slideway {
+
+struct BlockSizes {
+    std::size_t fixed = 0;    // > 0: always so many
+    std::size_t lanes = 1;    // sizes are multiples of
+    std::size_t most = 4096;  // as many as fit the memory that a block may take
+    double seconds = 2;       // that a block should take: a process that is killed loses the blocks it works on
+};
+
+/// The last members of a block leave lanes idle, so blocks should be large; a crash loses those in work, and the last ones of a run leave
+/// threads idle, so they should be small.  Large ensembles begin with small blocks, whose time tells how many members make up
+/// `seconds`; towards the end blocks shrink with what is left.
+class BlockSizer {
+public:
+    /// @param workers threads of all ranks.
+    BlockSizer(BlockSizes const& sizes, std::uint64_t members, int workers);
+    /// @param left members that nobody has taken.
+    std::uint64_t next(std::uint64_t left) const;
+    /// What a block took.
+    void measured(std::uint64_t members, double seconds);
+
+private:
+    BlockSizes const sizes_;
+    std::uint64_t const members_, workers_;
+    double seconds_per_member_ = 0;  // 0: not known yet
+};
+
+}  // namespace slideway

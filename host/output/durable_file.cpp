@@ -1,0 +1,141 @@
+#include "host/output/durable_file.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "host/scene/error.hpp"
+
+namespace slideway {
+namespace {
+
+[[noreturn]] void fail(std::string const& path, char const* action, int reason) {
+    throw FileError(fmt::format("{}: cannot {}: {}", path, action, std::strerror(reason)));
+}
+
+/// An open file that is closed whatever happens.
+class Descriptor {
+public:
+    Descriptor(std::string const& path, int flags) : path_(path), file_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
+        if (file_ < 0) fail(path_, (flags & O_CREAT) != 0 ? "create" : "open", errno);
+    }
+    ~Descriptor() {
+        if (file_ >= 0) ::close(file_);
+    }
+    Descriptor(Descriptor const&) = delete;
+    Descriptor& operator=(Descriptor const&) = delete;
+    int get() const { return file_; }
+    /// Network file systems tell only here that something was not written.
+    void close() {
+        if (::close(std::exchange(file_, -1)) != 0) fail(path_, "write", errno);
+    }
+
+private:
+    std::string const& path_;
+    int file_;
+};
+
+void write_all(int file, std::span<std::byte const> bytes, std::string const& path) {
+    while (!bytes.empty()) {
+        ssize_t const written = ::write(file, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) fail(path, "write", errno);
+        // Nothing written and no reason given: the next call would say the same for ever.
+        if (written == 0) fail(path, "write", ENOSPC);
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+}
+
+void sync(int file, std::string const& path) {
+    if (::fsync(file) != 0) fail(path, "write to the disk", errno);
+}
+
+}  // namespace
+
+std::string folder_of(std::string const& path) {
+    std::string const folder = std::filesystem::path(path).parent_path().string();
+    return folder.empty() ? std::string(".") : folder;
+}
+
+void sync_folder(std::string const& path) {
+    Descriptor const folder(path, O_RDONLY | O_DIRECTORY);
+    // Some file systems cannot, and need not.
+    if (::fsync(folder.get()) != 0 && errno != EINVAL) fail(path, "write to the disk", errno);
+}
+
+void write_durably(std::string const& path, std::span<std::byte const> bytes) {
+    std::string const temporary = path + ".tmp";
+    try {
+        Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
+        write_all(file.get(), bytes, temporary);
+        sync(file.get(), temporary);
+        file.close();
+        if (std::rename(temporary.c_str(), path.c_str()) != 0) fail(path, "put in place", errno);
+        sync_folder(folder_of(path));
+    } catch (...) {
+        ::unlink(temporary.c_str());
+        throw;
+    }
+}
+
+void write_durably(std::string const& path, std::string_view text) {
+    write_durably(path, std::as_bytes(std::span(text)));
+}
+
+void rename_durably(std::string const& from, std::string const& to) {
+    {
+        Descriptor file(from, O_RDONLY);
+        sync(file.get(), from);
+    }
+    if (std::rename(from.c_str(), to.c_str()) != 0) {
+        int const reason = errno;
+        throw FileError(fmt::format("{}: cannot replace: {}; the results are in {}", to, std::strerror(reason), from));
+    }
+    sync_folder(folder_of(to));
+}
+
+std::vector<std::byte> read_bytes(std::string const& path) {
+    Descriptor const file(path, O_RDONLY);
+    std::error_code ignored;
+    std::vector<std::byte> bytes;
+    auto const size = std::filesystem::file_size(path, ignored);
+    if (!ignored) bytes.reserve(static_cast<std::size_t>(size) + 1);
+    std::size_t used = 0;
+    for (;;) {
+        bytes.resize(std::max<std::size_t>(bytes.capacity(), used + (1u << 16)));
+        ssize_t const got = ::read(file.get(), bytes.data() + used, bytes.size() - used);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) fail(path, "read", errno);
+        if (got == 0) break;
+        used += static_cast<std::size_t>(got);
+    }
+    bytes.resize(used);
+    return bytes;
+}
+
+std::string read_text(std::string const& path) {
+    std::vector<std::byte> const bytes = read_bytes(path);
+    return {reinterpret_cast<char const*>(bytes.data()), bytes.size()};
+}
+
+LineFile::LineFile(std::string path)
+    : path_(std::move(path)), file_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666)) {
+    if (file_ < 0) fail(path_, "create", errno);
+}
+
+LineFile::~LineFile() { ::close(file_); }
+
+void LineFile::append(std::string line) {
+    line += '\n';
+    write_all(file_, std::as_bytes(std::span(line)), path_);
+    sync(file_, path_);
+}
+
+}  // namespace slideway

@@ -1,0 +1,46 @@
+// Files that are there whole or not at all, whatever ends the process or the machine.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace slideway {
+
+/// Puts a file into place: writes `path`.tmp, fsync, rename, fsync of the folder.  So `path` holds what it held before or all of
+/// `bytes`, also after a power loss.  @throws FileError; `path` is then as before.
+void write_durably(std::string const& path, std::span<std::byte const> bytes);
+void write_durably(std::string const& path, std::string_view text);
+
+/// The last steps for a file that another library wrote: fsync, rename, fsync of the folder.  @throws FileError; `from` then stays.
+void rename_durably(std::string const& from, std::string const& to);
+
+/// Makes new names and removals in a folder last.  @throws FileError
+void sync_folder(std::string const& path);
+
+/// The folder that a path lies in; "." for a bare name.
+std::string folder_of(std::string const& path);
+
+/// @throws FileError if it cannot be read.
+std::vector<std::byte> read_bytes(std::string const& path);
+std::string read_text(std::string const& path);
+
+/// A file that grows by lines, each on the disk before `append` returns.
+class LineFile {
+public:
+    /// @throws FileError, also if there is such a file already.
+    explicit LineFile(std::string path);
+    ~LineFile();
+    LineFile(LineFile const&) = delete;
+    LineFile& operator=(LineFile const&) = delete;
+    /// @param line without its end.  @throws FileError; the file may then end with a part of the line
+    void append(std::string line);
+
+private:
+    std::string const path_;
+    int const file_;
+};
+
+}  // namespace slideway

@@ -1,0 +1,35 @@
+// Shards to one result file.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host/output/netcdf_file.hpp"
+#include "host/output/provenance.hpp"
+#include "host/output/result_layout.hpp"
+#include "host/output/shard_folder.hpp"
+
+namespace slideway {
+
+/// A member of the merged file is the same to the last bit in whichever shard it came.  Members without a shard have status not_run,
+/// NaN and no sections.
+struct ResultMerge {
+    ResultLayout layout;  // its section_rows follow from the shards
+    Provenance provenance;
+    std::string completeness;  // an attribute: "complete", "12 of 100 members not run"
+    /// What is concluded from the members and added to the file; may be empty.
+    std::function<void(NetcdfFile& file)> conclude;
+    /// Called now and then; what it throws ends the merge and leaves no file.  May be empty.
+    std::function<void()> pause;
+};
+
+/// Whether a result can be put there.  @throws FileError with what is wrong with the path.
+void require_writable_place(std::string const& path);
+
+/// Writes `path`.part, which becomes `path` when it is whole: a former file stays until then.  One shard at a time is in memory.
+/// @throws FileError; if only the renaming failed, `path`.part stays.
+void merge_shards(ShardFolder const& folder, std::vector<Shard> const& shards, ResultMerge merge,
+                  std::string const& path);
+
+}  // namespace slideway

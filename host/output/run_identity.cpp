@@ -1,0 +1,105 @@
+#include "host/output/run_identity.hpp"
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "host/scene/error.hpp"
+
+namespace slideway {
+namespace {
+
+constexpr std::string_view title_line =
+    "# What the shards beside this file belong to; slideway run --resume continues it.";
+constexpr std::string_view program_mark = "# program: ", members_mark = "# members: ";
+
+/// Keys of a resolved scene with their values; a value of several lines is one.
+std::map<std::string, std::string> scene_values(std::string const& scene) {
+    std::map<std::string, std::string> values;
+    std::istringstream lines(scene);
+    std::string table, key;
+    for (std::string line; std::getline(lines, line);) {
+        if (auto const comment = line.find("  # "); comment != line.npos && line.find('"') == line.npos)
+            line.resize(comment);
+        if (line.empty() || line.starts_with("#")) continue;
+        if (line.starts_with("[") && line.ends_with("]") && line.find(',') == line.npos) {
+            table = line.substr(1, line.size() - 2) + ".";
+        } else if (auto const equals = line.find(" = "); equals != line.npos && !line.starts_with(" ")) {
+            key = table + line.substr(0, equals);
+            values[key] = line.substr(equals + 3);
+        } else {
+            values[key] += line;
+        }
+    }
+    return values;
+}
+
+}  // namespace
+
+std::string RunIdentity::difference(RunIdentity const& earlier) const {
+    if (program != earlier.program) return fmt::format("the program was {}, is {}", earlier.program, program);
+    if (scene != earlier.scene) {
+        auto const before = scene_values(earlier.scene), now = scene_values(scene);
+        constexpr std::size_t longest = 60;
+        auto const shown = [](std::string const& value) {
+            return value.size() <= longest ? value : value.substr(0, longest) + "...";
+        };
+        std::vector<std::string> found;
+        for (auto const& [key, value] : now) {
+            auto const old = before.find(key);
+            if (old == before.end())
+                found.push_back(fmt::format("{} = {} is new", key, shown(value)));
+            else if (old->second != value)
+                found.push_back(fmt::format("{} was {}, is {}", key, shown(old->second), shown(value)));
+        }
+        for (auto const& [key, value] : before) {
+            if (!now.contains(key)) found.push_back(fmt::format("{} = {} is gone", key, shown(value)));
+        }
+        constexpr std::size_t named = 3;
+        std::string text;
+        for (std::size_t i = 0; i < std::min(found.size(), named); ++i) text += (i > 0 ? "; " : "") + found[i];
+        if (found.size() > named) text += fmt::format("; and {} more", found.size() - named);
+        return text.empty() ? "the scene's text changed" : text;
+    }
+    if (!(members == earlier.members)) {
+        return fmt::format("the members were {}, are {}", earlier.members.text(), members.text());
+    }
+    return "";
+}
+
+std::string identity_text(RunIdentity const& identity) {
+    return fmt::format("{}\n{}{}\n{}{}\n\n{}", title_line, program_mark, identity.program, members_mark,
+                       identity.members.text(), identity.scene);
+}
+
+RunIdentity parse_identity(std::string const& text, std::string const& path) {
+    RunIdentity identity;
+    std::string_view rest = text;
+    auto const next_line = [&rest] {
+        auto const end = std::min(rest.find('\n'), rest.size());
+        std::string_view const line = rest.substr(0, end);
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+        return line;
+    };
+    auto const marked = [&](std::string_view line, std::string_view mark) {
+        if (!line.starts_with(mark)) {
+            throw FileError(
+                fmt::format("{}: is not what slideway run writes; the folder belongs to something else", path));
+        }
+        return std::string(line.substr(mark.size()));
+    };
+    marked(next_line(), title_line);
+    identity.program = marked(next_line(), program_mark);
+    auto const members = MemberSet::parse(marked(next_line(), members_mark));
+    marked(next_line(), "");
+    if (!members) throw FileError(fmt::format("{}: its line of members is damaged", path));
+    identity.members = *members;
+    identity.scene = std::string(rest);
+    return identity;
+}
+
+}  // namespace slideway

@@ -1,0 +1,170 @@
+#include "host/output/shard_folder.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <sstream>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "host/output/payload_hash.hpp"
+#include "host/scene/error.hpp"
+
+namespace slideway {
+namespace fs = std::filesystem;
+namespace {
+
+std::string join(std::string const& folder, std::string_view name) { return (fs::path(folder) / name).string(); }
+
+std::uint64_t checksum_of(std::span<std::byte const> bytes) {
+    Fnv1a hash;
+    hash.add(bytes);
+    return hash.value();
+}
+
+std::uint64_t checksum_of(std::string_view text) { return checksum_of(std::as_bytes(std::span(text))); }
+
+template <class T> bool read_whole(std::string_view word, T& value, int base = 10) {
+    auto const [end, error] = std::from_chars(word.data(), word.data() + word.size(), value, base);
+    return error == std::errc{} && end == word.data() + word.size();
+}
+
+/// Lines of a manifest that are whole.
+void read_manifest(std::string const& path, std::vector<Shard>& shards) {
+    std::istringstream lines(read_text(path));
+    for (std::string line; std::getline(lines, line);) {
+        auto const space = line.rfind(' ');
+        std::uint64_t own = 0;
+        if (space == line.npos || !read_whole(std::string_view(line).substr(space + 1), own, 16)) continue;
+        line.resize(space);
+        if (own != checksum_of(line)) continue;
+        std::istringstream words(line);
+        Shard shard{};
+        std::string checksum, members;
+        words >> shard.name >> shard.bytes >> checksum >> members;
+        auto const set = MemberSet::parse(members);
+        if (!words || !set || !read_whole(std::string_view(checksum), shard.checksum, 16)) continue;
+        shard.members = *set;
+        shards.push_back(std::move(shard));
+    }
+}
+
+std::string manifest_line(Shard const& shard) {
+    std::string const line =
+        fmt::format("{} {} {:016x} {}", shard.name, shard.bytes, shard.checksum, shard.members.text());
+    return fmt::format("{} {:016x}", line, checksum_of(line));
+}
+
+}  // namespace
+
+std::vector<std::string> names_in(std::string const& folder) {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        names.push_back(entry->path().filename().string());
+    }
+    if (error) throw FileError(fmt::format("{}: cannot read the folder: {}", folder, error.message()));
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+bool ShardFolder::exists(std::string const& path) {
+    std::error_code ignored;
+    return fs::exists(join(path, shard_names::identity), ignored);
+}
+
+ShardFolder::ShardFolder(std::string path) : path_(std::move(path)) {
+    if (!exists(path_))
+        throw FileError(path_ + ": is no folder of shards; give the folder that a run left, OUT.nc.shards");
+    std::string const file = join(path_, shard_names::identity);
+    identity_ = parse_identity(read_text(file), file);
+}
+
+namespace {
+
+/// A shard that was damaged once, and whose members ran again, may be listed beside its successors: the later line counts.
+std::vector<Shard> without_repeats(std::vector<Shard> shards) {
+    std::reverse(shards.begin(), shards.end());
+    std::vector<Shard> kept;
+    MemberSet done;
+    for (Shard& shard : shards) {
+        if (!done.common(shard.members).empty()) continue;
+        done.add(shard.members);
+        kept.push_back(std::move(shard));
+    }
+    std::sort(kept.begin(), kept.end(), [](Shard const& a, Shard const& b) {
+        return a.members.ranges().front().first < b.members.ranges().front().first;
+    });
+    return kept;
+}
+
+}  // namespace
+
+std::vector<Shard> ShardFolder::all() const {
+    std::vector<Shard> shards;
+    for (std::string const& name : names_in(path_)) {
+        if (name.starts_with(shard_names::manifest)) read_manifest(join(path_, name), shards);
+    }
+    return shards;
+}
+
+std::vector<Shard> ShardFolder::listed() const {
+    std::vector<Shard> shards = all();
+    std::erase_if(shards, [&](Shard const& shard) {
+        std::error_code error;
+        return fs::file_size(join(path_, shard.name), error) != shard.bytes || error;
+    });
+    return without_repeats(std::move(shards));
+}
+
+std::vector<Shard> ShardFolder::intact(std::vector<std::string>& damaged) const {
+    std::vector<Shard> whole;
+    for (Shard& shard : all()) {
+        try {
+            read(shard);
+            whole.push_back(std::move(shard));
+        } catch (FileError const&) {
+            damaged.push_back(shard.name);
+        }
+    }
+    return without_repeats(std::move(whole));
+}
+
+std::vector<std::byte> ShardFolder::read(Shard const& shard) const {
+    std::string const path = join(path_, shard.name);
+    std::vector<std::byte> bytes = read_bytes(path);
+    if (bytes.size() != shard.bytes || checksum_of(bytes) != shard.checksum) {
+        throw FileError(path + ": is not what was written (its checksum differs)");
+    }
+    return bytes;
+}
+
+MemberSet members_of(std::vector<Shard> const& shards) {
+    MemberSet members;
+    for (Shard const& shard : shards) members.add(shard.members);
+    return members;
+}
+
+void ShardStore::put(MemberSet const& members, std::vector<std::byte> const& bytes) {
+    // Shards have no member in common, so the first one names it.
+    Shard const shard{fmt::format("{}{:010}.nc", shard_names::shard, members.ranges().front().first), bytes.size(),
+                      checksum_of(bytes), members};
+    write_durably(join(folder_, shard.name), bytes);
+    for (int number = 1; !manifest_; ++number) {
+        std::string const path = join(folder_, fmt::format("{}{:06}.txt", shard_names::manifest, number));
+        std::error_code ignored;
+        if (fs::exists(path, ignored)) continue;
+        try {
+            manifest_ = std::make_unique<LineFile>(path);
+            sync_folder(folder_);
+        } catch (FileError const&) {
+            // Another rank may have been first.
+            if (!manifest_ && fs::exists(path, ignored)) continue;
+            throw;
+        }
+    }
+    manifest_->append(manifest_line(shard));
+}
+
+}  // namespace slideway

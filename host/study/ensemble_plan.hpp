@@ -1,0 +1,20 @@
+// What the members of a scene, whatever its study, ask of the driver and of the result file.
+#pragma once
+
+#include "host/backend/backend.hpp"
+#include "host/driver/ensemble.hpp"
+#include "host/output/provenance.hpp"
+#include "host/output/result_layout.hpp"
+#include "host/output/run_identity.hpp"
+#include "host/scene/scene.hpp"
+
+namespace slideway {
+
+ResultLayout result_layout(Scene const& scene, MemberSet const& members);
+/// @param block_members 0: as many as suit the run.
+EnsemblePlan ensemble_plan(Scene const& scene, MemberSet const& members, Isa isa, int threads,
+                           std::size_t block_members = 0);
+Provenance provenance(Scene const& scene, Isa isa, int threads);
+RunIdentity run_identity(Scene const& scene, MemberSet const& members);
+
+}  // namespace slideway

@@ -1,0 +1,123 @@
+#include "host/study/study_run.hpp"
+
+#include <filesystem>
+#include <set>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "host/output/result_merge.hpp"
+#include "host/output/result_reader.hpp"
+
+namespace slideway {
+namespace {
+
+/// Header, tables of variables and what HDF5 leaves unused.
+constexpr std::uint64_t bytes_beside_data = 200'000;
+
+/// Whether a result file holds all that a run would compute.  @throws SceneError if it is of another run.
+bool is_result_of(std::string const& path, RunIdentity const& identity) {
+    ResultReader const result(path);
+    RunIdentity found;
+    found.program =
+        BuildInfo{result.attribute("version"), result.attribute("commit"), result.attribute("compiler")}.text();
+    found.scene = result.attribute("scene");
+    std::vector<std::uint64_t> members;
+    for (double const member : result.values("member")) members.push_back(static_cast<std::uint64_t>(member));
+    found.members = MemberSet::of(members);
+    if (std::string const changed = identity.difference(found); !changed.empty()) {
+        throw SceneError(
+            fmt::format("{}: cannot resume: it is the result of another run ({}); leave --resume out to replace it",
+                        path, changed));
+    }
+    return result.attribute("completeness") == "complete";
+}
+
+}  // namespace
+
+std::string RunPart::name() const { return of_array ? fmt::format("{}-of-{}", number, parts) : std::string(); }
+
+MemberSet RunPart::of(MemberSet const& members) const {
+    // In steps that cannot overflow: the first `rest` parts have one member more.
+    std::uint64_t const count = members.count(), share = count / parts, rest = count % parts;
+    std::uint64_t const before = (number - 1) * share + std::min(number - 1, rest);
+    MemberSet part;
+    std::uint64_t skip = before, wanted = share + (number <= rest ? 1 : 0);
+    for (MemberRange const& range : members.ranges()) {
+        std::uint64_t const from = std::min(skip, range.count), taken = std::min(range.count - from, wanted);
+        part.add({range.first + from, taken});
+        skip -= from;
+        wanted -= taken;
+    }
+    return part;
+}
+
+std::string shard_folder_of(std::string const& output) { return output + ".shards"; }
+
+StudyRun::StudyRun(Scene const& scene, StudyOptions const& options)
+    : scene_(scene), options_(options), members_(options.range), mine_(options.part.of(members_)) {
+    require_writable_place(options.output);
+    std::string const folder = shard_folder_of(options.output);
+    RunIdentity const identity = run_identity(scene, members_);
+    std::error_code ignored;
+    if (options.resume && !ShardFolder::exists(folder) && std::filesystem::exists(options.output, ignored)) {
+        is_complete_ = is_result_of(options.output, identity);
+        if (is_complete_) return;
+    }
+    claim_ =
+        std::make_unique<ShardClaim>(folder, ShardClaim::Wanted{identity, mine_, options.part.name(), options.resume});
+    work_ = {mine_.without(claim_->done()), claim_->done().count()};
+    require_room();
+}
+
+std::vector<std::string> StudyRun::damaged() const { return claim_ ? claim_->damaged() : std::vector<std::string>(); }
+
+void StudyRun::require_room() const {
+    // The shards and the file that is made of them stand side by side for a while.
+    double const needed = static_cast<double>(payload_bytes(result_layout(scene_, work_.todo))) +
+                          static_cast<double>(payload_bytes(result_layout(scene_, members_))) +
+                          2.0 * static_cast<double>(bytes_beside_data);
+    std::error_code error;
+    auto const space = std::filesystem::space(folder_of(options_.output), error);
+    if (error || needed <= static_cast<double>(space.available)) return;
+    throw FileError(fmt::format("{}: needs {:.3g} MB with its shards, and {:.3g} MB are free (disk full?)",
+                                options_.output, needed / 1e6, static_cast<double>(space.available) / 1e6));
+}
+
+std::uint64_t StudyRun::left() const {
+    if (is_complete_) return 0;
+    ShardFolder const folder(shard_folder_of(options_.output));
+    return mine_.without(members_of(folder.listed())).count();
+}
+
+bool StudyRun::finish(std::function<void(NetcdfFile&)> conclude, StopRequest const& stop) {
+    struct Interrupted {};
+    auto const pause = [&stop] {
+        if (stop.reason() == StopReason::signal) throw Interrupted();
+    };
+    ShardFolder const folder(shard_folder_of(options_.output));
+    try {
+        merge_study(scene_, folder, provenance(scene_, options_.isa, options_.threads), options_.output,
+                    std::move(conclude), pause);
+    } catch (Interrupted const&) {
+        return false;
+    }
+    claim_->remove_folder();
+    return true;
+}
+
+std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, Provenance const& provenance,
+                          std::string const& output, std::function<void(NetcdfFile&)> conclude,
+                          std::function<void()> pause) {
+    std::vector<Shard> const shards = folder.listed();
+    MemberSet const& members = folder.identity().members;
+    std::uint64_t const left = members.without(members_of(shards)).count();
+    std::string const completeness =
+        left == 0 ? "complete" : fmt::format("{} of {} members not run", left, members.count());
+    merge_shards(folder, shards,
+                 {result_layout(scene, members), provenance, completeness, std::move(conclude), std::move(pause)},
+                 output);
+    return left;
+}
+
+}  // namespace slideway

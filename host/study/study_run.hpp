@@ -1,0 +1,86 @@
+// Runs a study: members into shards, shards into one result file.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/driver/ranks.hpp"
+#include "host/output/netcdf_file.hpp"
+#include "host/output/shard_claim.hpp"
+#include "host/study/ensemble_plan.hpp"
+
+namespace slideway {
+
+/// One of the parts into which a job array divides a run.
+struct RunPart {
+    std::uint64_t number = 1, parts = 1;  // from 1
+    bool of_array = false;                // also one of one: its shards wait for a merge
+    std::string name() const;             // "3-of-8"; "" of a run that is no part
+    /// Its members: consecutive ones, as evenly as they go.
+    MemberSet of(MemberSet const& members) const;
+};
+
+struct StudyOptions {
+    std::string output;
+    MemberRange range;
+    RunPart part;
+    Isa isa = Isa::scalar;
+    int threads = 1;
+    std::size_t block_members = 0;  // 0: as many as suit the run
+    bool resume = false;
+    Progress::Style progress = Progress::Style::none;
+};
+
+/// The folder of the shards of a result.
+std::string shard_folder_of(std::string const& output);
+
+/// What the ranks compute together.
+struct StudyWork {
+    MemberSet todo;
+    std::uint64_t before = 0;  // members that earlier runs have finished
+};
+
+/// Integrates the members of `work.todo` with the threads of all ranks; at every rank.  Finished shards stay, whatever happens.
+/// @return what all ranks came to, at rank 0; elsewhere nothing of worth.  @throws FileError at rank 0, for any rank; never elsewhere
+EnsembleTotals run_work(Scene const& scene, StudyOptions const& options, StudyWork const& work, Ranks& ranks,
+                        StopRequest const& stop);
+
+/// A run as rank 0 leads it.
+class StudyRun {
+public:
+    /// Finds out what is left to do and tries the places where results go.  @throws FileError, SceneError
+    StudyRun(Scene const& scene, StudyOptions const& options);
+
+    /// The result was there before, complete.
+    bool is_complete() const { return is_complete_; }
+    StudyWork const& work() const { return work_; }
+    /// Shards that were not what had been written: their members run again.
+    std::vector<std::string> damaged() const;
+
+    /// Members that have not run, of the part that is this run's.
+    std::uint64_t left() const;
+    /// Makes the result file of all shards and removes them.  @param conclude what is added to the file, may be empty
+    /// @return false if a signal came: there is no file then, and the shards are still there.
+    bool finish(std::function<void(NetcdfFile&)> conclude, StopRequest const& stop);
+
+private:
+    void require_room() const;
+
+    Scene const& scene_;
+    StudyOptions const& options_;
+    MemberSet const members_, mine_;
+    bool is_complete_ = false;
+    std::unique_ptr<ShardClaim> claim_;
+    StudyWork work_;
+};
+
+/// A result file of the shards in a folder; members without one have status not_run.  The shards stay.
+/// @return how many members have none.  @throws FileError
+std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, Provenance const& provenance,
+                          std::string const& output, std::function<void(NetcdfFile&)> conclude,
+                          std::function<void()> pause = {});
+
+}  // namespace slideway

@@ -1,0 +1,111 @@
+// Members of a study, through the driver, into shards; at every rank.
+#include <cstring>
+#include <optional>
+#include <unordered_map>
+
+#include "host/output/shard_writer.hpp"
+#include "host/study/continued_sweep.hpp"
+#include "host/study/exponent_table.hpp"
+#include "host/study/study_run.hpp"
+
+namespace slideway {
+namespace {
+
+static_assert(std::is_trivially_copyable_v<EnsembleTotals>, "ranks send it as bytes");
+
+constexpr char succeeded = '+', failed = '-';
+
+std::string to_bytes(EnsembleTotals const& totals) {
+    std::string bytes(1 + sizeof totals, succeeded);
+    std::memcpy(bytes.data() + 1, &totals, sizeof totals);
+    return bytes;
+}
+
+/// The ends of members that earlier runs have finished.
+MemberEnds recalled_ends(std::string const& path) {
+    auto const ends = std::make_shared<std::unordered_map<std::uint64_t, MemberEnd>>();
+    ShardFolder const folder(path);
+    for (Shard const& shard : folder.listed()) {
+        std::vector<std::byte> const bytes = folder.read(shard);
+        NetcdfFile const file = NetcdfFile::open_in_memory(shard.name, bytes);
+        std::vector<std::uint64_t> const members = shard.members.members(0, shard.members.count());
+        std::vector<signed char> statuses(members.size());
+        std::vector<double> column(members.size());
+        for (NetcdfFile::Variable const& variable : file.variables()) {
+            std::array<std::size_t, 1> const start{0}, count{members.size()};
+            if (variable.name == "status") {
+                file.read(variable.id, start, count, statuses.data());
+                for (std::size_t i = 0; i < members.size(); ++i)
+                    (*ends)[members[i]].finished = statuses[i] == static_cast<signed char>(Status::finished);
+            }
+            for (std::size_t k = 0; k < state_size; ++k) {
+                if (variable.name != std::string("final_") + series_table[k].name) continue;
+                file.read(variable.id, start, count, column.data());
+                for (std::size_t i = 0; i < members.size(); ++i) (*ends)[members[i]].state[k] = column[i];
+            }
+        }
+    }
+    return [ends](std::uint64_t member) -> std::optional<MemberEnd> {
+        auto const found = ends->find(member);
+        return found == ends->end() ? std::nullopt : std::optional(found->second);
+    };
+}
+
+}  // namespace
+
+EnsembleTotals run_work(Scene const& scene, StudyOptions const& options, StudyWork const& work, Ranks& ranks,
+                        StopRequest const& stop) {
+    bool const continued = scene.study == StudyKind::sweep && scene.chaos.continued;
+    EnsemblePlan plan = ensemble_plan(scene, work.todo, options.isa, options.threads, options.block_members);
+    plan.workers = options.threads * ranks.count();
+    KernelInstance const kernel = find_instance(options.isa, scene.parts);
+    std::string const folder = shard_folder_of(options.output);
+    std::exception_ptr failure;
+    try {
+        if (continued) {
+            MemberEnds const ends = work.before > 0 ? recalled_ends(folder) : MemberEnds{};
+            continue_columns(scene, plan, work.todo, kernel, ends, stop);
+        }
+    } catch (...) {
+        failure = std::current_exception();
+        plan.members = {};
+    }
+
+    // From here on every rank makes the same calls, whatever happens to it.
+    std::string mine;
+    {
+        Progress progress(work.before + work.todo.count(), work.before, options.progress, stderr, stop);
+        auto const queue = ranks.share(plan.members.count(), [&](std::uint64_t members) { progress.add(members); });
+        try {
+            if (failure) std::rethrow_exception(failure);
+            ExponentTable const exponents(scene);
+            ShardWriter writer(folder, result_layout(scene, {}), provenance(scene, options.isa, options.threads));
+            EnsembleTotals const totals = run_ensemble(
+                plan, *queue, kernel, [&](BlockResult const& block) { writer.write(block, exponents.values(block)); },
+                stop, &progress);
+            writer.finish();
+            mine = to_bytes(totals);
+        } catch (std::exception const& error) {
+            failure = std::current_exception();
+            queue->abandon();
+            mine = failed + std::string(error.what());
+        }
+        // Before the queue ends: other ranks may still take from it.
+        std::vector<std::string> const all = ranks.gather(mine);
+        if (ranks.rank() > 0) return {};
+        if (failure) std::rethrow_exception(failure);
+        EnsembleTotals totals;
+        double longest = 0;
+        for (std::string const& bytes : all) {
+            if (bytes[0] == failed) throw FileError(bytes.substr(1));
+            EnsembleTotals of_rank;
+            std::memcpy(&of_rank, bytes.data() + 1, sizeof of_rank);
+            longest = std::max(longest, of_rank.seconds);
+            totals += of_rank;
+        }
+        totals.seconds = longest;
+        return totals;
+    }
+}
+
+}  // namespace slideway
