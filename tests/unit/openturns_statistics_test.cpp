@@ -23,7 +23,8 @@ double ishigami(double const* u) {
     return s + 7 * t * t + 0.1 * std::pow(angle(2), 4) * s;
 }
 
-/// Inputs and outputs as OpenTURNS wants them, all of A, then all of B, then all of AB_1 …; outputs as ours, row by row.
+/// Inputs and outputs as OpenTURNS wants them, all of A, then all of B, then all of AB_1 …; outputs as ours, row by
+/// row.
 struct RadialSample {
     static constexpr std::size_t rows = 4096, inputs = 3, blocks = inputs + 2;
     OT::Sample input{blocks * rows, inputs}, output{blocks * rows, 1};

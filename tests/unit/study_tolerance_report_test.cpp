@@ -4,10 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <random>
 
-#include "host/output/payload_hash.hpp"
-#include "host/study/statistics_groups.hpp"
 #include "tests/unit/scene_fixture.hpp"
 #include "tests/unit/tolerance_file.hpp"
 
@@ -18,30 +15,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 using ToleranceReportOf = ToleranceFile;
-
-/// Members [first, first + count): force is the number, mode_time[line] twice that; 10 k + 3 fail, 10 k + 7 did not
-/// run.
-std::vector<MadeUpMember> numbered_members(std::uint64_t first, std::size_t count) {
-    std::vector<MadeUpMember> members(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        MadeUpMember& m = members[i];
-        m.number = first + i;
-        auto const x = static_cast<double>(m.number);
-        m.clearance = x * x * x;  // rank correlation with the force: 1
-        m.eta = std::abs(static_cast<double>(m.number % 100) - 49.5);
-        m.force = x;
-        m.mode_time = {0.5, nan, 2 * x, -x};
-        if (m.number % 10 == 3) m.status = m.number % 20 == 3 ? Status::max_steps : Status::geometry;
-        if (m.number % 10 == 7) m.status = Status::not_run;
-        if (m.status != Status::finished) m.force = 1e9, m.mode_time = {1e9, 1e9, 1e9, 1e9};
-    }
-    return members;
-}
-
-void shuffle(std::vector<MadeUpMember>& members) {
-    std::mt19937_64 engine(21);
-    for (std::size_t i = members.size(); i > 1; --i) std::swap(members[i - 1], members[engine() % i]);
-}
 
 std::uint64_t count_of(std::vector<StatusCount> const& counts, Status status) {
     for (StatusCount const& count : counts) {
@@ -172,27 +145,6 @@ TEST_F(ToleranceReportOf, CorrelationsLeaveMembersWithoutANumberOut) {
     EXPECT_NEAR(point.ranks[0].value, -1, 1e-14);
     EXPECT_EQ(report.correlations[0].members, 320u);
     EXPECT_LT(report.correlations[0].ranks[0].value, 0.7);
-}
-
-/// Rows [first, first + rows) of a saltelli design of two inputs, force 2 x1 + x2 of uniform inputs.
-std::vector<MadeUpMember> radial_members(std::uint64_t first, std::size_t rows) {
-    std::vector<MadeUpMember> members;
-    for (std::uint64_t r = first; r < first + rows; ++r) {
-        double x[4];                               // A, then B
-        constexpr double primes[] = {2, 3, 5, 7};  // Kronecker's sequence: independent coordinates
-        for (int k = 0; k < 4; ++k) x[k] = std::fmod(static_cast<double>(r + 1) * std::sqrt(primes[k]), 1.0);
-        double const inputs[4][2] = {{x[0], x[1]}, {x[2], x[3]}, {x[2], x[1]}, {x[0], x[3]}};
-        for (std::uint64_t k = 0; k < 4; ++k) {
-            MadeUpMember m;
-            m.number = 4 * r + k;
-            m.clearance = inputs[k][0];
-            m.eta = inputs[k][1];
-            m.force = 2 * m.clearance + m.eta;
-            m.mode_time = {m.eta, m.eta * m.eta, 0.25, m.clearance};
-            members.push_back(m);
-        }
-    }
-    return members;
 }
 
 TEST_F(ToleranceReportOf, ASaltelliDesignTellsInputsApart) {
@@ -345,129 +297,6 @@ TEST_F(ToleranceReportOf, AnotherScenesResultIsRefused) {
     members[3].number = members[11].number;
     NetcdfFile const file = write(members);
     EXPECT_THROW(tolerance_report(ResultView(file), scene(DesignKind::mc, 5000)), FileError);
-}
-
-// ---- groups of the file ----
-
-struct Stored {
-    std::vector<double> values;
-    std::vector<std::size_t> shape;
-    std::string unit, long_name, coordinates;
-};
-
-Stored stored(NetcdfFile const& group, std::string const& name) {
-    for (auto const& variable : group.variables()) {
-        if (variable.name != name) continue;
-        Stored result{std::vector<double>(variable.size()), variable.shape, group.text(variable.id, "units"),
-                      group.text(variable.id, "long_name"), group.text(variable.id, "coordinates")};
-        std::vector<std::size_t> const start(variable.shape.size() + 1, 0);
-        std::span const origin = std::span(start).first(variable.shape.size());
-        std::span const count(variable.shape.empty() ? start.data() : variable.shape.data(), variable.shape.size());
-        if (variable.type == NetcdfFile::Type::float64) {
-            group.read(variable.id, origin, count, result.values.data());
-        } else if (variable.type == NetcdfFile::Type::int32) {
-            std::vector<int> whole(variable.size());
-            group.read(variable.id, origin, count, whole.data());
-            result.values.assign(whole.begin(), whole.end());
-        }
-        return result;
-    }
-    ADD_FAILURE() << "no variable " << name;
-    return {};
-}
-
-std::vector<std::string> texts(NetcdfFile const& group, std::string const& name) {
-    for (auto const& variable : group.variables()) {
-        if (variable.name != name) continue;
-        std::vector<char> letters(variable.size());
-        group.read(variable.id, std::array<std::size_t, 2>{0, 0}, variable.shape, letters.data());
-        std::vector<std::string> result;
-        std::size_t const width = variable.shape[1];
-        for (std::size_t i = 0; i < variable.shape[0]; ++i) {
-            std::string const text(letters.data() + i * width, width);
-            result.push_back(text.substr(0, text.find('\0')));
-        }
-        return result;
-    }
-    return {};
-}
-
-TEST_F(ToleranceReportOf, ARandomDesignIsStoredInGroups) {
-    Scene study = scene(DesignKind::mc, 5000);
-    study.limits = {limit("peak_normal_force", "", -infinity, 1499), limit("mode_time", "line", 2200, infinity)};
-    NetcdfFile file = write(numbered_members(1000, 1000));
-    std::string const before = payload_hash(file);
-    ToleranceReport const report = tolerance_report(ResultView(file), study);
-    write_statistics(file, report);
-    EXPECT_NE(payload_hash(file), before);
-    file.close();
-
-    NetcdfFile const back = NetcdfFile::open(path());
-    EXPECT_EQ(back.groups(), (std::vector<std::string>{"statistics", "yield", "sensitivity"}));
-    for (std::string const& name : back.groups()) {
-        NetcdfFile const group = back.group(name);
-        EXPECT_EQ(group.text(NetcdfFile::global, "policy"), report.policy);
-        EXPECT_EQ(group.text(NetcdfFile::global, "design"), "mc");
-        for (auto const& variable : group.variables()) {
-            EXPECT_NE(group.text(variable.id, "long_name"), "") << variable.name;
-        }
-    }
-    NetcdfFile const statistics = back.group("statistics");
-    Stored const mean = stored(statistics, "mode_time_mean");
-    EXPECT_EQ(mean.shape, (std::vector<std::size_t>{4}));
-    EXPECT_EQ(mean.values[2], report.columns[3].summary.mean);
-    EXPECT_EQ(mean.unit, "s");
-    EXPECT_EQ(mean.long_name, "mean: time spent in the mode class");
-    EXPECT_EQ(mean.coordinates, "mode_class_name");
-    EXPECT_TRUE(stored(statistics, "peak_normal_force_mean").shape.empty());
-    Stored const quantiles = stored(statistics, "mode_time_quantile_interval");
-    EXPECT_EQ(quantiles.shape, (std::vector<std::size_t>{4, 9, 2}));
-    EXPECT_EQ(quantiles.values[(2 * 9 + 4) * 2 + 1], report.columns[3].quantiles[4].interval.high);
-    EXPECT_EQ(stored(statistics, "probability").values[1], 0.01);
-    EXPECT_EQ(texts(statistics, "bound_name"), (std::vector<std::string>{"low", "high"}));
-    EXPECT_EQ(texts(statistics, "ending_name"),
-              (std::vector<std::string>{"finished", "max_steps", "geometry", "not_run"}));
-    EXPECT_EQ(stored(statistics, "members").values, (std::vector<double>{800, 50, 50, 100}));
-    Stored const bins = stored(statistics, "peak_normal_force_bin_count");
-    EXPECT_EQ(bins.values.size(), 64u);
-    EXPECT_EQ(std::accumulate(bins.values.begin(), bins.values.end(), 0.0), 800);
-    Stored const edges = stored(statistics, "peak_normal_force_bin_edge");
-    EXPECT_EQ(edges.values[0], 1000);
-    EXPECT_EQ(edges.unit, "N");
-    EXPECT_TRUE(std::isnan(edges.values.back()));
-
-    NetcdfFile const yield = back.group("yield");
-    EXPECT_EQ(texts(yield, "limit_name"), (std::vector<std::string>{"peak_normal_force", "mode_time[line]"}));
-    EXPECT_EQ(texts(yield, "unit_name"), (std::vector<std::string>{"N", "s"}));
-    EXPECT_EQ(stored(yield, "met").values, (std::vector<double>{400, 720}));
-    EXPECT_EQ(stored(yield, "high").values, (std::vector<double>{1499, infinity}));
-    EXPECT_EQ(stored(yield, "all_met").values, (std::vector<double>{320}));
-    EXPECT_EQ(stored(yield, "trials").values, (std::vector<double>{900}));
-    EXPECT_EQ(stored(yield, "all_share_interval").values[1], report.all_met->interval.high);
-
-    NetcdfFile const sensitivity = back.group("sensitivity");
-    EXPECT_EQ(texts(sensitivity, "input_name"), (std::vector<std::string>{"joint.clearance", "contact.eta"}));
-    Stored const ranks = stored(sensitivity, "mode_time_rank_correlation");
-    EXPECT_EQ(ranks.shape, (std::vector<std::size_t>{4, 2}));
-    EXPECT_EQ(ranks.coordinates, "mode_class_name input_name");
-    EXPECT_NEAR(ranks.values[3 * 2], -1, 1e-14);
-    EXPECT_EQ(stored(sensitivity, "peak_normal_force_rank").values, (std::vector<double>{1, 2}));
-}
-
-TEST_F(ToleranceReportOf, IndicesAreStoredInAGroup) {
-    NetcdfFile file = write(radial_members(0, 100));
-    ToleranceReport const report = tolerance_report(ResultView(file), scene(DesignKind::saltelli, 400));
-    write_statistics(file, report);
-    EXPECT_FALSE(file.has_group("yield"));
-    NetcdfFile const sensitivity = file.group("sensitivity");
-    EXPECT_EQ(stored(sensitivity, "rows_used").values, (std::vector<double>{100}));
-    EXPECT_EQ(stored(sensitivity, "mode_time_total").shape, (std::vector<std::size_t>{4, 2}));
-    EXPECT_EQ(stored(sensitivity, "mode_time_total").values[1], report.indices->columns[1].indices.total[1].value);
-    EXPECT_EQ(stored(sensitivity, "peak_normal_force_first_interval").values[2],
-              report.indices->columns[0].indices.first[1].interval.low);
-    EXPECT_EQ(stored(sensitivity, "mode_time_rank").values, (std::vector<double>{2, 1, 2, 1, 1, 2, 1, 2}));
-    EXPECT_EQ(stored(sensitivity, "peak_normal_force_first_sum").values[0],
-              report.indices->columns[0].indices.first_sum.value);
 }
 
 }  // namespace

@@ -4,8 +4,11 @@
 #include <unistd.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +28,51 @@ struct MadeUpMember {
     double force = 0;                   // peak_normal_force
     std::array<double, 4> mode_time{};  // free, point, line, surface
 };
+
+/// Members [first, first + count): force is the number, mode_time[line] twice that; 10 k + 3 fail, 10 k + 7 did not
+/// run.
+inline std::vector<MadeUpMember> numbered_members(std::uint64_t first, std::size_t count) {
+    std::vector<MadeUpMember> members(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        MadeUpMember& m = members[i];
+        m.number = first + i;
+        auto const x = static_cast<double>(m.number);
+        m.clearance = x * x * x;  // rank correlation with the force: 1
+        m.eta = std::abs(static_cast<double>(m.number % 100) - 49.5);
+        m.force = x;
+        m.mode_time = {0.5, std::numeric_limits<double>::quiet_NaN(), 2 * x, -x};
+        if (m.number % 10 == 3) m.status = m.number % 20 == 3 ? Status::max_steps : Status::geometry;
+        if (m.number % 10 == 7) m.status = Status::not_run;
+        if (m.status != Status::finished) m.force = 1e9, m.mode_time = {1e9, 1e9, 1e9, 1e9};
+    }
+    return members;
+}
+
+inline void shuffle(std::vector<MadeUpMember>& members) {
+    std::mt19937_64 engine(21);
+    for (std::size_t i = members.size(); i > 1; --i) std::swap(members[i - 1], members[engine() % i]);
+}
+
+/// Rows [first, first + rows) of a saltelli design of two inputs, force 2 x1 + x2 of uniform inputs.
+inline std::vector<MadeUpMember> radial_members(std::uint64_t first, std::size_t rows) {
+    std::vector<MadeUpMember> members;
+    for (std::uint64_t r = first; r < first + rows; ++r) {
+        double x[4];                               // A, then B
+        constexpr double primes[] = {2, 3, 5, 7};  // Kronecker's sequence: independent coordinates
+        for (int k = 0; k < 4; ++k) x[k] = std::fmod(static_cast<double>(r + 1) * std::sqrt(primes[k]), 1.0);
+        double const inputs[4][2] = {{x[0], x[1]}, {x[2], x[3]}, {x[2], x[1]}, {x[0], x[3]}};
+        for (std::uint64_t k = 0; k < 4; ++k) {
+            MadeUpMember m;
+            m.number = 4 * r + k;
+            m.clearance = inputs[k][0];
+            m.eta = inputs[k][1];
+            m.force = 2 * m.clearance + m.eta;
+            m.mode_time = {m.eta, m.eta * m.eta, 0.25, m.clearance};
+            members.push_back(m);
+        }
+    }
+    return members;
+}
 
 class ToleranceFile : public ::testing::Test {
 protected:
