@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "host/scene/correlation.hpp"
 #include "host/scene/reader.hpp"
 #include "host/scene/suggest.hpp"
 #include "host/scene/values.hpp"
@@ -83,20 +84,6 @@ void check_entries(Node const& node, std::vector<double> const& r, std::size_t n
     }
 }
 
-/// Whether R = L Lᵀ with a positive diagonal: the lower triangle by Cholesky, row by row.
-bool is_positive_definite(std::vector<double> l, std::size_t n) {
-    for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t j = 0; j <= i; ++j) {
-            double sum = l[i * n + j];
-            for (std::size_t k = 0; k < j; ++k) sum -= l[i * n + k] * l[j * n + k];
-            // Of a singular matrix rounding leaves some 1e-16, of either sign.
-            if (i == j && !(sum > 1e-12)) return false;
-            l[i * n + j] = i == j ? std::sqrt(sum) : sum / l[j * n + j];
-        }
-    }
-    return true;
-}
-
 }  // namespace
 
 void read_correlation(Node const& root, Scene& scene) {
@@ -126,7 +113,8 @@ void read_correlation(Node const& root, Scene& scene) {
     std::size_t const n = correlation.variations.size();
     correlation.matrix = read_entries(*matrix, n);
     check_entries(*matrix, correlation.matrix, n);
-    if (!is_positive_definite(correlation.matrix, n)) {
+    // Entry by entry it is sound; what is left is the matrix as a whole.
+    if (matrix_defect(correlation.matrix, n)) {
         refuse(*matrix, {"not positive definite: no values are correlated so", "use entries nearer to 0"});
     }
 }
