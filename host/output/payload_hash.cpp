@@ -57,11 +57,19 @@ void add_variable(Fnv1a& hash, NetcdfFile const& file, NetcdfFile::Variable cons
     }
 }
 
+void add_group(Fnv1a& hash, NetcdfFile const& group) {
+    for (NetcdfFile::Variable const& variable : group.variables()) add_variable(hash, group, variable);
+    for (std::string const& name : group.groups()) {
+        hash.add(name);
+        add_group(hash, group.group(name));
+    }
+}
+
 }  // namespace
 
 std::string payload_hash(NetcdfFile const& file) {
     Fnv1a hash;
-    for (NetcdfFile::Variable const& variable : file.variables()) add_variable(hash, file, variable);
+    add_group(hash, file);
     return fmt::format("{:016x}", hash.value());
 }
 
