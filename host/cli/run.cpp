@@ -91,9 +91,11 @@ int end_with_shards(StudyOptions const& options, EnsembleTotals const& totals, s
     return end_stopped(options, why, left);
 }
 
-int conclude(RunArguments const& arguments, Scene const& scene, StudyOptions const& options, bool replaced) {
+int conclude(RunArguments const& arguments, Scene const& scene, StudyOptions const& options, bool replaced,
+             std::optional<ToleranceReport> report) {
     ResultReader const results(options.output);
-    print_results(arguments, scene, options.isa, results);
+    if (!report && asks_for_report(scene)) report = tolerance_report(results, scene);
+    print_results(arguments, scene, options.isa, results, report);
     fmt::print("\n");
     print_field("results", fmt::format("{}{}", options.output, replaced ? " (replaced a former file)" : ""));
     std::uint64_t const failed = failed_count(results), members = options.range.count;
@@ -109,21 +111,22 @@ int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& 
     print_field("scene", scene.title.empty() ? scene.path : fmt::format("{} ({})", scene.title, scene.path));
     if (run.is_complete()) {
         fmt::print(stderr, "resuming: {} is complete already\n", options.output);
-        return conclude(arguments, scene, options, false);
+        return conclude(arguments, scene, options, false, {});
     }
     std::error_code ignored;
     bool const replaced = std::filesystem::exists(options.output, ignored);
+    std::optional<ToleranceReport> report;
     try {
         EnsembleTotals const totals = run_work(scene, options, run.work(), ranks, stop);
         print_throughput(scene, options, totals, ranks.count());
         std::uint64_t const left = run.left();
         if (left > 0 || options.part.of_array) return end_with_shards(options, totals, left);
-        if (!run.finish({}, stop)) return end_stopped(options, " (signal)", 0);
+        if (!run.finish(stop, report)) return end_stopped(options, " (signal)", 0);
     } catch (FileError const& error) {
         throw FileError(fmt::format("{}; what is finished is kept in {}: add --resume to go on", error.what(),
                                     shard_folder_of(options.output)));
     }
-    return conclude(arguments, scene, options, replaced);
+    return conclude(arguments, scene, options, replaced, std::move(report));
 }
 
 /// What rank 0 tells the others before they begin; empty if there is nothing to do.

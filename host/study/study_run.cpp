@@ -8,6 +8,7 @@
 
 #include "host/output/result_merge.hpp"
 #include "host/output/result_reader.hpp"
+#include "host/study/statistics_groups.hpp"
 
 namespace slideway {
 namespace {
@@ -90,15 +91,14 @@ std::uint64_t StudyRun::left() const {
     return mine_.without(members_of(folder.listed())).count();
 }
 
-bool StudyRun::finish(std::function<void(NetcdfFile&)> conclude, StopRequest const& stop) {
+bool StudyRun::finish(StopRequest const& stop, std::optional<ToleranceReport>& report) {
     struct Interrupted {};
     auto const pause = [&stop] {
         if (stop.reason() == StopReason::signal) throw Interrupted();
     };
     ShardFolder const folder(shard_folder_of(options_.output));
     try {
-        merge_study(scene_, folder, provenance(scene_, options_.isa, options_.threads), options_.output,
-                    std::move(conclude), pause);
+        merge_study(scene_, folder, provenance(scene_, options_.isa, options_.threads), options_.output, report, pause);
     } catch (Interrupted const&) {
         return false;
     }
@@ -106,9 +106,20 @@ bool StudyRun::finish(std::function<void(NetcdfFile&)> conclude, StopRequest con
     return true;
 }
 
+bool asks_for_report(Scene const& scene) {
+    return scene.study == StudyKind::tolerance || (scene.study == StudyKind::ensemble && !scene.limits.empty());
+}
+
 std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, Provenance const& provenance,
-                          std::string const& output, std::function<void(NetcdfFile&)> conclude,
+                          std::string const& output, std::optional<ToleranceReport>& report,
                           std::function<void()> pause) {
+    std::function<void(NetcdfFile&)> conclude;
+    if (asks_for_report(scene)) {
+        conclude = [&](NetcdfFile& file) {
+            report = tolerance_report(ResultView(file), scene);
+            write_statistics(file, *report);
+        };
+    }
     std::vector<Shard> const shards = folder.listed();
     MemberSet const& members = folder.identity().members;
     std::uint64_t const left = members.without(members_of(shards)).count();
