@@ -2,13 +2,17 @@
 
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <type_traits>
+
+#include <boost/multiprecision/cpp_int.hpp>
 
 namespace slideway {
 
 static_assert(std::is_trivially_copyable_v<ExactSum>);
 static_assert(std::numeric_limits<double>::is_iec559);
+static_assert(std::endian::native == std::endian::little, "bytes() is defined as little-endian");
 
 namespace {
 
@@ -99,6 +103,50 @@ double ExactSum::value() const {
     if (bit(dropped - 1) && (sticky || (significand & 1))) ++significand;
     // 2^53 after a carry is a double too; ldexp overflows to infinity.
     return sign * std::ldexp(static_cast<double>(significand), static_cast<int>(dropped) - 1074);
+}
+
+std::vector<std::byte> ExactSum::bytes() const {
+    static_assert(byte_count == (size + 1) * sizeof(std::uint64_t));
+    std::uint64_t const flags = nan_ | positive_infinity_ << 1 | negative_infinity_ << 2;
+    std::vector<std::byte> bytes(byte_count);
+    std::memcpy(bytes.data(), limbs_.data(), sizeof limbs_);
+    std::memcpy(bytes.data() + sizeof limbs_, &flags, sizeof flags);
+    return bytes;
+}
+
+std::optional<ExactSum> ExactSum::from_bytes(std::span<std::byte const> bytes) {
+    ExactSum sum;
+    std::uint64_t flags = 0;
+    if (bytes.size() != byte_count) return std::nullopt;
+    std::memcpy(sum.limbs_.data(), bytes.data(), sizeof sum.limbs_);
+    std::memcpy(&flags, bytes.data() + sizeof sum.limbs_, sizeof flags);
+    if (flags > 7) return std::nullopt;
+    sum.nan_ = flags & 1;
+    sum.positive_infinity_ = flags >> 1 & 1;
+    sum.negative_infinity_ = flags >> 2 & 1;
+    return sum;
+}
+
+ExactSum::Scaled ExactSum::spread(std::uint64_t n, ExactSum const& sum, ExactSum const& squares) {
+    using Integer = boost::multiprecision::cpp_int;
+    auto const integer = [](ExactSum const& of) {
+        Integer value;
+        boost::multiprecision::import_bits(value, of.limbs_.begin(), of.limbs_.end(), 64, false);
+        if (of.limbs_.back() >> 63) value -= Integer(1) << (64 * size);  // two's complement
+        return value;
+    };
+    // In units of 2^-2148, the square of those of the sum.
+    constexpr int unit = 1074;
+    Integer const first = integer(sum);
+    Integer const difference = (integer(squares) * n << unit) - first * first;
+    if (difference == 0) return {0, 0};
+    bool const negative = difference < 0;
+    Integer const magnitude = negative ? Integer(-difference) : difference;
+    int const bits = static_cast<int>(boost::multiprecision::msb(magnitude)) + 1;
+    int const dropped = bits > 64 ? bits - 64 : 0;
+    auto const top = static_cast<std::uint64_t>(magnitude >> dropped);
+    double const mantissa = std::ldexp(static_cast<double>(top), dropped - bits);
+    return {negative ? -mantissa : mantissa, bits - 2 * unit};
 }
 
 }  // namespace slideway

@@ -4,6 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
 
 namespace slideway {
 
@@ -21,6 +24,21 @@ public:
     /// The double nearest to the exact sum, ties to even; an infinity from 2^1024 - 2^970 on, as for any rounding to
     /// nearest.  The sum of nothing, and of zeros of whatever sign, is +0.
     double value() const;
+
+    /// Little-endian, `byte_count` of them; the same for the same sum, however it came together.
+    std::vector<std::byte> bytes() const;
+    /// Nothing if the bytes are not those of a sum.
+    static std::optional<ExactSum> from_bytes(std::span<std::byte const> bytes);
+    static constexpr std::size_t byte_count = 35 * sizeof(std::uint64_t);
+
+    /// n Σx² - (Σx)², without rounding until the end, as mantissa · 2^exponent, for it may lie beyond the doubles.
+    struct Scaled {
+        double mantissa;  // 0, or in [1/2, 1]; negative likewise
+        int exponent;
+    };
+    /// @param sum, squares finite.
+    static Scaled spread(std::uint64_t n, ExactSum const& sum, ExactSum const& squares);
+    bool is_finite() const { return !nan_ && !positive_infinity_ && !negative_infinity_; }
 
     friend bool operator==(ExactSum const&, ExactSum const&) = default;
 

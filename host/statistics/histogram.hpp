@@ -25,4 +25,13 @@ struct Histogram {
 /// @param sorted ascending, no NaN.
 Histogram histogram(std::span<double const> sorted);
 
+/// What the rule goes by.
+struct HistogramRange {
+    double least, largest;      // finite
+    double quartiles[2];        // lower, upper
+    std::uint64_t numbers = 0;  // finite ones, > 0
+};
+/// The edges of its bins.
+std::vector<double> histogram_edges(HistogramRange const& range);
+
 }  // namespace slideway

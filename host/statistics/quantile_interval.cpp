@@ -10,10 +10,10 @@ namespace slideway {
 namespace {
 
 /// The smallest k in [0, n] where `holds`, which stays true from there on; n + 1 where it never holds.
-template <class Predicate> std::size_t first_where(std::size_t n, Predicate holds) {
-    std::size_t low = 0, high = n + 1;
+template <class Predicate> std::uint64_t first_where(std::uint64_t n, Predicate holds) {
+    std::uint64_t low = 0, high = n + 1;
     while (low < high) {
-        std::size_t const middle = low + (high - low) / 2;
+        std::uint64_t const middle = low + (high - low) / 2;
         if (holds(middle)) {
             high = middle;
         } else {
@@ -25,21 +25,25 @@ template <class Predicate> std::size_t first_where(std::size_t n, Predicate hold
 
 }  // namespace
 
-Interval quantile_interval(std::span<double const> sorted, double p, double level) {
-    Interval interval;
-    if (sorted.empty()) return interval;
-    std::size_t const n = sorted.size();
+RankInterval quantile_ranks(std::uint64_t n, double p, double level) {
     double const tail = 0.5 * (1 - level);
     boost::math::binomial const below(static_cast<double>(n), p);
     // k is the number of draws below: r is one more than the largest k of P(B <= k) <= tail.
-    std::size_t const r =
-        first_where(n, [&](std::size_t k) { return boost::math::cdf(below, static_cast<double>(k)) > tail; });
-    std::size_t const s = first_where(n, [&](std::size_t k) {
+    std::uint64_t const r =
+        first_where(n, [&](std::uint64_t k) { return boost::math::cdf(below, static_cast<double>(k)) > tail; });
+    std::uint64_t const s = first_where(n, [&](std::uint64_t k) {
         if (k == 0) return false;  // P(B >= 0) = 1
         return boost::math::cdf(boost::math::complement(below, static_cast<double>(k - 1))) <= tail;
     });
+    return {r, s};
+}
+
+Interval quantile_interval(std::span<double const> sorted, double p, double level) {
+    Interval interval;
+    if (sorted.empty()) return interval;
+    auto const [r, s] = quantile_ranks(sorted.size(), p, level);
     if (r >= 1) interval.low = sorted[r - 1];
-    if (s <= n) interval.high = sorted[s - 1];
+    if (s <= sorted.size()) interval.high = sorted[s - 1];
     return interval;
 }
 

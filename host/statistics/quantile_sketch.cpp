@@ -79,6 +79,10 @@ double QuantileSketch::quantile(double p) const {
     if (count_ == 0) return std::numeric_limits<double>::quiet_NaN();
     auto rank = static_cast<std::uint64_t>(p * static_cast<double>(count_ - 1));
     if (rank > count_ - 1) rank = count_ - 1;  // count - 1 may have rounded up
+    return at_rank(rank);
+}
+
+double QuantileSketch::at_rank(std::uint64_t rank) const {
     for (std::size_t i = negative_.counts.size(); i-- > 0;) {
         if (rank < negative_.counts[i]) return -value_of(negative_.first + static_cast<std::uint32_t>(i));
         rank -= negative_.counts[i];
@@ -90,6 +94,19 @@ double QuantileSketch::quantile(double p) const {
         rank -= positive_.counts[i];
     }
     return std::numeric_limits<double>::quiet_NaN();  // unreachable: the counts add up
+}
+
+std::vector<QuantileSketch::Bucket> QuantileSketch::buckets() const {
+    std::vector<Bucket> found;
+    auto const add = [&](double value, std::uint64_t count) {
+        if (count > 0) found.push_back({value, count});
+    };
+    for (std::size_t i = negative_.counts.size(); i-- > 0;)
+        add(-value_of(negative_.first + static_cast<std::uint32_t>(i)), negative_.counts[i]);
+    add(0, zeros_);
+    for (std::size_t i = 0; i < positive_.counts.size(); ++i)
+        add(value_of(positive_.first + static_cast<std::uint32_t>(i)), positive_.counts[i]);
+    return found;
 }
 
 std::vector<std::byte> QuantileSketch::bytes() const {

@@ -32,6 +32,17 @@ public:
     /// infinities.  @param p in [0, 1].  @return NaN without numbers.
     double quantile(double p) const;
 
+    /// The number of this rank, from 0 and below `count`, likewise.
+    double at_rank(std::uint64_t rank) const;
+
+    /// Numbers that the sketch does not tell apart: how many, and what it answers for them.
+    struct Bucket {
+        double value;
+        std::uint64_t count;
+    };
+    /// Those that hold a number, ascending.
+    std::vector<Bucket> buckets() const;
+
     /// Little-endian; the same for the same counts, however they came together.
     std::vector<std::byte> bytes() const;
     /// Nothing if the bytes are not those of a sketch.

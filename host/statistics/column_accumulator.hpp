@@ -1,0 +1,68 @@
+// What is kept of a column of numbers that nobody keeps.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "host/statistics/exact_sum.hpp"
+#include "host/statistics/histogram.hpp"
+#include "host/statistics/quantile_interval.hpp"
+#include "host/statistics/quantile_sketch.hpp"
+#include "host/statistics/summary.hpp"
+
+namespace slideway {
+
+/// Counts, ends, sums of x and x² without rounding and a sketch of the quantiles.  All of it is the same to the last bit
+/// in whichever order the numbers come and however they are divided into parts.
+///
+/// x² enters as the two doubles x·x and fma(x, x, -x·x).  They are exact for 2^-484 <= |x| < 2^512; below, each is off by
+/// at most 2^-1075, and above the squares are infinite and so is the standard deviation.
+class ColumnAccumulator {
+public:
+    void add(double x);
+    void merge(ColumnAccumulator const& other);
+
+    std::uint64_t count() const { return sketch_.count(); }      // without NaN
+    std::uint64_t missing() const { return sketch_.missing(); }  // NaN
+    double min() const;                                          // NaN without numbers
+    double max() const;
+
+    /// Of Σx correctly rounded, over the count; an infinity where the sum is beyond the doubles.
+    double mean() const;
+    /// √((n Σx² - (Σx)²)/(n (n-1))), the difference without rounding: accurate also where sd << |mean|.
+    /// @return NaN for less than two numbers and for infinite ones.
+    double sd() const;
+
+    /// The k-th smallest number, k from 0 and below `count`: within `QuantileSketch::error` of it, relative, and between
+    /// min and max.
+    double at_rank(std::uint64_t rank) const;
+    /// As `quantile` of the sorted numbers (type 7), between two of `at_rank`.  @param p in [0, 1].
+    double quantile(double p) const;
+    /// As `quantile_interval` of the sorted numbers, its bounds of `at_rank`.  @param p, level in (0, 1).
+    Interval quantile_interval(double p, double level = 0.95) const;
+    /// As `histogram` of the sorted numbers; the quartiles of its rule are sketched, and the numbers of one bucket of the sketch
+    /// count where its answer for them lies: near an edge they may count beside it, by 2^-10 of their magnitude.
+    Histogram histogram() const;
+    Summary summary() const;
+
+    /// Little-endian; the same for the same numbers, however they came together.
+    std::vector<std::byte> bytes() const;
+    /// Nothing if the bytes are not those of an accumulator.
+    static std::optional<ColumnAccumulator> from_bytes(std::span<std::byte const> bytes);
+
+private:
+    std::uint64_t finite() const { return count() - negative_infinities_ - positive_infinities_; }
+    double finite_quantile(double p) const;
+
+    // Of the finite numbers; +0 for zeros of whatever sign.
+    double least_ = std::numeric_limits<double>::infinity(), largest_ = -std::numeric_limits<double>::infinity();
+    std::uint64_t negative_infinities_ = 0, positive_infinities_ = 0;
+    ExactSum sum_, squares_;
+    QuantileSketch sketch_;
+};
+
+}  // namespace slideway
