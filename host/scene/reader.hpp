@@ -37,6 +37,8 @@ void read_member_table(Node const& node, Node const& root, Scene& scene);
 void read_correlation(Node const& root, Scene& scene);
 /// [study.limits]; adds their quantities to those asked for.
 void read_limits(Node const& root, Scene& scene);
+/// study.store; needs the design, the samples and the quantities.
+void read_store(Node const& root, Scene& scene);
 /// The keys of a study of orbits: Scene::chaos.
 void read_chaos(Node const& root, Scene& scene);
 /// Where the sections of a poincare or sweep are taken.

@@ -221,6 +221,7 @@ void read_recording(Node const& root, Scene& scene) {
     // The audit runs anyway, and whoever takes such a method should see what it says.
     if (is_always_audited(scene.integrator.method)) scene.quantities |= selection_of(Quantity::energy_residual);
     check_size(sampling, scene);
+    read_store(root, scene);
 }
 
 }  // namespace slideway

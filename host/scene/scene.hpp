@@ -26,6 +26,7 @@ struct Scene {
     ChaosSettings chaos;  // of the studies that ask for it
     std::uint64_t members = 1;
     std::uint64_t seed = 1;
+    Store store = Store::members;      // what the result file keeps
     std::vector<double> sample_times;  // empty: no time series
     Selection quantities = 0;
     Selection series = 0;                    // state series included when sample_times is not empty
@@ -34,6 +35,8 @@ struct Scene {
     std::shared_ptr<Sampler const> sampler;  // of the design, by prepare_sampler; none: made for each draw
     std::vector<Limit> limits;               // [study.limits]
     std::vector<std::string> warnings;       // one line each: what was given and has no effect
+
+    bool stores_members() const { return store == Store::members; }
 };
 
 using Overrides = std::vector<std::pair<std::string, std::string>>;  // --set key=value, in order

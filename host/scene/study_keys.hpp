@@ -66,6 +66,8 @@ inline constexpr StudyKey study_keys[] = {
      "grid: levels of each key that has no levels = k of its own in [study.vary]"},
     {"study.table", "", study_sets::all & ~study_sets::sweep,
      "file of the table, beside the scene: dotted keys, [unit] behind them, above a row for each member"},
+    {"study.store", "", study_sets::to_end,
+     "members, or statistics: counts, moments and sketched quantiles in place of the members; members"},
     {"study.vary", "", study_sets::all, "how numeric keys scatter over the members"},
     {"study.correlation", "", study_sets::all,
      "{ keys = [\"joint.clearance_y\", ...], matrix = [[1, 0.5], [0.5, 1]] } of keys that vary"},

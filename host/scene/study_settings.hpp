@@ -21,6 +21,12 @@ constexpr std::string_view name_of(StudyKind kind) { return study_kind_names[sta
 /// Every member from the start to the end time, with or without a time series; the others study orbits.
 constexpr bool runs_to_end(StudyKind kind) { return kind == StudyKind::ensemble || kind == StudyKind::tolerance; }
 
+/// What a result keeps: a row of each member, or what they come to together.
+enum class Store { members, statistics };
+
+inline constexpr std::string_view store_names[] = {"members", "statistics"};
+constexpr std::string_view name_of(Store store) { return store_names[static_cast<int>(store)]; }
+
 /// A length of time: seconds, or revolutions of the member's own crank.
 struct Span {
     double value = 0;
