@@ -3,9 +3,12 @@
 #include <array>
 #include <limits>
 #include <map>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "host/output/label_axes.hpp"
 #include "host/scene/error.hpp"
 
 namespace slideway {
@@ -13,9 +16,9 @@ namespace {
 
 using Type = NetcdfFile::Type;
 
-constexpr std::size_t label_length = 8;  // "surface" and room for one more letter
+}  // namespace
 
-void put_provenance(NetcdfFile& file, ResultLayout const& layout, Provenance const& provenance) {
+void put_provenance(NetcdfFile& file, Provenance const& provenance) {
     BuildInfo const& build = build_info();
     auto const attribute = [&](char const* name, std::string const& value) {
         file.put_text(NetcdfFile::global, name, value);
@@ -33,13 +36,25 @@ void put_provenance(NetcdfFile& file, ResultLayout const& layout, Provenance con
     attribute("seed", fmt::format("{}", provenance.seed));  // CF-1.8 has no 64-bit integers
     attribute("created", creation_time());
     attribute("scene", provenance.scene);
-    if (!layout.sweep.empty()) attribute("sweep_parameter", layout.sweep);
 }
+
+void put_status_flags(NetcdfFile& file, int variable) {
+    std::vector<signed char> values{static_cast<signed char>(Status::not_run)};
+    std::string meanings = "not_run";
+    for (int status = 0; status < status_count; ++status) {
+        values.push_back(static_cast<signed char>(status));
+        meanings += fmt::format(" {}", status_names[status]);
+    }
+    file.put_bytes(variable, "flag_values", values);
+    file.put_text(variable, "flag_meanings", meanings);
+}
+
+namespace {
 
 /// Defines what a layout has, in an order that never changes: the payload hash goes by it.
 class ResultDefiner {
 public:
-    ResultDefiner(NetcdfFile& file, ResultLayout const& layout) : file_(file), layout_(layout) {}
+    ResultDefiner(NetcdfFile& file, ResultLayout const& layout) : file_(file), layout_(layout), labels_(file) {}
     ResultVariables define();
 
 private:
@@ -53,15 +68,11 @@ private:
     int member_variable(std::string const& name, std::string const& unit, std::string const& long_name);
     void write_coordinates();
 
-    struct LabelVariable {
-        int id;
-        std::vector<std::string> labels;
-    };
     NetcdfFile& file_;
     ResultLayout const& layout_;
     ResultVariables ids_;
     int member_dimension_ = 0, sample_dimension_ = 0;
-    std::vector<LabelVariable> labels_;
+    LabelAxes labels_;
     std::vector<int> axes_;  // of the study
 };
 
@@ -89,14 +100,7 @@ void ResultDefiner::define_coordinates() {
 void ResultDefiner::define_members() {
     ids_.status = file_.add_variable("status", Type::int8, std::array{member_dimension_});
     file_.put_text(ids_.status, "long_name", "how the member ended");
-    std::vector<signed char> values{static_cast<signed char>(Status::not_run)};
-    std::string meanings = "not_run";
-    for (int status = 0; status < status_count; ++status) {
-        values.push_back(static_cast<signed char>(status));
-        meanings += fmt::format(" {}", status_names[status]);
-    }
-    file_.put_bytes(ids_.status, "flag_values", values);
-    file_.put_text(ids_.status, "flag_meanings", meanings);
+    put_status_flags(file_, ids_.status);
 
     // Counts can pass 2^31 and CF-1.8 has no wider integers; a double holds them exactly up to 2^53.
     ids_.steps_accepted = member_variable("steps_accepted", "1", "accepted steps");
@@ -115,26 +119,6 @@ void ResultDefiner::define_members() {
 }
 
 void ResultDefiner::define_quantities() {
-    struct Axis {
-        int dimension;
-        std::string label_name;
-    };
-    std::map<std::string, Axis> axes;
-    int label_dimension = -1;
-    auto const axis_of = [&](std::string const& name) -> Axis const& {
-        auto const [found, is_new] = axes.try_emplace(name);
-        if (is_new) {
-            if (label_dimension < 0) label_dimension = file_.add_dimension("label_length", label_length);
-            std::vector<std::string> labels = labels_of(name);
-            found->second = {file_.add_dimension(name, labels.size()), name + "_name"};
-            int const variable = file_.add_variable(found->second.label_name, Type::text,
-                                                    std::array{found->second.dimension, label_dimension});
-            file_.put_text(variable, "long_name", fmt::format("label along {}", name));
-            file_.put_text(variable, "_Encoding", "utf-8");  // readers then give strings, not bytes
-            labels_.push_back({variable, std::move(labels)});
-        }
-        return found->second;
-    };
     for (int q = 0; q < quantity_count; ++q) {
         if (!selects(layout_.quantities, static_cast<Quantity>(q))) continue;
         QuantityInfo const& info = quantity_table[q];
@@ -143,7 +127,7 @@ void ResultDefiner::define_quantities() {
             ids_.quantities.push_back({member_variable(info.name, info.unit, info.long_name), first_column, 1});
             continue;
         }
-        Axis const& axis = axis_of(info.dimension);
+        LabelAxes::Axis const& axis = labels_.axis(info.dimension);
         int const variable =
             file_.add_variable(info.name, Type::float64, std::array{member_dimension_, axis.dimension}, true);
         describe(variable, info.unit, info.long_name);
@@ -221,14 +205,7 @@ void ResultDefiner::write_coordinates() {
         std::size_t const all_samples[1] = {layout_.sample_times.size()};
         file_.write(ids_.time, {origin, 1}, all_samples, layout_.sample_times.data());
     }
-    for (LabelVariable const& variable : labels_) {
-        std::vector<char> text(variable.labels.size() * label_length, '\0');
-        for (std::size_t i = 0; i < variable.labels.size(); ++i) {
-            variable.labels[i].copy(text.data() + i * label_length, label_length);
-        }
-        std::size_t const all_labels[2] = {variable.labels.size(), label_length};
-        file_.write(variable.id, origin, all_labels, text.data());
-    }
+    labels_.write();
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         auto const& values = layout_.study.axes[i].values;
         file_.write(axes_[i], std::array{std::size_t{0}}, std::array{values.size()}, values.data());
@@ -254,7 +231,8 @@ ResultVariables define_result(NetcdfFile& file, ResultLayout const& layout, Prov
     if (!layout.members.empty() && layout.members.ranges().back().end() > largest) {
         throw FileError(fmt::format("{}: cannot number members beyond {}", file.path(), largest));
     }
-    put_provenance(file, layout, provenance);
+    put_provenance(file, provenance);
+    if (!layout.sweep.empty()) file.put_text(NetcdfFile::global, "sweep_parameter", layout.sweep);
     return ResultDefiner(file, layout).define();
 }
 

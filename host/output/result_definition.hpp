@@ -29,4 +29,9 @@ struct ResultVariables {
 /// that it was not run.  @throws FileError, also if the members do not fit the file's 32-bit numbers.
 ResultVariables define_result(NetcdfFile& file, ResultLayout const& layout, Provenance const& provenance);
 
+/// Attributes that say where a result comes from.
+void put_provenance(NetcdfFile& file, Provenance const& provenance);
+/// `flag_values` and `flag_meanings` of a variable that holds statuses.
+void put_status_flags(NetcdfFile& file, int variable);
+
 }  // namespace slideway

@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "host/output/durable_file.hpp"
 #include "host/output/payload_hash.hpp"
 #include "host/output/result_definition.hpp"
 #include "host/scene/error.hpp"
@@ -164,10 +165,6 @@ void write_merged(NetcdfFile& file, ShardFolder const& folder, std::vector<Shard
     if (merge.pause) merge.pause();
     if (merge.conclude) merge.conclude(file);
     if (merge.pause) merge.pause();
-    file.put_text(NetcdfFile::global, "completeness", merge.completeness);
-    file.flush();
-    file.put_text(NetcdfFile::global, "payload_hash", payload_hash(file));
-    file.close();
 }
 
 }  // namespace
@@ -187,20 +184,29 @@ void require_writable_place(std::string const& path) {
     }
 }
 
-void merge_shards(ShardFolder const& folder, std::vector<Shard> const& shards, ResultMerge merge,
-                  std::string const& path) {
+void write_result(std::string const& path, std::string const& completeness,
+                  std::function<void(NetcdfFile& file)> const& write) {
     std::string const part = path + ".part";
     remove_leftover(path, part);
     {
         NetcdfFile file = NetcdfFile::create(part);
         try {
-            write_merged(file, folder, shards, merge);
+            write(file);
+            file.put_text(NetcdfFile::global, "completeness", completeness);
+            file.flush();
+            file.put_text(NetcdfFile::global, "payload_hash", payload_hash(file));
+            file.close();
         } catch (...) {
             std::remove(part.c_str());
             throw;
         }
     }
     rename_durably(part, path);
+}
+
+void merge_shards(ShardFolder const& folder, std::vector<Shard> const& shards, ResultMerge merge,
+                  std::string const& path) {
+    write_result(path, merge.completeness, [&](NetcdfFile& file) { write_merged(file, folder, shards, merge); });
 }
 
 }  // namespace slideway

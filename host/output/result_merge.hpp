@@ -32,4 +32,8 @@ void require_writable_place(std::string const& path);
 void merge_shards(ShardFolder const& folder, std::vector<Shard> const& shards, ResultMerge merge,
                   std::string const& path);
 
+/// The same for what `write` puts into the file: adds completeness and payload hash.
+void write_result(std::string const& path, std::string const& completeness,
+                  std::function<void(NetcdfFile& file)> const& write);
+
 }  // namespace slideway

@@ -19,8 +19,9 @@ template <class T> std::vector<double> read_as(NetcdfFile const& file, NetcdfFil
 }  // namespace
 
 ResultView::ResultView(NetcdfFile const& file) : file_(&file), variables_(file.variables()) {
-    auto const is_status = [](NetcdfFile::Variable const& variable) {
-        return variable.name == "status" && variable.shape.size() == 1;
+    std::string const name = stores_members() ? "status" : "status_count";
+    auto const is_status = [&](NetcdfFile::Variable const& variable) {
+        return variable.name == name && variable.shape.size() == 1;
     };
     if (!std::any_of(variables_.begin(), variables_.end(), is_status)) {
         throw FileError(file.path() + ": is a netCDF file, but not a result of slideway");

@@ -12,10 +12,12 @@ namespace slideway {
 /// are those defined when the view was made.  The file must not be moved or closed while the view is in use.
 class ResultView {
 public:
-    /// @throws FileError if the file has no `status` of members, so is no result of slideway.
+    /// @throws FileError if the file has no `status` of members and no counts of them, so is no result of slideway.
     explicit ResultView(NetcdfFile const& file);
 
     std::vector<NetcdfFile::Dimension> dimensions() const { return file_->dimensions(); }
+    /// Whether the members are there, or what they come to together (`store` is "statistics").
+    bool stores_members() const { return attribute("store") != "statistics"; }
     std::string attribute(std::string const& name) const;  // as text, also numbers; "" when there is none
     bool has(std::string const& variable) const;
     std::vector<std::string> variable_names() const;

@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "host/output/durable_file.hpp"
 #include "host/scene/error.hpp"
 
 namespace slideway {
@@ -107,7 +108,9 @@ void ShardClaim::begin(Wanted const& wanted) {
 
 void ShardClaim::remove_shards() {
     for (std::string const& name : names_in(folder_)) {
-        if (name.starts_with(shard_names::manifest) || name.starts_with(shard_names::shard)) remove_file(folder_, name);
+        for (std::string_view const ours : {shard_names::manifest, shard_names::members, shard_names::statistics}) {
+            if (name.starts_with(ours)) remove_file(folder_, name);
+        }
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "host/output/durable_file.hpp"
 #include "host/output/payload_hash.hpp"
 #include "host/scene/error.hpp"
 
@@ -17,13 +18,7 @@ namespace {
 
 std::string join(std::string const& folder, std::string_view name) { return (fs::path(folder) / name).string(); }
 
-std::uint64_t checksum_of(std::span<std::byte const> bytes) {
-    Fnv1a hash;
-    hash.add(bytes);
-    return hash.value();
-}
-
-std::uint64_t checksum_of(std::string_view text) { return checksum_of(std::as_bytes(std::span(text))); }
+std::uint64_t checksum_of_text(std::string_view text) { return checksum_of(std::as_bytes(std::span(text))); }
 
 template <class T> bool read_whole(std::string_view word, T& value, int base = 10) {
     auto const [end, error] = std::from_chars(word.data(), word.data() + word.size(), value, base);
@@ -38,7 +33,7 @@ void read_manifest(std::string const& path, std::vector<Shard>& shards) {
         std::uint64_t own = 0;
         if (space == line.npos || !read_whole(std::string_view(line).substr(space + 1), own, 16)) continue;
         line.resize(space);
-        if (own != checksum_of(line)) continue;
+        if (own != checksum_of_text(line)) continue;
         std::istringstream words(line);
         Shard shard{};
         std::string checksum, members;
@@ -50,13 +45,21 @@ void read_manifest(std::string const& path, std::vector<Shard>& shards) {
     }
 }
 
+}  // namespace
+
+std::uint64_t checksum_of(std::span<std::byte const> bytes) {
+    Fnv1a hash;
+    hash.add(bytes);
+    return hash.value();
+}
+
+std::string manifest_name(int number) { return fmt::format("{}{:06}.txt", shard_names::manifest, number); }
+
 std::string manifest_line(Shard const& shard) {
     std::string const line =
         fmt::format("{} {} {:016x} {}", shard.name, shard.bytes, shard.checksum, shard.members.text());
-    return fmt::format("{} {:016x}", line, checksum_of(line));
+    return fmt::format("{} {:016x}", line, checksum_of_text(line));
 }
-
-}  // namespace
 
 std::vector<std::string> names_in(std::string const& folder) {
     std::vector<std::string> names;
@@ -119,20 +122,30 @@ std::vector<Shard> ShardFolder::listed() const {
 }
 
 std::vector<Shard> ShardFolder::intact(std::vector<std::string>& damaged) const {
-    std::vector<Shard> whole;
+    std::vector<Shard> whole, broken;
     for (Shard& shard : all()) {
         try {
             read(shard);
             whole.push_back(std::move(shard));
         } catch (FileError const&) {
-            damaged.push_back(shard.name);
+            broken.push_back(std::move(shard));
         }
     }
-    return without_repeats(std::move(whole));
+    whole = without_repeats(std::move(whole));
+    MemberSet const found = members_of(whole);
+    for (Shard const& shard : broken) {
+        // A successor under the same name is whole.  One under another name took over the members, and this file may be gone.
+        bool const replaced =
+            std::any_of(whole.begin(), whole.end(), [&](auto const& w) { return w.name == shard.name; });
+        std::error_code ignored;
+        bool const gone = !fs::exists(join(path_, shard.name), ignored);
+        if (!replaced && !(gone && shard.members.without(found).empty())) damaged.push_back(shard.name);
+    }
+    return whole;
 }
 
-std::vector<std::byte> ShardFolder::read(Shard const& shard) const {
-    std::string const path = join(path_, shard.name);
+std::vector<std::byte> read_shard(std::string const& folder, Shard const& shard) {
+    std::string const path = join(folder, shard.name);
     std::vector<std::byte> bytes = read_bytes(path);
     if (bytes.size() != shard.bytes || checksum_of(bytes) != shard.checksum) {
         throw FileError(path + ": is not what was written (its checksum differs)");
@@ -144,27 +157,6 @@ MemberSet members_of(std::vector<Shard> const& shards) {
     MemberSet members;
     for (Shard const& shard : shards) members.add(shard.members);
     return members;
-}
-
-void ShardStore::put(MemberSet const& members, std::vector<std::byte> const& bytes) {
-    // Shards have no member in common, so the first one names it.
-    Shard const shard{fmt::format("{}{:010}.nc", shard_names::shard, members.ranges().front().first), bytes.size(),
-                      checksum_of(bytes), members};
-    write_durably(join(folder_, shard.name), bytes);
-    for (int number = 1; !manifest_; ++number) {
-        std::string const path = join(folder_, fmt::format("{}{:06}.txt", shard_names::manifest, number));
-        std::error_code ignored;
-        if (fs::exists(path, ignored)) continue;
-        try {
-            manifest_ = std::make_unique<LineFile>(path);
-            sync_folder(folder_);
-        } catch (FileError const&) {
-            // Another rank may have been first.
-            if (!manifest_ && fs::exists(path, ignored)) continue;
-            throw;
-        }
-    }
-    manifest_->append(manifest_line(shard));
 }
 
 }  // namespace slideway

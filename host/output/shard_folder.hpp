@@ -3,22 +3,22 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "host/driver/member_set.hpp"
-#include "host/output/durable_file.hpp"
 #include "host/output/run_identity.hpp"
 
 namespace slideway {
 
 namespace shard_names {
-inline constexpr std::string_view identity = "run.toml", manifest = "manifest-", shard = "members-", lock = "lock";
-}
+inline constexpr std::string_view identity = "run.toml", manifest = "manifest-", lock = "lock";
+inline constexpr std::string_view members = "members-", statistics = "statistics-";  // what shards begin with
+}  // namespace shard_names
 
-/// A result file of some members of the run.  It never changes.
+/// A result file of some members of the run, or their statistics.  It never changes.
 struct Shard {
     std::string name;  // in the folder
     std::uint64_t bytes;
@@ -26,8 +26,11 @@ struct Shard {
     MemberSet members;
 };
 
+/// One shard.  @throws FileError if the file is not what the manifest says.
+std::vector<std::byte> read_shard(std::string const& folder, Shard const& shard);
+
 /// `run.toml`    the identity: a scene file, with the rest as comments
-/// `members-*.nc`    the shards
+/// `members-*.nc`    the shards, or `statistics-*.bin` where members are not stored
 /// `manifest-*.txt`  one line per shard, written once the shard is on the disk; each line has a checksum of its own, so that a
 ///                   torn one is told.  Every process that writes has a manifest of its own.
 /// `lock*`       held by the processes that write
@@ -43,11 +46,11 @@ public:
     RunIdentity const& identity() const { return identity_; }
     /// What the manifests list, by first member; `read` tells whether a file is what it was.
     std::vector<Shard> listed() const;
-    /// Those that are: reads them all.  @param damaged names of the others
+    /// Those that are: reads them all.  @param damaged names of the others; a shard that is gone because a later one has its members
+    /// is none of them
     std::vector<Shard> intact(std::vector<std::string>& damaged) const;
     /// @throws FileError if the file is not what the manifest says.
-    std::vector<std::byte> read(Shard const& shard) const;
-
+    std::vector<std::byte> read(Shard const& shard) const { return read_shard(path_, shard); }
 
 private:
     std::vector<Shard> all() const;
@@ -62,16 +65,9 @@ std::vector<std::string> names_in(std::string const& folder);
 /// Members of shards together.
 MemberSet members_of(std::vector<Shard> const& shards);
 
-/// Puts shards into a folder.  From one thread.
-class ShardStore {
-public:
-    explicit ShardStore(std::string folder) : folder_(std::move(folder)) {}
-    /// On the disk when it returns.  @throws FileError
-    void put(MemberSet const& members, std::vector<std::byte> const& bytes);
-
-private:
-    std::string const folder_;
-    std::unique_ptr<LineFile> manifest_;  // made with the first shard
-};
+std::uint64_t checksum_of(std::span<std::byte const> bytes);
+std::string manifest_name(int number);
+/// Without its end.
+std::string manifest_line(Shard const& shard);
 
 }  // namespace slideway

@@ -4,12 +4,8 @@
 
 namespace slideway {
 
-ShardWriter::ShardWriter(std::string folder, ResultLayout layout, Provenance provenance)
-    : folder_(std::move(folder)),
-      layout_(std::move(layout)),
-      provenance_(std::move(provenance)),
-      store_(folder_),
-      thread_([this] { put_all(); }) {}
+ShardWriter::ShardWriter(std::string folder, std::function<ShardImage(BlockResult const&)> form, ShardJoin join)
+    : form_(std::move(form)), store_(std::move(folder), std::move(join)), thread_([this] { put_all(); }) {}
 
 ShardWriter::~ShardWriter() { stop(); }
 
@@ -23,8 +19,8 @@ void ShardWriter::stop() {
     thread_.join();
 }
 
-void ShardWriter::write(BlockResult const& block, StudyValues const& study) {
-    ShardImage image = shard_image(folder_, layout_, provenance_, block, study);
+void ShardWriter::write(BlockResult const& block) {
+    ShardImage image = form_(block);
     if (image.members.empty()) return;
     // Few may wait: what does is lost with the process.
     constexpr std::size_t most_waiting = 2;
