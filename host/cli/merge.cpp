@@ -10,21 +10,6 @@
 #include "host/study/study_run.hpp"
 
 namespace slideway::cli {
-namespace {
-
-Provenance provenance_of(ShardFolder const& folder, Scene const& scene) {
-    std::vector<Shard> const shards = folder.listed();
-    if (shards.empty()) throw FileError(folder.path() + ": holds no finished members");
-    std::vector<std::byte> const bytes = folder.read(shards.front());
-    NetcdfFile const file = NetcdfFile::open_in_memory(shards.front().name, bytes);
-    auto const text = [&](char const* name) { return file.text(NetcdfFile::global, name); };
-    Provenance from{scene.title, folder.identity().scene, scene.seed, text("backend"), text("isa"), text("flags"), 1};
-    double threads = 1;
-    if (file.number(NetcdfFile::global, "threads", threads)) from.threads = static_cast<int>(threads);
-    return from;
-}
-
-}  // namespace
 
 int merge(MergeArguments const& arguments) {
     ShardFolder const folder(arguments.folder);
@@ -39,7 +24,7 @@ int merge(MergeArguments const& arguments) {
     std::error_code ignored;
     bool const replaced = std::filesystem::exists(arguments.output, ignored);
     std::optional<ToleranceReport> report;
-    std::uint64_t const left = merge_study(scene, folder, provenance_of(folder, scene), arguments.output, report);
+    std::uint64_t const left = merge_study(scene, folder, shard_origin(folder, scene), arguments.output, report);
 
     RunArguments replay;
     replay.scene.path = scene_path;

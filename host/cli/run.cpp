@@ -62,9 +62,9 @@ void announce(Scene const& scene, StudyOptions const& options, StudyRun const& r
     if (work.before > 0) {
         fmt::print(stderr, "resuming: {} of {} members are done\n", work.before, work.before + work.todo.count());
     }
-    fmt::print(stderr, "memory {}, disk {} and as much again for the shards until the end\n",
+    fmt::print(stderr, "memory {}, disk {} and {} for the shards until the end\n",
                bytes_text(static_cast<double>(prediction.memory())),
-               bytes_text(static_cast<double>(prediction.output_bytes)));
+               bytes_text(static_cast<double>(prediction.output_bytes)), shards_text(scene, prediction));
 }
 
 int end_stopped(StudyOptions const& options, std::string_view why, std::uint64_t left) {

@@ -35,9 +35,11 @@ private:
     std::vector<StatusCount> const counts_;
 };
 
-std::string replay_command(RunArguments const& arguments, Isa isa, std::uint64_t member) {
+std::string replay_command(RunArguments const& arguments, Scene const& scene, Isa isa, std::uint64_t member) {
     std::string command = "slideway run " + shell_quoted(arguments.scene.path);
     for (auto const& [key, value] : arguments.scene.overrides) command += " --set " + shell_quoted(key + "=" + value);
+    // Without a row of its own there is nothing to look at.
+    if (!scene.stores_members()) command += " --set study.store=members";
     return command + fmt::format(" --isa {} --member {}", name_of(isa), member);
 }
 
@@ -97,7 +99,7 @@ void print_failures(RunArguments const& arguments, Scene const& scene, Isa isa, 
             fmt::print(": {}", *why);
         else
             fmt::print(" at t = {:.6g} s", member.time);
-        fmt::print("\n    {}\n", replay_command(arguments, isa, member.member));
+        fmt::print("\n    {}\n", replay_command(arguments, scene, isa, member.member));
     }
 }
 
@@ -159,7 +161,9 @@ void print_results(RunArguments const& arguments, Scene const& scene, Isa isa, R
                    std::optional<ToleranceReport> const& report) {
     auto const quantities = summarise_quantities(results);
     EndedMembers const ended(results);
-    print_field("members", fmt::format("{}", results.shape("status").front()));
+    std::uint64_t members = 0;
+    for (StatusCount const& count : count_statuses(results)) members += count.members;
+    print_field("members", fmt::format("{}", members));
     print_statuses(count_statuses(results));
     print_field("steps", fmt::format("{:.0f} accepted ({:.0f} by the stiff method), {:.0f} rejected",
                                      sum_of(results, "steps_accepted"), sum_of(results, "stiff_steps"),
@@ -180,6 +184,9 @@ void print_results(RunArguments const& arguments, Scene const& scene, Isa isa, R
     print_instability(scene, ended);
     print_spent(scene, ended);
     print_failures(arguments, scene, isa, ended, results);
+    if (!scene.stores_members()) {
+        fmt::print("\nMembers are not stored; a single one can be had with --member K --set study.store=members.\n");
+    }
 }
 
 }  // namespace slideway::cli

@@ -52,6 +52,11 @@ std::string duration_text(double seconds) {
     return fmt::format("{:.1f} days", seconds / 86400);
 }
 
+std::string shards_text(Scene const& scene, Prediction const& prediction) {
+    if (scene.stores_members()) return "as much again";
+    return fmt::format("at most {}", bytes_text(static_cast<double>(prediction.shard_bytes)));
+}
+
 void print_field(std::string_view label, std::string_view text) { fmt::print("{:<12} {}\n", label, text); }
 
 void print_statuses(std::vector<StatusCount> const& statuses) {

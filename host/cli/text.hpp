@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/cli/commands.hpp"
+#include "host/study/prediction.hpp"
 #include "host/study/result_summary.hpp"
 
 namespace slideway::cli {
@@ -18,6 +19,9 @@ void print_warnings(Scene const& scene);
 
 std::string bytes_text(double bytes);       // "1.5 MB"
 std::string duration_text(double seconds);  // "8.2 s", "3 min 20 s", "2.4 h"
+
+/// "as much again", or a bound for those of statistics.
+std::string shards_text(Scene const& scene, Prediction const& prediction);
 
 /// Lines `  finished  1000`.
 void print_statuses(std::vector<StatusCount> const& statuses);

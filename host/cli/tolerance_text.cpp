@@ -172,6 +172,7 @@ void print_tolerance(ToleranceReport const& report) {
     print_statuses(report.statuses);
     print_wrapped(report.policy);
     print_wrapped("Intervals: " + report.intervals + ".");
+    if (!report.quantile_error.empty()) print_wrapped("Quantiles are sketched: " + report.quantile_error + ".");
     auto const has_values = [](ColumnStatistics const& entry) { return entry.summary.count > 0; };
     if (std::none_of(report.columns.begin(), report.columns.end(), has_values)) {
         fmt::print("\nThere are no distributions: no member finished, or no quantity is stored.\n");

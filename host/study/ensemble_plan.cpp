@@ -39,6 +39,8 @@ ResultLayout result_layout(Scene const& scene, MemberSet const& members) {
     return layout;
 }
 
+StatisticsPlan statistics_plan(Scene const& scene) { return {scene.quantities, scene.limits}; }
+
 EnsemblePlan ensemble_plan(Scene const& scene, MemberSet const& members, Isa isa, int threads,
                            std::size_t block_members) {
     EnsemblePlan plan;

@@ -3,6 +3,7 @@
 
 #include "host/backend/backend.hpp"
 #include "host/driver/ensemble.hpp"
+#include "host/output/block_statistics.hpp"
 #include "host/output/provenance.hpp"
 #include "host/output/result_layout.hpp"
 #include "host/output/run_identity.hpp"
@@ -11,6 +12,8 @@
 namespace slideway {
 
 ResultLayout result_layout(Scene const& scene, MemberSet const& members);
+/// Of a scene that keeps statistics in place of members.
+StatisticsPlan statistics_plan(Scene const& scene);
 /// @param block_members 0: as many as suit the run.
 EnsemblePlan ensemble_plan(Scene const& scene, MemberSet const& members, Isa isa, int threads,
                            std::size_t block_members = 0);

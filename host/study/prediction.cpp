@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/output/shard_store.hpp"
 #include "host/scene/integrator_keys.hpp"
 #include "host/study/ensemble_plan.hpp"
 #include "host/study/orbit_schedule.hpp"
@@ -34,8 +35,18 @@ double seconds_per_member_step(Isa isa) {
     return 1e-6;
 }
 
+/// Bytes of the statistics of so many members, in memory or in a file.
+std::uint64_t statistics_image_bytes(Scene const& scene, std::uint64_t members) {
+    constexpr std::uint64_t octaves = 8, buckets = octaves * 512, bytes_per_bucket = 16, beside = 700;
+    std::uint64_t const columns = selected_columns(scene.quantities).size();
+    constexpr std::uint64_t head = 4096;  // counts, failed members, who made it
+    return head + columns * (beside + bytes_per_bucket * std::min(members, buckets));
+}
+
 /// Statuses, the widest quantity, one of its columns and that column sorted: what the statistics hold at once.
 std::uint64_t summary_bytes(Scene const& scene) {
+    // Those of all members and of one shard.
+    if (!scene.stores_members()) return 2 * statistics_image_bytes(scene, member_count(scene));
     int widest = 0;
     for (int q = 0; q < quantity_count; ++q) {
         if (selects(scene.quantities, static_cast<Quantity>(q))) widest = std::max(widest, quantity_table[q].columns);
@@ -58,6 +69,23 @@ double stiffest_rate(Inputs const& in) {
                               face(in.way_width, in.thickness_z, in.slider_inertia_y)));
 }
 
+std::uint64_t statistics_bytes(Scene const& scene, std::uint64_t members) {
+    constexpr std::uint64_t bins_and_edges = 129 * sizeof(double), quantiles = 36 * sizeof(double);
+    return statistics_image_bytes(scene, members) +
+           selected_columns(scene.quantities).size() * (bins_and_edges + quantiles);
+}
+
+std::uint64_t statistics_shard_bytes(Scene const& scene, std::uint64_t members) {
+    // Blocks of one lane's width make the most shards; of each generation there are 64 at most, and the one made of them.
+    constexpr std::uint64_t joined = ShardStore::shards_joined, least_block = 8;
+    std::uint64_t bytes = 0, of_shard = least_block;
+    for (std::uint64_t shards = members / least_block + 1; shards > 0; shards /= joined) {
+        bytes += (std::min(shards, joined) + 1) * statistics_image_bytes(scene, std::min(of_shard, members));
+        of_shard *= joined;
+    }
+    return bytes;
+}
+
 Prediction predict(Scene const& scene, Isa isa, int threads) {
     std::uint64_t const count = member_count(scene);
     MemberSet const all(MemberRange{0, count});
@@ -74,10 +102,13 @@ Prediction predict(Scene const& scene, Isa isa, int threads) {
     prediction.buffer_bytes = busy * block_bytes(plan.request, static_cast<std::size_t>(largest));
     // A shard is built, waits and is written.
     constexpr std::uint64_t images = 4;
-    prediction.image_bytes = images * payload_bytes(result_layout(scene, MemberSet(MemberRange{0, largest})));
+    prediction.image_bytes =
+        images * (scene.stores_members() ? payload_bytes(result_layout(scene, MemberSet(MemberRange{0, largest})))
+                                         : statistics_image_bytes(scene, largest));
     prediction.summary_bytes = summary_bytes(scene);
-    prediction.output_bytes = payload_bytes(result_layout(scene, all));
-    prediction.shard_bytes = prediction.output_bytes;
+    prediction.output_bytes =
+        scene.stores_members() ? payload_bytes(result_layout(scene, all)) : statistics_bytes(scene, count);
+    prediction.shard_bytes = scene.stores_members() ? prediction.output_bytes : statistics_shard_bytes(scene, count);
     OrbitSchedule const schedule = orbit_schedule(scene);
     double const end = schedule.timing ? schedule.longest : scene.integrator.end_time;
     double const stops = members * static_cast<double>(schedule.stops.count);

@@ -16,7 +16,7 @@ struct Prediction {
     std::uint64_t image_bytes;    // of shards on their way to the disk
     std::uint64_t summary_bytes;  // of the statistics over all members at the end
     std::uint64_t output_bytes;
-    std::uint64_t shard_bytes;       // beside the output, until it is whole
+    std::uint64_t shard_bytes;       // beside the output, until it is whole; of statistics a bound
     std::size_t largest_block;       // members
     int busy_threads;                // that find a block to work on
     double least_steps, most_steps;  // of all members; the same where steps are fixed
@@ -29,6 +29,12 @@ struct Prediction {
 /// whole at √(k/M), rocks at √(k (L_k/2)²/I) and rolls at √(k (w/2)²/I) (docs/stability.md);
 /// inputs complete.
 double stiffest_rate(Inputs const& inputs);
+
+/// What a scene that keeps statistics needs on the disk: of the result, and at most of its shards.  A column's sketch is taken to
+/// be of 4096 buckets, eight octaves of values, or of as many as there are members; wider scatter needs more.  Shards become fewer
+/// as they become many (ShardStore): their bound grows with the logarithm of the members.
+std::uint64_t statistics_bytes(Scene const& scene, std::uint64_t members);
+std::uint64_t statistics_shard_bytes(Scene const& scene, std::uint64_t members);
 
 Prediction predict(Scene const& scene, Isa isa, int threads);
 

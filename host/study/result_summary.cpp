@@ -1,15 +1,29 @@
 #include "host/study/result_summary.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
 
 #include "host/output/result_layout.hpp"
+#include "host/output/statistics_merge.hpp"
+#include "host/study/tolerance_policy.hpp"
 
 namespace slideway {
 namespace {
 
 Status status_of(double stored) { return static_cast<Status>(static_cast<signed char>(stored)); }
+
+/// Of a file without members: the median is sketched.
+std::vector<QuantitySummary> sketched_quantities(ResultView const& results) {
+    std::vector<QuantityColumn> const columns = report_columns(stored_quantities(results));
+    BlockStatistics const statistics = stored_statistics(results);
+    std::vector<QuantitySummary> summaries;
+    for (std::size_t i = 0; i < std::min(columns.size(), statistics.columns().size()); ++i) {
+        summaries.push_back({columns[i].name(), columns[i].unit, statistics.columns()[i].summary()});
+    }
+    return summaries;
+}
 
 }  // namespace
 
@@ -21,6 +35,7 @@ std::string name_of(Status status) {
 }
 
 std::vector<QuantitySummary> summarise_quantities(ResultView const& results) {
+    if (!results.stores_members()) return sketched_quantities(results);
     std::vector<double> const statuses = results.values("status");
     std::vector<QuantitySummary> summaries;
     for (QuantityInfo const& info : quantity_table) {
@@ -43,8 +58,15 @@ std::vector<QuantitySummary> summarise_quantities(ResultView const& results) {
 
 std::vector<StatusCount> count_statuses(ResultView const& results) {
     std::array<std::uint64_t, 256> counts{};
-    for (double const status : results.values("status")) {
-        ++counts[static_cast<unsigned char>(static_cast<signed char>(status))];
+    auto const entry = [&](double status) -> std::uint64_t& {
+        return counts[static_cast<unsigned char>(static_cast<signed char>(status))];
+    };
+    if (results.stores_members()) {
+        for (double const status : results.values("status")) ++entry(status);
+    } else {
+        std::vector<double> const statuses = results.values("status_value"), members = results.values("status_count");
+        for (std::size_t i = 0; i < std::min(statuses.size(), members.size()); ++i)
+            entry(statuses[i]) += static_cast<std::uint64_t>(members[i]);
     }
     std::vector<StatusCount> occurring;
     for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -54,9 +76,11 @@ std::vector<StatusCount> count_statuses(ResultView const& results) {
 }
 
 std::vector<FailedMember> failed_members(ResultView const& results, std::size_t limit) {
-    std::vector<double> const statuses = results.values("status");
-    std::vector<double> const numbers = results.values("member");
-    std::vector<double> const times = results.values("end_time");
+    bool const stored = results.stores_members();
+    if (!stored && !results.has("failed_member")) return {};
+    std::vector<double> const statuses = results.values(stored ? "status" : "failed_status");
+    std::vector<double> const numbers = results.values(stored ? "member" : "failed_member");
+    std::vector<double> const times = results.values(stored ? "end_time" : "failed_time");
     std::vector<FailedMember> failed;
     for (std::size_t i = 0; i < statuses.size() && failed.size() < limit; ++i) {
         Status const status = status_of(statuses[i]);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/output/block_statistics.hpp"
 #include "host/output/result_view.hpp"
 #include "host/statistics/summary.hpp"
 #include "kernels/status.hpp"
@@ -27,12 +28,7 @@ struct StatusCount {
 /// Statuses that occur; not_run last.
 std::vector<StatusCount> count_statuses(ResultView const& results);
 
-struct FailedMember {
-    std::uint64_t member;
-    Status status;
-    double time;  // [s] where it ended
-};
-/// The first `limit` members that ran and did not finish.
+/// The first `limit` members that ran and did not finish; where members are not stored, of those that are kept by number.
 std::vector<FailedMember> failed_members(ResultView const& results, std::size_t limit);
 
 /// "finished", also "not_run".

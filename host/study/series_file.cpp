@@ -205,6 +205,11 @@ bool is_netcdf(std::string const& path) {
 StoredSeries read_result_series(std::string const& path, std::string const& variable,
                                 std::optional<std::uint64_t> member) {
     ResultReader const file(path);
+    if (!file.stores_members()) {
+        throw SceneError(path +
+                         ": keeps statistics, no series of members; run one with --member K --set "
+                         "study.store=members --set study.samples=1000");
+    }
     if (!file.has("time") && file.has("section_count")) {
         return read_sections(file, path, variable, place_of(file, path, member));
     }

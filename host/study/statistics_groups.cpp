@@ -100,6 +100,7 @@ void write_statuses(GroupWriter& group, ToleranceReport const& report) {
 void write_distributions(NetcdfFile& file, ToleranceReport const& report) {
     GroupWriter group(file, "statistics");
     describe_group(group, report);
+    if (!report.quantile_error.empty()) group.attribute("quantile_error", report.quantile_error);
     write_statuses(group, report);
     group.dimension("probability", std::size(reported_quantiles));
     group.numbers({"probability", "1", "probability of a quantile", {"probability"}, ""}, reported_quantiles);

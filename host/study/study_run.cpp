@@ -6,9 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "host/output/durable_file.hpp"
 #include "host/output/result_merge.hpp"
 #include "host/output/result_reader.hpp"
+#include "host/output/statistics_merge.hpp"
+#include "host/study/prediction.hpp"
 #include "host/study/statistics_groups.hpp"
+#include "host/study/statistics_report.hpp"
 
 namespace slideway {
 namespace {
@@ -23,9 +27,13 @@ bool is_result_of(std::string const& path, RunIdentity const& identity) {
     found.program =
         BuildInfo{result.attribute("version"), result.attribute("commit"), result.attribute("compiler")}.text();
     found.scene = result.attribute("scene");
-    std::vector<std::uint64_t> members;
-    for (double const member : result.values("member")) members.push_back(static_cast<std::uint64_t>(member));
-    found.members = MemberSet::of(members);
+    if (result.stores_members()) {
+        std::vector<std::uint64_t> members;
+        for (double const member : result.values("member")) members.push_back(static_cast<std::uint64_t>(member));
+        found.members = MemberSet::of(members);
+    } else {
+        found.members = MemberSet::parse(result.attribute("members")).value_or(MemberSet());
+    }
     if (std::string const changed = identity.difference(found); !changed.empty()) {
         throw SceneError(
             fmt::format("{}: cannot resume: it is the result of another run ({}); leave --resume out to replace it",
@@ -75,9 +83,12 @@ std::vector<std::string> StudyRun::damaged() const { return claim_ ? claim_->dam
 
 void StudyRun::require_room() const {
     // The shards and the file that is made of them stand side by side for a while.
-    double const needed = static_cast<double>(payload_bytes(result_layout(scene_, work_.todo))) +
-                          static_cast<double>(payload_bytes(result_layout(scene_, members_))) +
-                          2.0 * static_cast<double>(bytes_beside_data);
+    std::uint64_t const shards = scene_.stores_members() ? payload_bytes(result_layout(scene_, work_.todo))
+                                                         : statistics_shard_bytes(scene_, work_.todo.count());
+    std::uint64_t const result = scene_.stores_members() ? payload_bytes(result_layout(scene_, members_))
+                                                         : statistics_bytes(scene_, members_.count());
+    double const needed =
+        static_cast<double>(shards) + static_cast<double>(result) + 2.0 * static_cast<double>(bytes_beside_data);
     std::error_code error;
     auto const space = std::filesystem::space(folder_of(options_.output), error);
     if (error || needed <= static_cast<double>(space.available)) return;
@@ -107,12 +118,28 @@ bool StudyRun::finish(StopRequest const& stop, std::optional<ToleranceReport>& r
 }
 
 bool asks_for_report(Scene const& scene) {
-    return scene.study == StudyKind::tolerance || (scene.study == StudyKind::ensemble && !scene.limits.empty());
+    return !scene.stores_members() || scene.study == StudyKind::tolerance ||
+           (scene.study == StudyKind::ensemble && !scene.limits.empty());
 }
 
 std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, Provenance const& provenance,
                           std::string const& output, std::optional<ToleranceReport>& report,
                           std::function<void()> pause) {
+    std::vector<Shard> const shards = folder.listed();
+    MemberSet const& members = folder.identity().members;
+    std::uint64_t const left = members.without(members_of(shards)).count();
+    std::string const completeness =
+        left == 0 ? "complete" : fmt::format("{} of {} members not run", left, members.count());
+    if (!scene.stores_members()) {
+        auto const conclude = [&](NetcdfFile& file, BlockStatistics const& statistics) {
+            report = statistics_report(statistics, left, scene, output);
+            write_statistics(file, *report);
+        };
+        merge_statistics(folder, shards,
+                         {statistics_plan(scene), members, provenance, completeness, conclude, std::move(pause)},
+                         output);
+        return left;
+    }
     std::function<void(NetcdfFile&)> conclude;
     if (asks_for_report(scene)) {
         conclude = [&](NetcdfFile& file) {
@@ -120,15 +147,32 @@ std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, Provena
             write_statistics(file, *report);
         };
     }
-    std::vector<Shard> const shards = folder.listed();
-    MemberSet const& members = folder.identity().members;
-    std::uint64_t const left = members.without(members_of(shards)).count();
-    std::string const completeness =
-        left == 0 ? "complete" : fmt::format("{} of {} members not run", left, members.count());
     merge_shards(folder, shards,
                  {result_layout(scene, members), provenance, completeness, std::move(conclude), std::move(pause)},
                  output);
     return left;
+}
+
+Provenance shard_origin(ShardFolder const& folder, Scene const& scene) {
+    std::vector<Shard> const shards = folder.listed();
+    if (shards.empty()) throw FileError(folder.path() + ": holds no finished members");
+    std::vector<std::byte> const bytes = folder.read(shards.front());
+    Provenance origin;
+    if (scene.stores_members()) {
+        NetcdfFile const file = NetcdfFile::open_in_memory(shards.front().name, bytes);
+        auto const text = [&](char const* name) { return file.text(NetcdfFile::global, name); };
+        origin.backend = text("backend");
+        origin.isa = text("isa");
+        origin.flags = text("flags");
+        double threads = 1;
+        if (file.number(NetcdfFile::global, "threads", threads)) origin.threads = static_cast<int>(threads);
+    } else {
+        origin = parse_statistics(bytes, shards.front().name).origin;
+    }
+    origin.title = scene.title;
+    origin.scene = folder.identity().scene;
+    origin.seed = scene.seed;
+    return origin;
 }
 
 }  // namespace slideway

@@ -78,7 +78,8 @@ private:
     StudyWork work_;
 };
 
-/// Whether a result of the scene has a report in its groups: a tolerance study, or an ensemble with limits.
+/// Whether a result of the scene has a report in its groups: a tolerance study, an ensemble with limits, and any that keeps
+/// statistics in place of members.
 bool asks_for_report(Scene const& scene);
 
 /// A result file of the shards in a folder; members without one have status not_run.  The shards stay.
@@ -86,5 +87,8 @@ bool asks_for_report(Scene const& scene);
 std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, Provenance const& provenance,
                           std::string const& output, std::optional<ToleranceReport>& report,
                           std::function<void()> pause = {});
+
+/// Who made the shards in a folder, as the first of them says.  @throws FileError, also if there is none.
+Provenance shard_origin(ShardFolder const& folder, Scene const& scene);
 
 }  // namespace slideway

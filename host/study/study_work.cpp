@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "host/output/shard_writer.hpp"
+#include "host/output/statistics_shard.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/exponent_table.hpp"
 #include "host/study/study_run.hpp"
@@ -51,6 +52,21 @@ MemberEnds recalled_ends(std::string const& path) {
     };
 }
 
+/// Result files of a scene's blocks, or their statistics.
+std::unique_ptr<ShardWriter> shard_writer(Scene const& scene, std::string const& folder, Provenance const& origin) {
+    if (!scene.stores_members()) {
+        auto form = [plan = statistics_plan(scene), origin](BlockResult const& block) {
+            return statistics_image(plan, origin, block);
+        };
+        return std::make_unique<ShardWriter>(folder, std::move(form), joined_statistics);
+    }
+    auto form = [folder, origin, layout = result_layout(scene, {}),
+                 exponents = ExponentTable(scene)](BlockResult const& block) {
+        return shard_image(folder, layout, origin, block, exponents.values(block));
+    };
+    return std::make_unique<ShardWriter>(folder, std::move(form));
+}
+
 }  // namespace
 
 EnsembleTotals run_work(Scene const& scene, StudyOptions const& options, StudyWork const& work, Ranks& ranks,
@@ -78,12 +94,10 @@ EnsembleTotals run_work(Scene const& scene, StudyOptions const& options, StudyWo
         auto const queue = ranks.share(plan.members.count(), [&](std::uint64_t members) { progress.add(members); });
         try {
             if (failure) std::rethrow_exception(failure);
-            ExponentTable const exponents(scene);
-            ShardWriter writer(folder, result_layout(scene, {}), provenance(scene, options.isa, options.threads));
+            auto const writer = shard_writer(scene, folder, provenance(scene, options.isa, options.threads));
             EnsembleTotals const totals = run_ensemble(
-                plan, *queue, kernel, [&](BlockResult const& block) { writer.write(block, exponents.values(block)); },
-                stop, &progress);
-            writer.finish();
+                plan, *queue, kernel, [&](BlockResult const& block) { writer->write(block); }, stop, &progress);
+            writer->finish();
             mine = to_bytes(totals);
         } catch (std::exception const& error) {
             failure = std::current_exception();

@@ -5,53 +5,25 @@
 
 #include <fmt/format.h>
 
+#include "host/output/statistics_merge.hpp"
 #include "host/scene/error.hpp"
-#include "host/scene/labels.hpp"
+#include "host/study/statistics_report.hpp"
 #include "host/study/tolerance_members.hpp"
+#include "host/study/tolerance_policy.hpp"
 #include "host/study/tolerance_sensitivity.hpp"
 
 namespace slideway {
 namespace {
 
-bool is_random(DesignKind design) { return design != DesignKind::grid && design != DesignKind::table; }
-
-std::string policy_of(DesignKind design) {
-    std::string text(
-        "Moments, quantiles and histograms are of the members that finished. Members that failed are counted by status "
-        "and meet no limit. Members that did not run are left out.");
-    if (design == DesignKind::saltelli) {
-        text +=
-            " Of this saltelli design, distributions and yields are of the members of A and B; rows with a member that "
-            "failed or is missing are left out of the indices whole.";
-    }
-    return text;
-}
-
-std::string intervals_of(DesignKind design) {
-    std::string const level = fmt::format("{:.0f} % intervals of independent draws", 100 * confidence_level);
-    if (!is_random(design)) return "none: the members are no random draws";
-    if (design == DesignKind::mc) return level;
-    return level + "; conservative, for the draws of this design are spread more evenly";
-}
-
 std::vector<QuantityColumn> quantity_columns_of(ResultView const& results) {
-    std::vector<QuantityColumn> columns;
-    for (QuantityInfo const& info : quantity_table) {
-        if (!results.has(info.name)) continue;
-        QuantityColumn column;
-        column.quantity = info.name;
-        column.unit = results.unit(info.name);
-        column.long_name = results.long_name(info.name);
-        if (info.dimension == nullptr) {
-            columns.push_back(column);
-            continue;
-        }
-        column.dimension = info.dimension;
-        for (std::string const& label : labels_of(info.dimension)) {
-            column.label = label;
-            columns.push_back(column);
-            ++column.index;
-        }
+    Selection stored = 0;
+    for (int q = 0; q < quantity_count; ++q) {
+        if (results.has(quantity_table[q].name)) stored |= selection_of(static_cast<Quantity>(q));
+    }
+    std::vector<QuantityColumn> columns = report_columns(stored);
+    for (QuantityColumn& column : columns) {
+        column.unit = results.unit(column.quantity);
+        column.long_name = results.long_name(column.quantity);
     }
     return columns;
 }
@@ -76,12 +48,6 @@ ColumnStatistics statistics_of(ToleranceMembers const& members, QuantityColumn c
     return result;
 }
 
-Proportion yield_of(std::uint64_t met, std::uint64_t trials, bool random) {
-    Proportion yield = proportion(met, trials, confidence_level);
-    if (!random) yield.interval = Interval();
-    return yield;
-}
-
 void add_yields(ToleranceReport& report, ToleranceMembers const& members, Scene const& scene,
                 std::span<QuantityColumn const> columns, std::string const& path) {
     if (scene.limits.empty()) return;
@@ -96,10 +62,7 @@ void add_yields(ToleranceReport& report, ToleranceMembers const& members, Scene 
         auto const column = std::find_if(columns.begin(), columns.end(), [&](QuantityColumn const& candidate) {
             return candidate.quantity == limit.quantity && candidate.label == limit.label;
         });
-        if (column == columns.end()) {
-            throw FileError(
-                fmt::format("{}: has no {}, which study.limits names; add it to study.quantities", path, limit.name()));
-        }
+        if (column == columns.end()) refuse_limit(limit, path);
         std::vector<double> const values = members.column(column->quantity, column->index);
         std::uint64_t met = 0;
         for (std::size_t i = 0; i < members.size(); ++i) {
@@ -116,6 +79,10 @@ void add_yields(ToleranceReport& report, ToleranceMembers const& members, Scene 
 }  // namespace
 
 ToleranceReport tolerance_report(ResultView const& results, Scene const& scene) {
+    if (!results.stores_members()) {
+        std::uint64_t const left = members_left(results);
+        return statistics_report(stored_statistics(results), left, scene, results.path());
+    }
     bool const radial = scene.design.kind == DesignKind::saltelli;
     std::size_t const width = radial ? scene.variations.size() + 2 : 0;
     std::uint64_t const size = radial ? scene.design.base * width : scene.members;
