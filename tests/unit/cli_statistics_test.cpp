@@ -1,0 +1,300 @@
+// Runs that keep statistics in place of members, as a user has them, beside runs of the same scenes that keep the members.
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+
+#include "cli_process.hpp"
+#include "host/output/netcdf_file.hpp"
+#include "host/output/result_reader.hpp"
+#include "kernels/status.hpp"
+
+namespace slideway::testing {
+namespace {
+
+// Members that touch and members that do not, some 0.1 ms of work each.
+constexpr char const* cheap_scene = R"(
+schema = 1
+title = "Cheap members"
+[contact]
+law = "conservative"
+[friction]
+[study]
+kind = "tolerance"
+members = 400
+duration = "0.1 ms"
+quantities = ["peak_normal_force", "energy_change", "mode_time"]
+store = "statistics"
+[study.vary]
+"initial.y" = { dist = "unif", low = "-0.099 mm", high = "0.099 mm" }
+"initial.vy" = { dist = "norm", mean = 0, sd = 0.3 }
+[study.limits]
+"peak_normal_force" = { max = "10 N" }
+"mode_time[free]" = { min = "0.099 ms" }
+)";
+
+std::vector<std::string> const stored{"--set", "study.store=members"};
+/// Some members break off: a few dozen steps are enough for those that fly free.
+std::vector<std::string> const failing{"--set", "integrator.max_steps=60", "--max-failures", "100%"};
+
+/// A column of the members that finished.
+std::vector<double> finished(std::string const& file, std::string const& variable, std::size_t column) {
+    ResultReader const results(file);
+    auto const status = results.values("status"), values = results.column(variable, column);
+    std::vector<double> kept;
+    for (std::size_t i = 0; i < status.size(); ++i) {
+        if (status[i] == 0) kept.push_back(values[i]);
+    }
+    return kept;
+}
+
+std::pair<double, double> moments(std::vector<double> const& values) {
+    long double sum = 0, squares = 0;
+    for (double const value : values) sum += value;
+    auto const n = static_cast<long double>(values.size());
+    for (double const value : values) squares += (value - sum / n) * (value - sum / n);
+    return {static_cast<double>(sum / n), static_cast<double>(std::sqrt(squares / (n - 1)))};
+}
+
+class StatisticsRun : public Program {
+protected:
+    StatisticsRun() { write("s.toml", cheap_scene); }
+    Outcome run_scene(std::string const& output, std::vector<std::string> const& more = {},
+                      std::vector<std::string> const& and_more = {}) const {
+        std::vector<std::string> arguments{"run", "s.toml", "--quiet", "-o", output};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        arguments.insert(arguments.end(), and_more.begin(), and_more.end());
+        return run(std::move(arguments));
+    }
+    std::string hash_of(std::string const& name) const {
+        ResultReader const results(path(name).string());
+        EXPECT_EQ(results.stored_hash(), results.computed_hash());
+        EXPECT_EQ(results.attribute("completeness"), "complete");
+        return results.stored_hash();
+    }
+    /// A variable of the group `statistics`.
+    std::vector<double> statistic(std::string const& file, std::string const& name,
+                                  std::string const& group = "statistics") const {
+        NetcdfFile const results = NetcdfFile::open(path(file).string());
+        NetcdfFile const from = results.group(group);
+        for (NetcdfFile::Variable const& variable : from.variables()) {
+            if (variable.name != name) continue;
+            std::vector<std::size_t> const start(variable.shape.size() + 1, 0);
+            std::vector<std::size_t> shape = variable.shape;
+            shape.push_back(0);
+            std::size_t const rank = variable.shape.size();
+            std::vector<double> values(variable.size());
+            std::vector<int> counts(variable.size());
+            bool const whole = variable.type == NetcdfFile::Type::int32;
+            from.read(variable.id, {start.data(), rank}, {shape.data(), rank},
+                      whole ? static_cast<void*>(counts.data()) : values.data());
+            if (whole) values.assign(counts.begin(), counts.end());
+            return values;
+        }
+        ADD_FAILURE() << name;
+        return {};
+    }
+    std::size_t files_in(std::string const& folder) const {
+        std::size_t count = 0;
+        for (auto const& entry : std::filesystem::directory_iterator(path(folder))) {
+            count += entry.path().filename().string().starts_with("statistics-");
+        }
+        return count;
+    }
+};
+
+TEST_F(StatisticsRun, SaysWhatTheStoredMembersSay) {
+    ASSERT_EQ(run_scene("s.nc", failing).code, 0);
+    ASSERT_EQ(run_scene("m.nc", failing, stored).code, 0);
+    for (std::string const quantity : {"peak_normal_force", "energy_change", "mode_time"}) {
+        EXPECT_EQ(statistic("s.nc", quantity + "_count"), statistic("m.nc", quantity + "_count"));
+        for (char const* const end : {"_min", "_max"}) {
+            EXPECT_EQ(statistic("s.nc", quantity + end), statistic("m.nc", quantity + end));
+        }
+        EXPECT_EQ(statistic("s.nc", quantity + "_bin_edge").size(), statistic("m.nc", quantity + "_bin_edge").size());
+        auto const mean = statistic("s.nc", quantity + "_mean"), sd = statistic("s.nc", quantity + "_sd");
+        for (std::size_t i = 0; i < mean.size(); ++i) {
+            // In long double: a plain sum of 400 squares can be off by more than is asked for here.
+            auto const [exact_mean, exact_sd] = moments(finished(path("m.nc").string(), quantity, i));
+            EXPECT_NEAR(mean[i], exact_mean, 1e-14 * std::abs(exact_mean)) << quantity;
+            EXPECT_NEAR(sd[i], exact_sd, 1e-14 * exact_sd) << quantity;
+        }
+    }
+    for (char const* const name : {"members", "draws"}) EXPECT_EQ(statistic("s.nc", name), statistic("m.nc", name));
+    for (char const* const name : {"met", "trials", "all_met", "share_interval", "all_share_interval"}) {
+        EXPECT_EQ(statistic("s.nc", name, "yield"), statistic("m.nc", name, "yield")) << name;
+    }
+    EXPECT_GT(statistic("s.nc", "all_met", "yield")[0], 0);
+    EXPECT_LT(statistic("s.nc", "all_met", "yield")[0], 400);
+    // Work is summed.
+    ResultReader const sums(path("s.nc").string()), members(path("m.nc").string());
+    for (char const* const name : {"steps_accepted", "rhs_evaluations", "stiff_steps"}) {
+        double sum = 0;
+        for (double const value : members.values(name)) sum += value;
+        EXPECT_EQ(sums.values(name), std::vector<double>{sum});
+    }
+}
+
+TEST_F(StatisticsRun, QuantilesKeepTheirPromise) {
+    ASSERT_EQ(run_scene("s.nc").code, 0);
+    ASSERT_EQ(run_scene("m.nc", stored).code, 0);
+    ResultReader const members(path("m.nc").string());
+    auto const probabilities = statistic("m.nc", "probability");
+    for (std::string const quantity : {"peak_normal_force", "energy_change"}) {
+        auto sorted = members.values(quantity);
+        std::sort(sorted.begin(), sorted.end());
+        auto const sketched = statistic("s.nc", quantity + "_quantile"),
+                   exact = statistic("m.nc", quantity + "_quantile");
+        for (std::size_t i = 0; i < probabilities.size(); ++i) {
+            double const h = probabilities[i] * static_cast<double>(sorted.size() - 1);
+            double const size = std::max(std::abs(sorted[static_cast<std::size_t>(std::floor(h))]),
+                                         std::abs(sorted[static_cast<std::size_t>(std::ceil(h))]));
+            EXPECT_NEAR(sketched[i], exact[i], 0x1p-10 * size) << quantity << " " << probabilities[i];
+        }
+        auto const bounds = statistic("s.nc", quantity + "_quantile_interval"),
+                   exact_bounds = statistic("m.nc", quantity + "_quantile_interval");
+        for (std::size_t i = 0; i < bounds.size(); ++i) {
+            ASSERT_EQ(std::isnan(bounds[i]), std::isnan(exact_bounds[i]));
+            if (std::isnan(bounds[i])) continue;
+            EXPECT_NEAR(bounds[i], exact_bounds[i], 0x1p-10 * std::abs(exact_bounds[i]));
+        }
+    }
+    NetcdfFile const file = NetcdfFile::open(path("s.nc").string());
+    EXPECT_EQ(file.group("statistics").text(NetcdfFile::global, "quantile_error"),
+              "relative error of at most 2^-10 of a member of that rank");
+}
+
+TEST_F(StatisticsRun, HasTheSameBitsWithAnyThreadsBlocksAndParts) {
+    ASSERT_EQ(run_scene("a.nc", failing).code, 0);
+    std::string const hash = hash_of("a.nc");
+    for (char const* const threads : {"1", "2", "4"}) {
+        for (char const* const block : {"8", "100"}) {
+            ASSERT_EQ(run_scene("b.nc", failing, {"--threads", threads, "--block-members", block}).code, 0);
+            EXPECT_EQ(hash_of("b.nc"), hash) << threads << " " << block;
+        }
+    }
+    for (char const* const part : {"2/3", "3/3", "1/3"}) {
+        ASSERT_EQ(run_scene("p.nc", failing, {"--shard", part, "--block-members", "16"}).code, 0);
+    }
+    Outcome const merged = run({"merge", "p.nc.shards", "-o", "p.nc"});
+    ASSERT_EQ(merged.code, 0) << merged.err;
+    EXPECT_NE(merged.out.find("Quantiles are sketched"), std::string::npos);
+    EXPECT_EQ(hash_of("p.nc"), hash);
+    ResultReader const one(path("a.nc").string()), other(path("p.nc").string());
+    for (char const* const name : {"isa", "flags", "backend", "scene"})
+        EXPECT_EQ(other.attribute(name), one.attribute(name));
+}
+
+TEST_F(StatisticsRun, GoesOnAfterASignalWithTheSameBits) {
+    std::vector<std::string> const longer{"--set", "study.members=60000", "--set", "study.duration=0.3 ms"};
+    ASSERT_EQ(run_scene("a.nc", longer).code, 0);
+    std::vector<std::string> arguments{"run",       "s.toml", "--quiet",         "-o", "b.nc",
+                                       "--threads", "2",      "--block-members", "8"};
+    arguments.insert(arguments.end(), longer.begin(), longer.end());
+    pid_t const child = start(arguments);
+    for (int i = 0; i < 2000 && !(std::filesystem::exists(path("b.nc.shards")) && files_in("b.nc.shards") > 40); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    kill(child, SIGTERM);
+    Outcome const stopped = wait(child);
+    ASSERT_EQ(stopped.code, 5) << stopped.err;
+    Outcome const partial = run({"merge", "b.nc.shards", "-o", "partial.nc"});
+    EXPECT_EQ(partial.code, 5);
+    ResultReader const part(path("partial.nc").string());
+    auto const counts = part.values("status_count");
+    EXPECT_GT(counts.back(), 0);
+    EXPECT_GT(counts.front(), 0);
+    EXPECT_EQ(counts.front() + counts.back(), 60000);
+    EXPECT_NE(partial.out.find("not_run"), std::string::npos);
+    arguments.push_back("--resume");
+    Outcome const resumed = run(arguments);
+    ASSERT_EQ(resumed.code, 0) << resumed.err;
+    EXPECT_FALSE(std::filesystem::exists(path("b.nc.shards")));
+    EXPECT_EQ(hash_of("b.nc"), hash_of("a.nc"));
+}
+
+TEST_F(StatisticsRun, FilesOfManyBlocksStayFew) {
+    // 500 blocks: 7 joined shards and 52 single ones.
+    ASSERT_EQ(run_scene("a.nc", {"--set", "study.members=4000", "--shard", "1/1", "--block-members", "8"}).code, 0);
+    EXPECT_EQ(files_in("a.nc.shards"), 59u);
+    ASSERT_EQ(run({"merge", "a.nc.shards", "-o", "a.nc"}).code, 0);
+    ASSERT_EQ(run_scene("b.nc", {"--set", "study.members=4000"}).code, 0);
+    EXPECT_EQ(hash_of("a.nc"), hash_of("b.nc"));
+}
+
+TEST_F(StatisticsRun, ACompleteFileNeedsNoWork) {
+    ASSERT_EQ(run_scene("a.nc").code, 0);
+    std::string const before = file_text(path("a.nc"));
+    Outcome const again = run({"run", "s.toml", "-o", "a.nc", "--resume"});
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_NE(again.err.find("a.nc is complete already"), std::string::npos);
+    EXPECT_NE(again.out.find("Quantiles are sketched"), std::string::npos);
+    EXPECT_EQ(file_text(path("a.nc")), before);
+    expect_refusal(2, "study.seed was 1, is 2", {"run", "s.toml", "-o", "a.nc", "--resume", "--set", "study.seed=2"});
+}
+
+TEST_F(StatisticsRun, FailedMembersCanBeReplayed) {
+    Outcome const outcome = run_scene("a.nc", failing);
+    Outcome const members = run_scene("m.nc", failing, stored);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    ResultReader const results(path("a.nc").string()), whole(path("m.nc").string());
+    auto const status = whole.values("status"), times = whole.values("end_time");
+    std::vector<double> failed, failed_times;
+    for (std::size_t i = 0; i < status.size() && failed.size() < 100; ++i) {
+        if (status[i] == 0) continue;
+        failed.push_back(static_cast<double>(i));
+        failed_times.push_back(times[i]);
+    }
+    ASSERT_GT(failed.size(), 0u);
+    EXPECT_EQ(results.values("failed_member"), failed);
+    EXPECT_EQ(results.values("failed_time"), failed_times);
+    EXPECT_EQ(results.values("failed_status"), std::vector<double>(failed.size(), 2));  // max_steps
+    // The command is there, and what it replays ends in the same way.
+    std::string const member = std::to_string(static_cast<int>(failed.front()));
+    std::string const options = " --set study.store=members --isa ";
+    EXPECT_NE(outcome.out.find(options), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find(" --member " + member + "\n"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("a single one can be had with --member K --set study.store=members"), std::string::npos);
+    ASSERT_EQ(run_scene("one.nc", failing, {"--member", member, "--set", "study.store=members"}).code, 0);
+    ResultReader const one(path("one.nc").string());
+    EXPECT_EQ(one.values("status"), std::vector<double>{2});
+    EXPECT_EQ(one.values("end_time"), std::vector<double>{failed_times.front()});
+    EXPECT_EQ(run_scene("b.nc", {"--set", "integrator.max_steps=60", "--max-failures", "0"}).code, 3);
+}
+
+TEST_F(StatisticsRun, InfoAndCheckKnowIt) {
+    ASSERT_EQ(run_scene("a.nc").code, 0);
+    Outcome const info = run({"info", "a.nc"});
+    EXPECT_EQ(info.code, 0) << info.err;
+    for (char const* const text : {"matches the data", "finished         400",
+                                   "Quantiles are sketched: relative error of at most "
+                                   "2^-10",
+                                   "all limits", "store = \"statistics\""}) {
+        EXPECT_NE(info.out.find(text), std::string::npos) << text;
+    }
+    expect_refusal(2, "a.nc: keeps statistics, no series of members", {"stats", "a.nc"});
+    Outcome const few = run({"check", "s.toml"}), many = run({"check", "s.toml", "--set", "study.members=100000000"});
+    EXPECT_EQ(few.code, 0);
+    auto const disk = [](std::string const& text) {
+        auto const from = text.find("disk "), to = text.find('\n', from);
+        return text.substr(from, to - from);
+    };
+    EXPECT_NE(disk(many.out).find(" kB and some tens of kB for the result, at most "), std::string::npos)
+        << disk(many.out);
+    EXPECT_NE(disk(many.out).find(" MB for its shards"), std::string::npos) << disk(many.out);
+}
+
+TEST_F(StatisticsRun, AnEnsembleWithoutLimitsHasItsReport) {
+    write("e.toml",
+          "schema = 1\n[friction]\n[study]\nmembers = 20\nduration = \"0.1 ms\"\nquantities = [\"crank_work\", "
+          "\"energy_residual\"]\nstore = \"statistics\"\n[study.vary]\n\"initial.y\" = { dist = \"unif\", low = "
+          "\"-0.09 mm\", high = \"0.09 mm\" }\n");
+    Outcome const outcome = run({"run", "e.toml", "--quiet"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("Quantiles are sketched"), std::string::npos);
+    EXPECT_NE(outcome.out.find("Mode switching of the paper law made"), std::string::npos);
+    EXPECT_EQ(outcome.out.find("Yield"), std::string::npos);
+    EXPECT_EQ(statistic("e.nc", "crank_work_count"), std::vector<double>{20});
+}
+
+}  // namespace
+}  // namespace slideway::testing
