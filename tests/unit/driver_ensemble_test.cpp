@@ -52,9 +52,9 @@ bool every_third_is_unusable(std::uint64_t member, Inputs& inputs) {
 
 EnsemblePlan small_plan(std::uint64_t members, std::size_t block_members, int threads) {
     EnsemblePlan plan;
-    plan.members = members;
-    plan.block_members = block_members;
-    plan.threads = threads;
+    plan.members = MemberSet({0, members});
+    plan.blocks.fixed = block_members;
+    plan.threads = plan.workers = threads;
     plan.request.integrator.end_time = 2.5;
     plan.request.sample_times = {0.0, 0.25, 0.5};
     plan.request.quantities = Selection{1} << static_cast<int>(Quantity::crank_work);
@@ -87,7 +87,7 @@ struct Collected {
                     auto const row = block.series.subspan((s * count + i) * samples, samples);
                     member.values.insert(member.values.end(), row.begin(), row.end());
                 }
-                if (!members.emplace(block.first + i, member).second) ++twice;
+                if (!members.emplace(block.members[i], member).second) ++twice;
             }
         };
     }
@@ -111,22 +111,23 @@ TEST_P(EnsembleOverBlocks, GivesEveryMemberItsOwnResultOnce) {
     Collected collected;
     StopRequest const stop;
     EnsemblePlan plan = small_plan(101, block_members, threads);
-    plan.first_member = 40;
+    plan.members = MemberSet({40, 101});
     EnsembleTotals const totals = run_ensemble(plan, {known_results, nullptr}, collected.sink(), stop);
 
     EXPECT_EQ(collected.twice, 0);
     ASSERT_EQ(collected.members.size(), 101u);
     std::uint64_t steps = 0;
     for (auto const& [index, member] : collected.members) {
-        auto const number = static_cast<double>(40 + index);
+        EXPECT_TRUE(plan.members.contains(index));
+        auto const number = static_cast<double>(index);
         EXPECT_EQ(member.drawn, number);
         EXPECT_EQ(member.values, known_values(number));
         EXPECT_EQ(member.record.time, 2.5);
-        steps += 41 + index;
+        steps += 1 + index;
     }
     EXPECT_EQ(totals.ended[0], 101u);
+    EXPECT_EQ(totals.done(), 101u);
     EXPECT_EQ(totals.failed(), 0u);
-    EXPECT_EQ(totals.not_run, 0u);
     EXPECT_EQ(totals.steps_accepted, steps);
     EXPECT_EQ(totals.steps_rejected, 2 * steps);
     EXPECT_EQ(totals.rhs_evaluations, 7 * steps);
@@ -156,6 +157,23 @@ TEST_P(EnsembleOverBlocks, LeavesUnusableMembersOutAndKeepsTheOthersInPlace) {
     }
     EXPECT_EQ(totals.ended[static_cast<std::size_t>(Status::invalid_inputs)], 17u);  // 1, 4, …, 49
     EXPECT_EQ(totals.failed(), 17u);
+}
+
+TEST_P(EnsembleOverBlocks, RunsTheMembersOfASetWithGapsAndNoOthers) {
+    auto const [block_members, threads] = GetParam();
+    Collected collected;
+    StopRequest const stop;
+    EnsemblePlan plan = small_plan(0, block_members, threads);
+    std::uint64_t const members[] = {3, 4, 5, 9, 100, 101, 77, 1000000};
+    plan.members = MemberSet::of(members);
+    EnsembleTotals const totals = run_ensemble(plan, {known_results, nullptr}, collected.sink(), stop);
+    EXPECT_EQ(totals.done(), 8u);
+    EXPECT_EQ(collected.twice, 0);
+    ASSERT_EQ(collected.members.size(), 8u);
+    for (std::uint64_t const m : members) {
+        ASSERT_TRUE(collected.members.contains(m)) << m;
+        EXPECT_EQ(collected.members.at(m).values, known_values(static_cast<double>(m)));
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, EnsembleOverBlocks,
@@ -207,7 +225,7 @@ TEST(Ensemble, StoppedBeforeItsStartRunsNothing) {
     Collected collected;
     auto const totals = run_ensemble(small_plan(30, 4, 2), {known_results, nullptr}, collected.sink(), stop);
     EXPECT_EQ(collected.calls, 0);
-    EXPECT_EQ(totals.not_run, 30u);
+    EXPECT_EQ(totals.done(), 0u);
     EXPECT_EQ(totals.stopped, StopReason::signal);
 }
 
@@ -222,7 +240,7 @@ TEST(Ensemble, StoppedOnItsWayKeepsWhatIsFinished) {
     auto const totals = run_ensemble(small_plan(40, 4, 1), {known_results, nullptr}, stopping, stop);
     EXPECT_EQ(collected.members.size(), 8u);
     EXPECT_EQ(totals.ended[0], 8u);
-    EXPECT_EQ(totals.not_run, 32u);
+    EXPECT_EQ(totals.done(), 8u);
     EXPECT_EQ(totals.stopped, StopReason::signal);
 }
 
@@ -233,37 +251,115 @@ TEST(Ensemble, StopsWhenItsTimeIsUp) {
     auto const totals = run_ensemble(small_plan(1000, 1, 2), {slow_results, nullptr}, collected.sink(), stop);
     EXPECT_EQ(totals.stopped, StopReason::time_limit);
     EXPECT_GT(totals.ended[0], 0u);
-    EXPECT_EQ(totals.ended[0] + totals.not_run, 1000u);
+    EXPECT_LT(totals.done(), 1000u);
+    EXPECT_EQ(totals.ended[0], totals.done());
     EXPECT_EQ(collected.members.size(), totals.ended[0]);
 }
 
-TEST(Ensemble, IsNotStoppedByARequestAfterItsLastBlock) {
+TEST(Ensemble, TellsOfARequestThatCameWithItsLastBlock) {
     StopRequest stop;
     auto const totals = run_ensemble(
         small_plan(8, 4, 1), {known_results, nullptr},
         [&](BlockResult const& block) {
-            if (block.first == 4) stop.request();
+            if (block.members[0] == 4) stop.request();
         },
         stop);
-    EXPECT_EQ(totals.stopped, StopReason::none);
-    EXPECT_EQ(totals.not_run, 0u);
+    EXPECT_EQ(totals.done(), 8u);
+    EXPECT_EQ(totals.stopped, StopReason::signal);
 }
 
-TEST(Blocks, AreMultiplesOfTheLanesAndGiveEveryThreadWork) {
-    for (int const lanes : {1, 2, 4, 8}) {
-        for (int const threads : {1, 3, 64}) {
-            for (std::uint64_t const members : {1u, 10u, 1024u, 1000000u}) {
-                std::size_t const size = default_block_members(members, threads, lanes);
-                EXPECT_EQ(size % static_cast<std::size_t>(lanes), 0u);
-                EXPECT_GE(size, 1u);
-                EXPECT_LE(size, 512u);
-            }
-        }
+// ---- a queue that others share, and programs ----
+
+TEST(Ensemble, LeavesToOthersWhatTheyTookFromTheQueue) {
+    StopRequest const stop;
+    EnsemblePlan const plan = small_plan(20, 3, 2);
+    LocalQueue queue(20);
+    EXPECT_EQ(queue.take(7, 0).count, 7u);
+    Collected collected;
+    EnsembleTotals const totals = run_ensemble(plan, queue, {known_results, nullptr}, collected.sink(), stop);
+    EXPECT_EQ(totals.done(), 13u);
+    ASSERT_EQ(collected.members.size(), 13u);
+    EXPECT_EQ(collected.members.begin()->first, 7u);
+}
+
+/// A queue that keeps what it was told.
+class Ledger final : public MemberQueue {
+public:
+    explicit Ledger(std::uint64_t places) : queue_(places) {}
+    Stretch take(std::uint64_t wanted, std::uint64_t finished) override {
+        reported += finished;
+        return queue_.take(wanted, 0);
     }
-    EXPECT_EQ(default_block_members(1024, 4, 8), 128u);   // two blocks for each thread
-    EXPECT_EQ(default_block_members(256, 2, 8), 64u);     // eight members for each lane
-    EXPECT_EQ(default_block_members(32, 4, 8), 8u);       // every thread gets one
-    EXPECT_EQ(default_block_members(1000000, 4, 8), 512u);
+    void abandon() override {
+        abandoned = true;
+        queue_.abandon();
+    }
+    std::uint64_t left() const override { return queue_.left(); }
+    std::atomic<std::uint64_t> reported = 0;
+    std::atomic<bool> abandoned = false;
+
+private:
+    LocalQueue queue_;
+};
+
+TEST(Ensemble, ReportsToTheQueueWhatItFinished) {
+    for (int const threads : {1, 3}) {
+        StopRequest const stop;
+        Ledger ledger(101);
+        run_ensemble(
+            small_plan(101, 10, threads), ledger, {known_results, nullptr}, [](BlockResult const&) {}, stop);
+        EXPECT_EQ(ledger.reported, 101u);
+        EXPECT_FALSE(ledger.abandoned);
+    }
+}
+
+TEST(Ensemble, AbandonsTheQueueOfAllWhenItFails) {
+    StopRequest const stop;
+    Ledger ledger(100);
+    EXPECT_THROW(run_ensemble(
+                     small_plan(100, 10, 2), ledger, {known_results, nullptr},
+                     [](BlockResult const&) { throw std::runtime_error("disk full"); }, stop),
+                 std::runtime_error);
+    EXPECT_TRUE(ledger.abandoned);
+    EXPECT_EQ(ledger.left(), 0u);
+}
+
+TEST(Ensemble, HandsPlacesToAProgramWhichEmitsWhatItWill) {
+    for (int const threads : {1, 4}) {
+        StopRequest const stop;
+        EnsemblePlan plan = small_plan(12, 5, threads);
+        KernelInstance const kernel{known_results, nullptr};
+        // Each place becomes two members, in blocks of one.
+        plan.program = [&](BlockBuffers& buffers, std::span<std::uint64_t const> places, BlockEmit const& emit) {
+            for (std::uint64_t const place : places) {
+                for (std::uint64_t const member : {place, place + 1000}) {
+                    buffers.run(kernel, plan.request, plan.source, stop, std::span(&member, 1));
+                    if (!emit(buffers)) return;
+                }
+            }
+        };
+        Collected collected;
+        EnsembleTotals const totals = run_ensemble(plan, kernel, collected.sink(), stop);
+        EXPECT_EQ(totals.done(), 24u);
+        EXPECT_EQ(collected.calls, 24);
+        EXPECT_EQ(collected.twice, 0);
+        EXPECT_TRUE(collected.members.contains(11));
+        EXPECT_TRUE(collected.members.contains(1011));
+    }
+}
+
+TEST(EnsembleTotals, AddUpOverRanks) {
+    EnsembleTotals a, b;
+    a.ended[0] = 5, a.ended[2] = 1, a.steps_accepted = 10, a.lane_steps_executed = 40, a.lane_steps_useful = 10;
+    b.ended[0] = 2, b.steps_accepted = 7, b.lane_steps_executed = 60, b.lane_steps_useful = 65;
+    a.seconds = 1, b.seconds = 2, b.stopped = StopReason::time_limit;
+    a += b;
+    EXPECT_EQ(a.done(), 8u);
+    EXPECT_EQ(a.failed(), 1u);
+    EXPECT_EQ(a.steps_accepted, 17u);
+    EXPECT_EQ(a.lane_utilisation(), 0.75);
+    EXPECT_EQ(a.seconds, 3);
+    EXPECT_EQ(a.stopped, StopReason::time_limit);
 }
 
 }  // namespace
