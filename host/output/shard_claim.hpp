@@ -35,6 +35,8 @@ public:
 
 private:
     void begin(Wanted const& wanted);
+    void require_alone(Wanted const& wanted);
+    void remove_damaged(std::vector<Shard> const& damaged, MemberSet const& mine);
     void remove_shards();
     void release();
 

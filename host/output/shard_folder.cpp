@@ -119,17 +119,26 @@ std::vector<Shard> ShardFolder::listed() const {
     return without_repeats(std::move(shards));
 }
 
-std::vector<Shard> ShardFolder::intact(std::vector<std::string>& damaged) const {
-    std::vector<Shard> whole;
+std::vector<Shard> ShardFolder::intact(std::vector<Shard>& damaged) const {
+    std::vector<Shard> whole, broken;
     for (Shard& shard : all()) {
         try {
             read(shard);
             whole.push_back(std::move(shard));
         } catch (FileError const&) {
-            damaged.push_back(shard.name);
+            broken.push_back(std::move(shard));
         }
     }
-    return without_repeats(std::move(whole));
+    whole = without_repeats(std::move(whole));
+    MemberSet const done = members_of(whole);
+    for (Shard& shard : broken) {
+        // The line of a shard outlives it: its successor may have its name.
+        auto const has_its_name = [&](Shard const& other) { return other.name == shard.name; };
+        if (std::any_of(whole.begin(), whole.end(), has_its_name)) continue;
+        if (std::any_of(damaged.begin(), damaged.end(), has_its_name)) continue;
+        if (!shard.members.without(done).empty()) damaged.push_back(std::move(shard));
+    }
+    return whole;
 }
 
 std::vector<std::byte> ShardFolder::read(Shard const& shard) const {
