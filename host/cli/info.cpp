@@ -18,7 +18,6 @@ int info(InfoArguments const& arguments) {
                                    "threads", "seed", "completeness"}) {
         print_field(name, results.attribute(name));
     }
-    print_field("lanes in use", results.attribute("lane_utilisation"));
     print_field("payload", intact ? fmt::format("{}: matches the data", computed)
                                   : fmt::format("DOES NOT MATCH: the file says {}, its data give {}",
                                                 results.stored_hash(), computed));

@@ -55,7 +55,7 @@ public:
     void read(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count, void* values) const;
 
     std::vector<Dimension> dimensions() const;
-    std::vector<Variable> variables() const;                        // in the order of their definition
+    std::vector<Variable> variables() const;  // in the order of their definition, or by name if made in memory
     std::string first_dimension(Variable const& variable) const;    // its name; "" of a scalar
     std::string text(int variable, std::string const& name) const;  // "" when there is none
     bool number(int variable, std::string const& name, double& value) const;

@@ -60,8 +60,10 @@ void add_variable(Fnv1a& hash, NetcdfFile const& file, NetcdfFile::Variable cons
 }  // namespace
 
 std::string payload_hash(NetcdfFile const& file) {
+    std::vector<NetcdfFile::Variable> variables = file.variables();
+    std::sort(variables.begin(), variables.end(), [](auto const& a, auto const& b) { return a.name < b.name; });
     Fnv1a hash;
-    for (NetcdfFile::Variable const& variable : file.variables()) add_variable(hash, file, variable);
+    for (NetcdfFile::Variable const& variable : variables) add_variable(hash, file, variable);
     return fmt::format("{:016x}", hash.value());
 }
 

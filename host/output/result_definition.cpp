@@ -36,7 +36,7 @@ void put_provenance(NetcdfFile& file, ResultLayout const& layout, Provenance con
     if (!layout.sweep.empty()) attribute("sweep_parameter", layout.sweep);
 }
 
-/// Defines what a layout has, in an order that never changes: the payload hash goes by it.
+/// Defines what a layout has, in an order that never changes: files of the same numbers have the same bytes.
 class ResultDefiner {
 public:
     ResultDefiner(NetcdfFile& file, ResultLayout const& layout) : file_(file), layout_(layout) {}
