@@ -132,7 +132,7 @@ std::string row_text(Row const& row, Row const& scalar) {
     return fmt::format(
         "| {} | {} | {:.0f} | {:.2f} | {:.4g} | {:.1f} | {:.0f} | {:.3f} | {} | {} | {:.2f} | {:.2f} | {:.2f} |\n",
         row.scene->name, name_of(row.isa), members / seconds, median(scalar.one) / seconds, steps / seconds,
-        1e9 * seconds / evaluations, evaluations / members, t.lane_utilisation(), t.failed() + t.not_run,
+        1e9 * seconds / evaluations, evaluations / members, t.lane_utilisation(), row.members->size() - (t.done() - t.failed()),
         same ? "yes" : "no", median(row.wall_one) / median(row.wall_two),
         std::ranges::min(row.wall_one) / std::ranges::min(row.wall_two), median(row.processor));
 }

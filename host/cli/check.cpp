@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/cli/commands.hpp"
 #include "host/cli/text.hpp"
@@ -78,6 +79,38 @@ void print_orbits(Scene const& scene, OrbitSchedule const& schedule) {
                                          schedule.timing(scene.inputs).period));
 }
 
+std::string design_text(Scene const& scene) {
+    Design const& design = scene.design;
+    std::string const name(name_of(design.kind));
+    switch (design.kind) {
+        case DesignKind::mc:
+        case DesignKind::lhs:
+        case DesignKind::sobol:
+            return fmt::format("{}, {} points of {} keys", name, scene.members, scene.variations.size());
+        case DesignKind::saltelli:
+            return fmt::format("{}, {} rows of {} members", name, design.base, scene.variations.size() + 2);
+        case DesignKind::grid:
+            return fmt::format("{}, {} levels", name, fmt::join(design.levels, " x "));
+        case DesignKind::table:
+            return fmt::format("{}, {} of the {} rows of {}", name, scene.members, design.table->rows(),
+                               design.table->path);
+    }
+    return name;
+}
+
+/// How members are spread over what varies, and what they are to meet.
+void print_design(Scene const& scene) {
+    if (!scene.variations.empty()) print_field("design", design_text(scene));
+    if (!scene.design.correlation.variations.empty()) {
+        print_field("correlation", fmt::format("of {} keys", scene.design.correlation.variations.size()));
+    }
+    std::string limited;
+    for (Limit const& limit : scene.limits) {
+        limited += fmt::format("{}{}", limited.empty() ? "" : ", ", limit.name());
+    }
+    if (!limited.empty()) print_field("limits", fmt::format("of {}", limited));
+}
+
 }  // namespace
 
 int check(CheckArguments const& arguments) {
@@ -96,6 +129,7 @@ int check(CheckArguments const& arguments) {
     OrbitSchedule const schedule = orbit_schedule(scene);
     print_field("members", fmt::format("{}, each over {:.6g} s", member_count(scene),
                                        schedule.timing ? schedule.longest : scene.integrator.end_time));
+    print_design(scene);
     print_orbits(scene, schedule);
     print_field("memory",
                 fmt::format("{} for blocks in work, {} for shards on their way, {} for the statistics at the end",

@@ -3,10 +3,28 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/orbit_text.hpp"
 #include "host/cli/text.hpp"
+#include "host/cli/tolerance_text.hpp"
 #include "host/output/result_reader.hpp"
 #include "host/study/result_summary.hpp"
+#include "host/study/study_run.hpp"
 
 namespace slideway::cli {
+
+namespace {
+
+/// The report of a result whose scene has one.
+std::optional<ToleranceReport> report_of(ResultReader const& results) {
+    try {
+        Scene const scene = parse_scene(results.attribute("scene"), results.path());
+        if (asks_for_report(scene)) return tolerance_report(results, scene);
+    } catch (SceneError const& error) {
+        // Of another version, or its table of members is elsewhere.
+        fmt::print(stderr, "warning: {}\n", error.what());
+    }
+    return {};
+}
+
+}  // namespace
 
 int info(InfoArguments const& arguments) {
     ResultReader const results(arguments.path);
@@ -26,7 +44,10 @@ int info(InfoArguments const& arguments) {
     fmt::print("\nstatus\n");
     print_statuses(count_statuses(results));
     auto const quantities = summarise_quantities(results);
-    print_quantities(quantities);
+    if (auto const report = report_of(results))
+        print_tolerance(*report);
+    else
+        print_quantities(quantities);
     print_exponents(results);
     print_sections(results);
     fmt::print("\nscene\n{}\n", results.attribute("scene"));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "host/cli/commands.hpp"
+#include "host/scene/distribution_forms.hpp"
 #include "host/scene/study_keys.hpp"
 
 namespace slideway::cli {
@@ -12,6 +13,17 @@ namespace {
 void print_keys(std::span<Key const> table) {
     for (Key const& key : table) fmt::print("  {:<30} {:<8} {}\n", key.name, key.unit, key.meaning);
 }
+
+/// Of `design_names`.
+constexpr std::string_view design_meanings[] = {
+    "every member draws by itself, random numbers of its seed, number and key",
+    "Latin hypercube: of each key, one member in each of as many equally likely parts",
+    "points of a scrambled Sobol sequence, best in powers of two",
+    "study.base rows of Sobol points for sensitivity indices of each key",
+    "every combination of levels of each key (study.levels, or levels = k in study.vary)",
+    "the rows of a CSV file (study.table)",
+};
+static_assert(std::size(design_meanings) == std::size(design_names));
 
 std::string studies_of(StudyKey const& key) {
     if (key.studies == study_sets::all) return "all";
@@ -44,18 +56,22 @@ int list(ListArguments const&) {
         "  ensemble                       every member to the end time, summary statistics\n"
         "  lyapunov                       the largest Lyapunov exponents of every member, and how they converged\n"
         "  poincare                       states at a crank angle, or where a state or a gap crosses a level\n"
-        "  sweep                          sections and exponents, column by column, as one key changes\n");
+        "  sweep                          sections and exponents, column by column, as one key changes\n"
+        "  tolerance                      how quantities scatter with what varies, what drives them, which limits they "
+        "meet\n");
     fmt::print("\nkeys of the studies ([study])\n");
     for (StudyKey const& key : study_keys) {
         fmt::print("  {:<30} {:<8} {}: {}\n", key.name.substr(key.name.find('.') + 1), key.unit, studies_of(key),
                    key.meaning);
     }
-    fmt::print(
-        "\ndistributions (study.vary)\n"
-        "  const                          value\n"
-        "  unif                           low, high\n"
-        "  norm                           mean, sd\n"
-        "  truncnorm                      mean, sd, low, high\n");
+    fmt::print("\ndistributions (dist in study.vary); arguments in [] may be left out\n");
+    for (DistributionForm const& form : distribution_forms()) {
+        fmt::print("  {:<10} {:<19} {}\n", form.name, listed_arguments(form), form.meaning);
+    }
+    fmt::print("\ndesigns (study.design): how members are spread over what varies\n");
+    for (std::size_t i = 0; i < std::size(design_names); ++i) {
+        fmt::print("  {:<30} {}\n", design_names[i], design_meanings[i]);
+    }
     fmt::print("\nquantities (study.quantities): one value, or one row of values, per member\n");
     for (QuantityInfo const& quantity : quantity_table) {
         fmt::print("  {:<30} {:<8} {}{}\n", quantity.name, quantity.unit, quantity.long_name,

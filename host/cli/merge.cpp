@@ -38,13 +38,14 @@ int merge(MergeArguments const& arguments) {
     require_writable_place(arguments.output);
     std::error_code ignored;
     bool const replaced = std::filesystem::exists(arguments.output, ignored);
-    std::uint64_t const left = merge_study(scene, folder, provenance_of(folder, scene), arguments.output, {});
+    std::optional<ToleranceReport> report;
+    std::uint64_t const left = merge_study(scene, folder, provenance_of(folder, scene), arguments.output, report);
 
     RunArguments replay;
     replay.scene.path = scene_path;
     ResultReader const results(arguments.output);
     print_field("scene", scene.title.empty() ? scene_path : fmt::format("{} ({})", scene.title, scene_path));
-    print_results(replay, scene, parse_isa(results.attribute("isa")), results);
+    print_results(replay, scene, parse_isa(results.attribute("isa")), results, report);
     fmt::print("\n");
     print_field("results", fmt::format("{}{}; {} is no longer needed", arguments.output,
                                        replaced ? " (replaced a former file)" : "", arguments.folder));

@@ -67,12 +67,14 @@ void announce(Scene const& scene, StudyOptions const& options, StudyRun const& r
                bytes_text(static_cast<double>(prediction.output_bytes)));
 }
 
-EnsembleTotals compute(RunArguments const& arguments, Scene const& scene, StudyOptions const& options,
-                       StudyWork const& work, Ranks& ranks) {
-    StopRequest stop;
-    if (arguments.max_hours) stop.stop_after(std::chrono::duration<double, std::ratio<3600>>(*arguments.max_hours));
-    SignalScope const signals(stop);
-    return run_work(scene, options, work, ranks, stop);
+int end_stopped(StudyOptions const& options, std::string_view why, std::uint64_t left) {
+    std::string const folder = shard_folder_of(options.output);
+    fmt::print(
+        stderr,
+        "slideway: stopped early{}: {} members have not run; those that did are kept in {}: add --resume to go on, or "
+        "make a file of them with slideway merge\n",
+        why, left, folder);
+    return exit_code::stopped_early;
 }
 
 /// Where members are left, or wait for those of other parts.
@@ -86,16 +88,14 @@ int end_with_shards(StudyOptions const& options, EnsembleTotals const& totals, s
     std::string const why = totals.stopped == StopReason::signal       ? " (signal)"
                             : totals.stopped == StopReason::time_limit ? " (--max-hours)"
                                                                        : "";
-    fmt::print(
-        stderr,
-        "slideway: stopped early{}: {} members have not run; those that did are kept in {}; add --resume to go on\n",
-        why, left, folder);
-    return exit_code::stopped_early;
+    return end_stopped(options, why, left);
 }
 
-int conclude(RunArguments const& arguments, Scene const& scene, StudyOptions const& options, bool replaced) {
+int conclude(RunArguments const& arguments, Scene const& scene, StudyOptions const& options, bool replaced,
+             std::optional<ToleranceReport> report) {
     ResultReader const results(options.output);
-    print_results(arguments, scene, options.isa, results);
+    if (!report && asks_for_report(scene)) report = tolerance_report(results, scene);
+    print_results(arguments, scene, options.isa, results, report);
     fmt::print("\n");
     print_field("results", fmt::format("{}{}", options.output, replaced ? " (replaced a former file)" : ""));
     std::uint64_t const failed = failed_count(results), members = options.range.count;
@@ -106,20 +106,27 @@ int conclude(RunArguments const& arguments, Scene const& scene, StudyOptions con
 }
 
 /// Rank 0.
-int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& options, StudyRun& run, Ranks& ranks) {
+int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& options, StudyRun& run, Ranks& ranks,
+         StopRequest const& stop) {
     print_field("scene", scene.title.empty() ? scene.path : fmt::format("{} ({})", scene.title, scene.path));
     if (run.is_complete()) {
         fmt::print(stderr, "resuming: {} is complete already\n", options.output);
-        return conclude(arguments, scene, options, false);
+        return conclude(arguments, scene, options, false, {});
     }
     std::error_code ignored;
     bool const replaced = std::filesystem::exists(options.output, ignored);
-    EnsembleTotals const totals = compute(arguments, scene, options, run.work(), ranks);
-    print_throughput(scene, options, totals, ranks.count());
-    std::uint64_t const left = run.left();
-    if (left > 0 || options.part.of_array) return end_with_shards(options, totals, left);
-    run.finish({});
-    return conclude(arguments, scene, options, replaced);
+    std::optional<ToleranceReport> report;
+    try {
+        EnsembleTotals const totals = run_work(scene, options, run.work(), ranks, stop);
+        print_throughput(scene, options, totals, ranks.count());
+        std::uint64_t const left = run.left();
+        if (left > 0 || options.part.of_array) return end_with_shards(options, totals, left);
+        if (!run.finish(stop, report)) return end_stopped(options, " (signal)", 0);
+    } catch (FileError const& error) {
+        throw FileError(fmt::format("{}; what is finished is kept in {}: add --resume to go on", error.what(),
+                                    shard_folder_of(options.output)));
+    }
+    return conclude(arguments, scene, options, replaced, std::move(report));
 }
 
 /// What rank 0 tells the others before they begin; empty if there is nothing to do.
@@ -128,7 +135,7 @@ std::string invitation(StudyRun const& run) {
 }
 
 /// The other ranks: they only compute.
-int help(RunArguments const& arguments, Ranks& ranks) {
+int help(RunArguments const& arguments, Ranks& ranks, StopRequest const& stop) {
     std::string const invited = ranks.broadcast({});
     if (invited.empty()) return ranks.agree(0);
     auto const space = invited.find(' ');
@@ -136,7 +143,7 @@ int help(RunArguments const& arguments, Ranks& ranks) {
     StudyOptions options = study_options(arguments, scene, parse_isa(arguments.scene.isa));
     options.progress = Progress::Style::none;
     StudyWork const work{MemberSet::parse(invited.substr(space + 1)).value(), std::stoull(invited.substr(0, space))};
-    compute(arguments, scene, options, work, ranks);
+    run_work(scene, options, work, ranks, stop);
     return ranks.agree(0);
 }
 
@@ -144,7 +151,10 @@ int help(RunArguments const& arguments, Ranks& ranks) {
 
 int run(RunArguments const& arguments) {
     std::unique_ptr<Ranks> const ranks = Ranks::join();
-    if (ranks->rank() > 0) return help(arguments, *ranks);
+    StopRequest stop;
+    if (arguments.max_hours) stop.stop_after(std::chrono::duration<double, std::ratio<3600>>(*arguments.max_hours));
+    SignalScope const signals(stop);
+    if (ranks->rank() > 0) return help(arguments, *ranks, stop);
     bool invited = false;
     try {
         require_backend(arguments.backend);
@@ -155,7 +165,7 @@ int run(RunArguments const& arguments) {
         if (!arguments.quiet && !study.is_complete()) announce(scene, options, study);
         invited = true;
         ranks->broadcast(invitation(study));
-        return ranks->agree(lead(arguments, scene, options, study, *ranks));
+        return ranks->agree(lead(arguments, scene, options, study, *ranks, stop));
     } catch (...) {
         // The others wait for what rank 0 says.
         if (!invited) ranks->broadcast({});

@@ -7,6 +7,7 @@
 
 #include "host/cli/orbit_text.hpp"
 #include "host/cli/text.hpp"
+#include "host/cli/tolerance_text.hpp"
 #include "host/study/orbit_schedule.hpp"
 
 namespace slideway::cli {
@@ -154,7 +155,8 @@ void print_throughput(Scene const& scene, StudyOptions const& options, EnsembleT
     print_field("lanes in use", fmt::format("{:.1f} %", 100 * totals.lane_utilisation()));
 }
 
-void print_results(RunArguments const& arguments, Scene const& scene, Isa isa, ResultReader const& results) {
+void print_results(RunArguments const& arguments, Scene const& scene, Isa isa, ResultReader const& results,
+                   std::optional<ToleranceReport> const& report) {
     auto const quantities = summarise_quantities(results);
     EndedMembers const ended(results);
     print_field("members", fmt::format("{}", results.shape("status").front()));
@@ -165,7 +167,10 @@ void print_results(RunArguments const& arguments, Scene const& scene, Isa isa, R
     print_field("evaluations",
                 fmt::format("{:.0f} right-hand sides, {:.0f} Jacobians", sum_of(results, "rhs_evaluations"),
                             sum_of(results, "jacobian_evaluations")));
-    print_quantities(quantities);
+    if (report)
+        print_tolerance(*report);
+    else
+        print_quantities(quantities);
     if (!quantities.empty() && scene.inputs.crank_speed != 0) {
         fmt::print("  (over the whole run, its transient included)\n");
     }

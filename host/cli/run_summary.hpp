@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "host/cli/commands.hpp"
 #include "host/driver/ensemble.hpp"
 #include "host/output/result_reader.hpp"
 #include "host/scene/scene.hpp"
+#include "host/study/tolerance_report.hpp"
 
 namespace slideway::cli {
 
@@ -18,6 +20,8 @@ void print_throughput(Scene const& scene, StudyOptions const& options, EnsembleT
 
 /// All members of the file: how they ended, statistics, and what to do about those that failed.
 /// @param arguments those of the command that replays a member
-void print_results(RunArguments const& arguments, Scene const& scene, Isa isa, ResultReader const& results);
+/// @param report of a scene that `asks_for_report`
+void print_results(RunArguments const& arguments, Scene const& scene, Isa isa, ResultReader const& results,
+                   std::optional<ToleranceReport> const& report);
 
 }  // namespace slideway::cli

@@ -42,6 +42,11 @@ struct BlockRequest {
 /// Bytes that a block of `members` needs.
 std::uint64_t block_bytes(BlockRequest const& request, std::size_t members);
 
+/// Useful over executed lane steps; 1 if there were none.
+inline double lane_utilisation(std::uint64_t useful, std::uint64_t executed) {
+    return executed == 0 ? 1 : static_cast<double>(useful) / static_cast<double>(executed);
+}
+
 class BlockBuffers {
 public:
     /// Draws these members and integrates those with usable inputs.  The others get status `invalid_inputs` and NaN results;
@@ -54,6 +59,7 @@ public:
 
     std::uint64_t lane_steps_executed() const { return lane_steps_executed_; }
     std::uint64_t lane_steps_useful() const { return lane_steps_useful_; }
+    double lane_utilisation() const { return slideway::lane_utilisation(lane_steps_useful_, lane_steps_executed_); }
 
 private:
     void draw(BlockRequest const& request, MemberSource const& source);

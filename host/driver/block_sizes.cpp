@@ -5,9 +5,13 @@
 namespace slideway {
 namespace {
 
-constexpr std::uint64_t members_per_lane =
-    8;  // in a small block: few enough, and lanes seldom wait for the last member
+constexpr std::uint64_t members_per_lane = 8;   // at least
 constexpr std::uint64_t blocks_per_worker = 2;  // of what is left, so that workers end together
+constexpr std::uint64_t untried = 512;          // members of a block whose cost nobody knows, at most
+constexpr std::uint64_t enough_for_trials = 16;
+// The last members of a block leave lanes idle, as much work as that of some members, whatever the block's size: 2 where all cost
+// about the same, 25 where some settle and some rattle (scenes/tolerance_0.1mm.toml).
+constexpr double blocks_over_idle = 40;
 
 }  // namespace
 
@@ -18,23 +22,27 @@ std::uint64_t BlockSizer::next(std::uint64_t left) const {
     if (sizes_.fixed > 0) return sizes_.fixed;
     std::uint64_t const small = members_per_lane * sizes_.lanes;
     std::uint64_t const share = (left + workers_ - 1) / workers_;
-    std::uint64_t const least = std::clamp<std::uint64_t>(share, 1, small);
+    std::uint64_t const least = std::clamp<std::uint64_t>(
+        share, 1, std::max(small, static_cast<std::uint64_t>(std::min(blocks_over_idle * idle_members_, 1e6))));
     std::uint64_t const most = std::max<std::uint64_t>(sizes_.most, least);
     std::uint64_t size = std::clamp<std::uint64_t>(share / blocks_per_worker, least, most);
     if (seconds_per_member_ > 0) {
         double const in_time = std::min(sizes_.seconds / seconds_per_member_, static_cast<double>(most));
         size = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(in_time), least, size);
+    } else if (members_ >= enough_for_trials * small * workers_) {
+        size = std::min(size, small);
     } else {
         // Small ensembles have no members to spare for trials.
-        constexpr std::uint64_t enough_for_trials = 16, untried = 512;
-        bool const trial = members_ >= enough_for_trials * small * workers_;
-        size = std::clamp<std::uint64_t>(trial ? small : untried, least, size);
+        size = std::clamp<std::uint64_t>(untried, least, size);
     }
     return (size + sizes_.lanes - 1) / sizes_.lanes * sizes_.lanes;
 }
 
-void BlockSizer::measured(std::uint64_t members, double seconds) {
-    if (members > 0 && seconds > 0) seconds_per_member_ = seconds / static_cast<double>(members);
+void BlockSizer::measured(std::uint64_t members, double seconds, double utilisation) {
+    if (members == 0 || !(seconds > 0) || !(utilisation > 0)) return;
+    seconds_per_member_ = seconds / static_cast<double>(members);
+    // Of several blocks the dearest end counts: a later one may be as bad.
+    idle_members_ = std::max(idle_members_, (1 / utilisation - 1) * static_cast<double>(members));
 }
 
 }  // namespace slideway

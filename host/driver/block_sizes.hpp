@@ -10,25 +10,26 @@ struct BlockSizes {
     std::size_t fixed = 0;    // > 0: always so many
     std::size_t lanes = 1;    // sizes are multiples of
     std::size_t most = 4096;  // as many as fit the memory that a block may take
-    double seconds = 2;       // that a block should take: a process that is killed loses the blocks it works on
+    double seconds = 10;      // that a block should take: a process that is killed loses the blocks it works on
 };
 
 /// The last members of a block leave lanes idle, so blocks should be large; a crash loses those in work, and the last ones of a run leave
 /// threads idle, so they should be small.  Large ensembles begin with small blocks, whose time tells how many members make up
-/// `seconds`; towards the end blocks shrink with what is left.
+/// `seconds`, and how much work their ends leave undone; towards the end of the run blocks shrink with what is left.
 class BlockSizer {
 public:
     /// @param workers threads of all ranks.
     BlockSizer(BlockSizes const& sizes, std::uint64_t members, int workers);
     /// @param left members that nobody has taken.
     std::uint64_t next(std::uint64_t left) const;
-    /// What a block took.
-    void measured(std::uint64_t members, double seconds);
+    /// What a block took.  @param utilisation of its lanes, useful over executed lane steps
+    void measured(std::uint64_t members, double seconds, double utilisation);
 
 private:
     BlockSizes const sizes_;
     std::uint64_t const members_, workers_;
     double seconds_per_member_ = 0;  // 0: not known yet
+    double idle_members_ = 0;        // what the end of a block leaves idle, in members' work
 };
 
 }  // namespace slideway

@@ -48,8 +48,7 @@ EnsembleTotals& EnsembleTotals::operator+=(EnsembleTotals const& later) {
 }
 
 double EnsembleTotals::lane_utilisation() const {
-    if (lane_steps_executed == 0) return 1;
-    return static_cast<double>(lane_steps_useful) / static_cast<double>(lane_steps_executed);
+    return slideway::lane_utilisation(lane_steps_useful, lane_steps_executed);
 }
 
 int default_threads() { return omp_get_max_threads(); }
@@ -100,9 +99,9 @@ public:
         return true;
     }
 
-    void measured(std::uint64_t places, double seconds) {
+    void measured(std::uint64_t places, double seconds, double utilisation) {
         std::lock_guard const lock(mutex_);
-        sizer_.measured(places, seconds);
+        sizer_.measured(places, seconds, utilisation);
     }
 
     void fail(std::exception_ptr failure) {
@@ -163,7 +162,7 @@ EnsembleTotals run_ensemble(EnsemblePlan const& plan, MemberQueue& queue, Kernel
             for (auto places = team.next_places(); !places.empty(); places = team.next_places()) {
                 auto const begin = std::chrono::steady_clock::now();
                 program(buffers, places, emit);
-                team.measured(places.size(), seconds_since(begin));
+                team.measured(places.size(), seconds_since(begin), buffers.lane_utilisation());
             }
         } catch (...) {
             team.fail(std::current_exception());

@@ -117,10 +117,10 @@ NetcdfFile NetcdfFile::open_in_memory(std::string const& name, std::span<std::by
 }
 
 NetcdfFile::NetcdfFile(NetcdfFile&& other) noexcept
-    : path_(std::move(other.path_)), id_(std::exchange(other.id_, closed)) {}
+    : path_(std::move(other.path_)), id_(std::exchange(other.id_, closed)), group_(other.group_) {}
 
 NetcdfFile::~NetcdfFile() {
-    if (id_ != closed) nc_close(id_);
+    if (id_ != closed && !group_) nc_close(id_);
 }
 
 void NetcdfFile::close() { require(nc_close(std::exchange(id_, closed)), "close"); }
@@ -187,10 +187,13 @@ std::vector<NetcdfFile::Dimension> NetcdfFile::dimensions() const {
     int count = 0;
     require(nc_inq_ndims(id_, &count), "read the header");
     std::vector<Dimension> dimensions;
-    for (int i = 0; i < count; ++i) {
+    // Numbers of dimensions go through the whole file: those of a group need not start at 0.
+    std::vector<int> ids(static_cast<std::size_t>(count));
+    require(nc_inq_dimids(id_, &count, ids.data(), 0), "read the header");
+    for (int const id : ids) {
         char name[NC_MAX_NAME + 1];
         std::size_t length = 0;
-        require(nc_inq_dim(id_, i, name, &length), "read the header");
+        require(nc_inq_dim(id_, id, name, &length), "read the header");
         dimensions.push_back({name, length});
     }
     return dimensions;

@@ -54,8 +54,17 @@ public:
                void const* values);
     void read(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count, void* values) const;
 
-    std::vector<Dimension> dimensions() const;
-    std::vector<Variable> variables() const;  // in the order of their definition, or by name if made in memory
+    /// Groups: handles that share this file and must not outlive it.  They do what the file does but flush and close;
+    /// they see the dimensions of what they lie in.  Moving the file leaves them valid.
+    NetcdfFile add_group(std::string const& name);
+    NetcdfFile group(std::string const& name) const;  // @throws FileError if there is none
+    bool has_group(std::string const& name) const;
+    std::vector<std::string> groups() const;  // names, in the order of their definition
+    /// A dimension of this group or of those it lies in.  @throws FileError if there is none.
+    int dimension(std::string const& name) const;
+
+    std::vector<Dimension> dimensions() const;                      // of a group: its own
+    std::vector<Variable> variables() const;                        // as they were defined; by name if made in memory
     std::string first_dimension(Variable const& variable) const;    // its name; "" of a scalar
     std::string text(int variable, std::string const& name) const;  // "" when there is none
     bool number(int variable, std::string const& name, double& value) const;
@@ -64,11 +73,12 @@ public:
     static std::size_t size_of(Type type);
 
 private:
-    NetcdfFile(std::string path, int id) : path_(std::move(path)), id_(id) {}
+    NetcdfFile(std::string path, int id, bool group = false) : path_(std::move(path)), id_(id), group_(group) {}
     void require(int code, std::string_view action) const;
 
     std::string path_;
     int id_;
+    bool group_;  // of a file that another closes
 };
 
 }  // namespace slideway

@@ -57,13 +57,21 @@ void add_variable(Fnv1a& hash, NetcdfFile const& file, NetcdfFile::Variable cons
     }
 }
 
+void add_group(Fnv1a& hash, NetcdfFile const& group) {
+    std::vector<NetcdfFile::Variable> variables = group.variables();
+    std::sort(variables.begin(), variables.end(), [](auto const& a, auto const& b) { return a.name < b.name; });
+    for (NetcdfFile::Variable const& variable : variables) add_variable(hash, group, variable);
+    for (std::string const& name : group.groups()) {
+        hash.add(name);
+        add_group(hash, group.group(name));
+    }
+}
+
 }  // namespace
 
 std::string payload_hash(NetcdfFile const& file) {
-    std::vector<NetcdfFile::Variable> variables = file.variables();
-    std::sort(variables.begin(), variables.end(), [](auto const& a, auto const& b) { return a.name < b.name; });
     Fnv1a hash;
-    for (NetcdfFile::Variable const& variable : variables) add_variable(hash, file, variable);
+    add_group(hash, file);
     return fmt::format("{:016x}", hash.value());
 }
 

@@ -1,18 +1,10 @@
 #include "host/output/result_layout.hpp"
 
 #include <bit>
-#include <iterator>
 
 #include "host/driver/block_result.hpp"
 
 namespace slideway {
-
-std::vector<std::string> labels_of(std::string const& dimension) {
-    if (dimension == "apex") return {"P1", "P2", "P3", "P4", "P5", "P6", "P7", "P8"};
-    if (dimension == "mode_class") return {std::begin(mode_class_names), std::end(mode_class_names)};
-    if (dimension == "axis") return {"roll", "yaw", "pitch"};
-    return {};
-}
 
 std::uint64_t payload_bytes(ResultLayout const& layout) {
     std::uint64_t columns = 4 + state_size + layout.parameters.size();  // three counters and end_time

@@ -7,6 +7,7 @@
 
 #include "host/driver/member_set.hpp"
 #include "host/output/study_columns.hpp"
+#include "host/scene/labels.hpp"
 #include "kernels/block.hpp"
 
 namespace slideway {
@@ -31,10 +32,6 @@ struct ResultLayout {
     std::string sweep;               // name of the parameter column that a sweep goes by; "": no sweep
     StudyTable study;                // what the study concludes of each member
 };
-
-/// Labels along a dimension of the quantity table: "P1" … "P8", the mode classes, "roll" "yaw" "pitch".
-/// Empty for an unknown dimension.
-std::vector<std::string> labels_of(std::string const& dimension);
 
 /// Bytes of data in the file; its header adds some tens of kilobytes.
 std::uint64_t payload_bytes(ResultLayout const& layout);

@@ -156,11 +156,14 @@ void write_merged(NetcdfFile& file, ShardFolder const& folder, std::vector<Shard
     Variables const variables = variables_of(file);
     ShardCopy shard_copy(file, variables);
     for (Shard const& shard : shards) {
+        if (merge.pause) merge.pause();
         std::vector<std::byte> const bytes = folder.read(shard);
         NetcdfFile const from = NetcdfFile::open_in_memory(shard.name, bytes);
         shard_copy.copy(from, member_runs(shard.members, merge.layout.members), sections ? &*sections : nullptr);
     }
+    if (merge.pause) merge.pause();
     if (merge.conclude) merge.conclude(file);
+    if (merge.pause) merge.pause();
     file.put_text(NetcdfFile::global, "completeness", merge.completeness);
     file.flush();
     file.put_text(NetcdfFile::global, "payload_hash", payload_hash(file));

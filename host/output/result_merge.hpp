@@ -20,6 +20,8 @@ struct ResultMerge {
     std::string completeness;  // an attribute: "complete", "12 of 100 members not run"
     /// What is concluded from the members and added to the file; may be empty.
     std::function<void(NetcdfFile& file)> conclude;
+    /// Called now and then; what it throws ends the merge and leaves no file.  May be empty.
+    std::function<void()> pause;
 };
 
 /// Whether a result can be put there.  @throws FileError with what is wrong with the path.

@@ -2,35 +2,27 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "host/output/netcdf_file.hpp"
+#include "host/output/result_view.hpp"
 
 namespace slideway {
 
-class ResultReader {
-public:
-    /// @throws FileError if the file is missing, not netCDF, or not a result of slideway.
-    explicit ResultReader(std::string const& path);
+/// A file that a reader keeps open; a base, so that it is there before the view of it.
+struct OpenResult {
+    NetcdfFile file;
+};
 
-    std::vector<NetcdfFile::Dimension> dimensions() const { return file_.dimensions(); }
-    std::string attribute(std::string const& name) const;  // as text, also numbers; "" when there is none
-    bool has(std::string const& variable) const;
-    std::vector<std::string> variable_names() const;
-    std::string unit(std::string const& variable) const;
-    std::string long_name(std::string const& variable) const;
-    /// All values in C order.  @throws FileError if there is no such variable or it is not a number.
-    std::vector<double> values(std::string const& variable) const;
-    std::vector<std::size_t> shape(std::string const& variable) const;
+/// A finished result file; usable wherever a view is.
+class ResultReader : private OpenResult, public ResultView {
+public:
+    /// @throws FileError if the file is missing, not netCDF, not a result of slideway, or unfinished.
+    explicit ResultReader(std::string const& path);
+    ResultReader(ResultReader const&) = delete;  // the view goes by the file's place
+    ResultReader& operator=(ResultReader const&) = delete;
 
     std::string stored_hash() const { return attribute("payload_hash"); }
     std::string computed_hash() const;  // reads all data
-
-private:
-    NetcdfFile::Variable const& find(std::string const& variable) const;
-
-    NetcdfFile file_;
-    std::vector<NetcdfFile::Variable> variables_;
 };
 
 }  // namespace slideway

@@ -83,8 +83,9 @@ ShardFolder::ShardFolder(std::string path) : path_(std::move(path)) {
 
 namespace {
 
-/// A shard that was damaged once, and whose members ran again, may be listed beside its successors.
+/// A shard that was damaged once, and whose members ran again, may be listed beside its successors: the later line counts.
 std::vector<Shard> without_repeats(std::vector<Shard> shards) {
+    std::reverse(shards.begin(), shards.end());
     std::vector<Shard> kept;
     MemberSet done;
     for (Shard& shard : shards) {
@@ -114,8 +115,6 @@ std::vector<Shard> ShardFolder::listed() const {
         std::error_code error;
         return fs::file_size(join(path_, shard.name), error) != shard.bytes || error;
     });
-    // Of two lines for the same members the later one counts.
-    std::reverse(shards.begin(), shards.end());
     return without_repeats(std::move(shards));
 }
 

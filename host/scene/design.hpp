@@ -36,17 +36,27 @@ struct MemberTable {
     std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
 };
 
-/// Correlated variations: a normal copula.  x_i = Q_i(Φ(z_i)), z normal with this correlation matrix; for normal marginals the matrix is
-/// that of the values themselves.
+/// Correlated variations: a normal copula.  x_i = Q_i(Φ(z_i)), z normal with this correlation matrix; for normal
+/// marginals the matrix is that of the values themselves.
 struct Correlation {
     std::vector<std::size_t> variations;  // indices into those of the scene
     std::vector<double> matrix;           // [n][n], symmetric, positive definite, ones on the diagonal
 };
 
+/// With d variations, u of member m for variation i, its value Q_i(u):
+///   mc        Philox, keyed by seed, member and key name
+///   lhs       (π_i(m) + v)/members: one member in each of `members` equal strata of every variation, in an order π_i
+///             and at a place v that are random (McKay, Beckman & Conover, Technometrics 21 (1979) 239)
+///   sobol     point m of Sobol's sequence, dimension i, scrambled by seed and key name; even in all variations at once
+///             for 2^k members
+///   saltelli  rows of d + 2 members from a point of 2d dimensions, A its first d, B its last: A, B, A with B's i-th
+///             value for i = 1 … d (Saltelli et al., Comput. Phys. Commun. 181 (2010) 259, the matrices A_B)
+///   grid      all combinations of the levels, the last variation fastest: entries of `values`, else
+///             u = (l + 1/2)/levels[i]
+///   table     row m of the table; variations that are no columns as mc
 struct Design {
     DesignKind kind = DesignKind::mc;
-    std::uint64_t base =
-        0;  // saltelli: N; the members are N (d + 2), d variations: A, B, AB_1 … AB_d of one row, row by row
+    std::uint64_t base = 0;             // saltelli: N rows; the members are N (d + 2)
     std::vector<std::uint64_t> levels;  // grid: of each variation
     Correlation correlation;            // of none: empty
     std::shared_ptr<MemberTable const> table;
@@ -61,13 +71,17 @@ struct Limit {
     std::string name() const { return label.empty() ? quantity : quantity + "[" + label + "]"; }
 };
 
-/// Draws members of a design.  A member's values depend on the design, the seed and its number only: any member can be drawn
-/// alone, on any thread or machine.
+/// Draws members of a design.  A member's values depend on the design, the seed and its number only: any member can be
+/// drawn alone, on any thread or machine.
 class Sampler {
 public:
     /// @param members of the whole design (lhs stratifies over them).
+    /// @throws SceneError without file and line if the design cannot have these variations or members: dimensions
+    /// beyond Sobol's table, levels or rows that do not match, a correlation that is none or has no place in it.
     Sampler(Design const& design, std::span<Variation const> variations, std::uint64_t seed, std::uint64_t members);
-    /// The value of each variation, SI.  From any thread.
+    /// The value of each variation, SI, [variations].  From any thread.
+    /// @param member below `members`; mc and sobol know no end.  @throws std::out_of_range beyond it,
+    /// std::invalid_argument for another number of values.
     void draw(std::uint64_t member, std::span<double> values) const;
 
 private:

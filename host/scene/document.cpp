@@ -156,6 +156,8 @@ std::vector<std::string_view> rivals_of(std::string_view name) {
         {"study.transient_revolutions", "study.Ttr"},
         {"study.dt", "study.rescalings_per_revolution"},
         {"study.rescalings_per_revolution", "study.dt"},
+        {"study.base", "study.members"},
+        {"study.levels", "study.members"},
         {"study.values", "study.from"},
         {"study.values", "study.to"},
         {"study.values", "study.points"},

@@ -112,6 +112,10 @@ void refuse_study(Node const& root, Node const* node, std::string_view key, Prob
     throw SceneError(fmt::format("{}: {} is not given ({}); {}", kind.where, key, problem.reason, problem.advice));
 }
 
+void refuse_missing(Node const& asking, std::string_view key, std::string_view why, std::string_view advice) {
+    throw SceneError(fmt::format("{}: {} is missing ({}); {}", asking.where, key, why, advice));
+}
+
 void refuse_unknown(Node const& node, std::string_view what, std::span<std::string_view const> known) {
     std::string_view const near = nearest_name(node.name, known);
     std::string const advice = near.empty()        ? std::string("remove it, or see `slideway list`")
@@ -149,6 +153,7 @@ Scene parse_scene(std::string const& text, std::string const& name, Overrides co
     read_study(root, scene);
     read_integrator(root, scene);
     read_recording(root, scene);
+    prepare_sampler(scene);
     return scene;
 }
 

@@ -18,9 +18,26 @@ std::vector<GivenKey> given_keys(Node const& root);
 void read_physics(Node const& root, Scene& scene);
 /// [study.vary]; adds the kernel parts that the varied keys need.
 void read_variations(Node const& root, Scene& scene);
+/// An entry of [study.vary].
+struct VariedNode {
+    std::string name;  // dotted key
+    Node const* node;
+};
+/// In the order of Scene::variations.
+std::vector<VariedNode> varied_nodes(Node const& root);
+/// How a key scatters; every value that it bounds meets the key's rule.  Leaves `levels` to the design.
+Distribution read_distribution(Node const& node, Key const& key);
 /// Which study, of how many members, and what it is asked for; adds the kernel parts that a swept key needs.
 void read_study(Node const& root, Scene& scene);
-/// The keys of a study that is no ensemble: Scene::chaos.
+/// How the members are spread: Scene::design, and how many members follow from it; needs the study and what varies.
+void read_design(Node const& root, Scene& scene);
+/// study.table: Scene::design.table and a variation for each of its columns.
+void read_member_table(Node const& node, Node const& root, Scene& scene);
+/// [study.correlation]; needs the design.
+void read_correlation(Node const& root, Scene& scene);
+/// [study.limits]; adds their quantities to those asked for.
+void read_limits(Node const& root, Scene& scene);
+/// The keys of a study of orbits: Scene::chaos.
 void read_chaos(Node const& root, Scene& scene);
 /// Where the sections of a poincare or sweep are taken.
 void read_section(Node const& root, Scene& scene);
@@ -45,7 +62,7 @@ struct SpeedRange {
 };
 SpeedRange crank_speeds(Scene const& scene);
 
-/// How long the members of a study that is no ensemble run [s], and how often their steps end at known times.
+/// How long the members of a study of orbits run [s], and how often their steps end at known times.
 struct RunLength {
     double seconds;  // at the scene's own crank speed
     double longest;
@@ -53,6 +70,8 @@ struct RunLength {
 };
 RunLength run_length(Scene const& scene);
 
+/// Largest study.members.
+inline constexpr std::uint64_t most_members = 1'000'000'000;
 /// Largest integrator.max_steps.
 inline constexpr std::uint64_t most_steps = 1'000'000'000'000'000;
 /// Longest study [s].
@@ -71,6 +90,11 @@ void refuse_both(Node const& root, std::string_view first, std::string_view seco
 
 /// Refuses a node that no part of the scene reads.
 [[noreturn]] void refuse_unknown(Node const& node, std::string_view what, std::span<std::string_view const> known);
+
+/// Refuses what asks for a key that is not there:
+/// "study.points is missing (how many columns there are); add points = 50".
+[[noreturn]] void refuse_missing(Node const& asking, std::string_view key, std::string_view why,
+                                 std::string_view advice);
 
 /// The choice of a node among names some of which belong to later versions; `available` of them come first.
 std::size_t read_available(Node const& node, std::string_view meaning, std::span<std::string_view const> names,

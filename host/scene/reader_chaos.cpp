@@ -192,36 +192,6 @@ void check_memory(Node const& root, Scene const& scene) {
 
 }  // namespace
 
-SpeedRange crank_speeds(Scene const& scene) {
-    Key const& key = *find_key("mechanism.crank_speed");
-    SpeedRange range{std::abs(scene.inputs.crank_speed), std::abs(scene.inputs.crank_speed), false};
-    auto const take = [&](double low, double high) {
-        if (!range.several) range.least = range.most = std::abs(low);
-        range.several = true;
-        double const least = low <= 0 && high >= 0 ? 0 : std::min(std::abs(low), std::abs(high));
-        range.least = std::min(range.least, least);
-        range.most = std::max({range.most, std::abs(low), std::abs(high)});
-    };
-    for (Variation const& variation : scene.variations) {
-        if (variation.key != &key) continue;
-        Distribution const& d = variation.distribution;
-        switch (d.kind) {
-            case Distribution::Kind::constant:
-                take(d.mean, d.mean);
-                break;
-            case Distribution::Kind::normal:
-                take(d.mean - 8 * d.sd, d.mean + 8 * d.sd);
-                break;  // none of 1e15 draws is beyond
-            default:
-                take(d.low, d.high);
-        }
-    }
-    if (scene.chaos.parameter == &key) {
-        for (double const value : scene.chaos.values) take(value, value);
-    }
-    return range;
-}
-
 RunLength run_length(Scene const& scene) {
     ChaosSettings const& chaos = scene.chaos;
     auto const at = [&](double speed) { return chaos.transient.seconds(speed) + chaos.span.seconds(speed); };

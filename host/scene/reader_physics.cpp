@@ -62,7 +62,7 @@ void read_located_modes(Node const& root, Scene& scene) {
     IntegratorSettings& settings = scene.integrator;
     Node const* const node = root.find_path("integrator.locate_modes");
     bool const switches = scene.parts.law == Law::paper && scene.parts.damping != Damping::restitution;
-    bool const orbits = scene.study != StudyKind::ensemble, neighbours = scene.chaos.exponents > 0;
+    bool const orbits = !runs_to_end(scene.study), neighbours = scene.chaos.exponents > 0;
     bool const can = has_effect("locate_modes", settings.method);
     // Long orbits under the law that switches take half the steps so, and neighbours need it.
     settings.locate_modes = node != nullptr ? read_boolean(*node) : switches && orbits && can;

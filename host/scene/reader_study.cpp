@@ -16,10 +16,6 @@
 namespace slideway {
 namespace {
 
-constexpr std::string_view study_names[] = {"ensemble", "lyapunov", "poincare", "sweep", "tolerance"};
-constexpr std::size_t available_studies = std::size(study_kind_names);
-
-constexpr std::uint64_t most_members = 1'000'000'000;
 constexpr std::uint64_t most_samples = 1'000'000;  // of one member: they stay in memory while it runs
 
 struct EndTime {
@@ -147,7 +143,7 @@ void read_max_steps_of_fixed(Node const& root, IntegratorSettings& settings, Run
 /// Why a study has no such key, where there is more to say than that.
 Problem foreign_key(StudyKey const& key, StudyKind kind) {
     bool const sweep = kind == StudyKind::sweep;
-    if (key.studies == study_sets::ensemble) {
+    if (key.name.starts_with("study.samples")) {
         return {fmt::format("kind = \"{}\" stores no time series", name_of(kind)),
                 "remove it, or use kind = \"ensemble\""};
     }
@@ -186,7 +182,7 @@ std::vector<double> uniform_times(double end_time, std::size_t count) {
 
 void read_study(Node const& root, Scene& scene) {
     if (Node const* const kind = root.find_path("study.kind")) {
-        scene.study = static_cast<StudyKind>(read_available(*kind, "study", study_names, available_studies));
+        scene.study = static_cast<StudyKind>(read_choice(*kind, "study", study_kind_names));
     }
     if (Node const* const table = root.find("study")) refuse_foreign_keys(*table, scene.study);
     if (Node const* const node = root.find_path("study.members")) {
@@ -195,12 +191,13 @@ void read_study(Node const& root, Scene& scene) {
     if (Node const* const node = root.find_path("study.seed")) {
         scene.seed = read_count(*node, "seed", 0, std::numeric_limits<std::int64_t>::max());
     }
+    read_design(root, scene);
     if (scene.study == StudyKind::sweep) read_sweep(root, scene);
-    if (scene.study != StudyKind::ensemble) read_chaos(root, scene);
+    if (!runs_to_end(scene.study)) read_chaos(root, scene);
 }
 
 void read_recording(Node const& root, Scene& scene) {
-    bool const samples = scene.study == StudyKind::ensemble;
+    bool const samples = runs_to_end(scene.study);
     EndTime const end =
         samples ? read_end_time(root, scene.inputs.crank_speed) : EndTime{run_length(scene).seconds, NAN};
     RunLength const length = samples ? RunLength{end.seconds, end.seconds, 0} : run_length(scene);
@@ -214,6 +211,13 @@ void read_recording(Node const& root, Scene& scene) {
     scene.sample_times = uniform_times(end.seconds, sampling.count);
     if (!scene.sample_times.empty()) scene.series = (Selection{1} << state_series) - 1;
     if (Node const* const list = root.find_path("study.quantities")) read_quantities(*list, scene);
+    read_limits(root, scene);
+    if (scene.study == StudyKind::tolerance && scene.quantities == 0) {
+        Node const* const list = root.find_path("study.quantities");
+        refuse_missing(list != nullptr ? *list : *root.find_path("study.kind"), "a quantity",
+                       "a tolerance study tells how quantities scatter",
+                       "add quantities = [\"peak_normal_force\", \"friction_loss\"], or see `slideway list`");
+    }
     // The audit runs anyway, and whoever takes such a method should see what it says.
     if (is_always_audited(scene.integrator.method)) scene.quantities |= selection_of(Quantity::energy_residual);
     check_size(sampling, scene);

@@ -13,15 +13,11 @@ namespace {
 
 constexpr std::uint64_t most_columns = 10'000;
 
-[[noreturn]] void refuse_missing(Node const& root, std::string_view key, std::string_view why,
-                                 std::string_view advice) {
-    throw SceneError(fmt::format("{}: {} is missing ({}); {}", root.find_path("study.kind")->where, key, why, advice));
-}
-
 Key const& read_parameter(Node const& root, Scene const& scene) {
     Node const* const node = root.find_path("study.parameter");
     if (node == nullptr) {
-        refuse_missing(root, "study.parameter", "a sweep changes one key", "add parameter = \"joint.clearance\"");
+        refuse_missing(*root.find_path("study.kind"), "study.parameter", "a sweep changes one key",
+                       "add parameter = \"joint.clearance\"");
     }
     std::string const& name = read_text_value(*node);
     Key const* const key = find_key(name);
@@ -44,7 +40,7 @@ Key const& read_parameter(Node const& root, Scene const& scene) {
 double read_end(Node const& root, std::string_view name, Key const& key) {
     Node const* const node = root.find_path(name);
     if (node == nullptr) {
-        refuse_missing(root, name, "a sweep needs its values",
+        refuse_missing(*root.find_path("study.kind"), name, "a sweep needs its values",
                        "give study.values, or study.from, study.to and study.points");
     }
     return read_number(*node, key);
@@ -61,7 +57,8 @@ double rounded(double value) {
 std::vector<double> read_range(Node const& root, Key const& key) {
     double const from = read_end(root, "study.from", key), to = read_end(root, "study.to", key);
     Node const* const count = root.find_path("study.points");
-    if (count == nullptr) refuse_missing(root, "study.points", "how many columns there are", "add points = 50");
+    if (count == nullptr)
+        refuse_missing(*root.find_path("study.kind"), "study.points", "how many columns there are", "add points = 50");
     std::uint64_t const points = read_count(*count, "number of columns", 2, most_columns);
     Node const& last = *root.find_path("study.to");
     if (from == to)

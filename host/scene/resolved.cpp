@@ -6,18 +6,12 @@
 #include <fmt/format.h>
 
 #include "host/scene/integrator_keys.hpp"
+#include "host/scene/resolved_members.hpp"
 #include "host/scene/scene.hpp"
 #include "host/scene/scene_text.hpp"
 
 namespace slideway {
 namespace {
-
-std::string number(double value) {
-    std::string text = fmt::format("{}", value);
-    // Without a point TOML reads an integer, and -0 loses its sign.
-    if (text.find_first_of(".e") == std::string::npos) text += ".0";
-    return text;
-}
 
 bool is_written(Key const& key, Parts const& parts) {
     bool const restitution = parts.damping == Damping::restitution;
@@ -36,30 +30,15 @@ std::string physics_table(Scene const& scene, Inputs const& complete, std::strin
         std::string_view const name = key.name.substr(dot + 1);
         std::string_view const unit = key.unit == "1" ? "" : key.unit;
         if (std::isnan(key.get(scene.inputs))) {
-            text += fmt::format("# {} = {}  # {}{}follows from other keys\n", name, number(key.get(complete)), unit,
-                                unit.empty() ? "" : ", ");
+            text += fmt::format("# {} = {}  # {}{}follows from other keys\n", name, toml_number(key.get(complete)),
+                                unit, unit.empty() ? "" : ", ");
         } else if (unit.empty()) {
-            text += fmt::format("{} = {}\n", name, number(key.get(scene.inputs)));
+            text += fmt::format("{} = {}\n", name, toml_number(key.get(scene.inputs)));
         } else {
-            text += fmt::format("{} = {}  # {}\n", name, number(key.get(scene.inputs)), unit);
+            text += fmt::format("{} = {}  # {}\n", name, toml_number(key.get(scene.inputs)), unit);
         }
     }
     return text;
-}
-
-std::string distribution_text(Distribution const& d) {
-    switch (d.kind) {
-        case Distribution::Kind::constant:
-            break;
-        case Distribution::Kind::uniform:
-            return fmt::format("{{ dist = \"unif\", low = {}, high = {} }}", number(d.low), number(d.high));
-        case Distribution::Kind::normal:
-            return fmt::format("{{ dist = \"norm\", mean = {}, sd = {} }}", number(d.mean), number(d.sd));
-        case Distribution::Kind::truncated_normal:
-            return fmt::format("{{ dist = \"truncnorm\", mean = {}, sd = {}, low = {}, high = {} }}", number(d.mean),
-                               number(d.sd), number(d.low), number(d.high));
-    }
-    return fmt::format("{{ dist = \"const\", value = {} }}", number(d.mean));
 }
 
 std::string quantities_text(Scene const& scene) {
@@ -81,47 +60,47 @@ std::string integrator_table(IntegratorSettings const& settings) {
         if (!has_effect(key, settings.method)) return;
         text += fmt::format("{} = {}{}{}\n", key, value, unit.empty() ? "" : "  # ", unit);
     };
-    add("rtol", number(settings.rtol));
-    add("atol", number(settings.atol));
-    add("max_step", number(settings.max_step), "s");
-    add("stiff_max_step", number(settings.stiff_max_step), "s");
-    add("stiff_tolerance", number(settings.stiff_tolerance));
-    add("step", number(settings.fixed_step), "s");
+    add("rtol", toml_number(settings.rtol));
+    add("atol", toml_number(settings.atol));
+    add("max_step", toml_number(settings.max_step), "s");
+    add("stiff_max_step", toml_number(settings.stiff_max_step), "s");
+    add("stiff_tolerance", toml_number(settings.stiff_tolerance));
+    add("step", toml_number(settings.fixed_step), "s");
     add("locate_modes", fmt::format("{}", settings.locate_modes));
     add("max_steps", fmt::format("{}", settings.max_steps));
     return text;
 }
 
 std::string span_line(Span const& span, std::string_view turns, std::string_view time) {
-    return span.revolutions ? fmt::format("{} = {}\n", turns, number(span.value))
-                            : fmt::format("{} = {}  # s\n", time, number(span.value));
+    return span.revolutions ? fmt::format("{} = {}\n", turns, toml_number(span.value))
+                            : fmt::format("{} = {}  # s\n", time, toml_number(span.value));
 }
 
 std::string section_line(SectionSurface const& section) {
     using On = SectionSurface::On;
-    if (section.on == On::phase) return fmt::format("phase = {}  # rad\n", number(section.level));
+    if (section.on == On::phase) return fmt::format("phase = {}  # rad\n", toml_number(section.level));
     std::string const on = section.on == On::state
                                ? std::string(series_table[section.index].name)
                                : fmt::format("{}[P{}]", section.on == On::gap_y ? "gap_y" : "gap_z", section.index + 1);
-    return fmt::format("section = {{ on = \"{}\", value = {}, direction = \"{}\" }}  # {}\n", on, number(section.level),
-                       name_of(section.direction), section_unit(section));
+    return fmt::format("section = {{ on = \"{}\", value = {}, direction = \"{}\" }}  # {}\n", on,
+                       toml_number(section.level), name_of(section.direction), section_unit(section));
 }
 
 std::string neighbours_text(ChaosSettings const& chaos) {
     std::string text = fmt::format("exponents = {}\n", chaos.exponents);
     if (chaos.exponents == 0) return text;
-    text += fmt::format("d0 = {}\n", number(chaos.d0));
+    text += fmt::format("d0 = {}\n", toml_number(chaos.d0));
     if (chaos.exponents == 1) {
-        text += fmt::format("d0_lower = {}\nd0_upper = {}\n", number(chaos.d0_lower), number(chaos.d0_upper));
+        text += fmt::format("d0_lower = {}\nd0_upper = {}\n", toml_number(chaos.d0_lower), toml_number(chaos.d0_upper));
     }
-    if (!chaos.dt.revolutions) return text + fmt::format("dt = {}  # s\n", number(chaos.dt.value));
+    if (!chaos.dt.revolutions) return text + fmt::format("dt = {}  # s\n", toml_number(chaos.dt.value));
     return text + fmt::format("rescalings_per_revolution = {:.0f}\n", std::round(1 / chaos.dt.value));
 }
 
 std::string sweep_text(ChaosSettings const& chaos) {
     std::string text = fmt::format("parameter = \"{}\"\nvalues = [", chaos.parameter->name);
     // Lines of a scene have a longest length.
-    for (double const value : chaos.values) text += fmt::format("\n    {},", number(value));
+    for (double const value : chaos.values) text += fmt::format("\n    {},", toml_number(value));
     std::string_view const unit = chaos.parameter->unit;
     text += fmt::format("\n]{}{}\n", unit == "1" ? "" : "  # ", unit == "1" ? "" : unit);
     return text + fmt::format("start = \"{}\"\n", chaos.continued ? "continue" : "fresh");
@@ -132,8 +111,8 @@ std::string study_table(Scene const& scene) {
     ChaosSettings const& chaos = scene.chaos;
     std::string text = fmt::format("\n[study]\nkind = \"{}\"\nmembers = {}\nseed = {}\n", name_of(scene.study),
                                    scene.members, scene.seed);
-    if (scene.study == StudyKind::ensemble) {
-        text += fmt::format("duration = {}  # s\nsamples = {}\n", number(scene.integrator.end_time),
+    if (runs_to_end(scene.study)) {
+        text += fmt::format("duration = {}  # s\nsamples = {}\n", toml_number(scene.integrator.end_time),
                             scene.sample_times.size());
     } else {
         text += span_line(chaos.transient, "transient_revolutions", "Ttr");
@@ -144,7 +123,7 @@ std::string study_table(Scene const& scene) {
     if (chaos.section.on != SectionSurface::On::phase) text += fmt::format("max_crossings = {}\n", chaos.max_crossings);
     if (scene.study == StudyKind::lyapunov || scene.study == StudyKind::sweep) text += neighbours_text(chaos);
     if (scene.study == StudyKind::lyapunov) text += fmt::format("history = {}\n", chaos.history);
-    return text + fmt::format("quantities = [{}]\n", quantities_text(scene));
+    return text + fmt::format("quantities = [{}]\n", quantities_text(scene)) + design_text(scene);
 }
 
 }  // namespace
@@ -161,13 +140,7 @@ std::string resolved_toml(Scene const& scene) {
     text += physics_table(scene, complete, "initial", "");
     text += integrator_table(scene.integrator);
     text += study_table(scene);
-    if (!scene.variations.empty()) text += "\n[study.vary]\n";
-    for (Variation const& variation : scene.variations) {
-        std::string_view const unit = variation.key->unit;
-        text += fmt::format("\"{}\" = {}{}{}\n", variation.key->name, distribution_text(variation.distribution),
-                            unit == "1" ? "" : "  # ", unit == "1" ? "" : unit);
-    }
-    return text;
+    return text + members_text(scene);
 }
 
 }  // namespace slideway

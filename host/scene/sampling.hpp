@@ -13,6 +13,23 @@ std::array<std::uint64_t, 4> philox(std::array<std::uint64_t, 4> counter, std::a
 /// FNV-1a of 64 bits: the same on every machine and in every version, unlike std::hash.
 std::uint64_t name_hash(std::string_view name);
 
+/// Independent numbers of one key: second word of the counter.
+enum class Stream : std::uint64_t { value, permutation, jitter, scramble, second_scramble };
+
+/// The numbers of one varied key: seed and hash of its name.
+struct StreamKey {
+    std::uint64_t seed;
+    std::uint64_t name;
+
+    /// Four words at an address of a stream; `sub` tells apart several calls for one index.
+    std::array<std::uint64_t, 4> words(Stream stream, std::uint64_t index, std::uint64_t sub = 0) const;
+    /// Uniform in (0, 1), an odd multiple of 2^-53.
+    double uniform(Stream stream, std::uint64_t index) const;
+};
+
+/// The odd multiple of 2^-53 in (0, 1) that the leading 52 bits of a word say.
+double unit_fraction(std::uint64_t word);
+
 /// Uniform in (0, 1), an odd multiple of 2^-53.  Key of the generator: seed and hash of the name; counter: member.
 /// So neither the order of the variations nor other keys, members or threads change what a member draws.
 double uniform_draw(std::uint64_t seed, std::uint64_t member, std::string_view name);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,11 +28,12 @@ struct Scene {
     std::uint64_t seed = 1;
     std::vector<double> sample_times;  // empty: no time series
     Selection quantities = 0;
-    Selection series = 0;               // state series included when sample_times is not empty
-    std::vector<Variation> variations;  // in the order of the file
-    Design design;                      // how members are spread over them
-    std::vector<Limit> limits;          // [study.limits]
-    std::vector<std::string> warnings;  // one line each: what was given and has no effect
+    Selection series = 0;                    // state series included when sample_times is not empty
+    std::vector<Variation> variations;       // in the order of the file
+    Design design;                           // how members are spread over them
+    std::shared_ptr<Sampler const> sampler;  // of the design, by prepare_sampler; none: made for each draw
+    std::vector<Limit> limits;               // [study.limits]
+    std::vector<std::string> warnings;       // one line each: what was given and has no effect
 };
 
 using Overrides = std::vector<std::pair<std::string, std::string>>;  // --set key=value, in order
@@ -46,8 +48,12 @@ Scene parse_scene(std::string const& text, std::string const& name, Overrides co
 /// Members of all columns of a sweep, else `members`.
 std::uint64_t member_count(Scene const& scene);
 
+/// Makes the sampler of the design as it is now; to be called again when variations, design, seed or members change.
+/// @throws SceneError if the design cannot have them.
+void prepare_sampler(Scene& scene);
+
 /// Inputs of one member, complete; `defect` tells whether the draw can be used.  Depends on the scene and the member's
-/// number only (Philox keyed by seed, member and key name), so any member can be drawn alone, on any thread or machine.
+/// number only (its design, seed and key names), so any member can be drawn alone, on any thread or machine.
 /// In a sweep members [0, members) are the starts of the first column, and so on: each column has the same starts.
 Inputs member_inputs(Scene const& scene, std::uint64_t member);
 

@@ -18,6 +18,9 @@ enum class StudyKind { ensemble, lyapunov, poincare, sweep, tolerance };
 inline constexpr std::string_view study_kind_names[] = {"ensemble", "lyapunov", "poincare", "sweep", "tolerance"};
 constexpr std::string_view name_of(StudyKind kind) { return study_kind_names[static_cast<int>(kind)]; }
 
+/// Every member from the start to the end time, with or without a time series; the others study orbits.
+constexpr bool runs_to_end(StudyKind kind) { return kind == StudyKind::ensemble || kind == StudyKind::tolerance; }
+
 /// A length of time: seconds, or revolutions of the member's own crank.
 struct Span {
     double value = 0;

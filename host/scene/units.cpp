@@ -99,8 +99,8 @@ struct Factor {
 
 std::string example_of(std::string_view unit) {
     static std::map<std::string_view, std::string_view> const examples = {
-        {"m", "mm"},   {"rad", "deg"}, {"rad/s", "rpm or deg/s"}, {"m/s", "mm/s"},
-        {"Pa", "GPa"}, {"kg", "g"},    {"s", "ms"},
+        {"m", "mm"}, {"rad", "deg"}, {"rad/s", "rpm or deg/s"}, {"m/s", "mm/s"}, {"Pa", "GPa"},
+        {"kg", "g"}, {"s", "ms"},
     };
     auto const found = examples.find(unit);
     return found == examples.end() ? fmt::format("use a unit like {}", unit)
@@ -149,11 +149,31 @@ double scaled(std::string_view number, double value, double factor) {
     return power_of_ten ? shifted(number, shift) : value * factor;
 }
 
+constexpr std::size_t longest_unit = 100;
+
+bool is_unit_text(std::string_view text) {
+    return text.size() <= longest_unit && text.find('\0') == std::string_view::npos;
+}
+
 }  // namespace
+
+double UnitFactor::operator()(std::string_view number, double value) const {
+    if (factor_ == 1 || !std::isfinite(value)) return value;
+    double const si = scaled(number, value, factor_);
+    return std::isnan(si) ? value * factor_ : si;  // beyond the range of double: infinite or zero
+}
+
+std::variant<UnitFactor, Problem> unit_factor(std::string_view given, std::string_view unit) {
+    if (!is_unit_text(given)) {
+        return Problem{"it is no unit", unit == "1" ? std::string("use a plain number") : example_of(unit)};
+    }
+    Factor const factor = factor_of(std::string(given), unit);
+    if (factor.problem) return *factor.problem;
+    return UnitFactor(factor.value);
+}
 
 std::variant<double, Problem> to_si(std::string_view text, std::string_view unit) {
     constexpr std::string_view blanks = " \t";
-    constexpr std::size_t longest_unit = 100;
     std::string const example =
         unit == "1" ? "use a plain number like 0.5" : fmt::format("use a text like \"1 {}\"", unit);
     text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
@@ -176,7 +196,7 @@ std::variant<double, Problem> to_si(std::string_view text, std::string_view unit
         return Problem{"a text needs a unit",
                        fmt::format("write the unit, \"{} {}\", or the number without quotes", number, unit)};
     }
-    if (rest.size() > longest_unit || rest.find('\0') != std::string_view::npos) {
+    if (!is_unit_text(rest)) {
         return Problem{"what follows the number is no unit", example};
     }
     Factor const factor = factor_of(std::string(rest), unit);

@@ -17,4 +17,17 @@ namespace slideway {
 /// @throws FileError when UDUNITS-2's database is not installed.
 std::variant<double, Problem> to_si(std::string_view text, std::string_view unit);
 
+/// From one unit to an SI unit, found once for many numbers; the bits are those of `to_si`.
+class UnitFactor {
+public:
+    explicit UnitFactor(double factor) : factor_(factor) {}
+    /// @param number its decimal digits without a leading +, @param value the same as a double; in SI units
+    double operator()(std::string_view number, double value) const;
+
+private:
+    double factor_;
+};
+/// The factor from `given` ("mm") to the SI unit `unit`, or why there is none.  @throws FileError as `to_si`
+std::variant<UnitFactor, Problem> unit_factor(std::string_view given, std::string_view unit);
+
 }  // namespace slideway

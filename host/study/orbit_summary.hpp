@@ -7,7 +7,7 @@
 
 #include "host/chaos/exponents.hpp"
 #include "host/output/result_reader.hpp"
-#include "host/study/statistics.hpp"
+#include "host/statistics/summary.hpp"
 
 namespace slideway {
 

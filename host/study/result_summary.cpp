@@ -20,7 +20,7 @@ std::string name_of(Status status) {
     return status_names[index];
 }
 
-std::vector<QuantitySummary> summarise_quantities(ResultReader const& results) {
+std::vector<QuantitySummary> summarise_quantities(ResultView const& results) {
     std::vector<double> const statuses = results.values("status");
     std::vector<QuantitySummary> summaries;
     for (QuantityInfo const& info : quantity_table) {
@@ -41,7 +41,7 @@ std::vector<QuantitySummary> summarise_quantities(ResultReader const& results) {
     return summaries;
 }
 
-std::vector<StatusCount> count_statuses(ResultReader const& results) {
+std::vector<StatusCount> count_statuses(ResultView const& results) {
     std::array<std::uint64_t, 256> counts{};
     for (double const status : results.values("status")) {
         ++counts[static_cast<unsigned char>(static_cast<signed char>(status))];
@@ -53,7 +53,7 @@ std::vector<StatusCount> count_statuses(ResultReader const& results) {
     return occurring;
 }
 
-std::vector<FailedMember> failed_members(ResultReader const& results, std::size_t limit) {
+std::vector<FailedMember> failed_members(ResultView const& results, std::size_t limit) {
     std::vector<double> const statuses = results.values("status");
     std::vector<double> const numbers = results.values("member");
     std::vector<double> const times = results.values("end_time");

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "host/output/result_reader.hpp"
-#include "host/study/statistics.hpp"
+#include "host/output/result_view.hpp"
+#include "host/statistics/summary.hpp"
 #include "kernels/status.hpp"
 
 namespace slideway {
@@ -18,14 +18,14 @@ struct QuantitySummary {
     Summary values;
 };
 /// In the order of the quantity table.
-std::vector<QuantitySummary> summarise_quantities(ResultReader const& results);
+std::vector<QuantitySummary> summarise_quantities(ResultView const& results);
 
 struct StatusCount {
     Status status;
     std::uint64_t members;
 };
 /// Statuses that occur; not_run last.
-std::vector<StatusCount> count_statuses(ResultReader const& results);
+std::vector<StatusCount> count_statuses(ResultView const& results);
 
 struct FailedMember {
     std::uint64_t member;
@@ -33,7 +33,7 @@ struct FailedMember {
     double time;  // [s] where it ended
 };
 /// The first `limit` members that ran and did not finish.
-std::vector<FailedMember> failed_members(ResultReader const& results, std::size_t limit);
+std::vector<FailedMember> failed_members(ResultView const& results, std::size_t limit);
 
 /// "finished", also "not_run".
 std::string name_of(Status status);

@@ -1,13 +1,12 @@
 #include "host/study/state_table.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <istream>
 
 #include <fmt/format.h>
 
+#include "host/scene/csv.hpp"
 #include "host/scene/suggest.hpp"
 
 namespace slideway {
@@ -22,49 +21,7 @@ struct Column {
     Key const* key = nullptr;
 };
 
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blank = " \t\r";
-    auto const first = text.find_first_not_of(blank);
-    if (first == text.npos) return {};
-    return text.substr(first, text.find_last_not_of(blank) - first + 1);
-}
-
-std::vector<std::string_view> split(std::string_view line) {
-    std::vector<std::string_view> cells;
-    for (;;) {
-        auto const comma = line.find(',');
-        cells.push_back(trimmed(line.substr(0, comma)));
-        if (comma == line.npos) return cells;
-        line.remove_prefix(comma + 1);
-    }
-}
-
-/// Reads lines and knows where it is.
-class Lines {
-public:
-    Lines(std::istream& in, std::string const& name) : in_(in), name_(name) {}
-
-    bool next() {
-        while (std::getline(in_, line_)) {
-            ++number_;
-            if (number_ == 1 && line_.starts_with("\xEF\xBB\xBF")) line_.erase(0, 3);  // byte order mark
-            if (!trimmed(line_).empty()) return true;
-        }
-        return false;
-    }
-    std::string const& text() const { return line_; }
-    [[noreturn]] void fail(std::string const& message) const {
-        throw SceneError(fmt::format("{}:{}: {}", name_, std::max(number_, 1), message));
-    }
-
-private:
-    std::istream& in_;
-    std::string const& name_;
-    std::string line_;
-    int number_ = 0;
-};
-
-Column column_of(std::string_view name, Lines const& lines) {
+Column column_of(std::string_view name, CsvReader const& lines) {
     Column column;
     column.name = name;
     if (name == "t") {
@@ -95,9 +52,9 @@ Column column_of(std::string_view name, Lines const& lines) {
     return column;
 }
 
-std::vector<Column> read_header(Lines const& lines) {
+std::vector<Column> read_header(CsvReader const& lines) {
     std::vector<Column> columns;
-    for (std::string_view const name : split(lines.text())) {
+    for (std::string const& name : lines.fields()) {
         Column column = column_of(name, lines);
         if (column.kind != Column::Kind::ignored) {
             for (Column const& other : columns) {
@@ -121,19 +78,13 @@ std::vector<Column> read_header(Lines const& lines) {
     return columns;
 }
 
-double number(std::string_view text, Column const& column, Lines const& lines) {
-    std::string_view digits = text;
-    if (digits.starts_with('+')) digits.remove_prefix(1);
+double number(std::string_view text, Column const& column, CsvReader const& lines) {
     double value = 0;
-    auto const [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    bool const whole = end == digits.data() + digits.size() && !digits.empty();
-    // A number below the smallest double is zero to it; from_chars tells no more than "out of range".
-    if (error == std::errc::result_out_of_range && whole) return std::strtod(std::string(text).c_str(), nullptr);
-    if (error != std::errc{} || !whole) lines.fail(fmt::format("column {}: '{}' is no number", column.name, text));
+    if (!read_plain_number(text, value)) lines.fail(fmt::format("column {}: '{}' is no number", column.name, text));
     return value;
 }
 
-Law law(std::string_view text, Lines const& lines) {
+Law law(std::string_view text, CsvReader const& lines) {
     if (text == "paper") return Law::paper;
     if (text == "conservative") return Law::conservative;
     lines.fail(fmt::format("column contact.law: '{}' is no law; use paper or conservative", text));
@@ -144,8 +95,8 @@ bool needs_part(Key const& key, double value) {
     return value != 0 || !(key.name.starts_with("way.") || key.name.starts_with("contact.chi_"));
 }
 
-void add_row(StateTable& table, std::vector<Column> const& columns, Scene const& scene, Lines const& lines) {
-    std::vector<std::string_view> const cells = split(lines.text());
+void add_row(StateTable& table, std::vector<Column> const& columns, Scene const& scene, CsvReader const& lines) {
+    std::vector<std::string> const& cells = lines.fields();
     if (cells.size() != columns.size()) {
         lines.fail(fmt::format("the row has {} columns, the header {}", cells.size(), columns.size()));
     }
@@ -198,7 +149,7 @@ StateTable start_state(Scene const& scene) {
 }
 
 StateTable read_state_table(std::istream& in, std::string const& name, Scene const& scene) {
-    Lines lines(in, name);
+    CsvReader lines(in, name);
     if (!lines.next()) lines.fail("the table is empty");
     std::vector<Column> const columns = read_header(lines);
     StateTable table;

@@ -8,6 +8,7 @@
 
 #include "host/output/result_merge.hpp"
 #include "host/output/result_reader.hpp"
+#include "host/study/statistics_groups.hpp"
 
 namespace slideway {
 namespace {
@@ -90,21 +91,42 @@ std::uint64_t StudyRun::left() const {
     return mine_.without(members_of(folder.listed())).count();
 }
 
-void StudyRun::finish(std::function<void(NetcdfFile&)> conclude) {
+bool StudyRun::finish(StopRequest const& stop, std::optional<ToleranceReport>& report) {
+    struct Interrupted {};
+    auto const pause = [&stop] {
+        if (stop.reason() == StopReason::signal) throw Interrupted();
+    };
     ShardFolder const folder(shard_folder_of(options_.output));
-    merge_study(scene_, folder, provenance(scene_, options_.isa, options_.threads), options_.output,
-                std::move(conclude));
+    try {
+        merge_study(scene_, folder, provenance(scene_, options_.isa, options_.threads), options_.output, report, pause);
+    } catch (Interrupted const&) {
+        return false;
+    }
     claim_->remove_folder();
+    return true;
+}
+
+bool asks_for_report(Scene const& scene) {
+    return scene.study == StudyKind::tolerance || (scene.study == StudyKind::ensemble && !scene.limits.empty());
 }
 
 std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, Provenance const& provenance,
-                          std::string const& output, std::function<void(NetcdfFile&)> conclude) {
+                          std::string const& output, std::optional<ToleranceReport>& report,
+                          std::function<void()> pause) {
+    std::function<void(NetcdfFile&)> conclude;
+    if (asks_for_report(scene)) {
+        conclude = [&](NetcdfFile& file) {
+            report = tolerance_report(ResultView(file), scene);
+            write_statistics(file, *report);
+        };
+    }
     std::vector<Shard> const shards = folder.listed();
     MemberSet const& members = folder.identity().members;
     std::uint64_t const left = members.without(members_of(shards)).count();
     std::string const completeness =
         left == 0 ? "complete" : fmt::format("{} of {} members not run", left, members.count());
-    merge_shards(folder, shards, {result_layout(scene, members), provenance, completeness, std::move(conclude)},
+    merge_shards(folder, shards,
+                 {result_layout(scene, members), provenance, completeness, std::move(conclude), std::move(pause)},
                  output);
     return left;
 }

@@ -4,13 +4,14 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "host/driver/ranks.hpp"
-#include "host/output/netcdf_file.hpp"
 #include "host/output/shard_claim.hpp"
 #include "host/study/ensemble_plan.hpp"
+#include "host/study/tolerance_report.hpp"
 
 namespace slideway {
 
@@ -62,8 +63,9 @@ public:
 
     /// Members that have not run, of the part that is this run's.
     std::uint64_t left() const;
-    /// Makes the result file of all shards and removes them.  @param conclude what is added to the file, may be empty
-    void finish(std::function<void(NetcdfFile&)> conclude);
+    /// Makes the result file of all shards and removes them.  @param report where that of a scene that `asks_for_report` goes
+    /// @return false if a signal came: there is no file then, and the shards are still there.
+    bool finish(StopRequest const& stop, std::optional<ToleranceReport>& report);
 
 private:
     void require_room() const;
@@ -76,9 +78,13 @@ private:
     StudyWork work_;
 };
 
+/// Whether a result of the scene has a report in its groups: a tolerance study, or an ensemble with limits.
+bool asks_for_report(Scene const& scene);
+
 /// A result file of the shards in a folder; members without one have status not_run.  The shards stay.
-/// @return how many members have none.  @throws FileError
+/// @param report where that of a scene that `asks_for_report` goes  @return how many members have none.  @throws FileError
 std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, Provenance const& provenance,
-                          std::string const& output, std::function<void(NetcdfFile&)> conclude);
+                          std::string const& output, std::optional<ToleranceReport>& report,
+                          std::function<void()> pause = {});
 
 }  // namespace slideway

@@ -2,7 +2,11 @@
 
 #include <sys/stat.h>
 
+#include <fmt/format.h>
+
 #include "host/backend/backend.hpp"
+#include "host/scene/design.hpp"
+#include "host/scene/distribution_forms.hpp"
 
 namespace slideway::testing {
 namespace {
@@ -104,11 +108,36 @@ TEST_F(Usage, AnswersQuestions) {
     }
     EXPECT_TRUE(run({"--version"}).out.starts_with("slideway 0."));
     std::string const list = run({"list"}).out;
-    for (char const* const name :
-         {"slider_crank", "conservative", "dopri5", "mode_time", "truncnorm", "joint.clearance_y",
-          "contact.young_modulus", "avx512", "ensemble", "rod_angular_velocity"}) {
+    for (char const* const name : {"slider_crank", "conservative", "dopri5", "mode_time", "truncnorm",
+                                   "joint.clearance_y", "contact.young_modulus", "avx512", "ensemble",
+                                   "rod_angular_velocity", "tolerance", "limits", "correlation"}) {
         EXPECT_NE(list.find(name), std::string::npos) << name;
     }
+    for (std::string_view const design : design_names) {
+        EXPECT_NE(list.find(fmt::format("\n  {:<30} ", design)), std::string::npos) << design;
+    }
+    for (DistributionForm const& form : distribution_forms()) {
+        EXPECT_NE(list.find(fmt::format("\n  {:<10} {}", form.name, listed_arguments(form))), std::string::npos)
+            << form.name;
+    }
+}
+
+TEST_F(Usage, OfCheckTellsHowMembersAreSpread) {
+    auto const design = [&](std::string const& lines) {
+        write("d.toml", "schema = 1\n[study]\nkind = \"tolerance\"\n" + lines +
+                            "\n[study.limits]\nfriction_loss = {max=1}\n\"mode_time[free]\" = {min=0}\n[study.vary]\n"
+                            "\"initial.y\" = {dist=\"unif\", low=0, high=1e-5}\n"
+                            "\"initial.z\" = {dist=\"triang\", low=0, mode=0, high=1e-5}\n");
+        return run({"check", "d.toml"}).out;
+    };
+    auto const has = [](std::string const& text, std::string const& line) {
+        return text.find("\n" + line + "\n") != text.npos;
+    };
+    EXPECT_TRUE(has(design("design = \"saltelli\"\nbase = 512"), "design       saltelli, 512 rows of 4 members"));
+    EXPECT_TRUE(has(design("design = \"lhs\"\nmembers = 30"), "design       lhs, 30 points of 2 keys"));
+    std::string const grid = design("design = \"grid\"\nlevels = 3");
+    EXPECT_TRUE(has(grid, "design       grid, 3 x 3 levels"));
+    EXPECT_TRUE(has(grid, "limits       of friction_loss, mode_time[free]"));
 }
 
 TEST_F(Usage, OfCheckTellsWhatIsInTheKernels) {

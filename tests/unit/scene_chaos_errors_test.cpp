@@ -50,7 +50,9 @@ TEST(SceneChaosErrors, KeysOfOtherStudies) {
     EXPECT_EQ(error("lyapunov", "quantities = [\"normal_force\"]"),
               "scene.toml:4: study.quantities is \"normal_force\" (it is a time series and the study stores none); "
               "remove it, or use kind = \"ensemble\"");
-    EXPECT_TRUE(contains(error("tolerance", ""), "this study is not available in this version"));
+    EXPECT_EQ(error("tolerance", "phase = 0"),
+              "scene.toml:4: study.phase is 0 (it has no effect with kind = \"tolerance\"); "
+              "remove it, or use kind = \"poincare\" or \"sweep\"");
 }
 
 TEST(SceneChaosErrors, KeysThatSayTheSame) {

@@ -225,6 +225,30 @@ TEST(SceneChaos, SpeedsMayVaryWhereAllCountRevolutions) {
     EXPECT_EQ(sweep(vary).variations.size(), 1u);
 }
 
+TEST(SceneChaos, StepsSufficeForTheSlowestCrankOfADistribution) {
+    auto const steps = [](std::string const& distribution) {
+        return study("poincare", "[study.vary]\n\"mechanism.crank_speed\" = {dist=" + distribution + "}")
+            .integrator.max_steps;
+    };
+    // Within 1 % of what 1 rad/s asks for: lognormal values 8 deviations below the median, exp(-0.008) of it.
+    auto const wanted = static_cast<double>(steps("\"const\", value=1"));
+    for (char const* const distribution :
+         {"\"triang\", low=1, mode=2, high=3", "\"values\", values=[2, -1, 4]", "\"weibull\", scale=1, shape=1, low=1",
+          "\"lognorm\", mean=1, sd=0.001", "\"lognorm\", mean=2, sd=0.001, low=1"}) {
+        bool const shifted = std::string(distribution).ends_with("low=1") && distribution[1] == 'l';
+        double const got = static_cast<double>(steps(distribution)) * (shifted ? 1.992 : 1);
+        EXPECT_NEAR(got / wanted, 1, 0.01) << distribution;
+    }
+    for (char const* const distribution :
+         {"\"triang\", low=-1, mode=2, high=3", "\"values\", values=[2, 0]", "\"weibull\", scale=3, shape=2, low=-1"}) {
+        EXPECT_TRUE(contains(testing::error_of("schema = 1\n[study]\nkind = \"poincare\"\n[study.vary]\n"
+                                               "\"mechanism.crank_speed\" = {dist=" +
+                                               std::string(distribution) + "}"),
+                             "mechanism.crank_speed may be 0"))
+            << distribution;
+    }
+}
+
 TEST(SceneChaos, ModesAreLocatedForOrbits) {
     auto const located = [](Scene const& scene) { return scene.integrator.locate_modes; };
     EXPECT_TRUE(located(study("lyapunov")));

@@ -90,9 +90,6 @@ TEST(SceneErrors, WhatLaterVersionsHave) {
     EXPECT_EQ(error_in("mechanism", "kind = \"carriage\""),
               "scene.toml:3: mechanism.kind is \"carriage\" (this mechanism is not available in this version); "
               "use \"slider_crank\"");
-    EXPECT_EQ(error_in("study", "kind = \"tolerance\""),
-              "scene.toml:3: study.kind is \"tolerance\" (this study is not available in this version); "
-              "use \"ensemble\"");
     EXPECT_TRUE(contains(error_in("mechanism", "kind = \"slider_cranc\""), "did you mean \"slider_crank\"?"));
     EXPECT_TRUE(contains(error_in("study", "kind = \"x\""), "there is no such study"));
 }

@@ -54,21 +54,42 @@ TEST(SceneFiles, AreThePapersCases) {
     }
 }
 
-/// Largest penetration of the sixteen apex–face pairs (model.md 3), by rotation matrices without any shortcut.
+struct Matrix {
+    double at[3][3];
+};
+
+/// Rz(ψ) Ry(ϑ) Rx(φ), ψ the pitch, ϑ the yaw, φ the roll (model.md 1).
+Matrix attitude(double roll, double yaw, double pitch) {
+    double const cr = std::cos(roll), sr = std::sin(roll), cy = std::cos(yaw), sy = std::sin(yaw), cp = std::cos(pitch),
+                 sp = std::sin(pitch);
+    return {{{cp * cy, cp * sy * sr - sp * cr, cp * sy * cr + sp * sr},
+             {sp * cy, sp * sy * sr + cp * cr, sp * sy * cr - cp * sr},
+             {-sy, cy * sr, cy * cr}}};
+}
+
+/// Largest penetration of the sixteen apex–face pairs (model.md 3), by rotation matrices without any shortcut, in the
+/// frame of the way.
 double deepest(Inputs const& in) {
-    double const cr = std::cos(in.roll), sr = std::sin(in.roll), cy = std::cos(in.yaw), sy = std::sin(in.yaw),
-                 cp = std::cos(in.pitch), sp = std::sin(in.pitch);
-    // second and third columns of Rz(ψ) Ry(ϑ) Rx(φ)
-    double const n_y[3] = {cp * sy * sr - sp * cr, sp * sy * sr + cp * cr, cy * sr};
-    double const n_z[3] = {cp * sy * cr + sp * sr, sp * sy * cr - cp * sr, cy * cr};
+    EXPECT_EQ(in.start_angle, 0);
+    Matrix const slider = attitude(in.roll, in.yaw, in.pitch), way = attitude(in.way_roll, in.way_yaw, in.way_pitch);
+    // The crank's pin is at (r, 0, 0) and the rod L long.
+    double const from_axis[3] = {in.crank_length + std::sqrt(in.rod_length * in.rod_length - in.y * in.y - in.z * in.z),
+                                 in.y - in.way_offset_y, in.z - in.way_offset_z};
+    double p[3] = {}, n[3][3] = {};  // A_lᵀ (u - u_l) and A_lᵀ A_k
+    for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            p[i] += way.at[k][i] * from_axis[k];
+            for (int j = 0; j < 3; ++j) n[i][j] += way.at[k][i] * slider.at[k][j];
+        }
+    }
     double largest = -1;
     for (int s1 : {-1, 1}) {
         for (int s2 : {-1, 1}) {
             for (int s3 : {-1, 1}) {
-                double const rho[3] = {s3 * in.slider_length / 2, s1 * in.way_width / 2 - in.y,
-                                       s2 * in.way_depth / 2 - in.z};
-                double const along_y = n_y[0] * rho[0] + n_y[1] * rho[1] + n_y[2] * rho[2];
-                double const along_z = n_z[0] * rho[0] + n_z[1] * rho[1] + n_z[2] * rho[2];
+                double const rho[3] = {s3 * in.slider_length / 2, s1 * in.way_width / 2 - p[1],
+                                       s2 * in.way_depth / 2 - p[2]};
+                double const along_y = n[0][1] * rho[0] + n[1][1] * rho[1] + n[2][1] * rho[2];
+                double const along_z = n[0][2] * rho[0] + n[1][2] * rho[1] + n[2][2] * rho[2];
                 largest = std::max({largest, s1 * along_y - in.way_width / 2 - in.clearance_y,
                                     s2 * along_z - in.way_depth / 2 - in.clearance_z});
             }
@@ -151,14 +172,65 @@ TEST(SceneFiles, TheSweepIsOfTheClearance) {
     expect_free_starts(scene);
 }
 
+TEST(SceneFiles, TheTolerancesAreASensitivityStudyWithinItsLimit) {
+    Scene const scene = read_scene(path_of("tolerance_0.1mm.toml"));
+    EXPECT_EQ(scene.study, StudyKind::tolerance);
+    EXPECT_EQ(scene.design.kind, DesignKind::saltelli);
+    EXPECT_EQ(scene.variations.size(), 8u);
+    EXPECT_EQ(scene.members, 256u * 10);
+    EXPECT_EQ(scene.integrator.end_time, 0.1);
+    EXPECT_EQ(scene.parts, (Parts{Law::conservative, Damping::rate, true, true}));
+    ASSERT_EQ(scene.limits.size(), 1u);
+    EXPECT_EQ(scene.limits[0].name(), "peak_normal_force");
+    EXPECT_EQ(scene.limits[0].high, 1000);
+    EXPECT_TRUE(scene.warnings.empty());
+    expect_free_starts(scene);
+}
+
+TEST(SceneFiles, TheTolerancesStartFreeAtEveryCornerOfTheirLimits) {
+    Scene const scene = read_scene(path_of("tolerance_0.1mm.toml"));
+    std::size_t const count = scene.variations.size();
+    for (unsigned corner = 0; corner < 1u << count; ++corner) {
+        Inputs in = scene.inputs;
+        for (std::size_t i = 0; i < count; ++i) {
+            Distribution const& d = scene.variations[i].distribution;
+            bool const bounded = d.kind == Distribution::Kind::truncated_normal;
+            double const low = bounded ? d.low : d.mean - 8 * d.sd, high = bounded ? d.high : d.mean + 8 * d.sd;
+            scene.variations[i].key->set(in, (corner >> i & 1u) != 0 ? high : low);
+        }
+        ASSERT_EQ(defect(in), std::nullopt);
+        EXPECT_LT(in.friction_kinetic, in.friction_static);
+        EXPECT_LT(deepest(complete_inputs(in)), 0) << corner;
+    }
+}
+
+TEST(SceneFiles, TheTableIsOfSevenMechanisms) {
+    Scene const scene = read_scene(path_of("tolerance_table.toml"));
+    EXPECT_EQ(scene.study, StudyKind::tolerance);
+    EXPECT_EQ(scene.design.kind, DesignKind::table);
+    EXPECT_EQ(scene.members, 7u);
+    EXPECT_TRUE(scene.warnings.empty());
+    MemberTable const& table = *scene.design.table;
+    EXPECT_EQ(table.values[0], 0.101e-3);
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        Inputs in = scene.inputs;
+        for (Variation const& variation : scene.variations) {
+            variation.key->set(in, table.values[row * table.columns + variation.column]);
+        }
+        ASSERT_EQ(defect(in), std::nullopt);
+        EXPECT_LT(deepest(complete_inputs(in)), 0) << row;
+    }
+}
+
 TEST(SceneFiles, ResolveToThemselves) {
     int files = 0;
     for (auto const& entry : std::filesystem::directory_iterator(SLIDEWAY_SCENES)) {
+        if (entry.path().extension() != ".toml") continue;
         std::string const resolved = resolved_toml(read_scene(entry.path().string()));
         EXPECT_EQ(resolved_toml(testing::scene_of(resolved)), resolved) << entry.path();
         ++files;
     }
-    EXPECT_GE(files, 11);
+    EXPECT_GE(files, 13);
 }
 
 }  // namespace

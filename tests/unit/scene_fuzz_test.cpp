@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/scene_fixture.hpp"
+#include "tests/unit/scene_tables.hpp"
 
 namespace slideway {
 namespace {
@@ -38,7 +39,8 @@ TEST(SceneFuzz, TruncationsReadOrAreRefused) {
 }
 
 TEST(SceneFuzz, TruncatedStudiesReadOrAreRefused) {
-    for (char const* file : {"/poincare_0.1mm.toml", "/lyapunov_0.1mm.toml", "/sweep_clearance.toml"}) {
+    for (char const* file :
+         {"/poincare_0.1mm.toml", "/lyapunov_0.1mm.toml", "/sweep_clearance.toml", "/tolerance_0.1mm.toml"}) {
         std::string const text = testing::read_text(std::string(SLIDEWAY_SCENES) + file);
         ASSERT_GT(text.size(), 500u);
         int accepted = 0;
@@ -53,6 +55,28 @@ TEST(SceneFuzz, TruncatedStudiesReadOrAreRefused) {
         }
         EXPECT_GT(accepted, 0);
     }
+}
+
+TEST(SceneFuzz, DamagedTablesReadOrAreRefused) {
+    testing::TableFolder const folder;
+    std::string const text = testing::read_text(SLIDEWAY_SCENES "/tolerance_table.csv");
+    ASSERT_GT(text.size(), 300u);
+    int accepted = 0, refused = 0;
+    auto const try_table = [&](std::string const& table) {
+        folder.write("a.csv", table);
+        std::string const error = folder.error("[friction]\n[study]\ndesign = \"table\"\ntable = \"a.csv\"");
+        EXPECT_TRUE(error.empty() || error.starts_with("a.csv:")) << error;
+        EXPECT_EQ(error.find_first_of("\n\r"), error.npos) << error;
+        ++(error.empty() ? accepted : refused);
+    };
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        try_table(text.substr(0, at));
+        for (char const* insert : {"\"", ",", "\n", "#", "[", "\xff", "e999"})
+            try_table(std::string(text).insert(at, insert));
+        try_table(std::string(text).insert(at, 1, '\0'));
+    }
+    EXPECT_GT(accepted, 100);
+    EXPECT_GT(refused, 100);
 }
 
 TEST(SceneFuzz, FlippedBytesReadOrAreRefused) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/scene_fixture.hpp"
+#include "tests/unit/scene_tables.hpp"
 
 namespace slideway {
 namespace {
@@ -16,6 +17,24 @@ void expect_equal(Distribution const& a, Distribution const& b) {
     EXPECT_EQ(a.sd, b.sd);
     EXPECT_EQ(a.low, b.low);
     EXPECT_EQ(a.high, b.high);
+    EXPECT_EQ(a.mode, b.mode);
+    EXPECT_EQ(a.scale, b.scale);
+    EXPECT_EQ(a.shape, b.shape);
+    EXPECT_EQ(a.list, b.list);
+}
+
+void expect_equal(Design const& a, Design const& b) {
+    EXPECT_EQ(a.kind, b.kind);
+    EXPECT_EQ(a.base, b.base);
+    EXPECT_EQ(a.levels, b.levels);
+    EXPECT_EQ(a.correlation.variations, b.correlation.variations);
+    EXPECT_EQ(a.correlation.matrix, b.correlation.matrix);
+    ASSERT_EQ(a.table == nullptr, b.table == nullptr);
+    if (a.table == nullptr) return;
+    EXPECT_EQ(a.table->path, b.table->path);
+    EXPECT_EQ(a.table->checksum, b.table->checksum);
+    EXPECT_EQ(a.table->columns, b.table->columns);
+    EXPECT_EQ(a.table->values, b.table->values);
 }
 
 void expect_equal(Scene const& a, Scene const& b) {
@@ -59,17 +78,26 @@ void expect_equal(Scene const& a, Scene const& b) {
     ASSERT_EQ(a.variations.size(), b.variations.size());
     for (std::size_t i = 0; i < a.variations.size(); ++i) {
         EXPECT_EQ(a.variations[i].key, b.variations[i].key);
+        EXPECT_EQ(a.variations[i].column, b.variations[i].column);
         expect_equal(a.variations[i].distribution, b.variations[i].distribution);
+    }
+    expect_equal(a.design, b.design);
+    ASSERT_EQ(a.limits.size(), b.limits.size());
+    for (std::size_t i = 0; i < a.limits.size(); ++i) {
+        EXPECT_EQ(a.limits[i].name(), b.limits[i].name());
+        EXPECT_EQ(a.limits[i].low, b.limits[i].low);
+        EXPECT_EQ(a.limits[i].high, b.limits[i].high);
     }
 }
 
-void expect_round_trip(std::string_view text) {
-    Scene const scene = scene_of(text);
+void expect_round_trip(Scene const& scene) {
     std::string const resolved = resolved_toml(scene);
     Scene const again = scene_of(resolved);
     expect_equal(scene, again);
     EXPECT_EQ(resolved_toml(again), resolved);
 }
+
+void expect_round_trip(std::string_view text) { expect_round_trip(scene_of(text)); }
 
 TEST(ResolvedScene, DefaultsReadBack) { expect_round_trip("schema = 1"); }
 
@@ -166,6 +194,72 @@ TEST(ResolvedScene, StudiesOfChaosReadBack) {
          "{dist=\"unif\", low=0, high=1e-5}"}) {
         expect_study_round_trip("sweep", lines);
     }
+}
+
+std::string const drawn_keys =
+    "\n[study.vary]\n\"initial.y\" = {dist=\"triang\", low=\"-1 um\", mode=0, high=\"2 um\"}\n"
+    "\"joint.clearance\" = {dist=\"lognorm\", mean=\"0.1 mm\", sd=\"7 um\"}\n"
+    "\"initial.vy\" = {dist=\"lognorm\", mean=1, sd=2, low=-1}\n"
+    "\"mechanism.slider_mass\" = {dist=\"weibull\", scale=\"10 g\", shape=2.5, low=\"0.1 kg\"}\n"
+    "\"initial.z\" = {dist=\"const\", value=0}\n"
+    "\"way.yaw\" = {dist=\"values\", values=[\"1 mrad\", 0, -2e-3]}\n";
+
+TEST(ResolvedScene, TolerancesReadBack) {
+    for (char const* lines :
+         {"members = 7", "members = 8\ndesign = \"lhs\"\nduration = 0.1\nsamples = 3", "design = \"sobol\"",
+          "design = \"saltelli\"\nbase = 16", "design = \"grid\"\nlevels = 3",
+          "design = \"lhs\"\n[study.correlation]\nkeys = [\"way.yaw\", \"initial.y\"]\nmatrix = [[1, 0.1], [0.1, 1]]",
+          "[study.limits]\npeak_normal_force = {max=\"2 kN\"}\n\"mode_time[free]\" = {min=\"1 ms\", max=3}\n"
+          "\"peak_tilt[yaw]\" = {min=-1e-3}"}) {
+        expect_study_round_trip("tolerance", "quantities = [\"mode_time\"]\n" + std::string(lines) + drawn_keys);
+    }
+    expect_study_round_trip("ensemble", "design = \"saltelli\"\nbase = 16\n" + drawn_keys);
+    expect_study_round_trip("poincare", "design = \"grid\"\nlevels = 2\n" + drawn_keys);
+}
+
+TEST(ResolvedScene, LongListsTakeSeveralLines) {
+    std::string values;
+    for (int i = 0; i < 1000; ++i) values += std::to_string(0.1 + 1.0 / (3 + i)) + ",\n";
+    expect_round_trip("schema = 1\n[study.vary]\n\"initial.y\" = {dist=\"values\", values=[" + values + "]}");
+    std::string vary = "[study.vary]\n", names, matrix;
+    int const n = 40;
+    for (int i = 0; i < n; ++i) {
+        std::string const name(keys()[static_cast<std::size_t>(i)].name);
+        if (name == "contact.restitution" || name == "contact.hertz_exponent" || name.starts_with("friction."))
+            continue;
+        vary += "\"" + name + "\" = {dist=\"unif\", low=0.1, high=0.2}\n";
+    }
+    Scene const plain = scene_of("schema = 1\n" + vary);
+    std::size_t const keys_that_vary = plain.variations.size();
+    for (std::size_t i = 0; i < keys_that_vary; ++i) {
+        names += "\n\"" + std::string(plain.variations[i].key->name) + "\",";
+        matrix += "\n[";
+        for (std::size_t j = 0; j < keys_that_vary; ++j) matrix += i == j ? "1," : "0.012345678901234567,";
+        matrix += "],";
+    }
+    expect_round_trip("schema = 1\n[study.correlation]\nkeys = [" + names + "]\nmatrix = [" + matrix + "]\n" + vary);
+}
+
+TEST(ResolvedScene, ATableReadsBackFromAnywhere) {
+    testing::TableFolder const folder;
+    folder.write("a b.csv", "initial.y [mm],friction.static\n0.1,0.2\n0.3,0.4\n");
+    Scene const scene = folder.read(
+        "[friction]\n[study]\ndesign = \"table\"\ntable = \"a b.csv\"\n[study.vary]\n"
+        "\"initial.z\" = {dist=\"unif\", low=0, high=1}");
+    expect_round_trip(scene);
+}
+
+TEST(ResolvedScene, AChangedTableChangesTheText) {
+    testing::TableFolder const folder;
+    auto const resolved = [&](std::string const& text) {
+        folder.write("a.csv", text);
+        return resolved_toml(folder.read("[study]\ndesign = \"table\"\ntable = \"a.csv\""));
+    };
+    std::string const text = resolved("initial.y\n1\n");
+    // FNV-1a of its bytes by an independent computation
+    EXPECT_TRUE(contains(text, "a.csv\"  # 1 rows, FNV-1a 2a0a894d3785630b\n")) << text;
+    EXPECT_NE(resolved("initial.y\n2\n"), text);
+    EXPECT_EQ(resolved("initial.y\n1\n"), text);
 }
 
 TEST(ResolvedScene, NumbersAreInSiUnits) {

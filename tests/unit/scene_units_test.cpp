@@ -115,6 +115,28 @@ TEST(Units, RefusesWhatIsNotFinite) {
     EXPECT_TRUE(is_refused("1e308 inch km/m", "m"));
 }
 
+TEST(Units, AFactorConvertsToTheSameBits) {
+    for (char const* unit : {"mm", "m", "inch", "um", "km"}) {
+        auto const factor = unit_factor(unit, "m");
+        ASSERT_TRUE(std::holds_alternative<UnitFactor>(factor)) << unit;
+        for (char const* number : {"0.1", "-3", "7e-3", "1.25e+2", "0", "-0.3333333333333333"}) {
+            double const value = std::strtod(number, nullptr);
+            EXPECT_EQ(std::get<UnitFactor>(factor)(number, value),
+                      std::get<double>(to_si(std::string(number) + " " + unit, "m")))
+                << number << " " << unit;
+        }
+    }
+    UnitFactor const km = std::get<UnitFactor>(unit_factor("km", "m")),
+                     mm = std::get<UnitFactor>(unit_factor("mm", "m"));
+    EXPECT_EQ(km("1e308", 1e308), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(mm("1e-400", 0.0), 0.0);
+    EXPECT_TRUE(std::isnan(mm("nan", std::nan(""))));
+    for (char const* unit : {"kg", "bogus", "", "rad"}) {
+        EXPECT_TRUE(std::holds_alternative<Problem>(unit_factor(unit, "m"))) << unit;
+    }
+    EXPECT_TRUE(std::holds_alternative<Problem>(unit_factor(std::string(101, 'm'), "m")));
+}
+
 TEST(Units, ThreadsMayConvertAtOnce) {
     std::vector<std::thread> threads;
     std::vector<int> wrong(4, 0);

@@ -1,4 +1,4 @@
-#include "host/study/statistics.hpp"
+#include "host/statistics/summary.hpp"
 
 #include <cmath>
 #include <limits>
@@ -81,6 +81,23 @@ TEST(Summary, OfAnInfiniteNumberHasNoSpread) {
     EXPECT_EQ(s.mean, infinity);
     EXPECT_TRUE(std::isnan(s.sd));
     EXPECT_EQ(s.max, infinity);
+}
+
+TEST(MeanInterval, IsThatOfStudent) {
+    // Mean 3, sd √2.5, n = 5; t(4, 0.975) = 2.776445, t(4, 0.95) = 2.131847 of the printed tables.
+    Summary const s = summarise(std::vector<double>{1, 2, 3, 4, 5});
+    Interval const wide = mean_interval(s), narrow = mean_interval(s, 0.9);
+    EXPECT_NEAR(wide.low, 3 - 2.776445 * std::sqrt(0.5), 1e-6);
+    EXPECT_NEAR(wide.high, 3 + 2.776445 * std::sqrt(0.5), 1e-6);
+    EXPECT_NEAR(narrow.high, 3 + 2.131847 * std::sqrt(0.5), 1e-6);
+}
+
+TEST(MeanInterval, NeedsASpread) {
+    EXPECT_TRUE(std::isnan(mean_interval(summarise(std::vector<double>{5})).low));
+    EXPECT_TRUE(std::isnan(mean_interval(summarise(std::vector<double>{1, infinity})).high));
+    Interval const constant = mean_interval(summarise(std::vector<double>{2, 2, 2}));
+    EXPECT_EQ(constant.low, 2);
+    EXPECT_EQ(constant.high, 2);
 }
 
 }  // namespace

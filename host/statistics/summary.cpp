@@ -1,9 +1,11 @@
-#include "host/study/statistics.hpp"
+#include "host/statistics/summary.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
+
+#include <boost/math/distributions/students_t.hpp>
 
 namespace slideway {
 namespace {
@@ -47,6 +49,14 @@ Summary summarise(std::span<double const> values) {
     summary.median = quantile(sorted, 0.5);
     summary.max = sorted.back();
     return summary;
+}
+
+Interval mean_interval(Summary const& summary, double level) {
+    if (!std::isfinite(summary.sd)) return {};
+    auto const n = static_cast<double>(summary.count);
+    boost::math::students_t const distribution(n - 1);
+    double const half = boost::math::quantile(distribution, 0.5 + 0.5 * level) * summary.sd / std::sqrt(n);
+    return {summary.mean - half, summary.mean + half};
 }
 
 }  // namespace slideway

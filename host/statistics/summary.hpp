@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <span>
 
+#include "host/statistics/interval.hpp"
+
 namespace slideway {
 
 /// Of the numbers that are not NaN; all NaN when there are none.
@@ -15,6 +17,11 @@ struct Summary {
 };
 
 Summary summarise(std::span<double const> values);
+
+/// Confidence interval of the mean of independent draws by Student's t: mean ± t(n-1, (1+level)/2) · sd/√n.
+/// Source: Student (1908), The probable error of a mean, Biometrika 6.  Exact for normal draws; of others for large n.
+/// @param level in (0, 1).  @return in the unit of the values; NaN without a finite sd (fewer than two numbers).
+Interval mean_interval(Summary const& summary, double level = 0.95);
 
 /// Sample quantile by linear interpolation (type 7 of Hyndman and Fan 1996): with h = (n-1)p, the value is
 /// x[⌊h⌋] + (h - ⌊h⌋)(x[⌊h⌋+1] - x[⌊h⌋]).

@@ -1,0 +1,40 @@
+// Tables of comma-separated values, row by row.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace slideway {
+
+/// Reads rows and knows where it is.  Empty lines and lines that begin with # are skipped, blanks around fields too.
+/// A field in double quotes may hold commas, and "" for a quote; it ends on its own line.
+class CsvReader {
+public:
+    CsvReader(std::istream& in, std::string name) : in_(in), name_(std::move(name)) {}
+
+    /// The next row, if there is one.  @throws SceneError where a quote does not end
+    bool next();
+    std::vector<std::string> const& fields() const { return fields_; }
+
+    std::string const& name() const { return name_; }
+    int line() const;                                        // of the row, from 1
+    std::string where() const;                               // "members.csv:3"
+    [[noreturn]] void fail(std::string_view message) const;  // SceneError `members.csv:3: message`
+
+private:
+    void split();
+
+    std::istream& in_;
+    std::string name_;
+    std::string text_;
+    std::vector<std::string> fields_;
+    int number_ = 0;
+};
+
+/// Whether the text is one number and nothing else, with or without a +: nan and inf are.  Beyond the range of double
+/// it is infinite or zero.
+bool read_plain_number(std::string_view text, double& value);
+
+}  // namespace slideway

@@ -1,0 +1,23 @@
+// Share of members with a property.
+#pragma once
+
+#include <cstdint>
+
+#include "host/statistics/interval.hpp"
+
+namespace slideway {
+
+struct Proportion {
+    std::uint64_t successes = 0, trials = 0;
+    double value = std::numeric_limits<double>::quiet_NaN();  // successes / trials; NaN without trials
+    Interval interval;
+};
+
+/// Score interval of a proportion p̂ = k/n of independent trials: the p with |p̂ - p| <= z √(p(1-p)/n), that is
+/// (p̂ + z²/2n ± z √(p̂(1-p̂)/n + z²/4n²)) / (1 + z²/n), z the (1+level)/2 quantile of the normal distribution.  Its
+/// lower bound is 0 for k = 0 and its upper one 1 for k = n, both exactly.
+/// Source: Wilson (1927), Probable inference, the law of succession, and statistical inference, JASA 22, 209.
+/// @param successes k <= trials n.  @param level in (0, 1).  @return [0, 1] as interval without trials.
+Proportion proportion(std::uint64_t successes, std::uint64_t trials, double level = 0.95);
+
+}  // namespace slideway

@@ -1,0 +1,30 @@
+// Quantiles of a sample with intervals that assume no distribution.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "host/statistics/interval.hpp"
+
+namespace slideway {
+
+struct QuantileEstimate {
+    double p;      // probability
+    double value;  // sample quantile, type 7
+    Interval interval;
+};
+
+/// Confidence interval of the p-quantile of n independent draws by two of their order statistics.  The number of draws
+/// below the quantile is B ~ Bin(n, p), so P(x(r) > q) = P(B <= r-1) and P(x(s) < q) = P(B >= s), both at most: the
+/// lower bound is x(r) with the largest r of P(B <= r-1) <= (1-level)/2, the upper one x(s) with the smallest s of
+/// P(B >= s) <= (1-level)/2.  It covers the quantile of any distribution with at least `level`.
+/// Source: Conover (1999), Practical Nonparametric Statistics, 3.2; Hahn and Meeker (1991), Statistical Intervals, 5.2.
+/// @param sorted ascending, no NaN.  @param p, level in (0, 1).
+/// @return in the unit of the values; a bound for which n is too small (no such rank) is NaN.
+Interval quantile_interval(std::span<double const> sorted, double p, double level = 0.95);
+
+/// Sample quantiles with their intervals, one for each probability.
+std::vector<QuantileEstimate> estimate_quantiles(std::span<double const> sorted, std::span<double const> probabilities,
+                                                 double level = 0.95);
+
+}  // namespace slideway

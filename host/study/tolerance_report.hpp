@@ -1,0 +1,106 @@
+// What a tolerance study concludes: distributions, yields and the influence of what varies.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/output/result_view.hpp"
+#include "host/scene/scene.hpp"
+#include "host/statistics/correlation.hpp"
+#include "host/statistics/histogram.hpp"
+#include "host/statistics/proportion.hpp"
+#include "host/statistics/quantile_interval.hpp"
+#include "host/statistics/sobol_indices.hpp"
+#include "host/statistics/summary.hpp"
+#include "host/study/result_summary.hpp"
+
+namespace slideway {
+
+inline constexpr double confidence_level = 0.95;  // of all intervals
+inline constexpr double reported_quantiles[] = {0.001, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 0.999};
+
+/// One number per member: a quantity, or one of its columns.
+struct QuantityColumn {
+    std::string quantity;   // name of the variable: "mode_time"
+    std::string dimension;  // of the labels: "mode_class"; "" for a quantity of one column
+    std::string label;      // "free"; "" likewise
+    std::size_t index = 0;  // along the dimension
+    std::string unit;
+    std::string long_name;
+    std::string name() const { return label.empty() ? quantity : quantity + "[" + label + "]"; }
+};
+
+/// Of the draws that finished.
+struct ColumnStatistics {
+    QuantityColumn column;
+    Summary summary;
+    Interval mean;                            // by Student's t
+    std::vector<QuantileEstimate> quantiles;  // [reported_quantiles]
+    Histogram histogram;
+};
+
+struct LimitYield {
+    Limit limit;
+    std::string unit;
+    Proportion met;  // of the draws that ran
+};
+
+struct ColumnIndices {
+    QuantityColumn column;
+    SobolIndices indices;              // [inputs]
+    std::vector<std::size_t> ranking;  // inputs, the largest total index first; those without an index last
+};
+
+/// Of a saltelli design.
+struct IndexReport {
+    std::uint64_t rows = 0;        // of which the file holds a member
+    std::uint64_t failed = 0;      // left out: a member failed
+    std::uint64_t incomplete = 0;  // left out: a member is not in the file or did not run
+    std::vector<ColumnIndices> columns;
+    std::uint64_t used() const { return rows - failed - incomplete; }
+};
+
+struct ColumnCorrelations {
+    QuantityColumn column;
+    std::size_t members = 0;                 // used: finished, with a number
+    std::vector<CorrelationEstimate> ranks;  // [inputs], Spearman's
+    StandardisedRegression regression;       // [inputs]
+    std::vector<std::size_t> ranking;        // inputs, the largest magnitude of the rank correlation first
+};
+
+struct ToleranceReport {
+    std::string policy;     // whom the numbers are of, in words
+    std::string intervals;  // what the intervals mean, in words
+    DesignKind design = DesignKind::mc;
+    std::vector<StatusCount> statuses;  // of all members of the file
+    std::vector<StatusCount> draws;     // of those that distributions and yields are of
+    std::vector<std::string> inputs;    // dotted keys of what varies
+    std::vector<ColumnStatistics> columns;
+    std::vector<LimitYield> limits;                // in the scene's order
+    std::optional<Proportion> all_met;             // if there are limits
+    std::optional<IndexReport> indices;            // of a saltelli design
+    std::vector<ColumnCorrelations> correlations;  // of any other
+};
+
+/// Members that take part in correlations, at most: of more, every k-th one in the order of their numbers.
+inline constexpr std::size_t most_correlated = std::size_t{1} << 20;
+
+/// Statistics of a result of the study `tolerance`, by this policy:
+/// - moments, quantiles and histograms are of members that finished;
+/// - members that failed are counted by status, and meet no limit;
+/// - members that did not run are counted, and left out everywhere else;
+/// - of a saltelli design distributions and yields are of the 2N members of A and B, each a draw of all inputs; rows
+///   with a member that failed or is missing are left out of the indices whole, and counted.
+/// Members are known by their number (variable `member`), so the file may hold a part of the design, in any order.  One
+/// column of all members is in memory at a time, and the inputs of at most `most_correlated` members.
+/// Intervals are those of independent draws (so too wide for lhs, sobol and saltelli, whose draws are spread more
+/// evenly); of grid and table designs, whose members are no random draws, there are none.
+/// @throws FileError if the result lacks a quantity that a limit names, or its members are not those of the scene's
+/// design.
+ToleranceReport tolerance_report(ResultView const& results, Scene const& scene);
+
+}  // namespace slideway
