@@ -13,8 +13,8 @@ TEST_F(StoppedRun, OutOfTimeLeavesNoFile) {
     Outcome const outcome = run_scene({"--max-hours", "0"});
     EXPECT_EQ(outcome.code, 5);
     EXPECT_EQ(outcome.err,
-              "slideway: stopped early (--max-hours): 37 members have not run; those that did are kept in s.nc.shards; "
-              "add --resume to go on\n");
+              "slideway: stopped early (--max-hours): 37 members have not run; those that did are kept in s.nc.shards: "
+              "add --resume to go on, or make a file of them with slideway merge\n");
     EXPECT_FALSE(std::filesystem::exists(path("s.nc")));
     EXPECT_TRUE(std::filesystem::exists(path("s.nc.shards/run.toml")));
 }

@@ -19,7 +19,7 @@ TEST(BlockSizes, AreMultiplesOfTheLanesWithinTheMemory) {
             for (std::uint64_t const members : {1u, 10u, 1024u, 1000000u}) {
                 BlockSizer sizer(sizes_of(lanes), members, workers);
                 for (double const seconds : {0.0, 1e-6, 1.0, 1e6}) {
-                    sizer.measured(seconds > 0 ? 10 : 0, seconds);
+                    sizer.measured(seconds > 0 ? 10 : 0, seconds, 1);
                     for (std::uint64_t left = members; left > 0; left /= 3) {
                         std::uint64_t const size = sizer.next(left);
                         EXPECT_GE(size, lanes);
@@ -49,26 +49,38 @@ TEST(BlockSizes, OfALargeEnsembleBeginWithATrial) {
 
 TEST(BlockSizes, TakeTheTimeThatABlockShould) {
     BlockSizer sizer(sizes_of(8), 1'000'000, 4);
-    sizer.measured(64, 0.128);  // 2 ms a member: 1000 in two seconds
+    sizer.measured(64, 0.128, 1);  // 2 ms a member: 1000 in two seconds
     EXPECT_EQ(sizer.next(1'000'000), 1000u);
-    sizer.measured(1000, 4);                 // 4 ms: the latest counts
+    sizer.measured(1000, 4, 1);              // 4 ms: the latest counts
     EXPECT_EQ(sizer.next(1'000'000), 504u);  // 500 in whole packs of eight
-    sizer.measured(504, 504e-9);
+    sizer.measured(504, 504e-9, 1);
     EXPECT_EQ(sizer.next(1'000'000), 4096u);  // no more than fit
-    sizer.measured(64, 640);
+    sizer.measured(64, 640, 1);
     EXPECT_EQ(sizer.next(1'000'000), 64u);  // no fewer than keep the lanes busy
+}
+
+TEST(BlockSizes, AreLargeBesideWhatTheirEndsLeaveIdle) {
+    BlockSizer sizer(sizes_of(8), 1'000'000, 4);
+    sizer.measured(64, 64, 0.8);  // lanes stood idle for a quarter of 64 members' work, and 40 times that is 640
+    EXPECT_EQ(sizer.next(1'000'000), 640u);
+    sizer.measured(640, 640, 1);  // the dearest end counts
+    EXPECT_EQ(sizer.next(1'000'000), 640u);
+    EXPECT_EQ(sizer.next(40), 16u);  // a worker's share at most, in whole packs
+    sizer.measured(640, 640, 0.5);   // 640 idle members ask for more than fits the memory
+    EXPECT_EQ(sizer.next(1'000'000), 4096u);
 }
 
 TEST(BlockSizes, IgnoreAMeasurementOfNothing) {
     BlockSizer sizer(sizes_of(8), 1'000'000, 4);
-    sizer.measured(0, 1);
-    sizer.measured(64, 0);
+    sizer.measured(0, 1, 1);
+    sizer.measured(64, 0, 1);
+    sizer.measured(64, 1, 0);
     EXPECT_EQ(sizer.next(1'000'000), 64u);
 }
 
 TEST(BlockSizes, ShrinkTowardsTheEnd) {
     BlockSizer sizer(sizes_of(8), 100'000, 4);
-    sizer.measured(64, 64e-6);
+    sizer.measured(64, 64e-6, 1);
     std::uint64_t left = 100'000, before = 4096, blocks_of_the_end = 0;
     while (left > 0) {
         std::uint64_t const size = sizer.next(left);
@@ -88,7 +100,7 @@ TEST(BlockSizes, AreWhatWasAskedFor) {
     sizes.fixed = 37;
     BlockSizer sizer(sizes, 1'000'000, 4);
     EXPECT_EQ(sizer.next(1'000'000), 37u);
-    sizer.measured(37, 1000);
+    sizer.measured(37, 1000, 1);
     EXPECT_EQ(sizer.next(1), 37u);
 }
 

@@ -80,7 +80,7 @@ protected:
             std::string const& folder;
             ~Cleaner() { std::filesystem::remove_all(folder); }
         } const cleaner{shards};
-        merge_shards(from, listed, {layout, provenance, completeness, std::move(conclude)}, file);
+        merge_shards(from, listed, {layout, provenance, completeness, std::move(conclude), {}}, file);
     }
 
 private:

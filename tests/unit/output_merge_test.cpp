@@ -217,13 +217,39 @@ TEST_F(Merge, RefusesADamagedShardByItsName) {
     std::string const victim = shards + "/members-0000000020.nc";
     testing::flip_bit(victim, fs::file_size(victim) / 2);
     try {
-        merge_shards(folder, listed, {layout(), {}, "", {}}, path());
+        merge_shards(folder, listed, {layout(), {}, "", {}, {}}, path());
         FAIL() << "was merged";
     } catch (FileError const& error) {
         EXPECT_EQ(std::string(error.what()), victim + ": is not what was written (its checksum differs)");
     }
     EXPECT_EQ(testing::bytes_of(path()), "a former file");
     EXPECT_FALSE(exists("out.nc.part"));
+}
+
+TEST_F(Merge, ThatIsInterruptedLeavesNoFileAndAllShards) {
+    std::string const shards = shards_of({"p", run_members(), ""});
+    FakeBlock const one({3, 4}), other({20, 21});
+    put_blocks(shards, layout(), {}, {one.view(), other.view()});
+    ShardFolder const folder(shards);
+    struct Interrupted {};
+    int asked = 0, at = 0;
+    auto const pause = [&] {
+        if (asked++ == at) throw Interrupted();
+    };
+    // Whenever it comes, until the file is whole.
+    for (;; ++at) {
+        asked = 0;
+        try {
+            merge_shards(folder, folder.listed(), {layout(), {}, "", {}, pause}, path());
+            break;
+        } catch (Interrupted const&) {
+            EXPECT_FALSE(exists("out.nc"));
+            EXPECT_FALSE(exists("out.nc.part"));
+            EXPECT_EQ(members_of(folder.listed()).count(), 4u);
+        }
+    }
+    EXPECT_GE(at, 2);
+    EXPECT_TRUE(exists("out.nc"));
 }
 
 // ---- a shard alone ----
