@@ -43,7 +43,8 @@ public:
     RunIdentity const& identity() const { return identity_; }
     /// What the manifests list, by first member; `read` tells whether a file is what it was.
     std::vector<Shard> listed() const;
-    /// Those that are: reads them all.  @param damaged the others, but for those whose members or whose name another one has by now
+    /// Those that are: reads them all.  @param damaged the others, but for those whose members or whose name another one
+    /// has by now
     std::vector<Shard> intact(std::vector<Shard>& damaged) const;
     /// @throws FileError if the file is not what the manifest says.
     std::vector<std::byte> read(Shard const& shard) const;
