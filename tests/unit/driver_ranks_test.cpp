@@ -184,6 +184,20 @@ TEST_F(RanksOfAJob, OfAnotherMpiAreRefused) {
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
 }
 
+TEST_F(RanksOfAJob, OfABuildWithoutMpiAreRefused) {
+    // Each of them would run everything.
+    std::string const lone = "'" SLIDEWAY_LONE_PROGRAM "' abandon";
+    ShellOutcome const two = shell(mpirun(2) + lone);
+    EXPECT_EQ(two.code, 2) << two.out;
+    EXPECT_EQ(two.out, "");
+    EXPECT_NE(two.err.find("says that this is one of 2 processes, but this slideway was built without MPI"),
+              std::string::npos)
+        << two.err;
+    EXPECT_EQ(shell(mpirun(1) + lone).code, 0);
+    EXPECT_EQ(shell(lone).code, 0);
+    EXPECT_EQ(shell("PMIX_RANK=1 " + lone).code, 2);
+}
+
 TEST(RankAlone, HasAllToItselfWithoutMpi) {
     auto const ranks = Ranks::join();
     EXPECT_EQ(ranks->rank(), 0);
