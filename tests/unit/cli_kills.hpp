@@ -49,8 +49,8 @@ protected:
 
     /// What was finished before is still there, and nobody ran twice.
     void expect_kept() {
+        if (std::filesystem::exists(path("o.nc"))) return;  // all is in there, and the folder is on its way out
         Shards const now = shards();
-        if (!has_shards()) return;  // killed before the first file, or after the last
         for (auto const& [name, members] : before_.listed) {
             auto const kept = now.listed.find(name);
             ASSERT_NE(kept, now.listed.end()) << name;

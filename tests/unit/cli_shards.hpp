@@ -91,17 +91,31 @@ protected:
     }
 
 private:
+    /// FNV-1a of 64 bits as its authors define it, in hexadecimal digits.
+    static std::string hash_of_bytes(std::string const& bytes) {
+        std::uint64_t hash = 0xcbf29ce484222325;
+        for (char const byte : bytes) {
+            hash ^= static_cast<unsigned char>(byte);
+            hash *= 0x100000001b3;
+        }
+        char digits[17];
+        std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
+        return digits;
+    }
+
+    /// `name bytes checksum members checksum-of-the-line`
     void read_line(std::string const& line, Shards& found) const {
         std::istringstream words(line);
-        std::string file;
-        std::optional<MemberSet> members;
-        for (std::string word; words >> word;) {
-            if (word.starts_with("members-") && word.ends_with(".nc")) file = word;
-            members = MemberSet::parse(word);  // the last word
-        }
-        if (file.empty()) return;
-        ASSERT_TRUE(members) << line;
+        std::string file, checksum, member_text, own;
+        std::uintmax_t bytes = 0;
+        words >> file >> bytes >> checksum >> member_text >> own;
+        auto const members = MemberSet::parse(member_text);
+        ASSERT_TRUE(words && members) << line;
+        EXPECT_TRUE(file.starts_with("members-")) << line;
+        EXPECT_EQ(std::filesystem::file_size(shard_folder() / file), bytes) << line;
         EXPECT_FALSE(found.listed.contains(file)) << line;
+        EXPECT_EQ(hash_of_bytes(file_text(shard_folder() / file)), checksum) << line;
+        EXPECT_EQ(hash_of_bytes(line.substr(0, line.rfind(' '))), own);
         ResultReader const results((shard_folder() / file).string());
         EXPECT_EQ(results.stored_hash(), results.computed_hash()) << line;
         std::vector<std::uint64_t> inside;
