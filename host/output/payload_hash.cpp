@@ -57,20 +57,27 @@ void add_variable(Fnv1a& hash, NetcdfFile const& file, NetcdfFile::Variable cons
     }
 }
 
-void add_group(Fnv1a& hash, NetcdfFile const& group) {
-    for (NetcdfFile::Variable const& variable : group.variables()) add_variable(hash, group, variable);
+void add_group(Fnv1a& hash, NetcdfFile const& group, bool by_name) {
+    auto variables = group.variables();
+    if (by_name)
+        std::sort(variables.begin(), variables.end(), [](auto const& a, auto const& b) { return a.name < b.name; });
+    for (NetcdfFile::Variable const& variable : variables) add_variable(hash, group, variable);
     for (std::string const& name : group.groups()) {
         hash.add(name);
-        add_group(hash, group.group(name));
+        add_group(hash, group.group(name), by_name);
     }
+}
+
+std::string hash_of(NetcdfFile const& file, bool by_name) {
+    Fnv1a hash;
+    add_group(hash, file, by_name);
+    return fmt::format("{:016x}", hash.value());
 }
 
 }  // namespace
 
-std::string payload_hash(NetcdfFile const& file) {
-    Fnv1a hash;
-    add_group(hash, file);
-    return fmt::format("{:016x}", hash.value());
-}
+std::string payload_hash(NetcdfFile const& file) { return hash_of(file, false); }
+
+std::string payload_hash_by_name(NetcdfFile const& file) { return hash_of(file, true); }
 
 }  // namespace slideway

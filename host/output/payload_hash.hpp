@@ -31,4 +31,8 @@ private:
 /// other threads or another compiler keep their hash.  @return 16 hexadecimal digits.
 std::string payload_hash(NetcdfFile const& file);
 
+/// What `payload_hash` of a file that is made in memory will be for its readers: it does not keep the order of definition, and netCDF
+/// then reads variables by name.
+std::string payload_hash_by_name(NetcdfFile const& file);
+
 }  // namespace slideway

@@ -158,7 +158,7 @@ ShardImage shard_image(std::string const& name, ResultLayout layout, Provenance 
     ResultVariables const ids = define_result(file, layout, provenance);
     BlockRows(file, layout, ids, block, rows).write(study);
     file.put_text(NetcdfFile::global, "completeness", "shard");
-    file.put_text(NetcdfFile::global, "payload_hash", payload_hash(file));
+    file.put_text(NetcdfFile::global, "payload_hash", payload_hash_by_name(file));
     image.bytes = file.close_to_bytes();
     return image;
 }
