@@ -48,7 +48,7 @@ std::string count_text(std::uint64_t members) {
 
 ShardClaim::ShardClaim(std::string folder, Wanted const& wanted) : folder_(std::move(folder)) {
     if (mkdir(folder_.c_str(), 0777) == 0) {
-        sync_folder(folder_of(folder_));
+        sync_name(folder_);
     } else if (errno != EEXIST) {
         throw FileError(fmt::format("{}: cannot create the folder: {}", folder_, std::strerror(errno)));
     }
