@@ -110,7 +110,7 @@ int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& 
          StopRequest const& stop) {
     print_field("scene", scene.title.empty() ? scene.path : fmt::format("{} ({})", scene.title, scene.path));
     if (run.is_complete()) {
-        fmt::print(stderr, "resuming: {} is complete already\n", options.output);
+        if (!arguments.quiet) fmt::print(stderr, "resuming: {} is complete already\n", options.output);
         return conclude(arguments, scene, options, false, {});
     }
     std::error_code ignored;

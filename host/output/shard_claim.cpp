@@ -71,6 +71,9 @@ ShardClaim::ShardClaim(std::string folder, Wanted const& wanted) : folder_(std::
     }
 }
 
+ShardClaim::ShardClaim(std::string folder)
+    : folder_(std::move(folder)), whole_(locked(folder_, std::string(shard_names::lock), LOCK_EX | LOCK_NB)) {}
+
 ShardClaim::~ShardClaim() { release(); }
 
 void ShardClaim::release() {
@@ -122,6 +125,14 @@ void ShardClaim::remove_folder() {
     if (rmdir(folder_.c_str()) != 0 && errno != ENOTEMPTY && errno != EEXIST) {
         throw FileError(fmt::format("{}: cannot remove the folder: {}", folder_, std::strerror(errno)));
     }
+}
+
+void ShardClaim::remove_remains(std::string const& folder) {
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(folder, ignored)) return;
+    ShardClaim claim(folder);
+    // Another process may have begun anew meanwhile.
+    if (!ShardFolder::exists(folder)) claim.remove_folder();
 }
 
 }  // namespace slideway
