@@ -27,7 +27,11 @@ template <class Function> Function* real(Function*, char const* name) {
     return reinterpret_cast<Function*>(symbol);
 }
 
-constexpr bool writes_file(int flags) { return (flags & (O_WRONLY | O_RDWR | O_CREAT | O_TRUNC)) != 0; }
+/// Not so where a library looks whether a file is there, and it is not: that fails anyhow.
+bool writes_file(int at, char const* path, int flags) {
+    if ((flags & (O_WRONLY | O_RDWR | O_CREAT | O_TRUNC)) == 0) return false;
+    return (flags & O_CREAT) != 0 || syscall(SYS_faccessat, at, path, F_OK) == 0;
+}
 
 bool writes_file(char const* mode) { return strpbrk(mode, "wa+") != nullptr; }
 
@@ -49,28 +53,28 @@ extern "C" {
 int open(char const* path, int flags, ...) {
     SLIDEWAY_REAL(open);
     SLIDEWAY_MODE();
-    if (writes_file(flags) && fate(opens, 0, AT_FDCWD, path) == Fate::fails) return -1;
+    if (writes_file(AT_FDCWD, path, flags) && fate(opens, 0, AT_FDCWD, path) == Fate::fails) return -1;
     return call(path, flags, mode);
 }
 
 int open64(char const* path, int flags, ...) {
     SLIDEWAY_REAL(open64);
     SLIDEWAY_MODE();
-    if (writes_file(flags) && fate(opens, 0, AT_FDCWD, path) == Fate::fails) return -1;
+    if (writes_file(AT_FDCWD, path, flags) && fate(opens, 0, AT_FDCWD, path) == Fate::fails) return -1;
     return call(path, flags, mode);
 }
 
 int openat(int at, char const* path, int flags, ...) {
     SLIDEWAY_REAL(openat);
     SLIDEWAY_MODE();
-    if (writes_file(flags) && fate(opens, 0, at, path) == Fate::fails) return -1;
+    if (writes_file(at, path, flags) && fate(opens, 0, at, path) == Fate::fails) return -1;
     return call(at, path, flags, mode);
 }
 
 int openat64(int at, char const* path, int flags, ...) {
     SLIDEWAY_REAL(openat64);
     SLIDEWAY_MODE();
-    if (writes_file(flags) && fate(opens, 0, at, path) == Fate::fails) return -1;
+    if (writes_file(at, path, flags) && fate(opens, 0, at, path) == Fate::fails) return -1;
     return call(at, path, flags, mode);
 }
 
