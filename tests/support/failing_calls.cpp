@@ -5,8 +5,8 @@
 // SLIDEWAY_FAIL_AT     the call that fails, from 1; none without it
 // SLIDEWAY_FAIL_ERRNO  its errno: ENOSPC (also without it), EIO, or a number
 // SLIDEWAY_FAIL_ONCE   1: only that call fails; else all later ones too
-// SLIDEWAY_FAIL_SHORT  1: if that call writes more than a byte it writes half, and the next one fails
-// SLIDEWAY_FAIL_COUNT  a file that always holds two 64-bit numbers: calls counted, calls that failed
+// SLIDEWAY_FAIL_SHORT  1: if that call writes more than a byte it writes half and says so, which is no failure
+// SLIDEWAY_FAIL_COUNT  a file that always holds two 64-bit numbers: calls counted, calls that failed or were short
 //
 // Only calls that come through the dynamic linker are seen: what libc calls within itself (stdio's flushes) is not.
 #ifndef _GNU_SOURCE

@@ -13,7 +13,7 @@ namespace slideway::testing {
 struct DiskFailure {
     char const* error = "ENOSPC";
     bool once = false;       // only that call
-    bool is_short = false;   // it writes half, the next one fails
+    bool is_short = false;   // it writes half, later ones fail
     char const* calls = "";  // families of calls, comma-separated; all if empty
 };
 

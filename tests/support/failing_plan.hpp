@@ -131,10 +131,9 @@ template <class... Where> Fate fate(Family family, std::size_t bytes, Where... w
     std::uint64_t const call = plan.counts->counted.fetch_add(1) + 1;
     if (plan.at == 0 || call < plan.at) return Fate::passes;
     std::uint64_t const late = call - plan.at;
-    if (plan.is_short && late == 0 && bytes > 1) return Fate::writes_half;
-    // After a short write its successor is the one that fails.
-    if (plan.once && late > (plan.is_short ? 1 : 0)) return Fate::passes;
+    if (plan.once && late > 0) return Fate::passes;
     plan.counts->failed.fetch_add(1);
+    if (plan.is_short && late == 0 && bytes > 1) return Fate::writes_half;
     errno = plan.error;
     return Fate::fails;
 }

@@ -28,8 +28,11 @@ protected:
         auto const failing =
             on_disk(with_failing_calls(path("disk"), path("count"), at, failure) + "timeout 30 " + words);
         std::uint64_t const failed = call_counts(path("count")).failed;
-        if (failed == 0) {
+        // A write may write less than it was asked to, as long as the next one goes on.
+        bool const harmless = failure.is_short && failure.once && failure.calls == std::string("write");
+        if (failed == 0 || harmless) {
             EXPECT_EQ(failing.code, 0) << failing.err;
+            EXPECT_EQ(hash_of("disk/o.nc"), hash);
         } else if (failing.code == 128 + SIGSEGV && std::filesystem::exists(path("disk/o.nc.part"))) {
             ++netcdf_crashes_;
         } else {

@@ -23,5 +23,9 @@ TEST_F(FailingDisk, FullInTheMiddleOfAWriteCostsNoResult) {
     EXPECT_GT(sweep({.is_short = true, .calls = "write"}, 5, 7), 10);
 }
 
+TEST_F(FailingDisk, GoesOnAfterAWriteThatWasShort) {
+    EXPECT_GT(sweep({.once = true, .is_short = true, .calls = "write"}, 2, 5), 10);
+}
+
 }  // namespace
 }  // namespace slideway::testing

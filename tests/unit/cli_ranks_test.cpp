@@ -1,7 +1,7 @@
 // The same bits however a run is shared out: ranks, threads, blocks, jobs of an array, resumed or not.
 #include "cli_shards.hpp"
 
-#include <csignal>
+#include "tests/support/failing_calls.hpp"
 
 namespace slideway::testing {
 namespace {
@@ -12,6 +12,10 @@ protected:
     void SetUp() override {
         if (auto const why = why_no_ranks(); !why.empty()) GTEST_SKIP() << why;
     }
+    /// Calls on files are counted outside of the folder where they are counted.
+    std::filesystem::path const calls_ = path("").parent_path().string() + "_calls";
+    ~SharedRun() override { std::filesystem::remove(calls_); }
+
     void clean() const {
         std::filesystem::remove(path("o.nc"));
         std::filesystem::remove_all(shard_folder());
@@ -81,8 +85,53 @@ TEST_F(SharedRun, EndsWithOneCodeAtEveryRank) {
     ShellOutcome const outcome =
         shell(mpirun(3) + run_text("--set 'study.vary.\"joint.clearance\"={dist=\"norm\",mean=1e-4,sd=1e-4}'"));
     EXPECT_EQ(outcome.code, 3) << outcome.err;
-    EXPECT_EQ(outcome.err.find("slideway: "), outcome.err.rfind("slideway: ")) << outcome.err;  // one rank speaks
+    auto const message = outcome.err.find("more than --max-failures");
+    EXPECT_NE(message, std::string::npos) << outcome.err;
+    EXPECT_EQ(message, outcome.err.rfind("more than --max-failures")) << outcome.err;  // one rank speaks
     EXPECT_TRUE(std::filesystem::exists(path("o.nc")));
+}
+
+TEST_F(SharedRun, OnAFullDiskEndsAtEveryRankAndGoesOnLater) {
+    std::string const hash = undisturbed_hash();
+    for (int const ranks : {2, 3}) {
+        for (std::uint64_t const at : {2, 6, 11}) {
+            SCOPED_TRACE(std::to_string(ranks) + " ranks, call " + std::to_string(at));
+            // The ranks count their calls together.
+            std::filesystem::remove(calls_);
+            ShellOutcome const full =
+                shell(mpirun(ranks, 60) + "env " + with_failing_calls(path(""), calls_, at, {.calls = "write"}) +
+                      run_text("--block-members 8 --threads 1"));
+            EXPECT_EQ(full.code, 4) << full.err;
+            EXPECT_NE(full.err.find("No space left on device"), std::string::npos) << full.err;
+            EXPECT_FALSE(std::filesystem::exists(path("o.nc")));
+            shards();
+            expect_done(mpirun(ranks) + run_text("--resume"));
+            expect_result(hash);
+        }
+    }
+}
+
+TEST_F(SharedRun, GoesOnAfterOneRankWasKilled) {
+    write_scene(300, "0.2 s");
+    std::string const hash = undisturbed_hash();
+    for (char const* const victim : {"0", "2"}) {
+        SCOPED_TRACE(std::string("rank ") + victim);
+        // The ranks say who they are.
+        std::string const ranks = mpirun(3, 60) + "sh -c 'echo $$ >pid.$OMPI_COMM_WORLD_RANK; exec \"$0\" \"$@\"' " +
+                                  run_text("--block-members 8 --threads 1");
+        std::string const kill_one =
+            "for i in $(seq 600); do cat o.nc.shards/manifest-* 2>/dev/null | grep -q . && break; "
+            "sleep 0.05; done; kill -9 $(cat pid." +
+            std::string(victim) + ")";
+        ShellOutcome const killed = shell("{ " + kill_one + "; } & " + ranks + "; code=$?; wait; exit $code");
+        EXPECT_NE(killed.code, 0);
+        EXPECT_NE(killed.code, 124) << "the others hang";
+        Shards const kept = shards();
+        EXPECT_GT(kept.count(), 0u);
+        EXPECT_EQ(kept.count(), kept.members().count());
+        expect_done(mpirun(2) + run_text("--resume --block-members 8"));
+        expect_result(hash);
+    }
 }
 
 TEST_F(SharedRun, OfABrokenSceneEndsAtEveryRank) {
