@@ -22,7 +22,8 @@ TEST_F(KilledRun, KeepsWhatItFinishedWhenItIsAskedToStop) {
     std::uint64_t const finished = before_.count();
     EXPECT_GT(finished, 0u);
     EXPECT_LT(finished, 400u);
-    EXPECT_NE(outcome.err.find(std::to_string(400 - finished) + " members have not run"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find(std::to_string(400 - finished) + " members have not run"), std::string::npos)
+        << outcome.err;
 
     // Without --resume nobody touches the work of hours.
     Outcome const refused = run_scene({});
