@@ -52,7 +52,7 @@ std::string count_text(std::uint64_t members) {
 
 ShardClaim::ShardClaim(std::string folder, Wanted const& wanted) : folder_(std::move(folder)) {
     if (mkdir(folder_.c_str(), 0777) == 0) {
-        sync_folder(folder_of(folder_));
+        sync_name(folder_);
     } else if (errno != EEXIST) {
         throw FileError(fmt::format("{}: cannot create the folder: {}", folder_, std::strerror(errno)));
     }
@@ -74,6 +74,9 @@ ShardClaim::ShardClaim(std::string folder, Wanted const& wanted) : folder_(std::
         throw;
     }
 }
+
+ShardClaim::ShardClaim(std::string folder)
+    : folder_(std::move(folder)), whole_(locked(folder_, std::string(shard_names::lock), LOCK_EX | LOCK_NB)) {}
 
 ShardClaim::~ShardClaim() { release(); }
 
@@ -146,6 +149,14 @@ void ShardClaim::remove_folder() {
     if (rmdir(folder_.c_str()) != 0 && errno != ENOTEMPTY && errno != EEXIST) {
         throw FileError(fmt::format("{}: cannot remove the folder: {}", folder_, std::strerror(errno)));
     }
+}
+
+void ShardClaim::remove_remains(std::string const& folder) {
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(folder, ignored)) return;
+    ShardClaim claim(folder);
+    // Another process may have begun anew meanwhile.
+    if (!ShardFolder::exists(folder)) claim.remove_folder();
 }
 
 }  // namespace slideway
