@@ -170,6 +170,14 @@ void write_merged(NetcdfFile& file, ShardFolder const& folder, std::vector<Shard
     file.close();
 }
 
+/// HDF5 may be told that a write failed, try again as it closes, and say nothing: what counts is what can be read.
+void require_sound(std::string const& part) {
+    NetcdfFile const file = NetcdfFile::open(part);
+    if (payload_hash(file) != file.text(NetcdfFile::global, "payload_hash")) {
+        throw FileError(part + ": does not hold what was written to it");
+    }
+}
+
 }  // namespace
 
 /// Before netCDF tries: its reasons for a folder ("HDF error") tell nobody what to do.
@@ -200,6 +208,7 @@ void merge_shards(ShardFolder const& folder, std::vector<Shard> const& shards, R
             throw;
         }
     }
+    require_sound(part);
     rename_durably(part, path);
 }
 

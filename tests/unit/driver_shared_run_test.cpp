@@ -7,7 +7,7 @@
 namespace slideway {
 namespace {
 
-TEST(SharedRun, LeavesToOthersWhatTheyTookFromTheQueue) {
+TEST(SharedQueue, LeavesToOthersWhatTheyTookFromTheQueue) {
     StopRequest const stop;
     EnsemblePlan const plan = small_plan(20, 3, 2);
     LocalQueue queue(20);
@@ -39,7 +39,7 @@ private:
     LocalQueue queue_;
 };
 
-TEST(SharedRun, ReportsToTheQueueWhatItFinished) {
+TEST(SharedQueue, ReportsToTheQueueWhatItFinished) {
     for (int const threads : {1, 3}) {
         StopRequest const stop;
         Ledger ledger(101);
@@ -50,7 +50,7 @@ TEST(SharedRun, ReportsToTheQueueWhatItFinished) {
     }
 }
 
-TEST(SharedRun, AbandonsTheQueueOfAllWhenItFails) {
+TEST(SharedQueue, AbandonsTheQueueOfAllWhenItFails) {
     StopRequest const stop;
     Ledger ledger(100);
     EXPECT_THROW(run_ensemble(
@@ -61,7 +61,7 @@ TEST(SharedRun, AbandonsTheQueueOfAllWhenItFails) {
     EXPECT_EQ(ledger.left(), 0u);
 }
 
-TEST(SharedRun, HandsPlacesToAProgramWhichEmitsWhatItWill) {
+TEST(SharedQueue, HandsPlacesToAProgramWhichEmitsWhatItWill) {
     for (int const threads : {1, 4}) {
         StopRequest const stop;
         EnsemblePlan plan = small_plan(12, 5, threads);
