@@ -45,7 +45,8 @@ double study_seconds(Scene const& scene, StudyOptions const& options) {
     auto const ranks = Ranks::join();
     StudyRun run(scene, options);
     run_work(scene, options, run.work(), *ranks, stop);
-    if (!run.finish({}, stop)) std::abort();
+    std::optional<ToleranceReport> report;
+    if (!run.finish(stop, report)) std::abort();
     double const seconds = seconds_since(start);
     fs::remove(options.output);
     return seconds;

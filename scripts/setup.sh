@@ -8,6 +8,7 @@ packages=(
     libeigen3-dev libnanoflann-dev libxsimd-dev libboost-dev librandom123-dev libfmt-dev
     libcli11-dev libtomlplusplus-dev libudunits2-dev libnetcdf-dev
     libgtest-dev libbenchmark-dev
+    libopenmpi-dev openmpi-bin
 )
 
 fail() {

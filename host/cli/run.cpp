@@ -110,7 +110,7 @@ int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& 
          StopRequest const& stop) {
     print_field("scene", scene.title.empty() ? scene.path : fmt::format("{} ({})", scene.title, scene.path));
     if (run.is_complete()) {
-        fmt::print(stderr, "resuming: {} is complete already\n", options.output);
+        if (!arguments.quiet) fmt::print(stderr, "resuming: {} is complete already\n", options.output);
         return conclude(arguments, scene, options, false, {});
     }
     std::error_code ignored;
@@ -134,17 +134,24 @@ std::string invitation(StudyRun const& run) {
     return run.is_complete() ? std::string() : fmt::format("{} {}", run.work().before, run.work().todo.text());
 }
 
+/// Rank 0 alone ends with the code of the run: mpirun kills the ranks that are left when one of them ends with another than 0, and
+/// rank 0 has still to say why.
+int await_end(Ranks& ranks) {
+    ranks.agree(0);
+    return exit_code::done;
+}
+
 /// The other ranks: they only compute.
 int help(RunArguments const& arguments, Ranks& ranks, StopRequest const& stop) {
     std::string const invited = ranks.broadcast({});
-    if (invited.empty()) return ranks.agree(0);
+    if (invited.empty()) return await_end(ranks);
     auto const space = invited.find(' ');
     Scene const scene = load_scene(arguments.scene);
     StudyOptions options = study_options(arguments, scene, parse_isa(arguments.scene.isa));
     options.progress = Progress::Style::none;
     StudyWork const work{MemberSet::parse(invited.substr(space + 1)).value(), std::stoull(invited.substr(0, space))};
     run_work(scene, options, work, ranks, stop);
-    return ranks.agree(0);
+    return await_end(ranks);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,7 +12,7 @@ namespace slideway::cli {
 namespace {
 
 constexpr std::size_t line_width = 120;
-constexpr std::size_t top_inputs = 5;
+constexpr std::size_t top_inputs = 3;
 
 std::string number(double value) { return std::isnan(value) ? std::string("-") : fmt::format("{:.4g}", value); }
 
@@ -128,21 +129,32 @@ std::vector<std::string> cells_or_dash(std::vector<std::string> cells) {
 void print_indices(ToleranceReport const& report, Names const& widths) {
     if (!report.indices) return;
     IndexReport const& indices = *report.indices;
-    fmt::print("\nTotal Sobol indices, the largest first, of {} rows of the design", indices.used());
+    fmt::print("\nSobol indices with {:.0f} % intervals, the largest total first, of {} rows of the design",
+               100 * confidence_level, indices.used());
     if (indices.failed > 0) fmt::print("; {} left out for a failed member", indices.failed);
     if (indices.incomplete > 0) fmt::print("; {} incomplete", indices.incomplete);
-    fmt::print("\n  {:<{}}  sum of first-order indices; total [interval]\n", "quantity", widths.name);
+    std::size_t input_width = std::string_view("all first orders").size();
+    for (std::string const& input : report.inputs) input_width = std::max(input_width, input.size());
+    auto const row = [&](std::string_view quantity, std::string_view input, std::string_view first,
+                         std::string_view total) {
+        fmt::print("  {:<{}}  {:<{}}  {:<24}  {}\n", quantity, widths.name, input, input_width, first, total);
+    };
+    auto const cell = [](IndexEstimate const& index) { return share(index.value) + interval_text(index.interval); };
+    fmt::print("\n");
+    row("quantity", "input", "first order", "total");
     for (ColumnIndices const& entry : indices.columns) {
-        std::vector<std::string> cells;
+        SobolIndices const& found = entry.indices;
+        std::string name = entry.column.name();
         for (std::size_t rank = 0; rank < std::min(top_inputs, entry.ranking.size()); ++rank) {
             std::size_t const input = entry.ranking[rank];
-            IndexEstimate const& total = entry.indices.total[input];
-            if (std::isnan(total.value)) break;
-            if (cells.empty()) cells.push_back(fmt::format("{};", share(entry.indices.first_sum.value)));
-            cells.push_back(
-                fmt::format("{} {}{}", report.inputs[input], share(total.value), interval_text(total.interval)));
+            // Nothing tells inputs apart for an output that does not vary.
+            if (std::isnan(found.total[input].value)) break;
+            row(std::exchange(name, {}), report.inputs[input], cell(found.first[input]), cell(found.total[input]));
         }
-        print_ranked(entry.column.name(), widths.name, cells_or_dash(std::move(cells)));
+        if (name.empty())
+            row("", "all first orders", cell(found.first_sum), "");
+        else
+            row(name, "-", "", "");
     }
 }
 

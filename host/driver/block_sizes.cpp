@@ -22,9 +22,9 @@ std::uint64_t BlockSizer::next(std::uint64_t left) const {
     if (sizes_.fixed > 0) return sizes_.fixed;
     std::uint64_t const small = members_per_lane * sizes_.lanes;
     std::uint64_t const share = (left + workers_ - 1) / workers_;
-    std::uint64_t const least = std::clamp<std::uint64_t>(
-        share, 1, std::max(small, static_cast<std::uint64_t>(std::min(blocks_over_idle * idle_members_, 1e6))));
-    std::uint64_t const most = std::max<std::uint64_t>(sizes_.most, least);
+    std::uint64_t const most = std::max<std::uint64_t>(sizes_.most, small);
+    auto const worth_its_end = static_cast<std::uint64_t>(std::min(blocks_over_idle * idle_members_, 1e6));
+    std::uint64_t const least = std::clamp<std::uint64_t>(share, 1, std::clamp(worth_its_end, small, most));
     std::uint64_t size = std::clamp<std::uint64_t>(share / blocks_per_worker, least, most);
     if (seconds_per_member_ > 0) {
         double const in_time = std::min(sizes_.seconds / seconds_per_member_, static_cast<double>(most));

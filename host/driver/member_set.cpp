@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 
 namespace slideway {
 
@@ -117,6 +118,8 @@ std::optional<MemberSet> MemberSet::parse(std::string_view text) {
             ++at;
             if (!number(last) || last < first) return std::nullopt;
         }
+        if (last == std::numeric_limits<std::uint64_t>::max())
+            return std::nullopt;  // the end of its range has no number
         set.add({first, last - first + 1});
         if (at == end) break;
         if (*at++ != ',' || at == end) return std::nullopt;

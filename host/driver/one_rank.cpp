@@ -1,4 +1,11 @@
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "host/driver/launcher.hpp"
+#include "host/driver/mpi_ranks.hpp"
 #include "host/driver/ranks.hpp"
+#include "host/scene/error.hpp"
 
 namespace slideway {
 namespace {
@@ -17,6 +24,20 @@ public:
 
 }  // namespace
 
-std::unique_ptr<Ranks> Ranks::join() { return std::make_unique<OneRank>(); }
+std::unique_ptr<Ranks> Ranks::join() {
+    auto const launch = find_launch([](char const* name) -> char const* { return std::getenv(name); });
+    // A job of one process has nobody to talk to.
+    if (!launch || launch->count == 1) return std::make_unique<OneRank>();
+#ifdef SLIDEWAY_HAS_MPI
+    return join_mpi(*launch);
+#else
+    if (launch->count == 0 && launch->first) return std::make_unique<OneRank>();
+    throw SceneError(fmt::format(
+        "slideway: {} says that this is one of {} processes, but this slideway was built without MPI, and "
+        "each of them would run everything; install an MPI (Debian: libopenmpi-dev) and build again, or use "
+        "--shard",
+        launch->told_by, launch->count == 0 ? "several" : std::to_string(launch->count)));
+#endif
+}
 
 }  // namespace slideway

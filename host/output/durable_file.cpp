@@ -64,11 +64,19 @@ std::string folder_of(std::string const& path) {
     return folder.empty() ? std::string(".") : folder;
 }
 
-void sync_folder(std::string const& path) {
-    Descriptor const folder(path, O_RDONLY | O_DIRECTORY);
+namespace {
+
+void sync_folder_for(std::string const& folder, std::string const& path) {
+    Descriptor const file(folder, O_RDONLY | O_DIRECTORY);
     // Some file systems cannot, and need not.
-    if (::fsync(folder.get()) != 0 && errno != EINVAL) fail(path, "write to the disk", errno);
+    if (::fsync(file.get()) != 0 && errno != EINVAL) fail(path, "write to the disk", errno);
 }
+
+}  // namespace
+
+void sync_folder(std::string const& path) { sync_folder_for(path, path); }
+
+void sync_name(std::string const& path) { sync_folder_for(folder_of(path), path); }
 
 void write_durably(std::string const& path, std::span<std::byte const> bytes) {
     std::string const temporary = path + ".tmp";
@@ -78,7 +86,7 @@ void write_durably(std::string const& path, std::span<std::byte const> bytes) {
         sync(file.get(), temporary);
         file.close();
         if (std::rename(temporary.c_str(), path.c_str()) != 0) fail(path, "put in place", errno);
-        sync_folder(folder_of(path));
+        sync_name(path);
     } catch (...) {
         ::unlink(temporary.c_str());
         throw;
@@ -98,7 +106,7 @@ void rename_durably(std::string const& from, std::string const& to) {
         int const reason = errno;
         throw FileError(fmt::format("{}: cannot replace: {}; the results are in {}", to, std::strerror(reason), from));
     }
-    sync_folder(folder_of(to));
+    sync_name(to);
 }
 
 std::vector<std::byte> read_bytes(std::string const& path) {

@@ -19,6 +19,8 @@ void rename_durably(std::string const& from, std::string const& to);
 
 /// Makes new names and removals in a folder last.  @throws FileError
 void sync_folder(std::string const& path);
+/// The same for the folder that a path lies in.  @throws FileError, of the path
+void sync_name(std::string const& path);
 
 /// The folder that a path lies in; "." for a bare name.
 std::string folder_of(std::string const& path);

@@ -1,7 +1,9 @@
 #include "host/output/netcdf_file.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -123,7 +125,15 @@ NetcdfFile::~NetcdfFile() {
     if (id_ != closed && !group_) nc_close(id_);
 }
 
-void NetcdfFile::close() { require(nc_close(std::exchange(id_, closed)), "close"); }
+void NetcdfFile::close() {
+    // netCDF 4.9 crashes over a file whose last write fails as HDF5 closes it.  With a handle of our own HDF5 closes it for us,
+    // and says so.
+    hid_t const own = H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    require(nc_close(std::exchange(id_, closed)), "close");
+    if (own >= 0 && H5Fclose(own) < 0) {
+        throw FileError(fmt::format("{}: cannot write its end: {}", path_, std::strerror(errno)));
+    }
+}
 
 int NetcdfFile::add_dimension(std::string const& name, std::size_t length) {
     int dimension = 0;

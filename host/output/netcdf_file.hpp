@@ -64,7 +64,7 @@ public:
     int dimension(std::string const& name) const;
 
     std::vector<Dimension> dimensions() const;                      // of a group: its own
-    std::vector<Variable> variables() const;                        // in the order of their definition
+    std::vector<Variable> variables() const;                        // as they were defined; by name if made in memory
     std::string first_dimension(Variable const& variable) const;    // its name; "" of a scalar
     std::string text(int variable, std::string const& name) const;  // "" when there is none
     bool number(int variable, std::string const& name, double& value) const;

@@ -58,7 +58,9 @@ void add_variable(Fnv1a& hash, NetcdfFile const& file, NetcdfFile::Variable cons
 }
 
 void add_group(Fnv1a& hash, NetcdfFile const& group) {
-    for (NetcdfFile::Variable const& variable : group.variables()) add_variable(hash, group, variable);
+    std::vector<NetcdfFile::Variable> variables = group.variables();
+    std::sort(variables.begin(), variables.end(), [](auto const& a, auto const& b) { return a.name < b.name; });
+    for (NetcdfFile::Variable const& variable : variables) add_variable(hash, group, variable);
     for (std::string const& name : group.groups()) {
         hash.add(name);
         add_group(hash, group.group(name));

@@ -51,7 +51,7 @@ void put_status_flags(NetcdfFile& file, int variable) {
 
 namespace {
 
-/// Defines what a layout has, in an order that never changes: the payload hash goes by it.
+/// Defines what a layout has, in an order that never changes: files of the same numbers have the same bytes.
 class ResultDefiner {
 public:
     ResultDefiner(NetcdfFile& file, ResultLayout const& layout) : file_(file), layout_(layout), labels_(file) {}

@@ -167,6 +167,14 @@ void write_merged(NetcdfFile& file, ShardFolder const& folder, std::vector<Shard
     if (merge.pause) merge.pause();
 }
 
+/// HDF5 may be told that a write failed, try again as it closes, and say nothing: what counts is what can be read.
+void require_sound(std::string const& part) {
+    NetcdfFile const file = NetcdfFile::open(part);
+    if (payload_hash(file) != file.text(NetcdfFile::global, "payload_hash")) {
+        throw FileError(part + ": does not hold what was written to it");
+    }
+}
+
 }  // namespace
 
 /// Before netCDF tries: its reasons for a folder ("HDF error") tell nobody what to do.
@@ -201,6 +209,7 @@ void write_result(std::string const& path, std::string const& completeness,
             throw;
         }
     }
+    require_sound(part);
     rename_durably(part, path);
 }
 

@@ -23,6 +23,11 @@ std::string join(std::string const& folder, std::string_view name) {
     return (std::filesystem::path(folder) / name).string();
 }
 
+[[noreturn]] void fail_of_rival(std::string const& folder) {
+    throw FileError(
+        fmt::format("{}: another run is writing here; wait for its end or give another name with -o", folder));
+}
+
 /// A lock that ends with the process, however it ends.
 int locked(std::string const& folder, std::string const& name, int operation) {
     std::string const path = join(folder, name);
@@ -30,8 +35,7 @@ int locked(std::string const& folder, std::string const& name, int operation) {
     if (file < 0) throw FileError(fmt::format("{}: cannot create: {}", path, std::strerror(errno)));
     if (flock(file, operation) == 0 || errno != EWOULDBLOCK) return file;  // some file systems have no locks
     close(file);
-    throw FileError(
-        fmt::format("{}: another run is writing here; wait for its end or give another name with -o", folder));
+    fail_of_rival(folder);
 }
 
 void remove_file(std::string const& folder, std::string_view name) {
@@ -49,17 +53,17 @@ std::string count_text(std::uint64_t members) {
 
 ShardClaim::ShardClaim(std::string folder, Wanted const& wanted) : folder_(std::move(folder)) {
     if (mkdir(folder_.c_str(), 0777) == 0) {
-        sync_folder(folder_of(folder_));
+        sync_name(folder_);
     } else if (errno != EEXIST) {
         throw FileError(fmt::format("{}: cannot create the folder: {}", folder_, std::strerror(errno)));
     }
     std::string const lock(shard_names::lock);
     try {
-        whole_ = locked(folder_, lock, (wanted.part.empty() ? LOCK_EX : LOCK_SH) | LOCK_NB);
-        if (!wanted.part.empty()) part_ = locked(folder_, lock + "-" + wanted.part, LOCK_EX | LOCK_NB);
         // Parts begin one after another: the first writes the identity.
         int const begins = locked(folder_, lock + "-begin", LOCK_EX);
         try {
+            whole_ = locked(folder_, lock, (wanted.part.empty() ? LOCK_EX : LOCK_SH) | LOCK_NB);
+            if (!wanted.part.empty()) part_ = locked(folder_, lock + "-" + wanted.part, LOCK_EX | LOCK_NB);
             begin(wanted);
         } catch (...) {
             close(begins);
@@ -71,6 +75,9 @@ ShardClaim::ShardClaim(std::string folder, Wanted const& wanted) : folder_(std::
         throw;
     }
 }
+
+ShardClaim::ShardClaim(std::string folder)
+    : folder_(std::move(folder)), whole_(locked(folder_, std::string(shard_names::lock), LOCK_EX | LOCK_NB)) {}
 
 ShardClaim::~ShardClaim() { release(); }
 
@@ -84,9 +91,8 @@ void ShardClaim::begin(Wanted const& wanted) {
     std::string changed;
     if (ShardFolder::exists(folder_)) {
         ShardFolder const folder(folder_);
-        MemberSet const found = members_of(folder.intact(damaged_));
-        // What is damaged must not stand in the way of its successor.
-        for (std::string const& name : damaged_) remove_file(folder_, name);
+        std::vector<Shard> damaged;
+        MemberSet const found = members_of(folder.intact(damaged));
         changed = wanted.identity.difference(folder.identity());
         if (!changed.empty() && !found.empty()) {
             throw SceneError(
@@ -99,11 +105,32 @@ void ShardClaim::begin(Wanted const& wanted) {
                 fmt::format("{}: holds {} of this run; add --resume to go on with it, or remove the folder", folder_,
                             count_text(done_.count())));
         }
-        if (changed.empty()) return;
+        if (changed.empty()) {
+            remove_damaged(damaged, wanted.mine);
+            return;
+        }
+        require_alone(wanted);
     }
     // Nobody's, or of a run that finished nothing.
     remove_shards();
     write_durably(join(folder_, shard_names::identity), identity_text(wanted.identity));
+}
+
+/// What is damaged must not stand in the way of its successor.  Other parts see to theirs.
+void ShardClaim::remove_damaged(std::vector<Shard> const& damaged, MemberSet const& mine) {
+    for (Shard const& shard : damaged) {
+        if (shard.members.common(mine).empty()) continue;
+        remove_file(folder_, shard.name);
+        damaged_.push_back(shard.name);
+    }
+}
+
+/// A part of another run that is at work has finished nothing yet, but will.
+void ShardClaim::require_alone(Wanted const& wanted) {
+    if (wanted.part.empty()) return;
+    // Nobody can begin meanwhile.
+    if (flock(whole_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) fail_of_rival(folder_);
+    flock(whole_, LOCK_SH);
 }
 
 void ShardClaim::remove_shards() {
@@ -125,6 +152,14 @@ void ShardClaim::remove_folder() {
     if (rmdir(folder_.c_str()) != 0 && errno != ENOTEMPTY && errno != EEXIST) {
         throw FileError(fmt::format("{}: cannot remove the folder: {}", folder_, std::strerror(errno)));
     }
+}
+
+void ShardClaim::remove_remains(std::string const& folder) {
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(folder, ignored)) return;
+    ShardClaim claim(folder);
+    // Another process may have begun anew meanwhile.
+    if (!ShardFolder::exists(folder)) claim.remove_folder();
 }
 
 }  // namespace slideway

@@ -32,9 +32,15 @@ public:
     /// When the result stands elsewhere: removes what belongs to the run.  What is not ours stays, and so does the folder then.
     /// @throws FileError
     void remove_folder();
+    /// Ends what a process that was killed in `remove_folder` began.  @throws FileError, also if another process works there
+    static void remove_remains(std::string const& folder);
 
 private:
+    /// Of a folder without identity, to clear it.
+    explicit ShardClaim(std::string folder);
     void begin(Wanted const& wanted);
+    void require_alone(Wanted const& wanted);
+    void remove_damaged(std::vector<Shard> const& damaged, MemberSet const& mine);
     void remove_shards();
     void release();
 

@@ -121,7 +121,7 @@ std::vector<Shard> ShardFolder::listed() const {
     return without_repeats(std::move(shards));
 }
 
-std::vector<Shard> ShardFolder::intact(std::vector<std::string>& damaged) const {
+std::vector<Shard> ShardFolder::intact(std::vector<Shard>& damaged) const {
     std::vector<Shard> whole, broken;
     for (Shard& shard : all()) {
         try {
@@ -132,14 +132,13 @@ std::vector<Shard> ShardFolder::intact(std::vector<std::string>& damaged) const 
         }
     }
     whole = without_repeats(std::move(whole));
-    MemberSet const found = members_of(whole);
-    for (Shard const& shard : broken) {
-        // A successor under the same name is whole.  One under another name took over the members, and this file may be gone.
-        bool const replaced =
-            std::any_of(whole.begin(), whole.end(), [&](auto const& w) { return w.name == shard.name; });
-        std::error_code ignored;
-        bool const gone = !fs::exists(join(path_, shard.name), ignored);
-        if (!replaced && !(gone && shard.members.without(found).empty())) damaged.push_back(shard.name);
+    MemberSet const done = members_of(whole);
+    for (Shard& shard : broken) {
+        // The line of a shard outlives it: its successor may have its name.
+        auto const has_its_name = [&](Shard const& other) { return other.name == shard.name; };
+        if (std::any_of(whole.begin(), whole.end(), has_its_name)) continue;
+        if (std::any_of(damaged.begin(), damaged.end(), has_its_name)) continue;
+        if (!shard.members.without(done).empty()) damaged.push_back(std::move(shard));
     }
     return whole;
 }

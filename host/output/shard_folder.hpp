@@ -46,9 +46,9 @@ public:
     RunIdentity const& identity() const { return identity_; }
     /// What the manifests list, by first member; `read` tells whether a file is what it was.
     std::vector<Shard> listed() const;
-    /// Those that are: reads them all.  @param damaged names of the others; a shard that is gone because a later one has its members
-    /// is none of them
-    std::vector<Shard> intact(std::vector<std::string>& damaged) const;
+    /// Those that are: reads them all.  @param damaged the others, but for those whose members or whose name another one
+    /// has by now
+    std::vector<Shard> intact(std::vector<Shard>& damaged) const;
     /// @throws FileError if the file is not what the manifest says.
     std::vector<std::byte> read(Shard const& shard) const { return read_shard(path_, shard); }
 

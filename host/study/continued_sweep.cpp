@@ -118,20 +118,23 @@ private:
 
 }  // namespace
 
-void continue_columns(Scene const& scene, EnsemblePlan& plan, MemberSet const& asked, KernelInstance const& kernel,
-                      MemberEnds ends, StopRequest const& stop) {
+bool is_continued(Scene const& scene) { return scene.study == StudyKind::sweep && scene.chaos.continued; }
+
+MemberSet swept_starts(Scene const& scene, MemberSet const& members) {
     MemberSet starts;
-    for (MemberRange const& range : asked.ranges()) {
-        if (range.count >= scene.members) {
-            starts.add({0, scene.members});
-            continue;
-        }
+    for (MemberRange const& range : members.ranges()) {
+        if (range.count >= scene.members) return MemberSet(MemberRange{0, scene.members});
         std::uint64_t const first = range.first % scene.members;
         std::uint64_t const before_turn = std::min(range.count, scene.members - first);
         starts.add({first, before_turn});
         starts.add({0, range.count - before_turn});
     }
-    plan.members = starts;
+    return starts;
+}
+
+void continue_columns(Scene const& scene, EnsemblePlan& plan, MemberSet const& asked, KernelInstance const& kernel,
+                      MemberEnds ends, StopRequest const& stop) {
+    plan.members = swept_starts(scene, asked);
     auto const chain = std::make_shared<Chain>(scene, plan.request, plan.source, asked, kernel, std::move(ends), stop);
     plan.program = [chain](BlockBuffers& buffers, std::span<std::uint64_t const> places, BlockEmit const& emit) {
         chain->run(buffers, places, emit);

@@ -18,8 +18,14 @@ struct MemberEnd {
 };
 using MemberEnds = std::function<std::optional<MemberEnd>(std::uint64_t member)>;
 
+/// A sweep whose members begin where those of the column before have ended.
+bool is_continued(Scene const& scene);
+
+/// The starts that members belong to.
+MemberSet swept_starts(Scene const& scene, MemberSet const& members);
+
 /// Starts do not depend on each other: a worker takes some and runs them through the columns.
-/// The plan of the members `asked` becomes one whose places are the starts.  Members before those asked for, which only lead to them,
+/// The plan of the members `asked` becomes one whose places are their `swept_starts`.  Members before those asked for, which only lead to them,
 /// run too, but are not handed on.
 /// @param ends of members that ran before and need not run again
 void continue_columns(Scene const& scene, EnsemblePlan& plan, MemberSet const& asked, KernelInstance const& kernel,

@@ -71,7 +71,10 @@ StudyRun::StudyRun(Scene const& scene, StudyOptions const& options)
     std::error_code ignored;
     if (options.resume && !ShardFolder::exists(folder) && std::filesystem::exists(options.output, ignored)) {
         is_complete_ = is_result_of(options.output, identity);
-        if (is_complete_) return;
+        if (is_complete_) {
+            ShardClaim::remove_remains(folder);
+            return;
+        }
     }
     claim_ =
         std::make_unique<ShardClaim>(folder, ShardClaim::Wanted{identity, mine_, options.part.name(), options.resume});

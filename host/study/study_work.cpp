@@ -67,59 +67,60 @@ std::unique_ptr<ShardWriter> shard_writer(Scene const& scene, std::string const&
     return std::make_unique<ShardWriter>(folder, std::move(form));
 }
 
+/// This rank's share of the work.
+EnsembleTotals compute(Scene const& scene, StudyOptions const& options, StudyWork const& work, int ranks,
+                       MemberQueue& queue, StopRequest const& stop, Progress& progress) {
+    std::string const folder = shard_folder_of(options.output);
+    EnsemblePlan plan = ensemble_plan(scene, work.todo, options.isa, options.threads, options.block_members);
+    plan.workers = options.threads * ranks;
+    KernelInstance const kernel = find_instance(options.isa, scene.parts);
+    if (is_continued(scene)) {
+        MemberEnds const ends = work.before > 0 ? recalled_ends(folder) : MemberEnds{};
+        continue_columns(scene, plan, work.todo, kernel, ends, stop);
+    }
+    auto const writer = shard_writer(scene, folder, provenance(scene, options.isa, options.threads));
+    BlockSink const sink = [&](BlockResult const& block) { writer->write(block); };
+    EnsembleTotals const totals = run_ensemble(plan, queue, kernel, sink, stop, &progress);
+    writer->finish();
+    return totals;
+}
+
+/// @throws FileError with what a rank says of its failure
+EnsembleTotals sum_of(std::vector<std::string> const& ranks) {
+    EnsembleTotals totals;
+    double longest = 0;
+    for (std::string const& bytes : ranks) {
+        if (bytes[0] == failed) throw FileError(bytes.substr(1));
+        EnsembleTotals of_rank;
+        std::memcpy(&of_rank, bytes.data() + 1, sizeof of_rank);
+        longest = std::max(longest, of_rank.seconds);
+        totals += of_rank;
+    }
+    totals.seconds = longest;
+    return totals;
+}
+
 }  // namespace
 
 EnsembleTotals run_work(Scene const& scene, StudyOptions const& options, StudyWork const& work, Ranks& ranks,
                         StopRequest const& stop) {
-    bool const continued = scene.study == StudyKind::sweep && scene.chaos.continued;
-    EnsemblePlan plan = ensemble_plan(scene, work.todo, options.isa, options.threads, options.block_members);
-    plan.workers = options.threads * ranks.count();
-    KernelInstance const kernel = find_instance(options.isa, scene.parts);
-    std::string const folder = shard_folder_of(options.output);
+    std::uint64_t const places = is_continued(scene) ? swept_starts(scene, work.todo).count() : work.todo.count();
+    Progress progress(work.before + work.todo.count(), work.before, options.progress, stderr, stop);
+    auto const queue = ranks.share(places, [&](std::uint64_t members) { progress.add(members); });
+    // Every rank comes to `gather`, whatever happens to it, and before its queue ends: others may still take from it.
+    std::string mine;
     std::exception_ptr failure;
     try {
-        if (continued) {
-            MemberEnds const ends = work.before > 0 ? recalled_ends(folder) : MemberEnds{};
-            continue_columns(scene, plan, work.todo, kernel, ends, stop);
-        }
-    } catch (...) {
+        mine = to_bytes(compute(scene, options, work, ranks.count(), *queue, stop, progress));
+    } catch (std::exception const& error) {
         failure = std::current_exception();
-        plan.members = {};
+        queue->abandon();
+        mine = failed + std::string(error.what());
     }
-
-    // From here on every rank makes the same calls, whatever happens to it.
-    std::string mine;
-    {
-        Progress progress(work.before + work.todo.count(), work.before, options.progress, stderr, stop);
-        auto const queue = ranks.share(plan.members.count(), [&](std::uint64_t members) { progress.add(members); });
-        try {
-            if (failure) std::rethrow_exception(failure);
-            auto const writer = shard_writer(scene, folder, provenance(scene, options.isa, options.threads));
-            EnsembleTotals const totals = run_ensemble(
-                plan, *queue, kernel, [&](BlockResult const& block) { writer->write(block); }, stop, &progress);
-            writer->finish();
-            mine = to_bytes(totals);
-        } catch (std::exception const& error) {
-            failure = std::current_exception();
-            queue->abandon();
-            mine = failed + std::string(error.what());
-        }
-        // Before the queue ends: other ranks may still take from it.
-        std::vector<std::string> const all = ranks.gather(mine);
-        if (ranks.rank() > 0) return {};
-        if (failure) std::rethrow_exception(failure);
-        EnsembleTotals totals;
-        double longest = 0;
-        for (std::string const& bytes : all) {
-            if (bytes[0] == failed) throw FileError(bytes.substr(1));
-            EnsembleTotals of_rank;
-            std::memcpy(&of_rank, bytes.data() + 1, sizeof of_rank);
-            longest = std::max(longest, of_rank.seconds);
-            totals += of_rank;
-        }
-        totals.seconds = longest;
-        return totals;
-    }
+    std::vector<std::string> const all = ranks.gather(mine);
+    if (ranks.rank() > 0) return {};
+    if (failure) std::rethrow_exception(failure);
+    return sum_of(all);
 }
 
 }  // namespace slideway

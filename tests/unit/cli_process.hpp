@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -25,6 +26,15 @@ struct Outcome {
 inline std::string file_text(std::filesystem::path const& path) {
     std::ifstream in(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Whether it comes true before half a minute is over.
+template <class Condition> bool comes_true(Condition const& condition) {
+    for (int i = 0; i < 15000; ++i) {
+        if (condition()) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return false;
 }
 
 class Program : public ::testing::Test {
@@ -69,6 +79,19 @@ protected:
         EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
         EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
         EXPECT_EQ(outcome.out, "");
+    }
+
+    /// How many shards the folder lists.
+    std::size_t shards_in(std::string const& shards) const {
+        std::size_t count = 0;
+        std::error_code ignored;
+        for (std::filesystem::directory_iterator entry(path(shards), ignored), end; entry != end;
+             entry.increment(ignored)) {
+            if (!entry->path().filename().string().starts_with("manifest-")) continue;
+            std::string const lines = file_text(entry->path());
+            count += static_cast<std::size_t>(std::count(lines.begin(), lines.end(), '\n'));
+        }
+        return count;
     }
 
 private:

@@ -79,15 +79,118 @@ TEST_F(Sweep, ContinuedGoesOnFromTheScenesStartAfterAFailure) {
     for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(columns[i + 6], columns[i]) << i;
 }
 
-TEST_F(Sweep, OutOfTimeLeavesAWholeFile) {
+TEST_F(Sweep, OutOfTimeLeavesNoFile) {
     for (std::string const start : {"fresh", "continue"}) {
         Outcome const outcome = run_scene(sweep, {"--max-hours", "0", "--set", "study.start=" + start, "-o", "r.nc"});
         EXPECT_EQ(outcome.code, 5);
-        EXPECT_NE(outcome.err.find("6 of 6 members were not run"), std::string::npos) << outcome.err;
-        ResultReader const file = results();
-        EXPECT_EQ(file.values("status"), std::vector<double>(6, -1));
-        EXPECT_EQ(file.values("section_count"), std::vector<double>(6, 0));
-        EXPECT_EQ(file.stored_hash(), file.computed_hash());
+        EXPECT_NE(outcome.err.find("6 members have not run"), std::string::npos) << outcome.err;
+        EXPECT_FALSE(std::filesystem::exists(path("r.nc")));
+    }
+}
+
+// ---- continued sweeps that are interrupted, or divided ----
+
+/// Four columns of five starts, one of which fails in the second column, so that the third begins afresh there.
+class ContinuedSweep : public OrbitProgram {
+protected:
+    static constexpr std::size_t columns = 4, starts = 5, total = columns * starts;
+    std::vector<std::string> options(std::vector<std::string> more) const {
+        std::vector<std::string> all{"--set",          continued_key,
+                                     "--set",          fmt::format("study.members={}", starts),
+                                     "--set",          "study.values=[\"0.2 mm\",\"0.1 mm\",\"0.15 mm\",\"0.1 mm\"]",
+                                     "--set",          "study.revolutions=1",
+                                     "--set",          "integrator.max_steps=" + std::to_string(limit_),
+                                     "--max-failures", "100%"};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    Outcome sweep_with(std::vector<std::string> more) const { return run_scene(plain_sweep, options(std::move(more))); }
+
+    /// The hash of a run that nothing disturbs.
+    std::string undisturbed() {
+        EXPECT_EQ(sweep_with({"-o", "whole.nc"}).code, 0);
+        ResultReader const free = results("whole.nc");
+        auto steps = free.values("steps_accepted");
+        auto const rejected = free.values("steps_rejected");
+        std::vector<double> of_second;
+        for (std::size_t i = 0; i < total; ++i) steps[i] += rejected[i];
+        of_second.assign(steps.begin() + starts, steps.begin() + 2 * starts);
+        limit_ = static_cast<std::uint64_t>(*std::max_element(of_second.begin(), of_second.end())) - 1;
+        EXPECT_EQ(sweep_with({"-o", "whole.nc"}).code, 0);
+        ResultReader const file = results("whole.nc");
+        auto const status = file.values("status");
+        EXPECT_GT(std::count(status.begin() + starts, status.begin() + 2 * starts, 2), 0);
+        EXPECT_GT(std::count(status.begin(), status.end(), 0), static_cast<std::ptrdiff_t>(total / 2));
+        return file.computed_hash();
+    }
+
+    /// Removes the shards of members from `member` on, as if they had not been finished.
+    std::size_t forget(std::string const& shards, std::size_t from, std::size_t to) const {
+        std::size_t removed = 0;
+        for (auto const& entry : std::filesystem::directory_iterator(path(shards))) {
+            std::string const name = entry.path().filename().string();
+            if (!name.starts_with("members-")) continue;
+            std::size_t const first = std::stoul(name.substr(8));
+            if (first >= from && first < to) {
+                std::filesystem::remove(entry.path());
+                ++removed;
+            }
+        }
+        return removed;
+    }
+
+    std::uint64_t limit_ = 100000000;
+};
+
+TEST_F(ContinuedSweep, ResumedAtAnyColumnIsTheSame) {
+    std::string const whole = undisturbed();
+    // Shards of one start each, all of them, to begin with.
+    EXPECT_EQ(sweep_with({"--block-members", "1", "--shard", "1/1", "-o", "r.nc"}).code, 0);
+    std::filesystem::copy(path("r.nc.shards"), path("all"), std::filesystem::copy_options::recursive);
+    auto const resumed_without = [&](std::size_t from, std::size_t to) {
+        std::filesystem::remove_all(path("r.nc.shards"));
+        std::filesystem::remove(path("r.nc"));
+        std::filesystem::copy(path("all"), path("r.nc.shards"), std::filesystem::copy_options::recursive);
+        EXPECT_EQ(forget("r.nc.shards", from, to), to - from);
+        Outcome const outcome = sweep_with({"--resume", "-o", "r.nc"});
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return results().computed_hash();
+    };
+    for (std::size_t column = 0; column < columns; ++column) {
+        EXPECT_EQ(resumed_without(column * starts, total), whole) << "from column " << column;
+        EXPECT_EQ(resumed_without(column * starts, (column + 1) * starts), whole) << "column " << column << " alone";
+        EXPECT_EQ(resumed_without(column * starts + 2, column * starts + 3), whole) << "one start of column " << column;
+    }
+    EXPECT_EQ(resumed_without(3, total - 2), whole);
+    EXPECT_EQ(resumed_without(0, total), whole);
+}
+
+TEST_F(ContinuedSweep, InPartsIsTheSame) {
+    std::string const whole = undisturbed();
+    // Parts end within columns: each computes what leads to its members, and keeps its own.
+    for (std::size_t const parts : {2, 3, 7}) {
+        for (std::size_t part = parts; part >= 1; --part) {
+            Outcome const outcome =
+                sweep_with({"--shard", fmt::format("{}/{}", part, parts), "--threads", "2", "-o", "r.nc"});
+            EXPECT_EQ(outcome.code, 0) << outcome.err;
+        }
+        EXPECT_EQ(run({"merge", "r.nc.shards", "-o", "r.nc"}).code, 0);
+        EXPECT_EQ(results().computed_hash(), whole) << parts;
+        std::filesystem::remove_all(path("r.nc.shards"));
+    }
+}
+
+TEST_F(ContinuedSweep, OfAFewMembersIsThatOfAll) {
+    undisturbed();
+    ResultReader const whole = results("whole.nc");
+    for (auto const& [first, last] : {std::pair{8, 8}, {4, 5}, {7, 13}, {3, 17}, {15, 19}}) {
+        ASSERT_EQ(sweep_with({"--members", fmt::format("{}..{}", first, last), "-o", "few.nc"}).code, 0);
+        ResultReader const few = results("few.nc");
+        for (int m = first; m <= last; ++m) {
+            EXPECT_EQ(member_of(few, static_cast<std::size_t>(m - first)),
+                      member_of(whole, static_cast<std::size_t>(m)))
+                << m;
+        }
     }
 }
 

@@ -9,11 +9,11 @@
 namespace slideway {
 namespace {
 
-std::string written_by(Progress::Style style, int milliseconds, std::uint64_t done) {
+std::string written_by(Progress::Style style, int milliseconds, std::uint64_t done, std::uint64_t before = 0) {
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> const file(std::tmpfile(), std::fclose);
     {
         StopRequest const stop;
-        Progress progress(100, style, file.get(), stop);
+        Progress progress(100, before, style, file.get(), stop);
         progress.add(done);
         std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
     }
@@ -34,6 +34,16 @@ TEST(ProgressLine, TellsShareRateAndTimeLeft) {
 TEST(ProgressLine, KnowsNoTimeLeftBeforeTheFirstMember) {
     EXPECT_NE(progress_line(0, 100, 3).find("ETA --"), std::string::npos);
     EXPECT_NE(progress_line(0, 100, 0).find("ETA --"), std::string::npos);
+}
+
+TEST(ProgressLine, CountsEarlierMembersButNotTowardsTheRate) {
+    // 50 of the 75 were there before: 25 in 10 s, and the last 25 take 10 s more.
+    EXPECT_EQ(progress_line(75, 100, 10, 50), " 75.0 %  75 of 100 members  2.5 members/s  ETA 0:10");
+    EXPECT_NE(progress_line(50, 100, 3, 50).find("ETA --"), std::string::npos);
+}
+
+TEST(Progress, BeginsWithWhatWasDoneBefore) {
+    EXPECT_NE(written_by(Progress::Style::terminal, 300, 20, 30).find("50 of 100 members"), std::string::npos);
 }
 
 TEST(Progress, IsSilentWhenQuiet) {

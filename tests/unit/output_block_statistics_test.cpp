@@ -178,9 +178,9 @@ protected:
     }
     void expect_whole(std::uint64_t blocks) const {
         EXPECT_EQ(merged(), statistics_of(0, 10 * blocks).bytes());
-        std::vector<std::string> damaged;
+        std::vector<Shard> damaged;
         EXPECT_EQ(members_of(folder().intact(damaged)).count(), 9 * blocks);
-        EXPECT_TRUE(damaged.empty()) << damaged.size() << " " << damaged.front();
+        EXPECT_TRUE(damaged.empty()) << damaged.size() << " " << damaged.front().name;
     }
     fs::path const path_;
 };
@@ -265,10 +265,12 @@ TEST_F(StatisticsFolder, ADamagedShardIsTold) {
         .seekp(100)
         .put('\x55')
         .put('\xaa');
-    std::vector<std::string> damaged;
+    std::vector<Shard> damaged;
     EXPECT_EQ(members_of(folder().intact(damaged)).count(), 9 * 2u);
     // Those that it was made of are gone, and their members with it.
-    EXPECT_EQ(std::count(damaged.begin(), damaged.end(), "statistics-0000000000-1.bin"), 1);
+    EXPECT_EQ(std::count_if(damaged.begin(), damaged.end(),
+                            [](auto const& s) { return s.name == "statistics-0000000000-1.bin"; }),
+              1);
     // A successor of the same name is whole, whatever the older line says of it.
     fs::remove(path_ / "statistics-0000000000-1.bin");
     {
@@ -277,7 +279,7 @@ TEST_F(StatisticsFolder, ADamagedShardIsTold) {
     }
     damaged.clear();
     EXPECT_EQ(members_of(folder().intact(damaged)).count(), 9 * 66u);
-    EXPECT_TRUE(damaged.empty()) << damaged.front();
+    EXPECT_TRUE(damaged.empty()) << damaged.front().name;
     expect_whole(66);
 }
 

@@ -5,12 +5,11 @@
 #include <limits>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "host/output/payload_hash.hpp"
 #include "host/output/result_reader.hpp"
-#include "host/output/result_writer.hpp"
 #include "host/scene/error.hpp"
+#include "output_fixture.hpp"
 
 namespace slideway {
 namespace {
@@ -19,24 +18,9 @@ namespace fs = std::filesystem;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// A folder of its own for each test.
-class ResultFile : public testing::Test {
-protected:
-    ResultFile() : folder_(fs::temp_directory_path() / ("slideway_output_test_" + std::to_string(getpid()))) {
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
-    }
-    ~ResultFile() override { fs::remove_all(folder_); }
-    std::string path(std::string const& name = "out.nc") const { return (folder_ / name).string(); }
-
-private:
-    fs::path folder_;
-};
-
 ResultLayout layout_of(std::uint64_t members) {
     ResultLayout layout;
-    layout.first_member = 100;
-    layout.members = members;
+    layout.members = MemberSet({100, members});
     layout.sample_times = {0.0, 0.5};
     layout.quantities =
         Selection{1} << static_cast<int>(Quantity::crank_work) | Selection{1} << static_cast<int>(Quantity::mode_time);
@@ -45,8 +29,9 @@ ResultLayout layout_of(std::uint64_t members) {
     return layout;
 }
 
-/// The results of members [first, first + count), each value made of the member's place and the variable.
+/// The results of the members at places [first, first + count), each value made of the place and the variable.
 struct FakeBlock {
+    std::vector<std::uint64_t> members;
     std::vector<Inputs> inputs;
     std::vector<MemberRecord> records;
     std::vector<double> states, quantities, series;
@@ -55,6 +40,7 @@ struct FakeBlock {
     FakeBlock(std::uint64_t first_member, std::size_t count) : first(first_member) {
         for (std::size_t i = 0; i < count; ++i) {
             auto const place = static_cast<double>(first + i);
+            members.push_back(100 + first + i);
             inputs.emplace_back().y = place / 8;
             records.push_back({Status::finished, first + i, 2, 3, 0.5});
             for (int k = 0; k < state_size; ++k) states.push_back(place + k / 16.0);
@@ -66,10 +52,10 @@ struct FakeBlock {
             }
         }
     }
-    BlockResult view() const { return {first, inputs, records, states, quantities, series, {}, {}}; }
+    BlockResult view() const { return {members, inputs, records, states, quantities, series, {}, {}}; }
 };
 
-void write_file(std::string const& path, std::vector<FakeBlock> const& blocks, int threads = 1) {
+Provenance provenance_of(int threads) {
     Provenance provenance;
     provenance.title = "a title";
     provenance.scene = "schema = 1\n";
@@ -77,10 +63,18 @@ void write_file(std::string const& path, std::vector<FakeBlock> const& blocks, i
     provenance.backend = "cpu";
     provenance.isa = "scalar";
     provenance.threads = threads;
-    ResultWriter writer(path, layout_of(5), provenance);
-    for (FakeBlock const& block : blocks) writer.write(block.view());
-    writer.finish(0.75, StopReason::none);
+    return provenance;
 }
+
+class ResultFile : public testing::OutputFolder {
+protected:
+    void write_file(std::string const& file, std::vector<FakeBlock> const& blocks, int threads = 1,
+                    std::function<void(NetcdfFile&)> conclude = {}) const {
+        std::vector<testing::BlockAndStudy> views;
+        for (FakeBlock const& block : blocks) views.push_back({block.view(), {}});
+        write_result(file, layout_of(5), provenance_of(threads), views, "complete", std::move(conclude));
+    }
+};
 
 TEST_F(ResultFile, GivesBackWhatWasWritten) {
     write_file(path(), {{3, 2}, {0, 3}});
@@ -118,7 +112,6 @@ TEST_F(ResultFile, SaysWhereItComesFrom) {
     EXPECT_EQ(results.attribute("seed"), "18446744073709551615");
     EXPECT_EQ(results.attribute("threads"), "3");
     EXPECT_EQ(results.attribute("created"), "1970-01-02T00:00:00Z");
-    EXPECT_EQ(results.attribute("lane_utilisation"), "0.75");
     EXPECT_EQ(results.attribute("completeness"), "complete");
     for (char const* const name : {"version", "commit", "compiler"}) EXPECT_NE(results.attribute(name), "") << name;
 }
@@ -172,38 +165,63 @@ TEST_F(ResultFile, IsTheSameWhateverTheOrderOfBlocks) {
     write_file(path("b.nc"), {{4, 1}, {2, 2}, {0, 2}});
     unsetenv("SOURCE_DATE_EPOCH");
     EXPECT_EQ(ResultReader(path("a.nc")).stored_hash(), ResultReader(path("b.nc")).stored_hash());
-    auto const bytes = [](std::string const& name) {
-        std::ifstream in(name, std::ios::binary);
-        return std::string(std::istreambuf_iterator<char>(in), {});
-    };
-    EXPECT_TRUE(bytes(path("a.nc")) == bytes(path("b.nc")));
+    EXPECT_TRUE(testing::bytes_of(path("a.nc")) == testing::bytes_of(path("b.nc")));
 }
 
 TEST_F(ResultFile, StandsAtItsPathOnlyWhenComplete) {
     std::ofstream(path()) << "a former file";
-    {
-        ResultWriter writer(path(), layout_of(5), {});
-        writer.write(FakeBlock(0, 5).view());
+    auto const giving_up = [&](NetcdfFile&) {
         EXPECT_EQ(fs::file_size(path()), 13u);
-    }
-    EXPECT_EQ(fs::file_size(path()), 13u);  // given up: the former file stays
+        EXPECT_TRUE(fs::exists(path() + ".part"));
+        throw FileError("given up");
+    };
+    EXPECT_THROW(write_file(path(), {{0, 5}}, 1, giving_up), FileError);
+    EXPECT_EQ(fs::file_size(path()), 13u);  // the former file stays
     EXPECT_FALSE(fs::exists(path() + ".part"));
     write_file(path(), {{0, 5}});
     EXPECT_FALSE(fs::exists(path() + ".part"));
     EXPECT_EQ(ResultReader(path()).values("status").size(), 5u);
 }
 
+TEST_F(ResultFile, HoldsWhatIsConcludedFromItsMembers) {
+    auto const concluding = [](NetcdfFile& file) { file.put_number(NetcdfFile::global, "mean_of_all", 2.5); };
+    write_file(path(), {{0, 5}}, 1, concluding);
+    EXPECT_EQ(ResultReader(path()).attribute("mean_of_all"), "2.5");
+}
+
 TEST_F(ResultFile, StaysAsPartIfOnlyItsNameIsTaken) {
-    ResultWriter writer(path(), layout_of(5), {});
-    fs::create_directories(path() + "/in_the_way");
-    EXPECT_THROW(writer.finish(1, StopReason::none), FileError);
-    EXPECT_TRUE(fs::exists(path() + ".part"));
+    auto const taking_the_name = [&](NetcdfFile&) { fs::create_directories(path() + "/in_the_way"); };
+    EXPECT_THROW(write_file(path(), {{0, 5}}, 1, taking_the_name), FileError);
+    EXPECT_EQ(ResultReader(path() + ".part").values("status").size(), 5u);
+}
+
+TEST_F(ResultFile, TakesAwayThePartOfAKilledMerge) {
+    std::ofstream(path() + ".part") << "half of a file";
+    write_file(path(), {{0, 5}});
+    EXPECT_FALSE(fs::exists(path() + ".part"));
+    EXPECT_EQ(ResultReader(path()).values("status").size(), 5u);
 }
 
 TEST_F(ResultFile, NeedsAPlaceToBeWritten) {
-    EXPECT_THROW(ResultWriter(path("no_folder/out.nc"), layout_of(5), {}), FileError);
-    EXPECT_THROW(ResultWriter(fs::path(path()).parent_path().string(), layout_of(5), {}), FileError);
-    EXPECT_THROW(ResultWriter(path(), layout_of(std::uint64_t{1} << 40), {}), FileError);
+    EXPECT_THROW(require_writable_place(path("no_folder/out.nc")), FileError);
+    EXPECT_THROW(require_writable_place(folder()), FileError);
+    EXPECT_THROW(require_writable_place("/dev/null"), FileError);
+    EXPECT_NO_THROW(require_writable_place(path()));
+    write_file(path(), {{0, 5}});
+    EXPECT_NO_THROW(require_writable_place(path()));
+    EXPECT_THROW(write_file(path("no_folder/out.nc"), {{0, 5}}), FileError);
+}
+
+TEST_F(ResultFile, CannotNumberMembersBeyondItsIntegers) {
+    // CF-1.8 has no integers wider than 32 bits.
+    constexpr std::uint64_t largest = 2147483647;
+    FakeBlock block(0, 2);
+    block.members = {largest - 2, largest - 1};
+    ShardImage const image = shard_image("a shard", layout_of(5), {}, block.view(), {});
+    EXPECT_EQ(image.members, MemberSet({largest - 2, 2}));
+    block.members = {largest - 1, largest};
+    EXPECT_THROW(shard_image("a shard", layout_of(5), {}, block.view(), {}), FileError);
+    EXPECT_THROW(write_result(path(), layout_of(std::uint64_t{1} << 40), {}, {}), FileError);
 }
 
 TEST_F(ResultFile, IsToldFromOtherFiles) {
@@ -215,40 +233,13 @@ TEST_F(ResultFile, IsToldFromOtherFiles) {
         other.close();
     }
     EXPECT_THROW(ResultReader{path("other.nc")}, FileError);
-}
-
-// ---- payload hash ----
-
-std::uint64_t fnv(std::string_view text) {
-    Fnv1a hash;
-    hash.add(text);
-    return hash.value();
-}
-
-TEST(Fnv1a, MeetsPublishedValues) {  // Fowler, Noll, Vo: test vectors of the reference implementation
-    EXPECT_EQ(fnv(""), 0xcbf29ce484222325u);
-    EXPECT_EQ(fnv("a"), 0xaf63dc4c8601ec8cu);
-    EXPECT_EQ(fnv("foobar"), 0x85944171f73967e8u);
-}
-
-TEST_F(ResultFile, HashCoversNamesShapesAndData) {
-    // The definition of payload_hash.hpp, written out for a file of one variable.
-    std::vector<double> const values{1.5, -2.0};
     {
-        NetcdfFile file = NetcdfFile::create(path());
-        int const dimension = file.add_dimension("n", 2);
-        int const variable = file.add_variable("v", NetcdfFile::Type::float64, {&dimension, 1});
-        file.end_definitions();
-        std::size_t const start = 0, count = 2;
-        file.write(variable, {&start, 1}, {&count, 1}, values.data());
-        file.close();
+        NetcdfFile unfinished = NetcdfFile::create(path("unfinished.nc"));
+        int const dimension = unfinished.add_dimension("member", 2);
+        unfinished.add_variable("status", NetcdfFile::Type::int8, {&dimension, 1});
+        unfinished.close();
     }
-    std::string bytes = "v";
-    for (unsigned char const low : {1, 2}) bytes += std::string{static_cast<char>(low)} + std::string(7, '\0');
-    bytes.append(reinterpret_cast<char const*>(values.data()), 16);
-    char expected[17];
-    std::snprintf(expected, sizeof expected, "%016llx", static_cast<unsigned long long>(fnv(bytes)));
-    EXPECT_EQ(payload_hash(NetcdfFile::open(path())), expected);
+    EXPECT_THROW(ResultReader{path("unfinished.nc")}, FileError);  // without a hash it did not come to its end
 }
 
 TEST_F(ResultFile, HashNoticesOneChangedBit) {
@@ -269,16 +260,6 @@ TEST_F(ResultFile, HashTakesEveryNanForTheSame) {
     write_file(path("a.nc"), {positive});
     write_file(path("b.nc"), {negative});
     EXPECT_EQ(ResultReader(path("a.nc")).stored_hash(), ResultReader(path("b.nc")).stored_hash());
-}
-
-TEST(CreationTime, IgnoresAnEpochThatIsNoNumber) {
-    for (char const* const text : {"", "soon", "12x", "-1"}) {
-        setenv("SOURCE_DATE_EPOCH", text, 1);
-        std::string const now = creation_time();
-        EXPECT_GT(now.substr(0, 4), "2023") << text;
-        EXPECT_EQ(now.size(), 20u);
-    }
-    unsetenv("SOURCE_DATE_EPOCH");
 }
 
 TEST(PayloadBytes, CountColumns) {

@@ -6,15 +6,12 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "host/output/result_reader.hpp"
-#include "host/output/result_writer.hpp"
+#include "output_fixture.hpp"
 
 namespace slideway {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t members = 8, room = 3;
@@ -38,7 +35,7 @@ double matrix_entry(std::size_t member, std::size_t n, std::size_t j) {
 
 ResultLayout layout() {
     ResultLayout layout;
-    layout.members = members;
+    layout.members = MemberSet({0, members});
     layout.sections = room;
     layout.study.axes = {{"exponent", "1", "number of the exponent", {1, 2}},
                          {"history", "1", "rescalings", {10, 20, 30}}};
@@ -50,21 +47,21 @@ ResultLayout layout() {
 
 /// Members [first, first + count).
 struct FakeBlock {
-    std::size_t first;
+    std::vector<std::uint64_t> numbers;
     std::vector<Inputs> inputs;
     std::vector<MemberRecord> records;
     std::vector<double> states, quantities, sections;
     StudyValues study = StudyValues(3);
 
-    FakeBlock(std::size_t first_member, std::size_t count)
-        : first(first_member),
-          inputs(count),
+    FakeBlock(std::size_t first, std::size_t count)
+        : inputs(count),
           records(count),
           states(count * state_size, 1.0),
           quantities(count * quantity_columns, nan),
           sections(count * room * section_columns, nan) {
         for (std::size_t i = 0; i < count; ++i) {
             std::size_t const member = first + i;
+            numbers.push_back(member);
             records[i].status = status_of(member);
             records[i].crossings = rows_of_members[member] == room ? room + member : rows_of_members[member];
             for (std::size_t row = 0; row < rows_of_members[member]; ++row) {
@@ -79,33 +76,23 @@ struct FakeBlock {
             }
         }
     }
-    BlockResult view() const { return {first, inputs, records, states, quantities, {}, sections, {}}; }
+    BlockResult view() const { return {numbers, inputs, records, states, quantities, {}, sections, {}}; }
 };
 
-/// A folder of its own for each test.
-class SectionsFile : public testing::Test {
+class SectionsFile : public testing::OutputFolder {
 protected:
-    SectionsFile() : folder_(fs::temp_directory_path() / ("slideway_sections_test_" + std::to_string(getpid()))) {
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
+    void write_with(ResultLayout const& with, std::vector<FakeBlock> const& blocks) const {
+        std::vector<testing::BlockAndStudy> views;
+        for (FakeBlock const& block : blocks) views.push_back({block.view(), block.study});
+        write_result(path(), with, {}, views);
     }
-    ~SectionsFile() override { fs::remove_all(folder_); }
-
-    std::string path() const { return (folder_ / "out.nc").string(); }
-    void write(std::vector<FakeBlock> const& blocks, StopReason stopped = StopReason::none) const {
-        ResultWriter writer(path(), layout(), {});
-        for (FakeBlock const& block : blocks) writer.write(block.view(), block.study);
-        writer.finish(1, stopped);
-    }
+    void write(std::vector<FakeBlock> const& blocks) const { write_with(layout(), blocks); }
     std::string hash_of(std::vector<FakeBlock> const& blocks) const {
         write(blocks);
         ResultReader const results(path());
         EXPECT_EQ(results.stored_hash(), results.computed_hash());
         return results.stored_hash();
     }
-
-private:
-    fs::path folder_;
 };
 
 char const* const variables[section_columns] = {"section_time", "section_y",    "section_z",   "section_vy",
@@ -179,8 +166,8 @@ TEST_F(SectionsFile, FollowsTheConventionsForContiguousRaggedArrays) {
 }
 
 TEST_F(SectionsFile, OfAStoppedRunCountsNothingForMembersThatNeverCame) {
-    // Blocks 2 … 3 and 4 … 4 wait for 0 … 1, which never comes; nor do the last.
-    write({{2, 2}, {4, 1}}, StopReason::signal);
+    // Members 0 and 1 never came, nor did the last.
+    write({{2, 2}, {4, 1}});
     ResultReader const results(path());
     EXPECT_EQ(results.values("section_count"), (std::vector<double>{0, 0, 2, 1, 3, 0, 0, 0}));
     EXPECT_EQ(results.values("section_time"), (std::vector<double>{entry(2, 0, 0), entry(2, 1, 0), entry(3, 0, 0),
@@ -189,7 +176,7 @@ TEST_F(SectionsFile, OfAStoppedRunCountsNothingForMembersThatNeverCame) {
 }
 
 TEST_F(SectionsFile, OfAStoppedRunMayHaveGapsBetweenItsBlocks) {
-    write({{7, 1}, {0, 1}, {3, 2}}, StopReason::time_limit);
+    write({{7, 1}, {0, 1}, {3, 2}});
     ResultReader const results(path());
     EXPECT_EQ(results.values("section_count"), (std::vector<double>{3, 0, 0, 1, 3, 0, 0, 2}));
     EXPECT_EQ(results.values("section_wz").front(), entry(0, 0, 10));
@@ -198,7 +185,7 @@ TEST_F(SectionsFile, OfAStoppedRunMayHaveGapsBetweenItsBlocks) {
 }
 
 TEST_F(SectionsFile, OfARunThatNeverBeganIsEmpty) {
-    write({}, StopReason::time_limit);
+    write({});
     ResultReader const results(path());
     EXPECT_EQ(results.values("section_count"), std::vector<double>(members, 0));
     EXPECT_EQ(results.shape("section_time"), std::vector<std::size_t>{0});
@@ -207,7 +194,7 @@ TEST_F(SectionsFile, OfARunThatNeverBeganIsEmpty) {
 }
 
 TEST_F(SectionsFile, OfMembersWithoutSectionsIsEmpty) {
-    write({{5, 2}, {1, 1}}, StopReason::signal);
+    write({{5, 2}, {1, 1}});
     ResultReader const results(path());
     EXPECT_EQ(results.values("section_count"), std::vector<double>(members, 0));
     EXPECT_EQ(results.shape("section_time"), std::vector<std::size_t>{0});
@@ -216,8 +203,7 @@ TEST_F(SectionsFile, OfMembersWithoutSectionsIsEmpty) {
 TEST_F(SectionsFile, HasNoSectionsIfNoneAreAskedFor) {
     ResultLayout without = layout();
     without.sections = 0;
-    ResultWriter writer(path(), without, {});
-    writer.finish(1, StopReason::none);
+    write_with(without, {{0, members}});
     EXPECT_FALSE(ResultReader(path()).has("section_count"));
     EXPECT_FALSE(ResultReader(path()).has("section_time"));
 }
@@ -226,10 +212,7 @@ TEST_F(SectionsFile, OfCrossingsSaysHowManyThereWere) {
     ResultLayout crossings = layout();
     crossings.crossings = true;
     FakeBlock const first(0, 2), last(4, 2);
-    ResultWriter writer(path(), crossings, {});
-    writer.write(last.view(), last.study);
-    writer.write(first.view(), first.study);
-    writer.finish(1, StopReason::signal);
+    write_with(crossings, {last, first});
     ResultReader const results(path());
     EXPECT_EQ(results.values("section_count"), (std::vector<double>{3, 0, 0, 0, 3, 0, 0, 0}));
     EXPECT_EQ(results.values("section_crossings"), (std::vector<double>{3, 0, 0, 0, 7, 0, 0, 0}));
@@ -275,7 +258,7 @@ TEST_F(SectionsFile, GivesBackTheStudysColumns) {
 }
 
 TEST_F(SectionsFile, LeavesColumnsOfMembersThatNeverCameNaN) {
-    write({{4, 2}}, StopReason::signal);
+    write({{4, 2}});
     ResultReader const results(path());
     auto const dimension = results.values("dimension"), rates = results.values("rates");
     for (std::size_t member = 0; member < members; ++member) {

@@ -1,0 +1,184 @@
+// What ranks of a job tell each other, printed by rank 0 for tests/unit/driver_ranks_test.cpp.
+// ranks_program places N THREADS WANTED | abandon | texts BYTES | failure | waiting | desertion RANK
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <sys/resource.h>
+
+#include <fmt/format.h>
+
+#include "host/driver/ranks.hpp"
+#include "host/scene/error.hpp"
+
+namespace {
+
+using namespace slideway;
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+double processor_seconds() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    auto const seconds = [](timeval const& t) {
+        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+/// Processor time by wall time of what is done, as a line; nothing if that did not take long enough to tell.
+std::string load_of(char const* name, std::function<void()> const& what) {
+    auto const start = Clock::now();
+    double const before = processor_seconds();
+    what();
+    double const wall = std::chrono::duration<double>(Clock::now() - start).count();
+    return wall < 1 ? std::string() : fmt::format("{} {}\n", name, (processor_seconds() - before) / wall);
+}
+
+void print_all(std::vector<std::string> const& texts) {
+    for (std::string const& text : texts) std::fputs(text.c_str(), stdout);
+}
+
+/// Every thread of every rank takes places until none is left; rank 0 prints `place RANK FIRST COUNT` for each stretch.
+int places(Ranks& ranks, std::uint64_t count, int threads, std::uint64_t wanted) {
+    std::atomic<std::uint64_t> reported = 0;
+    auto const queue = ranks.share(count, [&](std::uint64_t members) { reported += members; });
+    std::mutex mutex;
+    std::string text;
+    auto const work = [&] {
+        std::uint64_t finished = 0;
+        for (;;) {
+            std::uint64_t const before = queue->left();
+            Stretch const stretch = queue->take(wanted, finished);
+            finished = stretch.count;
+            std::lock_guard const lock(mutex);
+            if (queue->left() > before) text += "left grew\n";
+            if (stretch.count == 0) return;
+            text += fmt::format("place {} {} {}\n", ranks.rank(), stretch.first, stretch.count);
+        }
+    };
+    // Others are slower to get their places, and rank 0 must not take all.
+    while (ranks.rank() == 0 && ranks.count() > 1 && reported == 0) std::this_thread::sleep_for(1ms);
+    std::vector<std::thread> workers;
+    for (int i = 0; i < threads; ++i) workers.emplace_back(work);
+    for (std::thread& worker : workers) worker.join();
+    text += fmt::format("left {}\n", queue->left());
+    print_all(ranks.gather(text));
+    if (ranks.rank() == 0) fmt::print("reported {}\n", reported.load());
+    return ranks.agree(0);
+}
+
+/// The last rank abandons a queue that nobody could empty.
+int abandon(Ranks& ranks) {
+    auto const queue = ranks.share(std::uint64_t{1} << 60, nullptr);
+    std::uint64_t taken = 0;
+    while (queue->take(1, 0).count > 0) {
+        ++taken;
+        if (ranks.rank() == ranks.count() - 1 && taken == 3) queue->abandon();
+    }
+    std::string text = fmt::format("rank {} stopped", ranks.rank());
+    text += queue->left() == 0 ? "\n" : " with some left\n";
+    print_all(ranks.gather(text));
+    return ranks.agree(0);
+}
+
+std::string pattern(std::size_t bytes, int key) {
+    std::string text(bytes, '\0');
+    auto state = static_cast<std::uint32_t>(key + 1);
+    for (char& byte : text) byte = static_cast<char>((state = state * 1664525u + 1013904223u) >> 24);
+    return text;
+}
+
+/// Texts of a length go from rank 0 to all and from all to rank 0, and so does a code, twice over.
+int texts(Ranks& ranks, std::size_t bytes) {
+    for (int const code : {7, 42}) {
+        std::string const got = ranks.broadcast(ranks.rank() == 0 ? pattern(bytes, code) : std::string("mine"));
+        std::string const own = pattern(bytes, 100 + ranks.rank());
+        auto const gathered = ranks.gather(own);
+        if (ranks.rank() == 0) {
+            bool right = gathered.size() == static_cast<std::size_t>(ranks.count());
+            for (int i = 0; i < ranks.count() && right; ++i)
+                right = gathered[static_cast<std::size_t>(i)] == pattern(bytes, 100 + i);
+            fmt::print("gathered {}\n", right ? "all" : "wrongly");
+        } else if (!gathered.empty()) {
+            return 1;
+        }
+        int const agreed = ranks.agree(ranks.rank() == 0 ? code : 99);
+        print_all(ranks.gather(fmt::format("rank {} got {} and {}\n", ranks.rank(),
+                                           got == pattern(bytes, code) ? "the text" : "something else", agreed)));
+    }
+    return ranks.agree(0);
+}
+
+/// The last rank fails at work: the others stop, rank 0 hears why, and all end with its code.
+int failure(Ranks& ranks) {
+    auto const queue = ranks.share(std::uint64_t{1} << 60, nullptr);
+    std::string error;
+    try {
+        for (int taken = 0; queue->take(1, 0).count > 0; ++taken) {
+            if (ranks.rank() == ranks.count() - 1 && taken == 5) throw FileError("disk.nc: no space left");
+        }
+    } catch (FileError const& caught) {
+        error = caught.what();
+        queue->abandon();
+    }
+    for (std::string const& text : ranks.gather(error)) {
+        if (!text.empty()) fmt::print("heard {}\n", text);
+    }
+    return ranks.agree(ranks.rank() == 0 ? 4 : 0);
+}
+
+/// How busy a rank is while it waits for another: rank 0 in `gather`, the others in `agree`.
+int waiting(Ranks& ranks) {
+    bool const is_last = ranks.rank() == ranks.count() - 1;
+    auto const queue = ranks.share(4, nullptr);
+    if (is_last) std::this_thread::sleep_for(1500ms);
+    std::string loads = load_of("gather", [&] { ranks.gather(""); });
+    if (ranks.rank() == 0) std::this_thread::sleep_for(1500ms);
+    loads += load_of("agree", [&] { ranks.agree(0); });
+    print_all(ranks.gather(loads));
+    return ranks.agree(0);
+}
+
+/// One rank leaves in the middle of the work, without a word to the others.
+int desertion(Ranks& ranks, int who) {
+    auto const queue = ranks.share(8, nullptr);
+    if (ranks.rank() == who) throw std::runtime_error("left");
+    while (queue->take(1, 0).count > 0) continue;
+    ranks.gather("");
+    return ranks.agree(0);
+}
+
+int run(std::vector<std::string> const& words) {
+    auto const number = [&](std::size_t i) { return std::stoull(words.at(i)); };
+    auto const ranks = Ranks::join();
+    if (ranks->rank() == 0) fmt::print("ranks {}\n", ranks->count());
+    if (words.at(0) == "places") return places(*ranks, number(1), static_cast<int>(number(2)), number(3));
+    if (words.at(0) == "abandon") return abandon(*ranks);
+    if (words.at(0) == "texts") return texts(*ranks, number(1));
+    if (words.at(0) == "failure") return failure(*ranks);
+    if (words.at(0) == "waiting") return waiting(*ranks);
+    if (words.at(0) == "desertion") return desertion(*ranks, static_cast<int>(number(1)));
+    return 99;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run({argv + 1, argv + argc});
+    } catch (SceneError const& error) {
+        fmt::print(stderr, "{}\n", error.what());
+        return 2;
+    } catch (std::exception const& error) {
+        fmt::print(stderr, "failed: {}\n", error.what());
+        return 6;
+    }
+}

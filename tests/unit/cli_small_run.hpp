@@ -1,0 +1,35 @@
+// A small ensemble, run through the program.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli_process.hpp"
+#include "host/output/result_reader.hpp"
+
+namespace slideway::testing {
+
+inline constexpr char const* small_scene = R"(
+schema = 1
+title = "A small ensemble"
+[friction]
+[study]
+members = 37
+duration = "5 ms"
+samples = 6
+quantities = ["energy_residual", "crank_work", "mode_time"]
+[study.vary]
+"initial.y" = { dist = "unif", low = "-0.09 mm", high = "0.09 mm" }
+)";
+
+class SmallRun : public Program {
+protected:
+    SmallRun() { write("s.toml", small_scene); }
+    Outcome run_scene(std::vector<std::string> options) const {
+        options.insert(options.begin(), {"run", "s.toml", "--quiet"});
+        return run(std::move(options));
+    }
+    ResultReader results(std::string const& name) const { return ResultReader(path(name).string()); }
+};
+
+}  // namespace slideway::testing

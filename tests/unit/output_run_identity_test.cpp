@@ -1,0 +1,129 @@
+#include "host/output/run_identity.hpp"
+
+#include "host/scene/error.hpp"
+#include "scene_fixture.hpp"
+
+namespace slideway {
+namespace {
+
+using testing::contains;
+
+constexpr char const* sweep = R"(
+schema = 1
+title = "A = \"b\"  # [c]"
+[study]
+kind = "sweep"
+members = 3
+parameter = "joint.clearance"
+values = ["0.5 mm", "0.4 mm", "0.3 mm"]
+transient_revolutions = 0
+revolutions = 2
+phase = "90 deg"
+[study.vary]
+"initial.y" = { dist = "unif", low = "-0.09 mm", high = "0.09 mm" }
+)";
+
+/// What a run of the scene, with keys changed, would be.
+RunIdentity identity_of(Overrides const& overrides = {}) {
+    return {"slideway 1.2.3, commit abc, GNU 12", MemberSet({0, 9}),
+            resolved_toml(testing::scene_of(sweep, overrides))};
+}
+
+std::string difference(Overrides const& now, Overrides const& before = {}) {
+    return identity_of(now).difference(identity_of(before));
+}
+
+TEST(RunIdentity, OfTheSameRunDoesNotDiffer) {
+    EXPECT_EQ(difference({}), "");
+    EXPECT_EQ(difference({{"study.seed", "1"}}), "");  // what it is anyway
+}
+
+TEST(RunIdentity, HasATextThatReadsBack) {
+    RunIdentity identity = identity_of();
+    identity.members.add({100, 5});
+    std::string const text = identity_text(identity);
+    RunIdentity const back = parse_identity(text, "run.toml");
+    EXPECT_EQ(back.program, identity.program);
+    EXPECT_EQ(back.members, identity.members);
+    EXPECT_EQ(back.scene, identity.scene);
+    EXPECT_EQ(back.difference(identity), "");
+}
+
+TEST(RunIdentity, HasATextThatIsTheSceneItself) {
+    RunIdentity const identity = identity_of();
+    EXPECT_EQ(resolved_toml(testing::scene_of(identity_text(identity))), identity.scene);
+}
+
+TEST(RunIdentity, NamesTheKeyThatChanged) {
+    EXPECT_EQ(difference({{"mechanism.gravity", "1.62"}}), "mechanism.gravity was 9.81, is 1.62");
+    EXPECT_EQ(difference({{"study.seed", "7"}}), "study.seed was 1, is 7");
+    // Whether modes are located follows from the law.
+    EXPECT_EQ(difference({{"contact.law", "conservative"}}),
+              "contact.law was \"paper\", is \"conservative\"; integrator.locate_modes was true, is false");
+    EXPECT_TRUE(contains(difference({{"title", "another"}}), "title was "));
+}
+
+TEST(RunIdentity, NamesTheClearanceInTheUnitOfTheResolvedScene) {
+    std::string const plain = "schema = 1\n[joint]\nclearance = \"0.1 mm\"\n";
+    auto const with = [&](Overrides const& overrides) {
+        return RunIdentity{"p", MemberSet({0, 1}), resolved_toml(testing::scene_of(plain, overrides))};
+    };
+    EXPECT_EQ(with({{"joint.clearance_y", "0.2 mm"}}).difference(with({})), "joint.clearance_y was 0.0001, is 0.0002");
+    EXPECT_EQ(with({{"joint.clearance", "0.2 mm"}}).difference(with({})),
+              "joint.clearance_y was 0.0001, is 0.0002; joint.clearance_z was 0.0001, is 0.0002");
+}
+
+TEST(RunIdentity, NamesKeysThatCameAndWent) {
+    std::string const key = R"(study.vary."initial.z")", value = R"({dist="norm",mean=0,sd=1e-5})";
+    std::string const came = difference({{key, value}});
+    EXPECT_TRUE(contains(came, "study.vary.\"initial.z\" = { dist = \"norm\"")) << came;
+    EXPECT_TRUE(contains(came, "is new")) << came;
+    std::string const went = difference({}, {{key, value}});
+    EXPECT_TRUE(contains(went, "study.vary.\"initial.z\" = { dist = \"norm\"")) << went;
+    EXPECT_TRUE(contains(went, "is gone")) << went;
+}
+
+TEST(RunIdentity, ComparesAnArrayOverSeveralLinesAsOneValue) {
+    std::string const changed = difference({{"study.values", R"(["0.5 mm", "0.4 mm", "0.2 mm"])"}});
+    EXPECT_TRUE(changed.starts_with("study.values was [")) << changed;
+    EXPECT_TRUE(contains(changed, "0.0003")) << changed;
+    EXPECT_TRUE(contains(changed, "0.0002")) << changed;
+    EXPECT_FALSE(contains(changed, ";")) << changed;  // nothing else changed
+    EXPECT_FALSE(contains(changed, "\n"));
+}
+
+TEST(RunIdentity, NamesThreeOfManyKeysAndCountsTheOthers) {
+    std::string const changed = difference({{"mechanism.gravity", "1"},
+                                            {"mechanism.inclination", "1"},
+                                            {"contact.eta", "1"},
+                                            {"contact.hertz_exponent", "1.4"},
+                                            {"integrator.rtol", "1e-7"}});
+    EXPECT_EQ(std::count(changed.begin(), changed.end(), ';'), 3) << changed;
+    EXPECT_TRUE(changed.ends_with("; and 2 more")) << changed;
+}
+
+TEST(RunIdentity, TellsOfOtherMembersAndAnotherProgram) {
+    RunIdentity const before = identity_of();
+    RunIdentity other = before;
+    other.members = MemberSet({0, 12});
+    EXPECT_EQ(other.difference(before), "the members were 0-8, are 0-11");
+    other = before;
+    other.program = "slideway 1.2.4, commit def, GNU 12";
+    EXPECT_EQ(other.difference(before),
+              "the program was slideway 1.2.3, commit abc, GNU 12, is slideway 1.2.4, commit def, GNU 12");
+}
+
+TEST(RunIdentity, CannotBeReadFromOtherTexts) {
+    std::string const text = identity_text(identity_of());
+    for (std::string const& other : {std::string(), std::string("schema = 1\n"), text.substr(1), text.substr(0, 100)}) {
+        EXPECT_THROW(parse_identity(other, "run.toml"), FileError) << other;
+    }
+    std::string damaged = text;
+    auto const at = damaged.find("members: 0-8");
+    ASSERT_NE(at, std::string::npos);
+    damaged[at + 10] = 'x';
+    EXPECT_THROW(parse_identity(damaged, "run.toml"), FileError);
+}
+
+}  // namespace
+}  // namespace slideway
