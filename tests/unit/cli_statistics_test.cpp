@@ -1,40 +1,12 @@
 // Runs that keep statistics in place of members, as a user has them, beside runs of the same scenes that keep the members.
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 
-#include "cli_process.hpp"
-#include "host/output/netcdf_file.hpp"
-#include "host/output/result_reader.hpp"
+#include "cli_statistics.hpp"
 #include "kernels/status.hpp"
 
 namespace slideway::testing {
 namespace {
-
-// Members that touch and members that do not, some 0.1 ms of work each.
-constexpr char const* cheap_scene = R"(
-schema = 1
-title = "Cheap members"
-[contact]
-law = "conservative"
-[friction]
-[study]
-kind = "tolerance"
-members = 400
-duration = "0.1 ms"
-quantities = ["peak_normal_force", "energy_change", "mode_time"]
-store = "statistics"
-[study.vary]
-"initial.y" = { dist = "unif", low = "-0.099 mm", high = "0.099 mm" }
-"initial.vy" = { dist = "norm", mean = 0, sd = 0.3 }
-[study.limits]
-"peak_normal_force" = { max = "10 N" }
-"mode_time[free]" = { min = "0.099 ms" }
-)";
-
-std::vector<std::string> const stored{"--set", "study.store=members"};
-/// Some members break off: a few dozen steps are enough for those that fly free.
-std::vector<std::string> const failing{"--set", "integrator.max_steps=60", "--max-failures", "100%"};
 
 /// A column of the members that finished.
 std::vector<double> finished(std::string const& file, std::string const& variable, std::size_t column) {
@@ -54,53 +26,6 @@ std::pair<double, double> moments(std::vector<double> const& values) {
     for (double const value : values) squares += (value - sum / n) * (value - sum / n);
     return {static_cast<double>(sum / n), static_cast<double>(std::sqrt(squares / (n - 1)))};
 }
-
-class StatisticsRun : public Program {
-protected:
-    StatisticsRun() { write("s.toml", cheap_scene); }
-    Outcome run_scene(std::string const& output, std::vector<std::string> const& more = {},
-                      std::vector<std::string> const& and_more = {}) const {
-        std::vector<std::string> arguments{"run", "s.toml", "--quiet", "-o", output};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        arguments.insert(arguments.end(), and_more.begin(), and_more.end());
-        return run(std::move(arguments));
-    }
-    std::string hash_of(std::string const& name) const {
-        ResultReader const results(path(name).string());
-        EXPECT_EQ(results.stored_hash(), results.computed_hash());
-        EXPECT_EQ(results.attribute("completeness"), "complete");
-        return results.stored_hash();
-    }
-    /// A variable of the group `statistics`.
-    std::vector<double> statistic(std::string const& file, std::string const& name,
-                                  std::string const& group = "statistics") const {
-        NetcdfFile const results = NetcdfFile::open(path(file).string());
-        NetcdfFile const from = results.group(group);
-        for (NetcdfFile::Variable const& variable : from.variables()) {
-            if (variable.name != name) continue;
-            std::vector<std::size_t> const start(variable.shape.size() + 1, 0);
-            std::vector<std::size_t> shape = variable.shape;
-            shape.push_back(0);
-            std::size_t const rank = variable.shape.size();
-            std::vector<double> values(variable.size());
-            std::vector<int> counts(variable.size());
-            bool const whole = variable.type == NetcdfFile::Type::int32;
-            from.read(variable.id, {start.data(), rank}, {shape.data(), rank},
-                      whole ? static_cast<void*>(counts.data()) : values.data());
-            if (whole) values.assign(counts.begin(), counts.end());
-            return values;
-        }
-        ADD_FAILURE() << name;
-        return {};
-    }
-    std::size_t files_in(std::string const& folder) const {
-        std::size_t count = 0;
-        for (auto const& entry : std::filesystem::directory_iterator(path(folder))) {
-            count += entry.path().filename().string().starts_with("statistics-");
-        }
-        return count;
-    }
-};
 
 TEST_F(StatisticsRun, SaysWhatTheStoredMembersSay) {
     ASSERT_EQ(run_scene("s.nc", failing).code, 0);
@@ -161,77 +86,6 @@ TEST_F(StatisticsRun, QuantilesKeepTheirPromise) {
     NetcdfFile const file = NetcdfFile::open(path("s.nc").string());
     EXPECT_EQ(file.group("statistics").text(NetcdfFile::global, "quantile_error"),
               "relative error of at most 2^-10 of a member of that rank");
-}
-
-TEST_F(StatisticsRun, HasTheSameBitsWithAnyThreadsBlocksAndParts) {
-    ASSERT_EQ(run_scene("a.nc", failing).code, 0);
-    std::string const hash = hash_of("a.nc");
-    for (char const* const threads : {"1", "2", "4"}) {
-        for (char const* const block : {"8", "100"}) {
-            ASSERT_EQ(run_scene("b.nc", failing, {"--threads", threads, "--block-members", block}).code, 0);
-            EXPECT_EQ(hash_of("b.nc"), hash) << threads << " " << block;
-        }
-    }
-    for (char const* const part : {"2/3", "3/3", "1/3"}) {
-        ASSERT_EQ(run_scene("p.nc", failing, {"--shard", part, "--block-members", "16"}).code, 0);
-    }
-    Outcome const merged = run({"merge", "p.nc.shards", "-o", "p.nc"});
-    ASSERT_EQ(merged.code, 0) << merged.err;
-    EXPECT_NE(merged.out.find("Quantiles are sketched"), std::string::npos);
-    EXPECT_EQ(hash_of("p.nc"), hash);
-    ResultReader const one(path("a.nc").string()), other(path("p.nc").string());
-    for (char const* const name : {"isa", "flags", "backend", "scene"})
-        EXPECT_EQ(other.attribute(name), one.attribute(name));
-}
-
-TEST_F(StatisticsRun, GoesOnAfterItsEndWithTheSameBits) {
-    std::vector<std::string> const longer{"--set", "study.members=20000", "--set", "study.duration=0.3 ms"};
-    ASSERT_EQ(run_scene("a.nc", longer).code, 0);
-    for (int const signal : {SIGTERM, SIGKILL}) {
-        std::vector<std::string> arguments{"run",       "s.toml", "--quiet",         "-o", "b.nc",
-                                           "--threads", "2",      "--block-members", "8"};
-        arguments.insert(arguments.end(), longer.begin(), longer.end());
-        pid_t const child = start(arguments);
-        for (int i = 0; i < 2000 && !(std::filesystem::exists(path("b.nc.shards")) && files_in("b.nc.shards") > 40);
-             ++i) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        }
-        kill(child, signal);
-        EXPECT_EQ(wait(child).code, signal == SIGTERM ? 5 : -SIGKILL);
-        Outcome const partial = run({"merge", "b.nc.shards", "-o", "partial.nc"});
-        EXPECT_EQ(partial.code, 5);
-        EXPECT_NE(partial.out.find("not_run"), std::string::npos);
-        auto const counts = ResultReader(path("partial.nc").string()).values("status_count");
-        EXPECT_GT(counts.back(), 0);
-        EXPECT_GT(counts.front(), 0);
-        EXPECT_EQ(counts.front() + counts.back(), 20000);
-        arguments.push_back("--resume");
-        Outcome const resumed = run(arguments);
-        ASSERT_EQ(resumed.code, 0) << resumed.err;
-        EXPECT_FALSE(std::filesystem::exists(path("b.nc.shards")));
-        EXPECT_EQ(hash_of("b.nc"), hash_of("a.nc"));
-        std::filesystem::remove(path("b.nc"));
-    }
-}
-
-TEST_F(StatisticsRun, FilesOfManyBlocksStayFew) {
-    // 500 blocks: 7 joined shards and 52 single ones.
-    ASSERT_EQ(run_scene("a.nc", {"--set", "study.members=4000", "--shard", "1/1", "--block-members", "8"}).code, 0);
-    EXPECT_EQ(files_in("a.nc.shards"), 59u);
-    ASSERT_EQ(run({"merge", "a.nc.shards", "-o", "a.nc"}).code, 0);
-    ASSERT_EQ(run_scene("b.nc", {"--set", "study.members=4000"}).code, 0);
-    EXPECT_EQ(hash_of("a.nc"), hash_of("b.nc"));
-}
-
-TEST_F(StatisticsRun, ACompleteFileNeedsNoWork) {
-    ASSERT_EQ(run_scene("a.nc").code, 0);
-    std::string const before = file_text(path("a.nc"));
-    Outcome const again = run({"run", "s.toml", "-o", "a.nc", "--resume"});
-    EXPECT_EQ(again.code, 0) << again.err;
-    EXPECT_NE(again.err.find("a.nc is complete already"), std::string::npos);
-    EXPECT_NE(again.out.find("Quantiles are sketched"), std::string::npos);
-    EXPECT_EQ(file_text(path("a.nc")), before);
-    expect_refusal(2, "study.seed was 1, is 2", {"run", "s.toml", "-o", "a.nc", "--resume", "--set", "study.seed=2"});
 }
 
 TEST_F(StatisticsRun, FailedMembersCanBeReplayed) {

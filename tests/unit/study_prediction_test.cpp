@@ -35,5 +35,21 @@ TEST(Prediction, NoMoreThreadsThanBlocks) {
     EXPECT_EQ(prediction_of("", 4096).busy_threads, 4);
 }
 
+TEST(Prediction, StatisticsDoNotGrowWithTheMembers) {
+    auto const of = [](std::string const& store, std::uint64_t members) {
+        return predict(testing::scene_of("schema = 1\n[study]\nduration = 4\nquantities = [\"peak_normal_force\", "
+                                         "\"mode_time\"]\nstore = \"" +
+                                         store + "\"\nmembers = " + std::to_string(members) + "\n"),
+                       Isa::avx2, 4);
+    };
+    Prediction const million = of("statistics", 1'000'000), billion = of("statistics", 1'000'000'000);
+    EXPECT_EQ(million.output_bytes, billion.output_bytes);
+    EXPECT_EQ(million.memory(), billion.memory());
+    // One generation of joined shards more, and a full one: a thousand times the members, and not five times the shards.
+    EXPECT_LT(billion.shard_bytes, 5 * million.shard_bytes);
+    EXPECT_LT(billion.output_bytes, 1'000'000u);
+    EXPECT_GT(of("members", 1'000'000).output_bytes, 100'000'000u);
+}
+
 }  // namespace
 }  // namespace slideway
