@@ -32,11 +32,11 @@ struct FailedMember {
     double time;  // [s] where it ended
 };
 
-/// Counts, exact sums, sketches and the first failures of a set of members.  All of it is the same to the last bit in whichever order
-/// the members come and however they are divided into parts.
+/// Counts, exact sums, sketches and the first failures of a set of members.  All of it is the same to the last bit in
+/// whichever order the members come and however they are divided into parts.
 ///
-/// Whom the numbers are of is the policy of a tolerance report: the columns are of members that finished; a member that failed meets
-/// no limit, and neither does NaN.
+/// Whom the numbers are of is the policy of a tolerance report: the columns are of members that finished; a member that
+/// failed meets no limit, and neither does NaN.
 class BlockStatistics {
 public:
     static constexpr std::size_t most_failed = 100;  // members that are kept by number, the lowest
@@ -74,7 +74,8 @@ public:
     /// Of all members, in the order of the table.
     std::span<std::uint64_t const> work() const { return work_; }
 
-    /// A magic word with a version, then little-endian numbers; the same for the same members, however they came together.
+    /// A magic word with a version, then little-endian numbers; the same for the same members, however they came
+    /// together.
     std::vector<std::byte> bytes() const;
     /// @param name of what they are from, for messages.  @throws FileError if they are not those of statistics.
     static BlockStatistics parse(std::span<std::byte const> bytes, std::string const& name);

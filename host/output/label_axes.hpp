@@ -9,7 +9,8 @@
 
 namespace slideway {
 
-/// Defines the dimensions of the quantity table (apex, mode_class, axis) as they are asked for, each with its labels in `<name>_name`.
+/// Defines the dimensions of the quantity table (apex, mode_class, axis) as they are asked for, each with its labels in
+/// `<name>_name`.
 class LabelAxes {
 public:
     explicit LabelAxes(NetcdfFile& file) : file_(file) {}

@@ -13,14 +13,16 @@
 
 namespace slideway {
 
-/// The bytes of one shard that stands for several, whose members differ.  Files that are no longer what was written throw FileError.
+/// The bytes of one shard that stands for several, whose members differ.  Files that are no longer what was written
+/// throw FileError.
 using ShardJoin = std::function<std::vector<std::byte>(std::string const& folder, std::span<Shard const> shards)>;
 
 /// From one thread.
 ///
-/// With a `join`, files do not grow in number with the blocks: `shards_joined` shards of a generation become one of the next.  That
-/// one is on the disk and in the manifest, under a name of its own, before the first of the others is removed.  So whatever ends the
-/// process, each member is in a shard that is listed: where two hold it, the later line of the manifest counts.
+/// With a `join`, files do not grow in number with the blocks: `shards_joined` shards of a generation become one of the
+/// next.  That one is on the disk and in the manifest, under a name of its own, before the first of the others is
+/// removed.  So whatever ends the process, each member is in a shard that is listed: where two hold it, the later line
+/// of the manifest counts.
 class ShardStore {
 public:
     static constexpr std::size_t shards_joined = 64;

@@ -18,7 +18,8 @@ namespace slideway {
 /// A thread of its own waits for the disk; computing waits only where the disk is slower.
 class ShardWriter {
 public:
-    /// @param form what a block becomes; of no members if none have ended.  @param join of the store; empty: shards stay as they are.
+    /// @param form what a block becomes; of no members if none have ended.  @param join of the store; empty: shards
+    /// stay as they are.
     ShardWriter(std::string folder, std::function<ShardImage(BlockResult const&)> form, ShardJoin join = {});
     /// Waits for what `write` was given; an error then has nobody to hear it: call `finish`.
     ~ShardWriter();

@@ -23,10 +23,12 @@ struct StatisticsMerge {
     std::function<void()> pause;
 };
 
-/// Writes a result file without members, as `merge_shards` one with.  Its attribute `store` is "statistics", and `members` the numbers
-/// of those of the run, `quantities` the names of what the statistics are of.  `status_count(status)` says how many ended as `status_value`, with `not_run` last if there are any;
-/// `failed_member`, `failed_status` and `failed_time` name the first failures, scalars sum the work of all members, and `accumulators`
-/// holds the bytes of BlockStatistics.  Whatever the order and the division of the shards, the file has the same numbers.  @throws FileError
+/// Writes a result file without members, as `merge_shards` one with.  Its attribute `store` is "statistics", and
+/// `members` the numbers of those of the run, `quantities` the names of what the statistics are of.
+/// `status_count(status)` says how many ended as `status_value`, with `not_run` last if there are any; `failed_member`,
+/// `failed_status` and `failed_time` name the first failures, scalars sum the work of all members, and `accumulators`
+/// holds the bytes of BlockStatistics.  Whatever the order and the division of the shards, the file has the same
+/// numbers.  @throws FileError
 void merge_statistics(ShardFolder const& folder, std::vector<Shard> const& shards, StatisticsMerge const& merge,
                       std::string const& path);
 

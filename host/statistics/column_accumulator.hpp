@@ -16,11 +16,11 @@
 
 namespace slideway {
 
-/// Counts, ends, sums of x and x² without rounding and a sketch of the quantiles.  All of it is the same to the last bit
-/// in whichever order the numbers come and however they are divided into parts.
+/// Counts, ends, sums of x and x² without rounding and a sketch of the quantiles.  All of it is the same to the last
+/// bit in whichever order the numbers come and however they are divided into parts.
 ///
-/// x² enters as the two doubles x·x and fma(x, x, -x·x).  They are exact for 2^-484 <= |x| < 2^512; below, each is off by
-/// at most 2^-1075, and above the squares are infinite and so is the standard deviation.
+/// x² enters as the two doubles x·x and fma(x, x, -x·x).  They are exact for 2^-484 <= |x| < 2^512; below, each is off
+/// by at most 2^-1075, and above the squares are infinite and so is the standard deviation.
 class ColumnAccumulator {
 public:
     void add(double x);
@@ -37,15 +37,16 @@ public:
     /// @return NaN for less than two numbers and for infinite ones.
     double sd() const;
 
-    /// The k-th smallest number, k from 0 and below `count`: within `QuantileSketch::error` of it, relative, and between
-    /// min and max.
+    /// The k-th smallest number, k from 0 and below `count`: within `QuantileSketch::error` of it, relative, and
+    /// between min and max.
     double at_rank(std::uint64_t rank) const;
     /// As `quantile` of the sorted numbers (type 7), between two of `at_rank`.  @param p in [0, 1].
     double quantile(double p) const;
     /// As `quantile_interval` of the sorted numbers, its bounds of `at_rank`.  @param p, level in (0, 1).
     Interval quantile_interval(double p, double level = 0.95) const;
-    /// As `histogram` of the sorted numbers; the quartiles of its rule are sketched, and the numbers of one bucket of the sketch
-    /// count where its answer for them lies: near an edge they may count beside it, by 2^-10 of their magnitude.
+    /// As `histogram` of the sorted numbers; the quartiles of its rule are sketched, and the numbers of one bucket of
+    /// the sketch count where its answer for them lies: near an edge they may count beside it, by 2^-10 of their
+    /// magnitude.
     Histogram histogram() const;
     Summary summary() const;
 

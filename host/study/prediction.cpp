@@ -76,7 +76,8 @@ std::uint64_t statistics_bytes(Scene const& scene, std::uint64_t members) {
 }
 
 std::uint64_t statistics_shard_bytes(Scene const& scene, std::uint64_t members) {
-    // Blocks of one lane's width make the most shards; of each generation there are 64 at most, and the one made of them.
+    // Blocks of one lane's width make the most shards; of each generation there are 64 at most, and the one made of
+    // them.
     constexpr std::uint64_t joined = ShardStore::shards_joined, least_block = 8;
     std::uint64_t bytes = 0, of_shard = least_block;
     for (std::uint64_t shards = members / least_block + 1; shards > 0; shards /= joined) {

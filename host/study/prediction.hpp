@@ -30,9 +30,9 @@ struct Prediction {
 /// inputs complete.
 double stiffest_rate(Inputs const& inputs);
 
-/// What a scene that keeps statistics needs on the disk: of the result, and at most of its shards.  A column's sketch is taken to
-/// be of 4096 buckets, eight octaves of values, or of as many as there are members; wider scatter needs more.  Shards become fewer
-/// as they become many (ShardStore): their bound grows with the logarithm of the members.
+/// What a scene that keeps statistics needs on the disk: of the result, and at most of its shards.  A column's sketch
+/// is taken to be of 4096 buckets, eight octaves of values, or of as many as there are members; wider scatter needs
+/// more.  Shards become fewer as they become many (ShardStore): their bound grows with the logarithm of the members.
 std::uint64_t statistics_bytes(Scene const& scene, std::uint64_t members);
 std::uint64_t statistics_shard_bytes(Scene const& scene, std::uint64_t members);
 

@@ -28,7 +28,8 @@ struct StatusCount {
 /// Statuses that occur; not_run last.
 std::vector<StatusCount> count_statuses(ResultView const& results);
 
-/// The first `limit` members that ran and did not finish; where members are not stored, of those that are kept by number.
+/// The first `limit` members that ran and did not finish; where members are not stored, of those that are kept by
+/// number.
 std::vector<FailedMember> failed_members(ResultView const& results, std::size_t limit);
 
 /// "finished", also "not_run".

@@ -9,8 +9,8 @@
 
 namespace slideway {
 
-/// Moments, ends and yields are those of the members, without rounding but for their last; quantiles and histograms are by the sketch
-/// (QuantileSketch::error), and there are no correlations.
+/// Moments, ends and yields are those of the members, without rounding but for their last; quantiles and histograms are
+/// by the sketch (QuantileSketch::error), and there are no correlations.
 /// @param left members of the run that did not run.  @param path of what the statistics are from, for messages.
 /// @throws FileError if the statistics are not of the scene's quantities and limits.
 ToleranceReport statistics_report(BlockStatistics const& statistics, std::uint64_t left, Scene const& scene,

@@ -78,8 +78,8 @@ private:
     StudyWork work_;
 };
 
-/// Whether a result of the scene has a report in its groups: a tolerance study, an ensemble with limits, and any that keeps
-/// statistics in place of members.
+/// Whether a result of the scene has a report in its groups: a tolerance study, an ensemble with limits, and any that
+/// keeps statistics in place of members.
 bool asks_for_report(Scene const& scene);
 
 /// A result file of the shards in a folder; members without one have status not_run.  The shards stay.

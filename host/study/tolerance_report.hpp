@@ -98,7 +98,8 @@ inline constexpr std::size_t most_correlated = std::size_t{1} << 20;
 ///   with a member that failed or is missing are left out of the indices whole, and counted.
 /// Members are known by their number (variable `member`), so the file may hold a part of the design, in any order.  One
 /// column of all members is in memory at a time, and the inputs of at most `most_correlated` members.
-/// A result that keeps statistics in place of members has the same report, with sketched quantiles and without correlations.
+/// A result that keeps statistics in place of members has the same report, with sketched quantiles and without
+/// correlations.
 /// Intervals are those of independent draws (so too wide for lhs, sobol and saltelli, whose draws are spread more
 /// evenly); of grid and table designs, whose members are no random draws, there are none.
 /// @throws FileError if the result lacks a quantity that a limit names, or its members are not those of the scene's

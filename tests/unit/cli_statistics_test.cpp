@@ -1,4 +1,5 @@
-// Runs that keep statistics in place of members, as a user has them, beside runs of the same scenes that keep the members.
+// Runs that keep statistics in place of members, as a user has them, beside runs of the same scenes that keep the
+// members.
 #include <algorithm>
 #include <cmath>
 

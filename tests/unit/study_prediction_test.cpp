@@ -45,7 +45,8 @@ TEST(Prediction, StatisticsDoNotGrowWithTheMembers) {
     Prediction const million = of("statistics", 1'000'000), billion = of("statistics", 1'000'000'000);
     EXPECT_EQ(million.output_bytes, billion.output_bytes);
     EXPECT_EQ(million.memory(), billion.memory());
-    // One generation of joined shards more, and a full one: a thousand times the members, and not five times the shards.
+    // One generation of joined shards more, and a full one: a thousand times the members, and not five times the
+    // shards.
     EXPECT_LT(billion.shard_bytes, 5 * million.shard_bytes);
     EXPECT_LT(billion.output_bytes, 1'000'000u);
     EXPECT_GT(of("members", 1'000'000).output_bytes, 100'000'000u);
