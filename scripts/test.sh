@@ -19,7 +19,7 @@ stop() {
     exit 1
 }
 
-bash scripts/setup.sh || stop "the set-up failed, no test ran"
+bash scripts/setup.sh tests || stop "the set-up failed, no test ran"
 
 SECONDS=0
 cmake --preset release --log-level=WARNING || stop "the configuration failed, no test ran"

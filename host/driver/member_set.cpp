@@ -67,6 +67,14 @@ bool MemberSet::contains(std::uint64_t member) const {
     return range != ranges_.end() && range->first <= member;
 }
 
+bool MemberSet::overlaps(MemberSet const& other) const {
+    return std::any_of(other.ranges_.begin(), other.ranges_.end(), [this](MemberRange const& range) {
+        auto const next = std::partition_point(ranges_.begin(), ranges_.end(),
+                                               [&](MemberRange const& own) { return own.end() <= range.first; });
+        return next != ranges_.end() && next->first < range.end();
+    });
+}
+
 std::uint64_t MemberSet::place(std::uint64_t member) const {
     std::uint64_t smaller = 0;
     for (MemberRange const& range : ranges_) {

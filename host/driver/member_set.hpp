@@ -33,6 +33,7 @@ public:
     bool empty() const { return ranges_.empty(); }
     std::uint64_t count() const;
     bool contains(std::uint64_t member) const;
+    bool overlaps(MemberSet const& other) const;
     /// How many members are smaller.
     std::uint64_t place(std::uint64_t member) const;
     /// The members from the `offset`-th smallest on, `count` of them or as many as there are.

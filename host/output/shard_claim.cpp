@@ -119,7 +119,7 @@ void ShardClaim::begin(Wanted const& wanted) {
 /// What is damaged must not stand in the way of its successor.  Other parts see to theirs.
 void ShardClaim::remove_damaged(std::vector<Shard> const& damaged, MemberSet const& mine) {
     for (Shard const& shard : damaged) {
-        if (shard.members.common(mine).empty()) continue;
+        if (!shard.members.overlaps(mine)) continue;
         remove_file(folder_, shard.name);
         damaged_.push_back(shard.name);
     }

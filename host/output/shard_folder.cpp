@@ -92,7 +92,7 @@ std::vector<Shard> without_repeats(std::vector<Shard> shards) {
     std::vector<Shard> kept;
     MemberSet done;
     for (Shard& shard : shards) {
-        if (!done.common(shard.members).empty()) continue;
+        if (done.overlaps(shard.members)) continue;
         done.add(shard.members);
         kept.push_back(std::move(shard));
     }

@@ -69,6 +69,7 @@ TEST(MemberSet, UnitesIntersectsAndSubtractsAnyTwoSets) {
             ASSERT_EQ(plain_of(both), bits(a | b));
             ASSERT_EQ(plain_of(one.without(other)), bits(a & ~b));
             ASSERT_EQ(plain_of(one.common(other)), bits(a & b));
+            ASSERT_EQ(one.overlaps(other), (a & b) != 0);
             for (MemberSet const& set : {both, one.without(other), one.common(other)}) expect_canonical(set);
         }
     }
