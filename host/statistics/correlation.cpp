@@ -111,7 +111,8 @@ StandardisedRegression standardised_regression(std::span<std::vector<double> con
     Eigen::VectorXd const y = triangle.topRightCorner(inputs_width, 1);
     Eigen::VectorXd const coefficients = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(x).solve(y);
     double const unexplained = (y - x * coefficients).squaredNorm() + std::pow(triangle(width - 1, width - 1), 2);
-    if (!coefficients.allFinite()) return result;
+    // Through as many points as it has coefficients and a constant, a plane goes exactly, whatever they are.
+    if (!coefficients.allFinite() || n <= d + 1) return result;
     for (std::size_t j = 0; j < d; ++j) result.coefficients[j] = coefficients(static_cast<Eigen::Index>(j));
     // The columns have length one each, so the total is 1 but for rounding.
     result.r_squared = std::max(0.0, 1 - unexplained);

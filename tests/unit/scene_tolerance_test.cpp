@@ -83,20 +83,38 @@ TEST(SceneDesigns, AreIndependentDrawsUnlessTheySayMore) {
 }
 
 TEST(SceneDesigns, SaltelliHasTwoMembersMoreThanKeysInARow) {
-    Scene const scene = study("design = \"saltelli\"\nbase = 64", three_keys);
+    Scene const scene = study("design = \"saltelli\"\nbase = 128", three_keys);
     EXPECT_EQ(scene.design.kind, DesignKind::saltelli);
-    EXPECT_EQ(scene.design.base, 64u);
-    EXPECT_EQ(scene.members, 64u * 5);
+    EXPECT_EQ(scene.design.base, 128u);
+    EXPECT_EQ(scene.members, 128u * 5);
     EXPECT_TRUE(scene.warnings.empty());
-    EXPECT_EQ(study("design = \"saltelli\"\nbase = 64\nmembers = 320", three_keys).members, 320u);
+    EXPECT_EQ(study("design = \"saltelli\"\nbase = 128\nmembers = 640", three_keys).members, 640u);
 }
 
 TEST(SceneDesigns, ABaseOfNoPowerOfTwoIsWarnedOf) {
-    Scene const scene = study("design = \"saltelli\"\nbase = 100", three_keys);
-    EXPECT_EQ(scene.members, 500u);
+    Scene const scene = study("design = \"saltelli\"\nbase = 200", three_keys);
+    EXPECT_EQ(scene.members, 1000u);
     ASSERT_EQ(scene.warnings.size(), 1u);
     EXPECT_EQ(scene.warnings[0],
-              "study.base is 100 and no power of two, where points are spread less evenly; use 64 or 128");
+              "study.base is 200 and no power of two, where points are spread less evenly; use 128 or 256");
+}
+
+TEST(SceneDesigns, FewRowsAreWarnedOf) {
+    Scene const scene = study("design = \"saltelli\"\nbase = 64", three_keys);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_EQ(scene.warnings[0], "study.base is 64: the intervals of so few rows are too narrow; use 128 or more");
+}
+
+TEST(SceneCorrelation, OfAnEvenDesignIsWarnedOf) {
+    std::string const correlated =
+        three_keys +
+        "[study.correlation]\nkeys = [\"joint.clearance\", \"initial.y\"]\nmatrix = [[1, 0.5], [0.5, 1]]\n";
+    EXPECT_TRUE(study("members = 7", correlated).warnings.empty());
+    for (char const* const design : {"lhs", "sobol"}) {
+        auto const warnings = study(fmt::format("members = 7\ndesign = \"{}\"", design), correlated).warnings;
+        ASSERT_EQ(warnings.size(), 1u);
+        EXPECT_NE(warnings[0].find("only joint.clearance keeps its even spread"), std::string::npos) << warnings[0];
+    }
 }
 
 TEST(SceneDesigns, AGridHasTheProductOfItsLevels) {
