@@ -55,9 +55,12 @@ StudyOptions study_options(RunArguments const& arguments, Scene const& scene, Is
 void announce(Scene const& scene, StudyOptions const& options, StudyRun const& run) {
     Prediction const prediction = predict(scene, options.isa, options.threads);
     StudyWork const& work = run.work();
-    for (std::string const& name : run.damaged()) {
-        fmt::print(stderr, "warning: {}/{}: is not what was written (its checksum differs); its members run again\n",
-                   shard_folder_of(options.output), name);
+    for (DamagedShard const& damaged : run.damaged()) {
+        std::string const& name = damaged.shard.name;
+        fmt::print(stderr, "warning: {}/{}: {}; its members run again\n", shard_folder_of(options.output), name,
+                   damaged.is_gone
+                       ? std::string("is gone")
+                       : fmt::format("is not what was written and is now {}{}", shard_names::damaged, name));
     }
     if (work.before > 0) {
         fmt::print(stderr, "resuming: {} of {} members are done\n", work.before, work.before + work.todo.count());

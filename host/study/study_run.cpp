@@ -82,7 +82,7 @@ StudyRun::StudyRun(Scene const& scene, StudyOptions const& options)
     require_room();
 }
 
-std::vector<std::string> StudyRun::damaged() const { return claim_ ? claim_->damaged() : std::vector<std::string>(); }
+std::vector<DamagedShard> StudyRun::damaged() const { return claim_ ? claim_->damaged() : std::vector<DamagedShard>(); }
 
 void StudyRun::require_room() const {
     // The shards and the file that is made of them stand side by side for a while.
