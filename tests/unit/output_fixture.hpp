@@ -91,7 +91,8 @@ protected:
     void write_result(std::string const& file, ResultLayout const& layout, Provenance const& provenance,
                       std::vector<BlockAndStudy> const& blocks, std::string const& completeness = "complete",
                       std::function<void(NetcdfFile&)> conclude = {}) const {
-        std::string const shards = shards_of({"a program", layout.members, provenance.scene}, "shards_of_result");
+        std::string const shards =
+            shards_of({"a program", "fused", layout.members, provenance.scene}, "shards_of_result");
         put_blocks(shards, layout, provenance, blocks);
         ShardFolder const from(shards);
         auto const listed = from.listed();

@@ -17,7 +17,7 @@ protected:
     ShardClaim::Wanted wanted(std::string const& part, bool resume = false,
                               std::string const& scene = "a = 1\n") const {
         MemberSet const all({0, 12});
-        return {{"slideway 1", all, scene}, all, part, resume};
+        return {{"slideway 1", "fused", all, scene}, all, part, resume};
     }
     std::string file(std::string const& name) const { return shards_ + "/" + name; }
     void put(std::uint64_t first) const {

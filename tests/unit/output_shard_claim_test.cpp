@@ -11,7 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 
 RunIdentity identity_of(std::string const& gravity = "9.81") {
-    return {"slideway 1", MemberSet({0, 12}), "schema = 1\n\n[mechanism]\ngravity = " + gravity + "\n"};
+    return {"slideway 1", "fused", MemberSet({0, 12}), "schema = 1\n\n[mechanism]\ngravity = " + gravity + "\n"};
 }
 
 ShardClaim::Wanted whole_run(bool resume = false, RunIdentity const& identity = identity_of()) {

@@ -23,7 +23,7 @@ std::vector<std::byte> content(int number, std::size_t size = 300) {
 
 class Shards : public testing::OutputFolder {
 protected:
-    Shards() : shards_(shards_of({"a program", range(0, 100), "schema = 1\n"})) {}
+    Shards() : shards_(shards_of({"a program", "fused", range(0, 100), "schema = 1\n"})) {}
 
     void put(MemberSet const& members, int number) const { ShardStore(shards_).put(members, content(number)); }
     ShardFolder open() const { return ShardFolder(shards_); }
