@@ -1,6 +1,8 @@
 #include "host/output/result_merge.hpp"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -188,7 +190,10 @@ FileLock lock_of(std::string const& path) {
 
 void write_part(std::string const& part, std::string const& completeness,
                 std::function<void(NetcdfFile& file)> const& write) {
-    std::remove(part.c_str());  // what a killed merge left
+    // What a killed merge left.
+    if (is_there(part) && std::remove(part.c_str()) != 0) {
+        throw FileError(fmt::format("{}: cannot remove: {}", part, std::strerror(errno)));
+    }
     try {
         NetcdfFile file = NetcdfFile::create(part);
         write(file);
