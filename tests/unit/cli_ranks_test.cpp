@@ -146,6 +146,14 @@ TEST_F(SharedRun, HasTheArithmeticOfRankZeroAtEveryRank) {
     }
 }
 
+TEST_F(SharedRun, EndsWhereAnotherRankCannotBegin) {
+    // Rank 1 does not see the scene, and rank 0 has begun with it.
+    std::string const other = "'" SLIDEWAY_BINARY "' run none.toml --quiet -o o.nc";
+    ShellOutcome const outcome = shell(mpirun(1, 30) + run_text("--threads 1") + " : -n 1 " + other);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;  // not 124, that of what hangs
+    EXPECT_NE(outcome.err.find("none.toml: the scene cannot be read"), std::string::npos) << outcome.err;
+}
+
 TEST_F(SharedRun, OfABrokenSceneEndsAtEveryRank) {
     write("s.toml", "schema = 1\n[joint]\nclearance = \"0 m\"\n");
     ShellOutcome const outcome = shell(mpirun(3, 30) + run_text(""));
