@@ -26,6 +26,8 @@ inline constexpr int stopped_early = 5;
 
 /// What an exception that ends a command makes the exit code.
 int exit_code_of(std::exception_ptr error);
+/// What it makes the line on stderr.
+std::string line_of(std::exception_ptr const& error);
 
 struct SceneArguments {
     std::string path;

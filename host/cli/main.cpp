@@ -3,9 +3,7 @@
 #include <cstdlib>
 #include <exception>
 #include <iostream>
-#include <new>
-#include <string>
-#include <system_error>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -31,20 +29,6 @@ int dispatch(Arguments const& arguments) {
         }
     };
     return std::visit(Visitor{}, arguments);
-}
-
-std::string line_of(std::exception_ptr const& error) {
-    try {
-        std::rethrow_exception(error);
-    } catch (SceneError const& known) {
-        return known.what();
-    } catch (std::bad_alloc const&) {
-        return "slideway: not enough memory; ask for fewer members or samples";
-    } catch (std::system_error const& known) {
-        return fmt::format("slideway: {}", known.what());
-    } catch (std::exception const& unknown) {
-        return fmt::format("slideway: internal error: {}", unknown.what());
-    }
 }
 
 int complain(int code, std::string_view line) {

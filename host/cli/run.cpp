@@ -1,5 +1,6 @@
 #include <exception>
 #include <filesystem>
+#include <sstream>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -55,9 +56,12 @@ StudyOptions study_options(RunArguments const& arguments, Scene const& scene, Is
 void announce(Scene const& scene, StudyOptions const& options, StudyRun const& run) {
     Prediction const prediction = predict(scene, options.isa, options.threads);
     StudyWork const& work = run.work();
-    for (std::string const& name : run.damaged()) {
-        fmt::print(stderr, "warning: {}/{}: is not what was written (its checksum differs); its members run again\n",
-                   shard_folder_of(options.output), name);
+    for (DamagedShard const& damaged : run.damaged()) {
+        std::string const& name = damaged.shard.name;
+        fmt::print(stderr, "warning: {}/{}: {}; its members run again\n", shard_folder_of(options.output), name,
+                   damaged.is_gone
+                       ? std::string("is gone")
+                       : fmt::format("is not what was written and is now {}{}", shard_names::damaged, name));
     }
     if (work.before > 0) {
         fmt::print(stderr, "resuming: {} of {} members are done\n", work.before, work.before + work.todo.count());
@@ -129,9 +133,28 @@ int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& 
     return conclude(arguments, scene, options, replaced, std::move(report));
 }
 
-/// What rank 0 tells the others before they begin; empty if there is nothing to do.
-std::string invitation(StudyRun const& run) {
-    return run.is_complete() ? std::string() : fmt::format("{} {}", run.work().before, run.work().todo.text());
+/// What rank 0 tells the others before they begin: "avx2 48 0-15,40-63"; empty if there is nothing to do.
+std::string invitation(StudyRun const& run, Isa isa) {
+    if (run.is_complete()) return {};
+    return fmt::format("{} {} {}", name_of(isa), run.work().before, run.work().todo.text());
+}
+
+/// Of a name that `name_of` gave at rank 0; this machine may lack it.
+Isa leader_isa(std::string_view name) {
+    for (Isa const isa : all_isas()) {
+        if (name_of(isa) == name) return isa;
+    }
+    throw SceneError(fmt::format("slideway: rank 0 is another program: it computes with {}", name));
+}
+
+/// Machines may differ, and bits may not.
+Isa isa_beside(Isa leader, Isa own) {
+    if (arithmetic_of(name_of(own)) == arithmetic_of(name_of(leader))) return own;
+    if (is_supported(leader)) return leader;
+    throw SceneError(fmt::format(
+        "slideway: rank 0 computes with {} and this machine has but {}, whose results have other bits; start ranks on "
+        "machines that are alike, or add --isa sse2",
+        name_of(leader), name_of(own)));
 }
 
 /// Rank 0 alone ends with the code of the run: mpirun kills the ranks that are left when one of them ends with another than 0, and
@@ -145,11 +168,14 @@ int await_end(Ranks& ranks) {
 int help(RunArguments const& arguments, Ranks& ranks, StopRequest const& stop) {
     std::string const invited = ranks.broadcast({});
     if (invited.empty()) return await_end(ranks);
-    auto const space = invited.find(' ');
+    std::istringstream words(invited);
+    std::string isa, todo;
+    StudyWork work;
+    words >> isa >> work.before >> todo;
+    work.todo = MemberSet::parse(todo).value();
     Scene const scene = load_scene(arguments.scene);
-    StudyOptions options = study_options(arguments, scene, parse_isa(arguments.scene.isa));
+    StudyOptions options = study_options(arguments, scene, isa_beside(leader_isa(isa), parse_isa(arguments.scene.isa)));
     options.progress = Progress::Style::none;
-    StudyWork const work{MemberSet::parse(invited.substr(space + 1)).value(), std::stoull(invited.substr(0, space))};
     run_work(scene, options, work, ranks, stop);
     return await_end(ranks);
 }
@@ -161,9 +187,9 @@ int run(RunArguments const& arguments) {
     StopRequest stop;
     if (arguments.max_hours) stop.stop_after(std::chrono::duration<double, std::ratio<3600>>(*arguments.max_hours));
     SignalScope const signals(stop);
-    if (ranks->rank() > 0) return help(arguments, *ranks, stop);
-    bool invited = false;
+    bool invited = ranks->rank() > 0;
     try {
+        if (ranks->rank() > 0) return help(arguments, *ranks, stop);
         require_backend(arguments.backend);
         Scene const scene = load_scene(arguments.scene);
         print_warnings(scene);
@@ -171,12 +197,20 @@ int run(RunArguments const& arguments) {
         StudyRun study(scene, options);
         if (!arguments.quiet && !study.is_complete()) announce(scene, options, study);
         invited = true;
-        ranks->broadcast(invitation(study));
+        ranks->broadcast(invitation(study, options.isa));
         return ranks->agree(lead(arguments, scene, options, study, *ranks, stop));
     } catch (...) {
+        std::exception_ptr const error = std::current_exception();
+        if (ranks->is_in_round()) {
+            // The others are at work, and hear nothing but the end of the job.
+            std::fflush(stdout);
+            fmt::print(stderr, "{}\n", line_of(error));
+            ranks->abort(exit_code_of(error));
+        }
+        if (ranks->rank() > 0) throw;
         // The others wait for what rank 0 says.
         if (!invited) ranks->broadcast({});
-        ranks->agree(exit_code_of(std::current_exception()));
+        ranks->agree(exit_code_of(error));
         throw;
     }
 }

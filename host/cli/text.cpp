@@ -25,6 +25,22 @@ int exit_code_of(std::exception_ptr error) {
     }
 }
 
+std::string line_of(std::exception_ptr const& error) {
+    try {
+        std::rethrow_exception(error);
+    } catch (SceneError const& known) {
+        return known.what();
+    } catch (FileError const& known) {
+        return known.what();
+    } catch (std::bad_alloc const&) {
+        return "slideway: not enough memory; ask for fewer members or samples";
+    } catch (std::system_error const& known) {
+        return fmt::format("slideway: {}", known.what());
+    } catch (std::exception const& unknown) {
+        return fmt::format("slideway: internal error: {}", unknown.what());
+    }
+}
+
 Scene load_scene(SceneArguments const& arguments) {
     try {
         return read_scene(arguments.path, arguments.overrides);

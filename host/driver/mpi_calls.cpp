@@ -1,6 +1,7 @@
 #include "host/driver/mpi_calls.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <thread>
 
 // The C interface: the C++ one left the standard in 2012.
@@ -81,6 +82,12 @@ void MpiCalls::broadcast(void* data, std::size_t bytes, Patience patience) {
     finish(
         [&](MPI_Request* request) { MPI_Ibcast(data, static_cast<int>(bytes), MPI_BYTE, 0, MPI_COMM_WORLD, request); },
         patience);
+}
+
+void MpiCalls::abort(int code) {
+    std::lock_guard const lock(mutex_);
+    MPI_Abort(MPI_COMM_WORLD, code);
+    std::_Exit(code);
 }
 
 }  // namespace slideway

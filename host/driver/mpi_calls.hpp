@@ -53,6 +53,9 @@ public:
     /// its launcher knows that it failed, and ends them.
     void leave_without_goodbye() { says_goodbye_ = false; }
 
+    /// Ends all processes of the job, whatever they do and whichever launcher started them.
+    [[noreturn]] void abort(int code);
+
 private:
     template <class Start> void finish(Start start, Patience patience);
 

@@ -160,34 +160,38 @@ public:
 
     std::string broadcast(std::string bytes) override {
         is_under_way_ = true;
+        if (!bytes.empty()) is_in_round_ = true;
         std::uint64_t size = bytes.size();
         calls_->broadcast(&size, sizeof size, soon);
         require_message(size, "a broadcast");  // at every rank alike
         bytes.resize(size);
         calls_->broadcast(bytes.data(), bytes.size(), soon);
+        is_in_round_ = !bytes.empty();
         return bytes;
     }
 
     std::unique_ptr<MemberQueue> share(std::uint64_t places, std::function<void(std::uint64_t)> on_finished) override {
-        is_under_way_ = true;
+        is_under_way_ = is_in_round_ = true;
         if (rank() != 0) return std::make_unique<DistantQueue>(calls_, Tags(round_), places);
         server_ = std::make_unique<Server>(*calls_, Tags(round_), places, std::move(on_finished));
         return std::make_unique<ServedQueue>(server_->queue());
     }
 
     std::vector<std::string> gather(std::string bytes) override {
-        is_under_way_ = true;
+        is_under_way_ = is_in_round_ = true;
         require_message(bytes.size(), "results");
         Tags const tags(round_++);
         if (rank() != 0) {
             Question const end{0, bytes.size(), Ask::end};
             calls_->send(0, tags.question, &end, sizeof end, soon);
             calls_->send(0, tags.bytes, bytes.data(), bytes.size(), later);
+            is_in_round_ = false;
             return {};
         }
         if (!server_) server_ = std::make_unique<Server>(*calls_, tags, 0, nullptr);
         auto given = server_->wait();
         server_.reset();
+        is_in_round_ = false;
         given[0] = std::move(bytes);
         return given;
     }
@@ -195,9 +199,13 @@ public:
     int agree(int code) override {
         is_under_way_ = true;
         calls_->broadcast(&code, sizeof code, later);
-        is_under_way_ = false;
+        // In a round the others are not here: this process may not leave as if it had come to its end.
+        is_under_way_ = is_in_round_;
         return code;
     }
+
+    bool is_in_round() const override { return is_in_round_; }
+    [[noreturn]] void abort(int code) override { calls_->abort(code); }
 
 private:
     std::shared_ptr<MpiCalls> const calls_;
@@ -205,6 +213,7 @@ private:
     int round_ = 0;
     int const exceptions_at_start_ = std::uncaught_exceptions();
     bool is_under_way_ = false;  // others may wait for what this rank says
+    bool is_in_round_ = false;   // they may be at work
 };
 
 }  // namespace

@@ -30,6 +30,11 @@ public:
     virtual std::vector<std::string> gather(std::string bytes) = 0;
     /// The exit code that rank 0 gives, at every rank, waiting without load.
     virtual int agree(int code) = 0;
+    /// Whether others may be at work, from a `broadcast` that says something, or `share`, to the end of `gather`: a rank that fails
+    /// then cannot `agree` with them, for they wait for other words.
+    virtual bool is_in_round() const = 0;
+    /// Ends the processes of all ranks, with this exit code where the launcher passes it on.  Does not return.
+    [[noreturn]] virtual void abort(int code) = 0;
 };
 
 }  // namespace slideway

@@ -1,9 +1,11 @@
 #include "host/output/durable_file.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include <fcntl.h>
@@ -109,15 +111,28 @@ void rename_durably(std::string const& from, std::string const& to) {
     sync_name(to);
 }
 
+bool is_there(std::string const& path) {
+    std::error_code error;
+    auto const kind = std::filesystem::status(path, error).type();
+    if (kind == std::filesystem::file_type::not_found) return false;
+    if (error) fail(path, "look for it", error.value());
+    return true;
+}
+
+std::string in_folder(std::string const& folder, std::string_view name) {
+    return (std::filesystem::path(folder) / name).string();
+}
+
 std::vector<std::byte> read_bytes(std::string const& path) {
     Descriptor const file(path, O_RDONLY);
     std::error_code ignored;
-    std::vector<std::byte> bytes;
     auto const size = std::filesystem::file_size(path, ignored);
-    if (!ignored) bytes.reserve(static_cast<std::size_t>(size) + 1);
+    // One more than there is: the end then shows without growing.  Pipes and the like have no size.
+    constexpr std::size_t least = 1u << 16;
+    std::vector<std::byte> bytes(ignored ? least : static_cast<std::size_t>(size) + 1);
     std::size_t used = 0;
     for (;;) {
-        bytes.resize(std::max<std::size_t>(bytes.capacity(), used + (1u << 16)));
+        if (used == bytes.size()) bytes.resize(std::max(2 * used, least));
         ssize_t const got = ::read(file.get(), bytes.data() + used, bytes.size() - used);
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) fail(path, "read", errno);

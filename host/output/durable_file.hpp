@@ -10,7 +10,8 @@
 namespace slideway {
 
 /// Puts a file into place: writes `path`.tmp, fsync, rename, fsync of the folder.  So `path` holds what it held before or all of
-/// `bytes`, also after a power loss.  @throws FileError; `path` is then as before.
+/// `bytes`, also after a power loss.  @throws FileError; `path` is then as before, but for a failed fsync of the folder, which
+/// comes last: `path` then holds all of `bytes`, and a power loss may bring back what it held before.
 void write_durably(std::string const& path, std::span<std::byte const> bytes);
 void write_durably(std::string const& path, std::string_view text);
 
@@ -24,6 +25,12 @@ void sync_name(std::string const& path);
 
 /// The folder that a path lies in; "." for a bare name.
 std::string folder_of(std::string const& path);
+
+/// `name` in a folder.
+std::string in_folder(std::string const& folder, std::string_view name);
+
+/// Whether there is something of this name.  @throws FileError if that cannot be told: a disk that fails is no missing file.
+bool is_there(std::string const& path);
 
 /// @throws FileError if it cannot be read.
 std::vector<std::byte> read_bytes(std::string const& path);

@@ -76,7 +76,7 @@ NetcdfFile NetcdfFile::create(std::string const& path) {
     if (int const code = nc_create(path.c_str(), NC_NOCLOBBER | NC_NETCDF4, &id); code != NC_NOERR) {
         fail(path, "create", code);
     }
-    return {path, id};
+    return {path, id, Kind::written};
 }
 
 NetcdfFile NetcdfFile::open(std::string const& path) {
@@ -119,20 +119,29 @@ NetcdfFile NetcdfFile::open_in_memory(std::string const& name, std::span<std::by
 }
 
 NetcdfFile::NetcdfFile(NetcdfFile&& other) noexcept
-    : path_(std::move(other.path_)), id_(std::exchange(other.id_, closed)), group_(other.group_) {}
+    : path_(std::move(other.path_)), id_(std::exchange(other.id_, closed)), kind_(other.kind_) {}
 
 NetcdfFile::~NetcdfFile() {
-    if (id_ != closed && !group_) nc_close(id_);
+    if (id_ == closed || kind_ == Kind::group) return;
+    bool ignored = false;
+    close_with_reason(ignored);
+}
+
+/// netCDF 4.9 crashes over a file whose last write fails as HDF5 closes it.  With a handle of our own HDF5 closes it for us, and
+/// says so.  Where there is no handle to be had, netCDF's word is all there is.
+int NetcdfFile::close_with_reason(bool& hdf5_failed) noexcept {
+    hid_t const own = kind_ == Kind::written ? H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT) : H5I_INVALID_HID;
+    int const code = nc_close(std::exchange(id_, closed));
+    hdf5_failed = own >= 0 && H5Fclose(own) < 0;
+    return code;
 }
 
 void NetcdfFile::close() {
-    // netCDF 4.9 crashes over a file whose last write fails as HDF5 closes it.  With a handle of our own HDF5 closes it for us,
-    // and says so.
-    hid_t const own = H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-    require(nc_close(std::exchange(id_, closed)), "close");
-    if (own >= 0 && H5Fclose(own) < 0) {
-        throw FileError(fmt::format("{}: cannot write its end: {}", path_, std::strerror(errno)));
-    }
+    bool hdf5_failed = false;
+    int const code = close_with_reason(hdf5_failed);
+    int const reason = errno;
+    require(code, "close");
+    if (hdf5_failed) throw FileError(fmt::format("{}: cannot write its end: {}", path_, std::strerror(reason)));
 }
 
 int NetcdfFile::add_dimension(std::string const& name, std::size_t length) {

@@ -73,12 +73,14 @@ public:
     static std::size_t size_of(Type type);
 
 private:
-    NetcdfFile(std::string path, int id, bool group = false) : path_(std::move(path)), id_(id), group_(group) {}
+    enum class Kind { other, written, group };  // written: to a path; group: of a file that another closes
+    NetcdfFile(std::string path, int id, Kind kind = Kind::other) : path_(std::move(path)), id_(id), kind_(kind) {}
+    int close_with_reason(bool& hdf5_failed) noexcept;
     void require(int code, std::string_view action) const;
 
     std::string path_;
     int id_;
-    bool group_;  // of a file that another closes
+    Kind kind_;
 };
 
 }  // namespace slideway

@@ -9,13 +9,13 @@ namespace slideway {
 NetcdfFile NetcdfFile::add_group(std::string const& name) {
     int id = 0;
     require(nc_def_grp(id_, name.c_str(), &id), "define group " + name);
-    return {path_, id, true};
+    return {path_, id, Kind::group};
 }
 
 NetcdfFile NetcdfFile::group(std::string const& name) const {
     int id = 0;
     require(nc_inq_ncid(id_, name.c_str(), &id), "find group " + name);
-    return {path_, id, true};
+    return {path_, id, Kind::group};
 }
 
 bool NetcdfFile::has_group(std::string const& name) const {

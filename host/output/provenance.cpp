@@ -9,11 +9,20 @@
 #include <fmt/chrono.h>
 
 #include "host/output/commit.hpp"
+#include "host/output/durable_file.hpp"
+#include "host/output/payload_hash.hpp"
 
 namespace slideway {
 
+std::string build_of(std::string const& commit, std::string const& program) {
+    if (!commit.ends_with("-dirty") && commit != "unknown") return commit;
+    Fnv1a hash;
+    hash.add(read_bytes(program));
+    return fmt::format("{}-{:016x}", commit, hash.value());
+}
+
 BuildInfo const& build_info() {
-    static BuildInfo const info{SLIDEWAY_VERSION, SLIDEWAY_COMMIT, SLIDEWAY_COMPILER};
+    static BuildInfo const info{SLIDEWAY_VERSION, build_of(SLIDEWAY_COMMIT, "/proc/self/exe"), SLIDEWAY_COMPILER};
     return info;
 }
 

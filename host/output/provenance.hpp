@@ -8,12 +8,17 @@ namespace slideway {
 
 /// The program as it was built.
 struct BuildInfo {
-    std::string version;   // "0.1.0"
-    std::string commit;    // short name, "-dirty" behind it if tracked files differed; "unknown" without git
-    std::string compiler;  // "GNU 12.2.0"
+    std::string version;  // "0.1.0"
+    /// Short name, "-dirty" behind it if tracked files differed; "unknown" without git.  Of the latter two there are many, which
+    /// a checksum of the program tells apart: "60e6457-dirty-1f83d9abfb41bd6b".
+    std::string commit;
+    std::string compiler;      // "GNU 12.2.0"
     std::string text() const;  // "slideway 0.1.0, commit 60e6457, GNU 12.2.0": of two alike, members have the same bits
 };
 BuildInfo const& build_info();
+
+/// The commit as a `BuildInfo` names it.  @param program path of the executable  @throws FileError if it must be read and cannot
+std::string build_of(std::string const& commit, std::string const& program);
 
 /// One run.
 struct Provenance {

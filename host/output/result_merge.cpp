@@ -2,18 +2,16 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <map>
 #include <optional>
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <fmt/format.h>
 
 #include "host/output/durable_file.hpp"
+#include "host/output/file_lock.hpp"
 #include "host/output/payload_hash.hpp"
 #include "host/output/result_definition.hpp"
 #include "host/scene/error.hpp"
@@ -38,18 +36,6 @@ std::vector<int> integers(NetcdfFile const& file, NetcdfFile::Variable const& va
     std::vector<int> values(variable.size());
     if (!values.empty()) file.read(variable.id, std::vector<std::size_t>(1, 0), variable.shape, values.data());
     return values;
-}
-
-/// Removes what a killed merge left.  A merge that still lives shows by the lock that HDF5 holds on a file it writes;
-/// without locks (some network file systems) nobody can tell, and the file is taken for a leftover.
-void remove_leftover(std::string const& path, std::string const& part) {
-    int const file = open(part.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (file < 0) return;  // there is none, or creating it tells what is wrong
-    bool const in_use = flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-    if (!in_use) unlink(part.c_str());
-    close(file);
-    if (in_use)
-        throw FileError(path + ": another process is writing it; wait for its end or give another name with -o");
 }
 
 /// Where the members of a shard belong among those of the run.
@@ -192,25 +178,54 @@ void require_writable_place(std::string const& path) {
     }
 }
 
+namespace {
+
+std::string lock_file_of(std::string const& path) { return path + ".part.lock"; }
+
+/// The right to write the file: HDF5's own locks may be switched off, and it takes them only once the file is emptied.
+FileLock lock_of(std::string const& path) {
+    return {lock_file_of(path), FileLock::Kind::alone, FileLock::Wait::no,
+            path + ": another process is writing it; wait for its end or give another name with -o"};
+}
+
+void write_part(std::string const& part, std::string const& completeness,
+                std::function<void(NetcdfFile& file)> const& write) {
+    // What a killed merge left.
+    if (is_there(part) && std::remove(part.c_str()) != 0) {
+        throw FileError(fmt::format("{}: cannot remove: {}", part, std::strerror(errno)));
+    }
+    try {
+        NetcdfFile file = NetcdfFile::create(part);
+        write(file);
+        file.put_text(NetcdfFile::global, "completeness", completeness);
+        file.flush();
+        file.put_text(NetcdfFile::global, "payload_hash", payload_hash(file));
+        file.close();
+        require_sound(part);
+    } catch (...) {
+        std::remove(part.c_str());
+        throw;
+    }
+}
+
+}  // namespace
+
 void write_result(std::string const& path, std::string const& completeness,
                   std::function<void(NetcdfFile& file)> const& write) {
-    std::string const part = path + ".part";
-    remove_leftover(path, part);
-    {
-        NetcdfFile file = NetcdfFile::create(part);
-        try {
-            write(file);
-            file.put_text(NetcdfFile::global, "completeness", completeness);
-            file.flush();
-            file.put_text(NetcdfFile::global, "payload_hash", payload_hash(file));
-            file.close();
-        } catch (...) {
-            std::remove(part.c_str());
-            throw;
-        }
+    std::string const part = path + ".part", lock_file = lock_file_of(path);
+    FileLock lock = lock_of(path);
+    try {
+        write_part(part, completeness, write);
+        rename_durably(part, path);
+    } catch (...) {
+        std::remove(lock_file.c_str());
+        throw;
     }
-    require_sound(part);
-    rename_durably(part, path);
+    lock.remove();
+}
+
+void remove_merge_lock(std::string const& path) {
+    if (is_there(lock_file_of(path))) lock_of(path).remove();
 }
 
 void merge_shards(ShardFolder const& folder, std::vector<Shard> const& shards, ResultMerge merge,

@@ -28,12 +28,15 @@ struct ResultMerge {
 void require_writable_place(std::string const& path);
 
 /// Writes `path`.part, which becomes `path` when it is whole: a former file stays until then.  One shard at a time is in memory.
-/// @throws FileError; if only the renaming failed, `path`.part stays.
+/// @throws FileError, also if another process writes the same file; if only the renaming failed, `path`.part stays.
 void merge_shards(ShardFolder const& folder, std::vector<Shard> const& shards, ResultMerge merge,
                   std::string const& path);
 
 /// The same for what `write` puts into the file: adds completeness and payload hash.
 void write_result(std::string const& path, std::string const& completeness,
                   std::function<void(NetcdfFile& file)> const& write);
+
+/// Removes the lock of a process that was killed when its file was whole.  @throws FileError, also if another writes it
+void remove_merge_lock(std::string const& path);
 
 }  // namespace slideway

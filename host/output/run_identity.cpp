@@ -15,7 +15,9 @@ namespace {
 
 constexpr std::string_view title_line =
     "# What the shards beside this file belong to; slideway run --resume continues it.";
-constexpr std::string_view program_mark = "# program: ", members_mark = "# members: ";
+constexpr std::string_view program_mark = "# program: ", arithmetic_mark = "# arithmetic: ",
+                           members_mark = "# members: ";
+constexpr std::string_view fused = "fused", unfused = "unfused";
 
 /// Keys of a resolved scene with their values; a value of several lines is one.
 std::map<std::string, std::string> scene_values(std::string const& scene) {
@@ -38,10 +40,20 @@ std::map<std::string, std::string> scene_values(std::string const& scene) {
     return values;
 }
 
+std::string named_arithmetic(std::string const& arithmetic) {
+    return arithmetic == unfused ? arithmetic + " (--isa sse2)" : arithmetic;
+}
+
 }  // namespace
+
+std::string arithmetic_of(std::string_view isa) { return std::string(isa == "sse2" ? unfused : fused); }
 
 std::string RunIdentity::difference(RunIdentity const& earlier) const {
     if (program != earlier.program) return fmt::format("the program was {}, is {}", earlier.program, program);
+    if (arithmetic != earlier.arithmetic) {
+        return fmt::format("the arithmetic was {}, is {}", named_arithmetic(earlier.arithmetic),
+                           named_arithmetic(arithmetic));
+    }
     if (scene != earlier.scene) {
         auto const before = scene_values(earlier.scene), now = scene_values(scene);
         constexpr std::size_t longest = 60;
@@ -72,8 +84,8 @@ std::string RunIdentity::difference(RunIdentity const& earlier) const {
 }
 
 std::string identity_text(RunIdentity const& identity) {
-    return fmt::format("{}\n{}{}\n{}{}\n\n{}", title_line, program_mark, identity.program, members_mark,
-                       identity.members.text(), identity.scene);
+    return fmt::format("{}\n{}{}\n{}{}\n{}{}\n\n{}", title_line, program_mark, identity.program, arithmetic_mark,
+                       identity.arithmetic, members_mark, identity.members.text(), identity.scene);
 }
 
 RunIdentity parse_identity(std::string const& text, std::string const& path) {
@@ -85,17 +97,22 @@ RunIdentity parse_identity(std::string const& text, std::string const& path) {
         rest.remove_prefix(std::min(end + 1, rest.size()));
         return line;
     };
-    auto const marked = [&](std::string_view line, std::string_view mark) {
-        if (!line.starts_with(mark)) {
+    auto const require = [&](bool is_ours) {
+        if (!is_ours) {
             throw FileError(
                 fmt::format("{}: is not what slideway run writes; the folder belongs to something else", path));
         }
+    };
+    auto const marked = [&](std::string_view line, std::string_view mark) {
+        require(line.starts_with(mark));
         return std::string(line.substr(mark.size()));
     };
-    marked(next_line(), title_line);
+    require(next_line() == title_line);
     identity.program = marked(next_line(), program_mark);
+    identity.arithmetic = marked(next_line(), arithmetic_mark);
+    require(identity.arithmetic == fused || identity.arithmetic == unfused);
     auto const members = MemberSet::parse(marked(next_line(), members_mark));
-    marked(next_line(), "");
+    require(next_line().empty());
     if (!members) throw FileError(fmt::format("{}: its line of members is damaged", path));
     identity.members = *members;
     identity.scene = std::string(rest);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "host/driver/member_set.hpp"
 
@@ -9,13 +10,18 @@ namespace slideway {
 
 /// What a run computes, and with which program: two runs whose identities agree give every member the same bits.
 struct RunIdentity {
-    std::string program;  // version, commit and compiler
-    MemberSet members;    // of the whole run, also where parts of it run elsewhere
-    std::string scene;    // resolved, as TOML
+    std::string program;     // version, commit and compiler
+    std::string arithmetic;  // `arithmetic_of` the instruction set
+    MemberSet members;       // of the whole run, also where parts of it run elsewhere
+    std::string scene;       // resolved, as TOML
 
     /// In words, or "": "joint.clearance was 0.0001, is 0.0002".  @param earlier what is continued
     std::string difference(RunIdentity const& earlier) const;
 };
+
+/// "fused" where a multiplication and an addition are rounded once, "unfused" where twice, by the name of an instruction set: only
+/// SSE2 has no such instruction, and so other bits than the others, which agree.
+std::string arithmetic_of(std::string_view isa);
 
 /// A scene file that starts with the rest as comments.
 std::string identity_text(RunIdentity const& identity);

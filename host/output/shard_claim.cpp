@@ -1,13 +1,13 @@
 #include "host/output/shard_claim.hpp"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <string_view>
 #include <utility>
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -19,29 +19,50 @@
 namespace slideway {
 namespace {
 
-std::string join(std::string const& folder, std::string_view name) {
-    return (std::filesystem::path(folder) / name).string();
+using Kind = FileLock::Kind;
+using Wait = FileLock::Wait;
+
+constexpr std::string_view begin_suffix = "-begin", division_mark = "-of-";
+
+std::string lock_of(std::string const& folder, std::string_view suffix = {}) {
+    return in_folder(folder, fmt::format("{}{}", shard_names::lock, suffix));
 }
 
-[[noreturn]] void fail_of_rival(std::string const& folder) {
-    throw FileError(
-        fmt::format("{}: another run is writing here; wait for its end or give another name with -o", folder));
-}
-
-/// A lock that ends with the process, however it ends.
-int locked(std::string const& folder, std::string const& name, int operation) {
-    std::string const path = join(folder, name);
-    int const file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (file < 0) throw FileError(fmt::format("{}: cannot create: {}", path, std::strerror(errno)));
-    if (flock(file, operation) == 0 || errno != EWOULDBLOCK) return file;  // some file systems have no locks
-    close(file);
-    fail_of_rival(folder);
+/// What a second run hears.
+std::string of_rival(std::string const& folder) {
+    return fmt::format("{}: another run is writing here; wait for its end or give another name with -o", folder);
 }
 
 void remove_file(std::string const& folder, std::string_view name) {
-    std::string const path = join(folder, name);
+    std::string const path = in_folder(folder, name);
     if (unlink(path.c_str()) != 0 && errno != ENOENT) {
         throw FileError(fmt::format("{}: cannot remove: {}", path, std::strerror(errno)));
+    }
+}
+
+/// "-of-8" of a part "3-of-8" or of its lock.
+std::string_view division_of(std::string_view name) {
+    auto const at = name.rfind(division_mark);
+    return at == name.npos ? std::string_view() : name.substr(at);
+}
+
+void make_folder(std::string const& folder) {
+    if (mkdir(folder.c_str(), 0777) == 0) {
+        sync_name(folder);
+    } else if (errno != EEXIST) {
+        throw FileError(fmt::format("{}: cannot create the folder: {}", folder, std::strerror(errno)));
+    }
+}
+
+/// Makes the folder, again if another run removes it meanwhile, and holds the right to begin in it.
+std::unique_ptr<FileLock> make_and_lock(std::string const& folder) {
+    for (;;) {
+        make_folder(folder);
+        try {
+            return std::make_unique<FileLock>(lock_of(folder, begin_suffix), Kind::alone, Wait::yes);
+        } catch (FileError const&) {
+            if (is_there(folder)) throw;
+        }
     }
 }
 
@@ -52,38 +73,32 @@ std::string count_text(std::uint64_t members) {
 }  // namespace
 
 ShardClaim::ShardClaim(std::string folder, Wanted const& wanted) : folder_(std::move(folder)) {
-    if (mkdir(folder_.c_str(), 0777) == 0) {
-        sync_name(folder_);
-    } else if (errno != EEXIST) {
-        throw FileError(fmt::format("{}: cannot create the folder: {}", folder_, std::strerror(errno)));
+    // Parts begin one after another: the first writes the identity.
+    auto const begins = make_and_lock(folder_);
+    bool const is_whole = wanted.part.empty();
+    whole_.emplace(lock_of(folder_), is_whole ? Kind::alone : Kind::shared, Wait::no, of_rival(folder_));
+    if (!is_whole) {
+        part_.emplace(lock_of(folder_, "-" + wanted.part), Kind::alone, Wait::no, of_rival(folder_));
+        require_one_division(wanted.part);
     }
-    std::string const lock(shard_names::lock);
-    try {
-        // Parts begin one after another: the first writes the identity.
-        int const begins = locked(folder_, lock + "-begin", LOCK_EX);
-        try {
-            whole_ = locked(folder_, lock, (wanted.part.empty() ? LOCK_EX : LOCK_SH) | LOCK_NB);
-            if (!wanted.part.empty()) part_ = locked(folder_, lock + "-" + wanted.part, LOCK_EX | LOCK_NB);
-            begin(wanted);
-        } catch (...) {
-            close(begins);
-            throw;
-        }
-        close(begins);
-    } catch (...) {
-        release();
-        throw;
-    }
+    begin(wanted);
 }
 
-ShardClaim::ShardClaim(std::string folder)
-    : folder_(std::move(folder)), whole_(locked(folder_, std::string(shard_names::lock), LOCK_EX | LOCK_NB)) {}
+ShardClaim::ShardClaim(std::string folder) : folder_(std::move(folder)) {
+    whole_.emplace(lock_of(folder_), Kind::alone, Wait::no, of_rival(folder_));
+}
 
-ShardClaim::~ShardClaim() { release(); }
-
-void ShardClaim::release() {
-    for (int* const file : {&whole_, &part_}) {
-        if (*file >= 0) close(std::exchange(*file, -1));
+/// Parts of another division have members in common with this one.
+void ShardClaim::require_one_division(std::string const& part) const {
+    for (std::string const& name : names_in(folder_)) {
+        if (!name.starts_with(shard_names::lock) || division_of(name).empty()) continue;
+        if (division_of(name) == division_of(part)) continue;
+        std::string const other = name.substr(shard_names::lock.size() + 1);
+        FileLock const probe(
+            in_folder(folder_, name), Kind::shared, Wait::no,
+            fmt::format("{}: part {} of another division is at work here, this is part {}; wait for its "
+                        "end or divide the run alike",
+                        folder_, other, part));
     }
 }
 
@@ -91,7 +106,7 @@ void ShardClaim::begin(Wanted const& wanted) {
     std::string changed;
     if (ShardFolder::exists(folder_)) {
         ShardFolder const folder(folder_);
-        std::vector<Shard> damaged;
+        std::vector<DamagedShard> damaged;
         MemberSet const found = members_of(folder.intact(damaged));
         changed = wanted.identity.difference(folder.identity());
         if (!changed.empty() && !found.empty()) {
@@ -106,22 +121,26 @@ void ShardClaim::begin(Wanted const& wanted) {
                             count_text(done_.count())));
         }
         if (changed.empty()) {
-            remove_damaged(damaged, wanted.mine);
+            put_aside(damaged, wanted.mine);
             return;
         }
         require_alone(wanted);
     }
     // Nobody's, or of a run that finished nothing.
     remove_shards();
-    write_durably(join(folder_, shard_names::identity), identity_text(wanted.identity));
+    write_durably(in_folder(folder_, shard_names::identity), identity_text(wanted.identity));
 }
 
-/// What is damaged must not stand in the way of its successor.  Other parts see to theirs.
-void ShardClaim::remove_damaged(std::vector<Shard> const& damaged, MemberSet const& mine) {
-    for (Shard const& shard : damaged) {
-        if (!shard.members.overlaps(mine)) continue;
-        remove_file(folder_, shard.name);
-        damaged_.push_back(shard.name);
+/// What is damaged must not stand in the way of its successor, but may be worth a look.  Other parts see to theirs.
+void ShardClaim::put_aside(std::vector<DamagedShard> const& damaged, MemberSet const& mine) {
+    for (DamagedShard const& one : damaged) {
+        if (!one.shard.members.overlaps(mine)) continue;
+        std::string const path = in_folder(folder_, one.shard.name);
+        std::string const aside = in_folder(folder_, fmt::format("{}{}", shard_names::damaged, one.shard.name));
+        if (!one.is_gone && std::rename(path.c_str(), aside.c_str()) != 0) {
+            throw FileError(fmt::format("{}: cannot rename: {}", path, std::strerror(errno)));
+        }
+        damaged_.push_back(one);
     }
 }
 
@@ -129,19 +148,22 @@ void ShardClaim::remove_damaged(std::vector<Shard> const& damaged, MemberSet con
 void ShardClaim::require_alone(Wanted const& wanted) {
     if (wanted.part.empty()) return;
     // Nobody can begin meanwhile.
-    if (flock(whole_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) fail_of_rival(folder_);
-    flock(whole_, LOCK_SH);
+    whole_->change(Kind::alone, of_rival(folder_));
+    whole_->change(Kind::shared, of_rival(folder_));
 }
 
 void ShardClaim::remove_shards() {
     for (std::string const& name : names_in(folder_)) {
-        for (std::string_view const ours : {shard_names::manifest, shard_names::members, shard_names::statistics}) {
+        for (std::string_view const ours :
+             {shard_names::manifest, shard_names::members, shard_names::statistics, shard_names::damaged}) {
             if (name.starts_with(ours)) remove_file(folder_, name);
         }
     }
 }
 
 void ShardClaim::remove_folder() {
+    // Nobody begins meanwhile: whoever waits finds the lock's file gone then, and makes a new one.
+    FileLock begins(lock_of(folder_, begin_suffix), Kind::alone, Wait::yes);
     // The identity first: a folder without one is nobody's.
     remove_file(folder_, shard_names::identity);
     sync_folder(folder_);

@@ -1,9 +1,11 @@
 // The right to write into a folder of shards.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "host/output/file_lock.hpp"
 #include "host/output/shard_folder.hpp"
 
 namespace slideway {
@@ -20,14 +22,13 @@ public:
     /// Makes the folder or goes on with it.  @throws SceneError if it holds finished members of another identity, or of these and
     /// `resume` is not set; FileError if another process works on them.
     ShardClaim(std::string folder, Wanted const& wanted);
-    ~ShardClaim();
     ShardClaim(ShardClaim const&) = delete;
     ShardClaim& operator=(ShardClaim const&) = delete;
 
     /// Of `mine`, finished before.
     MemberSet const& done() const { return done_; }
-    /// Shards that are not what was written; their members are to run again.
-    std::vector<std::string> const& damaged() const { return damaged_; }
+    /// Shards that are not what was written: they were put aside, and their members are to run again.
+    std::vector<DamagedShard> const& damaged() const { return damaged_; }
 
     /// When the result stands elsewhere: removes what belongs to the run.  What is not ours stays, and so does the folder then.
     /// @throws FileError
@@ -40,14 +41,14 @@ private:
     explicit ShardClaim(std::string folder);
     void begin(Wanted const& wanted);
     void require_alone(Wanted const& wanted);
-    void remove_damaged(std::vector<Shard> const& damaged, MemberSet const& mine);
+    void require_one_division(std::string const& part) const;
+    void put_aside(std::vector<DamagedShard> const& damaged, MemberSet const& mine);
     void remove_shards();
-    void release();
 
     std::string const folder_;
-    int whole_ = -1, part_ = -1;  // locks
+    std::optional<FileLock> whole_, part_;
     MemberSet done_;
-    std::vector<std::string> damaged_;
+    std::vector<DamagedShard> damaged_;
 };
 
 }  // namespace slideway

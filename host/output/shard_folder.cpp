@@ -16,8 +16,6 @@ namespace slideway {
 namespace fs = std::filesystem;
 namespace {
 
-std::string join(std::string const& folder, std::string_view name) { return (fs::path(folder) / name).string(); }
-
 std::uint64_t checksum_of_text(std::string_view text) { return checksum_of(std::as_bytes(std::span(text))); }
 
 template <class T> bool read_whole(std::string_view word, T& value, int base = 10) {
@@ -72,15 +70,12 @@ std::vector<std::string> names_in(std::string const& folder) {
     return names;
 }
 
-bool ShardFolder::exists(std::string const& path) {
-    std::error_code ignored;
-    return fs::exists(join(path, shard_names::identity), ignored);
-}
+bool ShardFolder::exists(std::string const& path) { return is_there(in_folder(path, shard_names::identity)); }
 
 ShardFolder::ShardFolder(std::string path) : path_(std::move(path)) {
     if (!exists(path_))
         throw FileError(path_ + ": is no folder of shards; give the folder that a run left, OUT.nc.shards");
-    std::string const file = join(path_, shard_names::identity);
+    std::string const file = in_folder(path_, shard_names::identity);
     identity_ = parse_identity(read_text(file), file);
 }
 
@@ -102,12 +97,31 @@ std::vector<Shard> without_repeats(std::vector<Shard> shards) {
     return kept;
 }
 
+bool is_what_was_written(std::vector<std::byte> const& bytes, Shard const& shard) {
+    return bytes.size() == shard.bytes && checksum_of(bytes) == shard.checksum;
+}
+
+/// Only a file that is gone or holds something else is damaged: whoever may not open it now may find it whole later.
+bool read_intact(std::string const& folder, Shard const& shard, bool& is_gone) {
+    std::string const path = in_folder(folder, shard.name);
+    is_gone = !is_there(path);
+    if (is_gone) return false;
+    try {
+        return is_what_was_written(read_bytes(path), shard);
+    } catch (FileError const&) {
+        // Another part joins its shards of statistics, and removes them, at any time.
+        is_gone = !is_there(path);
+        if (!is_gone) throw;
+        return false;
+    }
+}
+
 }  // namespace
 
 std::vector<Shard> ShardFolder::all() const {
     std::vector<Shard> shards;
     for (std::string const& name : names_in(path_)) {
-        if (name.starts_with(shard_names::manifest)) read_manifest(join(path_, name), shards);
+        if (name.starts_with(shard_names::manifest)) read_manifest(in_folder(path_, name), shards);
     }
     return shards;
 }
@@ -115,38 +129,43 @@ std::vector<Shard> ShardFolder::all() const {
 std::vector<Shard> ShardFolder::listed() const {
     std::vector<Shard> shards = all();
     std::erase_if(shards, [&](Shard const& shard) {
+        std::string const file = in_folder(path_, shard.name);
         std::error_code error;
-        return fs::file_size(join(path_, shard.name), error) != shard.bytes || error;
+        auto const size = fs::file_size(file, error);
+        if (error == std::errc::no_such_file_or_directory) return true;
+        if (error) throw FileError(fmt::format("{}: cannot read: {}", file, error.message()));
+        return size != shard.bytes;
     });
     return without_repeats(std::move(shards));
 }
 
-std::vector<Shard> ShardFolder::intact(std::vector<Shard>& damaged) const {
-    std::vector<Shard> whole, broken;
+std::vector<Shard> ShardFolder::intact(std::vector<DamagedShard>& damaged) const {
+    std::vector<Shard> whole;
+    std::vector<DamagedShard> broken;
     for (Shard& shard : all()) {
-        try {
-            read(shard);
+        bool is_gone = false;
+        if (read_intact(path_, shard, is_gone))
             whole.push_back(std::move(shard));
-        } catch (FileError const&) {
-            broken.push_back(std::move(shard));
-        }
+        else
+            broken.push_back({std::move(shard), is_gone});
     }
     whole = without_repeats(std::move(whole));
     MemberSet const done = members_of(whole);
-    for (Shard& shard : broken) {
+    for (DamagedShard& one : broken) {
         // The line of a shard outlives it: its successor may have its name.
-        auto const has_its_name = [&](Shard const& other) { return other.name == shard.name; };
+        auto const has_its_name = [&](Shard const& other) { return other.name == one.shard.name; };
         if (std::any_of(whole.begin(), whole.end(), has_its_name)) continue;
-        if (std::any_of(damaged.begin(), damaged.end(), has_its_name)) continue;
-        if (!shard.members.without(done).empty()) damaged.push_back(std::move(shard));
+        auto const was_found = [&](DamagedShard const& other) { return has_its_name(other.shard); };
+        if (std::any_of(damaged.begin(), damaged.end(), was_found)) continue;
+        if (!one.shard.members.without(done).empty()) damaged.push_back(std::move(one));
     }
     return whole;
 }
 
 std::vector<std::byte> read_shard(std::string const& folder, Shard const& shard) {
-    std::string const path = join(folder, shard.name);
+    std::string const path = in_folder(folder, shard.name);
     std::vector<std::byte> bytes = read_bytes(path);
-    if (bytes.size() != shard.bytes || checksum_of(bytes) != shard.checksum) {
+    if (!is_what_was_written(bytes, shard)) {
         throw FileError(path + ": is not what was written (its checksum differs)");
     }
     return bytes;

@@ -16,6 +16,7 @@ namespace slideway {
 namespace shard_names {
 inline constexpr std::string_view identity = "run.toml", manifest = "manifest-", lock = "lock";
 inline constexpr std::string_view members = "members-", statistics = "statistics-";  // what shards begin with
+inline constexpr std::string_view damaged = "damaged-";  // before the name of one that is put aside
 }  // namespace shard_names
 
 /// A result file of some members of the run, or their statistics.  It never changes.
@@ -26,6 +27,12 @@ struct Shard {
     MemberSet members;
 };
 
+/// One that is not what was written, and so does not count.
+struct DamagedShard {
+    Shard shard;
+    bool is_gone;  // there is no such file
+};
+
 /// One shard.  @throws FileError if the file is not what the manifest says.
 std::vector<std::byte> read_shard(std::string const& folder, Shard const& shard);
 
@@ -33,22 +40,24 @@ std::vector<std::byte> read_shard(std::string const& folder, Shard const& shard)
 /// `members-*.nc`    the shards, or `statistics-*.bin` where members are not stored
 /// `manifest-*.txt`  one line per shard, written once the shard is on the disk; each line has a checksum of its own, so that a
 ///                   torn one is told.  Every process that writes has a manifest of its own.
+/// `damaged-*`   shards that were not what had been written, put aside
 /// `lock*`       held by the processes that write
 class ShardFolder {
 public:
     /// An existing one, to read.  @throws FileError if it is none.
     explicit ShardFolder(std::string path);
 
-    /// Whether there is such a folder with an identity.
+    /// Whether there is such a folder with an identity.  @throws FileError if that cannot be told
     static bool exists(std::string const& path);
 
     std::string const& path() const { return path_; }
     RunIdentity const& identity() const { return identity_; }
-    /// What the manifests list, by first member; `read` tells whether a file is what it was.
+    /// What the manifests list, by first member; `read` tells whether a file is what it was.  @throws FileError if a file
+    /// cannot be looked at
     std::vector<Shard> listed() const;
     /// Those that are: reads them all.  @param damaged the others, but for those whose members or whose name another one
-    /// has by now
-    std::vector<Shard> intact(std::vector<Shard>& damaged) const;
+    /// has by now  @throws FileError if one cannot be read, which says nothing of what it holds
+    std::vector<Shard> intact(std::vector<DamagedShard>& damaged) const;
     /// @throws FileError if the file is not what the manifest says.
     std::vector<std::byte> read(Shard const& shard) const { return read_shard(path_, shard); }
 

@@ -76,8 +76,8 @@ Provenance provenance(Scene const& scene, Isa isa, int threads) {
     return {scene.title, resolved_toml(scene), scene.seed, "cpu", std::string(name_of(isa)), flags_of(isa), threads};
 }
 
-RunIdentity run_identity(Scene const& scene, MemberSet const& members) {
-    return {build_info().text(), members, resolved_toml(scene)};
+RunIdentity run_identity(Scene const& scene, MemberSet const& members, Isa isa) {
+    return {build_info().text(), arithmetic_of(name_of(isa)), members, resolved_toml(scene)};
 }
 
 }  // namespace slideway

@@ -18,6 +18,6 @@ StatisticsPlan statistics_plan(Scene const& scene);
 EnsemblePlan ensemble_plan(Scene const& scene, MemberSet const& members, Isa isa, int threads,
                            std::size_t block_members = 0);
 Provenance provenance(Scene const& scene, Isa isa, int threads);
-RunIdentity run_identity(Scene const& scene, MemberSet const& members);
+RunIdentity run_identity(Scene const& scene, MemberSet const& members, Isa isa);
 
 }  // namespace slideway

@@ -46,7 +46,9 @@ int GroupWriter::define(Description const& description, NetcdfFile::Type type) {
 
 void GroupWriter::write(int variable, void const* values) {
     auto const variables = group_.variables();
-    auto const& shape = variables.back().shape;
+    auto const found =
+        std::find_if(variables.begin(), variables.end(), [&](auto const& other) { return other.id == variable; });
+    auto const& shape = found->shape;
     std::vector<std::size_t> const start(shape.size() + 1, 0);  // one more: never a null pointer
     group_.write(variable, std::span(start).first(shape.size()),
                  {shape.empty() ? start.data() : shape.data(), shape.size()}, values);

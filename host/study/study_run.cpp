@@ -26,6 +26,7 @@ bool is_result_of(std::string const& path, RunIdentity const& identity) {
     RunIdentity found;
     found.program =
         BuildInfo{result.attribute("version"), result.attribute("commit"), result.attribute("compiler")}.text();
+    found.arithmetic = arithmetic_of(result.attribute("isa"));
     found.scene = result.attribute("scene");
     if (result.stores_members()) {
         std::vector<std::uint64_t> members;
@@ -39,7 +40,14 @@ bool is_result_of(std::string const& path, RunIdentity const& identity) {
             fmt::format("{}: cannot resume: it is the result of another run ({}); leave --resume out to replace it",
                         path, changed));
     }
-    return result.attribute("completeness") == "complete";
+    if (result.attribute("completeness") != "complete") return false;
+    if (result.computed_hash() != result.stored_hash()) {
+        throw FileError(
+            fmt::format("{}: is damaged: it does not hold what was written to it (its hash differs); leave --resume "
+                        "out to run again",
+                        path));
+    }
+    return true;
 }
 
 }  // namespace
@@ -67,12 +75,13 @@ StudyRun::StudyRun(Scene const& scene, StudyOptions const& options)
     : scene_(scene), options_(options), members_(options.range), mine_(options.part.of(members_)) {
     require_writable_place(options.output);
     std::string const folder = shard_folder_of(options.output);
-    RunIdentity const identity = run_identity(scene, members_);
+    RunIdentity const identity = run_identity(scene, members_, options.isa);
     std::error_code ignored;
     if (options.resume && !ShardFolder::exists(folder) && std::filesystem::exists(options.output, ignored)) {
         is_complete_ = is_result_of(options.output, identity);
         if (is_complete_) {
             ShardClaim::remove_remains(folder);
+            remove_merge_lock(options.output);
             return;
         }
     }
@@ -82,7 +91,7 @@ StudyRun::StudyRun(Scene const& scene, StudyOptions const& options)
     require_room();
 }
 
-std::vector<std::string> StudyRun::damaged() const { return claim_ ? claim_->damaged() : std::vector<std::string>(); }
+std::vector<DamagedShard> StudyRun::damaged() const { return claim_ ? claim_->damaged() : std::vector<DamagedShard>(); }
 
 void StudyRun::require_room() const {
     // The shards and the file that is made of them stand side by side for a while.

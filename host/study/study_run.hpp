@@ -59,7 +59,7 @@ public:
     bool is_complete() const { return is_complete_; }
     StudyWork const& work() const { return work_; }
     /// Shards that were not what had been written: their members run again.
-    std::vector<std::string> damaged() const;
+    std::vector<DamagedShard> damaged() const;
 
     /// Members that have not run, of the part that is this run's.
     std::uint64_t left() const;

@@ -1,5 +1,5 @@
 // What ranks of a job tell each other, printed by rank 0 for tests/unit/driver_ranks_test.cpp.
-// ranks_program places N THREADS WANTED | abandon | texts BYTES | failure | waiting | desertion RANK
+// ranks_program places N THREADS WANTED | abandon | texts BYTES | failure | waiting | desertion RANK | crowded | deaf
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -8,6 +8,7 @@
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -156,6 +157,60 @@ int desertion(Ranks& ranks, int who) {
     return ranks.agree(0);
 }
 
+/// Ends as the program does when something is thrown between the invitation and the end of `gather`.
+int end_of_failure(Ranks& ranks) {
+    if (ranks.is_in_round()) {
+        fmt::print(stderr, "in a round\n");
+        ranks.abort(4);
+    }
+    return ranks.agree(5);
+}
+
+/// While it lives no thread can be started: there is no address space for its stack.
+class NoMoreThreads {
+public:
+    NoMoreThreads() {
+        getrlimit(RLIMIT_AS, &before_);
+        rlimit const none{1 << 20, before_.rlim_max};
+        setrlimit(RLIMIT_AS, &none);
+    }
+    ~NoMoreThreads() { setrlimit(RLIMIT_AS, &before_); }
+
+private:
+    rlimit before_{};
+};
+
+/// Rank 0 can start no thread that would answer the others.
+int crowded(Ranks& ranks) {
+    ranks.broadcast("begin");
+    if (ranks.rank() > 0) {
+        auto const queue = ranks.share(8, nullptr);
+        while (queue->take(1, 0).count > 0) continue;
+        ranks.gather("");
+        return ranks.agree(0);
+    }
+    std::string reason;
+    try {
+        NoMoreThreads const none;
+        auto const queue = ranks.share(8, nullptr);
+    } catch (std::system_error const&) {
+        return end_of_failure(ranks);
+    }
+    return 98;
+}
+
+/// The thread of rank 0 that answers the others fails at the first word of theirs.
+int deaf(Ranks& ranks) {
+    auto const queue = ranks.share(std::uint64_t{1} << 60, [](std::uint64_t) { throw std::runtime_error("deaf"); });
+    try {
+        while (queue->take(1, ranks.rank() > 0 ? 1 : 0).count > 0) continue;
+        ranks.gather("");
+    } catch (std::runtime_error const&) {
+        return end_of_failure(ranks);
+    }
+    return ranks.agree(0);
+}
+
 int run(std::vector<std::string> const& words) {
     auto const number = [&](std::size_t i) { return std::stoull(words.at(i)); };
     auto const ranks = Ranks::join();
@@ -166,6 +221,8 @@ int run(std::vector<std::string> const& words) {
     if (words.at(0) == "failure") return failure(*ranks);
     if (words.at(0) == "waiting") return waiting(*ranks);
     if (words.at(0) == "desertion") return desertion(*ranks, static_cast<int>(number(1)));
+    if (words.at(0) == "crowded") return crowded(*ranks);
+    if (words.at(0) == "deaf") return deaf(*ranks);
     return 99;
 }
 

@@ -43,6 +43,13 @@ TEST_F(Parts, LeaveEachOtherAlone) {
     EXPECT_EQ(results("s.nc").values("status"), std::vector<double>(64, 0));
 }
 
+TEST_F(Parts, OfAnotherArithmeticAreRefused) {
+    EXPECT_EQ(run_scene({"--quiet", "--shard", "1/2", "--isa", "sse2"}).code, 0);
+    expect_refusal(2, "(the arithmetic was unfused (--isa sse2), is fused)",
+                   {"run", "s.toml", "--quiet", "--shard", "2/2", "--isa", "scalar"});
+    EXPECT_EQ(run_scene({"--quiet", "--shard", "2/2", "--isa", "sse2"}).code, 0);
+}
+
 TEST_F(Parts, MayBeMoreThanTheMembers) {
     for (int part = 1; part <= 5; ++part) {
         EXPECT_EQ(run_scene({"--quiet", "--members", "9..11", "--shard", fmt::format("{}/5", part), "-o", "s.nc"}).code,

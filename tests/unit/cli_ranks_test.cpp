@@ -134,6 +134,26 @@ TEST_F(SharedRun, GoesOnAfterOneRankWasKilled) {
     }
 }
 
+TEST_F(SharedRun, HasTheArithmeticOfRankZeroAtEveryRank) {
+    // Machines that are not alike, as one launcher starts them.
+    std::string const program = "'" SLIDEWAY_BINARY "' run s.toml --quiet --threads 1 --block-members 4 -o ";
+    for (char const* const leader : {"sse2", "scalar"}) {
+        std::string const other = std::string(leader) == "sse2" ? "scalar" : "sse2";
+        expect_done(program + "alone.nc --isa " + leader);
+        expect_done(mpirun(1) + program + "o.nc --isa " + leader + " : -n 2 " + program + "o.nc --isa " + other);
+        expect_result(hash_of("alone.nc"));
+        std::filesystem::remove(path("alone.nc"));
+    }
+}
+
+TEST_F(SharedRun, EndsWhereAnotherRankCannotBegin) {
+    // Rank 1 does not see the scene, and rank 0 has begun with it.
+    std::string const other = "'" SLIDEWAY_BINARY "' run none.toml --quiet -o o.nc";
+    ShellOutcome const outcome = shell(mpirun(1, 30) + run_text("--threads 1") + " : -n 1 " + other);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;  // not 124, that of what hangs
+    EXPECT_NE(outcome.err.find("none.toml: the scene cannot be read"), std::string::npos) << outcome.err;
+}
+
 TEST_F(SharedRun, OfABrokenSceneEndsAtEveryRank) {
     write("s.toml", "schema = 1\n[joint]\nclearance = \"0 m\"\n");
     ShellOutcome const outcome = shell(mpirun(3, 30) + run_text(""));

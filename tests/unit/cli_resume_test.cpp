@@ -55,6 +55,51 @@ TEST_F(Resume, OfACompleteFileSaysSo) {
     EXPECT_FALSE(exists("s.nc.shards"));
 }
 
+TEST_F(Resume, OfADamagedFileIsRefused) {
+    ASSERT_EQ(run_scene({"--quiet"}).code, 0);
+    std::string bytes = file_text(path("s.nc"));
+    // One bit of one value.
+    double const value = results("s.nc").values("initial_y")[33];
+    auto const at = bytes.find(std::string(reinterpret_cast<char const*>(&value), sizeof value));
+    ASSERT_NE(at, std::string::npos);
+    bytes[at] = static_cast<char>(bytes[at] ^ 1);
+    std::ofstream(path("s.nc"), std::ios::binary) << bytes;
+    expect_refusal(4, "s.nc: is damaged: it does not hold what was written to it (its hash differs)",
+                   {"run", "s.toml", "--quiet", "--resume"});
+    EXPECT_TRUE(file_text(path("s.nc")) == bytes);
+}
+
+TEST_F(Resume, OfAnotherArithmeticIsRefused) {
+    ASSERT_EQ(run_scene({"--quiet", "--isa", "sse2"}).code, 0);
+    expect_refusal(2, "the arithmetic was unfused (--isa sse2), is fused",
+                   {"run", "s.toml", "--quiet", "--resume", "--isa", "scalar"});
+    EXPECT_EQ(run_scene({"--quiet", "--resume", "--isa", "sse2"}).code, 0);
+}
+
+TEST_F(Resume, KeepsAShardThatCannotBeReadForNow) {
+    make_shards();
+    std::string const victim = path(shard(24)).string();
+    fs::rename(victim, path("away.nc"));
+    fs::create_symlink(victim, victim);
+    for (char const* const seed : {"study.seed=1", "study.seed=2"}) {
+        expect_refusal(4, shard(24) + ": cannot ", {"run", "s.toml", "--quiet", "--resume", "--set", seed});
+    }
+    fs::remove(victim);
+    fs::rename(path("away.nc"), victim);
+    Outcome const outcome = run_scene({"--resume"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("resuming: 64 of 64 members are done\n"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Resume, SaysOfAShardThatIsGoneThatItIs) {
+    make_shards();
+    fs::remove(path(shard(24)));
+    Outcome const outcome = run_scene({"--resume"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("warning: " + shard(24) + ": is gone; its members run again\n"), std::string::npos)
+        << outcome.err;
+}
+
 TEST_F(Resume, OfTheFileOfAnotherSceneIsRefused) {
     ASSERT_EQ(run_scene({"--quiet"}).code, 0);
     expect_refusal(2, "s.nc: cannot resume: it is the result of another run (study.seed was 1, is 2)",

@@ -115,7 +115,7 @@ TEST_F(StatisticsRun, ADiskThatFailsInAJoinLosesNothing) {
         ShellOutcome const failed =
             run_shell(path(""), with_failing_calls(path(""), calls, failure.at, disk) + command);
         EXPECT_EQ(failed.code, 4) << failed.err;
-        std::vector<Shard> damaged;
+        std::vector<DamagedShard> damaged;
         EXPECT_EQ(members_of(ShardFolder(path("b.nc.shards").string()).intact(damaged)).count(), failure.kept);
         EXPECT_TRUE(damaged.empty());
         ShellOutcome const resumed = run_shell(path(""), command + " --resume");

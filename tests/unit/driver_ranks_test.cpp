@@ -160,6 +160,15 @@ TEST_F(RanksOfAJob, EndWhenOneLeavesWithoutAWord) {
     }
 }
 
+TEST_F(RanksOfAJob, EndWhenRankZeroFailsAmidTheirWork) {
+    for (char const* const what : {"crowded", "deaf"}) {
+        SCOPED_TRACE(what);
+        ShellOutcome const outcome = job(3, what);
+        EXPECT_EQ(outcome.code, 4) << outcome.err;  // not 124, that of what hangs
+        EXPECT_NE(outcome.err.find("in a round\n"), std::string::npos) << outcome.err;
+    }
+}
+
 TEST_F(RanksOfAJob, WaitForEachOtherWithoutLoad) {
     ShellOutcome const outcome = job(3, "waiting");
     ASSERT_EQ(outcome.code, 0) << outcome.err;

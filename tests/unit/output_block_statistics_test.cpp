@@ -149,7 +149,7 @@ protected:
         fs::remove_all(path_);
         fs::create_directories(path_);
         write_durably((path_ / "run.toml").string(),
-                      identity_text({"slideway", MemberSet({0, 100000}), "schema = 1\n"}));
+                      identity_text({"slideway", "fused", MemberSet({0, 100000}), "schema = 1\n"}));
     }
     ~StatisticsFolder() override { fs::remove_all(path_); }
 
@@ -178,9 +178,9 @@ protected:
     }
     void expect_whole(std::uint64_t blocks) const {
         EXPECT_EQ(merged(), statistics_of(0, 10 * blocks).bytes());
-        std::vector<Shard> damaged;
+        std::vector<DamagedShard> damaged;
         EXPECT_EQ(members_of(folder().intact(damaged)).count(), 9 * blocks);
-        EXPECT_TRUE(damaged.empty()) << damaged.size() << " " << damaged.front().name;
+        EXPECT_TRUE(damaged.empty()) << damaged.size() << " " << damaged.front().shard.name;
     }
     fs::path const path_;
 };
@@ -265,11 +265,11 @@ TEST_F(StatisticsFolder, ADamagedShardIsTold) {
         .seekp(100)
         .put('\x55')
         .put('\xaa');
-    std::vector<Shard> damaged;
+    std::vector<DamagedShard> damaged;
     EXPECT_EQ(members_of(folder().intact(damaged)).count(), 9 * 2u);
     // Those that it was made of are gone, and their members with it.
     EXPECT_EQ(std::count_if(damaged.begin(), damaged.end(),
-                            [](auto const& s) { return s.name == "statistics-0000000000-1.bin"; }),
+                            [](auto const& s) { return s.shard.name == "statistics-0000000000-1.bin"; }),
               1);
     // A successor of the same name is whole, whatever the older line says of it.
     fs::remove(path_ / "statistics-0000000000-1.bin");
@@ -279,7 +279,7 @@ TEST_F(StatisticsFolder, ADamagedShardIsTold) {
     }
     damaged.clear();
     EXPECT_EQ(members_of(folder().intact(damaged)).count(), 9 * 66u);
-    EXPECT_TRUE(damaged.empty()) << damaged.front().name;
+    EXPECT_TRUE(damaged.empty()) << damaged.front().shard.name;
     expect_whole(66);
 }
 

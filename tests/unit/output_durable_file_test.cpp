@@ -4,8 +4,12 @@
 
 #include <csignal>
 
+#include "host/output/provenance.hpp"
 #include "host/scene/error.hpp"
 #include "output_fixture.hpp"
+
+#include <sys/stat.h>
+#include <thread>
 
 namespace slideway {
 namespace {
@@ -106,6 +110,35 @@ TEST_F(DurableFile, ThatIsMissingCannotBeRead) {
     EXPECT_THROW(read_text(folder()), FileError);
     EXPECT_THROW(sync_folder(path("none")), FileError);
     EXPECT_NO_THROW(sync_folder(folder()));
+}
+
+TEST_F(DurableFile, ThatIsAPipeIsReadToItsEnd) {
+    // It has no size to go by.
+    std::string const pipe = path("pipe");
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    std::string text(1'000'003, 'a');
+    for (std::size_t i = 0; i < text.size(); i += 7) text[i] = static_cast<char>('b' + i % 20);
+    std::thread writer([&] { testing::put_bytes(pipe, text); });
+    EXPECT_TRUE(read_text(pipe) == text);
+    writer.join();
+}
+
+TEST_F(DurableFile, IsThereOrNotOrThatCannotBeTold) {
+    EXPECT_FALSE(is_there(path("none")));
+    EXPECT_FALSE(is_there(path("none/of/them")));
+    EXPECT_TRUE(is_there(folder()));
+    std::filesystem::create_symlink(path("loop"), path("loop"));
+    EXPECT_THROW(is_there(path("loop")), FileError);
+}
+
+TEST(BuildOf, ACommitThatSaysAllIsTheCommit) { EXPECT_EQ(build_of("60e6457", "/no/such/program"), "60e6457"); }
+
+TEST_F(DurableFile, OfTheProgramTellsBuildsOfNoCommitApart) {
+    // FNV-1a of 64 bits of "a" and of nothing, as its authors give them.
+    testing::put_bytes(path("program"), "a");
+    EXPECT_EQ(build_of("60e6457-dirty", path("program")), "60e6457-dirty-af63dc4c8601ec8c");
+    testing::put_bytes(path("program"), "");
+    EXPECT_EQ(build_of("unknown", path("program")), "unknown-cbf29ce484222325");
 }
 
 TEST(FolderOf, IsTheOneThatAPathLiesIn) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "host/output/result_merge.hpp"
@@ -39,6 +40,22 @@ inline void flip_bit(std::string const& path, std::size_t at) {
     bytes.at(at) = static_cast<char>(bytes.at(at) ^ 4);
     put_bytes(path, bytes);
 }
+
+/// While it lives this process can open no file, as when too many are open.
+class NoMoreFiles {
+public:
+    NoMoreFiles() {
+        getrlimit(RLIMIT_NOFILE, &before_);
+        rlimit const none{0, before_.rlim_max};
+        setrlimit(RLIMIT_NOFILE, &none);
+    }
+    ~NoMoreFiles() { setrlimit(RLIMIT_NOFILE, &before_); }
+    NoMoreFiles(NoMoreFiles const&) = delete;
+    NoMoreFiles& operator=(NoMoreFiles const&) = delete;
+
+private:
+    rlimit before_{};
+};
 
 class OutputFolder : public ::testing::Test {
 protected:
@@ -74,7 +91,8 @@ protected:
     void write_result(std::string const& file, ResultLayout const& layout, Provenance const& provenance,
                       std::vector<BlockAndStudy> const& blocks, std::string const& completeness = "complete",
                       std::function<void(NetcdfFile&)> conclude = {}) const {
-        std::string const shards = shards_of({"a program", layout.members, provenance.scene}, "shards_of_result");
+        std::string const shards =
+            shards_of({"a program", "fused", layout.members, provenance.scene}, "shards_of_result");
         put_blocks(shards, layout, provenance, blocks);
         ShardFolder const from(shards);
         auto const listed = from.listed();

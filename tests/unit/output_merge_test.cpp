@@ -208,7 +208,7 @@ TEST_F(Merge, OfNothingIsAFileOfMembersThatHaveNotRun) {
 
 TEST_F(Merge, RefusesADamagedShardByItsName) {
     std::ofstream(path()) << "a former file";
-    std::string const shards = shards_of({"p", run_members(), ""});
+    std::string const shards = shards_of({"p", "fused", run_members(), ""});
     FakeBlock const one({3, 4}), other({20, 21});
     put_blocks(shards, layout(), {}, {one.view(), other.view()});
     ShardFolder const folder(shards);
@@ -227,7 +227,7 @@ TEST_F(Merge, RefusesADamagedShardByItsName) {
 }
 
 TEST_F(Merge, ThatIsInterruptedLeavesNoFileAndAllShards) {
-    std::string const shards = shards_of({"p", run_members(), ""});
+    std::string const shards = shards_of({"p", "fused", run_members(), ""});
     FakeBlock const one({3, 4}), other({20, 21});
     put_blocks(shards, layout(), {}, {one.view(), other.view()});
     ShardFolder const folder(shards);
@@ -255,7 +255,7 @@ TEST_F(Merge, ThatIsInterruptedLeavesNoFileAndAllShards) {
 // ---- a shard alone ----
 
 TEST_F(Merge, OfShardsTakesFilesThatAreResultsThemselves) {
-    std::string const shards = shards_of({"p", run_members(), ""});
+    std::string const shards = shards_of({"p", "fused", run_members(), ""});
     FakeBlock const block({21, 4, 24});
     Provenance provenance;
     provenance.title = "a title";

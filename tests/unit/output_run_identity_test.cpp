@@ -25,7 +25,7 @@ phase = "90 deg"
 
 /// What a run of the scene, with keys changed, would be.
 RunIdentity identity_of(Overrides const& overrides = {}) {
-    return {"slideway 1.2.3, commit abc, GNU 12", MemberSet({0, 9}),
+    return {"slideway 1.2.3, commit abc, GNU 12", "fused", MemberSet({0, 9}),
             resolved_toml(testing::scene_of(sweep, overrides))};
 }
 
@@ -44,6 +44,7 @@ TEST(RunIdentity, HasATextThatReadsBack) {
     std::string const text = identity_text(identity);
     RunIdentity const back = parse_identity(text, "run.toml");
     EXPECT_EQ(back.program, identity.program);
+    EXPECT_EQ(back.arithmetic, "fused");
     EXPECT_EQ(back.members, identity.members);
     EXPECT_EQ(back.scene, identity.scene);
     EXPECT_EQ(back.difference(identity), "");
@@ -66,7 +67,7 @@ TEST(RunIdentity, NamesTheKeyThatChanged) {
 TEST(RunIdentity, NamesTheClearanceInTheUnitOfTheResolvedScene) {
     std::string const plain = "schema = 1\n[joint]\nclearance = \"0.1 mm\"\n";
     auto const with = [&](Overrides const& overrides) {
-        return RunIdentity{"p", MemberSet({0, 1}), resolved_toml(testing::scene_of(plain, overrides))};
+        return RunIdentity{"p", "fused", MemberSet({0, 1}), resolved_toml(testing::scene_of(plain, overrides))};
     };
     EXPECT_EQ(with({{"joint.clearance_y", "0.2 mm"}}).difference(with({})), "joint.clearance_y was 0.0001, is 0.0002");
     EXPECT_EQ(with({{"joint.clearance", "0.2 mm"}}).difference(with({})),
@@ -113,6 +114,16 @@ TEST(RunIdentity, TellsOfOtherMembersAndAnotherProgram) {
               "the program was slideway 1.2.3, commit abc, GNU 12, is slideway 1.2.4, commit def, GNU 12");
 }
 
+TEST(RunIdentity, TellsOfAnotherArithmetic) {
+    for (char const* const isa : {"scalar", "avx2", "avx512"}) EXPECT_EQ(arithmetic_of(isa), "fused") << isa;
+    RunIdentity const before = identity_of();
+    RunIdentity other = before;
+    other.arithmetic = arithmetic_of("sse2");
+    EXPECT_EQ(other.difference(before), "the arithmetic was fused, is unfused (--isa sse2)");
+    EXPECT_EQ(before.difference(other), "the arithmetic was unfused (--isa sse2), is fused");
+    EXPECT_EQ(parse_identity(identity_text(other), "run.toml").difference(other), "");
+}
+
 TEST(RunIdentity, CannotBeReadFromOtherTexts) {
     std::string const text = identity_text(identity_of());
     for (std::string const& other : {std::string(), std::string("schema = 1\n"), text.substr(1), text.substr(0, 100)}) {
@@ -122,6 +133,13 @@ TEST(RunIdentity, CannotBeReadFromOtherTexts) {
     auto const at = damaged.find("members: 0-8");
     ASSERT_NE(at, std::string::npos);
     damaged[at + 10] = 'x';
+    EXPECT_THROW(parse_identity(damaged, "run.toml"), FileError);
+    // A line where none belongs; one that says nothing known.
+    damaged = text;
+    damaged.insert(damaged.find("\n\n") + 1, "# more");
+    EXPECT_THROW(parse_identity(damaged, "run.toml"), FileError);
+    damaged = text;
+    damaged.replace(damaged.find("fused"), 5, "mixed");
     EXPECT_THROW(parse_identity(damaged, "run.toml"), FileError);
 }
 

@@ -11,7 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 
 RunIdentity identity_of(std::string const& gravity = "9.81") {
-    return {"slideway 1", MemberSet({0, 12}), "schema = 1\n\n[mechanism]\ngravity = " + gravity + "\n"};
+    return {"slideway 1", "fused", MemberSet({0, 12}), "schema = 1\n\n[mechanism]\ngravity = " + gravity + "\n"};
 }
 
 ShardClaim::Wanted whole_run(bool resume = false, RunIdentity const& identity = identity_of()) {
@@ -20,6 +20,12 @@ ShardClaim::Wanted whole_run(bool resume = false, RunIdentity const& identity = 
 
 ShardClaim::Wanted part(std::uint64_t number, bool resume = false, RunIdentity const& identity = identity_of()) {
     return {identity, MemberSet({4 * (number - 1), 4}), fmt::format("{}-of-3", number), resume};
+}
+
+std::vector<std::string> names_of(std::vector<DamagedShard> const& shards) {
+    std::vector<std::string> names;
+    for (DamagedShard const& one : shards) names.push_back(one.shard.name);
+    return names;
 }
 
 class Claim : public testing::OutputFolder {
@@ -138,17 +144,19 @@ TEST_F(Claim, HasDamagedShardsRunAgain) {
         put(4, 4);
     }
     testing::flip_bit(file("members-0000000004.nc"), 20);
+    std::string const bytes = testing::bytes_of(file("members-0000000004.nc"));
     {
         ShardClaim const claim(shards_, whole_run(true));
         EXPECT_EQ(claim.done(), MemberSet({0, 4}));
-        EXPECT_EQ(claim.damaged(), std::vector<std::string>{"members-0000000004.nc"});
+        EXPECT_EQ(names_of(claim.damaged()), std::vector<std::string>{"members-0000000004.nc"});
         EXPECT_FALSE(fs::exists(file("members-0000000004.nc")));
+        EXPECT_EQ(testing::bytes_of(file("damaged-members-0000000004.nc")), bytes);
         put(4, 2, 'y');
     }
     // The second shard of that name is whole, though the first one's line still stands.
     ShardClaim const claim(shards_, whole_run(true));
     EXPECT_EQ(claim.done(), MemberSet({0, 6}));
-    EXPECT_EQ(claim.damaged(), std::vector<std::string>{});
+    EXPECT_EQ(names_of(claim.damaged()), std::vector<std::string>{});
     EXPECT_EQ(members_of(ShardFolder(shards_).listed()), MemberSet({0, 6}));
 }
 
@@ -208,10 +216,11 @@ TEST_F(Claim, OfAPartLeavesTheDamageOfOthersToThem) {
     testing::flip_bit(file("members-0000000000.nc"), 20);
     {
         ShardClaim const second(shards_, part(2, true));
-        EXPECT_EQ(second.damaged(), std::vector<std::string>{});
+        EXPECT_EQ(names_of(second.damaged()), std::vector<std::string>{});
         EXPECT_TRUE(fs::exists(file("members-0000000000.nc")));
     }
-    EXPECT_EQ(ShardClaim(shards_, part(1, true)).damaged(), std::vector<std::string>{"members-0000000000.nc"});
+    EXPECT_EQ(names_of(ShardClaim(shards_, part(1, true)).damaged()),
+              std::vector<std::string>{"members-0000000000.nc"});
 }
 
 TEST_F(Claim, OfAPartDoesNotTakeTheFolderFromPartsAtWork) {
@@ -231,6 +240,7 @@ TEST_F(Claim, RemovesItsFolderInTheEnd) {
     ShardClaim claim(shards_, whole_run());
     put(0, 4);
     put(4, 8);
+    testing::put_bytes(file("damaged-members-0000000000.nc"), "a shard of before");
     claim.remove_folder();
     EXPECT_FALSE(fs::exists(shards_));
 }

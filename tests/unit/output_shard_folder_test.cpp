@@ -23,7 +23,7 @@ std::vector<std::byte> content(int number, std::size_t size = 300) {
 
 class Shards : public testing::OutputFolder {
 protected:
-    Shards() : shards_(shards_of({"a program", range(0, 100), "schema = 1\n"})) {}
+    Shards() : shards_(shards_of({"a program", "fused", range(0, 100), "schema = 1\n"})) {}
 
     void put(MemberSet const& members, int number) const { ShardStore(shards_).put(members, content(number)); }
     ShardFolder open() const { return ShardFolder(shards_); }
@@ -32,13 +32,17 @@ protected:
 
     struct Found {
         MemberSet members;
-        std::vector<std::string> damaged;
+        std::vector<std::string> damaged;  // names
+        std::size_t gone = 0;              // of those
     };
     Found intact() const {
-        std::vector<Shard> damaged;
+        std::vector<DamagedShard> damaged;
         Found found;
         EXPECT_NO_THROW(found.members = members_of(open().intact(damaged)));
-        for (Shard const& shard : damaged) found.damaged.push_back(shard.name);
+        for (DamagedShard const& one : damaged) {
+            found.damaged.push_back(one.shard.name);
+            found.gone += one.is_gone ? 1 : 0;
+        }
         return found;
     }
 
@@ -162,10 +166,39 @@ TEST_F(Shards, ThatAreGoneAreFound) {
     fs::remove(file("members-0000000000.nc"));
     EXPECT_TRUE(open().listed().empty());
     EXPECT_EQ(intact().damaged, std::vector<std::string>{"members-0000000000.nc"});
-    // A folder in its place can be read no more.
-    fs::create_directories(file("members-0000000000.nc"));
-    EXPECT_TRUE(open().listed().empty());
-    EXPECT_EQ(intact().damaged, std::vector<std::string>{"members-0000000000.nc"});
+    EXPECT_EQ(intact().gone, 1u);
+}
+
+TEST_F(Shards, ThatCannotBeReadAreNotTakenForDamaged) {
+    put(range(0, 4), 1);
+    put(range(4, 4), 2);
+    std::vector<DamagedShard> damaged;
+    {
+        // No file can be opened, though each is there.
+        testing::NoMoreFiles const none;
+        EXPECT_THROW(ShardFolder{shards_}, FileError);
+    }
+    ShardFolder const folder = open();
+    std::string const victim = file("members-0000000000.nc");
+    fs::rename(victim, path("whole.nc"));
+    // A folder in its place and a link to itself have names, but cannot be read.
+    fs::create_directories(victim);
+    EXPECT_THROW(folder.intact(damaged), FileError);
+    fs::remove(victim);
+    fs::create_symlink(victim, victim);
+    EXPECT_THROW(folder.intact(damaged), FileError);
+    EXPECT_THROW(folder.listed(), FileError);
+    fs::remove(victim);
+    fs::rename(path("whole.nc"), victim);
+    EXPECT_TRUE(damaged.empty());
+    EXPECT_EQ(intact().members, range(0, 8));
+}
+
+TEST_F(Shards, ThatCannotBeLookedForAreNotTakenForNone) {
+    // A folder that leads to itself.
+    fs::create_symlink(path("loop"), path("loop"));
+    EXPECT_THROW(ShardFolder::exists(path("loop")), FileError);
+    EXPECT_FALSE(ShardFolder::exists(path("none")));
 }
 
 TEST_F(Shards, WithoutALineDoNotCount) {

@@ -28,7 +28,7 @@ ShardImage image_of(BlockResult const& block) { return shard_image("a shard", {}
 class Writer : public testing::OutputFolder {};
 
 TEST_F(Writer, HasEverythingOnTheDiskWhenItIsFinished) {
-    std::string const shards = shards_of({"p", MemberSet({0, 100}), ""});
+    std::string const shards = shards_of({"p", "fused", MemberSet({0, 100}), ""});
     ShardWriter writer(shards, image_of);
     for (std::uint64_t i = 0; i < 20; ++i) {
         Block block(5 * i, 5);
@@ -36,7 +36,7 @@ TEST_F(Writer, HasEverythingOnTheDiskWhenItIsFinished) {
         block.states.assign(block.states.size(), -1.0);  // it took a copy
     }
     writer.finish();
-    std::vector<Shard> damaged;
+    std::vector<DamagedShard> damaged;
     auto const whole = ShardFolder(shards).intact(damaged);
     EXPECT_TRUE(damaged.empty());
     EXPECT_EQ(whole.size(), 20u);
@@ -49,7 +49,7 @@ TEST_F(Writer, HasEverythingOnTheDiskWhenItIsFinished) {
 }
 
 TEST_F(Writer, KeepsWhatItWasGivenAlsoIfNobodyFinishesIt) {
-    std::string const shards = shards_of({"p", MemberSet({0, 100}), ""});
+    std::string const shards = shards_of({"p", "fused", MemberSet({0, 100}), ""});
     {
         ShardWriter writer(shards, image_of);
         writer.write(Block(0, 5).view());
@@ -59,7 +59,7 @@ TEST_F(Writer, KeepsWhatItWasGivenAlsoIfNobodyFinishesIt) {
 }
 
 TEST_F(Writer, WritesNothingForMembersThatHaveNotRun) {
-    std::string const shards = shards_of({"p", MemberSet({0, 100}), ""});
+    std::string const shards = shards_of({"p", "fused", MemberSet({0, 100}), ""});
     ShardWriter writer(shards, image_of);
     writer.write(Block(0, 5, Status::not_run).view());
     writer.finish();
