@@ -1,7 +1,6 @@
 #include "host/study/study_run.hpp"
 
 #include <filesystem>
-#include <set>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "host/output/result_merge.hpp"
 #include "host/output/result_reader.hpp"
 #include "host/output/statistics_merge.hpp"
+#include "host/study/continued_sweep.hpp"
 #include "host/study/prediction.hpp"
 #include "host/study/statistics_groups.hpp"
 #include "host/study/statistics_report.hpp"
@@ -61,10 +61,15 @@ MemberSet RunPart::of(MemberSet const& members) const {
     return part;
 }
 
+MemberSet members_of_part(Scene const& scene, RunPart const& part, MemberSet const& members) {
+    if (!is_continued(scene)) return part.of(members);
+    return members.common(members_of_starts(scene, part.of(swept_starts(scene, members))));
+}
+
 std::string shard_folder_of(std::string const& output) { return output + ".shards"; }
 
 StudyRun::StudyRun(Scene const& scene, StudyOptions const& options)
-    : scene_(scene), options_(options), members_(options.range), mine_(options.part.of(members_)) {
+    : scene_(scene), options_(options), members_(options.range), mine_(members_of_part(scene, options.part, members_)) {
     require_writable_place(options.output);
     std::string const folder = shard_folder_of(options.output);
     RunIdentity const identity = run_identity(scene, members_);

@@ -24,6 +24,10 @@ struct RunPart {
     MemberSet of(MemberSet const& members) const;
 };
 
+/// The members that a part computes, of those asked for.  Of a continued sweep parts divide the starts, and each takes
+/// all columns of its own: a member needs those before it, which another part would have to run again.
+MemberSet members_of_part(Scene const& scene, RunPart const& part, MemberSet const& members);
+
 struct StudyOptions {
     std::string output;
     MemberRange range;
