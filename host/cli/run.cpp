@@ -94,7 +94,7 @@ int end_with_shards(StudyOptions const& options, EnsembleTotals const& totals, s
 int conclude(RunArguments const& arguments, Scene const& scene, StudyOptions const& options, bool replaced,
              std::optional<ToleranceReport> report) {
     ResultReader const results(options.output);
-    if (!report && asks_for_report(scene)) report = tolerance_report(results, scene);
+    if (!report && asks_for_report(scene)) report = tolerance_report(results, scene, {options.threads});
     print_results(arguments, scene, options.isa, results, report);
     fmt::print("\n");
     print_field("results", fmt::format("{}{}", options.output, replaced ? " (replaced a former file)" : ""));

@@ -1,10 +1,17 @@
 #include "host/output/result_layout.hpp"
 
+#include <algorithm>
 #include <bit>
 
 #include "host/driver/block_result.hpp"
 
 namespace slideway {
+
+std::string variable_name(std::string_view key) {
+    std::string name(key);
+    std::replace(name.begin(), name.end(), '.', '_');
+    return name;
+}
 
 std::uint64_t payload_bytes(ResultLayout const& layout) {
     std::uint64_t columns = 4 + state_size + layout.parameters.size();  // three counters and end_time

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/driver/member_set.hpp"
@@ -19,6 +20,9 @@ struct ParameterColumn {
     std::string long_name;
     double Inputs::*member;
 };
+
+/// A dotted key as the name of a variable: underscores for dots.
+std::string variable_name(std::string_view key);
 
 struct ResultLayout {
     MemberSet members;

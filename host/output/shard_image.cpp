@@ -11,6 +11,15 @@
 namespace slideway {
 namespace {
 
+/// The sections that a member of a block reached: [sections][section_columns].
+std::span<double const> sections_of(BlockResult const& block, std::size_t row) {
+    std::size_t const width = block.sections.size() / block.members.size();
+    auto const room = block.sections.subspan(row * width, width);
+    std::size_t reached = 0;
+    while (reached < width && !std::isnan(room[reached])) reached += section_columns;
+    return room.first(reached);
+}
+
 /// Rows of a block, picked out of its arrays and written as whole variables.
 class BlockRows {
 public:
@@ -95,17 +104,12 @@ private:
     }
 
     void write_sections() {
-        std::size_t const most = block_.sections.size() / (members() * section_columns);
         std::vector<int> counts;
         std::vector<double> columns[section_columns];
         for (std::size_t const row : rows_) {
-            int count = 0;
-            for (std::size_t i = 0; i < most; ++i) {
-                auto const section = block_.sections.subspan((row * most + i) * section_columns, section_columns);
-                if (std::isnan(section[0])) break;
-                for (std::size_t j = 0; j < section_columns; ++j) columns[j].push_back(section[j]);
-                ++count;
-            }
+            auto const sections = sections_of(block_, row);
+            for (std::size_t i = 0; i < sections.size(); ++i) columns[i % section_columns].push_back(sections[i]);
+            int const count = static_cast<int>(sections.size() / section_columns);
             counts.push_back(count);
         }
         file_.write(ids_.section_count, std::array{std::size_t{0}}, std::array{counts.size()}, counts.data());
@@ -128,18 +132,6 @@ private:
     std::vector<std::size_t> const& rows_;
 };
 
-std::uint64_t count_sections(BlockResult const& block, std::vector<std::size_t> const& rows) {
-    std::size_t const most = block.sections.size() / (block.members.size() * section_columns);
-    std::uint64_t count = 0;
-    for (std::size_t const row : rows) {
-        for (std::size_t i = 0; i < most; ++i) {
-            if (std::isnan(block.sections[(row * most + i) * section_columns])) break;
-            ++count;
-        }
-    }
-    return count;
-}
-
 }  // namespace
 
 ShardImage shard_image(std::string const& name, ResultLayout layout, Provenance const& provenance,
@@ -153,7 +145,9 @@ ShardImage shard_image(std::string const& name, ResultLayout layout, Provenance 
     }
     if (rows.empty()) return image;
     layout.members = image.members;
-    if (layout.sections > 0) layout.section_rows = count_sections(block, rows);
+    for (std::size_t i = 0; i < rows.size() && layout.sections > 0; ++i) {
+        layout.section_rows += sections_of(block, rows[i]).size() / section_columns;
+    }
     NetcdfFile file = NetcdfFile::create_in_memory(name);
     ResultVariables const ids = define_result(file, layout, provenance);
     BlockRows(file, layout, ids, block, rows).write(study);

@@ -117,7 +117,10 @@ bool StudyRun::finish(StopRequest const& stop, std::optional<ToleranceReport>& r
     };
     ShardFolder const folder(shard_folder_of(options_.output));
     try {
-        merge_study(scene_, folder, provenance(scene_, options_.isa, options_.threads), options_.output, report, pause);
+        ReportSettings settings;
+        settings.threads = options_.threads;
+        merge_study(scene_, folder, provenance(scene_, options_.isa, options_.threads), options_.output, report, pause,
+                    settings);
     } catch (Interrupted const&) {
         return false;
     }
@@ -132,7 +135,7 @@ bool asks_for_report(Scene const& scene) {
 
 std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, Provenance const& provenance,
                           std::string const& output, std::optional<ToleranceReport>& report,
-                          std::function<void()> pause) {
+                          std::function<void()> pause, ReportSettings const& settings) {
     std::vector<Shard> const shards = folder.listed();
     MemberSet const& members = folder.identity().members;
     std::uint64_t const left = members.without(members_of(shards)).count();
@@ -151,7 +154,7 @@ std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, Provena
     std::function<void(NetcdfFile&)> conclude;
     if (asks_for_report(scene)) {
         conclude = [&](NetcdfFile& file) {
-            report = tolerance_report(ResultView(file), scene);
+            report = tolerance_report(ResultView(file), scene, settings);
             write_statistics(file, *report);
         };
     }

@@ -90,7 +90,7 @@ bool asks_for_report(Scene const& scene);
 /// @param report where that of a scene that `asks_for_report` goes  @return how many members have none.  @throws FileError
 std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, Provenance const& provenance,
                           std::string const& output, std::optional<ToleranceReport>& report,
-                          std::function<void()> pause = {});
+                          std::function<void()> pause = {}, ReportSettings const& settings = {});
 
 /// Who made the shards in a folder, as the first of them says.  @throws FileError, also if there is none.
 Provenance shard_origin(ShardFolder const& folder, Scene const& scene);
