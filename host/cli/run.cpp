@@ -53,7 +53,7 @@ StudyOptions study_options(RunArguments const& arguments, Scene const& scene, Is
 
 /// Before the start: what it will take, and what there is already.
 void announce(Scene const& scene, StudyOptions const& options, StudyRun const& run) {
-    Prediction const prediction = predict(scene, options.isa, options.threads);
+    Prediction const prediction = predict(scene, options.isa, options.threads, options.block_members);
     StudyWork const& work = run.work();
     for (std::string const& name : run.damaged()) {
         fmt::print(stderr, "warning: {}/{}: is not what was written (its checksum differs); its members run again\n",

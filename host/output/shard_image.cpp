@@ -7,6 +7,7 @@
 
 #include "host/output/payload_hash.hpp"
 #include "host/output/result_definition.hpp"
+#include "host/output/work_table.hpp"
 
 namespace slideway {
 namespace {
@@ -63,11 +64,9 @@ private:
     void write_records() {
         auto const& records = block_.records;
         write_each<signed char>(ids_.status, [&](std::size_t i) { return records[i].status; });
-        write_each<double>(ids_.steps_accepted, [&](std::size_t i) { return records[i].steps_accepted; });
-        write_each<double>(ids_.steps_rejected, [&](std::size_t i) { return records[i].steps_rejected; });
-        write_each<double>(ids_.rhs_evaluations, [&](std::size_t i) { return records[i].rhs_evaluations; });
-        write_each<double>(ids_.jacobian_evaluations, [&](std::size_t i) { return records[i].jacobian_evaluations; });
-        write_each<double>(ids_.stiff_steps, [&](std::size_t i) { return records[i].stiff_steps; });
+        for (std::size_t k = 0; k < ids_.work.size(); ++k) {
+            write_each<double>(ids_.work[k], [&](std::size_t i) { return records[i].*work_table[k].of; });
+        }
         write_each<double>(ids_.end_time, [&](std::size_t i) { return records[i].time; });
     }
 

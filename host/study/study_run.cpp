@@ -17,9 +17,6 @@
 namespace slideway {
 namespace {
 
-/// Header, tables of variables and what HDF5 leaves unused.
-constexpr std::uint64_t bytes_beside_data = 200'000;
-
 /// Whether a result file holds all that a run would compute.  @throws SceneError if it is of another run.
 bool is_result_of(std::string const& path, RunIdentity const& identity) {
     ResultReader const result(path);
@@ -91,12 +88,10 @@ std::vector<std::string> StudyRun::damaged() const { return claim_ ? claim_->dam
 
 void StudyRun::require_room() const {
     // The shards and the file that is made of them stand side by side for a while.
-    std::uint64_t const shards = scene_.stores_members() ? payload_bytes(result_layout(scene_, work_.todo))
-                                                         : statistics_shard_bytes(scene_, work_.todo.count());
-    std::uint64_t const result = scene_.stores_members() ? payload_bytes(result_layout(scene_, members_))
-                                                         : statistics_bytes(scene_, members_.count());
-    double const needed =
-        static_cast<double>(shards) + static_cast<double>(result) + 2.0 * static_cast<double>(bytes_beside_data);
+    std::uint64_t const shards =
+        shard_bytes(scene_, work_.todo, options_.isa, options_.threads, options_.block_members);
+    double const needed = static_cast<double>(shards) +
+                          static_cast<double>(result_bytes(scene_, members_, options_.isa, options_.threads));
     std::error_code error;
     auto const space = std::filesystem::space(folder_of(options_.output), error);
     if (error || needed <= static_cast<double>(space.available)) return;
