@@ -57,8 +57,8 @@ private:
     /// What a column does with a start.
     enum class Turn : char { skip, recall, lead, ask };
 
-    /// [column][start], from the last column to the first: a member runs if it is asked for, or if the next one runs and
-    /// nobody knows how this one ended.
+    /// [column][start], from the last column to the first: a member runs if it is asked for, or if the next one runs
+    /// and nobody knows how this one ended.
     std::vector<std::vector<Turn>> turns_of(std::span<std::uint64_t const> starts) const {
         std::vector<std::vector<Turn>> turns(columns(), std::vector<Turn>(starts.size(), Turn::skip));
         for (std::size_t i = 0; i < starts.size(); ++i) {

@@ -34,8 +34,8 @@ MemberSet members_before(Scene const& scene, MemberSet const& asked);
 /// Starts do not depend on each other: a worker takes some and runs them through the columns.
 /// The plan of the members `asked` becomes one whose places are their `swept_starts`.  Members before those asked for,
 /// which only lead to them, run too, but are not handed on.
-/// @param ends of members that ran before and need not run again, nor those that led to them; at least `members_before`,
-/// or nothing where these are to run
+/// @param ends of members that ran before and need not run again, nor those that led to them; at least
+/// `members_before`, or nothing where these are to run
 void continue_columns(Scene const& scene, EnsemblePlan& plan, MemberSet const& asked, KernelInstance const& kernel,
                       MemberEnds ends, StopRequest const& stop);
 

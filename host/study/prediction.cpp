@@ -14,9 +14,9 @@
 namespace slideway {
 namespace {
 
-/// Tried steps per time 1/Ω where a slider rings in contact: measured in settling, gaps down to 10 µs and strong damping
-/// included, at tolerances from 1e-3 to 1e-8, rounded up.  Of `auto` they are its explicit pair's, for a member that
-/// never comes to rest long enough to change over.
+/// Tried steps per time 1/Ω where a slider rings in contact: measured in settling, gaps down to 10 µs and strong
+/// damping included, at tolerances from 1e-3 to 1e-8, rounded up.  Of `auto` they are its explicit pair's, for a member
+/// that never comes to rest long enough to change over.
 double contact_steps(IntegratorSettings const& settings) {
     double const finer = 1e-6 / std::min(settings.rtol, settings.atol);
     bool const low_order =
@@ -62,7 +62,8 @@ std::uint64_t summary_bytes(Scene const& scene) {
     // What is freed leaves holes that larger pieces do not fit in: a quarter more, measured with a million members.
     auto const with_holes = [](std::uint64_t bytes) { return bytes + bytes / 4; };
     if (!asks_for_report(scene)) return with_holes(sections + plain);
-    // Numbers and statuses, as they are read and as they are kept; later they make room for a column and its sorted copy.
+    // Numbers and statuses, as they are read and as they are kept; later these make room for a column and its sorted
+    // copy.
     std::uint64_t report = members * (4 * word);
     if (scene.design.kind == DesignKind::saltelli) {
         report += members * word;
@@ -103,7 +104,15 @@ std::uint64_t most_shards(Scene const& scene, MemberSet const& members, Ensemble
     double const seconds = static_cast<double>(of_place) * copies * steps_of_member(scene).most;
     sizer.measured(1, seconds * seconds_per_member_step(isa), 1);
     std::uint64_t blocks = workers;  // trials
-    for (std::uint64_t left = places; left > 0; ++blocks) left -= std::min(left, sizer.next(left));
+    std::uint64_t left = places;
+    // Sizes change only towards the end of the run.
+    std::uint64_t const end = 4 * workers * (plan.blocks.most + sizer.next(left));
+    if (left > end) {
+        std::uint64_t const size = sizer.next(left), before = (left - end) / size;
+        blocks += before;
+        left -= before * size;
+    }
+    for (; left > 0; ++blocks) left -= std::min(left, sizer.next(left));
     return std::min(blocks, places) * of_place;
 }
 

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "host/study/tolerance_report.hpp"
 #include "tests/unit/scene_fixture.hpp"
 #include "tests/unit/tolerance_file.hpp"
@@ -13,14 +15,19 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 class ToleranceCorrelations : public ToleranceFile {
 protected:
-    /// Correlations of a force that is the sum of two inputs, both taken from 0 to 1, over not more than `most` members.
-    ColumnCorrelations of_a_sum(std::string const& design, std::size_t most) const {
-        Scene const study = scene_of("schema = 1\n[study]\nkind = \"tolerance\"\nduration = 1\n" + design + R"(
+    /// Correlations of a force that is the sum of two inputs, both taken from 0 to 1, over at most `most` members.
+    /// @param clearances, etas of the inputs: what their distributions say beside their ends
+    ColumnCorrelations of_a_sum(std::string const& design, std::size_t most, std::string const& clearances = "",
+                                std::string const& etas = "") const {
+        Scene const study = scene_of("schema = 1\n[study]\nkind = \"tolerance\"\nduration = 1\n" + design +
+                                     fmt::format(R"(
             quantities = ["peak_normal_force", "mode_time"]
             [study.vary]
-            "joint.clearance" = { dist = "unif", low = 1e-4, high = 2e-4 }
-            "contact.eta" = { dist = "unif", low = 0.01, high = 0.02 }
-        )");
+            "joint.clearance" = {{ dist = "unif", low = 1e-4, high = 2e-4{} }}
+            "contact.eta" = {{ dist = "unif", low = 0.01, high = 0.02{} }}
+        )",
+                                                 clearances, etas));
+        ;
         std::vector<MadeUpMember> members(study.members);
         for (std::size_t i = 0; i < members.size(); ++i) {
             Inputs const inputs = member_inputs(study, i);
@@ -88,8 +95,9 @@ TEST_F(ToleranceCorrelations, OfAPartOfSobolsPointsAreThoseOfAll) {
 }
 
 TEST_F(ToleranceCorrelations, OfAPartOfAGridAreThoseOfAll) {
-    // Every 64th of 256 times 256 has four of the levels of the second input.
-    expect_equal_shares(of_a_sum("design = \"grid\"\nlevels = 256\n", 1024));
+    // Every 64th member of these has one and the same level of the input that changes with every member.
+    expect_equal_shares(of_a_sum("design = \"grid\"\n", 1024, ", levels = 1024", ", levels = 64"));
+    expect_equal_shares(of_a_sum("design = \"grid\"\n", 1024, ", levels = 64", ", levels = 1024"));
 }
 
 TEST_F(ToleranceCorrelations, OfNoMoreMembersThanTheLimitUseAll) {
