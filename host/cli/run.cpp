@@ -54,7 +54,7 @@ StudyOptions study_options(RunArguments const& arguments, Scene const& scene, Is
 
 /// Before the start: what it will take, and what there is already.
 void announce(Scene const& scene, StudyOptions const& options, StudyRun const& run) {
-    Prediction const prediction = predict(scene, options.isa, options.threads);
+    Prediction const prediction = predict(scene, options.isa, options.threads, options.block_members);
     StudyWork const& work = run.work();
     for (DamagedShard const& damaged : run.damaged()) {
         std::string const& name = damaged.shard.name;
@@ -98,7 +98,7 @@ int end_with_shards(StudyOptions const& options, EnsembleTotals const& totals, s
 int conclude(RunArguments const& arguments, Scene const& scene, StudyOptions const& options, bool replaced,
              std::optional<ToleranceReport> report) {
     ResultReader const results(options.output);
-    if (!report && asks_for_report(scene)) report = tolerance_report(results, scene);
+    if (!report && asks_for_report(scene)) report = tolerance_report(results, scene, {options.threads});
     print_results(arguments, scene, options.isa, results, report);
     fmt::print("\n");
     print_field("results", fmt::format("{}{}", options.output, replaced ? " (replaced a former file)" : ""));

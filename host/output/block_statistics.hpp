@@ -10,6 +10,7 @@
 
 #include "host/driver/block_result.hpp"
 #include "host/driver/member_set.hpp"
+#include "host/output/work_table.hpp"
 #include "host/scene/design.hpp"
 #include "host/statistics/column_accumulator.hpp"
 #include "kernels/block.hpp"
@@ -59,19 +60,7 @@ public:
     std::uint64_t all_met() const { return all_met_; }
     std::span<FailedMember const> failed() const { return failed_; }
 
-    struct Work {
-        char const* name;  // as of a member's variable
-        char const* meaning;
-        std::uint64_t MemberRecord::*of;
-    };
-    static constexpr std::array<Work, 5> work_table{{
-        {"steps_accepted", "accepted steps", &MemberRecord::steps_accepted},
-        {"steps_rejected", "rejected steps", &MemberRecord::steps_rejected},
-        {"rhs_evaluations", "evaluations of the right-hand side", &MemberRecord::rhs_evaluations},
-        {"jacobian_evaluations", "evaluations of the Jacobian", &MemberRecord::jacobian_evaluations},
-        {"stiff_steps", "accepted steps of the stiff method", &MemberRecord::stiff_steps},
-    }};
-    /// Of all members, in the order of the table.
+    /// Of all members, in the order of work_table.
     std::span<std::uint64_t const> work() const { return work_; }
 
     /// A magic word with a version, then little-endian numbers; the same for the same members, however they came

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <functional>
@@ -33,6 +34,18 @@ int variable_or_global(int variable) { return variable == NetcdfFile::global ? N
 void silence_hdf5() {
     thread_local herr_t const silent = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     static_cast<void>(silent);
+}
+
+/// Where an HDF5 file in memory ends: the memory grows by 64 KiB at a time, and what lies behind the end is empty.  The
+/// superblock says it (HDF5 File Format Specification 3.0, II.A), in another place since version 2.
+std::size_t end_of_file(std::span<std::byte const> image) {
+    constexpr std::size_t version_at = 8, size_of_superblock = 48;
+    if (image.size() < size_of_superblock) return image.size();
+    bool const is_old = std::to_integer<int>(image[version_at]) < 2;
+    if (std::to_integer<int>(image[is_old ? 13 : 9]) != 8) return image.size();  // bytes of an address
+    std::uint64_t end = 0;
+    for (std::size_t i = 8; i-- > 0;) end = end << 8 | std::to_integer<std::uint64_t>(image[(is_old ? 40 : 28) + i]);
+    return static_cast<std::size_t>(std::min<std::uint64_t>(end, image.size()));
 }
 
 nc_type type_of(NetcdfFile::Type type) {
@@ -91,7 +104,7 @@ NetcdfFile NetcdfFile::open(std::string const& path) {
 NetcdfFile NetcdfFile::create_in_memory(std::string const& name) {
     silence_hdf5();
     int id = closed;
-    constexpr std::size_t first_size = 1 << 16;  // it grows
+    constexpr std::size_t first_size = 1 << 16;  // netCDF takes no less
     if (int const code = nc_create_mem(name.c_str(), NC_NETCDF4, first_size, &id); code != NC_NOERR) {
         fail(name, "create", code);
     }
@@ -102,7 +115,7 @@ std::vector<std::byte> NetcdfFile::close_to_bytes() {
     NC_memio memory{};
     require(nc_close_memio(std::exchange(id_, closed), &memory), "close");
     auto const* const begin = static_cast<std::byte const*>(memory.memory);
-    std::vector<std::byte> bytes(begin, begin + memory.size);
+    std::vector<std::byte> bytes(begin, begin + end_of_file({begin, memory.size}));
     std::free(memory.memory);
     return bytes;
 }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "host/output/label_axes.hpp"
+#include "host/output/work_table.hpp"
 #include "host/scene/error.hpp"
 
 namespace slideway {
@@ -103,11 +104,9 @@ void ResultDefiner::define_members() {
     put_status_flags(file_, ids_.status);
 
     // Counts can pass 2^31 and CF-1.8 has no wider integers; a double holds them exactly up to 2^53.
-    ids_.steps_accepted = member_variable("steps_accepted", "1", "accepted steps");
-    ids_.steps_rejected = member_variable("steps_rejected", "1", "rejected steps");
-    ids_.rhs_evaluations = member_variable("rhs_evaluations", "1", "evaluations of the right-hand side");
-    ids_.jacobian_evaluations = member_variable("jacobian_evaluations", "1", "evaluations of the Jacobian");
-    ids_.stiff_steps = member_variable("stiff_steps", "1", "accepted steps of the stiff method");
+    for (WorkCounter const& counter : work_table) {
+        ids_.work.push_back(member_variable(counter.name, "1", counter.meaning));
+    }
     ids_.end_time = member_variable("end_time", "s", "time at which the member ended");
     for (int i = 0; i < state_size; ++i) {
         ids_.final_states.push_back(member_variable(fmt::format("final_{}", series_table[i].name), series_table[i].unit,

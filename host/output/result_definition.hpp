@@ -16,8 +16,8 @@ struct ResultVariables {
         int first_column, columns;
     };
     int member = -1, status = -1, time = -1;
-    int steps_accepted = -1, steps_rejected = -1, rhs_evaluations = -1, jacobian_evaluations = -1, stiff_steps = -1;
     int end_time = -1;
+    std::vector<int> work;  // of the work_table
     std::vector<int> final_states, parameters, series;
     std::vector<Quantity> quantities;
     std::vector<int> study;  // the columns of the layout's study

@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/driver/member_set.hpp"
+#include "host/output/provenance.hpp"
 #include "host/output/study_columns.hpp"
 #include "host/scene/labels.hpp"
 #include "kernels/block.hpp"
@@ -20,6 +22,9 @@ struct ParameterColumn {
     double Inputs::*member;
 };
 
+/// A dotted key as the name of a variable: underscores for dots.
+std::string variable_name(std::string_view key);
+
 struct ResultLayout {
     MemberSet members;
     std::vector<double> sample_times;  // empty: no time series
@@ -33,7 +38,9 @@ struct ResultLayout {
     StudyTable study;                // what the study concludes of each member
 };
 
-/// Bytes of data in the file; its header adds some tens of kilobytes.
+/// Bytes of data in the file.
 std::uint64_t payload_bytes(ResultLayout const& layout);
+/// Bytes beside the data, at most: descriptions of the variables, and the scene as text.  A shard has them too.
+std::uint64_t header_bytes(ResultLayout const& layout, Provenance const& provenance);
 
 }  // namespace slideway

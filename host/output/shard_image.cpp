@@ -7,9 +7,19 @@
 
 #include "host/output/payload_hash.hpp"
 #include "host/output/result_definition.hpp"
+#include "host/output/work_table.hpp"
 
 namespace slideway {
 namespace {
+
+/// The sections that a member of a block reached: [sections][section_columns].
+std::span<double const> sections_of(BlockResult const& block, std::size_t row) {
+    std::size_t const width = block.sections.size() / block.members.size();
+    auto const room = block.sections.subspan(row * width, width);
+    std::size_t reached = 0;
+    while (reached < width && !std::isnan(room[reached])) reached += section_columns;
+    return room.first(reached);
+}
 
 /// Rows of a block, picked out of its arrays and written as whole variables.
 class BlockRows {
@@ -54,11 +64,9 @@ private:
     void write_records() {
         auto const& records = block_.records;
         write_each<signed char>(ids_.status, [&](std::size_t i) { return records[i].status; });
-        write_each<double>(ids_.steps_accepted, [&](std::size_t i) { return records[i].steps_accepted; });
-        write_each<double>(ids_.steps_rejected, [&](std::size_t i) { return records[i].steps_rejected; });
-        write_each<double>(ids_.rhs_evaluations, [&](std::size_t i) { return records[i].rhs_evaluations; });
-        write_each<double>(ids_.jacobian_evaluations, [&](std::size_t i) { return records[i].jacobian_evaluations; });
-        write_each<double>(ids_.stiff_steps, [&](std::size_t i) { return records[i].stiff_steps; });
+        for (std::size_t k = 0; k < ids_.work.size(); ++k) {
+            write_each<double>(ids_.work[k], [&](std::size_t i) { return records[i].*work_table[k].of; });
+        }
         write_each<double>(ids_.end_time, [&](std::size_t i) { return records[i].time; });
     }
 
@@ -95,17 +103,12 @@ private:
     }
 
     void write_sections() {
-        std::size_t const most = block_.sections.size() / (members() * section_columns);
         std::vector<int> counts;
         std::vector<double> columns[section_columns];
         for (std::size_t const row : rows_) {
-            int count = 0;
-            for (std::size_t i = 0; i < most; ++i) {
-                auto const section = block_.sections.subspan((row * most + i) * section_columns, section_columns);
-                if (std::isnan(section[0])) break;
-                for (std::size_t j = 0; j < section_columns; ++j) columns[j].push_back(section[j]);
-                ++count;
-            }
+            auto const sections = sections_of(block_, row);
+            for (std::size_t i = 0; i < sections.size(); ++i) columns[i % section_columns].push_back(sections[i]);
+            int const count = static_cast<int>(sections.size() / section_columns);
             counts.push_back(count);
         }
         file_.write(ids_.section_count, std::array{std::size_t{0}}, std::array{counts.size()}, counts.data());
@@ -128,18 +131,6 @@ private:
     std::vector<std::size_t> const& rows_;
 };
 
-std::uint64_t count_sections(BlockResult const& block, std::vector<std::size_t> const& rows) {
-    std::size_t const most = block.sections.size() / (block.members.size() * section_columns);
-    std::uint64_t count = 0;
-    for (std::size_t const row : rows) {
-        for (std::size_t i = 0; i < most; ++i) {
-            if (std::isnan(block.sections[(row * most + i) * section_columns])) break;
-            ++count;
-        }
-    }
-    return count;
-}
-
 }  // namespace
 
 ShardImage shard_image(std::string const& name, ResultLayout layout, Provenance const& provenance,
@@ -153,7 +144,9 @@ ShardImage shard_image(std::string const& name, ResultLayout layout, Provenance 
     }
     if (rows.empty()) return image;
     layout.members = image.members;
-    if (layout.sections > 0) layout.section_rows = count_sections(block, rows);
+    for (std::size_t i = 0; i < rows.size() && layout.sections > 0; ++i) {
+        layout.section_rows += sections_of(block, rows[i]).size() / section_columns;
+    }
     NetcdfFile file = NetcdfFile::create_in_memory(name);
     ResultVariables const ids = define_result(file, layout, provenance);
     BlockRows(file, layout, ids, block, rows).write(study);

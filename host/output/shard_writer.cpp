@@ -1,5 +1,6 @@
 #include "host/output/shard_writer.hpp"
 
+#include <optional>
 #include <utility>
 
 namespace slideway {
@@ -20,15 +21,16 @@ void ShardWriter::stop() {
 }
 
 void ShardWriter::write(BlockResult const& block) {
-    ShardImage image = form_(block);
-    if (image.members.empty()) return;
-    // Few may wait: what does is lost with the process.
-    constexpr std::size_t most_waiting = 2;
     {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [this] { return failure_ || waiting_.size() < most_waiting; });
         if (failure_) std::rethrow_exception(failure_);
-        waiting_.push_back(std::move(image));
+    }
+    BlockCopy copy(block);  // the room is still there: only this thread takes it
+    {
+        std::lock_guard const lock(mutex_);
+        if (failure_) std::rethrow_exception(failure_);
+        waiting_.push_back(std::move(copy));
     }
     changed_.notify_all();
 }
@@ -43,12 +45,15 @@ void ShardWriter::put_all() {
     for (;;) {
         changed_.wait(lock, [this] { return ended_ || !waiting_.empty(); });
         if (waiting_.empty()) return;
-        ShardImage const image = std::move(waiting_.front());
+        std::optional<BlockCopy> block(std::move(waiting_.front()));
         waiting_.pop_front();
+        changed_.notify_all();
         lock.unlock();
         std::exception_ptr failure;
         try {
-            store_.put(image.members, image.bytes);
+            ShardImage const image = form_(block->view());
+            block.reset();
+            if (!image.members.empty()) store_.put(image.members, image.bytes);
         } catch (...) {
             failure = std::current_exception();
         }
@@ -59,7 +64,6 @@ void ShardWriter::put_all() {
             changed_.notify_all();
             return;
         }
-        changed_.notify_all();
     }
 }
 

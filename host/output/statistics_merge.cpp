@@ -93,7 +93,7 @@ void write_all(NetcdfFile& file, StatisticsMerge const& merge, BlockStatistics c
     write_failed(file, statistics);
     ColumnWriter out(file);
     for (std::size_t i = 0; i < statistics.work().size(); ++i) {
-        BlockStatistics::Work const& work = BlockStatistics::work_table[i];
+        WorkCounter const& work = work_table[i];
         out.scalar(work.name, "1", fmt::format("{} of all members", work.meaning),
                    static_cast<double>(statistics.work()[i]));
     }

@@ -69,7 +69,7 @@ Interval rank_correlation_interval(double r, std::size_t n, double level) {
 }
 
 CorrelationEstimate rank_correlation(std::span<double const> x, std::span<double const> y, double level) {
-    double const r = product_moment(midranks(x), midranks(y));
+    double const r = product_moment(x, y);
     return {r, rank_correlation_interval(r, x.size(), level)};
 }
 

@@ -29,7 +29,7 @@ double product_moment(std::span<double const> x, std::span<double const> y);
 Interval rank_correlation_interval(double r, std::size_t n, double level = 0.95);
 
 /// Spearman's rank correlation: the product-moment correlation of midranks, with its interval.
-/// @param x, y [n], no NaN.
+/// @param x, y [n], midranks.
 CorrelationEstimate rank_correlation(std::span<double const> x, std::span<double const> y, double level = 0.95);
 
 /// Linear regression of the standardised output on the standardised inputs.

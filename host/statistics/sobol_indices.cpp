@@ -136,7 +136,7 @@ SobolIndices sobol_indices(RadialValues const& design, BootstrapSettings const& 
 
     std::size_t const replicates = bootstrap.replicates;
     std::vector<double> drawn(replicates * estimates);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) num_threads(bootstrap.threads)
     for (std::size_t b = 0; b < replicates; ++b) {
         std::vector<double> replicate(size);
         resample(groups, size, bootstrap.seed, b, replicate);

@@ -21,6 +21,7 @@ struct BootstrapSettings {
     std::size_t replicates = 500;
     double level = 0.95;
     std::uint64_t seed = 1;
+    int threads = 1;  // at most; results do not depend on them
 };
 
 struct IndexEstimate {

@@ -43,20 +43,38 @@ public:
 
     void run(BlockBuffers& buffers, std::span<std::uint64_t const> starts, BlockEmit const& emit) const {
         std::vector<Place> places(starts.size());
-        for (std::uint64_t column = 0; column < scene_.chaos.values.size(); ++column) {
-            if (!run_column(column, buffers, starts, places, emit) || stop_.reason() != StopReason::none) return;
+        std::vector<std::vector<Turn>> const turns = turns_of(starts);
+        for (std::uint64_t column = 0; column < columns(); ++column) {
+            if (!run_column(column, turns[column], buffers, starts, places, emit)) return;
+            if (stop_.reason() != StopReason::none) return;
         }
     }
 
 private:
+    std::uint64_t columns() const { return scene_.chaos.values.size(); }
     std::uint64_t member(std::uint64_t column, std::uint64_t start) const { return column * scene_.members + start; }
 
-    /// Whether a start's member of this column or of a later one is asked for.
-    bool leads_on(std::uint64_t column, std::uint64_t start) const {
-        for (std::uint64_t later = column; later < scene_.chaos.values.size(); ++later) {
-            if (asked_.contains(member(later, start))) return true;
+    /// What a column does with a start.
+    enum class Turn : char { skip, recall, lead, ask };
+
+    /// [column][start], from the last column to the first: a member runs if it is asked for, or if the next one runs
+    /// and nobody knows how this one ended.
+    std::vector<std::vector<Turn>> turns_of(std::span<std::uint64_t const> starts) const {
+        std::vector<std::vector<Turn>> turns(columns(), std::vector<Turn>(starts.size(), Turn::skip));
+        for (std::size_t i = 0; i < starts.size(); ++i) {
+            bool next_runs = false;
+            for (std::uint64_t column = columns(); column-- > 0;) {
+                std::uint64_t const m = member(column, starts[i]);
+                Turn& turn = turns[column][i];
+                if (asked_.contains(m)) {
+                    turn = Turn::ask;
+                } else if (next_runs) {
+                    turn = ends_ && ends_(m) ? Turn::recall : Turn::lead;
+                }
+                next_runs = turn == Turn::ask || turn == Turn::lead;
+            }
         }
-        return false;
+        return turns;
     }
 
     void remember(Place& place, std::uint64_t of_member, bool finished, std::span<double const> state) const {
@@ -67,18 +85,19 @@ private:
         std::copy_n(state.begin(), state_size, place.state.begin());
     }
 
-    bool run_column(std::uint64_t column, BlockBuffers& buffers, std::span<std::uint64_t const> starts,
-                    std::vector<Place>& places, BlockEmit const& emit) const {
+    bool run_column(std::uint64_t column, std::vector<Turn> const& turns, BlockBuffers& buffers,
+                    std::span<std::uint64_t const> starts, std::vector<Place>& places, BlockEmit const& emit) const {
         std::vector<std::uint64_t> asked, leading;
         std::vector<std::size_t> place_of_asked, place_of_leading;
         for (std::size_t i = 0; i < starts.size(); ++i) {
+            if (turns[i] == Turn::skip) continue;
             std::uint64_t const m = member(column, starts[i]);
-            if (!leads_on(column, starts[i])) continue;
-            if (auto const end = ends_ ? ends_(m) : std::nullopt) {
-                remember(places[i], m, end->finished, end->state);
+            if (turns[i] == Turn::recall) {
+                MemberEnd const end = ends_(m).value();
+                remember(places[i], m, end.finished, end.state);
                 continue;
             }
-            bool const is_asked = asked_.contains(m);
+            bool const is_asked = turns[i] == Turn::ask;
             (is_asked ? asked : leading).push_back(m);
             (is_asked ? place_of_asked : place_of_leading).push_back(i);
         }
@@ -130,6 +149,25 @@ MemberSet swept_starts(Scene const& scene, MemberSet const& members) {
         starts.add({0, range.count - before_turn});
     }
     return starts;
+}
+
+MemberSet members_of_starts(Scene const& scene, MemberSet const& starts) {
+    MemberSet members;
+    for (std::uint64_t column = 0; column < scene.chaos.values.size(); ++column) {
+        for (MemberRange const& range : starts.ranges()) {
+            members.add({column * scene.members + range.first, range.count});
+        }
+    }
+    return members;
+}
+
+MemberSet members_before(Scene const& scene, MemberSet const& asked) {
+    MemberSet before;
+    for (MemberRange const& range : asked.ranges()) {
+        std::uint64_t const first = std::max(range.first, scene.members);  // the first column goes on from nothing
+        if (first < range.end()) before.add({first - scene.members, range.end() - first});
+    }
+    return before.without(asked);
 }
 
 void continue_columns(Scene const& scene, EnsemblePlan& plan, MemberSet const& asked, KernelInstance const& kernel,

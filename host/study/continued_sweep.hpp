@@ -24,10 +24,18 @@ bool is_continued(Scene const& scene);
 /// The starts that members belong to.
 MemberSet swept_starts(Scene const& scene, MemberSet const& members);
 
+/// The members of starts, in all columns.
+MemberSet members_of_starts(Scene const& scene, MemberSet const& starts);
+
+/// Members of earlier runs from whose ends those asked for go on: what a run that is resumed has to recall, one of each
+/// start, or as many as there are gaps in what had finished.
+MemberSet members_before(Scene const& scene, MemberSet const& asked);
+
 /// Starts do not depend on each other: a worker takes some and runs them through the columns.
-/// The plan of the members `asked` becomes one whose places are their `swept_starts`.  Members before those asked for, which only lead to them,
-/// run too, but are not handed on.
-/// @param ends of members that ran before and need not run again
+/// The plan of the members `asked` becomes one whose places are their `swept_starts`.  Members before those asked for,
+/// which only lead to them, run too, but are not handed on.
+/// @param ends of members that ran before and need not run again, nor those that led to them; at least
+/// `members_before`, or nothing where these are to run
 void continue_columns(Scene const& scene, EnsemblePlan& plan, MemberSet const& asked, KernelInstance const& kernel,
                       MemberEnds ends, StopRequest const& stop);
 

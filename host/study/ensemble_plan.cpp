@@ -23,9 +23,8 @@ ResultLayout result_layout(Scene const& scene, MemberSet const& members) {
     layout.quantities = scene.quantities;
     layout.series = scene.series;
     auto const add = [&layout](Key const& key) {
-        std::string name(key.name);
-        std::replace(name.begin(), name.end(), '.', '_');
-        layout.parameters.push_back({std::move(name), std::string(key.unit), std::string(key.meaning), key.member});
+        layout.parameters.push_back(
+            {variable_name(key.name), std::string(key.unit), std::string(key.meaning), key.member});
     };
     if (scene.study == StudyKind::sweep) {
         add(*scene.chaos.parameter);

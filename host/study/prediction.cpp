@@ -4,15 +4,19 @@
 #include <cmath>
 
 #include "host/output/shard_store.hpp"
+#include "host/output/shard_writer.hpp"
 #include "host/scene/integrator_keys.hpp"
+#include "host/study/continued_sweep.hpp"
 #include "host/study/ensemble_plan.hpp"
 #include "host/study/orbit_schedule.hpp"
+#include "host/study/study_run.hpp"
 
 namespace slideway {
 namespace {
 
-/// Tried steps per time 1/Ω where a slider rings in contact: measured in settling, gaps down to 10 µs and
-/// strong damping included, at tolerances from 1e-3 to 1e-8, rounded up.  Of `auto` they are its explicit pair's, for a member that never comes to rest long enough to change over.
+/// Tried steps per time 1/Ω where a slider rings in contact: measured in settling, gaps down to 10 µs and strong
+/// damping included, at tolerances from 1e-3 to 1e-8, rounded up.  Of `auto` they are its explicit pair's, for a member
+/// that never comes to rest long enough to change over.
 double contact_steps(IntegratorSettings const& settings) {
     double const finer = 1e-6 / std::min(settings.rtol, settings.atol);
     bool const low_order =
@@ -43,7 +47,8 @@ std::uint64_t statistics_image_bytes(Scene const& scene, std::uint64_t members) 
     return head + columns * (beside + bytes_per_bucket * std::min(members, buckets));
 }
 
-/// Statuses, the widest quantity, one of its columns and that column sorted: what the statistics hold at once.
+/// What the end of a run holds at once: the report, with the numbers and the order of the members, their inputs with
+/// ranks and copies, and a column that is ranked; or the widest quantity, one of its columns and that column sorted.
 std::uint64_t summary_bytes(Scene const& scene) {
     // Those of all members and of one shard.
     if (!scene.stores_members()) return 2 * statistics_image_bytes(scene, member_count(scene));
@@ -51,7 +56,64 @@ std::uint64_t summary_bytes(Scene const& scene) {
     for (int q = 0; q < quantity_count; ++q) {
         if (selects(scene.quantities, static_cast<Quantity>(q))) widest = std::max(widest, quantity_table[q].columns);
     }
-    return member_count(scene) * sizeof(double) * (1 + (widest > 0 ? static_cast<std::uint64_t>(widest) + 2 : 0));
+    std::uint64_t const members = member_count(scene), word = sizeof(double);
+    std::uint64_t const plain = members * word * (1 + (widest > 0 ? static_cast<std::uint64_t>(widest) + 2 : 0));
+    std::uint64_t const sections = orbit_schedule(scene).section_rows() > 0 ? members * word : 0;
+    // What is freed leaves holes that larger pieces do not fit in: a quarter more, measured with a million members.
+    auto const with_holes = [](std::uint64_t bytes) { return bytes + bytes / 4; };
+    if (!asks_for_report(scene)) return with_holes(sections + plain);
+    // Numbers and statuses, as they are read and as they are kept; later these make room for a column and its sorted
+    // copy.
+    std::uint64_t report = members * (4 * word);
+    if (scene.design.kind == DesignKind::saltelli) {
+        report += members * word;
+    } else if (!scene.variations.empty()) {
+        constexpr std::uint64_t of_input = 3, of_output = 5;  // values, ranks, a copy; also their order and places
+        report += std::min<std::uint64_t>(members, ReportSettings().most_correlated) * word *
+                  (of_input * scene.variations.size() + of_output);
+    }
+    return with_holes(sections + std::max(plain, report));
+}
+
+struct StepRange {
+    double least, most;
+};
+
+/// Of one member.
+StepRange steps_of_member(Scene const& scene) {
+    OrbitSchedule const schedule = orbit_schedule(scene);
+    double const end = schedule.timing ? schedule.longest : scene.integrator.end_time;
+    auto const stops = static_cast<double>(schedule.stops.count);
+    if (scene.integrator.method == Method::rk4) {
+        double const steps = fixed_steps(scene.integrator) + stops;
+        return {steps, steps};
+    }
+    double const least = end / scene.integrator.max_step + stops;
+    return {least, least + end * stiffest_rate(complete_inputs(scene.inputs)) * contact_steps(scene.integrator)};
+}
+
+/// How many shards members become at most: their blocks, of the dearest members that are foreseen.
+std::uint64_t most_shards(Scene const& scene, MemberSet const& members, EnsemblePlan const& plan, Isa isa) {
+    bool const continued = is_continued(scene);
+    std::uint64_t const places = continued ? swept_starts(scene, members).count() : members.count();
+    std::uint64_t const of_place = continued ? scene.chaos.values.size() : 1;
+    auto const workers = static_cast<std::uint64_t>(plan.workers);
+    if (plan.blocks.fixed > 0) return (places + plan.blocks.fixed - 1) / plan.blocks.fixed * of_place;
+    BlockSizer sizer(plan.blocks, places, plan.workers);
+    double const copies = 1 + shadow_plan(scene).count;
+    double const seconds = static_cast<double>(of_place) * copies * steps_of_member(scene).most;
+    sizer.measured(1, seconds * seconds_per_member_step(isa), 1);
+    std::uint64_t blocks = workers;  // trials
+    std::uint64_t left = places;
+    // Sizes change only towards the end of the run.
+    std::uint64_t const end = 4 * workers * (plan.blocks.most + sizer.next(left));
+    if (left > end) {
+        std::uint64_t const size = sizer.next(left), before = (left - end) / size;
+        blocks += before;
+        left -= before * size;
+    }
+    for (; left > 0; ++blocks) left -= std::min(left, sizer.next(left));
+    return std::min(blocks, places) * of_place;
 }
 
 }  // namespace
@@ -87,39 +149,55 @@ std::uint64_t statistics_shard_bytes(Scene const& scene, std::uint64_t members) 
     return bytes;
 }
 
-Prediction predict(Scene const& scene, Isa isa, int threads) {
+std::uint64_t shard_bytes(Scene const& scene, MemberSet const& members, Isa isa, int threads,
+                          std::size_t block_members) {
+    if (!scene.stores_members()) return statistics_shard_bytes(scene, members.count());
+    ResultLayout const layout = result_layout(scene, members);
+    EnsemblePlan const plan = ensemble_plan(scene, members, isa, threads, block_members);
+    return payload_bytes(layout) +
+           most_shards(scene, members, plan, isa) * header_bytes(layout, provenance(scene, isa, threads));
+}
+
+std::uint64_t result_bytes(Scene const& scene, MemberSet const& members, Isa isa, int threads) {
+    if (!scene.stores_members()) return statistics_bytes(scene, members.count());
+    ResultLayout const layout = result_layout(scene, members);
+    // A report has some ten variables of each column, described at length.
+    constexpr std::uint64_t of_report = 10'000, of_column = 8'000;
+    std::uint64_t const report =
+        asks_for_report(scene) ? of_report + of_column * selected_columns(scene.quantities).size() : 0;
+    return payload_bytes(layout) + header_bytes(layout, provenance(scene, isa, threads)) + report;
+}
+
+Prediction predict(Scene const& scene, Isa isa, int threads, std::size_t block_members) {
     std::uint64_t const count = member_count(scene);
     MemberSet const all(MemberRange{0, count});
-    EnsemblePlan const plan = ensemble_plan(scene, all, isa, threads);
+    EnsemblePlan const plan = ensemble_plan(scene, all, isa, threads, block_members);
     auto const members = static_cast<double>(count);
     auto const workers = static_cast<std::uint64_t>(threads);
     std::uint64_t const first_block = std::min(BlockSizer(plan.blocks, count, threads).next(count), count);
     std::uint64_t const busy = std::min((count + first_block - 1) / first_block, workers);
-    std::uint64_t const largest = std::min<std::uint64_t>((count + workers - 1) / workers, plan.blocks.most);
+    std::uint64_t const share = (count + workers - 1) / workers;
+    std::uint64_t const largest = block_members > 0 ? std::min<std::uint64_t>(count, block_members)
+                                                    : std::min<std::uint64_t>(share, plan.blocks.most);
 
     Prediction prediction{};
     prediction.busy_threads = static_cast<int>(std::max<std::uint64_t>(busy, 1));
     prediction.largest_block = static_cast<std::size_t>(largest);
     prediction.buffer_bytes = busy * block_bytes(plan.request, static_cast<std::size_t>(largest));
-    // A shard is built, waits and is written.
-    constexpr std::uint64_t images = 4;
+    // Copies of blocks: those that wait and the one that becomes a shard.  Its image, as it grows and when it is whole.
+    constexpr std::uint64_t copies_of_blocks = ShardWriter::most_waiting + 1, images = 3;
+    ResultLayout const of_block = result_layout(scene, MemberSet(MemberRange{0, largest}));
     prediction.image_bytes =
-        images * (scene.stores_members() ? payload_bytes(result_layout(scene, MemberSet(MemberRange{0, largest})))
-                                         : statistics_image_bytes(scene, largest));
+        copies_of_blocks * block_bytes(plan.request, static_cast<std::size_t>(largest)) +
+        images * (scene.stores_members()
+                      ? payload_bytes(of_block) + header_bytes(of_block, provenance(scene, isa, threads))
+                      : statistics_image_bytes(scene, largest));
     prediction.summary_bytes = summary_bytes(scene);
-    prediction.output_bytes =
-        scene.stores_members() ? payload_bytes(result_layout(scene, all)) : statistics_bytes(scene, count);
-    prediction.shard_bytes = scene.stores_members() ? prediction.output_bytes : statistics_shard_bytes(scene, count);
-    OrbitSchedule const schedule = orbit_schedule(scene);
-    double const end = schedule.timing ? schedule.longest : scene.integrator.end_time;
-    double const stops = members * static_cast<double>(schedule.stops.count);
-    if (scene.integrator.method == Method::rk4) {
-        prediction.least_steps = prediction.most_steps = members * fixed_steps(scene.integrator) + stops;
-    } else {
-        prediction.least_steps = members * end / scene.integrator.max_step + stops;
-        double const rate = stiffest_rate(complete_inputs(scene.inputs));
-        prediction.most_steps = prediction.least_steps + members * end * rate * contact_steps(scene.integrator);
-    }
+    prediction.output_bytes = result_bytes(scene, all, isa, threads);
+    prediction.shard_bytes = shard_bytes(scene, all, isa, threads, block_members);
+    auto const [least, most] = steps_of_member(scene);
+    prediction.least_steps = members * least;
+    prediction.most_steps = members * most;
     // Packs are full except where a block has fewer members than lanes.
     double const filled = std::min(1.0, members / lanes_of(isa));
     double const copies = 1 + shadow_plan(scene).count;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "host/backend/backend.hpp"
+#include "host/driver/member_set.hpp"
 #include "host/scene/scene.hpp"
 
 namespace slideway {
@@ -13,10 +14,10 @@ namespace slideway {
 /// before the run how long the slider flies.
 struct Prediction {
     std::uint64_t buffer_bytes;   // of all threads' blocks; the program itself needs some tens of MB more
-    std::uint64_t image_bytes;    // of shards on their way to the disk
+    std::uint64_t image_bytes;    // of blocks on their way to the disk
     std::uint64_t summary_bytes;  // of the statistics over all members at the end
     std::uint64_t output_bytes;
-    std::uint64_t shard_bytes;       // beside the output, until it is whole; of statistics a bound
+    std::uint64_t shard_bytes;       // beside the output, until it is whole; a bound
     std::size_t largest_block;       // members
     int busy_threads;                // that find a block to work on
     double least_steps, most_steps;  // of all members; the same where steps are fixed
@@ -36,6 +37,13 @@ double stiffest_rate(Inputs const& inputs);
 std::uint64_t statistics_bytes(Scene const& scene, std::uint64_t members);
 std::uint64_t statistics_shard_bytes(Scene const& scene, std::uint64_t members);
 
-Prediction predict(Scene const& scene, Isa isa, int threads);
+/// On the disk: of the result, and at most of the shards that members become before it.  A shard of few members is
+/// mostly header (header_bytes), and there is one for each block, of each column of a sweep that continues.
+/// @param block_members 0: as many as suit the run; blocks are then as small as the dearest members make them.
+std::uint64_t result_bytes(Scene const& scene, MemberSet const& members, Isa isa, int threads);
+std::uint64_t shard_bytes(Scene const& scene, MemberSet const& members, Isa isa, int threads,
+                          std::size_t block_members);
+
+Prediction predict(Scene const& scene, Isa isa, int threads, std::size_t block_members = 0);
 
 }  // namespace slideway

@@ -1,7 +1,6 @@
 #include "host/study/study_run.hpp"
 
 #include <filesystem>
-#include <set>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -10,15 +9,13 @@
 #include "host/output/result_merge.hpp"
 #include "host/output/result_reader.hpp"
 #include "host/output/statistics_merge.hpp"
+#include "host/study/continued_sweep.hpp"
 #include "host/study/prediction.hpp"
 #include "host/study/statistics_groups.hpp"
 #include "host/study/statistics_report.hpp"
 
 namespace slideway {
 namespace {
-
-/// Header, tables of variables and what HDF5 leaves unused.
-constexpr std::uint64_t bytes_beside_data = 200'000;
 
 /// Whether a result file holds all that a run would compute.  @throws SceneError if it is of another run.
 bool is_result_of(std::string const& path, RunIdentity const& identity) {
@@ -69,10 +66,15 @@ MemberSet RunPart::of(MemberSet const& members) const {
     return part;
 }
 
+MemberSet members_of_part(Scene const& scene, RunPart const& part, MemberSet const& members) {
+    if (!is_continued(scene)) return part.of(members);
+    return members.common(members_of_starts(scene, part.of(swept_starts(scene, members))));
+}
+
 std::string shard_folder_of(std::string const& output) { return output + ".shards"; }
 
 StudyRun::StudyRun(Scene const& scene, StudyOptions const& options)
-    : scene_(scene), options_(options), members_(options.range), mine_(options.part.of(members_)) {
+    : scene_(scene), options_(options), members_(options.range), mine_(members_of_part(scene, options.part, members_)) {
     require_writable_place(options.output);
     std::string const folder = shard_folder_of(options.output);
     RunIdentity const identity = run_identity(scene, members_, options.isa);
@@ -95,12 +97,10 @@ std::vector<DamagedShard> StudyRun::damaged() const { return claim_ ? claim_->da
 
 void StudyRun::require_room() const {
     // The shards and the file that is made of them stand side by side for a while.
-    std::uint64_t const shards = scene_.stores_members() ? payload_bytes(result_layout(scene_, work_.todo))
-                                                         : statistics_shard_bytes(scene_, work_.todo.count());
-    std::uint64_t const result = scene_.stores_members() ? payload_bytes(result_layout(scene_, members_))
-                                                         : statistics_bytes(scene_, members_.count());
-    double const needed =
-        static_cast<double>(shards) + static_cast<double>(result) + 2.0 * static_cast<double>(bytes_beside_data);
+    std::uint64_t const shards =
+        shard_bytes(scene_, work_.todo, options_.isa, options_.threads, options_.block_members);
+    double const needed = static_cast<double>(shards) +
+                          static_cast<double>(result_bytes(scene_, members_, options_.isa, options_.threads));
     std::error_code error;
     auto const space = std::filesystem::space(folder_of(options_.output), error);
     if (error || needed <= static_cast<double>(space.available)) return;
@@ -121,7 +121,10 @@ bool StudyRun::finish(StopRequest const& stop, std::optional<ToleranceReport>& r
     };
     ShardFolder const folder(shard_folder_of(options_.output));
     try {
-        merge_study(scene_, folder, provenance(scene_, options_.isa, options_.threads), options_.output, report, pause);
+        ReportSettings settings;
+        settings.threads = options_.threads;
+        merge_study(scene_, folder, provenance(scene_, options_.isa, options_.threads), options_.output, report, pause,
+                    settings);
     } catch (Interrupted const&) {
         return false;
     }
@@ -136,7 +139,7 @@ bool asks_for_report(Scene const& scene) {
 
 std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, Provenance const& provenance,
                           std::string const& output, std::optional<ToleranceReport>& report,
-                          std::function<void()> pause) {
+                          std::function<void()> pause, ReportSettings const& settings) {
     std::vector<Shard> const shards = folder.listed();
     MemberSet const& members = folder.identity().members;
     std::uint64_t const left = members.without(members_of(shards)).count();
@@ -155,7 +158,7 @@ std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, Provena
     std::function<void(NetcdfFile&)> conclude;
     if (asks_for_report(scene)) {
         conclude = [&](NetcdfFile& file) {
-            report = tolerance_report(ResultView(file), scene);
+            report = tolerance_report(ResultView(file), scene, settings);
             write_statistics(file, *report);
         };
     }

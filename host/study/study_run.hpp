@@ -24,6 +24,10 @@ struct RunPart {
     MemberSet of(MemberSet const& members) const;
 };
 
+/// The members that a part computes, of those asked for.  Of a continued sweep parts divide the starts, and each takes
+/// all columns of its own: a member needs those before it, which another part would have to run again.
+MemberSet members_of_part(Scene const& scene, RunPart const& part, MemberSet const& members);
+
 struct StudyOptions {
     std::string output;
     MemberRange range;
@@ -86,7 +90,7 @@ bool asks_for_report(Scene const& scene);
 /// @param report where that of a scene that `asks_for_report` goes  @return how many members have none.  @throws FileError
 std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, Provenance const& provenance,
                           std::string const& output, std::optional<ToleranceReport>& report,
-                          std::function<void()> pause = {});
+                          std::function<void()> pause = {}, ReportSettings const& settings = {});
 
 /// Who made the shards in a folder, as the first of them says.  @throws FileError, also if there is none.
 Provenance shard_origin(ShardFolder const& folder, Scene const& scene);

@@ -22,14 +22,16 @@ std::string to_bytes(EnsembleTotals const& totals) {
     return bytes;
 }
 
-/// The ends of members that earlier runs have finished.
-MemberEnds recalled_ends(std::string const& path) {
+/// The ends of those of the members that earlier runs have finished.
+MemberEnds recalled_ends(std::string const& path, MemberSet const& wanted) {
     auto const ends = std::make_shared<std::unordered_map<std::uint64_t, MemberEnd>>();
     ShardFolder const folder(path);
     for (Shard const& shard : folder.listed()) {
+        if (!shard.members.overlaps(wanted)) continue;
         std::vector<std::byte> const bytes = folder.read(shard);
         NetcdfFile const file = NetcdfFile::open_in_memory(shard.name, bytes);
         std::vector<std::uint64_t> const members = shard.members.members(0, shard.members.count());
+        std::vector<MemberEnd> of_shard(members.size());
         std::vector<signed char> statuses(members.size());
         std::vector<double> column(members.size());
         for (NetcdfFile::Variable const& variable : file.variables()) {
@@ -37,13 +39,16 @@ MemberEnds recalled_ends(std::string const& path) {
             if (variable.name == "status") {
                 file.read(variable.id, start, count, statuses.data());
                 for (std::size_t i = 0; i < members.size(); ++i)
-                    (*ends)[members[i]].finished = statuses[i] == static_cast<signed char>(Status::finished);
+                    of_shard[i].finished = statuses[i] == static_cast<signed char>(Status::finished);
             }
             for (std::size_t k = 0; k < state_size; ++k) {
                 if (variable.name != std::string("final_") + series_table[k].name) continue;
                 file.read(variable.id, start, count, column.data());
-                for (std::size_t i = 0; i < members.size(); ++i) (*ends)[members[i]].state[k] = column[i];
+                for (std::size_t i = 0; i < members.size(); ++i) of_shard[i].state[k] = column[i];
             }
+        }
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            if (wanted.contains(members[i])) (*ends)[members[i]] = of_shard[i];
         }
     }
     return [ends](std::uint64_t member) -> std::optional<MemberEnd> {
@@ -75,7 +80,8 @@ EnsembleTotals compute(Scene const& scene, StudyOptions const& options, StudyWor
     plan.workers = options.threads * ranks;
     KernelInstance const kernel = find_instance(options.isa, scene.parts);
     if (is_continued(scene)) {
-        MemberEnds const ends = work.before > 0 ? recalled_ends(folder) : MemberEnds{};
+        MemberEnds const ends =
+            work.before > 0 ? recalled_ends(folder, members_before(scene, work.todo)) : MemberEnds{};
         continue_columns(scene, plan, work.todo, kernel, ends, stop);
     }
     auto const writer = shard_writer(scene, folder, provenance(scene, options.isa, options.threads));

@@ -25,7 +25,7 @@ std::string intervals_of(DesignKind design) {
     std::string const level = fmt::format("{:.0f} % intervals of independent draws", 100 * confidence_level);
     if (!is_random(design)) return "none: the members are no random draws";
     if (design == DesignKind::mc) return level;
-    return level + "; conservative, for the draws of this design are spread more evenly";
+    return level + "; as a rule too wide, for the draws of this design are spread more evenly";
 }
 
 std::vector<QuantityColumn> report_columns(Selection quantities) {

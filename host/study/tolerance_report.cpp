@@ -40,9 +40,9 @@ ColumnStatistics statistics_of(ToleranceMembers const& members, QuantityColumn c
     std::erase_if(values, [](double x) { return std::isnan(x); });
     std::sort(values.begin(), values.end());
     if (random) result.mean = mean_interval(result.summary, confidence_level);
-    for (double const p : reported_quantiles) {
-        result.quantiles.push_back(
-            {p, quantile(values, p), random ? quantile_interval(values, p, confidence_level) : Interval()});
+    result.quantiles = estimate_quantiles(values, reported_quantiles, confidence_level);
+    for (QuantileEstimate& estimate : result.quantiles) {
+        if (!random) estimate.interval = Interval();
     }
     result.histogram = histogram(values);
     return result;
@@ -78,7 +78,7 @@ void add_yields(ToleranceReport& report, ToleranceMembers const& members, Scene 
 
 }  // namespace
 
-ToleranceReport tolerance_report(ResultView const& results, Scene const& scene) {
+ToleranceReport tolerance_report(ResultView const& results, Scene const& scene, ReportSettings const& settings) {
     if (!results.stores_members()) {
         std::uint64_t const left = members_left(results);
         return statistics_report(stored_statistics(results), left, scene, results.path());
@@ -100,9 +100,9 @@ ToleranceReport tolerance_report(ResultView const& results, Scene const& scene) 
     for (QuantityColumn const& column : columns) report.columns.push_back(statistics_of(members, column, random));
     add_yields(report, members, scene, columns, results.path());
     if (radial) {
-        report.indices = index_report(members, scene, columns);
+        report.indices = index_report(members, scene, columns, settings.threads);
     } else {
-        report.correlations = correlation_report(members, scene, columns, random);
+        report.correlations = correlation_report(members, scene, columns, random, settings.most_correlated);
     }
     return report;
 }

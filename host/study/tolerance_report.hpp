@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "host/driver/ensemble.hpp"
 #include "host/output/result_view.hpp"
 #include "host/scene/scene.hpp"
 #include "host/statistics/correlation.hpp"
@@ -87,8 +88,12 @@ struct ToleranceReport {
     std::vector<ColumnCorrelations> correlations;  // of any other
 };
 
-/// Members that take part in correlations, at most: of more, every k-th one in the order of their numbers.
-inline constexpr std::size_t most_correlated = std::size_t{1} << 20;
+/// How a report is made.
+struct ReportSettings {
+    int threads = default_threads();  // numbers do not depend on them
+    /// Members that take part in correlations, at most: of more, as many that the scene's seed chooses at random.
+    std::size_t most_correlated = std::size_t{1} << 20;
+};
 
 /// Statistics of a result of the study `tolerance`, by this policy:
 /// - moments, quantiles and histograms are of members that finished;
@@ -100,10 +105,10 @@ inline constexpr std::size_t most_correlated = std::size_t{1} << 20;
 /// column of all members is in memory at a time, and the inputs of at most `most_correlated` members.
 /// A result that keeps statistics in place of members has the same report, with sketched quantiles and without
 /// correlations.
-/// Intervals are those of independent draws (so too wide for lhs, sobol and saltelli, whose draws are spread more
-/// evenly); of grid and table designs, whose members are no random draws, there are none.
+/// Intervals are those of independent draws (so as a rule too wide for lhs, sobol and saltelli, whose draws are spread
+/// more evenly); of grid and table designs, whose members are no random draws, there are none.
 /// @throws FileError if the result lacks a quantity that a limit names, or its members are not those of the scene's
 /// design.
-ToleranceReport tolerance_report(ResultView const& results, Scene const& scene);
+ToleranceReport tolerance_report(ResultView const& results, Scene const& scene, ReportSettings const& settings = {});
 
 }  // namespace slideway

@@ -5,6 +5,9 @@
 #include <functional>
 #include <numeric>
 
+#include "host/output/result_layout.hpp"
+#include "host/scene/permutation.hpp"
+
 namespace slideway {
 namespace {
 
@@ -42,23 +45,20 @@ std::vector<std::size_t> usable_rows(ToleranceMembers const& members, std::size_
     return usable;
 }
 
-std::string variable_name(Key const& key) {
-    std::string name(key.name);
-    std::replace(name.begin(), name.end(), '.', '_');
-    return name;
-}
-
-/// Members that take part: finished, not more than most_correlated.
-std::vector<std::size_t> correlated_members(ToleranceMembers const& members) {
+/// Members that take part: finished, and of more than `most` a random choice.  Any regular one could fall in with the
+/// order of a grid or of Sobol's points, which begin every so many places alike.
+std::vector<std::size_t> correlated_members(ToleranceMembers const& members, std::uint64_t seed, std::size_t most) {
     std::vector<std::size_t> finished;
     for (std::size_t i = 0; i < members.size(); ++i) {
         if (members.finished(i)) finished.push_back(i);
     }
-    std::size_t const every = (finished.size() + most_correlated - 1) / most_correlated;
-    if (every <= 1) return finished;
-    std::vector<std::size_t> thinned;
-    for (std::size_t i = 0; i < finished.size(); i += every) thinned.push_back(finished[i]);
-    return thinned;
+    if (finished.size() <= most) return finished;
+    Permutation const order(finished.size(), {seed, name_hash("correlation_report.members")});
+    std::vector<std::size_t> chosen;
+    chosen.reserve(most);
+    for (std::size_t i = 0; i < most; ++i) chosen.push_back(finished[order(i)]);
+    std::sort(chosen.begin(), chosen.end());
+    return chosen;
 }
 
 std::vector<double> taken(std::vector<double> const& values, std::vector<std::size_t> const& which) {
@@ -86,9 +86,9 @@ ColumnCorrelations correlations_of(QuantityColumn const& column, std::vector<Inp
     std::vector<std::vector<double>> values;
     for (Input const& input : inputs) {
         values.push_back(gaps ? taken(input.values, numbers) : input.values);
-        double const r = product_moment(gaps ? midranks(values.back()) : input.ranks, output_ranks);
-        result.ranks.push_back({r, {}});
-        if (independent) result.ranks.back().interval = rank_correlation_interval(r, output.size(), confidence_level);
+        result.ranks.push_back(
+            rank_correlation(gaps ? midranks(values.back()) : input.ranks, output_ranks, confidence_level));
+        if (!independent) result.ranks.back().interval = Interval();
     }
     result.regression = standardised_regression(values, output);
     result.ranking = ranking(inputs.size(), [&](std::size_t i) { return std::abs(result.ranks[i].value); });
@@ -97,7 +97,8 @@ ColumnCorrelations correlations_of(QuantityColumn const& column, std::vector<Inp
 
 }  // namespace
 
-IndexReport index_report(ToleranceMembers const& members, Scene const& scene, std::span<QuantityColumn const> columns) {
+IndexReport index_report(ToleranceMembers const& members, Scene const& scene, std::span<QuantityColumn const> columns,
+                         int threads) {
     std::size_t const inputs = scene.variations.size(), width = inputs + 2;
     IndexReport report;
     std::vector<std::size_t> const rows = usable_rows(members, width, report);
@@ -114,6 +115,7 @@ IndexReport index_report(ToleranceMembers const& members, Scene const& scene, st
         BootstrapSettings bootstrap;
         bootstrap.level = confidence_level;
         bootstrap.seed = scene.seed;
+        bootstrap.threads = threads;
         ColumnIndices result{column, sobol_indices({inputs, radial}, bootstrap), {}};
         result.ranking = ranking(inputs, [&](std::size_t i) { return result.indices.total[i].value; });
         report.columns.push_back(std::move(result));
@@ -122,13 +124,14 @@ IndexReport index_report(ToleranceMembers const& members, Scene const& scene, st
 }
 
 std::vector<ColumnCorrelations> correlation_report(ToleranceMembers const& members, Scene const& scene,
-                                                   std::span<QuantityColumn const> columns, bool independent) {
+                                                   std::span<QuantityColumn const> columns, bool independent,
+                                                   std::size_t most_members) {
     std::vector<ColumnCorrelations> report;
     if (scene.variations.empty()) return report;
-    std::vector<std::size_t> const used = correlated_members(members);
+    std::vector<std::size_t> const used = correlated_members(members, scene.seed, most_members);
     std::vector<Input> inputs;
     for (Variation const& variation : scene.variations) {
-        Input input{taken(members.column(variable_name(*variation.key)), used), {}};
+        Input input{taken(members.column(variable_name(variation.key->name)), used), {}};
         input.ranks = midranks(input.values);
         inputs.push_back(std::move(input));
     }

@@ -167,7 +167,7 @@ TEST_F(ContinuedSweep, ResumedAtAnyColumnIsTheSame) {
 
 TEST_F(ContinuedSweep, InPartsIsTheSame) {
     std::string const whole = undisturbed();
-    // Parts end within columns: each computes what leads to its members, and keeps its own.
+    // Of seven parts two have no start.
     for (std::size_t const parts : {2, 3, 7}) {
         for (std::size_t part = parts; part >= 1; --part) {
             Outcome const outcome =

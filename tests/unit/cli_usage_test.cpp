@@ -159,9 +159,10 @@ TEST_F(Usage, OfCheckTellsWhatIsInTheKernels) {
     EXPECT_NE(line(full, "parts out").find("paper law"), std::string::npos);
     EXPECT_EQ(line(full, "asked for"), "asked for    crank_work");
     for (char const* const label : {"kernels", "memory", "disk", "cost"}) EXPECT_NE(line(full, label), "") << label;
-    // A status each; with a quantity of one column that column, its finished members and them sorted as well.
-    EXPECT_NE(line(bare, "memory").find(" 80 B for the statistics"), std::string::npos) << line(bare, "memory");
-    EXPECT_NE(line(full, "memory").find(" 32 B for the statistics"), std::string::npos) << line(full, "memory");
+    // A status each; with a quantity of one column that column, its finished members and them sorted as
+    // well; and a quarter more.
+    EXPECT_NE(line(bare, "memory").find(" 100 B for the statistics"), std::string::npos) << line(bare, "memory");
+    EXPECT_NE(line(full, "memory").find(" 40 B for the statistics"), std::string::npos) << line(full, "memory");
 }
 
 TEST_F(Usage, OfCheckKnowsTheNumberOfFixedSteps) {

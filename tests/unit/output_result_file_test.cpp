@@ -263,8 +263,27 @@ TEST_F(ResultFile, HashTakesEveryNanForTheSame) {
 }
 
 TEST(PayloadBytes, CountColumns) {
-    // Per member: number 4, status 1, then 4 counters, 10 states, 1 parameter, 1 + 4 quantity columns, 2 × 2 samples.
-    EXPECT_EQ(payload_bytes(layout_of(10)), 10u * (5 + 8 * (4 + 10 + 1 + 5 + 4)) + 2 * 8);
+    // Per member: number 4, status 1, then 5 counters and the end, 10 states, 1 parameter, 1 + 4 quantity columns,
+    // 2 × 2 samples.
+    EXPECT_EQ(payload_bytes(layout_of(10)), 10u * (5 + 8 * (6 + 10 + 1 + 5 + 4)) + 2 * 8);
+}
+
+TEST_F(ResultFile, HasTheBytesThatItsLayoutTells) {
+    Provenance origin = provenance_of(1);
+    origin.scene = std::string(3000, '#');
+    for (std::size_t const members : {8u, 20000u}) {
+        FakeBlock const block(0, members);
+        ShardImage const image = shard_image("a shard", layout_of(members), origin, block.view(), {});
+        std::uint64_t const payload = payload_bytes(layout_of(members));
+        std::uint64_t const header = header_bytes(layout_of(members), origin);
+        EXPECT_LE(image.bytes.size(), payload + header);
+        EXPECT_GT(image.bytes.size(), payload + header / 2);
+        // Nothing is missing at its end, and there is nothing behind it.
+        NetcdfFile const file = NetcdfFile::open_in_memory("a shard", image.bytes);
+        ResultView const results(file);
+        EXPECT_EQ(results.values("vy").back(), block.series.back());
+        EXPECT_LT(header, 60'000u);
+    }
 }
 
 }  // namespace

@@ -279,8 +279,10 @@ TEST(StudyTable, WidthIsTheProductOfTheAxes) {
 TEST(PayloadBytes, CountSectionsAndColumnsOfAStudy) {
     ResultLayout with = layout(), without = layout();
     without.sections = 0;
-    // A count and as many rows of time and state as there is room for.
-    EXPECT_EQ(payload_bytes(with) - payload_bytes(without), members * 8 * (1 + room * 11));
+    // A count, 32 bits of it, and as many rows of time and state as there is room for.
+    EXPECT_EQ(payload_bytes(with) - payload_bytes(without), members * (4 + 8 * room * 11));
+    with.crossings = true;
+    EXPECT_EQ(payload_bytes(with) - payload_bytes(without), members * (4 + 4 + 8 * room * 11));
     without.study = {};
     // The columns' 1 + 2 + 6 numbers of each member and the axes' 2 + 3.
     with.sections = 0;

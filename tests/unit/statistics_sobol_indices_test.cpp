@@ -1,12 +1,13 @@
 #include "host/statistics/sobol_indices.hpp"
 
-#include <omp.h>
-
 #include <cmath>
+#include <filesystem>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <random>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -179,12 +180,10 @@ TEST(SobolIndices, OfAConstantAreNan) {
 
 TEST(SobolIndices, DoNotDependOnThreads) {
     auto const values = radial_values(3, 500, ishigami, kronecker);
-    int const threads = omp_get_max_threads();
-    omp_set_num_threads(1);
-    SobolIndices const one = sobol_indices({3, values});
-    omp_set_num_threads(5);
-    SobolIndices const five = sobol_indices({3, values});
-    omp_set_num_threads(threads);
+    BootstrapSettings settings;
+    SobolIndices const one = sobol_indices({3, values}, settings);
+    settings.threads = 5;
+    SobolIndices const five = sobol_indices({3, values}, settings);
     for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_EQ(one.first[i].interval.low, five.first[i].interval.low);
         EXPECT_EQ(one.first[i].interval.high, five.first[i].interval.high);
@@ -194,6 +193,24 @@ TEST(SobolIndices, DoNotDependOnThreads) {
     BootstrapSettings other;
     other.seed = 2;
     EXPECT_NE(sobol_indices({3, values}, other).total[0].interval.low, one.total[0].interval.low);
+}
+
+TEST(SobolIndices, UseAsManyThreadsAsTheyAreTold) {
+    auto const values = radial_values(3, 500, ishigami, kronecker);
+    auto const threads_of_process = [] {
+        std::filesystem::directory_iterator const tasks("/proc/self/task");
+        return std::distance(begin(tasks), end(tasks));
+    };
+    // OpenMP keeps its threads until the one that they belong to ends.
+    std::thread([&] {
+        auto const before = threads_of_process();
+        BootstrapSettings settings;
+        sobol_indices({3, values}, settings);
+        EXPECT_EQ(threads_of_process(), before);
+        settings.threads = 3;
+        sobol_indices({3, values}, settings);
+        EXPECT_EQ(threads_of_process(), before + 2);
+    }).join();
 }
 
 }  // namespace

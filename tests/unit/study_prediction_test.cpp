@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "host/study/ensemble_plan.hpp"
 #include "tests/unit/scene_fixture.hpp"
 
 namespace slideway {
@@ -50,6 +51,36 @@ TEST(Prediction, StatisticsDoNotGrowWithTheMembers) {
     EXPECT_LT(billion.shard_bytes, 5 * million.shard_bytes);
     EXPECT_LT(billion.output_bytes, 1'000'000u);
     EXPECT_GT(of("members", 1'000'000).output_bytes, 100'000'000u);
+}
+
+TEST(Prediction, GoesByTheSizeOfBlocksThatIsAskedFor) {
+    Scene const scene = testing::scene_of("schema = 1\n[study]\nduration = 4\nmembers = 10000\n");
+    Prediction const small = predict(scene, Isa::scalar, 4, 10), large = predict(scene, Isa::scalar, 4, 5000);
+    EXPECT_EQ(small.largest_block, 10u);
+    EXPECT_EQ(large.largest_block, 5000u);
+    EXPECT_EQ(small.busy_threads, 4);
+    EXPECT_EQ(large.busy_threads, 2);
+    EXPECT_EQ(large.buffer_bytes, 2 * 500 * small.buffer_bytes / 4);
+    EXPECT_LT(small.image_bytes, large.image_bytes / 10);
+    // A thousand headers and two: the members' own bytes are the same.
+    std::uint64_t const header = (small.shard_bytes - large.shard_bytes) / 998;
+    EXPECT_EQ(small.shard_bytes - 1000 * header, large.shard_bytes - 2 * header);
+    EXPECT_GT(header, 10'000u);
+    EXPECT_LT(header, 100'000u);
+}
+
+TEST(Prediction, ContinuedSweepsMakeAShardOfEachColumnOfABlock) {
+    auto const shards = [](std::string const& start) {
+        Scene const scene = testing::scene_of(
+            "schema = 1\n[mechanism]\ncrank_speed = 100\n[study]\nkind = \"sweep\"\nmembers = 50\nparameter = "
+            "\"joint.clearance\"\nvalues = [1e-4, 2e-4, 3e-4, 4e-4]\ntransient_revolutions = 0\nrevolutions = 1\n"
+            "exponents = 0\nstart = \"" +
+            start + "\"\n");
+        MemberSet const all({0, 200});
+        return shard_bytes(scene, all, Isa::scalar, 1, 50) - payload_bytes(result_layout(scene, all));
+    };
+    // Of 200 members four blocks either way: 50 consecutive members, or 50 starts in four columns.
+    EXPECT_NEAR(static_cast<double>(shards("continue")), static_cast<double>(shards("fresh")), 100);
 }
 
 }  // namespace
