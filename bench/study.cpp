@@ -46,7 +46,8 @@ double study_seconds(Scene const& scene, StudyOptions const& options) {
     StudyRun run(scene, options);
     run_work(scene, options, run.work(), *ranks, stop);
     std::optional<ToleranceReport> report;
-    if (!run.finish(stop, report)) std::abort();
+    if (!run.merge(stop, report)) std::abort();
+    run.remove_shards();
     double const seconds = seconds_since(start);
     fs::remove(options.output);
     return seconds;

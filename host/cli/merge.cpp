@@ -6,10 +6,35 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/run_summary.hpp"
 #include "host/cli/text.hpp"
+#include "host/output/durable_file.hpp"
 #include "host/output/result_merge.hpp"
 #include "host/study/study_run.hpp"
 
 namespace slideway::cli {
+namespace {
+
+/// A result in the place of a shard, or of what tells them, would be the end of the run.
+void require_outside(MergeArguments const& arguments) {
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    if (fs::equivalent(folder_of(arguments.output), arguments.folder, ignored)) {
+        throw SceneError(
+            fmt::format("{}: lies in the folder of the shards; give a name elsewhere with -o", arguments.output));
+    }
+}
+
+/// What the manifests list and is what was written.  The rest counts as not run.
+std::vector<Shard> intact_shards(ShardFolder const& folder) {
+    std::vector<DamagedShard> damaged;
+    std::vector<Shard> shards = folder.intact(damaged);
+    for (DamagedShard const& one : damaged) {
+        fmt::print(stderr, "warning: {}/{}: {}; its members are left out: slideway run --resume runs them again\n",
+                   folder.path(), one.shard.name, one.is_gone ? "is gone" : "is not what was written");
+    }
+    return shards;
+}
+
+}  // namespace
 
 int merge(MergeArguments const& arguments) {
     ShardFolder const folder(arguments.folder);
@@ -21,10 +46,13 @@ int merge(MergeArguments const& arguments) {
     std::string const scene_path = (std::filesystem::path(arguments.folder) / shard_names::identity).string();
     Scene const scene = parse_scene(folder.identity().scene, scene_path);
     require_writable_place(arguments.output);
+    require_outside(arguments);
     std::error_code ignored;
     bool const replaced = std::filesystem::exists(arguments.output, ignored);
     std::optional<ToleranceReport> report;
-    std::uint64_t const left = merge_study(scene, folder, shard_origin(folder, scene), arguments.output, report);
+    std::vector<Shard> const shards = intact_shards(folder);
+    std::uint64_t const left =
+        merge_study(scene, folder, shards, shard_origin(folder, shards, scene), arguments.output, report);
 
     RunArguments replay;
     replay.scene.path = scene_path;

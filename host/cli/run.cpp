@@ -52,10 +52,8 @@ StudyOptions study_options(RunArguments const& arguments, Scene const& scene, Is
     return options;
 }
 
-/// Before the start: what it will take, and what there is already.
-void announce(Scene const& scene, StudyOptions const& options, StudyRun const& run) {
-    Prediction const prediction = predict(scene, options.isa, options.threads, options.block_members);
-    StudyWork const& work = run.work();
+/// Results that there were, and that must be computed again.
+void warn_of_losses(StudyOptions const& options, StudyRun const& run) {
     for (DamagedShard const& damaged : run.damaged()) {
         std::string const& name = damaged.shard.name;
         fmt::print(stderr, "warning: {}/{}: {}; its members run again\n", shard_folder_of(options.output), name,
@@ -63,6 +61,18 @@ void announce(Scene const& scene, StudyOptions const& options, StudyRun const& r
                        ? std::string("is gone")
                        : fmt::format("is not what was written and is now {}{}", shard_names::damaged, name));
     }
+    std::error_code ignored;
+    if (options.resume && !run.is_complete() && run.work().before == 0 &&
+        std::filesystem::exists(options.output, ignored)) {
+        fmt::print(stderr, "warning: {}: holds a part of this run, but its shards are gone; all members run again\n",
+                   options.output);
+    }
+}
+
+/// Before the start: what it will take, and what there is already.
+void announce(Scene const& scene, StudyOptions const& options, StudyRun const& run) {
+    Prediction const prediction = predict(scene, options.isa, options.threads, options.block_members);
+    StudyWork const& work = run.work();
     if (work.before > 0) {
         fmt::print(stderr, "resuming: {} of {} members are done\n", work.before, work.before + work.todo.count());
     }
@@ -78,6 +88,14 @@ int end_stopped(StudyOptions const& options, std::string_view why, std::uint64_t
         "slideway: stopped early{}: {} members have not run; those that did are kept in {}: add --resume to go on, or "
         "make a file of them with slideway merge\n",
         why, left, folder);
+    return exit_code::stopped_early;
+}
+
+int end_unmerged(StudyOptions const& options) {
+    fmt::print(
+        stderr,
+        "slideway: stopped early (signal): all members have run, and are kept in {}: add --resume to merge them\n",
+        shard_folder_of(options.output));
     return exit_code::stopped_early;
 }
 
@@ -125,12 +143,14 @@ int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& 
         print_throughput(scene, options, totals, ranks.count());
         std::uint64_t const left = run.left();
         if (left > 0 || options.part.of_array) return end_with_shards(options, totals, left);
-        if (!run.finish(stop, report)) return end_stopped(options, " (signal)", 0);
+        if (!run.merge(stop, report)) return end_unmerged(options);
     } catch (FileError const& error) {
         throw FileError(fmt::format("{}; what is finished is kept in {}: add --resume to go on", error.what(),
                                     shard_folder_of(options.output)));
     }
-    return conclude(arguments, scene, options, replaced, std::move(report));
+    int const code = conclude(arguments, scene, options, replaced, std::move(report));
+    run.remove_shards();
+    return code;
 }
 
 /// What rank 0 tells the others before they begin: "avx2 48 0-15,40-63"; empty if there is nothing to do.
@@ -195,6 +215,7 @@ int run(RunArguments const& arguments) {
         print_warnings(scene);
         StudyOptions const options = study_options(arguments, scene, parse_isa(arguments.scene.isa));
         StudyRun study(scene, options);
+        warn_of_losses(options, study);
         if (!arguments.quiet && !study.is_complete()) announce(scene, options, study);
         invited = true;
         ranks->broadcast(invitation(study, options.isa));

@@ -72,7 +72,8 @@ std::uint64_t summary_bytes(Scene const& scene) {
         report += std::min<std::uint64_t>(members, ReportSettings().most_correlated) * word *
                   (of_input * scene.variations.size() + of_output);
     }
-    return with_holes(sections + std::max(plain, report));
+    constexpr std::uint64_t libraries = 16'000'000;  // of Eigen's and OpenMP's own, and what netCDF keeps of a file
+    return libraries + with_holes(sections + std::max(plain, report));
 }
 
 struct StepRange {

@@ -44,13 +44,13 @@ ToleranceReport statistics_report(BlockStatistics const& statistics, std::uint64
     report.design = scene.design.kind;
     report.policy =
         policy_of(report.design) + " Members are not stored, so there are no correlations with what varies.";
-    report.intervals = intervals_of(report.design);
+    report.intervals = intervals_of(report.design, left == 0);
     report.quantile_error = "relative error of at most 2^-10 of a member of that rank";
     static_assert(QuantileSketch::error == 0x1p-10);
     std::uint64_t const ran = statistics.members().count();
     report.statuses = report.draws = count_statuses(statistics);
     if (left > 0) report.statuses.push_back({Status::not_run, left});
-    bool const random = is_random(report.design);
+    bool const random = is_random(report.design) && left == 0;
     for (std::size_t i = 0; i < columns.size(); ++i) {
         report.columns.push_back(statistics_of(statistics.columns()[i], columns[i], random));
     }

@@ -114,7 +114,7 @@ std::uint64_t StudyRun::left() const {
     return mine_.without(members_of(folder.listed())).count();
 }
 
-bool StudyRun::finish(StopRequest const& stop, std::optional<ToleranceReport>& report) {
+bool StudyRun::merge(StopRequest const& stop, std::optional<ToleranceReport>& report) {
     struct Interrupted {};
     auto const pause = [&stop] {
         if (stop.reason() == StopReason::signal) throw Interrupted();
@@ -123,24 +123,25 @@ bool StudyRun::finish(StopRequest const& stop, std::optional<ToleranceReport>& r
     try {
         ReportSettings settings;
         settings.threads = options_.threads;
-        merge_study(scene_, folder, provenance(scene_, options_.isa, options_.threads), options_.output, report, pause,
-                    settings);
+        settings.pause = pause;
+        merge_study(scene_, folder, folder.listed(), provenance(scene_, options_.isa, options_.threads),
+                    options_.output, report, settings);
     } catch (Interrupted const&) {
         return false;
     }
-    claim_->remove_folder();
     return true;
 }
+
+void StudyRun::remove_shards() { claim_->remove_folder(); }
 
 bool asks_for_report(Scene const& scene) {
     return !scene.stores_members() || scene.study == StudyKind::tolerance ||
            (scene.study == StudyKind::ensemble && !scene.limits.empty());
 }
 
-std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, Provenance const& provenance,
-                          std::string const& output, std::optional<ToleranceReport>& report,
-                          std::function<void()> pause, ReportSettings const& settings) {
-    std::vector<Shard> const shards = folder.listed();
+std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, std::vector<Shard> const& shards,
+                          Provenance const& provenance, std::string const& output,
+                          std::optional<ToleranceReport>& report, ReportSettings const& settings) {
     MemberSet const& members = folder.identity().members;
     std::uint64_t const left = members.without(members_of(shards)).count();
     std::string const completeness =
@@ -151,8 +152,7 @@ std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, Provena
             write_statistics(file, *report);
         };
         merge_statistics(folder, shards,
-                         {statistics_plan(scene), members, provenance, completeness, conclude, std::move(pause)},
-                         output);
+                         {statistics_plan(scene), members, provenance, completeness, conclude, settings.pause}, output);
         return left;
     }
     std::function<void(NetcdfFile&)> conclude;
@@ -163,13 +163,12 @@ std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, Provena
         };
     }
     merge_shards(folder, shards,
-                 {result_layout(scene, members), provenance, completeness, std::move(conclude), std::move(pause)},
+                 {result_layout(scene, members), provenance, completeness, std::move(conclude), settings.pause},
                  output);
     return left;
 }
 
-Provenance shard_origin(ShardFolder const& folder, Scene const& scene) {
-    std::vector<Shard> const shards = folder.listed();
+Provenance shard_origin(ShardFolder const& folder, std::vector<Shard> const& shards, Scene const& scene) {
     if (shards.empty()) throw FileError(folder.path() + ": holds no finished members");
     std::vector<std::byte> const bytes = folder.read(shards.front());
     Provenance origin;

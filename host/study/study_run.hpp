@@ -67,9 +67,11 @@ public:
 
     /// Members that have not run, of the part that is this run's.
     std::uint64_t left() const;
-    /// Makes the result file of all shards and removes them.  @param report where that of a scene that `asks_for_report` goes
+    /// Makes the result file of all shards.  @param report where that of a scene that `asks_for_report` goes
     /// @return false if a signal came: there is no file then, and the shards are still there.
-    bool finish(StopRequest const& stop, std::optional<ToleranceReport>& report);
+    bool merge(StopRequest const& stop, std::optional<ToleranceReport>& report);
+    /// Removes the shards of a result that is there.  @throws FileError
+    void remove_shards();
 
 private:
     void require_room() const;
@@ -88,11 +90,11 @@ bool asks_for_report(Scene const& scene);
 
 /// A result file of the shards in a folder; members without one have status not_run.  The shards stay.
 /// @param report where that of a scene that `asks_for_report` goes  @return how many members have none.  @throws FileError
-std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, Provenance const& provenance,
-                          std::string const& output, std::optional<ToleranceReport>& report,
-                          std::function<void()> pause = {}, ReportSettings const& settings = {});
+std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, std::vector<Shard> const& shards,
+                          Provenance const& provenance, std::string const& output,
+                          std::optional<ToleranceReport>& report, ReportSettings const& settings = {});
 
 /// Who made the shards in a folder, as the first of them says.  @throws FileError, also if there is none.
-Provenance shard_origin(ShardFolder const& folder, Scene const& scene);
+Provenance shard_origin(ShardFolder const& folder, std::vector<Shard> const& shards, Scene const& scene);
 
 }  // namespace slideway

@@ -21,7 +21,11 @@ std::string policy_of(DesignKind design) {
     return text;
 }
 
-std::string intervals_of(DesignKind design) {
+std::string intervals_of(DesignKind design, bool complete) {
+    if (!complete) {
+        return "none: members have not run, and not at random: the slow ones are missing, and quick ones are too many "
+               "among the others";
+    }
     std::string const level = fmt::format("{:.0f} % intervals of independent draws", 100 * confidence_level);
     if (!is_random(design)) return "none: the members are no random draws";
     if (design == DesignKind::mc) return level;

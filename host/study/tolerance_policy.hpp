@@ -12,7 +12,8 @@ namespace slideway {
 /// Whether members are random draws, so that intervals mean something.
 bool is_random(DesignKind design);
 std::string policy_of(DesignKind design);
-std::string intervals_of(DesignKind design);
+/// @param complete whether every member ran: the slow ones are missing otherwise, and what is left is no fair sample.
+std::string intervals_of(DesignKind design, bool complete);
 
 /// A column for each number of the quantities, in the order of their table, with its units and names.
 std::vector<QuantityColumn> report_columns(Selection quantities);

@@ -49,9 +49,8 @@ ColumnStatistics statistics_of(ToleranceMembers const& members, QuantityColumn c
 }
 
 void add_yields(ToleranceReport& report, ToleranceMembers const& members, Scene const& scene,
-                std::span<QuantityColumn const> columns, std::string const& path) {
+                std::span<QuantityColumn const> columns, bool random, std::string const& path) {
     if (scene.limits.empty()) return;
-    bool const random = is_random(report.design);
     std::vector<char> all_met(members.size());
     std::uint64_t trials = 0;
     for (std::size_t i = 0; i < members.size(); ++i) {
@@ -76,6 +75,11 @@ void add_yields(ToleranceReport& report, ToleranceMembers const& members, Scene 
     report.all_met = yield_of(all, trials, random);
 }
 
+bool is_complete(std::vector<StatusCount> const& statuses) {
+    return std::none_of(statuses.begin(), statuses.end(),
+                        [](StatusCount const& count) { return count.status == Status::not_run; });
+}
+
 }  // namespace
 
 ToleranceReport tolerance_report(ResultView const& results, Scene const& scene, ReportSettings const& settings) {
@@ -92,17 +96,25 @@ ToleranceReport tolerance_report(ResultView const& results, Scene const& scene, 
     ToleranceReport report;
     report.design = scene.design.kind;
     report.policy = policy_of(report.design);
-    report.intervals = intervals_of(report.design);
     report.statuses = members.count(false);
+    bool const complete = is_complete(report.statuses);
+    report.intervals = intervals_of(report.design, complete);
     report.draws = members.count(true);
     for (Variation const& variation : scene.variations) report.inputs.emplace_back(variation.key->name);
-    bool const random = is_random(report.design);
-    for (QuantityColumn const& column : columns) report.columns.push_back(statistics_of(members, column, random));
-    add_yields(report, members, scene, columns, results.path());
+    bool const random = is_random(report.design) && complete;
+    auto const pause = [&settings] {
+        if (settings.pause) settings.pause();
+    };
+    for (QuantityColumn const& column : columns) {
+        pause();
+        report.columns.push_back(statistics_of(members, column, random));
+    }
+    pause();
+    add_yields(report, members, scene, columns, random, results.path());
     if (radial) {
-        report.indices = index_report(members, scene, columns, settings.threads);
+        report.indices = index_report(members, scene, columns, random, settings);
     } else {
-        report.correlations = correlation_report(members, scene, columns, random, settings.most_correlated);
+        report.correlations = correlation_report(members, scene, columns, random, settings);
     }
     return report;
 }

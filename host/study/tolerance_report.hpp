@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -93,12 +94,13 @@ struct ReportSettings {
     int threads = default_threads();  // numbers do not depend on them
     /// Members that take part in correlations, at most: of more, as many that the scene's seed chooses at random.
     std::size_t most_correlated = std::size_t{1} << 20;
+    std::function<void()> pause = {};  // called now and then; what it throws ends the report
 };
 
 /// Statistics of a result of the study `tolerance`, by this policy:
 /// - moments, quantiles and histograms are of members that finished;
 /// - members that failed are counted by status, and meet no limit;
-/// - members that did not run are counted, and left out everywhere else;
+/// - members that did not run are counted, and left out everywhere else; there are no intervals then, for the slow ones are missing;
 /// - of a saltelli design distributions and yields are of the 2N members of A and B, each a draw of all inputs; rows
 ///   with a member that failed or is missing are left out of the indices whole, and counted.
 /// Members are known by their number (variable `member`), so the file may hold a part of the design, in any order.  One

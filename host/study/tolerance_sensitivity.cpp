@@ -98,11 +98,12 @@ ColumnCorrelations correlations_of(QuantityColumn const& column, std::vector<Inp
 }  // namespace
 
 IndexReport index_report(ToleranceMembers const& members, Scene const& scene, std::span<QuantityColumn const> columns,
-                         int threads) {
+                         bool independent, ReportSettings const& settings) {
     std::size_t const inputs = scene.variations.size(), width = inputs + 2;
     IndexReport report;
     std::vector<std::size_t> const rows = usable_rows(members, width, report);
     for (QuantityColumn const& column : columns) {
+        if (settings.pause) settings.pause();
         std::vector<double> radial;
         radial.reserve(rows.size() * width);
         {
@@ -115,7 +116,8 @@ IndexReport index_report(ToleranceMembers const& members, Scene const& scene, st
         BootstrapSettings bootstrap;
         bootstrap.level = confidence_level;
         bootstrap.seed = scene.seed;
-        bootstrap.threads = threads;
+        bootstrap.threads = settings.threads;
+        if (!independent) bootstrap.replicates = 0;
         ColumnIndices result{column, sobol_indices({inputs, radial}, bootstrap), {}};
         result.ranking = ranking(inputs, [&](std::size_t i) { return result.indices.total[i].value; });
         report.columns.push_back(std::move(result));
@@ -125,10 +127,10 @@ IndexReport index_report(ToleranceMembers const& members, Scene const& scene, st
 
 std::vector<ColumnCorrelations> correlation_report(ToleranceMembers const& members, Scene const& scene,
                                                    std::span<QuantityColumn const> columns, bool independent,
-                                                   std::size_t most_members) {
+                                                   ReportSettings const& settings) {
     std::vector<ColumnCorrelations> report;
     if (scene.variations.empty()) return report;
-    std::vector<std::size_t> const used = correlated_members(members, scene.seed, most_members);
+    std::vector<std::size_t> const used = correlated_members(members, scene.seed, settings.most_correlated);
     std::vector<Input> inputs;
     for (Variation const& variation : scene.variations) {
         Input input{taken(members.column(variable_name(variation.key->name)), used), {}};
@@ -136,6 +138,7 @@ std::vector<ColumnCorrelations> correlation_report(ToleranceMembers const& membe
         inputs.push_back(std::move(input));
     }
     for (QuantityColumn const& column : columns) {
+        if (settings.pause) settings.pause();
         std::vector<double> output = taken(members.column(column.quantity, column.index), used);
         report.push_back(correlations_of(column, inputs, std::move(output), independent));
     }

@@ -9,14 +9,14 @@
 namespace slideway {
 
 /// Sobol indices of each column, of a saltelli design.
+/// @param independent whether the rows are random draws: only these have intervals.
 IndexReport index_report(ToleranceMembers const& members, Scene const& scene, std::span<QuantityColumn const> columns,
-                         int threads);
+                         bool independent, ReportSettings const& settings);
 
 /// Rank correlations and regression of each column, of other designs.
 /// @param independent whether the members are random draws: only these have intervals.
-/// @param most_members that take part; of more, as many that the scene's seed chooses.
 std::vector<ColumnCorrelations> correlation_report(ToleranceMembers const& members, Scene const& scene,
                                                    std::span<QuantityColumn const> columns, bool independent,
-                                                   std::size_t most_members);
+                                                   ReportSettings const& settings);
 
 }  // namespace slideway

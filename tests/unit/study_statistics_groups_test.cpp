@@ -93,8 +93,8 @@ TEST_F(StatisticsGroups, HoldTheReportOfARandomDesign) {
     EXPECT_EQ(stored(statistics, "probability").values[1], 0.01);
     EXPECT_EQ(texts(statistics, "bound_name"), (std::vector<std::string>{"low", "high"}));
     EXPECT_EQ(texts(statistics, "ending_name"),
-              (std::vector<std::string>{"finished", "max_steps", "geometry", "not_run"}));
-    EXPECT_EQ(stored(statistics, "members").values, (std::vector<double>{800, 50, 50, 100}));
+              (std::vector<std::string>{"finished", "max_steps", "geometry"}));
+    EXPECT_EQ(stored(statistics, "members").values, (std::vector<double>{800, 50, 50}));
     Stored const bins = stored(statistics, "peak_normal_force_bin_count");
     EXPECT_EQ(bins.values.size(), 64u);
     EXPECT_EQ(std::accumulate(bins.values.begin(), bins.values.end(), 0.0), 800);

@@ -32,8 +32,6 @@ TEST_F(ToleranceReportOf, IndependentDrawsIsOfThoseThatFinished) {
     EXPECT_EQ(count_of(report.statuses, Status::finished), 800u);
     EXPECT_EQ(count_of(report.statuses, Status::max_steps), 50u);
     EXPECT_EQ(count_of(report.statuses, Status::geometry), 50u);
-    EXPECT_EQ(count_of(report.statuses, Status::not_run), 100u);
-    EXPECT_EQ(report.statuses.back().status, Status::not_run);
     ASSERT_EQ(report.columns.size(), 5u);
     EXPECT_EQ(report.columns[0].column.name(), "peak_normal_force");
     EXPECT_EQ(report.columns[3].column.name(), "mode_time[line]");
@@ -79,10 +77,10 @@ TEST_F(ToleranceReportOf, LimitsCountsFailedMembersAsRefused) {
     NetcdfFile const file = write(numbered_members(1000, 1000));
     ToleranceReport const report = tolerance_report(ResultView(file), study);
     ASSERT_EQ(report.limits.size(), 3u);
-    for (LimitYield const& limit : report.limits) EXPECT_EQ(limit.met.trials, 900u);  // not_run has no say
-    EXPECT_EQ(report.limits[0].met.successes, 400u);                                  // of 1000 … 1499
-    EXPECT_EQ(report.limits[1].met.successes, 720u);                                  // of 1100 … 1999
-    EXPECT_EQ(report.limits[2].met.successes, 0u);                                    // NaN meets nothing
+    for (LimitYield const& limit : report.limits) EXPECT_EQ(limit.met.trials, 900u);
+    EXPECT_EQ(report.limits[0].met.successes, 400u);  // of 1000 … 1499
+    EXPECT_EQ(report.limits[1].met.successes, 720u);  // of 1100 … 1999
+    EXPECT_EQ(report.limits[2].met.successes, 0u);    // NaN meets nothing
     EXPECT_EQ(report.limits[1].unit, "s");
     ASSERT_TRUE(report.all_met.has_value());
     EXPECT_EQ(report.all_met->successes, 0u);
@@ -95,6 +93,31 @@ TEST_F(ToleranceReportOf, LimitsCountsFailedMembersAsRefused) {
     EXPECT_EQ(both.trials, 900u);
     EXPECT_LT(both.interval.low, 320.0 / 900);
     EXPECT_GT(both.interval.high, 320.0 / 900);
+}
+
+TEST_F(ToleranceReportOf, MembersThatHaveNotRunLeavesNoIntervals) {
+    for (DesignKind const kind : {DesignKind::mc, DesignKind::saltelli}) {
+        auto members = radial_members(0, 100);
+        Scene study = scene(kind, 400);
+        study.limits = {limit("peak_normal_force", "", -infinity, 1.5)};
+        auto const report_of = [&] { return tolerance_report(ResultView(write(members)), study); };
+        ToleranceReport const whole = report_of();
+        members[301].status = Status::not_run;
+        ToleranceReport const part = report_of();
+        EXPECT_EQ(count_of(part.statuses, Status::not_run), 1u);
+        EXPECT_NE(part.intervals.find("none: members have not run, and not at random"), std::string::npos);
+        for (auto const& [report, is_whole] : {std::pair{&whole, true}, std::pair{&part, false}}) {
+            EXPECT_EQ(std::isnan(report->columns[0].mean.low), !is_whole);
+            EXPECT_EQ(std::isnan(report->columns[0].quantiles[4].interval.low), !is_whole);
+            EXPECT_EQ(std::isnan(report->all_met->interval.low), !is_whole);
+            if (kind == DesignKind::saltelli) {
+                EXPECT_EQ(std::isnan(report->indices->columns[0].indices.total[0].interval.low), !is_whole);
+                EXPECT_FALSE(std::isnan(report->indices->columns[0].indices.total[0].value));
+            } else {
+                EXPECT_EQ(std::isnan(report->correlations[0].ranks[0].interval.low), !is_whole);
+            }
+        }
+    }
 }
 
 TEST_F(ToleranceReportOf, ADesignThatIsNotRandomHasNoIntervals) {
@@ -144,8 +167,8 @@ TEST_F(ToleranceReportOf, ASaltelliDesignUsesDrawsForDistributionsAndWholeRowsFo
     auto const at = [&](std::uint64_t number) -> MadeUpMember& { return members[number - 402]; };
     at(4 * 150).status = Status::geometry;      // A of row 150
     at(4 * 160 + 3).status = Status::unstable;  // AB of row 160: no draw
-    at(4 * 170 + 1).status = Status::not_run;   // B of row 170
     at(4 * 180 + 2).force = nan;                // finished, but has no number
+    std::erase_if(members, [](MadeUpMember const& m) { return m.number == 4 * 170 + 1; });  // B of row 170
     shuffle(members);
     Scene study = scene(DesignKind::saltelli, 4 * 1000);
     study.limits = {limit("peak_normal_force", "", -infinity, 1.5)};
