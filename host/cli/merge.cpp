@@ -19,7 +19,7 @@ int merge(MergeArguments const& arguments) {
                                      arguments.folder, made_by, here));
     }
     std::string const scene_path = (std::filesystem::path(arguments.folder) / shard_names::identity).string();
-    Scene const scene = parse_scene(folder.identity().scene, scene_path);
+    Scene const scene = scene_of(folder);
     require_writable_place(arguments.output);
     std::error_code ignored;
     bool const replaced = std::filesystem::exists(arguments.output, ignored);

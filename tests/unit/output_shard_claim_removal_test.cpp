@@ -178,5 +178,22 @@ TEST_F(Removal, EmptiesTheFolderBehindALinkAndLeavesBoth) {
     EXPECT_TRUE(fs::is_empty(path("scratch")));
 }
 
+TEST_F(Removal, TakesTheCopyOfTheTableAlong) {
+    ShardClaim::Wanted with_table = wanted();
+    with_table.companion = ShardClaim::Companion{"table.csv", std::vector<std::byte>(3, std::byte{'1'})};
+    {
+        ShardClaim const claim(shards_, with_table);
+        EXPECT_EQ(testing::bytes_of(file("table.csv")), "111");
+        put(0);
+    }
+    // One that a killed process had not written is made up for.
+    fs::remove(file("table.csv"));
+    with_table.resume = true;
+    ShardClaim claim(shards_, with_table);
+    EXPECT_EQ(testing::bytes_of(file("table.csv")), "111");
+    claim.remove_folder();
+    EXPECT_FALSE(fs::exists(shards_));
+}
+
 }  // namespace
 }  // namespace slideway
