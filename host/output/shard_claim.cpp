@@ -76,11 +76,11 @@ bool holds(std::string const& folder, ShardFile kind) {
 /// Whether somebody began to remove the folder.
 bool is_finished(std::string const& folder) { return is_there(in_folder(folder, shard_names::finished)); }
 
-/// What a process left that was killed in `remove_folder`; of its last steps only locks.
+/// What a process left that was killed in `remove_folder`; of its last steps only locks, or nothing.
 bool is_remains(std::string const& folder) {
     if (ShardFolder::exists(folder)) return false;
     if (is_finished(folder)) return true;
-    return holds(folder, ShardFile::lock) && !holds(folder, ShardFile::content);
+    return names_in(folder).empty() || (holds(folder, ShardFile::lock) && !holds(folder, ShardFile::content));
 }
 
 std::string count_text(std::uint64_t members) {

@@ -132,11 +132,15 @@ TEST_F(Removal, CutShortIsEndedWhereTheResultStands) {
     leave_remains();
     ShardClaim::remove_remains(shards_);
     EXPECT_FALSE(fs::exists(shards_));
-    // Of its last steps only locks are left.
-    fs::create_directories(shards_);
-    for (char const* const name : {"lock", "lock-begin"}) testing::put_bytes(file(name), "");
-    ShardClaim::remove_remains(shards_);
-    EXPECT_FALSE(fs::exists(shards_));
+    // Of its last steps only locks are left, or the folder alone.
+    for (bool const locks : {true, false}) {
+        fs::create_directories(shards_);
+        if (locks) {
+            for (char const* const name : {"lock", "lock-begin"}) testing::put_bytes(file(name), "");
+        }
+        ShardClaim::remove_remains(shards_);
+        EXPECT_FALSE(fs::exists(shards_));
+    }
 }
 
 TEST_F(Removal, OfRemainsSparesAFolderThatARunIsToGoOnWith) {
