@@ -155,9 +155,11 @@ void ShardClaim::begin(Wanted const& wanted) {
 /// A folder of nobody, of a run that finished nothing, or the remains of one whose result stands.
 void ShardClaim::take_over(Wanted const& wanted) {
     remove_content();
-    // Last, also after a power loss: without it the rest would be anybody's.
-    sync_folder(folder_);
-    remove_file(folder_, shard_names::finished);
+    if (is_finished(folder_)) {
+        // Last, also after a power loss: without it the rest would be anybody's.
+        sync_folder(folder_);
+        remove_file(folder_, shard_names::finished);
+    }
     write_durably(in_folder(folder_, shard_names::identity), identity_text(wanted.identity));
     write_companion(wanted);
 }
