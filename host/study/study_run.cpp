@@ -85,6 +85,21 @@ MemberSet members_of_part(Scene const& scene, RunPart const& part, MemberSet con
 
 std::string shard_folder_of(std::string const& output) { return output + ".shards"; }
 
+Scene scene_of(ShardFolder const& folder) {
+    std::string const& text = folder.identity().scene;
+    Scene scene = parse_scene(text, in_folder(folder.path(), shard_names::identity));
+    // The comment of its line has the checksum.
+    auto const table_line = [](std::string const& of) {
+        auto const at = of.find(fmt::format("\ntable = \"{}\"", shard_names::table));
+        return at == of.npos ? std::string() : of.substr(at, of.find('\n', at + 1) - at);
+    };
+    if (scene.design.table != nullptr && table_line(text) != table_line(portable_scene(resolved_toml(scene)))) {
+        throw FileError(fmt::format("{}: is not the table of this run (its checksum differs); put that one there",
+                                    in_folder(folder.path(), shard_names::table)));
+    }
+    return scene;
+}
+
 StudyRun::StudyRun(Scene const& scene, StudyOptions const& options)
     : scene_(scene), options_(options), members_(options.range), mine_(members_of_part(scene, options.part, members_)) {
     require_writable_place(options.output);
@@ -178,21 +193,6 @@ std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, Provena
                  {result_layout(scene, members), provenance, completeness, std::move(conclude), std::move(pause)},
                  output);
     return left;
-}
-
-Scene scene_of(ShardFolder const& folder) {
-    std::string const& text = folder.identity().scene;
-    Scene scene = parse_scene(text, in_folder(folder.path(), shard_names::identity));
-    // The comment of its line has the checksum.
-    auto const table_line = [](std::string const& of) {
-        auto const at = of.find(fmt::format("\ntable = \"{}\"", shard_names::table));
-        return at == of.npos ? std::string() : of.substr(at, of.find('\n', at + 1) - at);
-    };
-    if (scene.design.table != nullptr && table_line(text) != table_line(portable_scene(resolved_toml(scene)))) {
-        throw FileError(fmt::format("{}: is not the table of this run (its checksum differs); put that one there",
-                                    in_folder(folder.path(), shard_names::table)));
-    }
-    return scene;
 }
 
 Provenance shard_origin(ShardFolder const& folder, Scene const& scene) {
