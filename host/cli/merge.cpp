@@ -44,7 +44,7 @@ int merge(MergeArguments const& arguments) {
                                      arguments.folder, made_by, here));
     }
     std::string const scene_path = (std::filesystem::path(arguments.folder) / shard_names::identity).string();
-    Scene const scene = parse_scene(folder.identity().scene, scene_path);
+    Scene const scene = scene_of(folder);
     require_writable_place(arguments.output);
     require_outside(arguments);
     std::error_code ignored;

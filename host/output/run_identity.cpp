@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "host/output/shard_names.hpp"
 #include "host/scene/error.hpp"
 
 namespace slideway {
@@ -16,7 +17,7 @@ namespace {
 constexpr std::string_view title_line =
     "# What the shards beside this file belong to; slideway run --resume continues it.";
 constexpr std::string_view program_mark = "# program: ", arithmetic_mark = "# arithmetic: ",
-                           members_mark = "# members: ";
+                           members_mark = "# members: ", table_mark = "# table: ";
 constexpr std::string_view fused = "fused", unfused = "unfused";
 
 /// Keys of a resolved scene with their values; a value of several lines is one.
@@ -40,6 +41,30 @@ std::map<std::string, std::string> scene_values(std::string const& scene) {
     return values;
 }
 
+/// Where a resolved scene quotes the path of its table: offset and length, none without one.
+struct Quoted {
+    std::size_t at = 0, length = 0;
+};
+Quoted quoted_table(std::string_view scene) {
+    constexpr std::string_view study = "\n[study]\n", key = "\ntable = ", comment = "\"  # ";
+    auto const start = scene.find(study);
+    if (start == scene.npos) return {};
+    auto const at = scene.find(key, start);
+    if (at == scene.npos || scene.find("\n[", start + 1) < at) return {};
+    std::size_t const first = at + key.size();
+    std::string_view const line = scene.substr(first, scene.find('\n', first) - first);
+    // From the end: a path may hold anything, the comment does not.
+    auto const end = line.rfind(comment);
+    if (end == line.npos) return {};
+    return {first, end + 1};
+}
+
+/// What is left to compare of study.table: "3 rows, FNV-1a 0123456789abcdef".
+std::string_view content_of_table(std::string_view value) {
+    auto const comment = value.rfind("  # ");
+    return comment == value.npos ? value : value.substr(comment + 4);
+}
+
 std::string named_arithmetic(std::string const& arithmetic) {
     return arithmetic == unfused ? arithmetic + " (--isa sse2)" : arithmetic;
 }
@@ -57,14 +82,17 @@ std::string RunIdentity::difference(RunIdentity const& earlier) const {
     if (scene != earlier.scene) {
         auto const before = scene_values(earlier.scene), now = scene_values(scene);
         constexpr std::size_t longest = 60;
-        auto const shown = [](std::string const& value) {
-            return value.size() <= longest ? value : value.substr(0, longest) + "...";
+        auto const shown = [](std::string_view value) {
+            return std::string(value.substr(0, longest)) + (value.size() <= longest ? "" : "...");
         };
         std::vector<std::string> found;
         for (auto const& [key, value] : now) {
             auto const old = before.find(key);
             if (old == before.end())
                 found.push_back(fmt::format("{} = {} is new", key, shown(value)));
+            else if (old->second != value && key == "study.table")
+                found.push_back(fmt::format("{} was {}, is {}", key, shown(content_of_table(old->second)),
+                                            shown(content_of_table(value))));
             else if (old->second != value)
                 found.push_back(fmt::format("{} was {}, is {}", key, shown(old->second), shown(value)));
         }
@@ -83,9 +111,26 @@ std::string RunIdentity::difference(RunIdentity const& earlier) const {
     return "";
 }
 
+std::string table_of(std::string const& scene) {
+    Quoted const table = quoted_table(scene);
+    return scene.substr(table.at, table.length);
+}
+
+std::string with_table(std::string const& scene, std::string_view quoted) {
+    Quoted const table = quoted_table(scene);
+    if (table.length == 0) return scene;
+    return fmt::format("{}{}{}", scene.substr(0, table.at), quoted, scene.substr(table.at + table.length));
+}
+
+std::string portable_scene(std::string const& scene) {
+    return with_table(scene, fmt::format("\"{}\"", shard_names::table));
+}
+
 std::string identity_text(RunIdentity const& identity) {
-    return fmt::format("{}\n{}{}\n{}{}\n{}{}\n\n{}", title_line, program_mark, identity.program, arithmetic_mark,
-                       identity.arithmetic, members_mark, identity.members.text(), identity.scene);
+    std::string const table =
+        identity.table.empty() ? std::string() : fmt::format("{}{}\n", table_mark, identity.table);
+    return fmt::format("{}\n{}{}\n{}{}\n{}{}\n{}\n{}", title_line, program_mark, identity.program, arithmetic_mark,
+                       identity.arithmetic, members_mark, identity.members.text(), table, identity.scene);
 }
 
 RunIdentity parse_identity(std::string const& text, std::string const& path) {
@@ -112,7 +157,12 @@ RunIdentity parse_identity(std::string const& text, std::string const& path) {
     identity.arithmetic = marked(next_line(), arithmetic_mark);
     require(identity.arithmetic == fused || identity.arithmetic == unfused);
     auto const members = MemberSet::parse(marked(next_line(), members_mark));
-    require(next_line().empty());
+    std::string_view line = next_line();
+    if (line.starts_with(table_mark)) {
+        identity.table = marked(line, table_mark);
+        line = next_line();
+    }
+    require(line.empty());
     if (!members) throw FileError(fmt::format("{}: its line of members is damaged", path));
     identity.members = *members;
     identity.scene = std::string(rest);

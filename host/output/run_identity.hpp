@@ -13,7 +13,8 @@ struct RunIdentity {
     std::string program;     // version, commit and compiler
     std::string arithmetic;  // `arithmetic_of` the instruction set
     MemberSet members;       // of the whole run, also where parts of it run elsewhere
-    std::string scene;       // resolved, as TOML
+    std::string scene;       // resolved, as TOML, `portable_scene`
+    std::string table = {};  // `table_of` the scene before, "" without one: where it lay is no part of what is computed
 
     /// In words, or "": "joint.clearance was 0.0001, is 0.0002".  @param earlier what is continued
     std::string difference(RunIdentity const& earlier) const;
@@ -22,6 +23,13 @@ struct RunIdentity {
 /// "fused" where a multiplication and an addition are rounded once, "unfused" where twice, by the name of an instruction set: only
 /// SSE2 has no such instruction, and so other bits than the others, which agree.
 std::string arithmetic_of(std::string_view isa);
+
+/// The path of the file of study.table in a resolved scene, quoted as it is there; "" without one.
+std::string table_of(std::string const& scene);
+/// A resolved scene with another path there.  The comment beside it, with rows and checksum of the table, stays.
+std::string with_table(std::string const& scene, std::string_view quoted);
+/// The scene with a table beside it, wherever that lay: what a study that was moved has in common with the former.
+std::string portable_scene(std::string const& scene);
 
 /// A scene file that starts with the rest as comments.
 std::string identity_text(RunIdentity const& identity);

@@ -66,6 +66,23 @@ std::unique_ptr<FileLock> make_and_lock(std::string const& folder) {
     }
 }
 
+bool holds(std::string const& folder, ShardFile kind) {
+    for (std::string const& name : names_in(folder)) {
+        if (kind_of(name) == kind) return true;
+    }
+    return false;
+}
+
+/// Whether somebody began to remove the folder.
+bool is_finished(std::string const& folder) { return is_there(in_folder(folder, shard_names::finished)); }
+
+/// What a process left that was killed in `remove_folder`; of its last steps only locks, or nothing.
+bool is_remains(std::string const& folder) {
+    if (ShardFolder::exists(folder)) return false;
+    if (is_finished(folder)) return true;
+    return names_in(folder).empty() || (holds(folder, ShardFile::lock) && !holds(folder, ShardFile::content));
+}
+
 std::string count_text(std::uint64_t members) {
     return fmt::format("{} finished member{}", members, members == 1 ? "" : "s");
 }
@@ -91,7 +108,7 @@ ShardClaim::ShardClaim(std::string folder) : folder_(std::move(folder)) {
 /// Parts of another division have members in common with this one.
 void ShardClaim::require_one_division(std::string const& part) const {
     for (std::string const& name : names_in(folder_)) {
-        if (!name.starts_with(shard_names::lock) || division_of(name).empty()) continue;
+        if (kind_of(name) != ShardFile::lock || division_of(name).empty()) continue;
         if (division_of(name) == division_of(part)) continue;
         std::string const other = name.substr(shard_names::lock.size() + 1);
         FileLock const probe(
@@ -122,13 +139,36 @@ void ShardClaim::begin(Wanted const& wanted) {
         }
         if (changed.empty()) {
             put_aside(damaged, wanted.mine);
+            write_companion(wanted);
             return;
         }
         require_alone(wanted);
+    } else if (!is_finished(folder_) && holds(folder_, ShardFile::content)) {
+        throw SceneError(
+            fmt::format("{}: holds shards but no {}, which says what they belong to; give another name with -o, or "
+                        "remove the folder",
+                        folder_, shard_names::identity));
     }
-    // Nobody's, or of a run that finished nothing.
-    remove_shards();
+    take_over(wanted);
+}
+
+/// A folder of nobody, of a run that finished nothing, or the remains of one whose result stands.
+void ShardClaim::take_over(Wanted const& wanted) {
+    remove_content();
+    if (is_finished(folder_)) {
+        // Last, also after a power loss: without it the rest would be anybody's.
+        sync_folder(folder_);
+        remove_file(folder_, shard_names::finished);
+    }
     write_durably(in_folder(folder_, shard_names::identity), identity_text(wanted.identity));
+    write_companion(wanted);
+}
+
+/// After the identity, so that it is never anybody's; one that a killed process had not written yet is written now.
+void ShardClaim::write_companion(Wanted const& wanted) const {
+    if (!wanted.companion) return;
+    std::string const path = in_folder(folder_, wanted.companion->name);
+    if (!is_there(path) || read_bytes(path) != wanted.companion->bytes) write_durably(path, wanted.companion->bytes);
 }
 
 /// What is damaged must not stand in the way of its successor, but may be worth a look.  Other parts see to theirs.
@@ -152,26 +192,32 @@ void ShardClaim::require_alone(Wanted const& wanted) {
     whole_->change(Kind::shared, of_rival(folder_));
 }
 
-void ShardClaim::remove_shards() {
+void ShardClaim::remove_content() {
     for (std::string const& name : names_in(folder_)) {
-        for (std::string_view const ours :
-             {shard_names::manifest, shard_names::members, shard_names::statistics, shard_names::damaged}) {
-            if (name.starts_with(ours)) remove_file(folder_, name);
-        }
+        if (kind_of(name) == ShardFile::content) remove_file(folder_, name);
     }
 }
 
 void ShardClaim::remove_folder() {
     // Nobody begins meanwhile: whoever waits finds the lock's file gone then, and makes a new one.
     FileLock begins(lock_of(folder_, begin_suffix), Kind::alone, Wait::yes);
-    // The identity first: a folder without one is nobody's.
-    remove_file(folder_, shard_names::identity);
-    sync_folder(folder_);
-    remove_shards();
-    for (std::string const& name : names_in(folder_)) {
-        if (name.starts_with(shard_names::lock) || name.starts_with(shard_names::identity)) remove_file(folder_, name);
+    // First, so that whoever finds what a killed process left knows that it may go.
+    if (ShardFolder::exists(folder_)) {
+        std::string const identity = in_folder(folder_, shard_names::identity);
+        if (std::rename(identity.c_str(), in_folder(folder_, shard_names::finished).c_str()) != 0) {
+            throw FileError(fmt::format("{}: cannot rename: {}", identity, std::strerror(errno)));
+        }
+        sync_folder(folder_);
     }
-    if (rmdir(folder_.c_str()) != 0 && errno != ENOTEMPTY && errno != EEXIST) {
+    remove_content();
+    sync_folder(folder_);
+    for (ShardFile const kind : {ShardFile::identity, ShardFile::lock}) {
+        for (std::string const& name : names_in(folder_)) {
+            if (kind_of(name) == kind) remove_file(folder_, name);
+        }
+    }
+    // ENOTDIR: a link to a folder, which somebody made elsewhere for this.
+    if (rmdir(folder_.c_str()) != 0 && errno != ENOTEMPTY && errno != EEXIST && errno != ENOTDIR) {
         throw FileError(fmt::format("{}: cannot remove the folder: {}", folder_, std::strerror(errno)));
     }
 }
@@ -179,9 +225,10 @@ void ShardClaim::remove_folder() {
 void ShardClaim::remove_remains(std::string const& folder) {
     std::error_code ignored;
     if (!std::filesystem::is_directory(folder, ignored)) return;
+    if (!is_remains(folder)) return;
     ShardClaim claim(folder);
     // Another process may have begun anew meanwhile.
-    if (!ShardFolder::exists(folder)) claim.remove_folder();
+    if (is_remains(folder)) claim.remove_folder();
 }
 
 }  // namespace slideway

@@ -10,14 +10,9 @@
 
 #include "host/driver/member_set.hpp"
 #include "host/output/run_identity.hpp"
+#include "host/output/shard_names.hpp"
 
 namespace slideway {
-
-namespace shard_names {
-inline constexpr std::string_view identity = "run.toml", manifest = "manifest-", lock = "lock";
-inline constexpr std::string_view members = "members-", statistics = "statistics-";  // what shards begin with
-inline constexpr std::string_view damaged = "damaged-";  // before the name of one that is put aside
-}  // namespace shard_names
 
 /// A result file of some members of the run, or their statistics.  It never changes.
 struct Shard {
@@ -41,6 +36,8 @@ std::vector<std::byte> read_shard(std::string const& folder, Shard const& shard)
 /// `manifest-*.txt`  one line per shard, written once the shard is on the disk; each line has a checksum of its own, so that a
 ///                   torn one is told.  Every process that writes has a manifest of its own.
 /// `damaged-*`   shards that were not what had been written, put aside
+/// `table.csv`   a copy of the study's table of members, if it has one
+/// `finished.toml`   the identity once the result stands elsewhere: the rest is to be removed
 /// `lock*`       held by the processes that write
 class ShardFolder {
 public:

@@ -76,7 +76,8 @@ Provenance provenance(Scene const& scene, Isa isa, int threads) {
 }
 
 RunIdentity run_identity(Scene const& scene, MemberSet const& members, Isa isa) {
-    return {build_info().text(), arithmetic_of(name_of(isa)), members, resolved_toml(scene)};
+    std::string const resolved = resolved_toml(scene);
+    return {build_info().text(), arithmetic_of(name_of(isa)), members, portable_scene(resolved), table_of(resolved)};
 }
 
 }  // namespace slideway

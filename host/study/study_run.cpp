@@ -9,6 +9,7 @@
 #include "host/output/result_merge.hpp"
 #include "host/output/result_reader.hpp"
 #include "host/output/statistics_merge.hpp"
+#include "host/scene/sampling.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/prediction.hpp"
 #include "host/study/statistics_groups.hpp"
@@ -24,7 +25,7 @@ bool is_result_of(std::string const& path, RunIdentity const& identity) {
     found.program =
         BuildInfo{result.attribute("version"), result.attribute("commit"), result.attribute("compiler")}.text();
     found.arithmetic = arithmetic_of(result.attribute("isa"));
-    found.scene = result.attribute("scene");
+    found.scene = portable_scene(result.attribute("scene"));
     if (result.stores_members()) {
         std::vector<std::uint64_t> members;
         for (double const member : result.values("member")) members.push_back(static_cast<std::uint64_t>(member));
@@ -45,6 +46,17 @@ bool is_result_of(std::string const& path, RunIdentity const& identity) {
                         path));
     }
     return true;
+}
+
+/// The table of members, so that the folder of shards is all that a merge needs.
+std::optional<ShardClaim::Companion> companion_of(Scene const& scene) {
+    if (scene.design.table == nullptr) return {};
+    MemberTable const& table = *scene.design.table;
+    std::vector<std::byte> bytes = read_bytes(table.path);
+    if (name_hash({reinterpret_cast<char const*>(bytes.data()), bytes.size()}) != table.checksum) {
+        throw FileError(fmt::format("{}: has changed since it was read; start the run again", table.path));
+    }
+    return ShardClaim::Companion{std::string(shard_names::table), std::move(bytes)};
 }
 
 }  // namespace
@@ -73,6 +85,21 @@ MemberSet members_of_part(Scene const& scene, RunPart const& part, MemberSet con
 
 std::string shard_folder_of(std::string const& output) { return output + ".shards"; }
 
+Scene scene_of(ShardFolder const& folder) {
+    std::string const& text = folder.identity().scene;
+    Scene scene = parse_scene(text, in_folder(folder.path(), shard_names::identity));
+    // The comment of its line has the checksum.
+    auto const table_line = [](std::string const& of) {
+        auto const at = of.find(fmt::format("\ntable = \"{}\"", shard_names::table));
+        return at == of.npos ? std::string() : of.substr(at, of.find('\n', at + 1) - at);
+    };
+    if (scene.design.table != nullptr && table_line(text) != table_line(portable_scene(resolved_toml(scene)))) {
+        throw FileError(fmt::format("{}: is not the table of this run (its checksum differs); put that one there",
+                                    in_folder(folder.path(), shard_names::table)));
+    }
+    return scene;
+}
+
 StudyRun::StudyRun(Scene const& scene, StudyOptions const& options)
     : scene_(scene), options_(options), members_(options.range), mine_(members_of_part(scene, options.part, members_)) {
     require_writable_place(options.output);
@@ -87,8 +114,8 @@ StudyRun::StudyRun(Scene const& scene, StudyOptions const& options)
             return;
         }
     }
-    claim_ =
-        std::make_unique<ShardClaim>(folder, ShardClaim::Wanted{identity, mine_, options.part.name(), options.resume});
+    claim_ = std::make_unique<ShardClaim>(
+        folder, ShardClaim::Wanted{identity, mine_, options.part.name(), options.resume, companion_of(scene)});
     work_ = {mine_.without(claim_->done()), claim_->done().count()};
     require_room();
 }
@@ -184,7 +211,9 @@ Provenance shard_origin(ShardFolder const& folder, std::vector<Shard> const& sha
         origin = parse_statistics(bytes, shards.front().name).origin;
     }
     origin.title = scene.title;
-    origin.scene = folder.identity().scene;
+    RunIdentity const& identity = folder.identity();
+    // The copy of the table goes with the folder.
+    origin.scene = identity.table.empty() ? identity.scene : with_table(identity.scene, identity.table);
     origin.seed = scene.seed;
     return origin;
 }

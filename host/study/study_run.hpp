@@ -94,6 +94,10 @@ std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, std::ve
                           Provenance const& provenance, std::string const& output,
                           std::optional<ToleranceReport>& report, ReportSettings const& settings = {});
 
+/// The scene of the run that left a folder, its table of members from the copy there.  @throws SceneError, also if the copy is gone;
+/// FileError if it holds something else than what was run
+Scene scene_of(ShardFolder const& folder);
+
 /// Who made the shards in a folder, as the first of them says.  @throws FileError, also if there is none.
 Provenance shard_origin(ShardFolder const& folder, std::vector<Shard> const& shards, Scene const& scene);
 

@@ -143,5 +143,41 @@ TEST(RunIdentity, CannotBeReadFromOtherTexts) {
     EXPECT_THROW(parse_identity(damaged, "run.toml"), FileError);
 }
 
+/// A resolved scene of a table at a path, as TOML quotes it.
+std::string scene_of_table(std::string const& quoted, std::string const& checksum = "0123456789abcdef") {
+    return "schema = 1\ntitle = \"table = 1\"\n\n[mechanism]\nkind = \"slider_crank\"\n\n[study]\nseed = 1\ntable = " +
+           quoted + "  # 3 rows, FNV-1a " + checksum + "\n\n[study.limits]\n\"table\" = { max = 1.0 }\n";
+}
+
+TEST(RunIdentity, OfATableDoesNotDependOnWhereItLies) {
+    for (char const* const path :
+         {"\"/a/rows.csv\"", "\"/a/\\\"  # b\\\".csv\"", "\"/[study]/table = .csv\"", "\"/a#\\n.csv\""}) {
+        std::string const text = scene_of_table(path);
+        EXPECT_EQ(table_of(text), path);
+        EXPECT_EQ(portable_scene(text), scene_of_table("\"table.csv\""));
+        EXPECT_EQ(with_table(portable_scene(text), path), text);
+    }
+    std::string const none = identity_of().scene;
+    EXPECT_EQ(portable_scene(none), none);
+    EXPECT_EQ(table_of(none), "");
+}
+
+TEST(RunIdentity, OfATableTellsThatItsContentChanged) {
+    RunIdentity before = identity_of(), now = before;
+    before.scene = portable_scene(scene_of_table("\"/a.csv\""));
+    now.scene = portable_scene(scene_of_table("\"/b.csv\"", "fedcba9876543210"));
+    EXPECT_EQ(now.difference(before),
+              "study.table was 3 rows, FNV-1a 0123456789abcdef, is 3 rows, FNV-1a fedcba9876543210");
+}
+
+TEST(RunIdentity, RemembersWhereTheTableLay) {
+    RunIdentity identity = identity_of();
+    identity.table = "\"/a/rows.csv\"";
+    RunIdentity const back = parse_identity(identity_text(identity), "run.toml");
+    EXPECT_EQ(back.table, identity.table);
+    EXPECT_EQ(back.scene, identity.scene);
+    EXPECT_EQ(back.difference(identity_of()), "");
+}
+
 }  // namespace
 }  // namespace slideway

@@ -125,16 +125,22 @@ TEST_F(Claim, TakesTheFolderOfAnotherRunThatFinishedNothing) {
     EXPECT_TRUE(claim.done().empty());
 }
 
-TEST_F(Claim, DoesNotCountLeftoversWithoutAnIdentity) {
+TEST_F(Claim, IsRefusedWhereNothingSaysWhatShardsBelongTo) {
     {
         ShardClaim const claim(shards_, whole_run());
         put(3, 2);
     }
     fs::remove(file("run.toml"));
-    ShardClaim const claim(shards_, whole_run());  // not even without --resume
-    EXPECT_TRUE(claim.done().empty());
-    EXPECT_TRUE(ShardFolder(shards_).listed().empty());
-    EXPECT_FALSE(fs::exists(file("members-0000000003.nc")));
+    for (bool const resume : {false, true}) {
+        EXPECT_EQ(refused_scene(whole_run(resume)),
+                  shards_ +
+                      ": holds shards but no run.toml, which says what they belong to; give another name with "
+                      "-o, or remove the folder");
+    }
+    EXPECT_TRUE(fs::exists(file("members-0000000003.nc")));
+    EXPECT_TRUE(fs::exists(file("manifest-000001.txt")));
+    ShardClaim::remove_remains(shards_);  // these are none
+    EXPECT_TRUE(fs::exists(file("members-0000000003.nc")));
 }
 
 TEST_F(Claim, HasDamagedShardsRunAgain) {
