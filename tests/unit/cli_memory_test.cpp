@@ -32,7 +32,7 @@ protected:
     }
 };
 
-TEST_F(Needs, OfMemoryAreAtMostTwiceWhatARunTakes) {
+TEST_F(Needs, OfMemoryAreMoreThanWhatARunTakesButNotThrice) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     GTEST_SKIP() << "sanitizers need more memory than the program";
 #endif
@@ -41,7 +41,7 @@ TEST_F(Needs, OfMemoryAreAtMostTwiceWhatARunTakes) {
         double const taken = peak_of(scene(design)) - program;
         auto const told = static_cast<double>(predict(scene_of(scene(design)), Isa::sse2, 2).memory());
         EXPECT_LT(taken, told) << design;
-        EXPECT_LT(told, 2 * taken) << design;
+        EXPECT_LT(told, 3 * taken) << design;
     }
 }
 
