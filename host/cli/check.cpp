@@ -137,7 +137,7 @@ int check(CheckArguments const& arguments) {
                             bytes_text(static_cast<double>(prediction.image_bytes)),
                             bytes_text(static_cast<double>(prediction.summary_bytes))));
     print_field("disk",
-                fmt::format("{} and some tens of kB for the result, {} for its shards until it is whole",
+                fmt::format("{} for the result, {} for its shards until it is whole",
                             bytes_text(static_cast<double>(prediction.output_bytes)), shards_text(scene, prediction)));
     print_field("cost", cost_text(scene, prediction));
     return exit_code::done;
