@@ -6,7 +6,7 @@ namespace slideway {
 namespace {
 
 constexpr std::uint64_t members_per_lane = 8;   // at least
-constexpr std::uint64_t blocks_per_worker = 2;  // of what is left, so that workers end together
+constexpr std::uint64_t blocks_per_worker = 2;  // of what is left, so that several workers end together
 constexpr std::uint64_t untried = 512;          // members of a block whose cost nobody knows, at most
 constexpr std::uint64_t enough_for_trials = 16;
 // The last members of a block leave lanes idle, as much work as that of some members, whatever the block's size: 2 where all cost
@@ -25,7 +25,7 @@ std::uint64_t BlockSizer::next(std::uint64_t left) const {
     std::uint64_t const most = std::max<std::uint64_t>(sizes_.most, small);
     auto const worth_its_end = static_cast<std::uint64_t>(std::min(blocks_over_idle * idle_members_, 1e6));
     std::uint64_t const least = std::clamp<std::uint64_t>(share, 1, std::clamp(worth_its_end, small, most));
-    std::uint64_t size = std::clamp<std::uint64_t>(share / blocks_per_worker, least, most);
+    std::uint64_t size = std::clamp<std::uint64_t>(share / (workers_ > 1 ? blocks_per_worker : 1), least, most);
     if (seconds_per_member_ > 0) {
         double const in_time = std::min(sizes_.seconds / seconds_per_member_, static_cast<double>(most));
         size = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(in_time), least, size);
