@@ -7,8 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "cli_process.hpp"
-#include "host/output/result_reader.hpp"
+#include "cli_results.hpp"
 
 namespace slideway::testing {
 
@@ -29,19 +28,12 @@ quantities = ["energy_residual", "mode_time"]
 "initial.y" = { dist = "unif", low = "-0.09 mm", high = "0.09 mm" }
 )";
 
-class Resumed : public Program {
+class Resumed : public ProgramWithResults {
 protected:
     Resumed() { write("s.toml", resumed_scene); }
     Outcome run_scene(std::vector<std::string> options) const {
         options.insert(options.begin(), {"run", "s.toml", "--threads", "2"});
         return run(std::move(options));
-    }
-    ResultReader results(std::string const& name) const { return ResultReader(path(name).string()); }
-    /// The hash of a file, which fits its data.
-    std::string hash_of(std::string const& name) const {
-        ResultReader const file = results(name);
-        EXPECT_EQ(file.stored_hash(), file.computed_hash()) << name;
-        return file.computed_hash();
     }
     bool exists(std::string const& name) const { return fs::exists(path(name)); }
     std::string shard(std::uint64_t first) const { return fmt::format("s.nc.shards/members-{:010}.nc", first); }

@@ -1,7 +1,7 @@
 // Runs whose members are kept in a folder of shards until they are all there, and what that folder holds.
 #pragma once
 
-#include "cli_process.hpp"
+#include "cli_results.hpp"
 
 #include <map>
 #include <set>
@@ -29,7 +29,7 @@ struct Shards {
     }
 };
 
-class ShardedRun : public Program {
+class ShardedRun : public ProgramWithResults {
 protected:
     /// A run of `members` that takes little time, or about as long as `duration` says.
     void write_scene(int members, char const* duration) const {
@@ -53,11 +53,6 @@ protected:
     }
     ShellOutcome shell(std::string const& command) const { return run_shell(path(""), command); }
 
-    std::string hash_of(std::string const& name) const {
-        ResultReader const results(path(name).string());
-        EXPECT_EQ(results.stored_hash(), results.computed_hash()) << name;
-        return results.computed_hash();
-    }
     /// The hash of the scene's results, from a run that nothing disturbed.
     std::string undisturbed_hash() const {
         EXPECT_EQ(run(run_words({}, "whole.nc")).code, 0) << file_text(path("err"));

@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli_process.hpp"
-#include "host/output/result_reader.hpp"
+#include "cli_results.hpp"
 
 namespace slideway::testing {
 
@@ -22,14 +21,13 @@ quantities = ["energy_residual", "crank_work", "mode_time"]
 "initial.y" = { dist = "unif", low = "-0.09 mm", high = "0.09 mm" }
 )";
 
-class SmallRun : public Program {
+class SmallRun : public ProgramWithResults {
 protected:
     SmallRun() { write("s.toml", small_scene); }
     Outcome run_scene(std::vector<std::string> options) const {
         options.insert(options.begin(), {"run", "s.toml", "--quiet"});
         return run(std::move(options));
     }
-    ResultReader results(std::string const& name) const { return ResultReader(path(name).string()); }
 };
 
 }  // namespace slideway::testing

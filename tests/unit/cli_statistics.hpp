@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "cli_process.hpp"
+#include "cli_results.hpp"
 #include "host/output/netcdf_file.hpp"
 #include "host/output/result_reader.hpp"
 
@@ -34,7 +34,7 @@ inline std::vector<std::string> const stored{"--set", "study.store=members"};
 /// Some members break off: a few dozen steps are enough for those that fly free.
 inline std::vector<std::string> const failing{"--set", "integrator.max_steps=60", "--max-failures", "100%"};
 
-class StatisticsRun : public Program {
+class StatisticsRun : public ProgramWithResults {
 protected:
     StatisticsRun() { write("s.toml", cheap_scene); }
     Outcome run_scene(std::string const& output, std::vector<std::string> const& more = {},
@@ -45,10 +45,8 @@ protected:
         return run(std::move(arguments));
     }
     std::string hash_of(std::string const& name) const {
-        ResultReader const results(path(name).string());
-        EXPECT_EQ(results.stored_hash(), results.computed_hash());
-        EXPECT_EQ(results.attribute("completeness"), "complete");
-        return results.stored_hash();
+        EXPECT_EQ(results(name).attribute("completeness"), "complete");
+        return ProgramWithResults::hash_of(name);
     }
     /// A variable of the group `statistics`.
     std::vector<double> statistic(std::string const& file, std::string const& name,

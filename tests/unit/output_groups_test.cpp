@@ -11,6 +11,7 @@
 #include "host/output/payload_hash.hpp"
 #include "host/output/result_reader.hpp"
 #include "host/scene/error.hpp"
+#include "host/scene/fnv1a.hpp"
 
 namespace slideway {
 namespace {

@@ -1,4 +1,5 @@
 #include "host/output/payload_hash.hpp"
+#include "host/scene/fnv1a.hpp"
 
 #include <cstdio>
 #include <cstdlib>
