@@ -1,7 +1,6 @@
 #include "host/output/payload_hash.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -9,19 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "host/scene/fnv1a.hpp"
+
 namespace slideway {
-
-static_assert(std::endian::native == std::endian::little, "the hash is defined over little-endian bytes");
-
-void Fnv1a::add(std::span<std::byte const> bytes) {
-    for (std::byte const byte : bytes) {
-        hash_ = (hash_ ^ static_cast<std::uint64_t>(byte)) * 1099511628211u;
-    }
-}
-
-void Fnv1a::add(std::string_view text) { add(std::as_bytes(std::span(text))); }
-
-void Fnv1a::add(std::uint64_t value) { add(std::as_bytes(std::span(&value, 1))); }
 
 namespace {
 

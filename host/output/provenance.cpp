@@ -10,15 +10,13 @@
 
 #include "host/output/commit.hpp"
 #include "host/output/durable_file.hpp"
-#include "host/output/payload_hash.hpp"
+#include "host/scene/fnv1a.hpp"
 
 namespace slideway {
 
 std::string build_of(std::string const& commit, std::string const& program) {
     if (!commit.ends_with("-dirty") && commit != "unknown") return commit;
-    Fnv1a hash;
-    hash.add(read_bytes(program));
-    return fmt::format("{}-{:016x}", commit, hash.value());
+    return fmt::format("{}-{:016x}", commit, fnv1a(read_bytes(program)));
 }
 
 BuildInfo const& build_info() {

@@ -119,8 +119,7 @@ private:
     std::vector<std::byte> buffer_;
 };
 
-/// The first value makes HDF5 allocate a variable's storage and fill it with NaN.  A full disk so shows early, and the storage lies
-/// in the order of definition whichever shard comes first.
+/// The first value makes HDF5 allocate a variable's storage and fill it with NaN: a full disk so shows before the shards are read.
 void reserve_space(NetcdfFile& file) {
     double const nan = std::numeric_limits<double>::quiet_NaN();
     for (NetcdfFile::Variable const& variable : file.variables()) {

@@ -9,14 +9,12 @@
 #include <fmt/format.h>
 
 #include "host/output/durable_file.hpp"
-#include "host/output/payload_hash.hpp"
 #include "host/scene/error.hpp"
+#include "host/scene/fnv1a.hpp"
 
 namespace slideway {
 namespace fs = std::filesystem;
 namespace {
-
-std::uint64_t checksum_of_text(std::string_view text) { return checksum_of(std::as_bytes(std::span(text))); }
 
 template <class T> bool read_whole(std::string_view word, T& value, int base = 10) {
     auto const [end, error] = std::from_chars(word.data(), word.data() + word.size(), value, base);
@@ -31,7 +29,7 @@ void read_manifest(std::string const& path, std::vector<Shard>& shards) {
         std::uint64_t own = 0;
         if (space == line.npos || !read_whole(std::string_view(line).substr(space + 1), own, 16)) continue;
         line.resize(space);
-        if (own != checksum_of_text(line)) continue;
+        if (own != fnv1a(line)) continue;
         std::istringstream words(line);
         Shard shard{};
         std::string checksum, members;
@@ -45,18 +43,12 @@ void read_manifest(std::string const& path, std::vector<Shard>& shards) {
 
 }  // namespace
 
-std::uint64_t checksum_of(std::span<std::byte const> bytes) {
-    Fnv1a hash;
-    hash.add(bytes);
-    return hash.value();
-}
-
 std::string manifest_name(int number) { return fmt::format("{}{:06}.txt", shard_names::manifest, number); }
 
 std::string manifest_line(Shard const& shard) {
     std::string const line =
         fmt::format("{} {} {:016x} {}", shard.name, shard.bytes, shard.checksum, shard.members.text());
-    return fmt::format("{} {:016x}", line, checksum_of_text(line));
+    return fmt::format("{} {:016x}", line, fnv1a(line));
 }
 
 std::vector<std::string> names_in(std::string const& folder) {
@@ -98,7 +90,7 @@ std::vector<Shard> without_repeats(std::vector<Shard> shards) {
 }
 
 bool is_what_was_written(std::vector<std::byte> const& bytes, Shard const& shard) {
-    return bytes.size() == shard.bytes && checksum_of(bytes) == shard.checksum;
+    return bytes.size() == shard.bytes && fnv1a(bytes) == shard.checksum;
 }
 
 /// Only a file that is gone or holds something else is damaged: whoever may not open it now may find it whole later.

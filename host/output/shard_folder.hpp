@@ -71,7 +71,6 @@ std::vector<std::string> names_in(std::string const& folder);
 /// Members of shards together.
 MemberSet members_of(std::vector<Shard> const& shards);
 
-std::uint64_t checksum_of(std::span<std::byte const> bytes);
 std::string manifest_name(int number);
 /// Without its end.
 std::string manifest_line(Shard const& shard);

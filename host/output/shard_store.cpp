@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "host/output/payload_hash.hpp"
 #include "host/scene/error.hpp"
+#include "host/scene/fnv1a.hpp"
 
 namespace slideway {
 namespace fs = std::filesystem;
@@ -31,7 +31,7 @@ void ShardStore::begin_manifest() {
 }
 
 Shard ShardStore::put_as(std::string name, MemberSet const& members, std::vector<std::byte> const& bytes) {
-    Shard shard{std::move(name), bytes.size(), checksum_of(bytes), members};
+    Shard shard{std::move(name), bytes.size(), fnv1a(bytes), members};
     write_durably((fs::path(folder_) / shard.name).string(), bytes);
     begin_manifest();
     manifest_->append(manifest_line(shard));

@@ -10,7 +10,6 @@
 #include "host/scene/error.hpp"
 
 namespace slideway {
-namespace {
 
 std::string_view trimmed(std::string_view text) {
     constexpr std::string_view blank = " \t\r";
@@ -18,8 +17,6 @@ std::string_view trimmed(std::string_view text) {
     if (first == text.npos) return {};
     return text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
-
-}  // namespace
 
 bool CsvReader::next() {
     while (std::getline(in_, text_)) {

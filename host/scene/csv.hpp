@@ -33,6 +33,9 @@ private:
     int number_ = 0;
 };
 
+/// Without the blanks around it.
+std::string_view trimmed(std::string_view text);
+
 /// Whether the text is one number and nothing else, with or without a +: nan and inf are.  Beyond the range of double
 /// it is infinite or zero.
 bool read_plain_number(std::string_view text, double& value);

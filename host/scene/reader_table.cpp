@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "host/scene/csv.hpp"
+#include "host/scene/fnv1a.hpp"
 #include "host/scene/reader.hpp"
-#include "host/scene/sampling.hpp"
 #include "host/scene/scene_text.hpp"
 #include "host/scene/units.hpp"
 #include "host/scene/values.hpp"
@@ -56,16 +56,10 @@ Node field_node(CsvReader const& table, std::string name, std::string text) {
     return node;
 }
 
-std::string trimmed(std::string_view text) {
-    auto const first = text.find_first_not_of(" \t");
-    if (first == text.npos) return {};
-    return std::string(text.substr(first, text.find_last_not_of(" \t") + 1 - first));
-}
-
 /// "joint.clearance [mm]": the key, and how its numbers become SI ones.
 Column read_column(Node const& node) {
     auto const bracket = node.text.find('[');
-    std::string const name = trimmed(std::string_view(node.text).substr(0, bracket));
+    std::string const name(trimmed(std::string_view(node.text).substr(0, bracket)));
     Column column{find_key(name), UnitFactor(1), {}};
     if (column.key == nullptr) refuse(node, {"only numeric keys of the physics can be columns", key_advice(name)});
     column.unit = column.key->unit;
@@ -136,7 +130,7 @@ void read_member_table(Node const& node, Node const& root, Scene& scene) {
 
     auto table = std::make_shared<MemberTable>();
     table->path = std::filesystem::absolute(path).lexically_normal().string();
-    table->checksum = name_hash(bytes);
+    table->checksum = fnv1a(bytes);
     std::istringstream in(std::move(bytes));
     CsvReader rows(in, one_line(path.string()));
     if (!rows.next())

@@ -5,6 +5,7 @@
 
 #include <Random123/philox.h>
 
+#include "host/scene/fnv1a.hpp"
 #include "host/scene/scene.hpp"
 
 namespace slideway {
@@ -17,14 +18,7 @@ std::array<std::uint64_t, 4> philox(std::array<std::uint64_t, 4> counter, std::a
     return {words[0], words[1], words[2], words[3]};
 }
 
-std::uint64_t name_hash(std::string_view name) {
-    std::uint64_t hash = 0xcbf29ce484222325u;
-    for (char const c : name) {
-        hash ^= static_cast<unsigned char>(c);
-        hash *= 0x100000001b3u;
-    }
-    return hash;
-}
+std::uint64_t name_hash(std::string_view name) { return fnv1a(name); }
 
 std::array<std::uint64_t, 4> StreamKey::words(Stream stream, std::uint64_t index, std::uint64_t sub) const {
     return philox({index, static_cast<std::uint64_t>(stream), sub, 0}, {seed, name});

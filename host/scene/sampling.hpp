@@ -10,7 +10,7 @@ namespace slideway {
 /// Philox 4×64 with ten rounds (Salmon et al., SC 2011), by Random123.
 std::array<std::uint64_t, 4> philox(std::array<std::uint64_t, 4> counter, std::array<std::uint64_t, 2> key);
 
-/// FNV-1a of 64 bits: the same on every machine and in every version, unlike std::hash.
+/// FNV-1a: what a name is in the key of a generator.
 std::uint64_t name_hash(std::string_view name);
 
 /// Independent numbers of one key: second word of the counter.

@@ -9,7 +9,7 @@
 #include "host/output/result_merge.hpp"
 #include "host/output/result_reader.hpp"
 #include "host/output/statistics_merge.hpp"
-#include "host/scene/sampling.hpp"
+#include "host/scene/fnv1a.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/prediction.hpp"
 #include "host/study/statistics_groups.hpp"
@@ -53,7 +53,7 @@ std::optional<ShardClaim::Companion> companion_of(Scene const& scene) {
     if (scene.design.table == nullptr) return {};
     MemberTable const& table = *scene.design.table;
     std::vector<std::byte> bytes = read_bytes(table.path);
-    if (name_hash({reinterpret_cast<char const*>(bytes.data()), bytes.size()}) != table.checksum) {
+    if (fnv1a(bytes) != table.checksum) {
         throw FileError(fmt::format("{}: has changed since it was read; start the run again", table.path));
     }
     return ShardClaim::Companion{std::string(shard_names::table), std::move(bytes)};
