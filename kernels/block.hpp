@@ -109,6 +109,7 @@ inline constexpr double largest_distance = 1;
 struct BlockBase {
     std::size_t members = 0;
     std::uint32_t const* order = nullptr;  // [members] who is taken when, dearest first; nullptr: as they stand
+    std::uint64_t* taken = nullptr;        // how many are, where several share the block; nullptr: one has it alone
     IntegratorSettings settings;
     double const* sample_times = nullptr;  // [samples], ascending, within [0, end_time]
     std::size_t samples = 0;
@@ -118,9 +119,11 @@ struct BlockBase {
     StopPlan stops;
     ShadowPlan shadows;      // of models with shadows
     CrossingPlan crossings;  // from each member's first_stop on; of models without shadows, and without stops
-    /// Asked now and then; true ends the block at once.  Members that have not ended keep what their results held before; their series are NaN.
+    /// Asked now and then; true, or a flag that is not 0, ends the block at once.  Members that have not ended keep what their results
+    /// held before; their series are NaN.
     bool (*stop)(void const* context) = nullptr;
     void const* stop_context = nullptr;
+    int const volatile* stop_flag = nullptr;
     // results
     MemberRecord* records = nullptr;    // [members]
     double* final_states = nullptr;     // [members][states of the model]

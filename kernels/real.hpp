@@ -253,6 +253,26 @@ SLIDEWAY_FN int population(unsigned bits) {
 #endif
 }
 
+/// Adds to a number that others add to at the same time.  @return what it was before.
+SLIDEWAY_FN std::uint64_t fetch_add(std::uint64_t& number, std::uint64_t amount) {
+#if defined(__CUDA_ARCH__)
+    static_assert(sizeof(unsigned long long) == sizeof(std::uint64_t));
+    return atomicAdd(reinterpret_cast<unsigned long long*>(&number), static_cast<unsigned long long>(amount));
+#else
+    return __atomic_fetch_add(&number, amount, __ATOMIC_RELAXED);
+#endif
+}
+
+/// What a function of the host says, which may be nullptr; no where it cannot be called, on a card.  There no call may go through a
+/// pointer: the assembler would have to make every function as if it were called so, which costs half the registers.
+SLIDEWAY_FN bool host_says([[maybe_unused]] bool (*question)(void const*), [[maybe_unused]] void const* context) {
+#if defined(__CUDA_ARCH__)
+    return false;
+#else
+    return question != nullptr && question(context);
+#endif
+}
+
 /// Lanes in which the mask holds.
 template <class M> SLIDEWAY_FN int held_lanes(M m) { return population(mask_bits(m)); }
 

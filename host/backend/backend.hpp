@@ -1,8 +1,13 @@
-// Which machine code runs a block: the kernels are compiled once per instruction set, and a scene picks its
-// instance once, before the run.
+// What integrates blocks of members: this processor, with one of its instruction sets, or a card.  The kernels are compiled once per
+// instruction set and once for cards, and a scene picks its instance once, before the run.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -10,6 +15,33 @@
 #include "kernels/block.hpp"
 
 namespace slideway {
+
+/// A card that cannot be used, or a call of its runtime that failed.  `what()` is the whole line to print.  Exit code 4.
+class DeviceError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// Integrates a block to its end; may be called by several threads at once.  @throws DeviceError; the block's results are then void
+using BlockKernel = std::function<void(Block&)>;
+
+/// From several threads.
+class Backend {
+public:
+    virtual ~Backend() = default;
+    virtual std::string_view name() const = 0;  // "cpu", "cuda": as --backend knows it
+    virtual std::string isa() const = 0;        // "avx512", "sm_90"; see arithmetic_of (host/output/run_identity.hpp)
+    virtual std::string machine() const = 0;    // "NVIDIA H100 80GB HBM3"; "" for the processor
+    virtual std::string flags() const = 0;      // compiler flags of the kernels
+    virtual std::size_t lanes() const = 0;      // blocks are made of multiples of so many members
+    /// Members that a worker's block must have to keep its share of the machine busy.
+    virtual std::size_t least_block() const = 0;
+    /// Members of a block of `workers` at work at once that fit the memory.
+    /// @param bytes_per_member of a block's arrays  @throws DeviceError if not even one does
+    virtual std::size_t largest_block(std::uint64_t bytes_per_member, int workers) const = 0;
+    /// The instance for a scene's parts.  @param shadows members have some beside them
+    virtual BlockKernel kernel(Parts const& parts, bool shadows) const = 0;
+};
 
 /// scalar is one member at a time with fused multiply-add; sse2 runs on every x86-64 machine and has no FMA, so its
 /// bits differ from the others', which all agree.
@@ -24,5 +56,13 @@ std::string flags_of(Isa isa);  // compiler flags the unit was built with
 
 /// @throws std::out_of_range never: every combination of parts exists for every ISA.
 KernelInstance find_instance(Isa isa, Parts const& parts);
+
+std::shared_ptr<Backend const> cpu_backend(Isa isa);
+
+/// Whether this build has code for cards at all.
+bool has_cuda();
+/// A card of this machine.  @param rank of this process among those of the machine, which share its cards in turn
+/// @throws DeviceError if there is none, or none that this build has code for
+std::shared_ptr<Backend const> cuda_backend(int rank);
 
 }  // namespace slideway

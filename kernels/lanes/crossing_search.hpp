@@ -53,12 +53,33 @@ private:
         }
     };
 
+    /// What of the stint's attempt another attempt overwrites, as it asks for no reports.
+    struct Attempt {
+        SLIDEWAY_HD explicit Attempt(Pack<Model, Real> const& pack)
+            : needs(pack.needs), busy(pack.busy), step(pack.step), faults(pack.faults) {
+            for (int i = 0; i < size; ++i) end[i] = pack.end[i], end_rates[i] = pack.end_rates[i];
+        }
+        SLIDEWAY_HD void restore(Pack<Model, Real>& pack) const {
+            pack.needs = needs;
+            pack.busy = busy;
+            pack.step = step;
+            pack.faults = faults;
+            for (int i = 0; i < size; ++i) pack.end[i] = end[i], pack.end_rates[i] = end_rates[i];
+        }
+
+        ReportNeeds needs;
+        Mask<Real> busy;
+        Real step;
+        Faults<Real> faults;
+        Real end[size], end_rates[size];
+    };
+
     SLIDEWAY_NOINLINE static void record(Pack<Model, Real>& pack, Results<Model>& results, Mask<Real> candidates,
                                          Surface const& surface, Real v0, Real s0, Real v1, Real s1) {
         auto const zeros = cubic_zeros(candidates, v0, s0, v1, s1, direction_of(surface.plan));
         if (none(zeros.any)) return;
         // The attempt is the stint's; another stepper makes its own.
-        Pack<Model, Real> const attempt = pack;
+        Attempt const attempt(pack);
         pack.needs = {};
         auto const starts_below = v0 < Real(0.0), ends_below = v1 < Real(0.0);
         auto sides = mask_of<Real>(false);  // of those that are looked for
@@ -74,7 +95,7 @@ private:
             at = at & (t >= pack.state.constants.first_stop);
             results.take_crossing(pack, at, t, pack.end);
         }
-        restore(pack, attempt);
+        attempt.restore(pack);
     }
 
     /// Ends a step at the crossing: the pack's `step` and `end` are then those of the section.  Newton's method from the cubic's zero,
@@ -125,16 +146,6 @@ private:
     }
 
     SLIDEWAY_FN static Real present(CubicZero<Real> const& zero) { return count<Real>(zero.theta <= Real(1.0)); }
-
-    /// Puts back all but what was counted.
-    SLIDEWAY_HD static void restore(Pack<Model, Real>& pack, Pack<Model, Real> const& attempt) {
-        Real const evaluations = pack.state.course.evaluations, jacobians = pack.state.course.jacobians;
-        Real const crossings = pack.state.course.crossings;
-        pack = attempt;
-        pack.state.course.evaluations = evaluations;
-        pack.state.course.jacobians = jacobians;
-        pack.state.course.crossings = crossings;
-    }
 
     SLIDEWAY_HD static Direction direction_of(CrossingPlan const& plan) {
         return plan.direction == CrossingPlan::Direction::rising    ? Direction::rising

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <type_traits>
+
 #include "kernels/block.hpp"
 #include "kernels/lanes/explicit_step.hpp"
 #include "kernels/lanes/member_state.hpp"
@@ -44,7 +47,7 @@ public:
             int chosen[width];
             int const members = roster_.choose(chosen);
             if (members == 0) return;
-            if (block_.stop != nullptr && block_.stop(block_.stop_context)) {
+            if (is_stopped()) {
                 abandon();
                 return;
             }
@@ -55,6 +58,10 @@ public:
     }
 
 private:
+    SLIDEWAY_HD bool is_stopped() const {
+        return (block_.stop_flag != nullptr && *block_.stop_flag != 0) || host_says(block_.stop, block_.stop_context);
+    }
+
     static constexpr int size = Model::size;
     static constexpr int width = lanes<Real>;
     static constexpr int seats = width == 1 ? 1 : 8 * width;
@@ -62,13 +69,14 @@ private:
     static constexpr int attempts = Model::has_patterns ? 16 : 512;
     using Kind = typename Roster<seats, width>::Kind;
     using Record = MemberState<Model, double>;
+    struct NoRecords {};
 
     /// Seats the next member of the queue, if there is one.
     SLIDEWAY_HD void admit(int seat) {
         roster_[seat] = {};
-        if (next_ == block_.members) return;
-        std::size_t const member = block_.order != nullptr ? block_.order[next_] : next_;
-        ++next_;
+        std::uint64_t const place = block_.taken != nullptr ? fetch_add(*block_.taken, 1) : next_++;
+        if (place >= block_.members) return;
+        std::size_t const member = block_.order != nullptr ? block_.order[place] : place;
         auto const& inputs = block_.inputs[member];
         Record& r = record(seat);
         r.constants.parameters = Model::parameters(inputs);
@@ -184,7 +192,7 @@ private:
         look(kind);
     }
 
-    template <class Stepper> SLIDEWAY_HD void work() {
+    template <class Stepper> SLIDEWAY_NOINLINE void work() {
         Stint<Stepper, Model, Real> stint(pack_, results_, block_.settings);
         // Lanes that leave the stiff method wait for the others.
         stint.work(Stepper::stiff ? attempts / 4 : attempts);
@@ -277,8 +285,8 @@ private:
     Block& block_;
     Results<Model> results_;
     Roster<seats, width> roster_;
-    std::size_t next_ = 0;  // of the block's queue
-    Record records_[width == 1 ? 1 : seats];
+    std::uint64_t next_ = 0;  // of the queue, if the block is this program's alone
+    [[no_unique_address]] std::conditional_t<(width > 1), Record[seats], NoRecords> records_;
     Pack<Model, Real> pack_;
     Real pattern_;
 };

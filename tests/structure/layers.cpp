@@ -31,6 +31,7 @@ constexpr std::array layers = {
     Layer{"kernels/lanes", 7},
     Layer{"kernels/models", 8},
     Layer{"kernels/integrate.hpp", 8},
+    Layer{"kernels/grid_thread.hpp", 8},
     Layer{"kernels/fixed_step.hpp", 7},
     Layer{"kernels/map_orbit.hpp", 7},
     Layer{"host/scene", 10},
@@ -45,9 +46,14 @@ constexpr std::array layers = {
 };
 
 // Plain data without code of any instruction set: every layer may share it, the host included.
-constexpr std::array<std::string_view, 6> plain_data = {
-    "kernels/inputs.hpp", "kernels/status.hpp",    "kernels/methods.hpp",
-    "kernels/block.hpp",  "kernels/map_block.hpp", "kernels/observers/quantities.hpp",
+constexpr std::array<std::string_view, 7> plain_data = {
+    "kernels/inputs.hpp",
+    "kernels/status.hpp",
+    "kernels/methods.hpp",
+    "kernels/block.hpp",
+    "kernels/grid_task.hpp",
+    "kernels/map_block.hpp",
+    "kernels/observers/quantities.hpp",
 };
 
 bool is_plain_data(std::string_view path) { return std::ranges::find(plain_data, path) != plain_data.end(); }

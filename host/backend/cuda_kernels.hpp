@@ -1,0 +1,20 @@
+// The kernels of cuda.cu, as the runtime knows them: functions of one GridTask.
+#pragma once
+
+namespace slideway {
+
+/// A thread takes all the registers that it may, which leaves room for 256 in a multiprocessor: small blocks fill that best.
+inline constexpr int threads_per_block = 64;
+
+struct CudaKernels {
+    void const* members = nullptr;
+    void const* shadowed = nullptr;  // members with shadows
+};
+
+// One for each list of slider-cranks: a law, and the dampings that leave the same memory.
+CudaKernels paper_kernels();                // point and rate
+CudaKernels paper_impact_kernels();         // restitution
+CudaKernels conservative_kernels();         // point and rate
+CudaKernels conservative_impact_kernels();  // restitution
+
+}  // namespace slideway
