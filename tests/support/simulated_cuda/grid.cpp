@@ -36,17 +36,18 @@ void check_task(GridTask const& task, int device) {
         {"growth_values", b.growth_values},
     };
     if (task.state == nullptr) misuse("the task of a grid has no state");
+    auto const* const stop = const_cast<int const*>(b.stop_flag);
+    if (stop != nullptr && !is_pinned_memory(stop, sizeof *stop)) {
+        misuse("the stop_flag of a grid is not pinned memory of the host, which both see");
+    }
     for (auto const& [name, address] : pointers) {
         if (address == nullptr || is_device_memory(address, 0, device) || is_pinned_memory(address, 0)) continue;
         misuse(std::string(name) + " of a block on the card points to memory that the card does not see");
     }
 }
 
-void run_grid(GridTask const& task, bool shadowed, std::uint64_t threads) {
-    int const volatile* const stop = task.state->stop;
-    if (stop != nullptr && !is_pinned_memory(const_cast<int const*>(stop), sizeof *stop)) {
-        misuse("stop of a grid is not pinned memory of the host");
-    }
+void run_grid(GridTask task, bool shadowed, std::uint64_t threads) {
+    task.block.stop = nullptr;  // a card can ask nobody
     auto const instance = find_instance(Isa::scalar, task.parts);
     auto const integrate = shadowed ? instance.run_shadowed : instance.run;
     std::atomic<std::uint64_t> next = 0;

@@ -109,6 +109,6 @@ void tell_stream_leaks();
 /// Ends the program unless all that the task points to is memory that the card sees.
 void check_task(GridTask const& task, int device);
 /// What the threads of a grid do.
-void run_grid(GridTask const& task, bool shadowed, std::uint64_t threads);
+void run_grid(GridTask task, bool shadowed, std::uint64_t threads);
 
 }  // namespace slideway::simulated_cuda

@@ -207,7 +207,11 @@ cudaError_t cudaEventRecord(cudaEvent_t handle, cudaStream_t stream) {
     return call("cudaEventRecord", [&] {
         auto const event = event_of(handle);
         std::uint64_t const number = event->recorded + 1;
-        cudaError_t const code = enqueue(stream, event->device, [event, number] { event->reached = number; });
+        cudaError_t const code = enqueue(stream, event->device, [event, number] {
+            // An earlier record may be reached later, in another stream.
+            std::uint64_t before = event->reached;
+            while (before < number && !event->reached.compare_exchange_weak(before, number)) continue;
+        });
         if (code == cudaSuccess) event->recorded = number;
         return code;
     });
