@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "tests/support/ensemble.hpp"
+#include "tests/support/varied_blocks.hpp"
 
 namespace slideway {
 namespace {
@@ -24,24 +25,6 @@ PartsCase const parts_cases[] = {
     {"paper_restitution", {Law::paper, Damping::restitution, false, false}},
     {"conservative_restitution_way", {Law::conservative, Damping::restitution, true, true}},
 };
-
-std::vector<Inputs> varied_members(std::size_t count, Parts const& parts) {
-    auto members = testing::scattered_starts(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        auto& in = members[i];
-        double const x = static_cast<double>(i) / static_cast<double>(count);
-        in.crank_speed *= 1 + x;
-        in.hertz_exponent = i % 3 == 0 ? 1.4 : 1.5;  // both power paths inside one pack
-        if (parts.damping == Damping::rate) in.chi_line = in.chi_surface = 10 * x;
-        if (parts.damping == Damping::restitution) in.restitution = 0.3 + 0.6 * x;
-        if (parts.misaligned_way) in.way_pitch = 1e-4 * x, in.way_roll = -1e-4 * x, in.way_offset_z = 1e-5 * x;
-        // Wide angles in some lanes must not change the bits of the others.
-        if (i % 7 == 3) in.start_angle = 3.0;
-        // Zeros have a sign.
-        if (i % 5 == 2) in.z = in.roll = in.yaw = 0;
-    }
-    return members;
-}
 
 testing::RunOptions engine_options(Parts const& parts) {
     testing::RunOptions o;
@@ -74,7 +57,7 @@ void expect_same_member(testing::EnsembleResult const& a, std::size_t i, std::si
 class EngineParity : public ::testing::TestWithParam<PartsCase> {};
 
 TEST_P(EngineParity, EveryIsaWithFmaGivesTheSameBits) {
-    auto const members = varied_members(37, GetParam().parts);
+    auto const members = testing::varied_members(37, GetParam().parts);
     auto const o = engine_options(GetParam().parts);
     auto const reference = testing::run(Isa::scalar, o, members);
     EXPECT_GT(reference.value(0, Quantity::contact_onsets), 0) << "the members must meet the way";
@@ -88,7 +71,7 @@ TEST_P(EngineParity, EveryIsaWithFmaGivesTheSameBits) {
 }
 
 TEST_P(EngineParity, AMemberAloneGivesTheSameBitsAsInAnyLane) {
-    auto const members = varied_members(19, GetParam().parts);
+    auto const members = testing::varied_members(19, GetParam().parts);
     auto const o = engine_options(GetParam().parts);
     std::size_t const samples = o.sample_times.size();
     for (Isa const isa : all_isas()) {
@@ -108,7 +91,7 @@ TEST_P(EngineParity, AMemberAloneGivesTheSameBitsAsInAnyLane) {
 }
 
 TEST_P(EngineParity, ABadNeighbourChangesNothing) {
-    auto const good = varied_members(15, GetParam().parts);
+    auto const good = testing::varied_members(15, GetParam().parts);
     auto const o = engine_options(GetParam().parts);
     for (Isa const isa : all_isas()) {
         if (!is_supported(isa)) continue;
