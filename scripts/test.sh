@@ -43,6 +43,15 @@ total=${BASH_REMATCH[2]}
 skipped=$(grep -c '(Skipped)$' <<<"$summary" || true)
 disabled=$(grep -c '(Disabled)$' <<<"$summary" || true)
 
+# Why: what ctest hides of a skipped test, from GTEST_SKIP, or from a command that says "skipped: <reason>".
+if ((skipped > 0)); then
+    awk 'follows { ++count[NF ? $0 : "no reason is given"]; follows = 0 }
+         /: Skipped$/ { follows = 1 }
+         sub(/^skipped: /, "") { ++count[$0] }
+         END { for (reason in count) printf "skipped: %s (%d test%s)\n", reason, count[reason], count[reason] == 1 ? "" : "s" }
+        ' "$build/Testing/Temporary/LastTest.log" | sort || true
+fi
+
 line="$((total - failed - skipped)) passed, $failed failed"
 ((skipped + disabled > 0)) && line+=", $((skipped + disabled)) skipped"
 echo "$line"

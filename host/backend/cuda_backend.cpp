@@ -180,6 +180,7 @@ public:
         CudaKernels const kernels = kernels_of(parts);
         void const* const kernel = shadows ? kernels.shadowed : kernels.members;
         return [this, kernel, parts, most = threads(kernel)](Block& block) {
+            if (block.members == 0) return;  // no grid has no threads
             bind();
             std::unique_ptr<Stream> stream = free_stream();
             stream->run(kernel, parts, most, block);

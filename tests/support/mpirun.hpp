@@ -2,13 +2,10 @@
 // launchers ignore them.
 #pragma once
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
-#include <sys/wait.h>
+#include "tests/support/shell.hpp"
 
 namespace slideway::testing {
 
@@ -27,22 +24,6 @@ inline std::string mpirun(int ranks, int seconds = 100) {
         "OMPI_MCA_btl_vader_single_copy_mechanism=none ASAN_OPTIONS=detect_leaks=0 ";
     return settings + "timeout -k 5 " + std::to_string(seconds) + " '" + SLIDEWAY_MPIEXEC + "' -n " +
            std::to_string(ranks) + " ";
-}
-
-struct ShellOutcome {
-    int code = 0;  // exit code; -signal if a signal ended the shell
-    std::string out, err;
-};
-
-/// Runs a command of a shell in `folder`.  Its output goes to the files `shell_out` and `shell_err` there.
-inline ShellOutcome run_shell(std::filesystem::path const& folder, std::string const& command) {
-    std::string const line = "cd '" + folder.string() + "' && { " + command + " ; } >shell_out 2>shell_err </dev/null";
-    int const status = std::system(line.c_str());
-    auto const text = [&](char const* name) {
-        std::ifstream in(folder / name, std::ios::binary);
-        return std::string(std::istreambuf_iterator<char>(in), {});
-    };
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), text("shell_out"), text("shell_err")};
 }
 
 }  // namespace slideway::testing
