@@ -1,5 +1,5 @@
 // Work for a simulated card, whose runtime reads once per process how it is to behave (tests/support/simulated_cuda/simulation.hpp).
-// cards_program blocks WORKERS BLOCKS ATTEMPTS | endless | memory WORKERS SAMPLES | card RANK
+// cards_program blocks WORKERS BLOCKS ATTEMPTS [RANK] | endless | memory WORKERS SAMPLES | card RANK
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -42,34 +42,57 @@ std::string at_once(int workers, std::string const& otherwise, auto const& work)
 }
 
 /// The first plain, the next with shadows, and so on.
-std::string blocks_on(Backend const& card, int blocks) {
-    for (int i = 0; i < blocks; ++i) {
+std::vector<BlockPlan> block_plans(int count) {
+    std::vector<BlockPlan> plans;
+    for (int i = 0; i < count; ++i) {
         Parts const parts = testing::all_parts()[static_cast<std::size_t>(7 * i % 24)];
-        auto plan = i % 2 == 0 ? testing::sampled_block(4, parts) : testing::shadowed_block(3, parts);
+        auto& plan =
+            plans.emplace_back(i % 2 == 0 ? testing::sampled_block(4, parts) : testing::shadowed_block(3, parts));
         plan.settings.end_time = 2e-3;
         for (MemberClock& clock : plan.clocks) clock.end = 2e-3, clock.first_stop = clock.period = 2e-4;
         while (plan.sample_times.back() > 2e-3) plan.sample_times.pop_back();
-        OwnedBlock here(plan), there(plan);
-        cpu_backend(Isa::scalar)->kernel(parts, plan.shadows.count > 0)(here.block);
-        card.kernel(parts, plan.shadows.count > 0)(there.block);
-        if (auto const difference = testing::difference(there, here); !difference.empty()) return difference;
     }
-    return "";
+    return plans;
 }
 
-std::string integrate_blocks(int workers, int blocks) {
-    auto const card = cuda_backend(0);
+BlockKernel kernel_of(Backend const& backend, BlockPlan const& plan) {
+    return backend.kernel(plan.parts, plan.shadows.count > 0);
+}
+
+/// Of the calling thread.
+int current_device() {
+    int device = -1;
+    cudaGetDevice(&device);
+    return device;
+}
+
+std::string integrate_blocks(int workers, int blocks, int rank) {
+    auto const card = cuda_backend(rank);
     card->largest_block(1000, workers);
-    return at_once(workers, "same bits", [&] { return blocks_on(*card, blocks); });
+    auto const plans = block_plans(blocks);
+    std::vector<BlockKernel> kernels;  // by one thread, as the driver does
+    for (BlockPlan const& plan : plans) kernels.push_back(kernel_of(*card, plan));
+    int const device = current_device();
+    return at_once(workers, "same bits", [&] {
+        for (std::size_t i = 0; i < plans.size(); ++i) {
+            OwnedBlock here(plans[i]), there(plans[i]);
+            kernel_of(*cpu_backend(Isa::scalar), plans[i])(here.block);
+            kernels[i](there.block);
+            if (auto const difference = testing::difference(there, here); !difference.empty()) return difference;
+            if (current_device() != device) return std::string("on another card");
+        }
+        return std::string();
+    });
 }
 
 /// A block that ends only if it is told to, which nobody does.
 std::string integrate_without_end() {
-    auto plan = testing::sampled_block(3, {});
-    plan.settings.end_time = 1e9;
+    auto plan = testing::sampled_block(3, {Law::conservative, Damping::point, true, false});
+    plan.settings.end_time = 1e5;
+    plan.settings.stiff_max_step = 1e-4;  // a slider at rest has an hour of them
     plan.settings.max_steps = 1'000'000'000'000;
     OwnedBlock block(plan);
-    cuda_backend(0)->kernel({}, false)(block.block);
+    kernel_of(*cuda_backend(0), plan)(block.block);
     return "ended";
 }
 
@@ -94,9 +117,7 @@ std::string fill_memory(int workers, int samples) {
 
 std::string card_of(int rank) {
     auto const card = cuda_backend(rank);
-    int device = -1;
-    cudaGetDevice(&device);
-    return "card " + std::to_string(device);
+    return "card " + std::to_string(current_device());
 }
 
 template <class Work> void tell(Work const& work) {
@@ -112,7 +133,8 @@ template <class Work> void tell(Work const& work) {
 int run(std::vector<std::string> const& words) {
     auto const number = [&](std::size_t i) { return std::atoi(words.at(i).c_str()); };
     if (words.at(0) == "blocks") {
-        for (int i = 0; i < number(3); ++i) tell([&] { return integrate_blocks(number(1), number(2)); });
+        int const rank = words.size() > 4 ? number(4) : 0;
+        for (int i = 0; i < number(3); ++i) tell([&] { return integrate_blocks(number(1), number(2), rank); });
     } else if (words[0] == "endless") {
         tell(integrate_without_end);
     } else if (words[0] == "memory") {

@@ -23,14 +23,14 @@ protected:
     }
     ~CardsRun() override { std::filesystem::remove_all(folder_); }
 
-    /// The lines that it prints.  It must neither crash nor hang nor leak.
+    /// The lines that it prints.  It must neither crash nor leak, and end in time.
     /// @param settings of the simulated runtime, without SIMULATED_CUDA_: "FAIL=cudaMalloc:1 DELAY=100"
-    std::vector<std::string> run(std::string const& settings, std::string const& arguments) {
+    std::vector<std::string> run(std::string const& settings, std::string const& arguments, int seconds = 60) {
         std::string environment = "SIMULATED_CUDA_LEAKS=1 ";
         std::istringstream words(settings);
         for (std::string word; words >> word;) environment += "SIMULATED_CUDA_" + word + " ";
-        auto const outcome =
-            run_shell(folder_, environment + "timeout -k 5 60 '" SLIDEWAY_CARDS_PROGRAM "' " + arguments);
+        auto const outcome = run_shell(folder_, environment + "timeout -k 5 " + std::to_string(seconds) +
+                                                    " '" SLIDEWAY_CARDS_PROGRAM "' " + arguments);
         EXPECT_EQ(outcome.code, 0) << settings << ": " << arguments;
         EXPECT_EQ(outcome.err, "") << settings << ": " << arguments;
         std::istringstream text(outcome.out);

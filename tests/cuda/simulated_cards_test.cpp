@@ -77,6 +77,10 @@ TEST_F(SimulatedCards, AreTakenInTurn) {
     EXPECT_EQ(failed, Lines{"cuda: card 2: asking what it is failed: unknown error (cudaErrorUnknown)"});
 }
 
+TEST_F(SimulatedCards, ServeTheWorkersOfTheirRank) {
+    EXPECT_EQ(run("DEVICES=3 DELAY=100", "blocks 3 4 2 7"), (Lines{"same bits", "same bits"}));
+}
+
 TEST_F(SimulatedCards, AreMissedInOneLine) {
     EXPECT_EQ(run("DEVICES=0", "card 0"), Lines{"cuda: no card can be used (no card was found)"});
     EXPECT_EQ(run("DEVICES=-1", "card 0"), Lines{"cuda: no card can be used (the driver is too old for the runtime)"});

@@ -77,7 +77,7 @@ class SimulatedCard : public testing::CardsRun {};
 
 TEST_F(SimulatedCard, NoOtherCallIsMade) {
     for (auto const& [function, count] : calls_of("blocks 2 3 1")) {
-        if (function == "kernel" || function == "cudaGetLastError") continue;
+        if (function == "kernel" || function == "cudaGetDevice") continue;  // the second is the program's own
         bool const is_known = std::ranges::any_of(all_tried, [&](Tried const& t) { return t.function == function; });
         EXPECT_TRUE(is_known) << function << " needs a place in the table above";
     }
@@ -99,7 +99,7 @@ TEST_F(SimulatedCard, ALostCardIsToldToAll) {
 
 TEST_F(SimulatedCard, AKernelAtWorkEndsWithTheCallThatFailed) {
     for (char const* const call : {"cudaEventQuery:3", "cudaEventRecord:1", "cudaMemcpyAsync:2"}) {
-        Lines const lines = run("FAIL=" + std::string(call), "endless");
+        Lines const lines = run("FAIL=" + std::string(call), "endless", 15);
         ASSERT_EQ(lines.size(), 1u);
         EXPECT_TRUE(lines[0].ends_with("failed: unknown error (cudaErrorUnknown)")) << lines[0];
     }
