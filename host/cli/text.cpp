@@ -16,6 +16,8 @@ int exit_code_of(std::exception_ptr error) {
         return exit_code::bad_usage;
     } catch (FileError const&) {
         return exit_code::file_trouble;
+    } catch (DeviceError const&) {
+        return exit_code::file_trouble;
     } catch (std::bad_alloc const&) {
         return exit_code::file_trouble;
     } catch (std::system_error const&) {
@@ -31,6 +33,8 @@ std::string line_of(std::exception_ptr const& error) {
     } catch (SceneError const& known) {
         return known.what();
     } catch (FileError const& known) {
+        return known.what();
+    } catch (DeviceError const& known) {
         return known.what();
     } catch (std::bad_alloc const&) {
         return "slideway: not enough memory; ask for fewer members or samples";

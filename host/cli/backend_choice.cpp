@@ -1,0 +1,41 @@
+#include "host/cli/backend_choice.hpp"
+
+#include <fmt/format.h>
+
+#include "host/cli/options.hpp"
+#include "host/scene/error.hpp"
+
+namespace slideway::cli {
+
+std::string backend_text(Backend const& backend) {
+    std::string const inside = backend.machine().empty() ? fmt::format("{}, {} lanes", backend.isa(), backend.lanes())
+                                                         : fmt::format("{}, {}", backend.machine(), backend.isa());
+    return fmt::format("{} ({})", backend.name(), inside);
+}
+
+std::uint64_t pays_from(Isa isa, int threads) {
+    // Not measured: dependent operations take a thread of a card about 16 times as long as a lane of a processor, by their clocks and
+    // latencies.
+    constexpr std::uint64_t slower = 16;
+    return slower * static_cast<std::uint64_t>(threads) * static_cast<std::uint64_t>(lanes_of(isa));
+}
+
+BackendChoice choose_backend(BackendWords const& words, std::uint64_t members, int threads, int rank) {
+    if (words.backend == "cuda") return {cuda_backend(rank), ""};
+    Isa const isa = parse_isa(words.isa);
+    auto const cpu = cpu_backend(isa);
+    if (words.backend == "cpu") return {cpu, ""};
+    if (words.isa != "auto") return {cpu, "as --isa says"};
+    try {
+        auto const card = cuda_backend(rank);
+        std::uint64_t const enough = pays_from(isa, threads);
+        if (members >= enough) return {card, fmt::format("it pays from about {} members on", enough)};
+        return {cpu, fmt::format("{} pays from about {} members on", card->machine(), enough)};
+    } catch (NoDevice const&) {
+        return {cpu, ""};
+    } catch (DeviceError const& error) {
+        return {cpu, error.what()};
+    }
+}
+
+}  // namespace slideway::cli
