@@ -45,6 +45,8 @@ public:
     /// @param bytes_per_member of a block's arrays  @param workers that have a block each at once  @param asked what the user wants, 0:
     /// whatever suits  @throws DeviceError if there is no room for so many, or not for a single one
     virtual std::size_t largest_block(std::uint64_t bytes_per_member, int workers, std::size_t asked) const = 0;
+    /// Bytes of a card that are taken whatever its blocks are; 0 of the processor.
+    virtual std::uint64_t reserved_bytes() const = 0;
     /// Time [s] for one step of one member where workers integrate so many: no more than a rough guess.
     virtual double seconds_per_step(double members, int workers) const = 0;
     /// The instance for a scene's parts.  @param shadows members have some beside them

@@ -37,6 +37,8 @@ public:
         return static_cast<std::size_t>(std::clamp(memory / bytes_per_member, least, most));
     }
 
+    std::uint64_t reserved_bytes() const override { return 0; }
+
     double seconds_per_step(double members, int workers) const override {
         // Packs are full except where a block has fewer members than lanes.
         double const filled = std::min(1.0, members / static_cast<double>(lanes()));

@@ -165,9 +165,7 @@ public:
         bind();
         std::size_t free = 0, total = 0;
         card_.require(cudaMemGetInfo(&free, &total), "asking for its memory");
-        // The threads' stacks lie there too, as many as could be resident if they needed few registers.
-        std::size_t const stacks = stack_ * static_cast<std::size_t>(card_.threads_per_multiprocessor) *
-                                   static_cast<std::size_t>(card_.multiprocessors);
+        std::size_t const stacks = reserved_bytes();
         std::size_t const usable = free > stacks ? (free - stacks) / 10 * 9 : 0;
         std::size_t const share = usable / static_cast<std::size_t>(workers);
         if (share < bytes_per_member) {
@@ -185,6 +183,12 @@ public:
         }
         // Larger blocks would not fill the card better, and a process that is killed loses those in work.
         return asked > 0 ? asked : std::min(room, 4 * least_block());
+    }
+
+    /// The threads' stacks, of as many threads as could be resident if they needed few registers.
+    std::uint64_t reserved_bytes() const override {
+        return stack_ * static_cast<std::uint64_t>(card_.threads_per_multiprocessor) *
+               static_cast<std::uint64_t>(card_.multiprocessors);
     }
 
     /// As if a step took 10,000 operations and the card ran at a twentieth of its peak.

@@ -28,6 +28,9 @@ BackendChoice choose_backend(BackendWords const& words, std::uint64_t members, i
     if (words.isa != "auto") return {cpu, "as --isa says"};
     try {
         auto const card = cuda_backend(rank);
+        // One that others have filled is no choice.
+        constexpr std::uint64_t large_member = 1'000'000;
+        card->largest_block(large_member, threads, 0);
         std::uint64_t const enough = pays_from(isa, threads);
         if (members >= enough) return {card, fmt::format("it pays from about {} members on", enough)};
         return {cpu, fmt::format("{} pays from about {} members on", card->machine(), enough)};

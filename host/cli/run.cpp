@@ -81,8 +81,8 @@ void announce(Scene const& scene, StudyOptions const& options, std::string const
         fmt::print(stderr, "resuming: {} of {} members are done\n", work.before, work.before + work.todo.count());
     }
     fmt::print(stderr, "backend {}{}{}\n", backend_text(*options.backend), reason.empty() ? "" : ": ", reason);
-    fmt::print(stderr, "memory {}, disk {} and {} for the shards until the end\n",
-               bytes_text(static_cast<double>(prediction.memory())),
+    fmt::print(stderr, "memory {}{}, disk {} and {} for the shards until the end\n",
+               bytes_text(static_cast<double>(prediction.memory())), card_memory_text(prediction),
                bytes_text(static_cast<double>(prediction.output_bytes)), shards_text(scene, prediction));
 }
 

@@ -72,6 +72,11 @@ std::string duration_text(double seconds) {
     return fmt::format("{:.1f} days", seconds / 86400);
 }
 
+std::string card_memory_text(Prediction const& prediction) {
+    if (prediction.card_bytes == 0) return {};
+    return fmt::format(", {} on the card", bytes_text(static_cast<double>(prediction.card_bytes)));
+}
+
 std::string shards_text(Scene const& scene, Prediction const& prediction) {
     if (scene.stores_members()) return "as much again";
     return fmt::format("at most {}", bytes_text(static_cast<double>(prediction.shard_bytes)));

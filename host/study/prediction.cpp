@@ -172,6 +172,10 @@ Prediction predict(Scene const& scene, Backend const& backend, int threads, std:
     prediction.busy_threads = static_cast<int>(std::max<std::uint64_t>(busy, 1));
     prediction.largest_block = static_cast<std::size_t>(largest);
     prediction.buffer_bytes = busy * block_bytes(plan.request, static_cast<std::size_t>(largest));
+    std::uint64_t const reserved = backend.reserved_bytes();
+    prediction.card_bytes = reserved > 0 ? reserved + prediction.buffer_bytes : 0;
+    // What travels is made ready beside the blocks.
+    if (reserved > 0) prediction.buffer_bytes *= 2;
     // Copies of blocks: those that wait and the one that becomes a shard.  Its image, as it grows and when it is whole.
     constexpr std::uint64_t copies_of_blocks = ShardWriter::most_waiting + 1, images = 3;
     ResultLayout const of_block = result_layout(scene, MemberSet(MemberRange{0, largest}));
