@@ -7,10 +7,14 @@
 
 namespace slideway::cli {
 
+std::string machine_text(Backend const& backend) {
+    std::string const machine = backend.machine();
+    return machine.empty() ? fmt::format("{}, {} lanes", backend.isa(), backend.lanes())
+                           : fmt::format("{}, {}", machine, backend.isa());
+}
+
 std::string backend_text(Backend const& backend) {
-    std::string const inside = backend.machine().empty() ? fmt::format("{}, {} lanes", backend.isa(), backend.lanes())
-                                                         : fmt::format("{}, {}", backend.machine(), backend.isa());
-    return fmt::format("{} ({})", backend.name(), inside);
+    return fmt::format("{} ({})", backend.name(), machine_text(backend));
 }
 
 std::uint64_t pays_from(Isa isa, int threads) {

@@ -14,6 +14,8 @@ struct BackendChoice {
     std::string reason;  // why `auto` took it; "" where there is no other
 };
 
+/// "NVIDIA H100 80GB HBM3, sm_90", "avx512, 8 lanes"
+std::string machine_text(Backend const& backend);
 /// "cuda (NVIDIA H100 80GB HBM3, sm_90)", "cpu (avx512, 8 lanes)"
 std::string backend_text(Backend const& backend);
 

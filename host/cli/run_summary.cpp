@@ -167,7 +167,7 @@ void print_throughput(Scene const& scene, StudyOptions const& options, EnsembleT
                 fmt::format("{:.4g} members/s, {}{} wall time ({}{} threads, {})", rate,
                             turns > 0 ? fmt::format("{:.4g} members x revolutions/s, ", rate * turns) : "",
                             duration_text(totals.seconds), ranks > 1 ? fmt::format("{} ranks of ", ranks) : "",
-                            options.threads, backend_text(*options.backend)));
+                            options.threads, machine_text(*options.backend)));
     print_field("lanes in use", fmt::format("{:.1f} %", 100 * totals.lane_utilisation()));
 }
 
