@@ -28,10 +28,10 @@ flags=$(grep -m 1 "SLIDEWAY_KERNELS=" "$build/compile_commands.json" | tr " " "\
 - flags: ${flags% }
 - \`scripts/cuda_registers.sh\`, from the reports of \`ptxas -v\` that the build leaves beside its objects (\`cuda.cu.o.ptxas\`)
 
-Assembled, not run. Bytes per thread; of spills, what all instructions of a function
-store / load, each counted once however often it runs. Functions have no frame of their own; a kernel's stack frame is the deepest chain
-of calls, with the lane program, the shadows and what is spilled. All calls name their function, so that ptxas shares out the registers
-between caller and callee; one through a pointer would give every function a frame and half the registers (\`CudaRegisters.AreAsKnown\`).
+Assembled, not run. Bytes per thread; of spills, what all instructions of a function store / load, each counted once however often it
+runs. A kernel's stack frame is the deepest chain of calls, with the lane program, the shadows and what is spilled; no other function
+has a frame, for ptxas shares out the registers between caller and callee. Where functions are called through pointers, or a unit has
+too many of them, it follows the calling convention instead and saves half of the registers (the test \`CudaRegisters.AreAsKnown\`).
 
 EOF
     awk -F'\t' '

@@ -2,9 +2,10 @@
 # cuda_registers.sh REPORTS RELEASE ROWS: fails when a kernel of cuda.cu needs more of a card than it is known to need.
 #
 # REPORTS names the files in which the build put what ptxas -v says (cmake/ptxas_report.sh), ROWS is scripts/ptxas_rows.awk.  Functions
-# other than kernels must have no stack frame of their own.  They have one as soon as any call goes through a pointer, for ptxas then
-# follows the calling convention and saves half of the registers.  What else a function needs differs between releases and
-# architectures: it is compared where it was measured (bench/results/cuda_registers.md).  RELEASE is nvcc's, with "-fmad" if that contracts.
+# other than kernels must have no stack frame of their own: with frames ptxas follows the calling convention, which saves half of the
+# registers, in place of sharing them out.  It does so where functions are called through pointers and where a unit has too many.
+# What else a function needs differs between releases and architectures: it is compared where it was measured
+# (bench/results/cuda_registers.md).  RELEASE is nvcc's, with "-fmad" if that contracts.
 set -euo pipefail
 export LC_ALL=C
 reports=$1
@@ -33,7 +34,7 @@ done <"$reports" | c++filt | awk -f "$rows" | awk -F'\t' -v release="$release" '
         spills["StickSlipFriction MisalignedWay RestitutionDamping"] = 400
     }
     { known = release ~ /^13\.0[0-9.]*$/ && ($1 == "sm_80" || $1 == "sm_90") }
-    $4 != "kernel" && $6 > 0 { fail($6 " bytes of stack frame, as if a call went through a pointer") }
+    $4 != "kernel" && $6 > 0 { fail($6 " bytes of stack frame; are functions called through pointers?") }
     $4 == "kernel" {
         kernels++
         compared += known
