@@ -77,7 +77,9 @@ Run run(Case const& c, std::vector<Inputs> const& members, Isa isa, int threads)
     EnsemblePlan plan;
     plan.members = MemberSet(MemberRange{0, members.size()});
     plan.threads = threads;
-    plan.blocks.lanes = static_cast<std::size_t>(lanes_of(isa));
+    auto const backend = cpu_backend(isa);
+    plan.blocks.lanes = backend->lanes();
+    plan.blocks.least = backend->least_block();
     auto& settings = plan.request.integrator;
     settings.end_time = c.end_time;
     settings.rtol = settings.atol = c.rtol;
@@ -90,7 +92,7 @@ Run run(Case const& c, std::vector<Inputs> const& members, Isa isa, int threads)
     StopRequest const stop;
     double const start = processor_seconds();
     result.totals = run_ensemble(
-        plan, find_instance(isa, c.parts),
+        plan, backend->kernel(c.parts, false),
         [&](BlockResult const& block) {
             std::ranges::copy(block.final_states,
                               result.states.begin() + static_cast<std::ptrdiff_t>(block.members.front() * state_size));
@@ -132,8 +134,8 @@ std::string row_text(Row const& row, Row const& scalar) {
     return fmt::format(
         "| {} | {} | {:.0f} | {:.2f} | {:.4g} | {:.1f} | {:.0f} | {:.3f} | {} | {} | {:.2f} | {:.2f} | {:.2f} |\n",
         row.scene->name, name_of(row.isa), members / seconds, median(scalar.one) / seconds, steps / seconds,
-        1e9 * seconds / evaluations, evaluations / members, t.lane_utilisation(), row.members->size() - (t.done() - t.failed()),
-        same ? "yes" : "no", median(row.wall_one) / median(row.wall_two),
+        1e9 * seconds / evaluations, evaluations / members, t.lane_utilisation(),
+        row.members->size() - (t.done() - t.failed()), same ? "yes" : "no", median(row.wall_one) / median(row.wall_two),
         std::ranges::min(row.wall_one) / std::ranges::min(row.wall_two), median(row.processor));
 }
 

@@ -30,11 +30,11 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 /// The driver alone: blocks are dropped as they come.
 double engine_seconds(Scene const& scene, StudyOptions const& options) {
-    EnsemblePlan const plan = ensemble_plan(scene, MemberSet(options.range), options.isa, options.threads);
+    EnsemblePlan const plan = ensemble_plan(scene, MemberSet(options.range), *options.backend, options.threads);
     StopRequest const stop;
     auto const start = std::chrono::steady_clock::now();
     run_ensemble(
-        plan, find_instance(options.isa, scene.parts), [](BlockResult const&) {}, stop);
+        plan, options.backend->kernel(scene.parts, plan.request.shadows.count > 0), [](BlockResult const&) {}, stop);
     return seconds_since(start);
 }
 
@@ -59,7 +59,7 @@ int benchmark(std::string const& path, std::string const& folder, int members, i
     StudyOptions options;
     options.output = (fs::path(folder) / "bench_study.nc").string();
     options.range = {0, scene.members};
-    options.isa = best_isa();
+    options.backend = cpu_backend(best_isa());
     options.threads = threads;
     std::vector<double> engine, study, ratios;
     for (int round = 0; round < rounds; ++round) {
@@ -70,7 +70,7 @@ int benchmark(std::string const& path, std::string const& folder, int members, i
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     fmt::print("# A study to its result file\n\n{}- {}, {} members, {} threads, {}, {} rounds\n\n", machine_and_build(),
-               path, members, threads, name_of(options.isa), rounds);
+               path, members, threads, options.backend->isa(), rounds);
     fmt::print("| | median |\n|---|---|\n| driver alone, members/s | {:.1f} |\n", members / median(engine));
     fmt::print("| with shards and merge, members/s | {:.1f} |\n", members / median(study));
     fmt::print("| time per member over the driver's, median of the rounds' ratios | {:.3f} |\n", median(ratios));

@@ -1,26 +1,26 @@
-# SLIDEWAY_HAS_CUDA: whether kernels for cards are built.  CMAKE_CUDA_ARCHITECTURES says for which; without it for the card of this
-# machine, or else for sm_80 (A100) and sm_90 (H100).
+# SLIDEWAY_NVCC_LACKS: why nvcc is of no use, empty where it is.  SLIDEWAY_HAS_CUDA: whether kernels for cards are built.
+# CMAKE_CUDA_ARCHITECTURES says for which; without it for the card of this machine, or else for sm_80 (A100) and sm_90 (H100).
 set(SLIDEWAY_HAS_CUDA OFF)
-if(NOT SLIDEWAY_CUDA AND NOT SLIDEWAY_CUDA STREQUAL "AUTO")
-    return()
-endif()
 
-set(lacks)
+set(SLIDEWAY_NVCC_LACKS)
 find_program(SLIDEWAY_NVCC nvcc HINTS ENV CUDA_HOME ENV CUDA_PATH PATHS /usr/local/cuda PATH_SUFFIXES bin DOC "CUDA compiler")
 mark_as_advanced(SLIDEWAY_NVCC)
 if(NOT SLIDEWAY_NVCC)
-    set(lacks "nvcc was not found")
+    set(SLIDEWAY_NVCC_LACKS "nvcc was not found")
 else()
     execute_process(COMMAND ${SLIDEWAY_NVCC} --version OUTPUT_VARIABLE banner ERROR_QUIET)
     if(NOT banner MATCHES "release ([0-9]+)" OR CMAKE_MATCH_1 LESS 12)
-        set(lacks "${SLIDEWAY_NVCC} knows no C++20 (12 or newer is needed)")
+        set(SLIDEWAY_NVCC_LACKS "${SLIDEWAY_NVCC} knows no C++20 (12 or newer is needed)")
     endif()
 endif()
-if(lacks)
+if(NOT SLIDEWAY_CUDA AND NOT SLIDEWAY_CUDA STREQUAL "AUTO")
+    return()
+endif()
+if(SLIDEWAY_NVCC_LACKS)
     if(NOT SLIDEWAY_CUDA STREQUAL "AUTO")
-        message(FATAL_ERROR "SLIDEWAY_CUDA is ${SLIDEWAY_CUDA}, but ${lacks}")
+        message(FATAL_ERROR "SLIDEWAY_CUDA is ${SLIDEWAY_CUDA}, but ${SLIDEWAY_NVCC_LACKS}")
     endif()
-    message(STATUS "No kernels for cards: ${lacks}")
+    message(STATUS "No kernels for cards: ${SLIDEWAY_NVCC_LACKS}")
     return()
 endif()
 

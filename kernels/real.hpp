@@ -263,8 +263,7 @@ SLIDEWAY_FN std::uint64_t fetch_add(std::uint64_t& number, std::uint64_t amount)
 #endif
 }
 
-/// What a function of the host says, which may be nullptr; no where it cannot be called, on a card.  There no call may go through a
-/// pointer: the assembler would have to make every function as if it were called so, which costs half the registers.
+/// What a function of the host says, which may be nullptr; no on a card, where it cannot be called.
 SLIDEWAY_FN bool host_says([[maybe_unused]] bool (*question)(void const*), [[maybe_unused]] void const* context) {
 #if defined(__CUDA_ARCH__)
     return false;

@@ -22,6 +22,12 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+/// There is no card, or no code for one.
+class NoDevice : public DeviceError {
+public:
+    using DeviceError::DeviceError;
+};
+
 /// Integrates a block to its end; may be called by several threads at once.  @throws DeviceError; the block's results are then void
 using BlockKernel = std::function<void(Block&)>;
 
@@ -29,16 +35,20 @@ using BlockKernel = std::function<void(Block&)>;
 class Backend {
 public:
     virtual ~Backend() = default;
-    virtual std::string_view name() const = 0;  // "cpu", "cuda": as --backend knows it
-    virtual std::string isa() const = 0;        // "avx512", "sm_90"; see arithmetic_of (host/output/run_identity.hpp)
-    virtual std::string machine() const = 0;    // "NVIDIA H100 80GB HBM3"; "" for the processor
-    virtual std::string flags() const = 0;      // compiler flags of the kernels
-    virtual std::size_t lanes() const = 0;      // blocks are made of multiples of so many members
-    /// Members that a worker's block must have to keep its share of the machine busy.
-    virtual std::size_t least_block() const = 0;
-    /// Members of a block of `workers` at work at once that fit the memory.
-    /// @param bytes_per_member of a block's arrays  @throws DeviceError if not even one does
-    virtual std::size_t largest_block(std::uint64_t bytes_per_member, int workers) const = 0;
+    virtual std::string_view name() const = 0;    // "cpu", "cuda": as --backend knows it
+    virtual std::string isa() const = 0;          // "avx512", "sm_90"; see arithmetic_of (host/output/run_identity.hpp)
+    virtual std::string machine() const = 0;      // "NVIDIA H100 80GB HBM3"; "" for the processor
+    virtual std::string flags() const = 0;        // compiler flags of the kernels
+    virtual std::size_t lanes() const = 0;        // that one instruction serves: blocks are multiples of it
+    virtual std::size_t least_block() const = 0;  // smaller ones would leave much of the machine idle
+    /// Members of the largest block that suits this machine and finds room in its memory.
+    /// @param bytes_per_member of a block's arrays  @param workers that have a block each at once  @param asked what the user wants, 0:
+    /// whatever suits  @throws DeviceError if there is no room for so many, or not for a single one
+    virtual std::size_t largest_block(std::uint64_t bytes_per_member, int workers, std::size_t asked) const = 0;
+    /// Bytes of a card that are taken whatever its blocks are; 0 of the processor.
+    virtual std::uint64_t reserved_bytes() const = 0;
+    /// Time [s] for one step of one member where workers integrate so many: no more than a rough guess.
+    virtual double seconds_per_step(double members, int workers) const = 0;
     /// The instance for a scene's parts.  @param shadows members have some beside them
     virtual BlockKernel kernel(Parts const& parts, bool shadows) const = 0;
 };
@@ -62,7 +72,7 @@ std::shared_ptr<Backend const> cpu_backend(Isa isa);
 /// Whether this build has code for cards at all.
 bool has_cuda();
 /// A card of this machine.  @param rank of this process among those of the machine, which share its cards in turn
-/// @throws DeviceError if there is none, or none that this build has code for
+/// @throws NoDevice; DeviceError if there is one that cannot be used
 std::shared_ptr<Backend const> cuda_backend(int rank);
 
 }  // namespace slideway

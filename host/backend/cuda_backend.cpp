@@ -36,6 +36,10 @@ struct Card {
     std::string isa;   // "sm_90"
     int multiprocessors = 1;
     int threads_per_multiprocessor = 1;
+    double clock = 1e9;  // [1/s]
+
+    /// Operations in double precision [1/s], a fused multiply-add being two: of data centre cards, 32 or 64 units in a multiprocessor.
+    double peak() const { return 2 * clock * multiprocessors * (isa < "sm_90" ? 32 : 64); }
 
     /// @param what was tried: "allocating 3.2 GB"  @throws DeviceError if it failed
     void require(cudaError_t error, std::string const& what) const {
@@ -140,7 +144,7 @@ private:
     std::size_t room_ = 0;
 };
 
-class CudaBackend final : public Backend {
+class CudaBackend final : public Backend, public std::enable_shared_from_this<CudaBackend> {
 public:
     explicit CudaBackend(Card card) : card_(std::move(card)) {
         bind();
@@ -157,13 +161,11 @@ public:
     std::size_t lanes() const override { return 32; }
     std::size_t least_block() const override { return threads(kernels_of({}).members); }
 
-    std::size_t largest_block(std::uint64_t bytes_per_member, int workers) const override {
+    std::size_t largest_block(std::uint64_t bytes_per_member, int workers, std::size_t asked) const override {
         bind();
         std::size_t free = 0, total = 0;
         card_.require(cudaMemGetInfo(&free, &total), "asking for its memory");
-        // The threads' stacks lie there too, as many as could be resident if they needed few registers.
-        std::size_t const stacks = stack_ * static_cast<std::size_t>(card_.threads_per_multiprocessor) *
-                                   static_cast<std::size_t>(card_.multiprocessors);
+        std::size_t const stacks = reserved_bytes();
         std::size_t const usable = free > stacks ? (free - stacks) / 10 * 9 : 0;
         std::size_t const share = usable / static_cast<std::size_t>(workers);
         if (share < bytes_per_member) {
@@ -172,24 +174,47 @@ public:
                 "of {} workers; ask for fewer samples or sections, use fewer --threads, or --backend cpu",
                 card_.name, gigabytes(free), gigabytes(std::min(free, stacks)), gigabytes(bytes_per_member), workers));
         }
+        std::size_t const room = share / bytes_per_member;
+        if (asked > room) {
+            throw DeviceError(fmt::format(
+                "cuda: {} has {} free: room for blocks of {} members for each of {} workers, not of {}; use a "
+                "smaller --block-members or fewer --threads",
+                card_.name, gigabytes(free), room, workers, asked));
+        }
         // Larger blocks would not fill the card better, and a process that is killed loses those in work.
-        return std::min(share / bytes_per_member, 4 * least_block());
+        return asked > 0 ? asked : std::min(room, 4 * least_block());
+    }
+
+    /// The threads' stacks, of as many threads as could be resident if they needed few registers.
+    std::uint64_t reserved_bytes() const override {
+        return stack_ * static_cast<std::uint64_t>(card_.threads_per_multiprocessor) *
+               static_cast<std::uint64_t>(card_.multiprocessors);
+    }
+
+    /// As if a step took 10,000 operations and the card ran at a twentieth of its peak.
+    double seconds_per_step(double members, int) const override {
+        double const filled = std::min(1.0, members / static_cast<double>(least_block()));
+        return 10'000 / (card_.peak() / 20) / filled;
     }
 
     BlockKernel kernel(Parts const& parts, bool shadows) const override {
         CudaKernels const kernels = kernels_of(parts);
         void const* const kernel = shadows ? kernels.shadowed : kernels.members;
-        return [this, kernel, parts, most = threads(kernel)](Block& block) {
-            if (block.members == 0) return;  // no grid has no threads
-            bind();
-            std::unique_ptr<Stream> stream = free_stream();
-            stream->run(kernel, parts, most, block);
-            std::lock_guard const lock(mutex_);
-            streams_.push_back(std::move(stream));
+        return [card = shared_from_this(), kernel, parts, most = threads(kernel)](Block& block) {
+            card->run(kernel, parts, most, block);
         };
     }
 
 private:
+    void run(void const* kernel, Parts const& parts, std::size_t most_threads, Block& block) const {
+        if (block.members == 0) return;  // no grid has no threads
+        bind();
+        std::unique_ptr<Stream> stream = free_stream();
+        stream->run(kernel, parts, most_threads, block);
+        std::lock_guard const lock(mutex_);
+        streams_.push_back(std::move(stream));
+    }
+
     /// Sees that the card can run a kernel, and what stack a thread of it needs.
     void load(void const* kernel) {
         cudaFuncAttributes attributes{};
@@ -240,12 +265,16 @@ private:
 bool has_cuda() { return true; }
 
 std::shared_ptr<Backend const> cuda_backend(int rank) {
-    int count = 0;
+    // Without any driver the runtime would say that it is too old.
+    int driver = 0, count = 0;
+    if (cudaDriverGetVersion(&driver) == cudaSuccess && driver == 0)
+        throw NoDevice("cuda: there is no driver, and so no card");
     cudaError_t const error = cudaGetDeviceCount(&count);
-    if (error != cudaSuccess || count == 0) {
-        cudaGetLastError();
-        throw DeviceError(fmt::format("cuda: no card can be used ({})",
-                                      error == cudaSuccess ? "there is none" : cudaGetErrorString(error)));
+    if (error != cudaSuccess) cudaGetLastError();
+    if (error == cudaErrorNoDevice || (error == cudaSuccess && count == 0)) throw NoDevice("cuda: there is no card");
+    if (error != cudaSuccess) {
+        throw DeviceError(
+            fmt::format("cuda: no card can be used: {} ({})", cudaGetErrorString(error), cudaGetErrorName(error)));
     }
     Card card;
     card.number = rank % count;
@@ -256,6 +285,9 @@ std::shared_ptr<Backend const> cuda_backend(int rank) {
     card.isa = fmt::format("sm_{}{}", properties.major, properties.minor);
     card.multiprocessors = properties.multiProcessorCount;
     card.threads_per_multiprocessor = properties.maxThreadsPerMultiProcessor;
+    int kilohertz = 0;
+    card.require(cudaDeviceGetAttribute(&kilohertz, cudaDevAttrClockRate, card.number), "asking for its clock");
+    card.clock = 1e3 * kilohertz;
     return std::make_shared<CudaBackend>(std::move(card));
 }
 

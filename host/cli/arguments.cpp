@@ -30,6 +30,10 @@ void add_scene_options(CLI::App& command, Words& words) {
         ->type_name("ISA");
 }
 
+void add_backend(CLI::App& command, Words& words) {
+    command.add_option("--backend", words.backend, "auto (a card where it pays), cpu or cuda")->type_name("NAME");
+}
+
 void add_threads(CLI::App& command, Words& words) {
     command.add_option("--threads", words.threads, "Threads (default: all that this process may use)")->type_name("N");
 }
@@ -58,6 +62,8 @@ SceneArguments scene_arguments(Words const& words) {
     SceneArguments scene;
     scene.path = words.scene;
     scene.isa = words.isa;
+    require_backend(words.backend, words.isa);
+    scene.backend = words.backend;
     for (std::string const& word : words.overrides) {
         if (scene.path.empty() && word.find('=') == word.npos)
             scene.path = word;
@@ -77,7 +83,6 @@ RunArguments run_arguments(Words const& words) {
     RunArguments run;
     run.scene = scene_arguments(words);
     run.output = words.output;
-    run.backend = words.backend;
     run.threads = threads(words);
     run.quiet = words.quiet;
     run.resume = words.resume;
@@ -151,7 +156,7 @@ Arguments parse_arguments(int argc, char const* const* argv) {
     run->add_option("-o,--output", words.output, "Result file (default: the scene's name with .nc, in this folder)")
         ->type_name("OUT.nc");
     add_threads(*run, words);
-    run->add_option("--backend", words.backend, "auto, cpu or cuda")->type_name("NAME");
+    add_backend(*run, words);
     run->add_flag("--resume", words.resume, "Go on with what an earlier run has left in OUT.nc.shards");
     run->add_option("--max-hours", words.max_hours,
                     "Stop after this time and keep what is finished in OUT.nc.shards (exit code 5)")
@@ -176,6 +181,7 @@ Arguments parse_arguments(int argc, char const* const* argv) {
         app.add_subcommand("check", "Validate a scene; print it resolved, and what a run will take");
     add_scene_options(*check, words);
     add_threads(*check, words);
+    add_backend(*check, words);
 
     CLI::App* const probe = app.add_subcommand("probe", "Forces, contact mode and derivative of single states");
     add_scene_options(*probe, words);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host/cli/backend_choice.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/text.hpp"
 #include "host/driver/ensemble.hpp"
@@ -114,28 +115,30 @@ void print_design(Scene const& scene) {
 }  // namespace
 
 int check(CheckArguments const& arguments) {
-    Isa const isa = parse_isa(arguments.scene.isa);
     Scene const scene = load_scene(arguments.scene);
     int const threads = arguments.threads.value_or(default_threads());
     print_warnings(scene);
-    Prediction const prediction = predict(scene, isa, threads);
+    BackendChoice const choice =
+        choose_backend({arguments.scene.backend, arguments.scene.isa}, member_count(scene), threads, 0);
+    Prediction const prediction = predict(scene, *choice.backend, threads);
 
     fmt::print("# {} is a valid scene.  Resolved, in SI units:\n\n", scene.path);
     std::string const resolved = resolved_toml(scene);
     fmt::print("{}{}\n", resolved, resolved.ends_with('\n') ? "" : "\n");
     print_parts(scene);
-    print_field("kernels", fmt::format("{}, {} lanes, {} threads, blocks of at most {} members", name_of(isa),
-                                       lanes_of(isa), threads, prediction.largest_block));
+    print_field("kernels", fmt::format("{}, {} threads, blocks of at most {} members", backend_text(*choice.backend),
+                                       threads, prediction.largest_block));
+    if (!choice.reason.empty()) print_field("", choice.reason);
     OrbitSchedule const schedule = orbit_schedule(scene);
     print_field("members", fmt::format("{}, each over {:.6g} s", member_count(scene),
                                        schedule.timing ? schedule.longest : scene.integrator.end_time));
     print_design(scene);
     print_orbits(scene, schedule);
     print_field("memory",
-                fmt::format("{} for blocks in work, {} for shards on their way, {} for the statistics at the end",
+                fmt::format("{} for blocks in work, {} for shards on their way, {} for the statistics at the end{}",
                             bytes_text(static_cast<double>(prediction.buffer_bytes)),
                             bytes_text(static_cast<double>(prediction.image_bytes)),
-                            bytes_text(static_cast<double>(prediction.summary_bytes))));
+                            bytes_text(static_cast<double>(prediction.summary_bytes)), card_memory_text(prediction)));
     print_field("disk",
                 fmt::format("{} for the result, {} for its shards until it is whole",
                             bytes_text(static_cast<double>(prediction.output_bytes)), shards_text(scene, prediction)));

@@ -20,7 +20,7 @@ inline constexpr int done = 0;
 inline constexpr int internal_error = 1;  // a defect of slideway itself
 inline constexpr int bad_usage = 2;       // also a bad scene
 inline constexpr int too_many_failures = 3;
-inline constexpr int file_trouble = 4;  // also a lack of memory
+inline constexpr int file_trouble = 4;  // also a lack of memory, and a card that fails
 inline constexpr int stopped_early = 5;
 }  // namespace exit_code
 
@@ -33,12 +33,12 @@ struct SceneArguments {
     std::string path;
     Overrides overrides;
     std::string isa = "auto";
+    std::string backend = "auto";
 };
 
 struct RunArguments {
     SceneArguments scene;
     std::string output;  // empty: by the scene's name
-    std::string backend = "auto";
     std::optional<int> threads;
     std::optional<double> max_hours;
     FailureLimit max_failures;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "host/cli/backend_choice.hpp"
 #include "host/cli/commands.hpp"
 #include "host/scene/distribution_forms.hpp"
 #include "host/scene/study_keys.hpp"
@@ -33,6 +34,15 @@ std::string studies_of(StudyKey const& key) {
         names += fmt::format("{}{}", names.empty() ? "" : ", ", study_kind_names[i]);
     }
     return names;
+}
+
+/// What there is behind --backend cuda.
+std::string card_text() {
+    try {
+        return backend_text(*cuda_backend(0));
+    } catch (DeviceError const& error) {
+        return error.what();
+    }
 }
 
 }  // namespace
@@ -86,6 +96,9 @@ int list(ListArguments const&) {
     print_keys(keys());
     fmt::print("\nkeys that set two others at once\n");
     print_keys(twin_keys());
+    fmt::print("\nbackends (--backend)\n");
+    fmt::print("  {:<30} this machine's processor, with one of its instruction sets\n", "cpu");
+    fmt::print("  {:<30} {}\n", "cuda", card_text());
     fmt::print("\ninstruction sets (--isa)\n");
     for (Isa const isa : all_isas()) {
         fmt::print("  {:<30} {} lane{}, {}\n", name_of(isa), lanes_of(isa), lanes_of(isa) == 1 ? "" : "s",

@@ -58,7 +58,7 @@ int merge(MergeArguments const& arguments) {
     replay.scene.path = scene_path;
     ResultReader const results(arguments.output);
     print_field("scene", scene.title.empty() ? scene_path : fmt::format("{} ({})", scene.title, scene_path));
-    print_results(replay, scene, parse_isa(results.attribute("isa")), results, report);
+    print_results(replay, scene, results, report);
     fmt::print("\n");
     print_field("results", fmt::format("{}{}; {} is no longer needed", arguments.output,
                                        replaced ? " (replaced a former file)" : "", arguments.folder));

@@ -133,10 +133,14 @@ Isa parse_isa(std::string_view text) {
     throw SceneError(fmt::format("--isa {}: no such instruction set; use one of {}", text, known));
 }
 
-void require_backend(std::string_view text) {
-    if (text == "auto" || text == "cpu") return;
-    if (text == "cuda") throw SceneError("--backend cuda: not available in this build; use cpu");
-    throw SceneError(fmt::format("--backend {}: no such backend; use one of auto, cpu, cuda", text));
+void require_backend(std::string_view backend, std::string_view isa) {
+    if (backend != "auto" && backend != "cpu" && backend != "cuda") {
+        throw SceneError(fmt::format("--backend {}: no such backend; use one of auto, cpu, cuda", backend));
+    }
+    if (backend == "cuda" && isa != "auto") {
+        throw SceneError(
+            fmt::format("--isa {}: is of the processor, and --backend is cuda; leave one of them out", isa));
+    }
 }
 
 std::string shell_quoted(std::string_view word) {

@@ -34,7 +34,7 @@ double parse_seconds(std::string_view option, std::string_view text);       // f
 FitWindow parse_fit(std::string_view text);                                 // "A..B", both included, A < B, from 0
 std::pair<std::string, std::string> parse_override(std::string_view text);  // "key=value"
 Isa parse_isa(std::string_view text);                                       // also "auto"; supported by this machine
-void require_backend(std::string_view text);                                // one that this build has
+void require_backend(std::string_view backend, std::string_view isa);       // known, and not at odds
 
 /// 'a b' for a shell; words without special characters stay as they are.
 std::string shell_quoted(std::string_view word);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "host/cli/backend_choice.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/run_summary.hpp"
 #include "host/cli/text.hpp"
@@ -35,12 +36,11 @@ MemberRange member_range(RunArguments const& arguments, Scene const& scene) {
     return range;
 }
 
-StudyOptions study_options(RunArguments const& arguments, Scene const& scene, Isa isa) {
+StudyOptions study_options(RunArguments const& arguments, Scene const& scene) {
     StudyOptions options;
     options.range = member_range(arguments, scene);
     options.output = arguments.output.empty() ? default_output(arguments) : arguments.output;
     options.part = arguments.part;
-    options.isa = isa;
     options.threads = arguments.threads.value_or(default_threads());
     options.block_members = arguments.block_members;
     options.resume = arguments.resume;
@@ -50,6 +50,10 @@ StudyOptions study_options(RunArguments const& arguments, Scene const& scene, Is
         throw SceneError(options.output + ": is the scene itself; give another name with -o");
     }
     return options;
+}
+
+BackendChoice chosen_backend(RunArguments const& arguments, StudyOptions const& options, int rank) {
+    return choose_backend({arguments.scene.backend, arguments.scene.isa}, options.range.count, options.threads, rank);
 }
 
 /// Results that there were, and that must be computed again.
@@ -70,14 +74,15 @@ void warn_of_losses(StudyOptions const& options, StudyRun const& run) {
 }
 
 /// Before the start: what it will take, and what there is already.
-void announce(Scene const& scene, StudyOptions const& options, StudyRun const& run) {
-    Prediction const prediction = predict(scene, options.isa, options.threads, options.block_members);
+void announce(Scene const& scene, StudyOptions const& options, std::string const& reason, StudyRun const& run) {
+    Prediction const prediction = predict(scene, *options.backend, options.threads, options.block_members);
     StudyWork const& work = run.work();
     if (work.before > 0) {
         fmt::print(stderr, "resuming: {} of {} members are done\n", work.before, work.before + work.todo.count());
     }
-    fmt::print(stderr, "memory {}, disk {} and {} for the shards until the end\n",
-               bytes_text(static_cast<double>(prediction.memory())),
+    fmt::print(stderr, "backend {}{}{}\n", backend_text(*options.backend), reason.empty() ? "" : ": ", reason);
+    fmt::print(stderr, "memory {}{}, disk {} and {} for the shards until the end\n",
+               bytes_text(static_cast<double>(prediction.memory())), card_memory_text(prediction),
                bytes_text(static_cast<double>(prediction.output_bytes)), shards_text(scene, prediction));
 }
 
@@ -117,7 +122,7 @@ int conclude(RunArguments const& arguments, Scene const& scene, StudyOptions con
              std::optional<ToleranceReport> report) {
     ResultReader const results(options.output);
     if (!report && asks_for_report(scene)) report = tolerance_report(results, scene, {options.threads});
-    print_results(arguments, scene, options.isa, results, report);
+    print_results(arguments, scene, results, report);
     fmt::print("\n");
     print_field("results", fmt::format("{}{}", options.output, replaced ? " (replaced a former file)" : ""));
     std::uint64_t const failed = failed_count(results), members = options.range.count;
@@ -125,6 +130,11 @@ int conclude(RunArguments const& arguments, Scene const& scene, StudyOptions con
     fmt::print(stderr, "slideway: {} of {} members failed, more than --max-failures {}\n", failed, members,
                arguments.max_failures.text());
     return exit_code::too_many_failures;
+}
+
+std::string kept(std::exception const& error, StudyOptions const& options) {
+    return fmt::format("{}; what is finished is kept in {}: add --resume to go on", error.what(),
+                       shard_folder_of(options.output));
 }
 
 /// Rank 0.
@@ -145,8 +155,9 @@ int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& 
         if (left > 0 || options.part.of_array) return end_with_shards(options, totals, left);
         if (!run.merge(stop, report)) return end_unmerged(options);
     } catch (FileError const& error) {
-        throw FileError(fmt::format("{}; what is finished is kept in {}: add --resume to go on", error.what(),
-                                    shard_folder_of(options.output)));
+        throw FileError(kept(error, options));
+    } catch (DeviceError const& error) {
+        throw DeviceError(kept(error, options));
     }
     int const code = conclude(arguments, scene, options, replaced, std::move(report));
     run.remove_shards();
@@ -154,27 +165,21 @@ int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& 
 }
 
 /// What rank 0 tells the others before they begin: "avx2 48 0-15,40-63"; empty if there is nothing to do.
-std::string invitation(StudyRun const& run, Isa isa) {
+std::string invitation(StudyRun const& run, Backend const& backend) {
     if (run.is_complete()) return {};
-    return fmt::format("{} {} {}", name_of(isa), run.work().before, run.work().todo.text());
+    return fmt::format("{} {} {}", backend.isa(), run.work().before, run.work().todo.text());
 }
 
-/// Of a name that `name_of` gave at rank 0; this machine may lack it.
-Isa leader_isa(std::string_view name) {
+/// Machines may differ, and bits may not.  @param leader instruction set of rank 0
+std::shared_ptr<Backend const> backend_beside(std::string const& leader, std::shared_ptr<Backend const> own) {
+    if (arithmetic_of(own->isa()) == arithmetic_of(leader)) return own;
     for (Isa const isa : all_isas()) {
-        if (name_of(isa) == name) return isa;
+        if (name_of(isa) == leader && is_supported(isa)) return cpu_backend(isa);
     }
-    throw SceneError(fmt::format("slideway: rank 0 is another program: it computes with {}", name));
-}
-
-/// Machines may differ, and bits may not.
-Isa isa_beside(Isa leader, Isa own) {
-    if (arithmetic_of(name_of(own)) == arithmetic_of(name_of(leader))) return own;
-    if (is_supported(leader)) return leader;
     throw SceneError(fmt::format(
         "slideway: rank 0 computes with {} and this machine has but {}, whose results have other bits; start ranks on "
-        "machines that are alike, or add --isa sse2",
-        name_of(leader), name_of(own)));
+        "machines that are alike, or add --backend cpu --isa sse2",
+        leader, own->isa()));
 }
 
 /// Rank 0 alone ends with the code of the run: mpirun kills the ranks that are left when one of them ends with another than 0, and
@@ -189,12 +194,13 @@ int help(RunArguments const& arguments, Ranks& ranks, StopRequest const& stop) {
     std::string const invited = ranks.broadcast({});
     if (invited.empty()) return await_end(ranks);
     std::istringstream words(invited);
-    std::string isa, todo;
+    std::string leader, todo;
     StudyWork work;
-    words >> isa >> work.before >> todo;
+    words >> leader >> work.before >> todo;
     work.todo = MemberSet::parse(todo).value();
     Scene const scene = load_scene(arguments.scene);
-    StudyOptions options = study_options(arguments, scene, isa_beside(leader_isa(isa), parse_isa(arguments.scene.isa)));
+    StudyOptions options = study_options(arguments, scene);
+    options.backend = backend_beside(leader, chosen_backend(arguments, options, ranks.rank()).backend);
     options.progress = Progress::Style::none;
     run_work(scene, options, work, ranks, stop);
     return await_end(ranks);
@@ -210,15 +216,16 @@ int run(RunArguments const& arguments) {
     bool invited = ranks->rank() > 0;
     try {
         if (ranks->rank() > 0) return help(arguments, *ranks, stop);
-        require_backend(arguments.backend);
         Scene const scene = load_scene(arguments.scene);
         print_warnings(scene);
-        StudyOptions const options = study_options(arguments, scene, parse_isa(arguments.scene.isa));
+        StudyOptions options = study_options(arguments, scene);
+        BackendChoice const choice = chosen_backend(arguments, options, 0);
+        options.backend = choice.backend;
         StudyRun study(scene, options);
         warn_of_losses(options, study);
-        if (!arguments.quiet && !study.is_complete()) announce(scene, options, study);
+        if (!arguments.quiet && !study.is_complete()) announce(scene, options, choice.reason, study);
         invited = true;
-        ranks->broadcast(invitation(study, options.isa));
+        ranks->broadcast(invitation(study, *options.backend));
         return ranks->agree(lead(arguments, scene, options, study, *ranks, stop));
     } catch (...) {
         std::exception_ptr const error = std::current_exception();

@@ -1,13 +1,16 @@
 #include "host/cli/run_summary.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
 
+#include "host/cli/backend_choice.hpp"
 #include "host/cli/orbit_text.hpp"
 #include "host/cli/text.hpp"
 #include "host/cli/tolerance_text.hpp"
+#include "host/output/run_identity.hpp"
 #include "host/study/orbit_schedule.hpp"
 
 namespace slideway::cli {
@@ -35,12 +38,23 @@ private:
     std::vector<StatusCount> const counts_;
 };
 
-std::string replay_command(RunArguments const& arguments, Scene const& scene, Isa isa, std::uint64_t member) {
+/// Options with which a member has the bits that it has in a result.
+std::string_view replay_backend(std::string_view isa) {
+    auto const& isas = all_isas();
+    bool const is_processor = std::any_of(isas.begin(), isas.end(), [&](Isa one) { return name_of(one) == isa; });
+    if (is_processor) return "--isa ";
+    // A card that rounds as the processor does is no better to look at a single member.
+    return arithmetic_of(isa) == arithmetic_of("avx2") ? "--backend cpu" : "--backend cuda";
+}
+
+std::string replay_command(RunArguments const& arguments, Scene const& scene, std::string_view isa,
+                           std::uint64_t member) {
     std::string command = "slideway run " + shell_quoted(arguments.scene.path);
     for (auto const& [key, value] : arguments.scene.overrides) command += " --set " + shell_quoted(key + "=" + value);
     // Without a row of its own there is nothing to look at.
     if (!scene.stores_members()) command += " --set study.store=members";
-    return command + fmt::format(" --isa {} --member {}", name_of(isa), member);
+    std::string_view const backend = replay_backend(isa);
+    return command + fmt::format(" {}{} --member {}", backend, backend.ends_with(' ') ? isa : "", member);
 }
 
 std::string_view advice_on(Method method) {
@@ -85,7 +99,7 @@ void print_spent(Scene const& scene, EndedMembers const& ended) {
         spent, spent == 1 ? "" : "s", scene.integrator.max_steps, pair ? "method = \"auto\", " : "");
 }
 
-void print_failures(RunArguments const& arguments, Scene const& scene, Isa isa, EndedMembers const& ended,
+void print_failures(RunArguments const& arguments, Scene const& scene, EndedMembers const& ended,
                     ResultReader const& results) {
     if (ended.failed() == 0) return;
     constexpr std::size_t listed = 5;
@@ -99,7 +113,7 @@ void print_failures(RunArguments const& arguments, Scene const& scene, Isa isa, 
             fmt::print(": {}", *why);
         else
             fmt::print(" at t = {:.6g} s", member.time);
-        fmt::print("\n    {}\n", replay_command(arguments, scene, isa, member.member));
+        fmt::print("\n    {}\n", replay_command(arguments, scene, results.attribute("isa"), member.member));
     }
 }
 
@@ -150,14 +164,14 @@ void print_throughput(Scene const& scene, StudyOptions const& options, EnsembleT
     double const rate = totals.seconds > 0 ? static_cast<double>(totals.done()) / totals.seconds : 0.0;
     double const turns = orbit_schedule(scene).longest * std::abs(scene.inputs.crank_speed) / (2 * std::numbers::pi);
     print_field("throughput",
-                fmt::format("{:.4g} members/s, {}{} wall time ({}{} threads, {}, {} lanes)", rate,
+                fmt::format("{:.4g} members/s, {}{} wall time ({}{} threads, {})", rate,
                             turns > 0 ? fmt::format("{:.4g} members x revolutions/s, ", rate * turns) : "",
                             duration_text(totals.seconds), ranks > 1 ? fmt::format("{} ranks of ", ranks) : "",
-                            options.threads, name_of(options.isa), lanes_of(options.isa)));
+                            options.threads, machine_text(*options.backend)));
     print_field("lanes in use", fmt::format("{:.1f} %", 100 * totals.lane_utilisation()));
 }
 
-void print_results(RunArguments const& arguments, Scene const& scene, Isa isa, ResultReader const& results,
+void print_results(RunArguments const& arguments, Scene const& scene, ResultReader const& results,
                    std::optional<ToleranceReport> const& report) {
     auto const quantities = summarise_quantities(results);
     EndedMembers const ended(results);
@@ -183,7 +197,7 @@ void print_results(RunArguments const& arguments, Scene const& scene, Isa isa, R
     print_energy_made(scene, ended, quantities);
     print_instability(scene, ended);
     print_spent(scene, ended);
-    print_failures(arguments, scene, isa, ended, results);
+    print_failures(arguments, scene, ended, results);
     if (!scene.stores_members()) {
         fmt::print("\nMembers are not stored; a single one can be had with --member K --set study.store=members.\n");
     }

@@ -21,7 +21,7 @@ void print_throughput(Scene const& scene, StudyOptions const& options, EnsembleT
 /// All members of the file: how they ended, statistics, and what to do about those that failed.
 /// @param arguments those of the command that replays a member
 /// @param report of a scene that `asks_for_report`
-void print_results(RunArguments const& arguments, Scene const& scene, Isa isa, ResultReader const& results,
+void print_results(RunArguments const& arguments, Scene const& scene, ResultReader const& results,
                    std::optional<ToleranceReport> const& report);
 
 }  // namespace slideway::cli

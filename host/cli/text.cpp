@@ -16,6 +16,8 @@ int exit_code_of(std::exception_ptr error) {
         return exit_code::bad_usage;
     } catch (FileError const&) {
         return exit_code::file_trouble;
+    } catch (DeviceError const&) {
+        return exit_code::file_trouble;
     } catch (std::bad_alloc const&) {
         return exit_code::file_trouble;
     } catch (std::system_error const&) {
@@ -31,6 +33,8 @@ std::string line_of(std::exception_ptr const& error) {
     } catch (SceneError const& known) {
         return known.what();
     } catch (FileError const& known) {
+        return known.what();
+    } catch (DeviceError const& known) {
         return known.what();
     } catch (std::bad_alloc const&) {
         return "slideway: not enough memory; ask for fewer members or samples";
@@ -66,6 +70,11 @@ std::string duration_text(double seconds) {
         return fmt::format("{:.0f} min {:.0f} s", std::floor(seconds / 60), std::fmod(std::floor(seconds), 60));
     if (seconds < 86400) return fmt::format("{:.1f} h", seconds / 3600);
     return fmt::format("{:.1f} days", seconds / 86400);
+}
+
+std::string card_memory_text(Prediction const& prediction) {
+    if (prediction.card_bytes == 0) return {};
+    return fmt::format(", {} on the card", bytes_text(static_cast<double>(prediction.card_bytes)));
 }
 
 std::string shards_text(Scene const& scene, Prediction const& prediction) {

@@ -20,6 +20,8 @@ void print_warnings(Scene const& scene);
 std::string bytes_text(double bytes);       // "1.5 MB"
 std::string duration_text(double seconds);  // "8.2 s", "3 min 20 s", "2.4 h"
 
+/// ", 3.1 GB on the card"; "" without one.
+std::string card_memory_text(Prediction const& prediction);
 /// "as much again", or a bound for those of statistics.
 std::string shards_text(Scene const& scene, Prediction const& prediction);
 

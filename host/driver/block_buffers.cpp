@@ -76,7 +76,7 @@ void BlockBuffers::draw(BlockRequest const& request, MemberSource const& source)
     }
 }
 
-void BlockBuffers::run(KernelInstance const& kernel, BlockRequest const& request, MemberSource const& source,
+void BlockBuffers::run(BlockKernel const& kernel, BlockRequest const& request, MemberSource const& source,
                        StopRequest const& stop, std::span<std::uint64_t const> numbers) {
     members_.assign(numbers.begin(), numbers.end());
     std::size_t const members = members_.size();
@@ -114,7 +114,7 @@ void BlockBuffers::run(KernelInstance const& kernel, BlockRequest const& request
     block.series_values = series_.data();
     block.section_values = sections_.empty() ? nullptr : sections_.data();
     block.growth_values = growths_.empty() ? nullptr : growths_.data();
-    if (block.members > 0) (request.shadows.count > 0 ? kernel.run_shadowed : kernel.run)(block);
+    if (block.members > 0) kernel(block);
     lane_steps_executed_ = block.lane_steps_executed;
     lane_steps_useful_ = block.lane_steps_useful;
 

@@ -51,7 +51,8 @@ class BlockBuffers {
 public:
     /// Draws these members and integrates those with usable inputs.  The others get status `invalid_inputs` and NaN results;
     /// those that `stop` cut short get `not_run` and NaN.
-    void run(KernelInstance const& kernel, BlockRequest const& request, MemberSource const& source,
+    /// @throws what the kernel throws; there are no results then
+    void run(BlockKernel const& kernel, BlockRequest const& request, MemberSource const& source,
              StopRequest const& stop, std::span<std::uint64_t const> members);
 
     /// Views of the last run.

@@ -5,7 +5,6 @@
 namespace slideway {
 namespace {
 
-constexpr std::uint64_t members_per_lane = 8;   // at least
 constexpr std::uint64_t blocks_per_worker = 2;  // of what is left, so that several workers end together
 constexpr std::uint64_t untried = 512;          // members of a block whose cost nobody knows, at most
 constexpr std::uint64_t enough_for_trials = 16;
@@ -20,9 +19,9 @@ BlockSizer::BlockSizer(BlockSizes const& sizes, std::uint64_t members, int worke
 
 std::uint64_t BlockSizer::next(std::uint64_t left) const {
     if (sizes_.fixed > 0) return sizes_.fixed;
-    std::uint64_t const small = members_per_lane * sizes_.lanes;
+    std::uint64_t const most = std::max<std::uint64_t>(sizes_.most, 1);
+    std::uint64_t const small = std::min<std::uint64_t>(sizes_.least, most);
     std::uint64_t const share = (left + workers_ - 1) / workers_;
-    std::uint64_t const most = std::max<std::uint64_t>(sizes_.most, small);
     auto const worth_its_end = static_cast<std::uint64_t>(std::min(blocks_over_idle * idle_members_, 1e6));
     std::uint64_t const least = std::clamp<std::uint64_t>(share, 1, std::clamp(worth_its_end, small, most));
     std::uint64_t size = std::clamp<std::uint64_t>(share / (workers_ > 1 ? blocks_per_worker : 1), least, most);
@@ -35,7 +34,8 @@ std::uint64_t BlockSizer::next(std::uint64_t left) const {
         // Small ensembles have no members to spare for trials.
         size = std::clamp<std::uint64_t>(untried, least, size);
     }
-    return (size + sizes_.lanes - 1) / sizes_.lanes * sizes_.lanes;
+    std::uint64_t const rounded = (size + sizes_.lanes - 1) / sizes_.lanes * sizes_.lanes;
+    return rounded <= most ? rounded : size;
 }
 
 void BlockSizer::measured(std::uint64_t members, double seconds, double utilisation) {

@@ -8,7 +8,8 @@ namespace slideway {
 
 struct BlockSizes {
     std::size_t fixed = 0;    // > 0: always so many
-    std::size_t lanes = 1;    // sizes are multiples of
+    std::size_t lanes = 1;    // sizes are multiples of, where there is room
+    std::size_t least = 8;    // smaller ones would leave much of the machine idle
     std::size_t most = 4096;  // as many as fit the memory that a block may take
     double seconds = 10;      // that a block should take: a process that is killed loses the blocks it works on
 };

@@ -143,7 +143,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-EnsembleTotals run_ensemble(EnsemblePlan const& plan, MemberQueue& queue, KernelInstance const& kernel,
+EnsembleTotals run_ensemble(EnsemblePlan const& plan, MemberQueue& queue, BlockKernel const& kernel,
                             BlockSink const& sink, StopRequest const& stop, Progress* progress) {
     auto const start = std::chrono::steady_clock::now();
     Team team(plan, queue, sink, stop, progress);
@@ -173,7 +173,7 @@ EnsembleTotals run_ensemble(EnsemblePlan const& plan, MemberQueue& queue, Kernel
     return totals;
 }
 
-EnsembleTotals run_ensemble(EnsemblePlan const& plan, KernelInstance const& kernel, BlockSink const& sink,
+EnsembleTotals run_ensemble(EnsemblePlan const& plan, BlockKernel const& kernel, BlockSink const& sink,
                             StopRequest const& stop, Progress* progress) {
     LocalQueue queue(plan.members.count());
     return run_ensemble(plan, queue, kernel, sink, stop, progress);

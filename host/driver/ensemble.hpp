@@ -55,11 +55,11 @@ int default_threads();
 /// Integrates the members of the plan, or those that were handed out before `stop` said to end.  A member's result depends neither on
 /// the threads nor on the blocks.  `progress` may be nullptr.
 /// @throws what the sink or the member source throws first, after the blocks in work have ended; the queue is then abandoned.
-EnsembleTotals run_ensemble(EnsemblePlan const& plan, MemberQueue& queue, KernelInstance const& kernel,
+EnsembleTotals run_ensemble(EnsemblePlan const& plan, MemberQueue& queue, BlockKernel const& kernel,
                             BlockSink const& sink, StopRequest const& stop, Progress* progress = nullptr);
 
 /// The same by this process alone.
-EnsembleTotals run_ensemble(EnsemblePlan const& plan, KernelInstance const& kernel, BlockSink const& sink,
+EnsembleTotals run_ensemble(EnsemblePlan const& plan, BlockKernel const& kernel, BlockSink const& sink,
                             StopRequest const& stop, Progress* progress = nullptr);
 
 }  // namespace slideway

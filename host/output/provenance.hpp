@@ -25,9 +25,9 @@ struct Provenance {
     std::string title;
     std::string scene;  // resolved, as TOML
     std::uint64_t seed = 0;
-    std::string backend;  // "cpu"
-    std::string isa;
-    std::string flags;  // of the compiler, for the kernels of that ISA
+    std::string backend;  // "cpu", "cuda"
+    std::string isa;      // "avx512", "sm_90"
+    std::string flags;    // of the compiler, for the kernels of that ISA
     int threads = 1;
 };
 

@@ -32,7 +32,7 @@ void put(Inputs& inputs, Place const& place) {
 class Chain {
 public:
     Chain(Scene const& scene, BlockRequest const& request, MemberSource source, MemberSet asked,
-          KernelInstance const& kernel, MemberEnds ends, StopRequest const& stop)
+          BlockKernel const& kernel, MemberEnds ends, StopRequest const& stop)
         : scene_(scene),
           request_(request),
           draw_(std::move(source)),
@@ -130,7 +130,7 @@ private:
     BlockRequest const& request_;
     MemberSource const draw_;
     MemberSet const asked_;
-    KernelInstance const kernel_;
+    BlockKernel const kernel_;
     MemberEnds const ends_;
     StopRequest const& stop_;
 };
@@ -170,7 +170,7 @@ MemberSet members_before(Scene const& scene, MemberSet const& asked) {
     return before.without(asked);
 }
 
-void continue_columns(Scene const& scene, EnsemblePlan& plan, MemberSet const& asked, KernelInstance const& kernel,
+void continue_columns(Scene const& scene, EnsemblePlan& plan, MemberSet const& asked, BlockKernel const& kernel,
                       MemberEnds ends, StopRequest const& stop) {
     plan.members = swept_starts(scene, asked);
     auto const chain = std::make_shared<Chain>(scene, plan.request, plan.source, asked, kernel, std::move(ends), stop);

@@ -36,7 +36,7 @@ MemberSet members_before(Scene const& scene, MemberSet const& asked);
 /// which only lead to them, run too, but are not handed on.
 /// @param ends of members that ran before and need not run again, nor those that led to them; at least
 /// `members_before`, or nothing where these are to run
-void continue_columns(Scene const& scene, EnsemblePlan& plan, MemberSet const& asked, KernelInstance const& kernel,
+void continue_columns(Scene const& scene, EnsemblePlan& plan, MemberSet const& asked, BlockKernel const& kernel,
                       MemberEnds ends, StopRequest const& stop);
 
 }  // namespace slideway

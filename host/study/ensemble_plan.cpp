@@ -40,7 +40,7 @@ ResultLayout result_layout(Scene const& scene, MemberSet const& members) {
 
 StatisticsPlan statistics_plan(Scene const& scene) { return {scene.quantities, scene.limits}; }
 
-EnsemblePlan ensemble_plan(Scene const& scene, MemberSet const& members, Isa isa, int threads,
+EnsemblePlan ensemble_plan(Scene const& scene, MemberSet const& members, Backend const& backend, int threads,
                            std::size_t block_members) {
     EnsemblePlan plan;
     plan.members = members;
@@ -60,10 +60,9 @@ EnsemblePlan ensemble_plan(Scene const& scene, MemberSet const& members, Isa isa
     plan.request.directions = [seed = scene.seed, shadows = plan.request.shadows.count](
                                   std::uint64_t member, double* out) { draw_directions(seed, member, shadows, out); };
     plan.blocks.fixed = block_members;
-    plan.blocks.lanes = static_cast<std::size_t>(lanes_of(isa));
-    constexpr std::uint64_t block_memory = 64'000'000, small_block = 64;
-    plan.blocks.most = static_cast<std::size_t>(
-        std::clamp<std::uint64_t>(block_memory / block_bytes(plan.request, 1), small_block, plan.blocks.most));
+    plan.blocks.lanes = backend.lanes();
+    plan.blocks.least = backend.least_block();
+    plan.blocks.most = backend.largest_block(block_bytes(plan.request, 1), threads, block_members);
     plan.source = [&scene](std::uint64_t member, Inputs& inputs) {
         inputs = member_inputs(scene, member);
         return !defect(inputs);
@@ -71,13 +70,14 @@ EnsemblePlan ensemble_plan(Scene const& scene, MemberSet const& members, Isa isa
     return plan;
 }
 
-Provenance provenance(Scene const& scene, Isa isa, int threads) {
-    return {scene.title, resolved_toml(scene), scene.seed, "cpu", std::string(name_of(isa)), flags_of(isa), threads};
+Provenance provenance(Scene const& scene, Backend const& backend, int threads) {
+    return {scene.title,   resolved_toml(scene), scene.seed, std::string(backend.name()),
+            backend.isa(), backend.flags(),      threads};
 }
 
-RunIdentity run_identity(Scene const& scene, MemberSet const& members, Isa isa) {
+RunIdentity run_identity(Scene const& scene, MemberSet const& members, Backend const& backend) {
     std::string const resolved = resolved_toml(scene);
-    return {build_info().text(), arithmetic_of(name_of(isa)), members, portable_scene(resolved), table_of(resolved)};
+    return {build_info().text(), arithmetic_of(backend.isa()), members, portable_scene(resolved), table_of(resolved)};
 }
 
 }  // namespace slideway

@@ -15,9 +15,9 @@ ResultLayout result_layout(Scene const& scene, MemberSet const& members);
 /// Of a scene that keeps statistics in place of members.
 StatisticsPlan statistics_plan(Scene const& scene);
 /// @param block_members 0: as many as suit the run.
-EnsemblePlan ensemble_plan(Scene const& scene, MemberSet const& members, Isa isa, int threads,
+EnsemblePlan ensemble_plan(Scene const& scene, MemberSet const& members, Backend const& backend, int threads,
                            std::size_t block_members = 0);
-Provenance provenance(Scene const& scene, Isa isa, int threads);
-RunIdentity run_identity(Scene const& scene, MemberSet const& members, Isa isa);
+Provenance provenance(Scene const& scene, Backend const& backend, int threads);
+RunIdentity run_identity(Scene const& scene, MemberSet const& members, Backend const& backend);
 
 }  // namespace slideway

@@ -24,21 +24,6 @@ double contact_steps(IntegratorSettings const& settings) {
     return low_order ? 15 * std::cbrt(finer) : 5 * std::pow(finer, 0.2);
 }
 
-/// One step of one member on one core of a server of the 2020s [s], full packs, rejected steps and events shared out.
-double seconds_per_member_step(Isa isa) {
-    switch (isa) {
-        case Isa::scalar:
-            return 1.2e-6;
-        case Isa::sse2:
-            return 0.9e-6;
-        case Isa::avx2:
-            return 0.7e-6;
-        case Isa::avx512:
-            return 0.5e-6;
-    }
-    return 1e-6;
-}
-
 /// Bytes of the statistics of so many members, in memory or in a file.
 std::uint64_t statistics_image_bytes(Scene const& scene, std::uint64_t members) {
     constexpr std::uint64_t octaves = 8, buckets = octaves * 512, bytes_per_bucket = 16, beside = 700;
@@ -94,7 +79,8 @@ StepRange steps_of_member(Scene const& scene) {
 }
 
 /// How many shards members become at most: their blocks, of the dearest members that are foreseen.
-std::uint64_t most_shards(Scene const& scene, MemberSet const& members, EnsemblePlan const& plan, Isa isa) {
+std::uint64_t most_shards(Scene const& scene, MemberSet const& members, EnsemblePlan const& plan,
+                          Backend const& backend) {
     bool const continued = is_continued(scene);
     std::uint64_t const places = continued ? swept_starts(scene, members).count() : members.count();
     std::uint64_t const of_place = continued ? scene.chaos.values.size() : 1;
@@ -103,7 +89,8 @@ std::uint64_t most_shards(Scene const& scene, MemberSet const& members, Ensemble
     BlockSizer sizer(plan.blocks, places, plan.workers);
     double const copies = 1 + shadow_plan(scene).count;
     double const seconds = static_cast<double>(of_place) * copies * steps_of_member(scene).most;
-    sizer.measured(1, seconds * seconds_per_member_step(isa), 1);
+    constexpr double many = 1e9;
+    sizer.measured(1, seconds * plan.workers * backend.seconds_per_step(many, plan.workers), 1);
     std::uint64_t blocks = workers;  // trials
     std::uint64_t left = places;
     // Sizes change only towards the end of the run.
@@ -150,29 +137,29 @@ std::uint64_t statistics_shard_bytes(Scene const& scene, std::uint64_t members) 
     return bytes;
 }
 
-std::uint64_t shard_bytes(Scene const& scene, MemberSet const& members, Isa isa, int threads,
+std::uint64_t shard_bytes(Scene const& scene, MemberSet const& members, Backend const& backend, int threads,
                           std::size_t block_members) {
     if (!scene.stores_members()) return statistics_shard_bytes(scene, members.count());
     ResultLayout const layout = result_layout(scene, members);
-    EnsemblePlan const plan = ensemble_plan(scene, members, isa, threads, block_members);
+    EnsemblePlan const plan = ensemble_plan(scene, members, backend, threads, block_members);
     return payload_bytes(layout) +
-           most_shards(scene, members, plan, isa) * header_bytes(layout, provenance(scene, isa, threads));
+           most_shards(scene, members, plan, backend) * header_bytes(layout, provenance(scene, backend, threads));
 }
 
-std::uint64_t result_bytes(Scene const& scene, MemberSet const& members, Isa isa, int threads) {
+std::uint64_t result_bytes(Scene const& scene, MemberSet const& members, Backend const& backend, int threads) {
     if (!scene.stores_members()) return statistics_bytes(scene, members.count());
     ResultLayout const layout = result_layout(scene, members);
     // A report has some ten variables of each column, described at length.
     constexpr std::uint64_t of_report = 10'000, of_column = 8'000;
     std::uint64_t const report =
         asks_for_report(scene) ? of_report + of_column * selected_columns(scene.quantities).size() : 0;
-    return payload_bytes(layout) + header_bytes(layout, provenance(scene, isa, threads)) + report;
+    return payload_bytes(layout) + header_bytes(layout, provenance(scene, backend, threads)) + report;
 }
 
-Prediction predict(Scene const& scene, Isa isa, int threads, std::size_t block_members) {
+Prediction predict(Scene const& scene, Backend const& backend, int threads, std::size_t block_members) {
     std::uint64_t const count = member_count(scene);
     MemberSet const all(MemberRange{0, count});
-    EnsemblePlan const plan = ensemble_plan(scene, all, isa, threads, block_members);
+    EnsemblePlan const plan = ensemble_plan(scene, all, backend, threads, block_members);
     auto const members = static_cast<double>(count);
     auto const workers = static_cast<std::uint64_t>(threads);
     std::uint64_t const first_block = std::min(BlockSizer(plan.blocks, count, threads).next(count), count);
@@ -185,25 +172,26 @@ Prediction predict(Scene const& scene, Isa isa, int threads, std::size_t block_m
     prediction.busy_threads = static_cast<int>(std::max<std::uint64_t>(busy, 1));
     prediction.largest_block = static_cast<std::size_t>(largest);
     prediction.buffer_bytes = busy * block_bytes(plan.request, static_cast<std::size_t>(largest));
+    std::uint64_t const reserved = backend.reserved_bytes();
+    prediction.card_bytes = reserved > 0 ? reserved + prediction.buffer_bytes : 0;
+    // What travels is made ready beside the blocks.
+    if (reserved > 0) prediction.buffer_bytes *= 2;
     // Copies of blocks: those that wait and the one that becomes a shard.  Its image, as it grows and when it is whole.
     constexpr std::uint64_t copies_of_blocks = ShardWriter::most_waiting + 1, images = 3;
     ResultLayout const of_block = result_layout(scene, MemberSet(MemberRange{0, largest}));
     prediction.image_bytes =
         copies_of_blocks * block_bytes(plan.request, static_cast<std::size_t>(largest)) +
         images * (scene.stores_members()
-                      ? payload_bytes(of_block) + header_bytes(of_block, provenance(scene, isa, threads))
+                      ? payload_bytes(of_block) + header_bytes(of_block, provenance(scene, backend, threads))
                       : statistics_image_bytes(scene, largest));
     prediction.summary_bytes = summary_bytes(scene);
-    prediction.output_bytes = result_bytes(scene, all, isa, threads);
-    prediction.shard_bytes = shard_bytes(scene, all, isa, threads, block_members);
+    prediction.output_bytes = result_bytes(scene, all, backend, threads);
+    prediction.shard_bytes = shard_bytes(scene, all, backend, threads, block_members);
     auto const [least, most] = steps_of_member(scene);
     prediction.least_steps = members * least;
     prediction.most_steps = members * most;
-    // Packs are full except where a block has fewer members than lanes.
-    double const filled = std::min(1.0, members / lanes_of(isa));
     double const copies = 1 + shadow_plan(scene).count;
-    double const seconds_per_step =
-        copies * seconds_per_member_step(isa) / filled / static_cast<double>(prediction.busy_threads);
+    double const seconds_per_step = copies * backend.seconds_per_step(members, prediction.busy_threads);
     prediction.least_seconds = prediction.least_steps * seconds_per_step;
     prediction.most_seconds = prediction.most_steps * seconds_per_step;
     return prediction;

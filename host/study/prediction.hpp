@@ -16,6 +16,7 @@ struct Prediction {
     std::uint64_t buffer_bytes;   // of all threads' blocks; the program itself needs some tens of MB more
     std::uint64_t image_bytes;    // of blocks on their way to the disk
     std::uint64_t summary_bytes;  // of the statistics over all members at the end
+    std::uint64_t card_bytes;     // of blocks on a card and their threads' stacks; 0 without one
     std::uint64_t output_bytes;
     std::uint64_t shard_bytes;       // beside the output, until it is whole; a bound
     std::size_t largest_block;       // members
@@ -40,10 +41,10 @@ std::uint64_t statistics_shard_bytes(Scene const& scene, std::uint64_t members);
 /// On the disk: of the result, and at most of the shards that members become before it.  A shard of few members is
 /// mostly header (header_bytes), and there is one for each block, of each column of a sweep that continues.
 /// @param block_members 0: as many as suit the run; blocks are then as small as the dearest members make them.
-std::uint64_t result_bytes(Scene const& scene, MemberSet const& members, Isa isa, int threads);
-std::uint64_t shard_bytes(Scene const& scene, MemberSet const& members, Isa isa, int threads,
+std::uint64_t result_bytes(Scene const& scene, MemberSet const& members, Backend const& backend, int threads);
+std::uint64_t shard_bytes(Scene const& scene, MemberSet const& members, Backend const& backend, int threads,
                           std::size_t block_members);
 
-Prediction predict(Scene const& scene, Isa isa, int threads, std::size_t block_members = 0);
+Prediction predict(Scene const& scene, Backend const& backend, int threads, std::size_t block_members = 0);
 
 }  // namespace slideway

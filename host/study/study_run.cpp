@@ -104,7 +104,7 @@ StudyRun::StudyRun(Scene const& scene, StudyOptions const& options)
     : scene_(scene), options_(options), members_(options.range), mine_(members_of_part(scene, options.part, members_)) {
     require_writable_place(options.output);
     std::string const folder = shard_folder_of(options.output);
-    RunIdentity const identity = run_identity(scene, members_, options.isa);
+    RunIdentity const identity = run_identity(scene, members_, *options.backend);
     std::error_code ignored;
     if (options.resume && !ShardFolder::exists(folder) && std::filesystem::exists(options.output, ignored)) {
         is_complete_ = is_result_of(options.output, identity);
@@ -125,9 +125,9 @@ std::vector<DamagedShard> StudyRun::damaged() const { return claim_ ? claim_->da
 void StudyRun::require_room() const {
     // The shards and the file that is made of them stand side by side for a while.
     std::uint64_t const shards =
-        shard_bytes(scene_, work_.todo, options_.isa, options_.threads, options_.block_members);
+        shard_bytes(scene_, work_.todo, *options_.backend, options_.threads, options_.block_members);
     double const needed = static_cast<double>(shards) +
-                          static_cast<double>(result_bytes(scene_, members_, options_.isa, options_.threads));
+                          static_cast<double>(result_bytes(scene_, members_, *options_.backend, options_.threads));
     std::error_code error;
     auto const space = std::filesystem::space(folder_of(options_.output), error);
     if (error || needed <= static_cast<double>(space.available)) return;
@@ -151,7 +151,7 @@ bool StudyRun::merge(StopRequest const& stop, std::optional<ToleranceReport>& re
         ReportSettings settings;
         settings.threads = options_.threads;
         settings.pause = pause;
-        merge_study(scene_, folder, folder.listed(), provenance(scene_, options_.isa, options_.threads),
+        merge_study(scene_, folder, folder.listed(), provenance(scene_, *options_.backend, options_.threads),
                     options_.output, report, settings);
     } catch (Interrupted const&) {
         return false;

@@ -32,7 +32,7 @@ struct StudyOptions {
     std::string output;
     MemberRange range;
     RunPart part;
-    Isa isa = Isa::scalar;
+    std::shared_ptr<Backend const> backend;
     int threads = 1;
     std::size_t block_members = 0;  // 0: as many as suit the run
     bool resume = false;

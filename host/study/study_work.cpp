@@ -76,15 +76,15 @@ std::unique_ptr<ShardWriter> shard_writer(Scene const& scene, std::string const&
 EnsembleTotals compute(Scene const& scene, StudyOptions const& options, StudyWork const& work, int ranks,
                        MemberQueue& queue, StopRequest const& stop, Progress& progress) {
     std::string const folder = shard_folder_of(options.output);
-    EnsemblePlan plan = ensemble_plan(scene, work.todo, options.isa, options.threads, options.block_members);
+    EnsemblePlan plan = ensemble_plan(scene, work.todo, *options.backend, options.threads, options.block_members);
     plan.workers = options.threads * ranks;
-    KernelInstance const kernel = find_instance(options.isa, scene.parts);
+    BlockKernel const kernel = options.backend->kernel(scene.parts, plan.request.shadows.count > 0);
     if (is_continued(scene)) {
         MemberEnds const ends =
             work.before > 0 ? recalled_ends(folder, members_before(scene, work.todo)) : MemberEnds{};
         continue_columns(scene, plan, work.todo, kernel, ends, stop);
     }
-    auto const writer = shard_writer(scene, folder, provenance(scene, options.isa, options.threads));
+    auto const writer = shard_writer(scene, folder, provenance(scene, *options.backend, options.threads));
     BlockSink const sink = [&](BlockResult const& block) { writer->write(block); };
     EnsembleTotals const totals = run_ensemble(plan, queue, kernel, sink, stop, &progress);
     writer->finish();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <utility>
 
 #include "kernels/lanes/pack.hpp"
@@ -96,7 +97,7 @@ private:
         auto const candidates = accepted & may_cross(pack.step, start, end, event);
         if (none(candidates)) return false;
         auto const zeros = cubic_zeros(candidates, start.value[event], pack.step * start.slope[event], end.value[event],
-                                       pack.step * end.slope[event], Model::event_table[event].direction);
+                                       pack.step * end.slope[event], info_of(event).direction);
         if (none(zeros.any)) return false;
         for (int i = 0; i < 3; ++i) zeros_[event][i] = placed<event>(pack, stepper, zeros.at[i]);
         return true;
@@ -135,6 +136,12 @@ private:
         for (int i = 0; i < size; ++i) pack.end_rates[i] = select(ended_, rates[i], pack.end_rates[i]);
     }
 
+    /// An entry of the model's table.  Of a copy, because device code cannot index a constant of the host.
+    SLIDEWAY_HD static constexpr EventInfo info_of(int event) {
+        constexpr auto table = std::to_array(Model::event_table);
+        return table[static_cast<std::size_t>(event)];
+    }
+
     /// @return whether any lane had an event left.
     template <class Stepper>
     SLIDEWAY_HD bool apply_earliest(Pack<Model, Real>& pack, Stepper const& stepper, Mask<Real> accepted) {
@@ -142,7 +149,7 @@ private:
         // Of simultaneous events those come first that let the step go on: none of them is lost to a reset.
         for (bool const resets : {false, true}) {
             for (int event = 0; event < events; ++event) {
-                if (Model::event_table[event].resets != resets) continue;
+                if (info_of(event).resets != resets) continue;
                 for (auto const& theta : zeros_[event]) {
                     auto const earlier = theta < first;
                     first = select(earlier, theta, first);
@@ -161,7 +168,7 @@ private:
             if (none(here)) continue;
             for (auto& zero : zeros_[event]) zero = select(here & (zero == first), Real(absent), zero);
             if (pack.needs.quantities) pack.state.observation.observer.event(here, event, t, state);
-            if (!Model::event_table[event].resets) continue;
+            if (!info_of(event).resets) continue;
             Model::reset(event, here, state, pack.state.constants.parameters);
             for (int i = 0; i < size; ++i) reset_[i] = select(here, state[i], reset_[i]);
             fraction_ = select(here, theta, fraction_);

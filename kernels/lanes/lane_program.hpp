@@ -199,7 +199,8 @@ private:
     }
 
     /// First evaluation of new members.  A start that cannot be evaluated ends its member before the first step.
-    SLIDEWAY_HD void start() {
+    /// A function of its own, or its shadows would lie on a card's stack beside those of every stint.
+    SLIDEWAY_NOINLINE void start() {
         auto& c = pack_.state.course;
         auto faults = pack_.evaluate(c.t, c.y, pack_.end_rates, pack_.needs.ends, pack_.end_report);
         pack_.count_evaluations(pack_.busy, 1);

@@ -1,5 +1,5 @@
 // Work for a simulated card, whose runtime reads once per process how it is to behave (tests/support/simulated_cuda/simulation.hpp).
-// cards_program blocks WORKERS BLOCKS ATTEMPTS [RANK] | endless | memory WORKERS SAMPLES | card RANK
+// cards_program blocks WORKERS BLOCKS ATTEMPTS [RANK] | endless | memory WORKERS SAMPLES [MEMBERS] | card RANK
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -68,7 +68,7 @@ int current_device() {
 
 std::string integrate_blocks(int workers, int blocks, int rank) {
     auto const card = cuda_backend(rank);
-    card->largest_block(1000, workers);
+    card->largest_block(1000, workers, 0);
     auto const plans = block_plans(blocks);
     std::vector<BlockKernel> kernels;  // by one thread, as the driver does
     for (BlockPlan const& plan : plans) kernels.push_back(kernel_of(*card, plan));
@@ -96,8 +96,8 @@ std::string integrate_without_end() {
     return "ended";
 }
 
-/// Blocks as large as the card says that they may be, all at once.
-std::string fill_memory(int workers, int samples) {
+/// Blocks as large as the card says that they may be, all at once.  @param asked members of a block, 0: as many as fit
+std::string fill_memory(int workers, int samples, std::size_t asked) {
     BlockPlan plan;
     plan.series = testing::state_selection;
     plan.settings.end_time = 1e-5;
@@ -105,7 +105,7 @@ std::string fill_memory(int workers, int samples) {
     plan.members = testing::scattered_starts(100);
     std::size_t const bytes = image_size(OwnedBlock(plan).block).total / 100 + 1;
     auto const card = cuda_backend(0);
-    std::size_t const members = card->largest_block(bytes, workers);
+    std::size_t const members = card->largest_block(bytes, workers, asked);
     std::printf("%zu members of %zu bytes\n", members, bytes);
     plan.members = testing::scattered_starts(members);
     return at_once(workers, "fits", [&] {
@@ -138,7 +138,8 @@ int run(std::vector<std::string> const& words) {
     } else if (words[0] == "endless") {
         tell(integrate_without_end);
     } else if (words[0] == "memory") {
-        tell([&] { return fill_memory(number(1), number(2)); });
+        auto const asked = static_cast<std::size_t>(words.size() > 3 ? number(3) : 0);
+        tell([&] { return fill_memory(number(1), number(2), asked); });
     } else if (words[0] == "card") {
         tell([&] { return card_of(number(1)); });
     } else {

@@ -68,6 +68,17 @@ TEST_F(SimulatedCards, SayWhereNotOneMemberFits) {
     }
 }
 
+TEST_F(SimulatedCards, TakeBlocksAsLargeAsAsked) {
+    Lines const taken = run("MEMORY=160000000", "memory 2 4000 17");
+    ASSERT_EQ(taken.size(), 2u);
+    EXPECT_TRUE(taken[0].starts_with("17 members of ")) << taken[0];
+    EXPECT_EQ(taken[1], "fits");
+    Lines const refused = run("MEMORY=160000000", "memory 2 4000 1000");
+    ASSERT_EQ(refused.size(), 1u);
+    EXPECT_TRUE(refused[0].starts_with("cuda: simulated GPU has 0.16 GB free: room for blocks of ")) << refused[0];
+    EXPECT_NE(refused[0].find(" members for each of 2 workers, not of 1000; use a smaller"), std::string::npos);
+}
+
 TEST_F(SimulatedCards, AreTakenInTurn) {
     for (int rank = 0; rank < 7; ++rank) {
         EXPECT_EQ(run("DEVICES=3", "card " + std::to_string(rank)), Lines{"card " + std::to_string(rank % 3)});
@@ -82,8 +93,10 @@ TEST_F(SimulatedCards, ServeTheWorkersOfTheirRank) {
 }
 
 TEST_F(SimulatedCards, AreMissedInOneLine) {
-    EXPECT_EQ(run("DEVICES=0", "card 0"), Lines{"cuda: no card can be used (no card was found)"});
-    EXPECT_EQ(run("DEVICES=-1", "card 0"), Lines{"cuda: no card can be used (the driver is too old for the runtime)"});
+    EXPECT_EQ(run("DEVICES=0", "card 0"), Lines{"cuda: there is no driver, and so no card"});
+    EXPECT_EQ(run("FAIL=cudaGetDeviceCount:1:100", "card 0"), Lines{"cuda: there is no card"});
+    EXPECT_EQ(run("DEVICES=-1", "card 0"),
+              Lines{"cuda: no card can be used: the driver is too old for the runtime (cudaErrorInsufficientDriver)"});
     // Older than all that nvcc knows.
     Lines const old = run("ARCH=35", "card 0");
     ASSERT_EQ(old.size(), 1u);

@@ -16,12 +16,12 @@ using testing::Lines;
 /// What was tried when a function failed.
 struct Tried {
     char const* function;
-    char const* text;  // nullptr: it gives something back, and whoever frees cannot be helped
+    char const* text;  // nullptr: nothing is told; who gives something back cannot be helped
     friend void PrintTo(Tried const& tried, std::ostream* out) { *out << tried.function; }
 };
 
 Tried const all_tried[] = {
-    {"cudaGetDeviceCount", "cuda: no card can be used (unknown error)"},
+    {"cudaGetDeviceCount", "cuda: no card can be used: unknown error (cudaErrorUnknown)"},
     {"cudaGetDeviceProperties", "cuda: card 0: asking what it is failed"},
     {"cudaSetDevice", "cuda: simulated GPU: taking the card failed"},
     {"cudaFuncGetAttributes", "cuda: simulated GPU: loading a kernel failed"},
@@ -35,6 +35,8 @@ Tried const all_tried[] = {
     {"cudaLaunchKernel", "cuda: simulated GPU: starting a kernel failed"},
     {"cudaEventRecord", "cuda: simulated GPU: marking the end of a block failed"},
     {"cudaEventQuery", "cuda: simulated GPU: integrating a block failed"},
+    {"cudaDeviceGetAttribute", "cuda: simulated GPU: asking for its clock failed"},
+    {"cudaDriverGetVersion", nullptr},
     {"cudaFree", nullptr},
     {"cudaFreeHost", nullptr},
     {"cudaStreamSynchronize", nullptr},
@@ -92,7 +94,7 @@ TEST_F(SimulatedCard, ALostCardIsToldToAll) {
             EXPECT_TRUE(lines[0].starts_with("cuda: simulated GPU: ")) << lines[0];
             EXPECT_NE(lines[0].find(" failed: "), std::string::npos) << lines[0];
             EXPECT_NE(lines[0].find("(cudaError"), std::string::npos) << lines[0];
-            EXPECT_TRUE(lines[1].starts_with("cuda: no card can be used (")) << lines[1];
+            EXPECT_TRUE(lines[1].starts_with("cuda: no card can be used: ")) << lines[1];
         }
     }
 }

@@ -56,6 +56,13 @@ constexpr std::array<std::string_view, 7> plain_data = {
     "kernels/observers/quantities.hpp",
 };
 
+// The kernels on cards, and what they may be made of: whole programs, and which equations these are to hold.
+constexpr std::string_view kernels_of_cards = "host/backend/cuda.cu";
+constexpr std::array<std::string_view, 6> programs_of_cards = {
+    "kernels/grid_thread.hpp", "kernels/integrate.hpp",       "kernels/laws/conservative.hpp",
+    "kernels/laws/paper.hpp",  "kernels/models/shadowed.hpp", "kernels/models/slider_crank_choice.hpp",
+};
+
 bool is_plain_data(std::string_view path) { return std::ranges::find(plain_data, path) != plain_data.end(); }
 
 Layer const* layer_of(std::string_view path) {
@@ -157,6 +164,35 @@ Violations kernel_violations(SourceFile const& file) {
         R"(\bnew\b|\bdelete\b(?!;)|\b(malloc|free)\s*\(|\bstd::(vector|string|map|function|\w+_ptr)\b)");
     find_in_code(file, exception, "kernels report a status, they do not throw", out);
     find_in_code(file, allocation, "kernels do not allocate", out);
+    return out;
+}
+
+/// What code says if it computes or decides anything itself.
+constexpr char const* computation =
+    R"([\w)\]] [-+*/%]=? [\w(.]|\b\d+\.\d|\b(if|for|while|switch)\b|\b(fma|sqrt|select)\s*\()";
+
+Violations card_violations(SourceFile const& file) {
+    Violations out;
+    bool const kernels = file.path == kernels_of_cards;
+    if (file.path.ends_with(".cu") && !kernels) {
+        out.push_back(file.path + ": the one file for nvcc is " + std::string(kernels_of_cards));
+    }
+    if (!kernels && !file.path.starts_with("host/backend/cuda_")) return out;
+    for (std::string const& included : quoted_includes(file.text)) {
+        if (!included.starts_with("kernels/") || is_plain_data(included)) continue;
+        if (!kernels || std::ranges::find(programs_of_cards, included) == programs_of_cards.end()) {
+            out.push_back(file.path + " includes " + included + "; the physics is in the programs that it launches");
+        }
+    }
+    if (!kernels) return out;
+    static Pattern const computed(computation), definition(R"(^\w.*\) (const )?\{|^(struct|class|union|enum)\b)"),
+        launched(R"(\b__global__ void\b|^CudaKernels SLIDEWAY_KERNELS\(\))");
+    find_in_code(file, computed, "kernels on cards call the processor's programs and compute nothing", out);
+    for (std::string const& line : lines_of(code_only(file.text))) {
+        if (definition.match_in(line) && !launched.match_in(line)) {
+            out.push_back(file.path + ": " + line + ": only kernels and the list of them are defined here");
+        }
+    }
     return out;
 }
 

@@ -20,6 +20,10 @@ Violations circle_violations(std::vector<SourceFile> const& files);
 /// Instruction sets and CUDA macros named outside kernels/real.hpp and host/backend.
 Violations backend_violations(SourceFile const& file);
 
+/// Physics beside the kernels: files for nvcc other than host/backend/cuda.cu, and what that file or those that launch it compute, define
+/// or know beyond the programs of kernels/.
+Violations card_violations(SourceFile const& file);
+
 /// Exceptions, allocation and anything but headers in kernels/.
 Violations kernel_violations(SourceFile const& file);
 

@@ -35,6 +35,12 @@ TEST(Layers, OnlyTheVocabularyKnowsBackends) { expect_kept(layered_sources(), ba
 
 TEST(Layers, KernelsNeitherThrowNorAllocate) { expect_kept(files_below({"kernels"}), kernel_violations); }
 
+TEST(Layers, CardsHoldNoPhysicsOfTheirOwn) {
+    auto const files = layered_sources();
+    EXPECT_EQ(std::ranges::count(files, "host/backend/cuda.cu", &SourceFile::path), 1);
+    expect_kept(files, card_violations);
+}
+
 TEST(LayerRules, UpwardIncludeIsFound) {
     EXPECT_EQ(include_violations(including("kernels/laws/line.hpp", "kernels/joint/joint.hpp")).size(), 1u);
     EXPECT_EQ(include_violations(including("host/scene/scene.cpp", "host/cli/run.hpp")).size(), 1u);
@@ -83,6 +89,24 @@ TEST(LayerRules, InstructionSetsAndCudaAreFoundInCodeOnly) {
     EXPECT_TRUE(backend_violations({"kernels/laws/line.hpp", "// as xsimd does; __CUDACC__\n"}).empty());
     EXPECT_TRUE(backend_violations({"host/cli/list.cpp", "print(\"xsimd\");\n"}).empty());
     EXPECT_TRUE(backend_violations({"kernels/real.hpp", "_mm_fmadd_pd(a, b, c);\n"}).empty());
+}
+
+TEST(LayerRules, PhysicsOnCardsIsFound) {
+    auto const violations = [](std::string const& text) {
+        return card_violations({"host/backend/cuda.cu", text}).size();
+    };
+    EXPECT_EQ(violations("__global__ void drift(double* x) {\n    x[0] = x[0] + x[1];\n}\n"), 1u);
+    EXPECT_EQ(violations("__global__ void drop(double* x) {\n    x[0] -= 9.81;\n}\n"), 1u);
+    EXPECT_EQ(violations("__global__ void start(GridTask task) {\n    if (task.parts.friction) run(task);\n}\n"), 1u);
+    EXPECT_EQ(violations("__device__ double square(double x) {\n    return power(x);\n}\n"), 1u);
+    EXPECT_EQ(violations("struct Spring {\n    double stiffness;\n};\n"), 1u);
+    EXPECT_EQ(violations("#include \"kernels/joint/joint.hpp\"\n"), 1u);
+    EXPECT_EQ(violations("#include \"kernels/integrate.hpp\"\n// 2.0 * x + y\n"), 0u);
+    EXPECT_EQ(violations("template <class Model> __global__ void go(GridTask task) {\n    run(task, Model{});\n}\n"),
+              0u);
+    EXPECT_EQ(card_violations({"host/backend/cuda_more.cu", ""}).size(), 1u);
+    EXPECT_EQ(card_violations(including("host/backend/cuda_backend.cpp", "kernels/integrate.hpp")).size(), 1u);
+    EXPECT_TRUE(card_violations(including("host/backend/cuda_backend.cpp", "kernels/block.hpp")).empty());
 }
 
 TEST(LayerRules, ThrowAndAllocationInKernelsAreFound) {

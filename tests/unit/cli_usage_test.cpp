@@ -31,7 +31,7 @@ TEST_F(Usage, OfOptionsOfRun) {
     expect_refusal(2, "--threads 0", {"run", "s.toml", "--threads", "0"});
     expect_refusal(2, "--threads", {"run", "s.toml", "--threads", "many"});
     expect_refusal(2, "--isa mmx", {"run", "s.toml", "--isa", "mmx"});
-    expect_refusal(2, "not available in this build", {"run", "s.toml", "--backend", "cuda"});
+    expect_refusal(2, "leave one of them out", {"run", "s.toml", "--backend", "cuda", "--isa", "avx2"});
     expect_refusal(2, "--backend abacus", {"run", "s.toml", "--backend", "abacus"});
     expect_refusal(2, "--max-hours", {"run", "s.toml", "--max-hours=-1"});
     expect_refusal(2, "--max-hours", {"run", "s.toml", "--max-hours", "nan"});

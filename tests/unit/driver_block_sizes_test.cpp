@@ -8,6 +8,7 @@ namespace {
 BlockSizes sizes_of(std::size_t lanes) {
     BlockSizes sizes;
     sizes.lanes = lanes;
+    sizes.least = 8 * lanes;
     sizes.most = 4096;
     sizes.seconds = 2;
     return sizes;
@@ -93,6 +94,39 @@ TEST(BlockSizes, ShrinkTowardsTheEnd) {
     }
     EXPECT_GE(blocks_of_the_end, 8u);  // two for each worker at least
     EXPECT_EQ(before, 8u);
+}
+
+/// A card: 32 threads go together, and it takes thousands of them to fill it.
+BlockSizes sizes_of_card(std::size_t most) {
+    BlockSizes sizes;
+    sizes.lanes = 32;
+    sizes.least = 33'792;
+    sizes.most = most;
+    sizes.seconds = 10;
+    return sizes;
+}
+
+TEST(BlockSizes, OfACardFillItBeforeAnythingIsTried) {
+    EXPECT_EQ(BlockSizer(sizes_of_card(135'168), 10'000'000, 4).next(10'000'000), 33'792u);
+    EXPECT_EQ(BlockSizer(sizes_of_card(135'168), 100'000, 4).next(100'000),
+              25'024u);  // a worker's share, in whole warps
+    BlockSizer dear(sizes_of_card(135'168), 10'000'000, 4);
+    dear.measured(33'792, 1e4, 1);
+    EXPECT_EQ(dear.next(10'000'000), 33'792u);
+    BlockSizer cheap(sizes_of_card(135'168), 10'000'000, 4);
+    cheap.measured(33'792, 0.1, 1);
+    EXPECT_EQ(cheap.next(10'000'000), 135'168u);
+}
+
+TEST(BlockSizes, NeverExceedTheMemory) {
+    for (std::size_t const most : {1, 3, 31, 33, 1000}) {
+        for (std::uint64_t const members : {1u, 100u, 1'000'000u}) {
+            BlockSizer sizer(sizes_of_card(most), members, 4);
+            EXPECT_LE(sizer.next(members), most);
+            sizer.measured(most, 1e-9, 0.5);
+            EXPECT_LE(sizer.next(members), most);
+        }
+    }
 }
 
 TEST(BlockSizes, AreWhatWasAskedFor) {

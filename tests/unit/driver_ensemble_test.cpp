@@ -16,7 +16,7 @@ TEST_P(EnsembleOverBlocks, GivesEveryMemberItsOwnResultOnce) {
     StopRequest const stop;
     EnsemblePlan plan = small_plan(101, block_members, threads);
     plan.members = MemberSet({40, 101});
-    EnsembleTotals const totals = run_ensemble(plan, {known_results, nullptr}, collected.sink(), stop);
+    EnsembleTotals const totals = run_ensemble(plan, known_results, collected.sink(), stop);
 
     EXPECT_EQ(collected.twice, 0);
     ASSERT_EQ(collected.members.size(), 101u);
@@ -45,7 +45,7 @@ TEST_P(EnsembleOverBlocks, LeavesUnusableMembersOutAndKeepsTheOthersInPlace) {
     StopRequest const stop;
     EnsemblePlan plan = small_plan(50, block_members, threads);
     plan.source = every_third_is_unusable;
-    EnsembleTotals const totals = run_ensemble(plan, {known_results, nullptr}, collected.sink(), stop);
+    EnsembleTotals const totals = run_ensemble(plan, known_results, collected.sink(), stop);
 
     ASSERT_EQ(collected.members.size(), 50u);
     for (auto const& [index, member] : collected.members) {
@@ -70,7 +70,7 @@ TEST_P(EnsembleOverBlocks, RunsTheMembersOfASetWithGapsAndNoOthers) {
     EnsemblePlan plan = small_plan(0, block_members, threads);
     std::uint64_t const members[] = {3, 4, 5, 9, 100, 101, 77, 1000000};
     plan.members = MemberSet::of(members);
-    EnsembleTotals const totals = run_ensemble(plan, {known_results, nullptr}, collected.sink(), stop);
+    EnsembleTotals const totals = run_ensemble(plan, known_results, collected.sink(), stop);
     EXPECT_EQ(totals.done(), 8u);
     EXPECT_EQ(collected.twice, 0);
     ASSERT_EQ(collected.members.size(), 8u);
@@ -88,8 +88,8 @@ TEST(Ensemble, OfUnusableMembersAloneNeverCallsTheKernel) {
     StopRequest const stop;
     EnsemblePlan plan = small_plan(10, 4, 2);
     plan.source = [](std::uint64_t, Inputs&) { return false; };
-    auto const totals =
-        run_ensemble(plan, {[](Block&) { throw std::logic_error("called"); }, nullptr}, collected.sink(), stop);
+    auto const totals = run_ensemble(
+        plan, [](Block&) { throw std::logic_error("called"); }, collected.sink(), stop);
     EXPECT_EQ(totals.failed(), 10u);
     EXPECT_EQ(totals.lane_utilisation(), 1);
 }
@@ -102,7 +102,7 @@ TEST(Ensemble, EndsWithTheErrorOfItsSink) {
             if (++calls == 3) throw std::runtime_error("disk full");
         };
         try {
-            run_ensemble(small_plan(1000, 5, threads), {known_results, nullptr}, failing, stop);
+            run_ensemble(small_plan(1000, 5, threads), known_results, failing, stop);
             FAIL() << "the error was lost";
         } catch (std::runtime_error const& error) {
             EXPECT_STREQ(error.what(), "disk full");
@@ -119,7 +119,7 @@ TEST(Ensemble, EndsWithTheErrorOfAMember) {
         return true;
     };
     EXPECT_THROW(run_ensemble(
-                     plan, {known_results, nullptr}, [](BlockResult const&) {}, stop),
+                     plan, known_results, [](BlockResult const&) {}, stop),
                  std::runtime_error);
 }
 
@@ -127,7 +127,7 @@ TEST(Ensemble, StoppedBeforeItsStartRunsNothing) {
     StopRequest stop;
     stop.request();
     Collected collected;
-    auto const totals = run_ensemble(small_plan(30, 4, 2), {known_results, nullptr}, collected.sink(), stop);
+    auto const totals = run_ensemble(small_plan(30, 4, 2), known_results, collected.sink(), stop);
     EXPECT_EQ(collected.calls, 0);
     EXPECT_EQ(totals.done(), 0u);
     EXPECT_EQ(totals.stopped, StopReason::signal);
@@ -141,7 +141,7 @@ TEST(Ensemble, StoppedOnItsWayKeepsWhatIsFinished) {
         collect(block);
         if (collected.calls == 2) stop.request();
     };
-    auto const totals = run_ensemble(small_plan(40, 4, 1), {known_results, nullptr}, stopping, stop);
+    auto const totals = run_ensemble(small_plan(40, 4, 1), known_results, stopping, stop);
     EXPECT_EQ(collected.members.size(), 8u);
     EXPECT_EQ(totals.ended[0], 8u);
     EXPECT_EQ(totals.done(), 8u);
@@ -152,7 +152,7 @@ TEST(Ensemble, StopsWhenItsTimeIsUp) {
     StopRequest stop;
     stop.stop_after(std::chrono::milliseconds(50));
     Collected collected;
-    auto const totals = run_ensemble(small_plan(1000, 1, 2), {slow_results, nullptr}, collected.sink(), stop);
+    auto const totals = run_ensemble(small_plan(1000, 1, 2), slow_results, collected.sink(), stop);
     EXPECT_EQ(totals.stopped, StopReason::time_limit);
     EXPECT_GT(totals.ended[0], 0u);
     EXPECT_LT(totals.done(), 1000u);
@@ -163,7 +163,7 @@ TEST(Ensemble, StopsWhenItsTimeIsUp) {
 TEST(Ensemble, TellsOfARequestThatCameWithItsLastBlock) {
     StopRequest stop;
     auto const totals = run_ensemble(
-        small_plan(8, 4, 1), {known_results, nullptr},
+        small_plan(8, 4, 1), known_results,
         [&](BlockResult const& block) {
             if (block.members[0] == 4) stop.request();
         },

@@ -13,7 +13,7 @@ TEST(SharedQueue, LeavesToOthersWhatTheyTookFromTheQueue) {
     LocalQueue queue(20);
     EXPECT_EQ(queue.take(7, 0).count, 7u);
     Collected collected;
-    EnsembleTotals const totals = run_ensemble(plan, queue, {known_results, nullptr}, collected.sink(), stop);
+    EnsembleTotals const totals = run_ensemble(plan, queue, known_results, collected.sink(), stop);
     EXPECT_EQ(totals.done(), 13u);
     ASSERT_EQ(collected.members.size(), 13u);
     EXPECT_EQ(collected.members.begin()->first, 7u);
@@ -44,7 +44,7 @@ TEST(SharedQueue, ReportsToTheQueueWhatItFinished) {
         StopRequest const stop;
         Ledger ledger(101);
         run_ensemble(
-            small_plan(101, 10, threads), ledger, {known_results, nullptr}, [](BlockResult const&) {}, stop);
+            small_plan(101, 10, threads), ledger, known_results, [](BlockResult const&) {}, stop);
         EXPECT_EQ(ledger.reported, 101u);
         EXPECT_FALSE(ledger.abandoned);
     }
@@ -54,7 +54,7 @@ TEST(SharedQueue, AbandonsTheQueueOfAllWhenItFails) {
     StopRequest const stop;
     Ledger ledger(100);
     EXPECT_THROW(run_ensemble(
-                     small_plan(100, 10, 2), ledger, {known_results, nullptr},
+                     small_plan(100, 10, 2), ledger, known_results,
                      [](BlockResult const&) { throw std::runtime_error("disk full"); }, stop),
                  std::runtime_error);
     EXPECT_TRUE(ledger.abandoned);
@@ -65,7 +65,7 @@ TEST(SharedQueue, HandsPlacesToAProgramWhichEmitsWhatItWill) {
     for (int const threads : {1, 4}) {
         StopRequest const stop;
         EnsemblePlan plan = small_plan(12, 5, threads);
-        KernelInstance const kernel{known_results, nullptr};
+        BlockKernel const kernel = known_results;
         // Each place becomes two members, in blocks of one.
         plan.program = [&](BlockBuffers& buffers, std::span<std::uint64_t const> places, BlockEmit const& emit) {
             for (std::uint64_t const place : places) {

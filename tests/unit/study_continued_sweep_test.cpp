@@ -35,13 +35,13 @@ Scene sweep_scene() {
 
 /// How many members were integrated for those asked for.
 std::uint64_t integrated_for(Scene const& scene, MemberSet const& asked, MemberEnds ends = {}) {
-    EnsemblePlan plan = ensemble_plan(scene, asked, Isa::scalar, 2);
+    EnsemblePlan plan = ensemble_plan(scene, asked, *cpu_backend(Isa::scalar), 2);
     std::atomic<std::uint64_t> drawn{0}, emitted{0};
     plan.source = [&drawn, draw = plan.source](std::uint64_t member, Inputs& inputs) {
         ++drawn;
         return draw(member, inputs);
     };
-    KernelInstance const kernel = find_instance(Isa::scalar, scene.parts);
+    BlockKernel const kernel = cpu_backend(Isa::scalar)->kernel(scene.parts, false);
     StopRequest stop;
     continue_columns(scene, plan, asked, kernel, std::move(ends), stop);
     run_ensemble(

@@ -10,7 +10,7 @@ namespace {
 
 Prediction prediction_of(std::string const& lines, int members = 1) {
     std::string const study = "\n[study]\nmembers = " + std::to_string(members) + "\nduration = 4\n";
-    return predict(testing::scene_of("schema = 1\n" + lines + study), Isa::scalar, 4);
+    return predict(testing::scene_of("schema = 1\n" + lines + study), *cpu_backend(Isa::scalar), 4);
 }
 
 TEST(Prediction, RangeHoldsWhatRingingContactCosts) {
@@ -41,7 +41,7 @@ TEST(Prediction, StatisticsDoNotGrowWithTheMembers) {
         return predict(testing::scene_of("schema = 1\n[study]\nduration = 4\nquantities = [\"peak_normal_force\", "
                                          "\"mode_time\"]\nstore = \"" +
                                          store + "\"\nmembers = " + std::to_string(members) + "\n"),
-                       Isa::avx2, 4);
+                       *cpu_backend(Isa::avx2), 4);
     };
     Prediction const million = of("statistics", 1'000'000), billion = of("statistics", 1'000'000'000);
     EXPECT_EQ(million.output_bytes, billion.output_bytes);
@@ -55,7 +55,8 @@ TEST(Prediction, StatisticsDoNotGrowWithTheMembers) {
 
 TEST(Prediction, GoesByTheSizeOfBlocksThatIsAskedFor) {
     Scene const scene = testing::scene_of("schema = 1\n[study]\nduration = 4\nmembers = 10000\n");
-    Prediction const small = predict(scene, Isa::scalar, 4, 10), large = predict(scene, Isa::scalar, 4, 5000);
+    Prediction const small = predict(scene, *cpu_backend(Isa::scalar), 4, 10),
+                     large = predict(scene, *cpu_backend(Isa::scalar), 4, 5000);
     EXPECT_EQ(small.largest_block, 10u);
     EXPECT_EQ(large.largest_block, 5000u);
     EXPECT_EQ(small.busy_threads, 4);
@@ -77,7 +78,7 @@ TEST(Prediction, ContinuedSweepsMakeAShardOfEachColumnOfABlock) {
             "exponents = 0\nstart = \"" +
             start + "\"\n");
         MemberSet const all({0, 200});
-        return shard_bytes(scene, all, Isa::scalar, 1, 50) - payload_bytes(result_layout(scene, all));
+        return shard_bytes(scene, all, *cpu_backend(Isa::scalar), 1, 50) - payload_bytes(result_layout(scene, all));
     };
     // Of 200 members four blocks either way: 50 consecutive members, or 50 starts in four columns.
     EXPECT_NEAR(static_cast<double>(shards("continue")), static_cast<double>(shards("fresh")), 100);

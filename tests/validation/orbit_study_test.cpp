@@ -40,7 +40,7 @@ struct Found {
 Found exponents(std::string_view study, std::string_view starts = scattered_starts) {
     Scene const scene = parse_scene(fmt::format("schema = 1\n{}{}", study, starts), "test.toml");
     MemberSet const all(MemberRange{0, member_count(scene)});
-    EnsemblePlan const plan = ensemble_plan(scene, all, best_isa(), 1);
+    EnsemblePlan const plan = ensemble_plan(scene, all, *cpu_backend(best_isa()), 1);
     ExponentTable const table(scene);
     Found found;
     found.k = static_cast<std::size_t>(scene.chaos.exponents);
@@ -52,7 +52,8 @@ Found exponents(std::string_view study, std::string_view starts = scattered_star
         std::copy(values[0].begin(), values[0].end(), found.values.begin() + at);
         std::copy(values[1].begin(), values[1].end(), found.errors.begin() + at);
     };
-    EnsembleTotals const totals = run_ensemble(plan, find_instance(best_isa(), scene.parts), keep, StopRequest{});
+    EnsembleTotals const totals =
+        run_ensemble(plan, cpu_backend(best_isa())->kernel(scene.parts, true), keep, StopRequest{});
     EXPECT_EQ(totals.failed(), 0u);
     return found;
 }
@@ -205,7 +206,7 @@ revolutions = 0.3
 {})",
                                                 method, scattered_starts),
                                     "test.toml");
-    EnsemblePlan const plan = ensemble_plan(scene, MemberSet(MemberRange{0, scene.members}), isa, 1);
+    EnsemblePlan const plan = ensemble_plan(scene, MemberSet(MemberRange{0, scene.members}), *cpu_backend(isa), 1);
     Sections found;
     found.records.resize(scene.members);
     found.rows.resize(scene.members * scene.chaos.max_crossings * section_columns);
@@ -216,7 +217,7 @@ revolutions = 0.3
         std::copy(block.records.begin(), block.records.end(),
                   found.records.begin() + static_cast<std::ptrdiff_t>(block.members.front()));
     };
-    run_ensemble(plan, find_instance(isa, scene.parts), keep, StopRequest{});
+    run_ensemble(plan, cpu_backend(isa)->kernel(scene.parts, false), keep, StopRequest{});
     return found;
 }
 

@@ -67,7 +67,7 @@ class PoisonedMember : public ::testing::Test {
 protected:
     static constexpr std::size_t nobody = members;
 
-    PoisonedMember() : kernel_(find_instance(isa_, {Law::conservative, Damping::rate, true, false})) {
+    PoisonedMember() : kernel_(cpu_backend(isa_)->kernel({Law::conservative, Damping::rate, true, false}, false)) {
         // One in nine touches its way in the time that it has.
         for (std::size_t i = 0; i < members; i += 9) starts_[i].vy = -0.6;
     }
@@ -103,7 +103,7 @@ protected:
     }
 
     Isa const isa_ = best_isa();
-    KernelInstance const kernel_;
+    BlockKernel const kernel_;
     std::vector<Inputs> starts_ = testing::scattered_starts(members);
 };
 

@@ -103,6 +103,7 @@ cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr attribute, int dev
             {cudaDevAttrCanMapHostMemory, p.canMapHostMemory},
             {cudaDevAttrUnifiedAddressing, p.unifiedAddressing},
             {cudaDevAttrComputeMode, cudaComputeModeDefault},
+            {cudaDevAttrClockRate, 1'500'000},  // [kHz]
         };
         for (auto const& [key, number] : known) {
             if (key == attribute) return *value = number, cudaSuccess;
