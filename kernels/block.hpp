@@ -120,7 +120,7 @@ struct BlockBase {
     ShadowPlan shadows;      // of models with shadows
     CrossingPlan crossings;  // from each member's first_stop on; of models without shadows, and without stops
     /// Asked now and then; true, or a flag that is not 0, ends the block at once.  Members that have not ended keep what their results
-    /// held before; their series are NaN.
+    /// held before, but that series, sections and growths of those under way are NaN.
     bool (*stop)(void const* context) = nullptr;
     void const* stop_context = nullptr;
     int const volatile* stop_flag = nullptr;
