@@ -5,7 +5,7 @@
 // Both run the same members, in turn, round after round; medians of wall time are reported.  Exit code 0 if all bits agree that should,
 // 1 if some do not, and 4 without a card that can be used, after one line on stderr.  scripts/cuda_check.sh runs it.
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -18,7 +18,6 @@
 #include "bench/machine.hpp"
 #include "bench/median.hpp"
 #include "host/output/run_identity.hpp"
-#include "tests/support/ensemble.hpp"
 
 namespace slideway {
 namespace {
@@ -32,36 +31,21 @@ struct Options {
     std::string scene;  // those whose name contains this
 };
 
-/// Useful flops of an evaluation, on average over states of some members at even times.
+/// Useful flops of an evaluation, on average over all of some members.
 double flops_per_evaluation(EngineCase const& c) {
-    constexpr std::size_t members = 64, samples = 33;
-    testing::RunOptions options;
-    options.parts = c.parts;
-    options.settings = settings_of(c);
-    options.quantities = 0;
-    options.series = testing::state_selection;
-    for (std::size_t i = 0; i < samples; ++i) {
-        options.sample_times.push_back(c.end_time * static_cast<double>(i) / (samples - 1));
-    }
-    auto const starts = members_of(c, members);
-    auto const run = testing::run(best_isa(), options, starts);
-    std::vector<Inputs> states;
-    std::vector<double> times;
-    for (std::size_t member = 0; member < members; ++member) {
-        for (std::size_t sample = 0; sample < samples; ++sample) {
-            auto in = starts[member];
-            double* const state[] = {&in.y,   &in.z,     &in.vy, &in.vz, &in.roll,
-                                     &in.yaw, &in.pitch, &in.wx, &in.wy, &in.wz};
-            for (std::size_t i = 0; i < state_size; ++i) {
-                *state[i] = run.series[(i * members + member) * samples + sample];
-            }
-            if (std::isnan(in.y)) continue;  // it had failed by then
-            states.push_back(in);
-            times.push_back(options.sample_times[sample]);
-        }
-    }
-    auto const flops = derivative_flops(c.parts.law, c.parts.damping, states.data(), times.data(), states.size());
-    return static_cast<double>(flops) / static_cast<double>(states.size());
+    auto const members = members_of(c, 32);
+    std::vector<MemberRecord> records(members.size());
+    std::vector<double> states(members.size() * state_size);
+    Block block;
+    block.inputs = members.data();
+    block.members = members.size();
+    block.settings = settings_of(c);
+    block.records = records.data();
+    block.final_states = states.data();
+    auto const flops = static_cast<double>(counted_flops(c.parts.law, c.parts.damping, block));
+    std::uint64_t evaluations = 0;
+    for (auto const& record : records) evaluations += record.rhs_evaluations + record.jacobian_evaluations;
+    return flops / static_cast<double>(evaluations);
 }
 
 struct Row {
@@ -112,15 +96,12 @@ void print(std::vector<Row> const& rows, Backend const& card, Backend const& cpu
     fmt::print(
         "Scattered starts, ±20 % in clearances, crank speed, friction and damping; no quantity asked for.  Wall time "
         "of "
-        "the whole run through the driver, with all copies to the card and back.  The processor is this machine's, all "
-        "its "
-        "threads.  Flops are counted: additions, multiplications, divisions and roots, two for a fused multiply-add, "
-        "of one "
-        "evaluation of the derivative on average over states along the motion of 64 members at even times; GF/s are "
-        "these times the evaluations per second, an analytic Jacobian counting as one.  It is a lower bound, for what "
-        "the "
-        "methods do with the derivatives is left out.  The peak is the card's by its clock and its units for double "
-        "precision.\n\n");
+        "whole runs through the driver, copies to the card and back included; the processor with all its threads that "
+        "are named above.  An evaluation is a right-hand side or an analytic Jacobian.  Its flops (additions, "
+        "multiplications, divisions and roots; two for a fused multiply-add) are counted along the runs of 32 of the "
+        "members, and GF/s are these times the evaluations per second: a lower bound, for what the methods do beside "
+        "is "
+        "left out.  The peak is the card's by its clock and its units for double precision.\n\n");
     fmt::print(
         "| scene | members/s | members/s, processor | over the processor | member-steps/s | evaluations per member | "
         "flops per evaluation | GF/s | of FP64 peak | failed | bits as the processor | same bits in every round |\n"

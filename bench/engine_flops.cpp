@@ -1,32 +1,54 @@
-// Compiled once, with the number that counts operations.
+// Compiled once, for members in double whose equations are evaluated a second time with the number that counts operations.
 #include "bench/engine_flops.hpp"
 
+#include <type_traits>
+
 #include "bench/counted_real.hpp"
+#include "kernels/integrate.hpp"
 #include "kernels/lane_copy.hpp"
 #include "kernels/laws/conservative.hpp"
 #include "kernels/laws/paper.hpp"
-#include "kernels/mechanisms/slider_crank.hpp"
+#include "kernels/models/slider_crank_model.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 namespace {
 
-template <class Law, class Damping> void evaluate(Inputs const& member, double time) {
-    using Model = SliderCrank<Law, StickSlipFriction, AlignedWay, Damping>;
-    typename Model::template Parameters<Counted> parameters;
-    load_lane(parameters, 0, Model::parameters(member));
-    typename Model::template Memory<Counted> memory;
-    start_memory(memory);
-    double start[Model::size];
-    Model::initial_state(member, start);
-    Counted state[Model::size], rates[Model::size];
-    for (int i = 0; i < Model::size; ++i) state[i] = Counted(start[i]);
-    typename Model::template Report<Counted>* const none = nullptr;
-    Model::template derivative<false>(Counted(time), state, parameters, memory, rates, none);
+/// The same structure, of numbers that count.
+template <template <class> class Record> Record<Counted> counting(Record<double> const& record) {
+    Record<Counted> copy;
+    if constexpr (!std::is_empty_v<Record<double>>) load_lane(copy, 0, record);
+    return copy;
 }
 
-template <class Law> void evaluate(Damping damping, Inputs const& member, double time) {
-    if (damping == Damping::rate) return evaluate<Law, RateDamping>(member, time);
-    evaluate<Law, PointDamping>(member, time);
+template <class Crank> struct CountedCrank : Crank {
+    template <class Real> using Memory = typename Crank::template Memory<Real>;
+
+    template <bool Full>
+    static Faults<double> derivative(double t, double const* s, SliderCrankParameters<double> const& p,
+                                     Memory<double> const& memory, double* rates, SliderCrankReport<double>* report) {
+        Counted state[Crank::size], unused[Crank::size];
+        for (int i = 0; i < Crank::size; ++i) state[i] = Counted(s[i]);
+        SliderCrankReport<Counted>* const none = nullptr;
+        Crank::template derivative<false>(Counted(t), state, counting(p), counting(memory), unused, none);
+        return Crank::template derivative<Full>(t, s, p, memory, rates, report);
+    }
+
+    static void linearise(double t, double const* s, SliderCrankParameters<double> const& p,
+                          Memory<double> const& memory, SliderCrankLinearisation<double>& out) {
+        Counted state[Crank::size];
+        for (int i = 0; i < Crank::size; ++i) state[i] = Counted(s[i]);
+        SliderCrankLinearisation<Counted> unused;
+        Crank::linearise(Counted(t), state, counting(p), counting(memory), unused);
+        Crank::linearise(t, s, p, memory, out);
+    }
+};
+
+template <class Law, class Damping> void run(Block& block) {
+    integrate<CountedCrank<SliderCrankModel<Law, StickSlipFriction, AlignedWay, Damping>>, double>(block);
+}
+
+template <class Law> void run(Damping damping, Block& block) {
+    damping == Damping::rate ? run<Law, RateDamping>(block) : run<Law, PointDamping>(block);
 }
 
 }  // namespace
@@ -34,13 +56,9 @@ template <class Law> void evaluate(Damping damping, Inputs const& member, double
 
 namespace slideway {
 
-unsigned long long derivative_flops(Law law, Damping damping, Inputs const* members, double const* times,
-                                    std::size_t count) {
+unsigned long long counted_flops(Law law, Damping damping, Block& block) {
     auto const before = Counted::operations;
-    for (std::size_t i = 0; i < count; ++i) {
-        law == Law::paper ? evaluate<PaperLaw>(damping, members[i], times[i])
-                          : evaluate<ConservativeLaw>(damping, members[i], times[i]);
-    }
+    law == Law::paper ? run<PaperLaw>(damping, block) : run<ConservativeLaw>(damping, block);
     return Counted::operations - before;
 }
 

@@ -1,16 +1,12 @@
-// What one evaluation of the derivative costs, counted by running it on a number that counts.
+// What the engine's evaluations cost, counted by running each on a number that counts.
 #pragma once
 
-#include <cstddef>
-
-#include "kernels/inputs.hpp"
+#include "kernels/block.hpp"
 
 namespace slideway {
 
-/// Useful flops of the lean derivative at some states, all together (counted_real.hpp says what counts).  Friction on, aligned way; of
-/// restitution there are none.
-/// @param members their initial state is the state to evaluate  @param times [count] [s]
-unsigned long long derivative_flops(Law law, Damping damping, Inputs const* members, double const* times,
-                                    std::size_t count);
+/// Integrates a block (friction on, aligned way; not restitution), one member at a time and slowly.
+/// @return useful flops of its right-hand sides and Jacobians, the former as without a report (counted_real.hpp says what counts)
+unsigned long long counted_flops(Law law, Damping damping, Block& block);
 
 }  // namespace slideway
