@@ -9,62 +9,22 @@
 #include <time.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <string>
 #include <vector>
 
+#include "bench/engine_cases.hpp"
 #include "bench/machine.hpp"
-#include "host/driver/ensemble.hpp"
-#include "tests/support/ensemble.hpp"
+#include "bench/median.hpp"
 
 namespace slideway {
 namespace {
 
-constexpr double pi = 3.141592653589793;
+constexpr std::size_t member_count = 512;  // of each case
 
-struct Case {
-    std::string name;
-    Parts parts;
-    double clearance, crank_speed, chi, end_time, rtol;
-    std::size_t members;
-};
-
-std::vector<Case> const cases = {
-    {"standard scene, paper", {Law::paper, Damping::point, true, false}, 1e-4, pi, 0, 0.05, 1e-6, 512},
-    {"standard scene, conservative", {Law::conservative, Damping::point, true, false}, 1e-4, pi, 0, 0.05, 1e-6, 512},
-    {"rattling, conservative", {Law::conservative, Damping::rate, true, false}, 5e-4, 47, 10, 0.05, 1e-5, 512},
-    {"settling, conservative", {Law::conservative, Damping::rate, true, false}, 1e-4, pi, 10, 0.4, 1e-4, 512},
-    {"crank turn, conservative", {Law::conservative, Damping::rate, true, false}, 1e-4, pi, 10, 2, 1e-3, 512},
-};
-
-/// Scattered starts with ±20 % in clearances, speed, friction and damping.
-std::vector<Inputs> members_of(Case const& c) {
-    auto members = testing::scattered_starts(c.members, c.clearance, c.crank_speed);
-    for (std::size_t i = 0; i < members.size(); ++i) {
-        auto& in = members[i];
-        auto const spread = [&](double irrational) {
-            double const x = static_cast<double>(i + 1) * irrational;
-            return 0.8 + 0.4 * (x - std::floor(x));
-        };
-        in.clearance_y *= spread(0.3166247903553998);
-        in.clearance_z *= spread(0.6055512754639891);
-        in.crank_speed *= spread(0.1231056256176606);
-        in.friction_static *= spread(0.3588989435406740);
-        in.friction_kinetic *= spread(0.7958315233127191);
-        in.eta *= spread(0.3851648071345037);
-        in.chi_line = in.chi_surface = c.chi;
-    }
-    return members;
-}
-
-struct Run {
-    EnsembleTotals totals;
+struct Run : EngineRun {
     double processor_seconds = 0;
-    std::vector<double> states;
 };
 
 double processor_seconds() {
@@ -73,43 +33,16 @@ double processor_seconds() {
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-Run run(Case const& c, std::vector<Inputs> const& members, Isa isa, int threads) {
-    EnsemblePlan plan;
-    plan.members = MemberSet(MemberRange{0, members.size()});
-    plan.threads = threads;
+Run run(EngineCase const& c, std::vector<Inputs> const& members, Isa isa, int threads) {
     auto const backend = cpu_backend(isa);
-    plan.blocks.lanes = backend->lanes();
-    plan.blocks.least = backend->least_block();
-    auto& settings = plan.request.integrator;
-    settings.end_time = c.end_time;
-    settings.rtol = settings.atol = c.rtol;
-    plan.source = [&](std::uint64_t i, Inputs& in) {
-        in = members[i];
-        return true;
-    };
-    Run result;
-    result.states.resize(members.size() * state_size);
-    StopRequest const stop;
     double const start = processor_seconds();
-    result.totals = run_ensemble(
-        plan, backend->kernel(c.parts, false),
-        [&](BlockResult const& block) {
-            std::ranges::copy(block.final_states,
-                              result.states.begin() + static_cast<std::ptrdiff_t>(block.members.front() * state_size));
-        },
-        stop);
+    Run result{run_engine(c, members, *backend, threads)};
     result.processor_seconds = processor_seconds() - start;
     return result;
 }
 
-double median(std::vector<double> values) {
-    auto const middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 struct Row {
-    Case const* scene;
+    EngineCase const* scene;
     std::vector<Inputs> const* members;
     Isa isa;
     Run last{};
@@ -129,19 +62,19 @@ std::string row_text(Row const& row, Row const& scalar) {
     double const members = static_cast<double>(row.members->size()), seconds = median(row.one);
     auto const evaluations = static_cast<double>(t.rhs_evaluations + t.jacobian_evaluations);
     auto const steps = static_cast<double>(t.steps_accepted + t.steps_rejected);
-    bool const same =
-        std::memcmp(row.last.states.data(), scalar.last.states.data(), row.last.states.size() * sizeof(double)) == 0;
     return fmt::format(
         "| {} | {} | {:.0f} | {:.2f} | {:.4g} | {:.1f} | {:.0f} | {:.3f} | {} | {} | {:.2f} | {:.2f} | {:.2f} |\n",
         row.scene->name, name_of(row.isa), members / seconds, median(scalar.one) / seconds, steps / seconds,
         1e9 * seconds / evaluations, evaluations / members, t.lane_utilisation(),
-        row.members->size() - (t.done() - t.failed()), same ? "yes" : "no", median(row.wall_one) / median(row.wall_two),
-        std::ranges::min(row.wall_one) / std::ranges::min(row.wall_two), median(row.processor));
+        row.members->size() - (t.done() - t.failed()), same_bits(row.last, scalar.last) ? "yes" : "no",
+        median(row.wall_one) / median(row.wall_two), std::ranges::min(row.wall_one) / std::ranges::min(row.wall_two),
+        median(row.processor));
 }
 
 int benchmark(int rounds) {
+    auto const cases = engine_cases();
     std::vector<std::vector<Inputs>> members;
-    for (auto const& c : cases) members.push_back(members_of(c));
+    for (auto const& c : cases) members.push_back(members_of(c, member_count));
     std::vector<Row> rows;
     for (std::size_t i = 0; i < cases.size(); ++i) {
         for (Isa const isa : {Isa::scalar, Isa::avx2, Isa::avx512}) {
@@ -185,8 +118,7 @@ int benchmark(int rounds) {
     }
     fmt::print("\n");
     for (auto const& c : cases) {
-        fmt::print("- {}: {} members, {} s, rtol {:.0e}, clearance {} mm, {:.3g} rad/s, χ = {}\n", c.name, c.members,
-                   c.end_time, c.rtol, 1e3 * c.clearance, c.crank_speed, c.chi);
+        fmt::print("- {}: {} members, {}\n", c.name, member_count, text_of(c));
     }
     return 0;
 }

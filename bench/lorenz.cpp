@@ -12,6 +12,7 @@
 #include "bench/fma_peak.hpp"
 #include "bench/lorenz_kernel.hpp"
 #include "bench/machine.hpp"
+#include "bench/median.hpp"
 #include "host/backend/backend.hpp"
 
 namespace slideway {
@@ -53,12 +54,6 @@ template <class Work> double seconds(Work work) {
     auto const start = std::clock();
     work();
     return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
-
-double median(std::vector<double> values) {
-    auto const middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 struct Row {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "bench/machine.hpp"
+#include "bench/median.hpp"
 #include "bench/relief_valve_golden.hpp"
 #include "bench/relief_valve_kernel.hpp"
 #include "bench/relief_valve_odeint.hpp"
@@ -97,12 +98,6 @@ void measure(Row& row) {
     auto const start = std::clock();
     row.orbits = row.run();
     row.seconds.push_back(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
-}
-
-double median(std::vector<double> values) {
-    auto const middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 /// Ratio of two rows' times, round by round, so that what slows a round slows both.

@@ -12,17 +12,13 @@
 
 #include "bench/command_line.hpp"
 #include "bench/machine.hpp"
+#include "bench/median.hpp"
 #include "host/study/study_run.hpp"
 
 namespace slideway {
 namespace {
 
 namespace fs = std::filesystem;
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -51,6 +51,8 @@ public:
     virtual double seconds_per_step(double members, int workers) const = 0;
     /// The instance for a scene's parts.  @param shadows members have some beside them
     virtual BlockKernel kernel(Parts const& parts, bool shadows) const = 0;
+    /// Operations in double precision [1/s] by its data sheet, a fused multiply-add being two; 0 where nothing says so.
+    virtual double peak() const = 0;
 };
 
 /// scalar is one member at a time with fused multiply-add; sse2 runs on every x86-64 machine and has no FMA, so its

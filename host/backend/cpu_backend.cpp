@@ -50,6 +50,8 @@ public:
         return shadows ? instance.run_shadowed : instance.run;
     }
 
+    double peak() const override { return 0; }
+
 private:
     Isa const isa_;
 };

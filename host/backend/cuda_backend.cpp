@@ -29,6 +29,14 @@ CudaKernels kernels_of(Parts const& parts) {
     return impacts ? conservative_impact_kernels() : conservative_kernels();
 }
 
+/// Units of a multiprocessor for double precision, from the throughputs that the CUDA programming guide lists by compute capability:
+/// 32 or 64 in cards of data centres, few in others.
+int double_units(int major, int minor) {
+    if (major == 9 || (major == 10 && minor == 0)) return 64;
+    if (minor == 0 && major >= 6 && major <= 8) return 32;
+    return 2;
+}
+
 /// What is known of a card before it has work.
 struct Card {
     int number = 0;
@@ -36,10 +44,10 @@ struct Card {
     std::string isa;   // "sm_90"
     int multiprocessors = 1;
     int threads_per_multiprocessor = 1;
-    double clock = 1e9;  // [1/s]
+    double clock = 1e9;     // [1/s]
+    int double_units = 32;  // of a multiprocessor
 
-    /// Operations in double precision [1/s], a fused multiply-add being two: of data centre cards, 32 or 64 units in a multiprocessor.
-    double peak() const { return 2 * clock * multiprocessors * (isa < "sm_90" ? 32 : 64); }
+    double peak() const { return 2 * clock * multiprocessors * double_units; }
 
     /// @param what was tried: "allocating 3.2 GB"  @throws DeviceError if it failed
     void require(cudaError_t error, std::string const& what) const {
@@ -205,6 +213,8 @@ public:
         };
     }
 
+    double peak() const override { return card_.peak(); }
+
 private:
     void run(void const* kernel, Parts const& parts, std::size_t most_threads, Block& block) const {
         if (block.members == 0) return;  // no grid has no threads
@@ -283,6 +293,7 @@ std::shared_ptr<Backend const> cuda_backend(int rank) {
     card.require(cudaGetDeviceProperties(&properties, card.number), "asking what it is");
     card.name = properties.name;
     card.isa = fmt::format("sm_{}{}", properties.major, properties.minor);
+    card.double_units = double_units(properties.major, properties.minor);
     card.multiprocessors = properties.multiProcessorCount;
     card.threads_per_multiprocessor = properties.maxThreadsPerMultiProcessor;
     int kilohertz = 0;
