@@ -20,7 +20,11 @@
 namespace slideway {
 namespace {
 
-std::string gigabytes(std::size_t bytes) { return fmt::format("{:.3g} GB", static_cast<double>(bytes) / 1e9); }
+std::string bytes_text(std::uint64_t bytes) {
+    auto const amount = static_cast<double>(bytes);
+    if (amount < 1e6) return fmt::format("{:.3g} kB", amount / 1e3);
+    return amount < 1e9 ? fmt::format("{:.3g} MB", amount / 1e6) : fmt::format("{:.3g} GB", amount / 1e9);
+}
 
 /// The kernels that hold the equations of a scene's parts.
 CudaKernels kernels_of(Parts const& parts) {
@@ -127,9 +131,9 @@ private:
         device_.reset();
         host_.reset();
         void* memory = nullptr;
-        card_.require(cudaMalloc(&memory, bytes), "allocating " + gigabytes(bytes));
+        card_.require(cudaMalloc(&memory, bytes), "allocating " + bytes_text(bytes));
         device_.reset(static_cast<std::byte*>(memory));
-        card_.require(cudaHostAlloc(&memory, bytes, cudaHostAllocDefault), "pinning " + gigabytes(bytes));
+        card_.require(cudaHostAlloc(&memory, bytes, cudaHostAllocDefault), "pinning " + bytes_text(bytes));
         host_.reset(static_cast<std::byte*>(memory));
         room_ = bytes;
     }
@@ -177,17 +181,18 @@ public:
         std::size_t const usable = free > stacks ? (free - stacks) / 10 * 9 : 0;
         std::size_t const share = usable / static_cast<std::size_t>(workers);
         if (share < bytes_per_member) {
-            throw DeviceError(fmt::format(
-                "cuda: {} has {} free, of which the threads' stacks take {}: too little for a member of {} in each "
-                "of {} workers; ask for fewer samples or sections, use fewer --threads, or --backend cpu",
-                card_.name, gigabytes(free), gigabytes(std::min(free, stacks)), gigabytes(bytes_per_member), workers));
+            throw DeviceError(
+                fmt::format("cuda: {} has {} free, and the threads' stacks take {}: no room for a member of {} for "
+                            "each of {} workers; ask for "
+                            "fewer samples or sections, use fewer --threads, or --backend cpu",
+                            card_.name, bytes_text(free), bytes_text(stacks), bytes_text(bytes_per_member), workers));
         }
         std::size_t const room = share / bytes_per_member;
         if (asked > room) {
             throw DeviceError(fmt::format(
                 "cuda: {} has {} free: room for blocks of {} members for each of {} workers, not of {}; use a "
                 "smaller --block-members or fewer --threads",
-                card_.name, gigabytes(free), room, workers, asked));
+                card_.name, bytes_text(free), room, workers, asked));
         }
         // Larger blocks would not fill the card better, and a process that is killed loses those in work.
         return asked > 0 ? asked : std::min(room, 4 * least_block());

@@ -74,8 +74,8 @@ void warn_of_losses(StudyOptions const& options, StudyRun const& run) {
 }
 
 /// Before the start: what it will take, and what there is already.
-void announce(Scene const& scene, StudyOptions const& options, std::string const& reason, StudyRun const& run) {
-    Prediction const prediction = predict(scene, *options.backend, options.threads, options.block_members);
+void announce(Scene const& scene, StudyOptions const& options, std::string const& reason, Prediction const& prediction,
+              StudyRun const& run) {
     StudyWork const& work = run.work();
     if (work.before > 0) {
         fmt::print(stderr, "resuming: {} of {} members are done\n", work.before, work.before + work.todo.count());
@@ -221,9 +221,11 @@ int run(RunArguments const& arguments) {
         StudyOptions options = study_options(arguments, scene);
         BackendChoice const choice = chosen_backend(arguments, options, 0);
         options.backend = choice.backend;
+        // Of a card that lacks the memory this is the last word: nothing is on the disk yet.
+        Prediction const prediction = predict(scene, *options.backend, options.threads, options.block_members);
         StudyRun study(scene, options);
         warn_of_losses(options, study);
-        if (!arguments.quiet && !study.is_complete()) announce(scene, options, choice.reason, study);
+        if (!arguments.quiet && !study.is_complete()) announce(scene, options, choice.reason, prediction, study);
         invited = true;
         ranks->broadcast(invitation(study, *options.backend));
         return ranks->agree(lead(arguments, scene, options, study, *ranks, stop));

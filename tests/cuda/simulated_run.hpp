@@ -1,0 +1,49 @@
+// The program linked with a simulated card, run as a user does.
+#pragma once
+
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tests/unit/cli_results.hpp"
+
+namespace slideway::testing {
+
+/// A setting of the simulated card while it lives: Setting("FAIL", "cudaMalloc:1").
+class Setting {
+public:
+    Setting(std::string const& name, std::string const& value) : name_("SIMULATED_CUDA_" + name) {
+        setenv(name_.c_str(), value.c_str(), 1);
+    }
+    Setting(Setting const&) = delete;
+    ~Setting() { unsetenv(name_.c_str()); }
+
+private:
+    std::string name_;
+};
+
+class SimulatedRun : public ProgramWithResults {
+protected:
+    /// Runs a scene on the card, or with `--backend cpu` among the options on the processor.
+    Outcome run_scene(std::string const& scene, std::string const& result, std::vector<std::string> options) const {
+        std::vector<std::string> words{"run", scene, "-o", result, "--quiet"};
+        bool const is_told = std::find(options.begin(), options.end(), "--backend") != options.end();
+        if (!is_told) words.insert(words.end(), {"--backend", "cuda"});
+        words.insert(words.end(), options.begin(), options.end());
+        return run(words);
+    }
+    /// The hash of what the processor makes of the scene.
+    std::string processor_hash(std::string const& scene, std::vector<std::string> options = {}) const {
+        options.insert(options.end(), {"--backend", "cpu"});
+        Outcome const outcome = run_scene(scene, "processor.nc", options);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return hash_of("processor.nc");
+    }
+
+private:
+    // Whatever a run leaves behind on the card is a line on stderr.
+    Setting const leaks_{"LEAKS", "1"};
+};
+
+}  // namespace slideway::testing
