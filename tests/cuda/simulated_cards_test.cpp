@@ -63,7 +63,7 @@ TEST_F(SimulatedCards, SayWhereNotOneMemberFits) {
         Lines const lines = run(settings, "memory 4 4000");
         ASSERT_EQ(lines.size(), 1u);
         EXPECT_TRUE(lines[0].starts_with("cuda: simulated GPU has ")) << lines[0];
-        EXPECT_NE(lines[0].find(": too little for a member of "), std::string::npos) << lines[0];
+        EXPECT_NE(lines[0].find(": no room for a member of "), std::string::npos) << lines[0];
         EXPECT_NE(lines[0].find("for each of 4 workers; ask for fewer samples"), std::string::npos) << lines[0];
     }
 }
