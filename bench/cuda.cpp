@@ -87,12 +87,12 @@ std::string text_of(Row const& row, double members, double peak) {
 
 void print(std::vector<Row> const& rows, Backend const& card, Backend const& cpu, std::size_t members,
            Options const& options) {
-    fmt::print("# The engine on a card, method auto\n\n- card: {}, {}, FP64 peak {:.2f} TF/s, driver {}\n",
-               card.machine(), card.isa(), 1e-12 * card.peak(), card_driver());
+    fmt::print("# The engine on a card, method auto\n\n- card: {}, FP64 peak {:.2f} TF/s, driver {}\n", card.machine(),
+               1e-12 * card.peak(), card_driver());
     fmt::print("- flags, {}: nvcc {} {}\n{}- flags, {}: {}\n", card.isa(), SLIDEWAY_NVCC_VERSION, card.flags(),
                machine_and_build(), cpu.isa(), cpu.flags());
-    fmt::print("- {} members of each scene, {} threads on both, medians of {} rounds\n\n", members, options.threads,
-               options.rounds);
+    fmt::print("- {} members of each scene, {} threads of the processor, medians of {} rounds\n\n", members,
+               options.threads, options.rounds);
     fmt::print(
         "Scattered starts, ±20 % in clearances, crank speed, friction and damping; no quantity asked for.  Wall time "
         "of "
@@ -112,10 +112,10 @@ void print(std::vector<Row> const& rows, Backend const& card, Backend const& cpu
 }
 
 int benchmark(Options const& options) {
-    auto const card = cuda_backend(0);
+    auto const card = cuda_backend();
     auto const cpu = cpu_backend(best_isa());
     std::size_t const members =
-        options.members > 0 ? static_cast<std::size_t>(options.members) : 8 * card->least_block();
+        options.members > 0 ? static_cast<std::size_t>(options.members) : 8 * card->bounds({}).least;
     std::vector<Row> rows;
     for (auto const& c : engine_cases()) {
         if (c.name.find(options.scene) != std::string::npos) rows.push_back({&c, flops_per_evaluation(c)});
@@ -138,7 +138,7 @@ int main(int argc, char** argv) {
     slideway::Options options;
     line.count("--members", options.members, "Members of each scene; without it as many as fill the card eight times");
     line.count("--rounds", options.rounds, "Rounds");
-    line.count("--threads", options.threads, "Threads of the processor, and workers that feed the card");
+    line.count("--threads", options.threads, "Threads of the processor; up to four of them feed the card");
     line.option("--scene", options.scene, "Only scenes whose name contains this");
     if (auto const code = line.parse(argc, argv)) return *code;
     try {

@@ -60,11 +60,9 @@ std::vector<Inputs> members_of(EngineCase const& c, std::size_t count) {
 EngineRun run_engine(EngineCase const& c, std::vector<Inputs> const& members, Backend const& backend, int threads) {
     EnsemblePlan plan;
     plan.members = MemberSet(MemberRange{0, members.size()});
-    plan.threads = plan.workers = threads;
+    plan.threads = plan.workers = backend.workers(threads);
     plan.request.integrator = settings_of(c);
-    plan.blocks.lanes = backend.lanes();
-    plan.blocks.least = backend.least_block();
-    plan.blocks.most = backend.largest_block(block_bytes(plan.request, 1), threads, 0);
+    plan.blocks.bounds = backend.bounds({c.parts, false, block_bytes(plan.request, 1), plan.threads, 0});
     plan.source = [&](std::uint64_t i, Inputs& in) {
         in = members[i];
         return true;

@@ -31,28 +31,45 @@ public:
 /// Integrates a block to its end; may be called by several threads at once.  @throws DeviceError; the block's results are then void
 using BlockKernel = std::function<void(Block&)>;
 
+/// What a run asks of a backend.
+struct BlockDemand {
+    Parts parts;                         // of the scene
+    bool shadows = false;                // members have some beside them
+    std::uint64_t bytes_per_member = 1;  // of a block's arrays
+    int workers = 1;                     // that have a block each at once
+    std::size_t asked = 0;               // members of a block, if the user says how many
+};
+
+/// Which blocks suit a backend.
+struct BlockBounds {
+    std::size_t lanes = 1;       // sizes are multiples of, where there is room
+    std::size_t least = 8;       // members; fewer would leave much of the machine idle
+    std::size_t most = 4096;     // more find no room, or are of no use
+    bool shared = false;         // one machine has the blocks of all workers, and could fill itself with any of them
+    std::uint64_t reserved = 0;  // bytes of a card that are taken whatever its blocks are
+};
+
 /// From several threads.
 class Backend {
 public:
     virtual ~Backend() = default;
-    virtual std::string_view name() const = 0;    // "cpu", "cuda": as --backend knows it
-    virtual std::string isa() const = 0;          // "avx512", "sm_90"; see arithmetic_of (host/output/run_identity.hpp)
-    virtual std::string machine() const = 0;      // "NVIDIA H100 80GB HBM3"; "" for the processor
-    virtual std::string flags() const = 0;        // compiler flags of the kernels
-    virtual std::size_t lanes() const = 0;        // that one instruction serves: blocks are multiples of it
-    virtual std::size_t least_block() const = 0;  // smaller ones would leave much of the machine idle
-    /// Members of the largest block that suits this machine and finds room in its memory.
-    /// @param bytes_per_member of a block's arrays  @param workers that have a block each at once  @param asked what the user wants, 0:
-    /// whatever suits  @throws DeviceError if there is no room for so many, or not for a single one
-    virtual std::size_t largest_block(std::uint64_t bytes_per_member, int workers, std::size_t asked) const = 0;
-    /// Bytes of a card that are taken whatever its blocks are; 0 of the processor.
-    virtual std::uint64_t reserved_bytes() const = 0;
+    virtual std::string_view name() const = 0;  // "cpu", "cuda": as --backend knows it
+    virtual std::string isa() const = 0;        // "avx512", "sm_90"; see arithmetic_of (host/output/run_identity.hpp)
+    virtual std::string machine() const = 0;    // "avx512, 8 lanes"; "NVIDIA H100 80GB HBM3, sm_90"
+    virtual std::string flags() const = 0;      // compiler flags of the kernels
+    /// How many of the threads that a user allows are of use.
+    virtual int workers(int threads) const = 0;
+    /// @throws DeviceError if there is no room for a block of as many members as are asked for, or of a single one
+    virtual BlockBounds bounds(BlockDemand const& demand) const = 0;
     /// Time [s] for one step of one member where workers integrate so many: no more than a rough guess.
     virtual double seconds_per_step(double members, int workers) const = 0;
     /// The instance for a scene's parts.  @param shadows members have some beside them
     virtual BlockKernel kernel(Parts const& parts, bool shadows) const = 0;
-    /// Operations in double precision [1/s] by its data sheet, a fused multiply-add being two; 0 where nothing says so.
+    /// Operations in double precision per second at most, a fused multiply-add being two; 0 of the processor, whose peak is
+    /// measured (bench/fma_peak.hpp).
     virtual double peak() const = 0;
+    /// Why nobody should take it unasked; "" if there is nothing to say against it.
+    virtual std::string objection() const = 0;
 };
 
 /// scalar is one member at a time with fused multiply-add; sse2 runs on every x86-64 machine and has no FMA, so its
@@ -73,8 +90,14 @@ std::shared_ptr<Backend const> cpu_backend(Isa isa);
 
 /// Whether this build has code for cards at all.
 bool has_cuda();
-/// A card of this machine.  @param rank of this process among those of the machine, which share its cards in turn
+/// Processes of this machine share its cards in turn.
+struct CardShare {
+    int rank = 0;   // of this process among them
+    int ranks = 1;  // how many they are
+};
+
+/// A card of this machine.  Nothing happens on it before it is asked for bounds or a kernel.
 /// @throws NoDevice; DeviceError if there is one that cannot be used
-std::shared_ptr<Backend const> cuda_backend(int rank);
+std::shared_ptr<Backend const> cuda_backend(CardShare const& share = {});
 
 }  // namespace slideway

@@ -26,22 +26,24 @@ public:
 
     std::string_view name() const override { return "cpu"; }
     std::string isa() const override { return std::string(name_of(isa_)); }
-    std::string machine() const override { return {}; }
-    std::string flags() const override { return flags_of(isa_); }
-    std::size_t lanes() const override { return static_cast<std::size_t>(lanes_of(isa_)); }
-    std::size_t least_block() const override { return 8 * lanes(); }
-
-    std::size_t largest_block(std::uint64_t bytes_per_member, int, std::size_t asked) const override {
-        if (asked > 0) return asked;
-        constexpr std::uint64_t memory = 64'000'000, least = 64, most = 4096;
-        return static_cast<std::size_t>(std::clamp(memory / bytes_per_member, least, most));
+    std::string machine() const override {
+        return std::string(name_of(isa_)) + ", " + std::to_string(lanes_of(isa_)) + " lanes";
     }
+    std::string flags() const override { return flags_of(isa_); }
+    int workers(int threads) const override { return threads; }
 
-    std::uint64_t reserved_bytes() const override { return 0; }
+    BlockBounds bounds(BlockDemand const& demand) const override {
+        constexpr std::uint64_t memory = 64'000'000, small = 64, large = 4096;
+        BlockBounds bounds;
+        bounds.lanes = static_cast<std::size_t>(lanes_of(isa_));
+        bounds.least = 8 * bounds.lanes;
+        bounds.most = static_cast<std::size_t>(std::clamp(memory / demand.bytes_per_member, small, large));
+        return bounds;
+    }
 
     double seconds_per_step(double members, int workers) const override {
         // Packs are full except where a block has fewer members than lanes.
-        double const filled = std::min(1.0, members / static_cast<double>(lanes()));
+        double const filled = std::min(1.0, members / lanes_of(isa_));
         return seconds_per_member_step(isa_) / filled / workers;
     }
 
@@ -51,6 +53,7 @@ public:
     }
 
     double peak() const override { return 0; }
+    std::string objection() const override { return {}; }
 
 private:
     Isa const isa_;

@@ -3,9 +3,7 @@
 
 namespace slideway {
 
-bool has_cuda() { return false; }
-
-std::shared_ptr<Backend const> cuda_backend(int) {
+std::shared_ptr<Backend const> cuda_backend(CardShare const&) {
     throw NoDevice("cuda: this build has no code for cards (nvcc was not found); use --backend cpu");
 }
 

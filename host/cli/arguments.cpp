@@ -62,8 +62,7 @@ SceneArguments scene_arguments(Words const& words) {
     SceneArguments scene;
     scene.path = words.scene;
     scene.isa = words.isa;
-    require_backend(words.backend, words.isa);
-    scene.backend = words.backend;
+    scene.backend = parse_backend(words.backend, words.isa);
     for (std::string const& word : words.overrides) {
         if (scene.path.empty() && word.find('=') == word.npos)
             scene.path = word;

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/cli/backend_choice.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/text.hpp"
 #include "host/driver/ensemble.hpp"
+#include "host/study/continued_sweep.hpp"
 #include "host/study/orbit_schedule.hpp"
 #include "host/study/prediction.hpp"
 
@@ -118,8 +118,10 @@ int check(CheckArguments const& arguments) {
     Scene const scene = load_scene(arguments.scene);
     int const threads = arguments.threads.value_or(default_threads());
     print_warnings(scene);
+    BackendRequest request = arguments.scene.backend;
+    request.threads = threads;
     BackendChoice const choice =
-        choose_backend({arguments.scene.backend, arguments.scene.isa}, member_count(scene), threads, 0);
+        choose_backend(request, scene, is_continued(scene) ? scene.members : member_count(scene));
     Prediction const prediction = predict(scene, *choice.backend, threads);
 
     fmt::print("# {} is a valid scene.  Resolved, in SI units:\n\n", scene.path);

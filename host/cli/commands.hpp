@@ -33,7 +33,7 @@ struct SceneArguments {
     std::string path;
     Overrides overrides;
     std::string isa = "auto";
-    std::string backend = "auto";
+    BackendRequest backend;
 };
 
 struct RunArguments {

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "host/cli/backend_choice.hpp"
 #include "host/cli/commands.hpp"
 #include "host/scene/distribution_forms.hpp"
 #include "host/scene/study_keys.hpp"
@@ -39,7 +38,7 @@ std::string studies_of(StudyKey const& key) {
 /// What there is behind --backend cuda.
 std::string card_text() {
     try {
-        return backend_text(*cuda_backend(0));
+        return backend_text(*cuda_backend());
     } catch (DeviceError const& error) {
         return error.what();
     }

@@ -133,14 +133,22 @@ Isa parse_isa(std::string_view text) {
     throw SceneError(fmt::format("--isa {}: no such instruction set; use one of {}", text, known));
 }
 
-void require_backend(std::string_view backend, std::string_view isa) {
-    if (backend != "auto" && backend != "cpu" && backend != "cuda") {
+BackendRequest parse_backend(std::string_view backend, std::string_view isa) {
+    BackendRequest request;
+    if (backend == "cpu") {
+        request.kind = BackendRequest::Kind::cpu;
+    } else if (backend == "cuda") {
+        request.kind = BackendRequest::Kind::cuda;
+    } else if (backend != "auto") {
         throw SceneError(fmt::format("--backend {}: no such backend; use one of auto, cpu, cuda", backend));
     }
-    if (backend == "cuda" && isa != "auto") {
+    if (isa == "auto") return request;
+    if (request.kind == BackendRequest::Kind::cuda) {
         throw SceneError(
             fmt::format("--isa {}: is of the processor, and --backend is cuda; leave one of them out", isa));
     }
+    request.isa = parse_isa(isa);
+    return request;
 }
 
 std::string shell_quoted(std::string_view word) {

@@ -8,6 +8,7 @@
 
 #include "host/backend/backend.hpp"
 #include "host/chaos/divergence.hpp"
+#include "host/study/backend_choice.hpp"
 #include "host/study/study_run.hpp"
 
 namespace slideway::cli {
@@ -34,7 +35,8 @@ double parse_seconds(std::string_view option, std::string_view text);       // f
 FitWindow parse_fit(std::string_view text);                                 // "A..B", both included, A < B, from 0
 std::pair<std::string, std::string> parse_override(std::string_view text);  // "key=value"
 Isa parse_isa(std::string_view text);                                       // also "auto"; supported by this machine
-void require_backend(std::string_view backend, std::string_view isa);       // known, and not at odds
+/// Of --backend and --isa.
+BackendRequest parse_backend(std::string_view backend, std::string_view isa);
 
 /// 'a b' for a shell; words without special characters stay as they are.
 std::string shell_quoted(std::string_view word);

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "host/cli/backend_choice.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/run_summary.hpp"
 #include "host/cli/text.hpp"
+#include "host/study/continued_sweep.hpp"
 #include "host/study/prediction.hpp"
 
 namespace slideway::cli {
@@ -52,8 +52,15 @@ StudyOptions study_options(RunArguments const& arguments, Scene const& scene) {
     return options;
 }
 
-BackendChoice chosen_backend(RunArguments const& arguments, StudyOptions const& options, int rank) {
-    return choose_backend({arguments.scene.backend, arguments.scene.isa}, options.range.count, options.threads, rank);
+BackendChoice chosen_backend(RunArguments const& arguments, Scene const& scene, StudyOptions const& options,
+                             Ranks const& ranks) {
+    BackendRequest request = arguments.scene.backend;
+    request.threads = options.threads;
+    request.block_members = options.block_members;
+    request.share = {ranks.local_rank(), ranks.local_count()};
+    // The columns of a continued sweep follow one another.
+    MemberSet const members = members_of_part(scene, options.part, MemberSet(options.range));
+    return choose_backend(request, scene, is_continued(scene) ? swept_starts(scene, members).count() : members.count());
 }
 
 /// Results that there were, and that must be computed again.
@@ -200,7 +207,7 @@ int help(RunArguments const& arguments, Ranks& ranks, StopRequest const& stop) {
     work.todo = MemberSet::parse(todo).value();
     Scene const scene = load_scene(arguments.scene);
     StudyOptions options = study_options(arguments, scene);
-    options.backend = backend_beside(leader, chosen_backend(arguments, options, ranks.rank()).backend);
+    options.backend = backend_beside(leader, chosen_backend(arguments, scene, options, ranks).backend);
     options.progress = Progress::Style::none;
     run_work(scene, options, work, ranks, stop);
     return await_end(ranks);
@@ -219,7 +226,7 @@ int run(RunArguments const& arguments) {
         Scene const scene = load_scene(arguments.scene);
         print_warnings(scene);
         StudyOptions options = study_options(arguments, scene);
-        BackendChoice const choice = chosen_backend(arguments, options, 0);
+        BackendChoice const choice = chosen_backend(arguments, scene, options, *ranks);
         options.backend = choice.backend;
         // Of a card that lacks the memory this is the last word: nothing is on the disk yet.
         Prediction const prediction = predict(scene, *options.backend, options.threads, options.block_members);

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "host/cli/backend_choice.hpp"
 #include "host/cli/orbit_text.hpp"
 #include "host/cli/text.hpp"
 #include "host/cli/tolerance_text.hpp"
@@ -167,8 +166,11 @@ void print_throughput(Scene const& scene, StudyOptions const& options, EnsembleT
                 fmt::format("{:.4g} members/s, {}{} wall time ({}{} threads, {})", rate,
                             turns > 0 ? fmt::format("{:.4g} members x revolutions/s, ", rate * turns) : "",
                             duration_text(totals.seconds), ranks > 1 ? fmt::format("{} ranks of ", ranks) : "",
-                            options.threads, machine_text(*options.backend)));
-    print_field("lanes in use", fmt::format("{:.1f} %", 100 * totals.lane_utilisation()));
+                            options.backend->workers(options.threads), options.backend->machine()));
+    // Of a card's lanes nobody knows.
+    if (options.backend->name() == "cpu") {
+        print_field("lanes in use", fmt::format("{:.1f} %", 100 * totals.lane_utilisation()));
+    }
 }
 
 void print_results(RunArguments const& arguments, Scene const& scene, ResultReader const& results,

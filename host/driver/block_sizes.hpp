@@ -4,19 +4,22 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "host/backend/backend.hpp"
+
 namespace slideway {
 
 struct BlockSizes {
-    std::size_t fixed = 0;    // > 0: always so many
-    std::size_t lanes = 1;    // sizes are multiples of, where there is room
-    std::size_t least = 8;    // smaller ones would leave much of the machine idle
-    std::size_t most = 4096;  // as many as fit the memory that a block may take
-    double seconds = 10;      // that a block should take: a process that is killed loses the blocks it works on
+    std::size_t fixed = 0;  // > 0: always so many
+    BlockBounds bounds;
+    double seconds = 10;  // that a block should take: a process that is killed loses the blocks it works on
 };
 
-/// The last members of a block leave lanes idle, so blocks should be large; a crash loses those in work, and the last ones of a run leave
+/// On a processor, where workers have a core each:
+/// the last members of a block leave lanes idle, so blocks should be large; a crash loses those in work, and the last ones of a run leave
 /// threads idle, so they should be small.  Large ensembles begin with small blocks, whose time tells how many members make up
 /// `seconds`, and how much work their ends leave undone; towards the end of the run blocks shrink with what is left.
+/// On a machine that workers share a block is never less than fills it, whatever their number: two kernels that fill half a card each
+/// take as long as one that fills it, and the ends of some blocks overlap with others.
 class BlockSizer {
 public:
     /// @param workers threads of all ranks.
@@ -27,6 +30,8 @@ public:
     void measured(std::uint64_t members, double seconds, double utilisation);
 
 private:
+    std::uint64_t in_time() const;
+
     BlockSizes const sizes_;
     std::uint64_t const members_, workers_;
     double seconds_per_member_ = 0;  // 0: not known yet

@@ -84,11 +84,13 @@ public:
     bool emit(BlockBuffers const& buffers) {
         BlockResult const result = buffers.result();
         std::lock_guard const lock(mutex_);
-        if (failure_) return false;
+        // A worker whose card failed does not undo what others have finished.
+        if (sink_failed_) return false;
         // Recorded before the lock is given up: no other thread may offer its block to a sink that failed.
         try {
             sink_(result);
         } catch (...) {
+            sink_failed_ = true;
             fail_locked(std::current_exception());
             return false;
         }
@@ -135,6 +137,7 @@ private:
     std::uint64_t unreported_ = 0;  // members that the queue does not know to be finished
     StopReason reason_ = StopReason::none;
     std::exception_ptr failure_;
+    bool sink_failed_ = false;
 };
 
 double seconds_since(std::chrono::steady_clock::time_point start) {

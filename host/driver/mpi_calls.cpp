@@ -33,6 +33,12 @@ MpiCalls::MpiCalls() {
     }
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &count_);
+    // All processes start with this, and none has work yet: here they may wait for each other.
+    MPI_Comm machine = MPI_COMM_NULL;
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine);
+    MPI_Comm_rank(machine, &local_rank_);
+    MPI_Comm_size(machine, &local_count_);
+    MPI_Comm_free(&machine);
 }
 
 MpiCalls::~MpiCalls() {

@@ -39,6 +39,9 @@ public:
 
     int rank() const { return rank_; }
     int count() const { return count_; }
+    // Among the processes of this machine.
+    int local_rank() const { return local_rank_; }
+    int local_count() const { return local_count_; }
 
     /// Returns when `data` may be overwritten; that is not before the other has asked for it, if it is large.
     void send(int to, int tag, void const* data, std::size_t bytes, Patience patience);
@@ -60,7 +63,7 @@ private:
     template <class Start> void finish(Start start, Patience patience);
 
     std::mutex mutex_;
-    int rank_ = 0, count_ = 1;
+    int rank_ = 0, count_ = 1, local_rank_ = 0, local_count_ = 1;
     bool says_goodbye_ = true;
 };
 

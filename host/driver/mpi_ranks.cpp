@@ -157,6 +157,8 @@ public:
 
     int rank() const override { return calls_->rank(); }
     int count() const override { return calls_->count(); }
+    int local_rank() const override { return calls_->local_rank(); }
+    int local_count() const override { return calls_->local_count(); }
 
     std::string broadcast(std::string bytes) override {
         is_under_way_ = true;

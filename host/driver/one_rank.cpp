@@ -14,6 +14,8 @@ class OneRank final : public Ranks {
 public:
     int rank() const override { return 0; }
     int count() const override { return 1; }
+    int local_rank() const override { return 0; }
+    int local_count() const override { return 1; }
     std::string broadcast(std::string bytes) override { return bytes; }
     std::unique_ptr<MemberQueue> share(std::uint64_t places, std::function<void(std::uint64_t)>) override {
         return std::make_unique<LocalQueue>(places);

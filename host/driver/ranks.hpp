@@ -20,6 +20,9 @@ public:
 
     virtual int rank() const = 0;
     virtual int count() const = 0;
+    /// Among those of this machine.
+    virtual int local_rank() const = 0;
+    virtual int local_count() const = 0;
     /// What rank 0 gives, at every rank.
     virtual std::string broadcast(std::string bytes) = 0;
     /// One queue for all ranks.  @param on_finished at rank 0: members that other ranks report as finished; from another thread.

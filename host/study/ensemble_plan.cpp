@@ -40,29 +40,45 @@ ResultLayout result_layout(Scene const& scene, MemberSet const& members) {
 
 StatisticsPlan statistics_plan(Scene const& scene) { return {scene.quantities, scene.limits}; }
 
+namespace {
+
+BlockRequest block_request(Scene const& scene) {
+    OrbitSchedule const schedule = orbit_schedule(scene);
+    BlockRequest request{scene.integrator,
+                         scene.sample_times,
+                         scene.quantities,
+                         scene.series,
+                         predicted_cost,
+                         schedule.timing,
+                         schedule.stops,
+                         schedule.sections,
+                         schedule.crossings,
+                         shadow_plan(scene),
+                         {}};
+    request.directions = [seed = scene.seed, shadows = request.shadows.count](std::uint64_t member, double* out) {
+        draw_directions(seed, member, shadows, out);
+    };
+    return request;
+}
+
+BlockDemand demand_of(Scene const& scene, BlockRequest const& request, int workers, std::size_t block_members) {
+    return {scene.parts, request.shadows.count > 0, block_bytes(request, 1), workers, block_members};
+}
+
+}  // namespace
+
+BlockDemand block_demand(Scene const& scene, Backend const& backend, int threads, std::size_t block_members) {
+    return demand_of(scene, block_request(scene), backend.workers(threads), block_members);
+}
+
 EnsemblePlan ensemble_plan(Scene const& scene, MemberSet const& members, Backend const& backend, int threads,
                            std::size_t block_members) {
     EnsemblePlan plan;
     plan.members = members;
-    plan.threads = plan.workers = threads;
-    OrbitSchedule const schedule = orbit_schedule(scene);
-    plan.request = {scene.integrator,
-                    scene.sample_times,
-                    scene.quantities,
-                    scene.series,
-                    predicted_cost,
-                    schedule.timing,
-                    schedule.stops,
-                    schedule.sections,
-                    schedule.crossings,
-                    shadow_plan(scene),
-                    {}};
-    plan.request.directions = [seed = scene.seed, shadows = plan.request.shadows.count](
-                                  std::uint64_t member, double* out) { draw_directions(seed, member, shadows, out); };
+    plan.threads = plan.workers = backend.workers(threads);
+    plan.request = block_request(scene);
     plan.blocks.fixed = block_members;
-    plan.blocks.lanes = backend.lanes();
-    plan.blocks.least = backend.least_block();
-    plan.blocks.most = backend.largest_block(block_bytes(plan.request, 1), threads, block_members);
+    plan.blocks.bounds = backend.bounds(demand_of(scene, plan.request, plan.threads, block_members));
     plan.source = [&scene](std::uint64_t member, Inputs& inputs) {
         inputs = member_inputs(scene, member);
         return !defect(inputs);

@@ -14,7 +14,9 @@ namespace slideway {
 ResultLayout result_layout(Scene const& scene, MemberSet const& members);
 /// Of a scene that keeps statistics in place of members.
 StatisticsPlan statistics_plan(Scene const& scene);
-/// @param block_members 0: as many as suit the run.
+/// What the blocks of a scene ask of a backend.
+BlockDemand block_demand(Scene const& scene, Backend const& backend, int threads, std::size_t block_members = 0);
+/// @param threads that the user allows  @param block_members 0: as many as suit the run.
 EnsemblePlan ensemble_plan(Scene const& scene, MemberSet const& members, Backend const& backend, int threads,
                            std::size_t block_members = 0);
 Provenance provenance(Scene const& scene, Backend const& backend, int threads);

@@ -94,7 +94,7 @@ std::uint64_t most_shards(Scene const& scene, MemberSet const& members, Ensemble
     std::uint64_t blocks = workers;  // trials
     std::uint64_t left = places;
     // Sizes change only towards the end of the run.
-    std::uint64_t const end = 4 * workers * (plan.blocks.most + sizer.next(left));
+    std::uint64_t const end = 4 * workers * (plan.blocks.bounds.most + sizer.next(left));
     if (left > end) {
         std::uint64_t const size = sizer.next(left), before = (left - end) / size;
         blocks += before;
@@ -161,19 +161,21 @@ Prediction predict(Scene const& scene, Backend const& backend, int threads, std:
     MemberSet const all(MemberRange{0, count});
     EnsemblePlan const plan = ensemble_plan(scene, all, backend, threads, block_members);
     auto const members = static_cast<double>(count);
-    auto const workers = static_cast<std::uint64_t>(threads);
-    std::uint64_t const first_block = std::min(BlockSizer(plan.blocks, count, threads).next(count), count);
+    auto const workers = static_cast<std::uint64_t>(plan.threads);
+    std::uint64_t const first_block = std::min(BlockSizer(plan.blocks, count, plan.threads).next(count), count);
     std::uint64_t const busy = std::min((count + first_block - 1) / first_block, workers);
     std::uint64_t const share = (count + workers - 1) / workers;
-    std::uint64_t const largest = block_members > 0 ? std::min<std::uint64_t>(count, block_members)
-                                                    : std::min<std::uint64_t>(share, plan.blocks.most);
+    std::uint64_t const largest =
+        block_members > 0 ? std::min<std::uint64_t>(count, block_members)
+                          : std::min<std::uint64_t>(plan.blocks.bounds.shared ? count : share, plan.blocks.bounds.most);
 
     Prediction prediction{};
     prediction.busy_threads = static_cast<int>(std::max<std::uint64_t>(busy, 1));
     prediction.largest_block = static_cast<std::size_t>(largest);
     prediction.buffer_bytes = busy * block_bytes(plan.request, static_cast<std::size_t>(largest));
-    std::uint64_t const reserved = backend.reserved_bytes();
-    prediction.card_bytes = reserved > 0 ? reserved + prediction.buffer_bytes : 0;
+    std::uint64_t const reserved = plan.blocks.bounds.reserved;
+    // With the tenth that is left free of what blocks may have.
+    prediction.card_bytes = reserved > 0 ? reserved + prediction.buffer_bytes / 9 * 10 : 0;
     // What travels is made ready beside the blocks.
     if (reserved > 0) prediction.buffer_bytes *= 2;
     // Copies of blocks: those that wait and the one that becomes a shard.  Its image, as it grows and when it is whole.

@@ -16,7 +16,7 @@ struct Prediction {
     std::uint64_t buffer_bytes;   // of all threads' blocks; the program itself needs some tens of MB more
     std::uint64_t image_bytes;    // of blocks on their way to the disk
     std::uint64_t summary_bytes;  // of the statistics over all members at the end
-    std::uint64_t card_bytes;     // of blocks on a card and their threads' stacks; 0 without one
+    std::uint64_t card_bytes;     // that are to be free on a card: blocks and their threads' stacks; 0 without one
     std::uint64_t output_bytes;
     std::uint64_t shard_bytes;       // beside the output, until it is whole; a bound
     std::size_t largest_block;       // members

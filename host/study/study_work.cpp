@@ -77,7 +77,7 @@ EnsembleTotals compute(Scene const& scene, StudyOptions const& options, StudyWor
                        MemberQueue& queue, StopRequest const& stop, Progress& progress) {
     std::string const folder = shard_folder_of(options.output);
     EnsemblePlan plan = ensemble_plan(scene, work.todo, *options.backend, options.threads, options.block_members);
-    plan.workers = options.threads * ranks;
+    plan.workers = plan.threads * ranks;
     BlockKernel const kernel = options.backend->kernel(scene.parts, plan.request.shadows.count > 0);
     if (is_continued(scene)) {
         MemberEnds const ends =

@@ -15,8 +15,8 @@ class Card : public ::testing::Test {
 protected:
     void SetUp() override {
         try {
-            card_ = cuda_backend(0);
-        } catch (DeviceError const& error) {
+            card_ = cuda_backend();
+        } catch (NoDevice const& error) {
             if (SLIDEWAY_CARD_IS_SIMULATED) FAIL() << error.what();
             GTEST_SKIP() << error.what();
         }

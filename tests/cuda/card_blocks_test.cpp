@@ -28,7 +28,7 @@ TEST_F(CardBlocks, AreTheSameFromRunToRun) {
         run(first);
         run(second);
         EXPECT_EQ(difference(first, second), "");
-        auto const fresh = cuda_backend(0);
+        auto const fresh = cuda_backend();
         OwnedBlock third(plan);
         kernel_of(*fresh, plan)(third.block);
         EXPECT_EQ(difference(first, third), "");
@@ -37,7 +37,7 @@ TEST_F(CardBlocks, AreTheSameFromRunToRun) {
 
 TEST_F(CardBlocks, MayHaveMoreMembersThanTheCardHasThreads) {
     testing::BlockPlan plan;
-    plan.members = testing::scattered_starts(card_->least_block() + 37);
+    plan.members = testing::scattered_starts(card_->bounds({}).least + 37);
     plan.settings.end_time = 2e-4;
     plan.order.resize(plan.members.size());
     for (std::size_t i = 0; i < plan.order.size(); ++i)
@@ -109,7 +109,7 @@ TEST_F(CardBlocks, EndSoonWhenTheyAreToldTo) {
     auto const next = testing::sampled_block(3, plan.parts);
     OwnedBlock first(next), second(next);
     run(first);
-    kernel_of(*cuda_backend(0), next)(second.block);
+    kernel_of(*cuda_backend(), next)(second.block);
     EXPECT_EQ(first.record(2).status, Status::finished);
     EXPECT_EQ(difference(first, second), "");
 }

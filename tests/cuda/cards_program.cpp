@@ -67,8 +67,8 @@ int current_device() {
 }
 
 std::string integrate_blocks(int workers, int blocks, int rank) {
-    auto const card = cuda_backend(rank);
-    card->largest_block(1000, workers, 0);
+    auto const card = cuda_backend({rank, 1});
+    card->bounds({{}, false, 1000, workers, 0});
     auto const plans = block_plans(blocks);
     std::vector<BlockKernel> kernels;  // by one thread, as the driver does
     for (BlockPlan const& plan : plans) kernels.push_back(kernel_of(*card, plan));
@@ -92,7 +92,7 @@ std::string integrate_without_end() {
     plan.settings.stiff_max_step = 1e-4;  // a slider at rest has an hour of them
     plan.settings.max_steps = 1'000'000'000'000;
     OwnedBlock block(plan);
-    kernel_of(*cuda_backend(0), plan)(block.block);
+    kernel_of(*cuda_backend(), plan)(block.block);
     return "ended";
 }
 
@@ -104,8 +104,8 @@ std::string fill_memory(int workers, int samples, std::size_t asked) {
     for (int i = 0; i < samples; ++i) plan.sample_times.push_back(1e-5 * i / samples);
     plan.members = testing::scattered_starts(100);
     std::size_t const bytes = image_size(OwnedBlock(plan).block).total / 100 + 1;
-    auto const card = cuda_backend(0);
-    std::size_t const members = card->largest_block(bytes, workers, asked);
+    auto const card = cuda_backend();
+    std::size_t const most = card->bounds({{}, false, bytes, workers, asked}).most, members = asked > 0 ? asked : most;
     std::printf("%zu members of %zu bytes\n", members, bytes);
     plan.members = testing::scattered_starts(members);
     return at_once(workers, "fits", [&] {
@@ -116,7 +116,8 @@ std::string fill_memory(int workers, int samples, std::size_t asked) {
 }
 
 std::string card_of(int rank) {
-    auto const card = cuda_backend(rank);
+    auto const card = cuda_backend({rank, 1});
+    card->bounds({});
     return "card " + std::to_string(current_device());
 }
 

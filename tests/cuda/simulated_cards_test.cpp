@@ -75,7 +75,8 @@ TEST_F(SimulatedCards, TakeBlocksAsLargeAsAsked) {
     EXPECT_EQ(taken[1], "fits");
     Lines const refused = run("MEMORY=160000000", "memory 2 4000 1000");
     ASSERT_EQ(refused.size(), 1u);
-    EXPECT_TRUE(refused[0].starts_with("cuda: simulated GPU has 160 MB free: room for blocks of ")) << refused[0];
+    EXPECT_TRUE(refused[0].starts_with("cuda: simulated GPU has 160 MB free, and the threads' stacks take "))
+        << refused[0];
     EXPECT_NE(refused[0].find(" members for each of 2 workers, not of 1000; use a smaller"), std::string::npos);
 }
 
@@ -93,10 +94,10 @@ TEST_F(SimulatedCards, ServeTheWorkersOfTheirRank) {
 }
 
 TEST_F(SimulatedCards, AreMissedInOneLine) {
-    EXPECT_EQ(run("DEVICES=0", "card 0"), Lines{"cuda: there is no driver, and so no card"});
-    EXPECT_EQ(run("FAIL=cudaGetDeviceCount:1:100", "card 0"), Lines{"cuda: there is no card"});
-    EXPECT_EQ(run("DEVICES=-1", "card 0"),
-              Lines{"cuda: no card can be used: the driver is too old for the runtime (cudaErrorInsufficientDriver)"});
+    EXPECT_EQ(run("DEVICES=0", "card 0"), Lines{"cuda: there is no driver, and so no card; use --backend cpu"});
+    EXPECT_EQ(run("FAIL=cudaGetDeviceCount:1:100", "card 0"), Lines{"cuda: there is no card; use --backend cpu"});
+    EXPECT_EQ(run("DEVICES=-1", "card 0"), Lines{"cuda: no card can be used: the driver is too old for the runtime "
+                                                 "(cudaErrorInsufficientDriver); use --backend cpu"});
     // Older than all that nvcc knows.
     Lines const old = run("ARCH=35", "card 0");
     ASSERT_EQ(old.size(), 1u);

@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "host/cli/backend_choice.hpp"
+#include "host/study/backend_choice.hpp"
 #include "tests/cuda/simulated_run.hpp"
+#include "tests/unit/cli_orbits.hpp"
 
 namespace slideway::testing {
 namespace {
@@ -29,7 +30,7 @@ protected:
         return outcome.err.substr(0, outcome.err.find('\n'));
     }
     std::string const processor_ = fmt::format("backend cpu ({}, {} lanes)", name_of(best_isa()), lanes_of(best_isa()));
-    std::uint64_t const enough_ = cli::pays_from(best_isa(), 1);
+    std::uint64_t const enough_ = pays_from(best_isa(), 1);
     std::string members(std::uint64_t count) const { return fmt::format("study.members={}", count); }
 };
 
@@ -38,8 +39,51 @@ TEST_F(Choice, OfAutoIsTheCardWhereItPays) {
               fmt::format("backend cuda (simulated GPU, sm_90): it pays from about {} members on", enough_));
     EXPECT_EQ(results("s.nc").attribute("backend"), "cuda");
     EXPECT_EQ(said({"--set", members(enough_ - 1)}),
-              fmt::format("{}: simulated GPU pays from about {} members on", processor_, enough_));
+              fmt::format("{}: simulated GPU, sm_90 pays from about {} members on", processor_, enough_));
     EXPECT_EQ(results("s.nc").attribute("backend"), "cpu");
+}
+
+TEST_F(Choice, OfAutoCountsWhatMayBeAtWorkAtOnce) {
+    std::string const few = fmt::format("{}: simulated GPU, sm_90 pays from about {} members on", processor_, enough_);
+    // A part of the run.
+    write("s.toml", scene);
+    Outcome const part =
+        run({"run", "s.toml", "-o", "s.nc", "--threads", "1", "--set", members(enough_), "--shard", "1/2"});
+    EXPECT_EQ(part.err.substr(0, part.err.find('\n')), few);
+    // The columns of a sweep that continues follow one another.
+    write("s.toml", orbits::plain_sweep);
+    std::vector<std::string> words{"check", "s.toml", "--threads", "1", "--set", members(enough_ / 2)};
+    EXPECT_NE(run(words).out.find("cuda (simulated GPU, sm_90)"), std::string::npos);
+    words.push_back(orbits::continued_key);
+    EXPECT_NE(run(words).out.find(fmt::format("pays from about {} members on", enough_)), std::string::npos);
+    EXPECT_EQ(run(words).out.find("cuda ("), std::string::npos);
+}
+
+TEST_F(Choice, OfAutoIsNoCardThatIsSlowOrEndsItsKernels) {
+    std::vector<std::string> const many{"--set", members(enough_)};
+    {
+        Setting const display("WATCHDOG", "1");
+        EXPECT_EQ(said(many), processor_ + ": simulated GPU drives a display, and its driver ends kernels that last");
+        EXPECT_EQ(said({"--backend", "cuda"}), "backend cuda (simulated GPU, sm_90)");
+    }
+    {
+        Setting const slow("ARCH", "120");
+        EXPECT_EQ(said(many), processor_ + ": simulated GPU, sm_120 is not made for double precision");
+    }
+    Setting const unknown("ARCH", "100");
+    EXPECT_EQ(said(many), processor_ + ": cuda: simulated GPU is of sm_100, and this build has kernels for sm_90");
+    EXPECT_EQ(run_scene("s.toml", "s.nc", {}).code, 4);
+}
+
+TEST_F(Choice, OfAutoIsTheProcessorWhereTheCardLacksTheMemory) {
+    Setting const memory("MEMORY", "101000000");
+    EXPECT_TRUE(said({"--set", members(enough_), "study.samples=60000"})
+                    .starts_with(processor_ + ": cuda: simulated GPU has 101 MB"));
+    EXPECT_TRUE(said({"--set", members(enough_), "--block-members", "4000"})
+                    .starts_with(processor_ + ": cuda: simulated GPU has 101 MB"));
+    Setting const fail("FAIL", "cudaMemGetInfo:1");
+    EXPECT_EQ(said({"--set", members(enough_)}),
+              processor_ + ": cuda: simulated GPU: asking for its memory failed: unknown error (cudaErrorUnknown)");
 }
 
 TEST_F(Choice, OfTheUserIsTaken) {
@@ -54,7 +98,7 @@ TEST_F(Choice, WithoutACardIsTheProcessor) {
         EXPECT_EQ(said({"--set", members(enough_)}), processor_);
         Outcome const outcome = run_scene("s.toml", "s.nc", {});
         EXPECT_EQ(outcome.code, 4);
-        EXPECT_EQ(outcome.err, "cuda: there is no driver, and so no card\n");
+        EXPECT_EQ(outcome.err, "cuda: there is no driver, and so no card; use --backend cpu\n");
     }
     Setting const old("DEVICES", "-1");
     std::string const line = said({"--set", members(enough_)});
@@ -124,7 +168,8 @@ TEST_F(CardMemory, ThatABlockAskedForDoesNotFitIsToldBeforeTheStart) {
     Outcome const outcome =
         run_with(120'000'000, {"--threads", "2", "--block-members", "100", "--set", "study.samples=5000"});
     EXPECT_EQ(outcome.code, 4);
-    EXPECT_NE(outcome.err.find("not of 100; use a smaller --block-members or fewer --threads"), std::string::npos)
+    EXPECT_NE(outcome.err.find("not of 100; use a smaller --block-members, fewer --threads, or --backend cpu"),
+              std::string::npos)
         << outcome.err;
     EXPECT_FALSE(std::filesystem::exists(path("s.nc.shards")));
 }

@@ -21,7 +21,7 @@ struct Tried {
 };
 
 Tried const all_tried[] = {
-    {"cudaGetDeviceCount", "cuda: no card can be used: unknown error (cudaErrorUnknown)"},
+    {"cudaGetDeviceCount", "cuda: no card can be used: unknown error (cudaErrorUnknown); use --backend cpu"},
     {"cudaGetDeviceProperties", "cuda: card 0: asking what it is failed"},
     {"cudaSetDevice", "cuda: simulated GPU: taking the card failed"},
     {"cudaFuncGetAttributes", "cuda: simulated GPU: loading a kernel failed"},
@@ -35,7 +35,7 @@ Tried const all_tried[] = {
     {"cudaLaunchKernel", "cuda: simulated GPU: starting a kernel failed"},
     {"cudaEventRecord", "cuda: simulated GPU: marking the end of a block failed"},
     {"cudaEventQuery", "cuda: simulated GPU: integrating a block failed"},
-    {"cudaDeviceGetAttribute", "cuda: simulated GPU: asking for its clock failed"},
+    {"cudaDeviceGetAttribute", "cuda: simulated GPU: asking for its "},
     {"cudaDriverGetVersion", nullptr},
     {"cudaFree", nullptr},
     {"cudaFreeHost", nullptr},

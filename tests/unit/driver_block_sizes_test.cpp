@@ -7,9 +7,9 @@ namespace {
 
 BlockSizes sizes_of(std::size_t lanes) {
     BlockSizes sizes;
-    sizes.lanes = lanes;
-    sizes.least = 8 * lanes;
-    sizes.most = 4096;
+    sizes.bounds.lanes = lanes;
+    sizes.bounds.least = 8 * lanes;
+    sizes.bounds.most = 4096;
     sizes.seconds = 2;
     return sizes;
 }
@@ -99,23 +99,30 @@ TEST(BlockSizes, ShrinkTowardsTheEnd) {
 /// A card: 32 threads go together, and it takes thousands of them to fill it.
 BlockSizes sizes_of_card(std::size_t most) {
     BlockSizes sizes;
-    sizes.lanes = 32;
-    sizes.least = 33'792;
-    sizes.most = most;
+    sizes.bounds.lanes = 32;
+    sizes.bounds.least = 33'792;
+    sizes.bounds.most = most;
+    sizes.bounds.shared = true;
     sizes.seconds = 10;
     return sizes;
 }
 
-TEST(BlockSizes, OfACardFillItBeforeAnythingIsTried) {
-    EXPECT_EQ(BlockSizer(sizes_of_card(135'168), 10'000'000, 4).next(10'000'000), 33'792u);
-    EXPECT_EQ(BlockSizer(sizes_of_card(135'168), 100'000, 4).next(100'000),
-              25'024u);  // a worker's share, in whole warps
-    BlockSizer dear(sizes_of_card(135'168), 10'000'000, 4);
-    dear.measured(33'792, 1e4, 1);
-    EXPECT_EQ(dear.next(10'000'000), 33'792u);
-    BlockSizer cheap(sizes_of_card(135'168), 10'000'000, 4);
-    cheap.measured(33'792, 0.1, 1);
-    EXPECT_EQ(cheap.next(10'000'000), 135'168u);
+TEST(BlockSizes, OfACardFillItWhateverTheWorkers) {
+    for (int const workers : {1, 2, 4, 64}) {
+        for (std::uint64_t const members : {20'000u, 100'000u, 10'000'000u}) {
+            BlockSizer sizer(sizes_of_card(135'168), members, workers);
+            // From the first to the last: a small kernel takes as long as one that fills the card.
+            for (std::uint64_t left = members; left > 0; left -= std::min(left, sizer.next(left))) {
+                EXPECT_EQ(sizer.next(left), 33'792u);
+            }
+            sizer.measured(33'792, 1e4, 1);
+            EXPECT_EQ(sizer.next(members), 33'792u);
+            sizer.measured(33'792, 5, 1);
+            EXPECT_EQ(sizer.next(members), 67'584u);  // twice the time
+            sizer.measured(33'792, 0.1, 1);
+            EXPECT_EQ(sizer.next(members), 135'168u);
+        }
+    }
 }
 
 TEST(BlockSizes, NeverExceedTheMemory) {

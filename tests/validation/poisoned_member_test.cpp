@@ -75,7 +75,7 @@ protected:
     Results run(std::size_t position, Poison const* poison) const {
         EnsemblePlan plan;
         plan.members = MemberSet({0, members});
-        plan.blocks.lanes = static_cast<std::size_t>(lanes_of(isa_));
+        plan.blocks.bounds.lanes = static_cast<std::size_t>(lanes_of(isa_));
         plan.threads = plan.workers = 2;
         plan.request.integrator.end_time = 2e-4;
         plan.request.integrator.max_steps = 300;

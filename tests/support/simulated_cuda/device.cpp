@@ -102,6 +102,7 @@ cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr attribute, int dev
             {cudaDevAttrConcurrentKernels, p.concurrentKernels},
             {cudaDevAttrCanMapHostMemory, p.canMapHostMemory},
             {cudaDevAttrUnifiedAddressing, p.unifiedAddressing},
+            {cudaDevAttrKernelExecTimeout, settings().watchdog},
             {cudaDevAttrComputeMode, cudaComputeModeDefault},
             {cudaDevAttrClockRate, 1'500'000},  // [kHz]
         };

@@ -31,6 +31,7 @@ Settings read_settings() {
     Settings s;
     read("SIMULATED_CUDA_DEVICES", s.devices);
     read("SIMULATED_CUDA_ARCH", s.architecture);
+    read("SIMULATED_CUDA_WATCHDOG", s.watchdog);
     read("SIMULATED_CUDA_MULTIPROCESSORS", s.multiprocessors);
     read("SIMULATED_CUDA_MEMORY", s.memory);
     read("SIMULATED_CUDA_DELAY", s.delay);

@@ -108,9 +108,12 @@ bool is_shadowed(std::string const& kernel) {
 
 void run(GridTask const& task, bool shadowed, std::uint64_t threads, int device) {
     if (cudaError_t const code = count("kernel"); code != cudaSuccess) lose_card(code);
-    if (card_error() != cudaSuccess) return spoil_device(device);
-    Access const access(device);
-    run_grid(task, shadowed, threads);
+    {
+        // A card that another stream loses from here on keeps its memory as it is until this is over.
+        Access const access(device);
+        if (card_error() == cudaSuccess) return run_grid(task, shadowed, threads);
+    }
+    spoil_device(device);
 }
 
 cudaError_t launch(void const* stub, dim3 grid, dim3 block, void** arguments, std::size_t shared, cudaStream_t stream) {

@@ -10,6 +10,7 @@
 // SIMULATED_CUDA_FAIL             <function>:<n>[:<code>]: its n-th call, from 1, returns the code (cudaErrorUnknown without it).
 //                                 `kernel` is no function but the run of a kernel: from the n-th on the card is lost
 // SIMULATED_CUDA_COUNTS           a file, written at exit: a line per function and for `kernel`, name and calls
+// SIMULATED_CUDA_WATCHDOG         1: kernels are said to be ended when they last
 // SIMULATED_CUDA_LEAKS            1: at exit a line per kind of what was not given back
 #pragma once
 
@@ -28,6 +29,7 @@ namespace slideway::simulated_cuda {
 
 struct Settings {
     int devices = 1;
+    int watchdog = 0;
     int architecture = 90;
     int multiprocessors = 4;
     std::size_t memory = std::size_t(1) << 30;  // [B]

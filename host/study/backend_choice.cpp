@@ -1,0 +1,59 @@
+#include "host/study/backend_choice.hpp"
+
+#include <fmt/format.h>
+
+#include "host/study/ensemble_plan.hpp"
+
+namespace slideway {
+namespace {
+
+// None of these is measured.  Dependent operations take a thread of a card about 16 times as long as a lane of a processor, by their clocks
+// and latencies; a lane does two fused multiply-adds at some 2.5 GHz.
+constexpr std::uint64_t slower_than_a_lane = 16;
+constexpr double peak_of_a_lane = 1e10, worth_the_trouble = 2;
+
+/// Why not the card; "" if it is to be taken.
+std::string objection_to(Backend const& card, BackendRequest const& request, Isa isa, Scene const& scene,
+                         std::uint64_t members) {
+    int const threads = request.threads * request.share.ranks;
+    std::uint64_t const enough = pays_from(isa, threads);
+    if (members < enough) return fmt::format("{} pays from about {} members on", card.machine(), enough);
+    if (std::string const objection = card.objection(); !objection.empty()) return objection;
+    if (card.peak() < worth_the_trouble * peak_of_a_lane * threads * lanes_of(isa)) {
+        return card.machine() + " is not made for double precision";
+    }
+    card.bounds(block_demand(scene, card, request.threads, request.block_members));
+    return {};
+}
+
+}  // namespace
+
+std::string backend_text(Backend const& backend) { return fmt::format("{} ({})", backend.name(), backend.machine()); }
+
+std::uint64_t pays_from(Isa isa, int threads) {
+    return slower_than_a_lane * static_cast<std::uint64_t>(threads) * static_cast<std::uint64_t>(lanes_of(isa));
+}
+
+BackendChoice choose_backend(BackendRequest const& request, Scene const& scene, std::uint64_t members) {
+    using Kind = BackendRequest::Kind;
+    if (request.kind == Kind::cuda) return {cuda_backend(request.share), ""};
+    Isa const isa = request.isa.value_or(best_isa());
+    auto const cpu = cpu_backend(isa);
+    if (request.kind == Kind::cpu) return {cpu, ""};
+    if (request.isa) return {cpu, "as --isa says"};
+    try {
+        auto const card = cuda_backend(request.share);
+        std::string const objection = objection_to(*card, request, isa, scene, members);
+        if (!objection.empty()) return {cpu, objection};
+        return {card,
+                fmt::format("it pays from about {} members on", pays_from(isa, request.threads * request.share.ranks))};
+    } catch (NoDevice const&) {
+        return {cpu, ""};
+    } catch (DeviceError const& error) {
+        // What there is to do about it is for those who want the card.
+        std::string const why = error.what();
+        return {cpu, why.substr(0, why.find(';'))};
+    }
+}
+
+}  // namespace slideway
