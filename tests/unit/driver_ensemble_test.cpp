@@ -1,3 +1,4 @@
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
@@ -121,6 +122,29 @@ TEST(Ensemble, EndsWithTheErrorOfAMember) {
     EXPECT_THROW(run_ensemble(
                      plan, known_results, [](BlockResult const&) {}, stop),
                  std::runtime_error);
+}
+
+TEST(Ensemble, WhoseKernelFailsKeepsWhatOthersHaveInWork) {
+    StopRequest const stop;
+    std::atomic<int> begun = 0;
+    std::atomic<bool> has_failed = false;
+    auto const kernel = [&](Block& block) {
+        if (++begun == 2) {
+            has_failed = true;
+            throw DeviceError("the card is lost");
+        }
+        // The first block ends after the second has failed.
+        for (int i = 0; i < 10'000 && !has_failed; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        known_results(block);
+    };
+    std::size_t kept = 0;
+    EXPECT_THROW(
+        run_ensemble(
+            small_plan(100, 5, 2), kernel, [&](BlockResult const& block) { kept += block.records.size(); }, stop),
+        DeviceError);
+    EXPECT_EQ(kept, 5u);
+    EXPECT_EQ(begun, 2);
 }
 
 TEST(Ensemble, StoppedBeforeItsStartRunsNothing) {
