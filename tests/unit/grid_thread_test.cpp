@@ -98,6 +98,21 @@ TEST_F(GridThread, GivesTheCrossingsOfAProgramAlone) {
     EXPECT_GT(crossings, 24u);
 }
 
+TEST_F(GridThread, GivesTheHeldContactsOfAProgramAlone) {
+    for (Parts const& parts : testing::all_parts()) {
+        if (parts.law != Law::paper || parts.damping == Damping::restitution) continue;
+        for (auto plan : {testing::sampled_block(5, parts), testing::shadowed_block(5, parts)}) {
+            OwnedBlock passed(plan);
+            plan.settings.locate_modes = true;
+            expect_as_alone(plan, 3);
+            OwnedBlock held(plan);
+            run_alone(passed);
+            run_alone(held);
+            EXPECT_NE(difference(passed, held), "") << "contacts must change";
+        }
+    }
+}
+
 TEST_F(GridThread, AreAsManyAsYouLike) {
     auto const plan = testing::sampled_block(13, {Law::conservative, Damping::rate, true, false});
     for (int const threads : {1, 2, 13, 40}) expect_as_alone(plan, threads);
