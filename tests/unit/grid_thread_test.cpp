@@ -87,15 +87,20 @@ TEST_F(GridThread, GivesTheShadowsOfAProgramAlone) {
 }
 
 TEST_F(GridThread, GivesTheCrossingsOfAProgramAlone) {
-    std::uint64_t crossings = 0;
-    for (Parts const& parts : testing::all_parts()) {
-        auto const plan = testing::crossing_block(5, parts);
-        expect_as_alone(plan, 3);
-        OwnedBlock block(plan);
-        run_alone(block);
-        for (std::size_t i = 0; i < plan.members.size(); ++i) crossings += block.record(i).crossings;
+    using enum CrossingPlan::On;
+    for (auto const on : {state, gap_y, gap_z}) {
+        std::uint64_t crossings = 0;
+        for (Parts const& parts : testing::all_parts()) {
+            auto plan = testing::crossing_block(5, parts);
+            plan.crossings.on = on;
+            if (on != state) plan.crossings.level = 1e-4;  // m, of a slider in the middle of the way
+            expect_as_alone(plan, 3);
+            OwnedBlock block(plan);
+            run_alone(block);
+            for (std::size_t i = 0; i < plan.members.size(); ++i) crossings += block.record(i).crossings;
+        }
+        EXPECT_GT(crossings, 24u);
     }
-    EXPECT_GT(crossings, 24u);
 }
 
 TEST_F(GridThread, GivesTheHeldContactsOfAProgramAlone) {
