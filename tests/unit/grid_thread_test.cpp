@@ -1,4 +1,5 @@
-// The threads of a grid, each a thread of the processor that runs the lane program of one lane: who takes which member must not show.
+// The threads of a grid, each a thread of the processor that runs the lane program of the kernels for cards: neither who takes which
+// member nor how the equations are chosen must show beside the processor's own instance.
 #include "kernels/grid_thread.hpp"
 
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@
 #include <numeric>
 #include <thread>
 
+#include "tests/support/grid_cranks/grid_cranks.hpp"
 #include "tests/support/varied_blocks.hpp"
 
 namespace slideway {
@@ -19,13 +21,20 @@ using testing::difference;
 using testing::Left;
 using testing::OwnedBlock;
 
-auto instance_of(BlockPlan const& plan) {
-    auto const instance = find_instance(Isa::scalar, plan.parts);
-    return plan.shadows.count > 0 ? instance.run_shadowed : instance.run;
-}
+class GridThread : public ::testing::Test {
+protected:
+    void SetUp() override {
+        if (!is_supported(Isa::scalar)) GTEST_SKIP() << "this machine has no fused multiply-add";
+    }
+};
 
-/// A program that integrates the block alone.
-void run_alone(OwnedBlock& owned) { instance_of(owned.plan())(owned.block); }
+bool has_shadows(BlockPlan const& plan) { return plan.shadows.count > 0; }
+
+/// The processor's program, which integrates the block alone.
+void run_alone(OwnedBlock& owned) {
+    auto const instance = find_instance(Isa::scalar, owned.plan().parts);
+    (has_shadows(owned.plan()) ? instance.run_shadowed : instance.run)(owned.block);
+}
 
 GridState run_grid(OwnedBlock& owned, int threads) {
     GridState state;
@@ -35,7 +44,7 @@ GridState run_grid(OwnedBlock& owned, int threads) {
     for (int i = 0; i < threads; ++i) {
         grid.emplace_back([&] {
             start.arrive_and_wait();
-            run_thread(task, instance_of(owned.plan()));
+            testing::run_grid_thread(task, has_shadows(owned.plan()));
         });
     }
     for (std::thread& thread : grid) thread.join();
@@ -54,7 +63,7 @@ void expect_as_alone(BlockPlan const& plan, int threads) {
     EXPECT_EQ(state.taken, plan.members.size() + static_cast<std::size_t>(threads));
 }
 
-TEST(GridThread, GivesTheBitsOfAProgramAlone) {
+TEST_F(GridThread, GivesTheBitsOfAProgramAlone) {
     double onsets = 0;
     for (Parts const& parts : testing::all_parts()) {
         expect_as_alone(testing::sampled_block(7, parts), 3);
@@ -65,7 +74,7 @@ TEST(GridThread, GivesTheBitsOfAProgramAlone) {
     EXPECT_GT(onsets, 24) << "the members must meet the way";
 }
 
-TEST(GridThread, GivesTheShadowsOfAProgramAlone) {
+TEST_F(GridThread, GivesTheShadowsOfAProgramAlone) {
     for (Parts const& parts : testing::all_parts()) {
         auto const plan = testing::shadowed_block(5, parts);
         expect_as_alone(plan, 3);
@@ -77,29 +86,49 @@ TEST(GridThread, GivesTheShadowsOfAProgramAlone) {
     }
 }
 
-TEST(GridThread, GivesTheCrossingsOfAProgramAlone) {
-    std::uint64_t crossings = 0;
-    for (Parts const& parts : testing::all_parts()) {
-        auto const plan = testing::crossing_block(5, parts);
-        expect_as_alone(plan, 3);
-        OwnedBlock block(plan);
-        run_alone(block);
-        for (std::size_t i = 0; i < plan.members.size(); ++i) crossings += block.record(i).crossings;
+TEST_F(GridThread, GivesTheCrossingsOfAProgramAlone) {
+    using enum CrossingPlan::On;
+    for (auto const on : {state, gap_y, gap_z}) {
+        std::uint64_t crossings = 0;
+        for (Parts const& parts : testing::all_parts()) {
+            auto plan = testing::crossing_block(5, parts);
+            plan.crossings.on = on;
+            if (on != state) plan.crossings.level = 1e-4;  // m, of a slider in the middle of the way
+            expect_as_alone(plan, 3);
+            OwnedBlock block(plan);
+            run_alone(block);
+            for (std::size_t i = 0; i < plan.members.size(); ++i) crossings += block.record(i).crossings;
+        }
+        EXPECT_GT(crossings, 24u);
     }
-    EXPECT_GT(crossings, 24u);
 }
 
-TEST(GridThread, AreAsManyAsYouLike) {
+TEST_F(GridThread, GivesTheHeldContactsOfAProgramAlone) {
+    for (Parts const& parts : testing::all_parts()) {
+        if (parts.law != Law::paper || parts.damping == Damping::restitution) continue;
+        for (auto plan : {testing::sampled_block(5, parts), testing::shadowed_block(5, parts)}) {
+            OwnedBlock passed(plan);
+            plan.settings.locate_modes = true;
+            expect_as_alone(plan, 3);
+            OwnedBlock held(plan);
+            run_alone(passed);
+            run_alone(held);
+            EXPECT_NE(difference(passed, held), "") << "contacts must change";
+        }
+    }
+}
+
+TEST_F(GridThread, AreAsManyAsYouLike) {
     auto const plan = testing::sampled_block(13, {Law::conservative, Damping::rate, true, false});
     for (int const threads : {1, 2, 13, 40}) expect_as_alone(plan, threads);
     expect_as_alone(testing::sampled_block(1, plan.parts), 5);
     GridState state;
     OwnedBlock empty{BlockPlan{}};
-    run_thread({empty.block, &state, {}}, instance_of(empty.plan()));
+    testing::run_grid_thread({empty.block, &state, {}}, false);
     EXPECT_EQ(state.lane_steps_executed, 0u);
 }
 
-TEST(GridThread, HandsEveryMemberToOneThread) {
+TEST_F(GridThread, HandsEveryMemberToOneThread) {
     constexpr std::size_t members = 20'000;
     Block block;
     block.members = members;
@@ -120,7 +149,7 @@ TEST(GridThread, HandsEveryMemberToOneThread) {
     EXPECT_EQ(state.lane_steps_useful, 2 * members);
 }
 
-TEST(GridThread, TakesMembersInTheBlocksOrder) {
+TEST_F(GridThread, TakesMembersInTheBlocksOrder) {
     auto plan = testing::sampled_block(9, {Law::paper, Damping::point, true, false});
     plan.settings.end_time = 2e-3;
     plan.order = {4, 0, 8, 2, 6, 1, 3, 7, 5};
@@ -147,7 +176,7 @@ TEST(GridThread, TakesMembersInTheBlocksOrder) {
     EXPECT_EQ(difference(shared, alone), "");
 }
 
-TEST(GridThread, AFailingMemberChangesNoNeighbour) {
+TEST_F(GridThread, AFailingMemberChangesNoNeighbour) {
     Parts const parts{Law::conservative, Damping::point, true, true};
     auto const good = testing::sampled_block(10, parts);
     OwnedBlock alone(good);
@@ -185,7 +214,7 @@ TEST(GridThread, AFailingMemberChangesNoNeighbour) {
     }
 }
 
-TEST(GridThread, AStopLeavesNoMemberHalfWritten) {
+TEST_F(GridThread, AStopLeavesNoMemberHalfWritten) {
     constexpr std::array<std::string_view, 3> on_the_way = {"series", "sections", "growths"};
     for (bool const shadowed : {false, true}) {
         Parts const parts{Law::paper, Damping::point, true, false};

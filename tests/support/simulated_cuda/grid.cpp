@@ -1,6 +1,4 @@
-// The threads of a grid: each runs the lane program of the scalar instance, which must give what a card gives, bit for bit.
-#include "kernels/grid_thread.hpp"
-
+// The threads of a grid: each runs the lane program of the kernels, compiled for the processor.
 #include <algorithm>
 #include <atomic>
 #include <thread>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "host/backend/backend.hpp"
+#include "tests/support/grid_cranks/grid_cranks.hpp"
 #include "tests/support/simulated_cuda/simulation.hpp"
 
 namespace slideway::simulated_cuda {
@@ -48,13 +47,12 @@ void check_task(GridTask const& task, int device) {
 
 void run_grid(GridTask task, bool shadowed, std::uint64_t threads) {
     task.block.stop = nullptr;  // a card can ask nobody
-    auto const instance = find_instance(Isa::scalar, task.parts);
-    auto const integrate = shadowed ? instance.run_shadowed : instance.run;
+    if (!is_supported(Isa::scalar)) misuse("this machine has no fused multiply-add");
     std::atomic<std::uint64_t> next = 0;
     std::vector<std::thread> workers;
     for (std::uint64_t i = 0; i < std::min(threads, most_threads); ++i) {
         workers.emplace_back([&] {
-            while (next.fetch_add(1) < threads) run_thread(task, integrate);
+            while (next.fetch_add(1) < threads) testing::run_grid_thread(task, shadowed);
         });
     }
     for (std::thread& worker : workers) worker.join();
