@@ -1,5 +1,6 @@
 // What ranks of a job tell each other, printed by rank 0 for tests/unit/driver_ranks_test.cpp.
-// ranks_program places N THREADS WANTED | abandon | texts BYTES | failure | waiting | desertion RANK | crowded | deaf
+// ranks_program places N THREADS WANTED | abandon | texts BYTES | failure | waiting | desertion RANK | crowded | deaf |
+// machine
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -45,6 +46,14 @@ std::string load_of(char const* name, std::function<void()> const& what) {
 
 void print_all(std::vector<std::string> const& texts) {
     for (std::string const& text : texts) std::fputs(text.c_str(), stdout);
+}
+
+/// Where every rank stands among those of its machine.
+int machine(Ranks& ranks) {
+    ranks.broadcast("begin");
+    print_all(
+        ranks.gather(fmt::format("rank {} is {} of {} here\n", ranks.rank(), ranks.local_rank(), ranks.local_count())));
+    return ranks.agree(0);
 }
 
 /// Every thread of every rank takes places until none is left; rank 0 prints `place RANK FIRST COUNT` for each stretch.
@@ -223,6 +232,7 @@ int run(std::vector<std::string> const& words) {
     if (words.at(0) == "desertion") return desertion(*ranks, static_cast<int>(number(1)));
     if (words.at(0) == "crowded") return crowded(*ranks);
     if (words.at(0) == "deaf") return deaf(*ranks);
+    if (words.at(0) == "machine") return machine(*ranks);
     return 99;
 }
 

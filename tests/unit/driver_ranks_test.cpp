@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "host/driver/launcher.hpp"
@@ -142,6 +143,16 @@ TEST_F(RanksOfAJob, TellEachOtherTextsOfAnyLength) {
     }
 }
 
+TEST_F(RanksOfAJob, KnowTheirPlaceOnTheirMachine) {
+    for (int const ranks : {1, 3}) {
+        std::string expected = fmt::format("ranks {}\n", ranks);
+        for (int i = 0; i < ranks; ++i) expected += fmt::format("rank {} is {} of {} here\n", i, i, ranks);
+        ShellOutcome const outcome = job(ranks, "machine");
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        EXPECT_EQ(outcome.out, expected);
+    }
+}
+
 TEST_F(RanksOfAJob, EndTogetherWhenOneFails) {
     for (int const ranks : {1, 2, 3}) {
         ShellOutcome const outcome = job(ranks, "failure");
@@ -211,6 +222,8 @@ TEST(RankAlone, HasAllToItselfWithoutMpi) {
     auto const ranks = Ranks::join();
     EXPECT_EQ(ranks->rank(), 0);
     EXPECT_EQ(ranks->count(), 1);
+    EXPECT_EQ(ranks->local_rank(), 0);
+    EXPECT_EQ(ranks->local_count(), 1);
     EXPECT_EQ(ranks->broadcast("scene"), "scene");
     auto const queue = ranks->share(10, nullptr);
     EXPECT_EQ(queue->take(7, 0).count, 7u);
