@@ -1,6 +1,7 @@
 #include "host/driver/ensemble.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <exception>
 #include <mutex>
@@ -111,6 +112,21 @@ public:
         fail_locked(std::move(failure));
     }
 
+    /// Runs a block that also ends when another has failed: members of it that have ended by then are kept.
+    void run(BlockKernel const& kernel, Block& block) const {
+        struct Ends {
+            decltype(Block::stop) stop;
+            void const* context;
+            std::atomic<bool> const* failed;
+        } const ends{block.stop, block.stop_context, &has_failed_};
+        block.stop = [](void const* context) {
+            auto const& e = *static_cast<Ends const*>(context);
+            return *e.failed || (e.stop != nullptr && e.stop(e.context));
+        };
+        block.stop_context = &ends;
+        kernel(block);
+    }
+
     /// After all threads have ended.
     EnsembleTotals totals() {
         if (failure_) std::rethrow_exception(failure_);
@@ -123,6 +139,7 @@ private:
     void fail_locked(std::exception_ptr failure) {
         if (failure_) return;
         failure_ = std::move(failure);
+        has_failed_ = true;
         queue_.abandon();
     }
 
@@ -138,6 +155,7 @@ private:
     StopReason reason_ = StopReason::none;
     std::exception_ptr failure_;
     bool sink_failed_ = false;
+    std::atomic<bool> has_failed_ = false;  // as failure_, for those who do not hold the mutex
 };
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -151,8 +169,9 @@ EnsembleTotals run_ensemble(EnsemblePlan const& plan, MemberQueue& queue, BlockK
     auto const start = std::chrono::steady_clock::now();
     Team team(plan, queue, sink, stop, progress);
     BlockEmit const emit = [&team](BlockBuffers const& buffers) { return team.emit(buffers); };
+    BlockKernel const watched = [&](Block& block) { team.run(kernel, block); };
     BlockProgram const once = [&](BlockBuffers& buffers, std::span<std::uint64_t const> members, BlockEmit const&) {
-        buffers.run(kernel, plan.request, plan.source, stop, members);
+        buffers.run(watched, plan.request, plan.source, stop, members);
         emit(buffers);
     };
     BlockProgram const& program = plan.program ? plan.program : once;

@@ -54,7 +54,8 @@ int default_threads();
 
 /// Integrates the members of the plan, or those that were handed out before `stop` said to end.  A member's result depends neither on
 /// the threads nor on the blocks.  `progress` may be nullptr.
-/// @throws what the sink or the member source throws first, after the blocks in work have ended; the queue is then abandoned.
+/// @throws what the sink, the kernel or the member source throws first; the queue is then abandoned, and the blocks in work end soon:
+/// what of them is finished goes to the sink, unless that has failed.
 EnsembleTotals run_ensemble(EnsemblePlan const& plan, MemberQueue& queue, BlockKernel const& kernel,
                             BlockSink const& sink, StopRequest const& stop, Progress* progress = nullptr);
 
