@@ -99,7 +99,7 @@ public:
         auto const members = static_cast<std::uint64_t>(result.records.size());
         unreported_ += members;
         if (progress_) progress_->add(members);
-        return true;
+        return !failure_;
     }
 
     void measured(std::uint64_t places, double seconds, double utilisation) {

@@ -152,6 +152,27 @@ TEST(Ensemble, WhoseKernelFailsKeepsWhatOthersHaveInWork) {
     EXPECT_EQ(begun, 2);
 }
 
+TEST(Ensemble, WhoseWorkerFailsEndsTheProgramsOfOthers) {
+    StopRequest const stop;
+    std::atomic<int> begun = 0;
+    int emitted = 0, kept = 0;
+    EnsemblePlan plan = small_plan(2, 1, 2);
+    plan.program = [&](BlockBuffers& buffers, std::span<std::uint64_t const> places, BlockEmit const& emit) {
+        if (++begun == 2) throw DeviceError("the card is lost");
+        // A chain of blocks goes on for as long as it is told to.
+        do {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            buffers.run(known_results, plan.request, plan.source, stop, places);
+            ++emitted;
+        } while (emitted < 10'000 && emit(buffers));
+    };
+    EXPECT_THROW(run_ensemble(
+                     plan, known_results, [&](BlockResult const&) { ++kept; }, stop),
+                 DeviceError);
+    EXPECT_LT(emitted, 10'000);
+    EXPECT_EQ(kept, emitted);
+}
+
 TEST(Ensemble, StoppedBeforeItsStartRunsNothing) {
     StopRequest stop;
     stop.request();
