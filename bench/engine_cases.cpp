@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/spread.hpp"
 #include "tests/support/ensemble.hpp"
 
 namespace slideway {
@@ -41,18 +42,10 @@ IntegratorSettings settings_of(EngineCase const& c) {
 std::vector<Inputs> members_of(EngineCase const& c, std::size_t count) {
     auto members = testing::scattered_starts(count, c.clearance, c.crank_speed);
     for (std::size_t i = 0; i < members.size(); ++i) {
-        auto& in = members[i];
-        auto const spread = [&](double irrational) {
+        bench::spread_inputs(members[i], c.chi, [&](double irrational) {
             double const x = static_cast<double>(i + 1) * irrational;
             return 0.8 + 0.4 * (x - std::floor(x));
-        };
-        in.clearance_y *= spread(0.3166247903553998);
-        in.clearance_z *= spread(0.6055512754639891);
-        in.crank_speed *= spread(0.1231056256176606);
-        in.friction_static *= spread(0.3588989435406740);
-        in.friction_kinetic *= spread(0.7958315233127191);
-        in.eta *= spread(0.3851648071345037);
-        in.chi_line = in.chi_surface = c.chi;
+        });
     }
     return members;
 }

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "bench/relief_valve_golden.hpp"
+#include "bench/spread.hpp"
 #include "bench/work_precision/problem.hpp"
 #include "tests/support/ensemble.hpp"
 
@@ -21,15 +22,7 @@ double scattered(std::size_t i, double irrational) {
 std::vector<Inputs> spread_members(std::size_t count, double clearance, double crank_speed, double chi) {
     auto members = testing::scattered_starts(count, clearance, crank_speed);
     for (std::size_t i = 0; i < count; ++i) {
-        auto& in = members[i];
-        auto const spread = [&](double irrational) { return 1 + 0.2 * scattered(i, irrational); };
-        in.clearance_y *= spread(0.3166247903553998);
-        in.clearance_z *= spread(0.6055512754639891);
-        in.crank_speed *= spread(0.1231056256176606);
-        in.friction_static *= spread(0.3588989435406740);
-        in.friction_kinetic *= spread(0.7958315233127191);
-        in.eta *= spread(0.3851648071345037);
-        in.chi_line = in.chi_surface = chi;
+        spread_inputs(members[i], chi, [&](double irrational) { return 1 + 0.2 * scattered(i, irrational); });
     }
     return members;
 }

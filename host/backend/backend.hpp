@@ -88,8 +88,6 @@ KernelInstance find_instance(Isa isa, Parts const& parts);
 
 std::shared_ptr<Backend const> cpu_backend(Isa isa);
 
-/// Whether this build has code for cards at all.
-bool has_cuda();
 /// Processes of this machine share its cards in turn.
 struct CardShare {
     int rank = 0;   // of this process among them

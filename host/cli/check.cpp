@@ -121,7 +121,7 @@ int check(CheckArguments const& arguments) {
     BackendRequest request = arguments.scene.backend;
     request.threads = threads;
     BackendChoice const choice =
-        choose_backend(request, scene, is_continued(scene) ? scene.members : member_count(scene));
+        choose_backend(request, scene, place_count(scene, MemberSet(MemberRange{0, member_count(scene)})));
     Prediction const prediction = predict(scene, *choice.backend, threads);
 
     fmt::print("# {} is a valid scene.  Resolved, in SI units:\n\n", scene.path);
@@ -129,7 +129,7 @@ int check(CheckArguments const& arguments) {
     fmt::print("{}{}\n", resolved, resolved.ends_with('\n') ? "" : "\n");
     print_parts(scene);
     print_field("kernels", fmt::format("{}, {} threads, blocks of at most {} members", backend_text(*choice.backend),
-                                       threads, prediction.largest_block));
+                                       choice.backend->workers(threads), prediction.largest_block));
     if (!choice.reason.empty()) print_field("", choice.reason);
     OrbitSchedule const schedule = orbit_schedule(scene);
     print_field("members", fmt::format("{}, each over {:.6g} s", member_count(scene),

@@ -58,9 +58,8 @@ BackendChoice chosen_backend(RunArguments const& arguments, Scene const& scene, 
     request.threads = options.threads;
     request.block_members = options.block_members;
     request.share = {ranks.local_rank(), ranks.local_count()};
-    // The columns of a continued sweep follow one another.
     MemberSet const members = members_of_part(scene, options.part, MemberSet(options.range));
-    return choose_backend(request, scene, is_continued(scene) ? swept_starts(scene, members).count() : members.count());
+    return choose_backend(request, scene, place_count(scene, members));
 }
 
 /// Results that there were, and that must be computed again.

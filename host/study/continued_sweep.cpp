@@ -151,6 +151,10 @@ MemberSet swept_starts(Scene const& scene, MemberSet const& members) {
     return starts;
 }
 
+std::uint64_t place_count(Scene const& scene, MemberSet const& members) {
+    return is_continued(scene) ? swept_starts(scene, members).count() : members.count();
+}
+
 MemberSet members_of_starts(Scene const& scene, MemberSet const& starts) {
     MemberSet members;
     for (std::uint64_t column = 0; column < scene.chaos.values.size(); ++column) {

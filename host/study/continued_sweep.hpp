@@ -24,6 +24,9 @@ bool is_continued(Scene const& scene);
 /// The starts that members belong to.
 MemberSet swept_starts(Scene const& scene, MemberSet const& members);
 
+/// What workers of a run take: members, of a continued sweep its starts, for their columns follow one another.
+std::uint64_t place_count(Scene const& scene, MemberSet const& members);
+
 /// The members of starts, in all columns.
 MemberSet members_of_starts(Scene const& scene, MemberSet const& starts);
 

@@ -82,7 +82,7 @@ StepRange steps_of_member(Scene const& scene) {
 std::uint64_t most_shards(Scene const& scene, MemberSet const& members, EnsemblePlan const& plan,
                           Backend const& backend) {
     bool const continued = is_continued(scene);
-    std::uint64_t const places = continued ? swept_starts(scene, members).count() : members.count();
+    std::uint64_t const places = place_count(scene, members);
     std::uint64_t const of_place = continued ? scene.chaos.values.size() : 1;
     auto const workers = static_cast<std::uint64_t>(plan.workers);
     if (plan.blocks.fixed > 0) return (places + plan.blocks.fixed - 1) / plan.blocks.fixed * of_place;

@@ -110,7 +110,7 @@ EnsembleTotals sum_of(std::vector<std::string> const& ranks) {
 
 EnsembleTotals run_work(Scene const& scene, StudyOptions const& options, StudyWork const& work, Ranks& ranks,
                         StopRequest const& stop) {
-    std::uint64_t const places = is_continued(scene) ? swept_starts(scene, work.todo).count() : work.todo.count();
+    std::uint64_t const places = place_count(scene, work.todo);
     Progress progress(work.before + work.todo.count(), work.before, options.progress, stderr, stop);
     auto const queue = ranks.share(places, [&](std::uint64_t members) { progress.add(members); });
     // Every rank comes to `gather`, whatever happens to it, and before its queue ends: others may still take from it.
