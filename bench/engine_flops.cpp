@@ -24,20 +24,20 @@ template <class Crank> struct CountedCrank : Crank {
     template <class Real> using Memory = typename Crank::template Memory<Real>;
 
     template <bool Full>
-    static Faults<double> derivative(double t, double const* s, SliderCrankParameters<double> const& p,
-                                     Memory<double> const& memory, double* rates, SliderCrankReport<double>* report) {
+    static Faults<double> derivative(double t, double const* s, SliderParameters<double> const& p,
+                                     Memory<double> const& memory, double* rates, SliderReport<double>* report) {
         Counted state[Crank::size], unused[Crank::size];
         for (int i = 0; i < Crank::size; ++i) state[i] = Counted(s[i]);
-        SliderCrankReport<Counted>* const none = nullptr;
+        SliderReport<Counted>* const none = nullptr;
         Crank::template derivative<false>(Counted(t), state, counting(p), counting(memory), unused, none);
         return Crank::template derivative<Full>(t, s, p, memory, rates, report);
     }
 
-    static void linearise(double t, double const* s, SliderCrankParameters<double> const& p,
-                          Memory<double> const& memory, SliderCrankLinearisation<double>& out) {
+    static void linearise(double t, double const* s, SliderParameters<double> const& p,
+                          Memory<double> const& memory, SliderLinearisation<double>& out) {
         Counted state[Crank::size];
         for (int i = 0; i < Crank::size; ++i) state[i] = Counted(s[i]);
-        SliderCrankLinearisation<Counted> unused;
+        SliderLinearisation<Counted> unused;
         Crank::linearise(Counted(t), state, counting(p), counting(memory), unused);
         Crank::linearise(t, s, p, memory, out);
     }

@@ -6,13 +6,14 @@
 #include <cstdint>
 
 #include "kernels/inputs.hpp"
+#include "kernels/mechanisms/mechanism_info.hpp"
 #include "kernels/methods.hpp"
 #include "kernels/observers/quantities.hpp"
 #include "kernels/status.hpp"
 
 namespace slideway {
 
-inline constexpr int state_size = 10;  // y z vy vz roll yaw pitch wx wy wz
+inline constexpr int state_size = 10;  // of a slider-crank: y z vy vz roll yaw pitch wx wy wz
 
 struct IntegratorSettings {
     Method method = Method::automatic;
@@ -146,7 +147,7 @@ using Block = BlockOf<Inputs>;
 
 /// Everything one state tells, as the golden tables list it (model.md 11).
 struct ProbeResult {
-    double derivative[state_size];
+    double derivative[most_states];  // of the mechanism's state
     double power_crank, power_friction, power_damping;  // [W]
     double penetration_y[8], penetration_z[8];          // [m], Y and Z faces, P1…P8
     double normal_force_y[8], normal_force_z[8];        // [N]

@@ -60,9 +60,9 @@ private:
         power[2] = report_.contact.damping_power;
     }
 
-    SliderCrankParameters<double> p_;
+    SliderParameters<double> p_;
     typename Model::template Memory<double> memory_{};
-    mutable SliderCrankReport<double> report_;
+    mutable SliderReport<double> report_;
 };
 
 class LorenzSystem {

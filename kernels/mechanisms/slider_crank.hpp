@@ -27,9 +27,9 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
     /// @param t time [s]; @param s the state, `size` values; @param rates their derivatives, NaN where a fault is set.
     /// @param report filled if Full; the derivative has the same bits without.
     template <bool Full, class Real>
-    SLIDEWAY_NOINLINE static Faults<Real> derivative(Real t, Real const* s, SliderCrankParameters<Real> const& p,
+    SLIDEWAY_NOINLINE static Faults<Real> derivative(Real t, Real const* s, SliderParameters<Real> const& p,
                                                      Memory<Real> const& memory, Real* rates,
-                                                     SliderCrankReport<Real>* report) {
+                                                     SliderReport<Real>* report) {
         Real const y = s[0], z = s[1], vy = s[2], vz = s[3];
         Vec3<Real> omega{s[7], s[8], s[9]};
         Real const zero(0.0), one(1.0);
@@ -108,7 +108,7 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
 
     /// Which apices touch, as a number (Joint::pattern): members of one pattern have the same work to do.
     template <class Real>
-    SLIDEWAY_NOINLINE static Real contact_pattern(Real t, Real const* s, SliderCrankParameters<Real> const& p) {
+    SLIDEWAY_NOINLINE static Real contact_pattern(Real t, Real const* s, SliderParameters<Real> const& p) {
         return Contact::pattern(pose(t, s, p), p.joint.geometry);
     }
 
@@ -116,22 +116,21 @@ template <class Law, class Friction, class Way, class Damping> struct SliderCran
     /// none does.
     template <class Real>
     SLIDEWAY_NOINLINE static Real approach_speed(Real t, Real const* s, Real step, Real const* end,
-                                                 SliderCrankParameters<Real> const& p) {
+                                                 SliderParameters<Real> const& p) {
         Real const way = Contact::approach(pose(t, s, p), pose(t + step, end, p), p.joint.geometry);
         return way / (step * max(p.length_scale_y, p.length_scale_z) * p.rate_scale);
     }
 
     /// Gap of an apex to the face on its side along Y, or along Z: its penetration negated [m].  @param apex P1…P8 from 0
     template <class Real>
-    SLIDEWAY_NOINLINE static Real gap(Real t, Real const* s, SliderCrankParameters<Real> const& p, bool z_faces,
-                                      int apex) {
+    SLIDEWAY_NOINLINE static Real gap(Real t, Real const* s, SliderParameters<Real> const& p, bool z_faces, int apex) {
         return negated(Contact::penetration(pose(t, s, p), p.joint.geometry, z_faces, apex));
     }
 
 private:
     /// Where the slider is in its joint; without its motion.
     template <class Real>
-    SLIDEWAY_FN static JointMotion<Real> pose(Real t, Real const* s, SliderCrankParameters<Real> const& p) {
+    SLIDEWAY_FN static JointMotion<Real> pose(Real t, Real const* s, SliderParameters<Real> const& p) {
         auto const crank = sincos(fma(p.crank_speed, t, p.start_angle));
         Real const dy = fnma(p.crank_length, crank.sin, s[0]);
         Real const reach = fnma(s[1], s[1], fnma(dy, dy, p.rod_length * p.rod_length));

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "kernels/block.hpp"
-#include "kernels/mechanisms/slider_crank_parameters.hpp"
-#include "kernels/mechanisms/slider_crank_report.hpp"
+#include "kernels/mechanisms/slider_parameters.hpp"
+#include "kernels/mechanisms/slider_report.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -11,11 +11,11 @@ namespace slideway::inline SLIDEWAY_ISA {
 struct SliderCrankBase {
     using Inputs = slideway::Inputs;
     static constexpr int size = state_size;
-    template <class Real> using Parameters = SliderCrankParameters<Real>;
-    template <class Real> using Report = SliderCrankReport<Real>;
+    template <class Real> using Parameters = SliderParameters<Real>;
+    template <class Real> using Report = SliderReport<Real>;
 
     /// Sizes against which integrator.atol is meant: c, c·ω, 2c/L_k, 2c/L_k·ω.
-    template <class Real> SLIDEWAY_FN static void scales(SliderCrankParameters<Real> const& p, Real* scale) {
+    template <class Real> SLIDEWAY_FN static void scales(SliderParameters<Real> const& p, Real* scale) {
         scale[0] = p.length_scale_y;
         scale[1] = p.length_scale_z;
         scale[2] = p.length_scale_y * p.rate_scale;
@@ -25,19 +25,17 @@ struct SliderCrankBase {
     }
 
     /// Energy of the slider at the scale of its velocity, M (c ω)² [J], against which the audit's absolute tolerance is meant.
-    template <class Real> SLIDEWAY_FN static Real energy_scale(SliderCrankParameters<Real> const& p) {
+    template <class Real> SLIDEWAY_FN static Real energy_scale(SliderParameters<Real> const& p) {
         Real const speed = max(p.length_scale_y, p.length_scale_z) * p.rate_scale;
         return p.slider_mass * speed * speed;
     }
 
     /// Length [m] against which the tolerance of a located touch is meant.
-    template <class Real> SLIDEWAY_FN static Real touch_scale(SliderCrankParameters<Real> const& p) {
+    template <class Real> SLIDEWAY_FN static Real touch_scale(SliderParameters<Real> const& p) {
         return min(p.length_scale_y, p.length_scale_z);
     }
 
-    SLIDEWAY_HD static SliderCrankParameters<double> parameters(Inputs const& inputs) {
-        return slider_crank_parameters(inputs);
-    }
+    SLIDEWAY_HD static SliderParameters<double> parameters(Inputs const& inputs) { return slider_parameters(inputs); }
 
     SLIDEWAY_HD static void initial_state(Inputs const& in, double* s) {
         double const start[size] = {in.y, in.z, in.vy, in.vz, in.roll, in.yaw, in.pitch, in.wx, in.wy, in.wz};

@@ -1,134 +1,10 @@
 #pragma once
 
-#include "kernels/joint/attitude.hpp"
-#include "kernels/joint/joint_stiffness.hpp"
-#include "kernels/math/dense_solve.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"
+#include "kernels/mechanisms/slider_linearisation.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
-
-/// The slider-crank linearised about one state, with the structural Jacobian of its contacts: all that a linearly implicit
-/// step needs.  In ν = (vy, vz, ωx, ωy, ωz) and q = (y, z, φ, ϑ, ψ), q' = G ν and M ν' = Q(q, ν),
-///   A = [0, G; M⁻¹ K G⁻¹, M⁻¹ D],   K = ∂Q/∂(∫ν), D = ∂Q/∂ν of the contacts alone.
-/// Left out, because not stiff: ∂G/∂q, ∂M/∂q, rod, weight and gyroscopic terms.
-/// Eliminating the positions leaves five equations (Hairer & Wanner, Solving ODEs II (1996), IV.8, for second-order systems):
-///   (M − hγ D − (hγ)² K) u_ν = M r_ν + hγ K G⁻¹ r_q,   u_q = r_q + hγ G u_ν.
-template <class Real> struct SliderCrankLinearisation {
-    JointStiffness<Real> joint;    // K and D
-    Real mass_y, mass_z, mass_yz;  // of (vy, vz): m (1 + κκᵀ) [kg]
-    Vec3<Real> inertia;            // of ω [kg m²]
-    SinCos<Real> roll, yaw;
-    Real touching;  // apex–face pairs in contact
-
-    /// Prepares `solve` for one hγ [s].  No pivoting: M is positive definite, and what is added nearly so.
-    SLIDEWAY_NOINLINE void factor(Real hg) {
-        hg_ = hg;
-        Real const minus_hg = negated(hg);
-        for (int i = 0; i < 5; ++i) {
-            for (int j = 0; j < 5; ++j) {
-                matrix_[i][j] = minus_hg * fma(hg, joint.by_place[i][j], joint.by_rate[i][j]);
-            }
-        }
-        matrix_[0][0] = matrix_[0][0] + mass_y;
-        matrix_[0][1] = matrix_[0][1] + mass_yz;
-        matrix_[1][0] = matrix_[1][0] + mass_yz;
-        matrix_[1][1] = matrix_[1][1] + mass_z;
-        matrix_[2][2] = matrix_[2][2] + inertia.x;
-        matrix_[3][3] = matrix_[3][3] + inertia.y;
-        matrix_[4][4] = matrix_[4][4] + inertia.z;
-        factors_.factor(matrix_);
-    }
-
-    /// (I − hγ A) u = r.  @param r, u ten values each, ordered as the state; they may be the same array.
-    SLIDEWAY_NOINLINE void solve(Real const* r, Real* u) const {
-        Real v[5];
-        right_hand_side(r, v);
-        factors_.solve(v);
-        // G: φ' = ωx + s tanϑ, ϑ' = ωy cosφ − ωz sinφ, ψ' = s/cosϑ with s = ωy sinφ + ωz cosφ.
-        Real const pitch = fma(v[3], roll.sin, v[4] * roll.cos) / yaw.cos;
-        u[0] = fma(hg_, v[0], r[0]);
-        u[1] = fma(hg_, v[1], r[1]);
-        u[4] = fma(hg_, fma(pitch, yaw.sin, v[2]), r[4]);
-        u[5] = fma(hg_, fms(v[3], roll.cos, v[4] * roll.sin), r[5]);
-        u[6] = fma(hg_, pitch, r[6]);
-        u[2] = v[0];
-        u[3] = v[1];
-        u[7] = v[2];
-        u[8] = v[3];
-        u[9] = v[4];
-    }
-
-    /// How well u solves the five equations of r: the sum over them of |W u − b|/(|W||u| + |b|), a relative backward error in
-    /// every unit (Oettli & Prager, Numer. Math. 6 (1964) 405).  About 1e-16 where all is well; NaN if anything is.
-    SLIDEWAY_NOINLINE Real residual(Real const* r, Real const* u) const {
-        Real b[5];
-        right_hand_side(r, b);
-        Real const v[5] = {u[2], u[3], u[7], u[8], u[9]};
-        Real worst(0.0);
-        for (int i = 0; i < 5; ++i) {
-            Real rest = negated(b[i]), size = abs(b[i]);
-            for (int j = 0; j < 5; ++j) {
-                rest = fma(matrix_[i][j], v[j], rest);
-                size = fma(abs(matrix_[i][j]), abs(v[j]), size);
-            }
-            worst = worst + abs(rest) / (size + Real(1e-300));
-        }
-        return worst;
-    }
-
-    /// Square of the rate [1/s] that bounds an explicit step: Ω², the trace of M⁻¹(−K), and the square of the trace of M⁻¹(−D), which
-    /// strong damping and steep friction raise.
-    SLIDEWAY_FN Real rate_squared() const {
-        Real const decay = trace(joint.by_rate);
-        return fma(decay, decay, trace(joint.by_place));
-    }
-
-    /// Kinetic energy [J] of the stiff motions, which a stiff step damps away: ½ νᵀ(−K)ν/Ω², the masses that the contacts' stiffness
-    /// sees.  Sliding along a face has none.  @param s the state.  0 without contact.
-    SLIDEWAY_FN Real vibration_energy(Real const* s) const {
-        Real const rates[5] = {s[2], s[3], s[7], s[8], s[9]};
-        Real sum(0.0);
-        for (int i = 0; i < 5; ++i) {
-            for (int j = 0; j < 5; ++j) sum = fma(joint.by_place[i][j] * rates[i], rates[j], sum);
-        }
-        Real const squared = trace(joint.by_place);
-        auto const stiff = squared > Real(0.0);
-        return select(stiff, Real(0.5) * clamped(negated(sum)) / select(stiff, squared, Real(1.0)), Real(0.0));
-    }
-
-private:
-    /// Trace of M⁻¹(−matrix), of which positive terms alone count.
-    SLIDEWAY_FN Real trace(Real const (&matrix)[5][5]) const {
-        Real const scale = Real(1.0) / fms(mass_y, mass_z, mass_yz * mass_yz);
-        Real const y = clamped(fms(mass_yz, matrix[1][0], mass_z * matrix[0][0]) * scale);
-        Real const z = clamped(fms(mass_yz, matrix[0][1], mass_y * matrix[1][1]) * scale);
-        Real const turning = (clamped(negated(matrix[2][2]) / inertia.x) + clamped(negated(matrix[3][3]) / inertia.y)) +
-                             clamped(negated(matrix[4][4]) / inertia.z);
-        return (y + z) + turning;
-    }
-
-    /// M r_ν + hγ K G⁻¹ r_q.
-    SLIDEWAY_FN void right_hand_side(Real const* r, Real* b) const {
-        // G⁻¹: ωx = φ' − ψ' sinϑ, ωy = ϑ' cosφ + ψ' sinφ cosϑ, ωz = −ϑ' sinφ + ψ' cosφ cosϑ.
-        Real const upright = yaw.cos * r[6];
-        Real const place[5] = {hg_ * r[0], hg_ * r[1], hg_ * fnma(yaw.sin, r[6], r[4]),
-                               hg_ * fma(roll.cos, r[5], roll.sin * upright),
-                               hg_ * fms(roll.cos, upright, roll.sin * r[5])};
-        b[0] = fma(mass_y, r[2], mass_yz * r[3]);
-        b[1] = fma(mass_yz, r[2], mass_z * r[3]);
-        b[2] = inertia.x * r[7];
-        b[3] = inertia.y * r[8];
-        b[4] = inertia.z * r[9];
-        for (int i = 0; i < 5; ++i) {
-            for (int j = 0; j < 5; ++j) b[i] = fma(joint.by_place[i][j], place[j], b[i]);
-        }
-    }
-
-    Real hg_;
-    Real matrix_[5][5];  // W = M − hγ D − (hγ)² K
-    LuFactors<5, Real> factors_;
-};
 
 namespace detail {
 
@@ -144,9 +20,8 @@ struct SliderCrankParts<SliderCrank<Law, Friction, Way_, Damping>> {
 /// Linearises a `SliderCrank` about one state; the same arguments as its derivative.  NaN where that has a fault.
 /// @param t time [s]; @param s the state; @param memory read by RestitutionDamping alone.
 template <class Model, class Real>
-SLIDEWAY_NOINLINE void linearise(Real t, Real const* s, SliderCrankParameters<Real> const& p,
-                                 typename Model::template Memory<Real> const& memory,
-                                 SliderCrankLinearisation<Real>& out) {
+SLIDEWAY_NOINLINE void linearise(Real t, Real const* s, SliderParameters<Real> const& p,
+                                 typename Model::template Memory<Real> const& memory, SliderLinearisation<Real>& out) {
     using Parts = detail::SliderCrankParts<Model>;
     Real const y = s[0], z = s[1], vy = s[2], vz = s[3];
     Real const one(1.0);

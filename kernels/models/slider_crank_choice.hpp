@@ -10,7 +10,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// for all of them, as with SliderCrankTable, but every call names its function.  The assembler for GPUs so sees what each call
 /// needs of the registers; behind a pointer it must save half of them (docs/performance.md).  All threads of a grid choose alike.
 template <class First, class... Others>
-struct SliderCrankChoice : SliderCrankBase, SliderCrankLanes<First::conserving> {
+struct SliderCrankChoice : SliderCrankBase, SliderLanes<First::conserving> {
     static_assert(((Others::conserving == First::conserving && Others::has_memory == First::has_memory &&
                     Others::can_hold == First::can_hold) &&
                    ...));
@@ -30,7 +30,7 @@ struct SliderCrankChoice : SliderCrankBase, SliderCrankLanes<First::conserving> 
     }
     template <class Real>
     SLIDEWAY_NOINLINE void linearise(Real t, Real const* state, Parameters<Real> const& p, Memory<Real> const& memory,
-                                     SliderCrankLinearisation<Real>& out) const {
+                                     SliderLinearisation<Real>& out) const {
         call([&]<class Model>(Model) { return Model::linearise(t, state, p, memory, out), true; });
     }
     template <class Real>

@@ -4,7 +4,7 @@
 #include "kernels/mechanisms/slider_crank_linearisation.hpp"
 #include "kernels/observers/energy_audit.hpp"
 #include "kernels/observers/quantities.hpp"
-#include "kernels/observers/slider_crank_observer.hpp"
+#include "kernels/observers/slider_observer.hpp"
 #include "kernels/steppers/mode_locator.hpp"
 #include "kernels/steppers/no_watch.hpp"
 #include "kernels/steppers/touch.hpp"
@@ -13,15 +13,15 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// What the lanes need of every slider-crank beside its equations (kernels/integrate.hpp).  @tparam conserving of its law: it makes no
 /// energy.
-template <bool conserving> struct SliderCrankLanes {
+template <bool conserving> struct SliderLanes {
     static constexpr int series = series_count;
     static constexpr int events = 0;
     static constexpr bool has_patterns = true;
     static constexpr bool has_shadows = false;
     static constexpr bool has_crossings = true;
     static constexpr bool has_linearisation = true;
-    template <class Real> using Observer = SliderCrankObserver<Real, conserving>;
-    template <class Real> using Linearisation = SliderCrankLinearisation<Real>;
+    template <class Real> using Observer = SliderObserver<Real, conserving>;
+    template <class Real> using Linearisation = SliderLinearisation<Real>;
 
     /// Largest of the squared velocities and rates, each in its scale.
     template <class Real> SLIDEWAY_HD static Real squared_speed(Real const* state, Real const* scale) {
@@ -41,7 +41,7 @@ template <bool conserving> struct SliderCrankLanes {
     /// Members whose energy audit says that their method left its stable range.
     template <class Real>
     SLIDEWAY_HD static Mask<Real> left_stable_range(EnergyAudit<Real> const& audit,
-                                                    SliderCrankParameters<Real> const& p) {
+                                                    SliderParameters<Real> const& p) {
         return slideway::left_stable_range(audit, SliderCrankBase::energy_scale(p));
     }
 };
@@ -59,7 +59,7 @@ template <class Real, bool partings> struct SliderCrankWatch<NoMemory<Real>, par
 
 /// A slider-crank whose parts are known when the lanes are compiled.
 template <class Law, class Friction, class Way, class Damping>
-struct SliderCrankModel : SliderCrank<Law, Friction, Way, Damping>, SliderCrankLanes<!Law::switches> {
+struct SliderCrankModel : SliderCrank<Law, Friction, Way, Damping>, SliderLanes<!Law::switches> {
     using Mechanism = SliderCrank<Law, Friction, Way, Damping>;
     template <class Real>
     using Watch = typename SliderCrankWatch<typename Mechanism::template Memory<Real>, false>::Type;
@@ -67,9 +67,9 @@ struct SliderCrankModel : SliderCrank<Law, Friction, Way, Damping>, SliderCrankL
     using ShadowWatch = typename SliderCrankWatch<typename Mechanism::template Memory<Real>, Law::switches>::Type;
 
     template <class Real>
-    SLIDEWAY_HD static void linearise(Real t, Real const* state, SliderCrankParameters<Real> const& p,
+    SLIDEWAY_HD static void linearise(Real t, Real const* state, SliderParameters<Real> const& p,
                                       typename Mechanism::template Memory<Real> const& memory,
-                                      SliderCrankLinearisation<Real>& out) {
+                                      SliderLinearisation<Real>& out) {
         slideway::linearise<Mechanism>(t, state, p, memory, out);
     }
 };

@@ -8,7 +8,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// A slider-crank whose equations are looked up in a table of functions: the lanes are then compiled once for all laws, frictions, ways
 /// and dampings that leave the same memory and books of energy.  A call costs what a call costs; the derivative is a function of its own in any case.
 template <class Real, template <class> class Memory_, bool conserving>
-struct SliderCrankTable : SliderCrankBase, SliderCrankLanes<conserving> {
+struct SliderCrankTable : SliderCrankBase, SliderLanes<conserving> {
     template <class Number> using Memory = Memory_<Number>;
     template <class Number> using Watch = typename SliderCrankWatch<Memory<Number>, false>::Type;
     template <class Number> using ShadowWatch = typename SliderCrankWatch<Memory<Number>, !conserving>::Type;
@@ -21,7 +21,7 @@ struct SliderCrankTable : SliderCrankBase, SliderCrankLanes<conserving> {
     Derivative* lean;
     Derivative* full;
     void (*linearisation)(Real, Real const*, Parameters<Real> const&, Memory<Real> const&,
-                          SliderCrankLinearisation<Real>&);
+                          SliderLinearisation<Real>&);
     Real (*pattern)(Real, Real const*, Parameters<Real> const&);
     Real (*approach)(Real, Real const*, Real, Real const*, Parameters<Real> const&);
     Real (*apex_gap)(Real, Real const*, Parameters<Real> const&, bool, int);
@@ -44,7 +44,7 @@ struct SliderCrankTable : SliderCrankBase, SliderCrankLanes<conserving> {
         return (Full ? full : lean)(t, state, p, memory, rates, report);
     }
     void linearise(Real t, Real const* state, Parameters<Real> const& p, Memory<Real> const& memory,
-                   SliderCrankLinearisation<Real>& out) const {
+                   SliderLinearisation<Real>& out) const {
         linearisation(t, state, p, memory, out);
     }
     Real contact_pattern(Real t, Real const* state, Parameters<Real> const& p) const { return pattern(t, state, p); }

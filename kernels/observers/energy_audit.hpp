@@ -5,7 +5,7 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// The energies of a member over its run [J], docs/model.md 8.  What the method made is known step by step: see
-/// SliderCrankObserver::audit_step.
+/// SliderObserver::audit_step.
 template <class Real> struct EnergyAudit {
     Real change;          // E(t) − E(0)
     Real crank_work;      // W

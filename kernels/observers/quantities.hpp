@@ -24,6 +24,10 @@ enum class Quantity : int {
     peak_rod_angular_velocity,
     rms_rod_angular_velocity,
     peak_tilt,
+    peak_acceleration,
+    rms_acceleration,
+    peak_channel_acceleration,
+    acceleration_area,
     count
 };
 
@@ -32,7 +36,7 @@ struct QuantityInfo {
     char const* name;
     char const* unit;
     int columns;
-    char const* dimension;  // nullptr for a scalar; else apex, mode_class or axis
+    char const* dimension;  // nullptr for a scalar; else apex, mode_class, axis, direction or channel
     char const* long_name;
 };
 
@@ -45,7 +49,7 @@ inline constexpr QuantityInfo quantity_table[] = {
     {"contact_onsets", "1", 1, nullptr, "changes from free flight to contact"},
     {"energy_residual", "J", 1, nullptr, "energy residual E(t)-E(0)-W+D_f+D_d: energy that the contact law made"},
     {"energy_change", "J", 1, nullptr, "mechanical energy E(t)-E(0)"},
-    {"crank_work", "J", 1, nullptr, "work W of the crank on the rod"},
+    {"crank_work", "J", 1, nullptr, "work W of the drive: of the crank, or of what moves the carriage"},
     {"friction_loss", "J", 1, nullptr, "friction loss D_f"},
     {"damping_loss", "J", 1, nullptr, "contact damping loss D_d"},
     {"peak_crank_torque", "N m", 1, nullptr, "largest magnitude of the drive torque, crank weight included"},
@@ -55,6 +59,10 @@ inline constexpr QuantityInfo quantity_table[] = {
     {"peak_rod_angular_velocity", "rad s-1", 1, nullptr, "largest magnitude of the rod's angular velocity"},
     {"rms_rod_angular_velocity", "rad s-1", 1, nullptr, "root mean square of the rod's angular velocity"},
     {"peak_tilt", "rad", 3, "axis", "largest magnitude of roll, yaw and pitch"},
+    {"peak_acceleration", "m s-2", 3, "direction", "largest magnitude of the acceleration of the slider's centre"},
+    {"rms_acceleration", "m s-2", 3, "direction", "root mean square of the acceleration of the slider's centre"},
+    {"peak_channel_acceleration", "m s-2", 2, "channel", "largest magnitude of a sensor's acceleration"},
+    {"acceleration_area", "m s-1", 2, "channel", "integral over time of the magnitude of a sensor's acceleration"},
 };
 inline constexpr int quantity_count = static_cast<int>(Quantity::count);
 static_assert(sizeof(quantity_table) / sizeof(quantity_table[0]) == quantity_count);
@@ -62,7 +70,7 @@ static_assert(sizeof(quantity_table) / sizeof(quantity_table[0]) == quantity_cou
 /// Mode classes of `mode_time`: the hardest contact of the configuration decides.
 inline constexpr char const* mode_class_names[] = {"free", "point", "line", "surface"};
 
-/// Values at the sample times.  The first ten are the state and always stored with a time series.
+/// Values at the sample times.  Which of them are a mechanism's state: mechanisms/mechanism_info.hpp.
 enum class Series : int {
     y,
     z,
@@ -82,6 +90,14 @@ enum class Series : int {
     surfaces,
     lines,
     points,
+    ax,
+    ay,
+    az,
+    acceleration_top,
+    acceleration_front,
+    crank_angle,
+    crank_angular_velocity,
+    rod_angle,
     count
 };
 
@@ -110,15 +126,23 @@ inline constexpr SeriesInfo series_table[] = {
     {"surfaces", "1", "surface contacts"},
     {"lines", "1", "line contacts"},
     {"points", "1", "point contacts"},
+    {"ax", "m s-2", "acceleration of the slider's centre along X"},
+    {"ay", "m s-2", "acceleration of the slider's centre along Y"},
+    {"az", "m s-2", "acceleration of the slider's centre along Z"},
+    {"acceleration_top", "m s-2", "acceleration along the slider's Y axis of a sensor 10 mm above the way's top face"},
+    {"acceleration_front", "m s-2", "acceleration along the slider's Z axis of a sensor 10 mm before its front face"},
+    {"crank_angle", "rad", "angle of the crank"},
+    {"crank_angular_velocity", "rad s-1", "angular velocity of the crank"},
+    {"rod_angle", "rad", "angle of the rod"},
 };
 inline constexpr int series_count = static_cast<int>(Series::count);
-inline constexpr int state_series = 10;
 static_assert(sizeof(series_table) / sizeof(series_table[0]) == series_count);
 
 /// A set of quantities or series: bit i for entry i of the table.
 using Selection = std::uint32_t;
 constexpr bool selects(Selection set, Quantity q) { return (set >> static_cast<int>(q)) & 1u; }
 constexpr Selection selection_of(Quantity q) { return Selection{1} << static_cast<int>(q); }
+constexpr Selection selection_of(Series s) { return Selection{1} << static_cast<int>(s); }
 constexpr bool selects(Selection set, Series s) { return (set >> static_cast<int>(s)) & 1u; }
 
 /// First column of a quantity in a member's row of all quantities, which is `quantity_columns` wide.

@@ -27,7 +27,7 @@ template <class Model> std::vector<double> answers(Model const& model, oracle::C
     std::vector<double> said;
     auto const say = [&](auto const&... numbers) { (said.push_back(static_cast<double>(numbers)), ...); };
     double rates[state_size];
-    SliderCrankReport<double> report{};
+    SliderReport<double> report{};
     double const* const state = c.state.data();
     auto const lean = model.template derivative<false>(c.t, state, p, memory, rates, &report);
     say(lean.geometry, lean.contact_domain);
@@ -42,7 +42,7 @@ template <class Model> std::vector<double> answers(Model const& model, oracle::C
     }
     say(contact.surfaces, contact.lines, contact.points, contact.potential, contact.friction_power,
         contact.damping_power, contact.elastic_power);
-    SliderCrankLinearisation<double> at;
+    SliderLinearisation<double> at;
     model.linearise(c.t, state, p, memory, at);
     for (auto const* matrix : {at.joint.by_place, at.joint.by_rate}) {
         for (int i = 0; i < 5; ++i) said.insert(said.end(), matrix[i], matrix[i] + 5);

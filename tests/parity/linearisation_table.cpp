@@ -12,13 +12,13 @@ using Real = IsaReal;
 
 template <class Model> void linearise_all(LinearisationRow const* rows, std::size_t count, double* result) {
     constexpr int width = lanes<Real>;
-    SliderCrankParameters<Real> p;
+    SliderParameters<Real> p;
     typename Model::template Memory<Real> memory;
     start_memory(memory);
     if constexpr (Model::has_memory) {
         for (auto& face : memory.speeds) face.a = face.b = face.c = face.d = Real(0.01);
     }
-    SliderCrankLinearisation<Real> at;
+    SliderLinearisation<Real> at;
     for (std::size_t first = 0; first < count; first += width) {
         Real t, hg, state[state_size], u[state_size];
         for (int i = 0; i < width; ++i) {

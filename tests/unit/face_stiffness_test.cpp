@@ -14,7 +14,7 @@
 #include "kernels/laws/friction_stiffness.hpp"
 #include "kernels/laws/paper.hpp"
 #include "kernels/laws/paper_stiffness.hpp"
-#include "kernels/mechanisms/slider_crank_parameters.hpp"
+#include "kernels/mechanisms/slider_parameters.hpp"
 #include "tests/oracle/oracle.hpp"
 
 namespace slideway {
@@ -22,15 +22,15 @@ namespace {
 
 using Values = std::array<double, 4>;
 
-SliderCrankParameters<double> parameters(double exponent = 1.5) {
+SliderParameters<double> parameters(double exponent = 1.5) {
     Inputs in;
     in.hertz_exponent = exponent;
     in.chi_line = 3, in.chi_surface = 5;
     in.restitution = 0.6;
-    return slider_crank_parameters(oracle::completed(in));
+    return slider_parameters(oracle::completed(in));
 }
 
-FaceContact<double> y_face(SliderCrankParameters<double> const& p) {
+FaceContact<double> y_face(SliderParameters<double> const& p) {
     auto const& c = p.joint.contact;
     return {c.surface_stiffness_y, c.across_y_face, c.along};
 }

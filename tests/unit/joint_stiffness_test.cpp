@@ -37,7 +37,7 @@ struct Forceless {
 class Contacts {
 public:
     virtual ~Contacts() = default;
-    [[nodiscard]] virtual SliderCrankLinearisation<double> linearised() const = 0;
+    [[nodiscard]] virtual SliderLinearisation<double> linearised() const = 0;
     virtual void rates(oracle::State const& state, double (&rates)[10]) const = 0;
     virtual void rates_without_force(oracle::State const& state, double (&rates)[10]) const = 0;
 };
@@ -47,7 +47,7 @@ public:
     using Model = SliderCrank<Law, Friction, Way, Damping>;
     using Free = SliderCrank<Forceless, NoFriction, Way, PointDamping>;  // without forces, the others differ in nothing
 
-    ContactsOf(oracle::Case const& c, SliderCrankParameters<double> const& p) : c_(c), p_(p) {
+    ContactsOf(oracle::Case const& c, SliderParameters<double> const& p) : c_(c), p_(p) {
         start_memory(memory_);
         if constexpr (Model::has_memory) {
             for (int face = 0; face < face_count; ++face) {
@@ -59,8 +59,8 @@ public:
         }
     }
 
-    [[nodiscard]] SliderCrankLinearisation<double> linearised() const override {
-        SliderCrankLinearisation<double> at;
+    [[nodiscard]] SliderLinearisation<double> linearised() const override {
+        SliderLinearisation<double> at;
         linearise<Model>(c_.t, c_.state.data(), p_, memory_, at);
         return at;
     }
@@ -73,14 +73,14 @@ public:
 
 private:
     oracle::Case const& c_;
-    SliderCrankParameters<double> const& p_;
+    SliderParameters<double> const& p_;
     typename Model::template Memory<double> memory_;
 };
 
 using ContactsPointer = std::unique_ptr<Contacts>;
 
 template <class Law, class Friction, class Way>
-ContactsPointer by_damping(oracle::Case const& c, SliderCrankParameters<double> const& p) {
+ContactsPointer by_damping(oracle::Case const& c, SliderParameters<double> const& p) {
     switch (c.parts.damping) {
         case Damping::point:
             return std::make_unique<ContactsOf<Law, Friction, Way, PointDamping>>(c, p);
@@ -92,15 +92,15 @@ ContactsPointer by_damping(oracle::Case const& c, SliderCrankParameters<double> 
     return std::make_unique<ContactsOf<Law, Friction, Way, RestitutionDamping>>(c, p);
 }
 template <class Law, class Friction>
-ContactsPointer by_way(oracle::Case const& c, SliderCrankParameters<double> const& p) {
+ContactsPointer by_way(oracle::Case const& c, SliderParameters<double> const& p) {
     if (c.parts.misaligned_way) return by_damping<Law, Friction, MisalignedWay>(c, p);
     return by_damping<Law, Friction, AlignedWay>(c, p);
 }
-template <class Law> ContactsPointer by_friction(oracle::Case const& c, SliderCrankParameters<double> const& p) {
+template <class Law> ContactsPointer by_friction(oracle::Case const& c, SliderParameters<double> const& p) {
     if (c.parts.friction) return by_way<Law, StickSlipFriction>(c, p);
     return by_way<Law, NoFriction>(c, p);
 }
-ContactsPointer contacts_of(oracle::Case const& c, SliderCrankParameters<double> const& p) {
+ContactsPointer contacts_of(oracle::Case const& c, SliderParameters<double> const& p) {
     if (c.parts.law == Law::paper) return by_friction<PaperLaw>(c, p);
     return by_friction<ConservativeLaw>(c, p);
 }
@@ -109,7 +109,7 @@ ContactsPointer contacts_of(oracle::Case const& c, SliderCrankParameters<double>
 class Linearised {
 public:
     explicit Linearised(oracle::Case const& c)
-        : c_(c), p_(slider_crank_parameters(c.inputs)), contacts_(contacts_of(c, p_)), at_(contacts_->linearised()) {
+        : c_(c), p_(slider_parameters(c.inputs)), contacts_(contacts_of(c, p_)), at_(contacts_->linearised()) {
         mass_.setZero();
         mass_(0, 0) = at_.mass_y, mass_(1, 1) = at_.mass_z, mass_(0, 1) = mass_(1, 0) = at_.mass_yz;
         mass_(2, 2) = at_.inertia.x, mass_(3, 3) = at_.inertia.y, mass_(4, 4) = at_.inertia.z;
@@ -157,9 +157,9 @@ private:
     }
 
     oracle::Case const& c_;
-    SliderCrankParameters<double> p_;
+    SliderParameters<double> p_;
     ContactsPointer contacts_;
-    SliderCrankLinearisation<double> at_;
+    SliderLinearisation<double> at_;
     Matrix5 mass_;
 };
 

@@ -10,8 +10,8 @@
 #include "kernels/laws/conservative.hpp"
 #include "kernels/laws/paper.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"
-#include "kernels/mechanisms/slider_crank_parameters.hpp"
-#include "kernels/mechanisms/slider_crank_report.hpp"
+#include "kernels/mechanisms/slider_parameters.hpp"
+#include "kernels/mechanisms/slider_report.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/random_states.hpp"
 
@@ -118,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(Isas, KernelsAgainstOracle, ::testing::Values(Isa::scal
 
 /// The restitution memory and what only observers see, which the probe does not show: through the kernel itself.
 template <class Law, class Friction, class Way>
-SliderCrankReport<double> restitution_report(oracle::Case const& c, SliderCrankParameters<double> const& p,
+SliderReport<double> restitution_report(oracle::Case const& c, SliderParameters<double> const& p,
                                              double (&rates)[10]) {
     using Model = SliderCrank<Law, Friction, Way, RestitutionDamping>;
     typename Model::template Memory<double> memory;
@@ -128,13 +128,13 @@ SliderCrankReport<double> restitution_report(oracle::Case const& c, SliderCrankP
         };
         memory.speeds[face] = {speed(0), speed(1), speed(2), speed(3)};
     }
-    SliderCrankReport<double> report;
+    SliderReport<double> report;
     Model::template derivative<true>(c.t, c.state.data(), p, memory, rates, &report);
     return report;
 }
 
 template <class Law>
-SliderCrankReport<double> restitution_report(oracle::Case const& c, SliderCrankParameters<double> const& p,
+SliderReport<double> restitution_report(oracle::Case const& c, SliderParameters<double> const& p,
                                              double (&rates)[10]) {
     if (c.parts.friction) {
         return c.parts.misaligned_way ? restitution_report<Law, StickSlipFriction, MisalignedWay>(c, p, rates)
@@ -147,7 +147,7 @@ SliderCrankReport<double> restitution_report(oracle::Case const& c, SliderCrankP
 void compare_restitution(oracle::Case const& c, std::string const& what) {
     auto const r = oracle::evaluate(c.inputs, c.parts, c.t, c.state, &c.impact_speeds);
     if (r.geometry || r.contact_domain) return;
-    auto const p = slider_crank_parameters(c.inputs);
+    auto const p = slider_parameters(c.inputs);
     double rates[10];
     auto const report = c.parts.law == Law::paper ? restitution_report<PaperLaw>(c, p, rates)
                                                   : restitution_report<ConservativeLaw>(c, p, rates);

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "kernels/block.hpp"
-#include "kernels/observers/slider_crank_observer.hpp"
+#include "kernels/observers/slider_observer.hpp"
 
 namespace slideway {
 namespace {
 
-using Observer = SliderCrankObserver<double>;
-using Report = SliderCrankReport<double>;
+using Observer = SliderObserver<double>;
+using Report = SliderReport<double>;
 using State = std::array<double, state_size>;
 
 constexpr Selection everything = (Selection(1) << quantity_count) - 1;
@@ -130,7 +130,7 @@ TEST(Observer, IntegrandsAreThoseOfTheTable) {
     EXPECT_EQ(values[6], 169);
     for (int apex = 0; apex < 8; ++apex) EXPECT_EQ(values[7 + apex], apex_forces[apex]) << apex;
     EXPECT_EQ(values[15], 2);
-    using Switching = SliderCrankObserver<double, false>;
+    using Switching = SliderObserver<double, false>;
     double more[Switching::integrals];
     Switching::integrands(busy(), more);
     EXPECT_EQ(more[Switching::integrals - 1], 19) << "the springs' power";
@@ -177,7 +177,7 @@ std::vector<double> audit_means(double taken_up, double loss) {
 }
 
 TEST(Observer, OfAConservingLawBlamesTheMethodForTheResidual) {
-    WatchedBy<SliderCrankObserver<double>> watched;
+    WatchedBy<SliderObserver<double>> watched;
     watched.start(with_contact(10, 1, 1));
     watched.step(2, with_contact(13, 5, 3), {}, audit_means(0, 0.5));  // + 4
     watched.step(2, with_contact(11, 2, 3), {}, audit_means(0, 0.5));  // − 1
@@ -190,7 +190,7 @@ TEST(Observer, OfAConservingLawBlamesTheMethodForTheResidual) {
 }
 
 TEST(Observer, OfASwitchingLawLeavesToTheLawWhatItMadeByASwitch) {
-    using Switching = WatchedBy<SliderCrankObserver<double, false>>;
+    using Switching = WatchedBy<SliderObserver<double, false>>;
     // Springs that took up 3 hold 7 after a switch: the law made 4, and the method the rest of E's 4.5.
     Switching switching;
     switching.start(with_contact(10, 1, 1));
@@ -209,7 +209,7 @@ TEST(Observer, OfASwitchingLawLeavesToTheLawWhatItMadeByASwitch) {
 }
 
 TEST(Observer, ResumesWhereTheLawChangedWithoutAStep) {
-    WatchedBy<SliderCrankObserver<double, false>> watched;
+    WatchedBy<SliderObserver<double, false>> watched;
     watched.start(with_contact(10, 1, 2));
     watched.resume(with_contact(12, 3, 2));  // located, it makes 2
     watched.step(1, with_contact(12, 3, 2));

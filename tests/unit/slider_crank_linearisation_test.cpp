@@ -18,7 +18,7 @@ namespace slideway {
 namespace {
 
 using Model = SliderCrank<ConservativeLaw, StickSlipFriction, MisalignedWay, RateDamping>;
-using Linearisation = SliderCrankLinearisation<double>;
+using Linearisation = SliderLinearisation<double>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 using Matrix10 = Eigen::Matrix<double, 10, 10>;
 using Vector10 = Eigen::Matrix<double, 10, 1>;
@@ -82,7 +82,7 @@ Vector10 random_state(std::mt19937_64& random) {
     return r;
 }
 
-TEST(SliderCrankLinearisation, SolvesTheTenEquations) {
+TEST(SliderLinearisation, SolvesTheTenEquations) {
     std::mt19937_64 random(5);
     using Wide = Eigen::Matrix<long double, 10, 10>;
     int compared = 0;
@@ -110,7 +110,7 @@ TEST(SliderCrankLinearisation, SolvesTheTenEquations) {
     EXPECT_GT(compared, 1000);
 }
 
-TEST(SliderCrankLinearisation, SolvesInPlace) {
+TEST(SliderLinearisation, SolvesInPlace) {
     std::mt19937_64 random(6);
     auto at = linearised(oracle::make_cases(31, 1)[0]);
     at.factor(1e-4);
@@ -120,7 +120,7 @@ TEST(SliderCrankLinearisation, SolvesInPlace) {
     EXPECT_EQ(r, u);
 }
 
-TEST(SliderCrankLinearisation, ResidualTellsAWrongAnswer) {
+TEST(SliderLinearisation, ResidualTellsAWrongAnswer) {
     std::mt19937_64 random(7);
     for (auto const& c : oracle::make_cases(32, 50)) {
         auto at = linearised(c);
@@ -139,7 +139,7 @@ TEST(SliderCrankLinearisation, ResidualTellsAWrongAnswer) {
     }
 }
 
-TEST(SliderCrankLinearisation, RateSquaredIsTheSumOfTheSquaredFrequenciesAndTheSquaredDecay) {
+TEST(SliderLinearisation, RateSquaredIsTheSumOfTheSquaredFrequenciesAndTheSquaredDecay) {
     // Without friction −K is symmetric; where no term of the trace is negative it is the sum of the eigenvalues.
     using Smooth = SliderCrank<ConservativeLaw, NoFriction, MisalignedWay, PointDamping>;
     int compared = 0;
@@ -161,7 +161,7 @@ TEST(SliderCrankLinearisation, RateSquaredIsTheSumOfTheSquaredFrequenciesAndTheS
     EXPECT_GT(compared, 100);
 }
 
-TEST(SliderCrankLinearisation, CountsTheTouchingPairs) {
+TEST(SliderLinearisation, CountsTheTouchingPairs) {
     for (auto const& c : oracle::make_cases(34, 200)) {
         auto const depths = oracle::penetrations(c.inputs, c.parts, c.t, c.state);
         if (!c.parts.misaligned_way || std::isnan(depths[0])) continue;
@@ -169,7 +169,7 @@ TEST(SliderCrankLinearisation, CountsTheTouchingPairs) {
     }
 }
 
-TEST(SliderCrankLinearisation, IsNothingInFreeFlightAndNanOutOfReach) {
+TEST(SliderLinearisation, IsNothingInFreeFlightAndNanOutOfReach) {
     auto const p = Model::parameters(oracle::completed({}));
     Model::Memory<double> memory{};
     Linearisation at;

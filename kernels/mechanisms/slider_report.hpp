@@ -2,7 +2,7 @@
 
 #include "kernels/joint/contact_report.hpp"
 #include "kernels/math/vec3.hpp"
-#include "kernels/mechanisms/slider_crank_parameters.hpp"
+#include "kernels/mechanisms/slider_parameters.hpp"
 #include "kernels/observers/quantities.hpp"
 #include "kernels/real.hpp"
 
@@ -12,7 +12,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Real> struct CrankState { Vec3<Real> position, velocity, acceleration; };
 
 /// All that a state of the slider-crank tells beside its derivative.
-template <class Real> struct SliderCrankReport {
+template <class Real> struct SliderReport {
     ContactReport<Real> contact;
     Real x, vx;           // slider's centre along the way
     Real crank_power;     // F_A · v_A [W]
@@ -48,7 +48,7 @@ template <class Real> struct SliderCrankReport {
     }
 
     SLIDEWAY_FN void fill(CrankState<Real> const& a, CrankState<Real> const& b, Real d, Vec3<Real> const& omega,
-                          Vec3<Real> const& contact_force, SliderCrankParameters<Real> const& p) {
+                          Vec3<Real> const& contact_force, SliderParameters<Real> const& p) {
         Real const zero(0.0), half(0.5), one(1.0);
         x = b.position.x;
         vx = b.velocity.x;

@@ -10,7 +10,7 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// All numbers that the slider-crank's kernels need of one member (or one pack), derived once from its inputs.
-template <class Real> struct SliderCrankParameters {
+template <class Real> struct SliderParameters {
     // crank and rod
     Real crank_length;          // r [m]
     Real crank_speed;           // ω [rad/s]
@@ -52,8 +52,8 @@ SLIDEWAY_FN WayParameters<double> way_parameters(Inputs const& in) {
 }  // namespace detail
 
 /// Source: model.md 2–6.  @param in complete inputs (nothing `follows`), SI.
-SLIDEWAY_FN SliderCrankParameters<double> slider_crank_parameters(Inputs const& in) {
-    SliderCrankParameters<double> p;
+SLIDEWAY_FN SliderParameters<double> slider_parameters(Inputs const& in) {
+    SliderParameters<double> p;
     double const length = in.rod_length, center = in.rod_mass_center;
     double const spin_mass = in.rod_inertia / (length * length);
     double const m_bb = in.rod_mass * center * center + spin_mass;

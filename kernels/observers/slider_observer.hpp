@@ -3,7 +3,7 @@
 #include <initializer_list>
 
 #include "kernels/block.hpp"
-#include "kernels/mechanisms/slider_crank_report.hpp"
+#include "kernels/mechanisms/slider_report.hpp"
 #include "kernels/observers/energy_audit.hpp"
 #include "kernels/observers/quantities.hpp"
 #include "kernels/real.hpp"
@@ -14,7 +14,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// its integrals meet the tolerance too. Integrals run over the stages with the stepper's own weights, so they have its order; peaks, mode times and onsets go by
 /// the accepted steps.
 /// @tparam conserving of the law: it makes no energy.
-template <class Real, bool conserving = true> class SliderCrankObserver {
+template <class Real, bool conserving = true> class SliderObserver {
 public:
     /// Integrands: crank, friction and damping power, total force, torque², error², rod spin², eight apex forces, |crank power|; of
     /// a law that switches also the springs' power.
@@ -41,7 +41,7 @@ public:
     /// Whether a report is needed at the accepted steps.
     SLIDEWAY_HD static constexpr bool needs_reports(Selection q) { return q != 0; }
 
-    SLIDEWAY_FN static void integrands(SliderCrankReport<Real> const& r, Real* values) {
+    SLIDEWAY_FN static void integrands(SliderReport<Real> const& r, Real* values) {
         values[0] = r.crank_power;
         values[1] = r.contact.friction_power;
         values[2] = r.contact.damping_power;
@@ -55,7 +55,7 @@ public:
     }
 
     /// Begins the members in the lanes of the mask.
-    SLIDEWAY_FN void start(Mask<Real> fresh, SliderCrankReport<Real> const& r, Real const* state) {
+    SLIDEWAY_FN void start(Mask<Real> fresh, SliderReport<Real> const& r, Real const* state) {
         Real const zero(0.0);
         for (auto* value : {&force_, &torque_, &error_, &spin_, &roll_, &yaw_, &pitch_, &onsets_, &largest_potential_,
                             &made_, &astray_, &exchanged_}) {
@@ -71,7 +71,7 @@ public:
     }
 
     /// One accepted step of the lanes in the mask.  @param integral Σ b_s · integrand of the step's stages.
-    SLIDEWAY_FN void accept(Mask<Real> accepted, Real h, Real const* integral, SliderCrankReport<Real> const& r,
+    SLIDEWAY_FN void accept(Mask<Real> accepted, Real h, Real const* integral, SliderReport<Real> const& r,
                             Real const* state) {
         Real const zero(0.0), half(0.5);
         for (int i = 0; i < integrals; ++i) {
@@ -93,7 +93,7 @@ public:
     }
 
     /// What the next step starts from, in the lanes of the mask; again where the law changes there without a step.
-    SLIDEWAY_FN void resume(Mask<Real> in, SliderCrankReport<Real> const& r) {
+    SLIDEWAY_FN void resume(Mask<Real> in, SliderReport<Real> const& r) {
         energy_ = select(in, r.energy, energy_);
         potential_ = select(in, r.contact.potential, potential_);
         if constexpr (!conserving) pattern_ = select(in, r.contact.pattern(), pattern_);
@@ -142,7 +142,7 @@ public:
 
 private:
     /// 0 free, 1 point, 2 line, 3 surface: the hardest contact of the configuration.
-    SLIDEWAY_FN static Real mode_class(SliderCrankReport<Real> const& r) {
+    SLIDEWAY_FN static Real mode_class(SliderReport<Real> const& r) {
         Real const zero(0.0);
         Real const soft = select(r.contact.points > zero, Real(1.0), zero);
         return select(r.contact.surfaces > zero, Real(3.0), select(r.contact.lines > zero, Real(2.0), soft));
@@ -152,7 +152,7 @@ private:
     /// did for what they hold: E − U must follow from the powers, whatever U does.  Where the apices that touch stay the same no
     /// switch is made; nor at the border to free flight, where U is 0 on both sides: a step that leaps into the way or out of it has
     /// no such excuse.
-    SLIDEWAY_FN void audit_step(Mask<Real> accepted, Real h, Real const* integral, SliderCrankReport<Real> const& r) {
+    SLIDEWAY_FN void audit_step(Mask<Real> accepted, Real h, Real const* integral, SliderReport<Real> const& r) {
         Real const zero(0.0);
         Real made = fnma(h, integral[0] - integral[1] - integral[2], r.energy - energy_);
         Real exchanged = r.contact.potential - potential_;
@@ -168,7 +168,7 @@ private:
         exchanged_ = select(accepted, exchanged_ + abs(exchanged), exchanged_);
     }
 
-    SLIDEWAY_FN void take_peaks(Mask<Real> lanes_taken, SliderCrankReport<Real> const& r, Real const* state) {
+    SLIDEWAY_FN void take_peaks(Mask<Real> lanes_taken, SliderReport<Real> const& r, Real const* state) {
         auto const raise = [&](Real& peak, Real value) { peak = select(lanes_taken, max(value, peak), peak); };
         raise(force_, r.contact.total_force());
         raise(largest_potential_, r.contact.potential);
