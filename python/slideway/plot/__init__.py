@@ -1,0 +1,1 @@
+"""Plots of results: each takes an axis or makes one, and returns it."""
