@@ -12,25 +12,38 @@ from typing import TYPE_CHECKING, Any
 
 from ._version import __version__
 from .accessor import ResultAccessor
-from .errors import SlidewayError
+from .errors import FileError, RunError, SceneError, SlidewayError, StoppedEarly, TooManyFailures
+from .example import example
 from .members import finished, statuses
 from .results import groups, open  # noqa: A004 (slideway.open is the name that users expect)
+from .runs import info, run
 from .scenes import scene
 from .sections import sections
+from .series_statistics import SeriesStatistics, stats
 
 if TYPE_CHECKING:
     from . import plot
 
 __all__ = [
+    "FileError",
     "ResultAccessor",
+    "RunError",
+    "SceneError",
+    "SeriesStatistics",
     "SlidewayError",
+    "StoppedEarly",
+    "TooManyFailures",
     "__version__",
+    "example",
     "finished",
     "groups",
+    "info",
     "open",
     "plot",
+    "run",
     "scene",
     "sections",
+    "stats",
     "statuses",
 ]
 
