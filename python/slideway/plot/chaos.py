@@ -9,8 +9,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from ..errors import SlidewayError
+from ..intervals import student_t
 from ..series_statistics import SeriesStatistics, stats
-from .style import Members, axis, chosen, colours, draw_members, failures, finish, grey, label, scaled, variable
+from .style import Members, axis, chosen, colours, draw_members, failures, finish, grey, label, numbered, plus_minus, scaled, variable
 
 
 def divergence(
@@ -43,7 +44,7 @@ def divergence(
         time, values = curve.time[first : last + 1], curve.mean_log_distance[first : last + 1]
         line = values.mean() + curve.exponent * (time - time.mean())
         ax.plot(factor * time, line, color=colours[1], lw=2.2,
-                label=f"λ₁ = ({curve.exponent:.3g} ± {curve.error:.2g}) 1/s, samples {first} to {last}")
+                label=f"λ₁ = ({plus_minus(curve.exponent, curve.error or 0)}) 1/s, samples {first} to {last}")
     else:
         ax.plot([], [], " ", label="no line to fit")
     return finish(ax, label("time", unit), "mean ln distance", "lower right")
@@ -60,7 +61,7 @@ def exponent_history(result: xr.Dataset, member: Members = None, ax: Axes | None
         SlidewayError: the result has no history (study.kind = "lyapunov", study.history > 0).
 
     >>> slideway.plot.exponent_history(slideway.example()).get_ylabel()
-    'running λ1 [1/s]'
+    'running λ₁ [1/s]'
     """
     data = _exponent(variable(result, "lyapunov_history"), exponent)
     members = chosen(result, member)
@@ -78,7 +79,7 @@ def exponent_history(result: xr.Dataset, member: Members = None, ax: Axes | None
     later = rows[:, rows.shape[1] // 10 :]
     low, high = np.nanmin(later), np.nanmax(later)
     ax.set_ylim(min(low, 0) - 0.05 * (high - low), max(high, 0) + 0.1 * (high - low))
-    return finish(ax, label("time", unit), f"running λ{exponent} [1/s]")
+    return finish(ax, label("time", unit), f"running {numbered('λ', exponent)} [1/s]")
 
 
 def exponent_histogram(result: xr.Dataset, ax: Axes | None = None, *, exponent: int = 1, bins: int | str = "auto") -> Axes:
@@ -94,7 +95,7 @@ def exponent_histogram(result: xr.Dataset, ax: Axes | None = None, *, exponent: 
         SlidewayError: the result has no exponents, or no member finished.
 
     >>> slideway.plot.exponent_histogram(slideway.example()).get_xlabel()
-    'λ1 [1/s]'
+    'λ₁ [1/s]'
     """
     data = _exponent(variable(result, "lyapunov_exponent"), exponent).values
     there = np.isfinite(data)
@@ -103,8 +104,7 @@ def exponent_histogram(result: xr.Dataset, ax: Axes | None = None, *, exponent: 
         raise SlidewayError("no member has an exponent, for none finished; see slideway.statuses(result)")
     mean = float(values.mean())
     if values.size > 1:
-        # Student's t and the normal distribution differ by less than a line's width from some ten members on.
-        half = 1.96 * float(values.std(ddof=1)) / np.sqrt(values.size)
+        half = student_t(values.size - 1) * float(values.std(ddof=1)) / np.sqrt(values.size)
     elif "lyapunov_exponent_half_width" in result:
         half = float(_exponent(result["lyapunov_exponent_half_width"], exponent).values[there][0])
     else:
@@ -119,11 +119,11 @@ def exponent_histogram(result: xr.Dataset, ax: Axes | None = None, *, exponent: 
     missing = data.size - values.size
     note = f", {missing} failed" if missing else ""
     count = f"{values.size} members{note}" if data.size > 1 else "one member"
-    ax.axvline(mean, color=colours[1], lw=2, label=f"({mean:.4g} ± {half:.2g}) 1/s, {count}")
+    ax.axvline(mean, color=colours[1], lw=2, label=f"({plus_minus(mean, half)}) 1/s, {count}")
     ax.axvline(0, color=grey, lw=1)
     if values.size == 1:
         ax.set_yticks([])
-    return finish(ax, f"λ{exponent} [1/s]", "members" if values.size > 1 else "")
+    return finish(ax, f"{numbered('λ', exponent)} [1/s]", "members" if values.size > 1 else "")
 
 
 def _exponent(data: xr.DataArray, number: int) -> xr.DataArray:

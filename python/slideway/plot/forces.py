@@ -7,7 +7,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from ..errors import SlidewayError
-from .style import Members, axis, chosen, colours, finish, label, scaled, variable
+from .style import Members, axis, chosen, class_colours, finish, label, scaled, variable
 
 _classes = ("point", "line", "surface")
 
@@ -15,8 +15,9 @@ _classes = ("point", "line", "surface")
 def force_histogram(result: xr.Dataset, member: Members = None, ax: Axes | None = None, *, bins: int = 40) -> Axes:
     """How often which normal force acts, by the class of the contact mode (Fig. 11 of Qian et al. 2020).
 
-    Bars are shares of the samples in contact, piled by the hardest contact of the moment: a surface, else a line, else a point.
-    Forces are on a logarithmic axis. The legend has the share of all samples in each class.
+    Shares of the samples in contact, by the hardest contact of the moment: a surface, else a line, else a point. Both axes are
+    logarithmic, for the rare contacts of lines and surfaces have the largest forces. The legend has the share of all samples in
+    each class.
 
     Args:
         member: number of a member, or several; left out: all.
@@ -41,24 +42,28 @@ def force_histogram(result: xr.Dataset, member: Members = None, ax: Axes | None 
 
     force = taken("normal_force")
     there = np.isfinite(force)
-    touching = there & (force > 0)
-    if not touching.any():
+    line = taken("lines") > 0 if "lines" in result else np.zeros_like(there)
+    surface, point = taken("surfaces") > 0, taken("points") > 0
+    of_class = {"surface": surface, "line": line & ~surface, "point": point & ~line & ~surface}
+    touching = surface | line | point
+    pushing = touching & (force > 0)  # damping takes the force of some contacts that open
+    if not pushing.any():
         raise SlidewayError("the slider touches nothing at any sample; run it longer or with more samples")
-    lines = taken("lines") > 0 if "lines" in result else np.zeros_like(there)
-    surface = taken("surfaces") > 0
-    of_class = {"surface": touching & surface, "line": touching & lines & ~surface}
-    of_class["point"] = touching & ~of_class["surface"] & ~of_class["line"]
     factor, unit = scaled(str(result["normal_force"].attrs["units"]), force)
-    # The few samples that graze with next to no force would stretch the axis over many decades.
-    low, high = np.quantile(force[touching], (0.001, 1.0))
+    # The thousandth of the samples that grazes with least force would stretch the axis over many decades, and is left out.
+    low, high = np.quantile(force[pushing], (0.001, 1.0))
     edges = factor * np.geomspace(max(low, 1e-6 * high), high * 1.0001, bins + 1)
     ax = axis(ax)
-    base = np.zeros(bins)
-    for name, colour in zip(_classes, colours, strict=False):
-        counts = np.histogram(np.clip(factor * force[of_class[name]], edges[0], None), edges)[0] * 100 / touching.sum()
+    least = 100 / touching.sum()  # one sample
+    for name in _classes:
+        counts = np.histogram(factor * force[of_class[name]], edges)[0] * least
         share = of_class[name].sum() / there.sum()
-        ax.bar(edges[:-1], counts, np.diff(edges), base, align="edge", color=colour, label=f"{name}, {share:.1%} of the time")
-        base += counts
-    ax.plot([], [], " ", label=f"free flight, {1 - touching.sum() / there.sum():.1%}")
+        heights = np.maximum(counts, 0.5 * least)
+        words = f"{name}, {share:.2%} of the time"
+        ax.stairs(heights, edges, baseline=0.5 * least, fill=True, color=class_colours[name], alpha=0.3)
+        ax.stairs(heights, edges, baseline=0.5 * least, color=class_colours[name], lw=1.3, label=words)
+    ax.plot([], [], " ", label=f"free flight, {1 - touching.sum() / there.sum():.2%}")
     ax.set_xscale("log")
+    ax.set_yscale("log")
+    ax.set_ylim(bottom=0.5 * least)
     return finish(ax, label("normal force", unit), "share of samples in contact [%]")

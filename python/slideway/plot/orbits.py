@@ -40,13 +40,14 @@ def orbit_yz(result: xr.Dataset, member: Members = None, ax: Axes | None = None)
                                ec=grey, ls="--", label=None if ax.patches else "clearance"))
     if len(members) <= most_lines:
         for number, row_y, row_z, colour in zip(members, ys, zs, colours, strict=False):
-            ax.plot(factor * row_z, factor * row_y, color=colour, lw=0.7, label=f"member {number}" if len(members) > 1 else None)
+            ax.plot(factor * row_z, factor * row_y, color=colour, lw=0.6, alpha=0.8, label=f"member {number}" if len(members) > 1 else None)
             ax.plot(factor * row_z[:1], factor * row_y[:1], "o", ms=4, color=colour)
     else:
         there = np.isfinite(ys) & np.isfinite(zs)
         image = ax.hist2d(factor * zs[there], factor * ys[there], bins=120, cmap="viridis_r", norm=LogNorm())[3]
         ax.figure.colorbar(image, ax=ax, label=f"samples of {len(members)} members")
-    ax.set_aspect("equal", adjustable="datalim")
+    ax.set_aspect("equal", adjustable="box")
+    ax.autoscale_view()
     return finish(ax, label("z", unit), label("y", unit))
 
 

@@ -53,8 +53,9 @@ def work_precision(
         errors = np.array([float(columns[error][i]) for i in own])
         costs = np.array([float(columns[cost][i]) for i in own])
         place = families.index(method)
+        marker = _markers[(place + place // len(colours)) % len(_markers)]  # another one when the colours begin again
         # Vectorised code is a full line, the scalar peer of the same method a dashed one of its colour.
-        ax.plot(costs, np.where(errors > 0, errors, np.nan), ls="--" if code == "scalar" else "-", marker=_markers[place % 8],
+        ax.plot(costs, np.where(errors > 0, errors, np.nan), ls="--" if code == "scalar" else "-", marker=marker,
                 ms=4, lw=1.2, color=colours[place % len(colours)], mfc="white" if code == "scalar" else None, label=f"{method}, {code}")
     ax.set_xscale("log")
     ax.set_yscale("log")

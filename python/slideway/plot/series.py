@@ -52,7 +52,8 @@ def time_series(
     second, time_unit = scaled("s", time)
     ax = axis(ax)
     if background is not None:
-        ax.plot(second * time, factor * background, color=grey, lw=2.5, alpha=0.6, label="ideal mechanism", zorder=1)
+        ax.plot(second * time, factor * background, color=grey, lw=2.5, alpha=0.6, zorder=1,
+                label="axis of the way" if name in ("y", "z") else "ideal mechanism")
     clearance = _clearance(result, members, name) if gap and not difference else None
     if clearance is not None:
         for end, words_of_line in ((clearance, "clearance"), (-clearance, None)):

@@ -60,14 +60,17 @@ def spectrum(
     ax = axis(ax)
     if len(members) <= most_lines:
         lines = decibels(amplitude)
+        shown = lines
         for number, line, colour in zip(members, lines, colours, strict=False):
             ax.plot(factor * frequency, line, color=colour, lw=0.8, label=f"member {number}" if len(members) > 1 else None)
     else:
         lines = decibels(np.sqrt(np.mean(amplitude**2, axis=0)))
         low, high = decibels(np.quantile(amplitude, (0.05, 0.95), axis=0))
+        shown = np.array([low, high])
         ax.fill_between(factor * frequency, low, high, color=colours[0], alpha=0.25, lw=0, label="90 % of the members")
         ax.plot(factor * frequency, lines, color=colours[0], lw=1, label=f"root mean square of {len(members)} members")
-    peak = float(lines.max())
-    ax.set_ylim(max(peak - span, float(lines.min()) - 5), peak + 5)
+    # Single zeros of a spectrum would stretch the axis.
+    peak, floor = float(shown.max()), float(np.quantile(shown, 0.01))
+    ax.set_ylim(max(peak - span, floor - 5), peak + 5)
     ax.margins(x=0)
     return finish(ax, label("frequency", hertz), label(words_of(name), f"dB re {against}"), "upper right")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Union
+from typing import Any, Literal, Union
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -14,10 +14,12 @@ from ..errors import SlidewayError
 from ..members import finished
 
 Members = Union[int, Sequence[int], None]
+Legend = Literal["best", "upper right", "upper left", "lower right"]
 
 # Okabe and Ito (2008): told apart by all readers.
 colours = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#666666", "#B8A700")
 grey = "#888888"
+class_colours = {"free": "#999999", "point": colours[0], "line": colours[1], "surface": colours[2]}
 most_lines = 8  # members that are drawn one by one
 
 _prefixed = ("m", "s", "N", "J", "Pa", "Hz", "rad", "m s-1", "rad s-1", "N m")
@@ -57,6 +59,27 @@ def label(words: str, unit: str) -> str:
     return f"{words} [{unit}]" if unit else words
 
 
+def numbered(symbol: str, number: int) -> str:
+    """A symbol with its number below.
+
+    >>> numbered("λ", 12)
+    'λ₁₂'
+    """
+    return symbol + "".join("₀₁₂₃₄₅₆₇₈₉"[int(digit)] for digit in str(number))
+
+
+def plus_minus(value: float, error: float) -> str:
+    """A value and its error, to two digits of the error.
+
+    >>> plus_minus(684.52, 103.2), plus_minus(-0.04512, 0.0031)
+    ('680 ± 100', '-0.0451 ± 0.0031')
+    """
+    if not (np.isfinite(error) and error > 0):
+        return f"{value:.4g}"
+    places = 1 - int(np.floor(np.log10(error)))
+    return f"{round(value, places):.{max(places, 0)}f} ± {round(error, places):.{max(places, 0)}f}"
+
+
 def words_of(name: str) -> str:
     """A variable's name as words."""
     return name.replace("_", " ")
@@ -93,7 +116,7 @@ def chosen(result: xr.Dataset, member: Members) -> list[int]:
     there = [int(m) for m in np.atleast_1d(result["member"].values)]
     if member is None:
         return there
-    wanted = [int(member)] if np.ndim(member) == 0 else [int(m) for m in np.asarray(member)]
+    wanted = [int(m) for m in np.atleast_1d(np.asarray(member))]
     for m in wanted:
         if m not in there:
             raise SlidewayError(f"there is no member {m} in this result; see its coordinate member")
@@ -125,7 +148,7 @@ def draw_members(ax: Axes, time: np.ndarray, rows: np.ndarray, members: Sequence
     ax.margins(x=0)
 
 
-def finish(ax: Axes, x: str, y: str, legend: str | None = "best") -> Axes:
+def finish(ax: Axes, x: str, y: str, legend: Legend | None = "best") -> Axes:
     """Labels, a light grid and, where there is something to tell, a legend."""
     ax.set_xlabel(x)
     ax.set_ylabel(y)
@@ -133,6 +156,6 @@ def finish(ax: Axes, x: str, y: str, legend: str | None = "best") -> Axes:
     ax.set_axisbelow(True)
     for side in ("top", "right"):
         ax.spines[side].set_visible(False)
-    if legend and ax.get_legend_handles_labels()[1]:
+    if legend is not None and ax.get_legend_handles_labels()[1]:
         ax.legend(loc=legend, frameon=True, framealpha=0.85, edgecolor="none", fontsize="small")
     return ax

@@ -7,8 +7,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from ..errors import SlidewayError
+from ..scenes import scene
 from ..sections import sections
-from .style import axis, colours, finish, grey, label, scaled, variable, words_of
+from .style import axis, colours, finish, grey, label, numbered, scaled, variable, words_of
 
 
 def bifurcation(result: xr.Dataset, name: str = "y", ax: Axes | None = None) -> Axes:
@@ -43,7 +44,7 @@ def exponent_sweep(result: xr.Dataset, ax: Axes | None = None, *, exponent: int 
         SlidewayError: the result is no sweep, or has no exponents.
 
     >>> slideway.plot.exponent_sweep(slideway.example()).get_ylabel()
-    'λ1 [1/s]'
+    'λ₁ [1/s]'
     """
     key, parameter = _parameter(result)
     data = variable(result, "lyapunov_exponent")
@@ -57,12 +58,12 @@ def exponent_sweep(result: xr.Dataset, ax: Axes | None = None, *, exponent: int 
     ax.axhline(0, color=grey, lw=1)
     ax.plot(factor * at, values, "o", ms=3, color=colours[0], alpha=0.5, mew=0, label="members")
     ax.plot(factor * columns, middle, color=colours[1], lw=1.4, label="median")
-    return finish(ax, label(key, unit), f"λ{exponent} [1/s]")
+    return finish(ax, label(key, unit), f"{numbered('λ', exponent)} [1/s]")
 
 
 def _parameter(result: xr.Dataset) -> tuple[str, xr.DataArray]:
     """The key that a sweep changes, and its value of each member."""
-    key = str(result.attrs.get("sweep_parameter", ""))
-    if not key:
+    name = str(result.attrs.get("sweep_parameter", ""))
+    if not name:
         raise SlidewayError('this result is no sweep; use study.kind = "sweep"')
-    return key, result[key.replace(".", "_")]
+    return str(scene(result)["study"]["parameter"]), result[name]

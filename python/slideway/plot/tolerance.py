@@ -11,7 +11,7 @@ from ..members import finished
 from ..results import groups
 from ..results import open as open_result
 from ..scenes import scene
-from .style import axis, colours, finish, grey, label, scaled, variable, words_of
+from .style import axis, class_colours, colours, finish, grey, label, scaled, variable, words_of
 
 
 def quantiles(result: xr.Dataset, name: str | None = None, ax: Axes | None = None) -> Axes:
@@ -89,7 +89,7 @@ def sensitivity(result: xr.Dataset, name: str | None = None, component: str | No
     ax = axis(ax)
     for i, (kind, words) in enumerate(kinds.items()):
         values = group[f"{name}_{kind}"].sel(entry).values[order]
-        at = place + (len(kinds) - 1 - 2 * i) * height / 2 * -1
+        at = place + ((len(kinds) - 1) / 2 - i) * height
         ax.barh(at, values, height, color=colours[i], alpha=0.8, label=words)
         interval = f"{name}_{kind}_interval"
         if interval in group:
@@ -128,7 +128,8 @@ def _components(data: xr.DataArray, dims: tuple[str, ...]) -> list[tuple[dict[st
     other = [str(d) for d in data.dims if d not in dims]
     if not other:
         return [({}, colours[0])]
-    return [({other[0]: str(entry)}, colours[i % len(colours)]) for i, entry in enumerate(data[other[0]].values)]
+    labels = [str(entry) for entry in data[other[0]].values]
+    return [({other[0]: entry}, class_colours.get(entry, colours[i % len(colours)])) for i, entry in enumerate(labels)]
 
 
 def _component(data: xr.DataArray, wanted: str | None) -> dict[str, str]:
