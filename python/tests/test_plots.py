@@ -320,3 +320,30 @@ def test_units_are_handy(units: str, values: float, expected: str) -> None:
     factor, unit = plot.style.scaled(units, values)
     assert unit == expected
     assert factor == {"µm": 1e6, "mm": 1e3, "kN": 1e-3, "µJ": 1e6}.get(expected, 1.0)
+
+
+def planar() -> xr.Dataset:
+    """A made-up result of a mechanism that moves in one plane."""
+    result = slideway.example().drop_vars(["z", "lines"])
+    result.attrs["scene"] = result.attrs["scene"].replace('"slider_crank"', '"planar_slider_crank"')
+    return result
+
+
+def test_planar_mechanisms_have_forces_without_lines(ax: Axes) -> None:
+    plot.force_histogram(planar(), ax=ax)
+    assert "line, 0.00% of the time" in legend_of(ax)
+
+
+def test_planar_mechanisms_have_no_lateral_motion() -> None:
+    with pytest.raises(slideway.SlidewayError, match="moves in one plane and has no z"):
+        plot.orbit_yz(planar())
+
+
+def test_quantities_with_any_dimension_have_a_curve_for_each_label(ax: Axes) -> None:
+    result = slideway.example()
+    values = np.arange(24.0).reshape(12, 2)
+    result["acceleration_area"] = (("member", "channel"), values, {"units": "m s-1"})
+    result = result.assign_coords(channel=["top", "front"])
+    plot.quantiles(result, "acceleration_area", ax=ax)
+    assert legend_of(ax) == ["top", "front"]
+    np.testing.assert_allclose(ax.lines[1].get_xdata(), values[:-1, 1])  # the last member failed

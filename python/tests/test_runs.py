@@ -154,13 +154,13 @@ def test_failures_that_are_allowed_are_no_error() -> None:
 
 
 def test_time_limit_keeps_what_is_finished_and_resumes(tmp_path: Path) -> None:
-    many = {"study.members": 600, "study.duration": "60 ms"}
+    many = {"study.members": 2000, "study.duration": "60 ms"}
     scene, output = scenes / "ensemble_starts.toml", tmp_path / "a.nc"
     with pytest.raises(slideway.StoppedEarly, match="stopped early") as caught:
-        slideway.run(scene, output, progress=False, set=many, max_hours=0.15 / 3600, threads=1)
+        slideway.run(scene, output, progress=False, set=many, max_hours=0.5 / 3600, threads=1)
     part = caught.value.dataset
     assert caught.value.code == 5
-    assert 0 < int(slideway.finished(part).sum()) < 600
+    assert 0 < int(slideway.finished(part).sum()) < 2000
     whole = slideway.run(scene, output, progress=False, set=many, resume=True)
     assert bool(slideway.finished(whole).all())
     ran = slideway.finished(part)

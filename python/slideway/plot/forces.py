@@ -7,7 +7,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from ..errors import SlidewayError
-from .style import Members, axis, chosen, class_colours, finish, label, scaled, variable
+from .style import Members, axis, chosen, class_colours, finish, kind_of, label, scaled, variable
 
 _classes = ("point", "line", "surface")
 
@@ -29,11 +29,11 @@ def force_histogram(result: xr.Dataset, member: Members = None, ax: Axes | None 
     >>> slideway.plot.force_histogram(slideway.example()).get_xlabel()
     'normal force [N]'
     """
-    names = [name for name in ("normal_force", "surfaces", "lines", "points") if name not in result]
-    if "lines" in names and result.attrs.get("scene", "").find('kind = "planar_slider_crank"') >= 0:
-        names.remove("lines")  # corners between two walls touch at points or with a face
-    if names and "sample" in result.dims:
-        listed = ", ".join(f'"{name}"' for name in names)
+    # Corners between two walls touch at points or with a face.
+    lines = () if kind_of(result) == "planar_slider_crank" else ("lines",)
+    missing = [name for name in ("normal_force", "surfaces", *lines, "points") if name not in result]
+    if missing and "sample" in result.dims:
+        listed = ", ".join(f'"{name}"' for name in missing)
         raise SlidewayError(f"this result lacks {listed}; add to study.quantities, with study.samples_per_revolution = 200 or more")
     members = chosen(result, member)
 
@@ -42,7 +42,7 @@ def force_histogram(result: xr.Dataset, member: Members = None, ax: Axes | None 
 
     force = taken("normal_force")
     there = np.isfinite(force)
-    line = taken("lines") > 0 if "lines" in result else np.zeros_like(there)
+    line = taken("lines") > 0 if lines else np.zeros_like(there)
     surface, point = taken("surfaces") > 0, taken("points") > 0
     of_class = {"surface": surface, "line": line & ~surface, "point": point & ~line & ~surface}
     touching = surface | line | point

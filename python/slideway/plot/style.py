@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 
 from ..errors import SlidewayError
 from ..members import finished
+from ..scenes import scene
 
 Members = Union[int, Sequence[int], None]
 Legend = Literal["best", "upper right", "upper left", "lower right"]
@@ -22,6 +23,7 @@ grey = "#888888"
 class_colours = {"free": "#999999", "point": colours[0], "line": colours[1], "surface": colours[2]}
 most_lines = 8  # members that are drawn one by one
 
+_spatial = ("z", "vz", "az", "roll", "yaw", "wx", "wy")  # series of spatial mechanisms
 _prefixed = ("m", "s", "N", "J", "Pa", "Hz", "rad", "m s-1", "rad s-1", "N m")
 _prefixes = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 _spellings = {"m s-1": "m/s", "m s-2": "m/s²", "rad s-1": "rad/s", "s-1": "1/s", "N m": "N m"}
@@ -93,6 +95,8 @@ def variable(result: xr.Dataset, name: str) -> xr.DataArray:
     """
     if name in result:
         return result[name]
+    if name in _spatial and kind_of(result) == "planar_slider_crank":
+        raise SlidewayError(f"a planar_slider_crank moves in one plane and has no {name}; take x, y or pitch")
     if result.attrs.get("store") == "statistics":
         raise SlidewayError(f'this result holds statistics alone, and no {name}; run it with study.store = "members"')
     if "section" in name:
@@ -105,6 +109,11 @@ def variable(result: xr.Dataset, name: str) -> xr.DataArray:
             "study.quantities if it is no state"
         )
     raise SlidewayError(f'this result has no {name}; add "{name}" to study.quantities')
+
+
+def kind_of(result: xr.Dataset) -> str:
+    """mechanism.kind of the result's scene, empty where it carries none."""
+    return str(scene(result)["mechanism"]["kind"]) if "scene" in result.attrs else ""
 
 
 def chosen(result: xr.Dataset, member: Members) -> list[int]:
