@@ -1,0 +1,137 @@
+"""Claims of the paper, what each law gives for them, and the verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .estimates import Estimate, difference, estimate, grows
+
+LAWS = ("paper", "conservative")
+LAW_WORDS = {"paper": "law as published", "conservative": "conservative law"}
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What one law gives for a claim.
+
+    Attributes:
+        lines: numbers with their intervals, in words.
+        answer: does the claim hold? None: the data do not decide it.
+    """
+
+    lines: tuple[str, ...]
+    answer: bool | None
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """A verdict in words, and how a page colours it: "yes", "part", "no" or "open"."""
+
+    words: str
+    kind: str
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One claim of the paper.
+
+    Attributes:
+        place: where it stands, "Fig. 12a".
+        words: the claim in our own words.
+        findings: by law.
+        verdict: of both laws together.
+    """
+
+    place: str
+    words: str
+    findings: Mapping[str, Finding]
+    verdict: Verdict
+
+
+def judge(paper: bool | None, conservative: bool | None) -> Verdict:
+    """The verdict of the two answers.
+
+    >>> judge(True, False).words
+    "holds only under the paper's law"
+    """
+    if paper is None and conservative is None:
+        return Verdict("cannot be told from these runs", "open")
+    if None in (paper, conservative):
+        known, other = ("the paper's law", "the conservative one") if conservative is None else ("the conservative law", "the paper's")
+        holds = "holds" if (paper if conservative is None else conservative) else "does not hold"
+        return Verdict(f"{holds} under {known}, undecided under {other}", "open")
+    if paper and conservative:
+        return Verdict("holds", "yes")
+    if paper:
+        return Verdict("holds only under the paper's law", "part")
+    if conservative:
+        return Verdict("holds only under the conservative law", "part")
+    return Verdict("does not hold", "no")
+
+
+UNTOLD = Verdict("cannot be told from the scan", "open")
+
+
+def claim(place: str, words: str, findings: Mapping[str, Finding], verdict: Verdict | None = None) -> Claim:
+    """A claim with the verdict of its findings, or with one that is given where the print lacks what a judgement needs."""
+    return Claim(place, words, findings, verdict or judge(findings["paper"].answer, findings["conservative"].answer))
+
+
+def growth(place: str, words: str, labels: Sequence[str], columns: Mapping[str, Sequence[np.ndarray]], unit: str, factor: float = 1.0) -> Claim:
+    """The claim that a quantity grows from case to case.
+
+    Args:
+        labels: of the cases.
+        columns: by law, the members' values in each case.
+        factor: brings the values into `unit`.
+    """
+    findings = {}
+    for law, values in columns.items():
+        lines = [f"{name}: {said(estimate(v), unit, factor)}" for name, v in zip(labels, values, strict=True)]
+        whole = difference(values[0], values[-1])
+        if np.isfinite(whole.half_width) and whole.base != 0:
+            lines.append(f"change {labels[0]} → {labels[-1]}: {percent(whole.mean / whole.base, whole.half_width / abs(whole.base))}")
+        findings[law] = Finding(tuple(lines), grows(list(values)))
+    return claim(place, words, findings)
+
+
+def said(value: Estimate, unit: str, factor: float = 1.0) -> str:
+    """A mean with its interval, to two digits of the half width.
+
+    >>> said(Estimate(12.345, 0.678, 12.0, 8), "N")
+    '12.35 ± 0.68 N'
+    """
+    return " ".join(filter(None, (plus_minus(factor * value.mean, factor * value.half_width), unit)))
+
+
+def percent(mean: float, half: float) -> str:
+    """A relative change with its interval; beyond a factor of four as a factor.
+
+    >>> percent(0.1234, 0.02), percent(9.0, 1.0)
+    ('+12.3 ± 2.0 %', '× 10.0 ± 1.0')
+    """
+    if mean > 3:
+        return f"× {plus_minus(1 + mean, half)}"
+    text = plus_minus(100 * mean, 100 * half)
+    return ("" if text.startswith("-") else "+") + text.replace("-", "−") + " %"
+
+
+def plus_minus(value: float, half: float) -> str:
+    """A value and the half width of its interval, to two digits of the latter."""
+    if not np.isfinite(value):
+        return "no number"
+    if not np.isfinite(half) or half <= 0:
+        return f"{value:.4g}"
+    size = int(np.floor(np.log10(max(abs(value), half))))
+    if size >= 5 or size <= -4:
+        places = max(1, size - int(np.floor(np.log10(half))) + 1)
+        if places > 6:
+            return f"{value:.6g} ± {half:.1g}"
+        return f"({value / 10.0**size:.{places}f} ± {half / 10.0**size:.{places}f})e{size}"
+    places = 1 - int(np.floor(np.log10(half)))
+    if places > 8:
+        return f"{value:.6g} ± {half:.1g}"
+    return f"{round(value, places):.{max(places, 0)}f} ± {round(half, places):.{max(places, 0)}f}"
