@@ -80,21 +80,29 @@ def claim(place: str, words: str, findings: Mapping[str, Finding], verdict: Verd
     return Claim(place, words, findings, verdict or judge(findings["paper"].answer, findings["conservative"].answer))
 
 
-def growth(place: str, words: str, labels: Sequence[str], columns: Mapping[str, Sequence[np.ndarray]], unit: str, factor: float = 1.0) -> Claim:
+def growth(
+    place: str, words: str, labels: Sequence[str], columns: Mapping[str, Sequence[np.ndarray]], unit: str, factor: float = 1.0, floor: float = 0.0
+) -> Claim:
     """The claim that a quantity grows from case to case.
 
     Args:
         labels: of the cases.
         columns: by law, the members' values in each case.
         factor: brings the values into `unit`.
+        floor: where every case stays below it, nothing moves, and nothing can grow.
     """
     findings = {}
     for law, values in columns.items():
-        lines = [f"{name}: {said(estimate(v), unit, factor)}" for name, v in zip(labels, values, strict=True)]
+        taken = [estimate(v) for v in values]
+        lines = [f"{name}: {said(t, unit, factor)}" for name, t in zip(labels, taken, strict=True)]
         whole = difference(values[0], values[-1])
-        if np.isfinite(whole.half_width) and whole.base != 0:
-            lines.append(f"change {labels[0]} → {labels[-1]}: {percent(whole.mean / whole.base, whole.half_width / abs(whole.base))}")
-        findings[law] = Finding(tuple(lines), grows(list(values)))
+        answer = grows(list(values))
+        if all(t.high < floor for t in taken):
+            lines.append(f"nothing moves: all below {factor * floor:.2g} {unit}")
+            answer = False
+        elif np.isfinite(whole.half_width) and whole.base != 0:
+            lines.append(f"{labels[0]} → {labels[-1]}: {percent(whole.mean / whole.base, whole.half_width / abs(whole.base))}")
+        findings[law] = Finding(tuple(lines), answer)
     return claim(place, words, findings)
 
 

@@ -117,3 +117,28 @@ def grows(columns: list[np.ndarray], margin: float = MARGIN) -> bool | None:
 def _finite(values: np.ndarray) -> np.ndarray:
     flat = np.asarray(values, dtype=float).ravel()
     return flat[np.isfinite(flat)]
+
+
+@dataclass(frozen=True)
+class Share:
+    """A share of members with Wilson's 95 % interval."""
+
+    mean: float
+    low: float
+    high: float
+
+
+def share(hits: np.ndarray, there: np.ndarray) -> Share:
+    """The share of members that hit, of those that are there (Wilson 1927).
+
+    >>> import numpy as np
+    >>> s = share(np.array([True] * 8 + [False] * 2), np.ones(10, bool))
+    >>> s.mean, round(s.low, 3), round(s.high, 3)
+    (0.8, 0.49, 0.943)
+    """
+    count, good = int(np.sum(there)), int(np.sum(hits & there))
+    if count == 0:
+        return Share(np.nan, 0.0, 1.0)
+    z, p = 1.959963984540054, good / count
+    middle, half = p + z**2 / (2 * count), z * np.sqrt(p * (1 - p) / count + z**2 / (4 * count**2))
+    return Share(p, float((middle - half) / (1 + z**2 / count)), float((middle + half) / (1 + z**2 / count)))

@@ -55,11 +55,14 @@ class Laboratory:
         output: folder of the results.
         threads: of the program; None: all that this process may use.
         say: takes lines of progress.
+
+    Attributes:
+        version: what the program says of itself.
     """
 
     def __init__(self, scenes: Path, output: Path, threads: int | None = None, say: Callable[[str], None] = print) -> None:
         self._scenes, self._output, self._threads, self._say = scenes, output.resolve(), threads, say
-        self._version = call(None, ["--version"]).strip()
+        self.version = call(None, ["--version"]).strip()
         self._failed: dict[str, str] = {}
         self._open: dict[str, xr.Dataset] = {}
         output.mkdir(parents=True, exist_ok=True)
@@ -98,7 +101,7 @@ class Laboratory:
     def _make(self, run: Run) -> bool:
         path, scene_path = self._output / f"{run.name}.nc", self._output / f"{run.name}.toml"
         overrides = dict(run.overrides)
-        header = f"# {self._version}\n"
+        header = f"# {self.version}\n"
         if run.after is not None:
             table = _starts(self.result(run.after), run.members)
             scene_path.with_suffix(".csv").write_text(table, encoding="utf-8")

@@ -1,0 +1,141 @@
+"""What a section of the page is made of, and where its numbers come from."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import matplotlib
+
+matplotlib.use("agg")
+
+import matplotlib.pyplot as plt
+import numpy as np
+import slideway
+import xarray as xr
+from matplotlib.axes import Axes
+
+from .claims import LAW_WORDS, LAWS, Claim, plus_minus
+from .estimates import estimate
+from .plan import name
+from .runs import Laboratory, Missing
+from .scale import Scale
+
+WINDOWS = {"start": "from scattered starts", "settled": "when settled"}
+"""The first revolutions from starts within the clearance, and as many after them."""
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One figure under both laws: PNG images by law, or a line that says why there is none."""
+
+    caption: str
+    images: dict[str, bytes | str]
+
+
+@dataclass(frozen=True)
+class Table:
+    caption: str
+    header: Sequence[str]
+    rows: Sequence[Sequence[str]]
+
+
+@dataclass
+class Section:
+    """A section of the page.
+
+    Attributes:
+        title: what of the paper is shown.
+        words: paragraphs before the claims.
+    """
+
+    title: str
+    words: list[str] = field(default_factory=list)
+    claims: list[Claim] = field(default_factory=list)
+    figures: list[Figure] = field(default_factory=list)
+    tables: list[Table] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Bench:
+    """The results, by what they are of."""
+
+    laboratory: Laboratory
+    scale: Scale
+
+    def result(self, family: str, case: str, stage: str, law: str) -> xr.Dataset:
+        """A result.
+
+        Raises:
+            Missing: it could not be made.
+        """
+        return self.laboratory.result(name(family, case, stage, law))
+
+    def values(self, family: str, case: str, stage: str, law: str, quantity: str, entry: str | None = None) -> np.ndarray:
+        """A quantity of each member, in SI units; NaN of one that failed.
+
+        Args:
+            entry: label of the entry of a quantity with several: "top", "z" ...
+        """
+        result = self.result(family, case, stage, law)
+        data = result[quantity]
+        if entry is not None:
+            (dimension,) = (d for d in data.dims if d != "member")
+            data = data.sel({dimension: entry})
+        return np.where(slideway.finished(result).values, np.asarray(data.values, dtype=float), np.nan)
+
+    def series(self, family: str, case: str, stage: str, law: str, variable: str) -> np.ndarray:
+        """A series, member × sample, of the members that finished."""
+        result = self.result(family, case, stage, law)
+        return np.asarray(result[variable].values[slideway.finished(result).values], dtype=float)
+
+    def audit(self, family: str, cases: Sequence[tuple[str, str]], stage: str, revolutions: float) -> Table:
+        """The energy that the law made beside the work of the drive.
+
+        Args:
+            cases: their words and names.
+            revolutions: of the runs.
+        """
+        rows = []
+        for words, case in cases:
+            row = [words]
+            for law in LAWS:
+                made = self.values(family, case, stage, law, "energy_residual") / revolutions
+                work = self.values(family, case, stage, law, "crank_work") / revolutions
+                share = estimate(made).mean / estimate(work).mean
+                row += [f"{_scientific(made)} J", f"{plus_minus(*_pair(work))} J", f"{100 * share:.2g} %"]
+            rows.append(row)
+        header = ["energy audit, a revolution", *(f"{LAW_WORDS[law]}: {what}" for law in LAWS for what in ("energy made", "drive's work", "share"))]
+        return Table("Energy that the contact law made out of nothing (the residual ε of the audit), beside the work of the drive.", header, rows)
+
+
+def draw(caption: str, painter: Callable[[str, Axes], None], height: float = 3.9) -> Figure:
+    """Paints a figure once for each law.
+
+    Args:
+        painter: gets the law and the axis.
+    """
+    images: dict[str, bytes | str] = {}
+    for law in LAWS:
+        figure, axis = plt.subplots(figsize=(6.2, height), layout="constrained")
+        try:
+            painter(law, axis)
+            stream = io.BytesIO()
+            figure.savefig(stream, format="png", dpi=125)
+            images[law] = stream.getvalue()
+        except (slideway.SlidewayError, Missing) as error:
+            images[law] = str(error)
+        finally:
+            plt.close(figure)
+    return Figure(caption, images)
+
+
+def _pair(values: np.ndarray) -> tuple[float, float]:
+    taken = estimate(values)
+    return taken.mean, taken.half_width
+
+
+def _scientific(values: np.ndarray) -> str:
+    mean, half = _pair(values)
+    return plus_minus(mean, half)
