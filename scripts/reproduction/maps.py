@@ -28,7 +28,7 @@ def section(bench: Bench) -> Section:
             columns = {law: [_spread(bench, c, law)[index] / (_room(c)[index] if power else 1) for c in MAPS.values()] for law in LAWS}
             # What a drift of the resting slider by a thousandth of its room makes is no scatter.
             floor = 1e-3 if power else 1e-3 * _room(0.08)[index]
-            page.claims.append(growth("Fig. 17a–d", f"The larger the clearance, the {words} the map spreads (sd of {what}).", list(MAPS), columns,
+            page.claims.append(growth("Fig. 17a–d", f"The map spreads {words} with larger clearance (sd of {what}).", list(MAPS), columns,
                                       "" if power else unit, 1.0 if power else factor, floor))
     page.claims.append(_dimension(bench))
     page.figures = [draw(f"Fig. 17: the map, {words}, 150 revolutions of one start.", lambda law, ax, c=c: _map(bench, law, ax, c)) for words, c in MAPS.items()]

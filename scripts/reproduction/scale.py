@@ -52,7 +52,7 @@ FULL = Scale(
 # Seconds in all: every run and every judgement is there, and no number means anything.
 TINY = Scale(
     members=3, carriages=2, dense_members=2, dense_samples=20000, dense_revolutions=0.02, crank_samples=4000, carriage_samples=10000,
-    carriage_revolutions=0.01, revolutions=0.02, maps=2, map_transient=0, map_revolutions=2, exponents=2, exponent_transient=0,
+    carriage_revolutions=0.01, revolutions=0.02, maps=2, map_transient=0, map_revolutions=12, exponents=2, exponent_transient=0,
     exponent_revolutions=0.02, exponent_history=10, series=2, series_revolutions=10, series_samples=100,
 )
 SCALES = {"full": FULL, "tiny": TINY}
