@@ -23,7 +23,7 @@ struct EnsembleResult {
 };
 
 inline constexpr Selection all_quantities = (Selection(1) << quantity_count) - 1;
-inline constexpr Selection state_selection = (Selection(1) << state_series) - 1;
+inline constexpr Selection state_selection = info(Mechanism::slider_crank).always;
 
 struct RunOptions {
     Parts parts;

@@ -222,6 +222,56 @@ TEST(SceneFiles, TheTableIsOfSevenMechanisms) {
     }
 }
 
+TEST(SceneFiles, TheCarriagesAreTheCasesOfTable1) {
+    // Half the difference of the widths, the speed and the inclination (model.md 7).
+    double const clearance[] = {0.125e-3, 0.075e-3, 0.125e-3, 0.125e-3}, speed[] = {0.06, 0.06, 0.093, 0.06},
+                 inclination[] = {0, 0, 0, pi / 6};
+    for (int i = 0; i < 4; ++i) {
+        Scene const scene = read_scene(path_of("carriage_" + std::to_string(i + 1) + ".toml"));
+        EXPECT_EQ(scene.parts, (Parts{Mechanism::carriage, Law::paper, Damping::point, true, false}));
+        EXPECT_DOUBLE_EQ(scene.inputs.clearance_y, clearance[i]);
+        EXPECT_DOUBLE_EQ(scene.inputs.clearance_z, clearance[i]);
+        EXPECT_DOUBLE_EQ(scene.inputs.carriage_speed, speed[i]);
+        EXPECT_DOUBLE_EQ(scene.inputs.inclination, inclination[i]);
+        EXPECT_DOUBLE_EQ(scene.integrator.end_time, 2 * (0.15 / speed[i] + 0.02));
+        EXPECT_TRUE(selects(scene.series, Series::acceleration_top));
+        EXPECT_TRUE(selects(scene.quantities, Quantity::acceleration_area));
+        EXPECT_TRUE(scene.warnings.empty());
+        // Where the slider stands along the way is nothing to its apices.
+        EXPECT_LT(deepest(complete_inputs(scene.inputs)), 0);
+    }
+}
+
+TEST(SceneFiles, TheFreeSliderFallsFree) {
+    Scene const scene = read_scene(path_of("free_slider_drop.toml"));
+    EXPECT_EQ(scene.parts, (Parts{Mechanism::free_slider, Law::conservative, Damping::point, true, false}));
+    EXPECT_EQ(scene.inputs.vx, 0.05);
+    EXPECT_LT(deepest(complete_inputs(scene.inputs)), 0);
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(SceneFiles, ThePlanarMechanismIsTheBenchmarks) {
+    Scene const scene = read_scene(path_of("planar_flores.toml"));
+    Inputs const& in = scene.inputs;
+    Parts parts;
+    parts.mechanism = Mechanism::planar_slider_crank, parts.damping = Damping::restitution, parts.free_crank = true;
+    EXPECT_EQ(scene.parts, parts);
+    double const given[] = {in.crank_length,    in.rod_length,  in.slider_length, in.slider_height,
+                            in.clearance_y,     in.crank_mass,  in.rod_mass,      in.slider_mass,
+                            in.crank_inertia,   in.rod_inertia, in.crank_speed,   in.slider_inertia_z,
+                            in.point_stiffness, in.restitution, in.hertz_exponent};
+    // model.md 7: a and b are half the sizes of the block; the rod's −75 rad/s keep the slider on its line, r ω = L 75.
+    double const model[] = {0.153,  0.306,  2 * 0.05, 2 * 0.025, 1e-3, 0.038, 0.038, 0.076,
+                            7.4e-5, 5.9e-4, 150,      2.7e-6,    1e11, 0.4,   1.5};
+    for (std::size_t i = 0; i < std::size(model); ++i) EXPECT_DOUBLE_EQ(given[i], model[i]) << i;
+    EXPECT_EQ(in.vy, 0);
+    EXPECT_EQ(in.crank_length * in.crank_speed, in.rod_length * 75);
+    EXPECT_EQ(scene.integrator.end_time, 0.2);
+    ASSERT_EQ(scene.sample_times.size(), 201u);
+    EXPECT_DOUBLE_EQ(scene.sample_times[5], 5e-3);
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
 TEST(SceneFiles, ResolveToThemselves) {
     int files = 0;
     for (auto const& entry : std::filesystem::directory_iterator(SLIDEWAY_SCENES)) {
@@ -230,7 +280,7 @@ TEST(SceneFiles, ResolveToThemselves) {
         EXPECT_EQ(resolved_toml(testing::scene_of(resolved)), resolved) << entry.path();
         ++files;
     }
-    EXPECT_GE(files, 13);
+    EXPECT_GE(files, 19);
 }
 
 }  // namespace
