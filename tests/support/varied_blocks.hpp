@@ -13,8 +13,7 @@ inline std::vector<Parts> all_parts() {
     for (Law const law : {Law::paper, Law::conservative}) {
         for (Damping const damping : {Damping::point, Damping::rate, Damping::restitution}) {
             for (bool const friction : {false, true}) {
-                for (bool const misaligned : {false, true})
-                    all.push_back({Mechanism::slider_crank, law, damping, friction, misaligned});
+                for (bool const misaligned : {false, true}) all.push_back({law, damping, friction, misaligned});
             }
         }
     }
