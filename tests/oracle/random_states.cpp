@@ -15,6 +15,7 @@ namespace {
 using slideway::Damping;
 using slideway::Inputs;
 using slideway::Law;
+using slideway::Mechanism;
 using slideway::Parts;
 
 constexpr double deepest = 3e-5;  // δ [m]
@@ -40,8 +41,9 @@ private:
 
 // ---- parameters --------------------------------------------------------------------------------------------------
 
-Parts parts_number(int i) {
+Parts parts_number(int i, Mechanism mechanism) {
     Parts parts;
+    parts.mechanism = mechanism;
     parts.law = i % 2 == 0 ? Law::paper : Law::conservative;
     parts.friction = i / 2 % 2 != 0;
     parts.misaligned_way = i / 4 % 2 != 0;
@@ -267,7 +269,8 @@ bool place(Inputs const& in, Parts const& parts, double t, Targets const& target
             moved[free_coordinates[j]] += step;
             slopes.col(j) = (error(moved) - now) / (moved[free_coordinates[j]] - state[free_coordinates[j]]);
         }
-        Eigen::Matrix<double, 5, 1> const correction = solution(slopes.cast<long double>(), now.cast<long double>()).cast<double>();
+        Eigen::Matrix<double, 5, 1> const correction =
+            solution(slopes.cast<long double>(), now.cast<long double>()).cast<double>();
         if (!correction.allFinite()) return false;
         for (int j = 0; j < 5; ++j) state[free_coordinates[j]] -= correction[j];
     }
@@ -286,21 +289,48 @@ void set_rates(Dice& dice, Inputs const& in, State& state) {
     }
 }
 
-/// A crank whose pin pushes the slider at about a speed at which friction changes.
-void slow_to_friction(Dice& dice, Inputs& in) {
+/// What moves the slider along the way does so at about a speed at which friction changes.
+void slow_to_friction(Dice& dice, Case& c) {
+    Inputs& in = c.inputs;
     double const speed = dice.scale(0.1 * in.friction_stick_speed, 2 * in.friction_slip_speed);
     in.crank_speed = (in.crank_speed < 0 ? -1 : 1) * speed / in.crank_length;
+    in.carriage_speed = speed;
+    c.state[11] = std::copysign(speed, c.state[11]);
 }
 
-Case make_case(Dice& dice, int number) {
+/// What a slider-crank does not have.
+void set_along_the_way(Dice& dice, Case& c) {
+    if (c.parts.mechanism == Mechanism::slider_crank) return;
+    Inputs& in = c.inputs;
+    if (dice.chance(0.5)) in.point_stiffness = dice.scale(1e6, 1e11);
+    if (c.parts.mechanism == Mechanism::carriage) {
+        in.carriage_speed = dice.scale(1e-3, 1);
+        in.stroke = dice.uniform(0.01, 0.3);
+        in.reversal_time = dice.scale(1e-3, 0.3);
+    } else {
+        c.state[10] = dice.uniform(-0.2, 0.3);
+        c.state[11] = dice.chance(0.1) ? 0 : dice.signed_scale(1e-4, 3);
+    }
+}
+
+/// @return t [s]: of a carriage somewhere on its first periods, as often turning round as under way.
+double any_time(Dice& dice, Case const& c) {
+    if (c.parts.mechanism != Mechanism::carriage) return dice.uniform(0, 2);
+    double const straight = c.inputs.stroke / c.inputs.carriage_speed, half = straight + c.inputs.reversal_time;
+    double const since = dice.chance(0.5) ? dice.uniform(0, straight) : dice.uniform(straight, half);
+    return dice.below(6) * half + since;
+}
+
+Case make_case(Dice& dice, int number, Mechanism mechanism) {
     for (;;) {
         Case result;
-        result.parts = parts_number(number);
+        result.parts = parts_number(number, mechanism);
         result.inputs = any_inputs(dice, result.parts);
         Inputs& in = result.inputs;
+        set_along_the_way(dice, result);
         int const kind = number / 24 % 4;
-        if (dice.chance(0.4)) slow_to_friction(dice, in);
-        result.t = dice.uniform(0, 2);
+        if (dice.chance(0.4)) slow_to_friction(dice, result);
+        result.t = any_time(dice, result);
         int const combination = number / 96 + 24 * (number % 24);  // in step with the parts, one of 64 at a time
         Targets const targets = kind == 1   ? wedged(dice, in, combination)
                                 : kind == 3 ? loose(dice, in)
@@ -320,11 +350,11 @@ Case make_case(Dice& dice, int number) {
 
 }  // namespace
 
-std::vector<Case> make_cases(std::uint64_t seed, int count) {
+std::vector<Case> make_cases(std::uint64_t seed, int count, Mechanism mechanism) {
     Dice dice(seed);
     std::vector<Case> cases;
     cases.reserve(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) cases.push_back(make_case(dice, i));
+    for (int i = 0; i < count; ++i) cases.push_back(make_case(dice, i, mechanism));
     return cases;
 }
 
