@@ -19,12 +19,12 @@ enum class Law { paper, conservative };
 enum class Damping { point, rate, restitution };
 
 struct Parts {
-    Mechanism mechanism = Mechanism::slider_crank;
     Law law = Law::paper;  // of the spatial mechanisms
     Damping damping = Damping::point;
     bool friction = false;        // absent [friction]: no friction code runs
     bool misaligned_way = false;  // only with a [way] table is the code for its pose in the kernel
-    bool free_crank = false;      // of planar_slider_crank: no drive holds the crank's speed
+    Mechanism mechanism = Mechanism::slider_crank;
+    bool free_crank = false;  // of planar_slider_crank: no drive holds the crank's speed
     friend bool operator==(Parts const&, Parts const&) = default;
 };
 

@@ -58,9 +58,14 @@ std::span<Isa const> all_isas() {
 }
 
 KernelInstance find_instance(Isa isa, Parts const& parts) {
-    auto const& table =
-        *instance_tables[static_cast<int>(isa)][static_cast<int>(parts.law)][static_cast<int>(parts.damping)];
-    return table.at[parts.friction ? 1 : 0][parts.misaligned_way ? 1 : 0];
+    auto const place = static_cast<int>(isa), mechanism = static_cast<int>(parts.mechanism);
+    int const friction = parts.friction ? 1 : 0;
+    if (!info(parts.mechanism).spatial) {
+        return planar_tables[place]
+            ->at[parts.damping == Damping::restitution ? 1 : 0][friction][parts.free_crank ? 1 : 0];
+    }
+    auto const& table = *instance_tables[place][static_cast<int>(parts.law)][static_cast<int>(parts.damping)];
+    return table.at[mechanism][friction][parts.misaligned_way ? 1 : 0];
 }
 
 }  // namespace slideway

@@ -3,6 +3,6 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-SLIDEWAY_LANES_OF(SLIDEWAY_MEMORY, SLIDEWAY_CONSERVING, )  // plain or shadowed
+SLIDEWAY_LANES_OF(SLIDEWAY_BASE, SLIDEWAY_MEMORY, SLIDEWAY_CONSERVING, )  // plain or shadowed
 
 }  // namespace slideway::inline SLIDEWAY_ISA

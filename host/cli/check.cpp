@@ -24,21 +24,31 @@ std::string_view damping_text(Damping damping) {
 }
 
 void print_parts(Scene const& scene) {
-    std::string in =
-        fmt::format("{} mechanism; {} law; {}", scene.mechanism,
-                    scene.parts.law == Law::paper ? "paper" : "conservative", damping_text(scene.parts.damping));
-    std::string out = scene.parts.law == Law::paper ? "conservative law" : "paper law";
-    auto const sort = [&](bool is_in, std::string_view name) { (is_in ? in : out) += fmt::format("; {}", name); };
-    if (scene.parts.damping != Damping::rate) sort(false, "damping of line and surface contacts");
+    MechanismInfo const& mechanism = info(scene.parts.mechanism);
+    std::string in = fmt::format("{} mechanism", mechanism.name), out;
+    auto const sort = [&](bool is_in, std::string_view name) {
+        std::string& list = is_in ? in : out;
+        list += fmt::format("{}{}", list.empty() ? "" : "; ", name);
+    };
+    if (mechanism.spatial) {
+        sort(scene.parts.law == Law::paper, "paper law");
+        sort(scene.parts.law == Law::conservative, "conservative law");
+    } else {
+        sort(true, scene.parts.free_crank ? "free crank" : "driven crank");
+        sort(true, "contact of corners");
+    }
+    sort(true, damping_text(scene.parts.damping));
+    if (mechanism.spatial && scene.parts.damping != Damping::rate) sort(false, "damping of line and surface contacts");
     if (scene.parts.damping != Damping::restitution) sort(false, "restitution");
     sort(scene.parts.friction, "friction");
-    sort(scene.parts.misaligned_way, "pose of a misaligned way");
+    if (mechanism.spatial) sort(scene.parts.misaligned_way, "pose of a misaligned way");
     sort(!scene.sample_times.empty(), "time series");
     print_field("parts in", in);
     print_field("parts out", out);
 
     std::string asked, left;
     for (int q = 0; q < quantity_count; ++q) {
+        if (!selects(mechanism.quantities, static_cast<Quantity>(q))) continue;
         std::string& names = selects(scene.quantities, static_cast<Quantity>(q)) ? asked : left;
         names += fmt::format("{}{}", names.empty() ? "" : ", ", quantity_table[q].name);
     }

@@ -10,8 +10,44 @@
 namespace slideway::cli {
 namespace {
 
+/// " (slider_crank, carriage)": the mechanisms that have something, where not all do.
+template <class Has> std::string owners_text(Has has) {
+    std::string names;
+    bool all = true;
+    for (MechanismInfo const& mechanism : mechanism_table) {
+        if (!has(mechanism))
+            all = false;
+        else
+            names += fmt::format("{}{}", names.empty() ? "" : ", ", mechanism.name);
+    }
+    return all ? std::string() : fmt::format(" ({})", names);
+}
+
+/// Their states, and what else comes with every time series.
+void print_mechanisms() {
+    fmt::print("mechanisms (mechanism.kind), with the numbers of their state\n");
+    for (MechanismInfo const& mechanism : mechanism_table) {
+        std::string states, beside;
+        Selection left = mechanism.always;
+        for (int i = 0; i < mechanism.states; ++i) {
+            states += fmt::format("{}{}", i > 0 ? ", " : "", series_table[static_cast<int>(mechanism.state[i])].name);
+            left &= ~selection_of(mechanism.state[i]);
+        }
+        for (int s = 0; s < series_count; ++s) {
+            if (selects(left, static_cast<Series>(s)))
+                beside += fmt::format("{}{}", beside.empty() ? "" : ", ", series_table[s].name);
+        }
+        fmt::print("  {:<30} {}\n  {:<30} {}{}\n", mechanism.name, mechanism.meaning, "", states,
+                   beside.empty() ? beside : fmt::format("; series have {} too", beside));
+    }
+}
+
 void print_keys(std::span<Key const> table) {
-    for (Key const& key : table) fmt::print("  {:<30} {:<8} {}\n", key.name, key.unit, key.meaning);
+    for (Key const& key : table) {
+        fmt::print("  {:<30} {:<8} {}{}\n", key.name, key.unit, key.meaning, owners_text([&](MechanismInfo const& one) {
+                       return key.counts_for(static_cast<Mechanism>(&one - mechanism_table));
+                   }));
+    }
 }
 
 /// Of `design_names`.
@@ -47,10 +83,9 @@ std::string card_text() {
 }  // namespace
 
 int list(ListArguments const&) {
+    print_mechanisms();
     fmt::print(
-        "mechanisms (mechanism.kind)\n"
-        "  slider_crank                   spatial slider-crank, slider with clearance on a rectangular way\n"
-        "\ncontact laws (contact.law)\n"
+        "\ncontact laws (contact.law), of slider_crank, carriage and free_slider\n"
         "  paper                          one mode per face: surface, lines or points (makes energy where it "
         "switches)\n"
         "  conservative                   one potential of all contacts, no switching\n"
@@ -83,13 +118,16 @@ int list(ListArguments const&) {
     }
     fmt::print("\nquantities (study.quantities): one value, or one row of values, per member\n");
     for (QuantityInfo const& quantity : quantity_table) {
-        fmt::print("  {:<30} {:<8} {}{}\n", quantity.name, quantity.unit, quantity.long_name,
-                   quantity.dimension ? fmt::format(" (per {})", quantity.dimension) : "");
+        Selection const bit = Selection{1} << (&quantity - quantity_table);
+        fmt::print("  {:<30} {:<8} {}{}{}\n", quantity.name, quantity.unit, quantity.long_name,
+                   quantity.dimension ? fmt::format(" (per {})", quantity.dimension) : "",
+                   owners_text([bit](MechanismInfo const& one) { return (one.quantities & bit) != 0; }));
     }
-    fmt::print("\nseries (study.quantities): values at the sample times; the first {} come with every time series\n",
-               state_series);
+    fmt::print("\nseries (study.quantities): values at the sample times; those above come with every time series\n");
     for (SeriesInfo const& series : series_table) {
-        fmt::print("  {:<30} {:<8} {}\n", series.name, series.unit, series.long_name);
+        Selection const bit = Selection{1} << (&series - series_table);
+        fmt::print("  {:<30} {:<8} {}{}\n", series.name, series.unit, series.long_name,
+                   owners_text([bit](MechanismInfo const& one) { return (one.series & bit) != 0; }));
     }
     fmt::print("\nnumeric keys of a scene\n");
     print_keys(keys());

@@ -9,6 +9,7 @@
 
 #include "host/cli/commands.hpp"
 #include "host/cli/text.hpp"
+#include "host/study/state_numbers.hpp"
 
 namespace slideway::cli {
 namespace {
@@ -29,33 +30,44 @@ void write_table(std::string const& path, StateTable const& table, std::vector<P
     if (!out) throw FileError(fmt::format("{}: cannot write: {}", path, std::strerror(errno)));
 }
 
-void print_apices(std::string_view label, double const (&values)[8]) {
-    fmt::print("  {:<18}", label);
-    for (double const value : values) fmt::print(" {:>11.4g}", value);
+/// Of the eight apices, or of the four corners of a planar slider.
+void print_contacts(MechanismInfo const& mechanism, ProbeResult const& result) {
+    std::size_t const places = mechanism.spatial ? 8 : 4;
+    fmt::print("\n  {:<18}", mechanism.spatial ? "apex" : "corner");
+    for (std::size_t i = 1; i <= places; ++i)
+        fmt::print(" {:>11}", fmt::format("{}{}", mechanism.spatial ? "P" : "C", i));
+    fmt::print("\n");
+    auto const print_row = [places](std::string_view label, double const(&values)[8]) {
+        fmt::print("  {:<18}", label);
+        for (std::size_t i = 0; i < places; ++i) fmt::print(" {:>11.4g}", values[i]);
+        fmt::print("\n");
+    };
+    print_row("penetration Y [m]", result.penetration_y);
+    if (mechanism.spatial) print_row("penetration Z [m]", result.penetration_z);
+    print_row("force Y [N]", result.normal_force_y);
+    if (mechanism.spatial) print_row("force Z [N]", result.normal_force_z);
     fmt::print("\n");
 }
 
 void print_listing(Scene const& scene, StateTable const& table, ProbeResult const& result, Isa isa) {
     print_field("scene", fmt::format("{} at t = 0, computed with {}", scene.path, name_of(isa)));
     print_field("status", name_of(result.status));
-    fmt::print("\n  {:<8} {:<8} {:>24} {:>24}\n", "state", "unit", "value", "derivative");
-    for (int i = 0; i < state_size; ++i) {
-        fmt::print("  {:<8} {:<8} {:>24.16g} {:>24.16g}\n", series_table[i].name, series_table[i].unit,
-                   table.inputs[0].*state_inputs[i], result.derivative[i]);
+    MechanismInfo const& has = info(table.mechanism);
+    int const width = has.spatial ? 8 : 22;  // of the longest name
+    fmt::print("\n  {:<{}} {:<8} {:>24} {:>24}\n", "state", width, "unit", "value", "derivative");
+    StateNumbers const state = start_of(table.mechanism, table.inputs[0]);
+    for (int i = 0; i < has.states; ++i) {
+        SeriesInfo const& entry = series_table[static_cast<int>(has.state[i])];
+        fmt::print("  {:<{}} {:<8} {:>24.16g} {:>24.16g}\n", entry.name, width, entry.unit,
+                   state[static_cast<std::size_t>(i)], result.derivative[i]);
     }
-    fmt::print("\n  {:<18}", "apex");
-    for (int i = 1; i <= 8; ++i) fmt::print(" {:>11}", fmt::format("P{}", i));
-    fmt::print("\n");
-    print_apices("penetration Y [m]", result.penetration_y);
-    print_apices("penetration Z [m]", result.penetration_z);
-    print_apices("force Y [N]", result.normal_force_y);
-    print_apices("force Z [N]", result.normal_force_z);
-    fmt::print("\n");
+    print_contacts(has, result);
     print_field("mode", fmt::format("{} surfaces, {} lines, {} points", result.surfaces, result.lines, result.points));
     print_field("energy",
                 fmt::format("{:.10g} J, of it {:.10g} J in the contacts", result.energy, result.contact_potential));
     print_field("power", fmt::format("{:.10g} W crank, {:.10g} W friction, {:.10g} W damping", result.power_crank,
                                      result.power_friction, result.power_damping));
+    if (!selects(has.series, Series::crank_torque)) return;
     print_field("crank torque", fmt::format("{:.10g} N m, without the crank's own weight", result.crank_torque));
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -10,6 +9,7 @@
 #include "host/cli/text.hpp"
 #include "host/cli/tolerance_text.hpp"
 #include "host/output/run_identity.hpp"
+#include "host/scene/drive_period.hpp"
 #include "host/study/orbit_schedule.hpp"
 
 namespace slideway::cli {
@@ -107,7 +107,7 @@ void print_failures(RunArguments const& arguments, Scene const& scene, EndedMemb
                ended.failed() > listed ? fmt::format(", the first {}", listed) : "");
     for (FailedMember const& member : failed) {
         fmt::print("  member {}: {}", member.member, name_of(member.status));
-        auto const why = defect(member_inputs(scene, member.member));
+        auto const why = defect(member_inputs(scene, member.member), scene.parts);
         if (why)
             fmt::print(": {}", *why);
         else
@@ -118,7 +118,7 @@ void print_failures(RunArguments const& arguments, Scene const& scene, EndedMemb
 
 /// The paper's law makes energy where its modes switch (model.md 8); a reader of results has to know how much.
 void print_energy_made(Scene const& scene, EndedMembers const& ended, std::vector<QuantitySummary> const& quantities) {
-    if (scene.parts.law != Law::paper) return;
+    if (!info(scene.parts.mechanism).spatial || scene.parts.law != Law::paper) return;
     auto const mean_of = [&](std::string_view label) -> QuantitySummary const* {
         for (QuantitySummary const& quantity : quantities) {
             if (quantity.label == label && quantity.values.count > 0) return &quantity;
@@ -161,7 +161,7 @@ std::uint64_t failed_count(ResultReader const& results) { return EndedMembers(re
 
 void print_throughput(Scene const& scene, StudyOptions const& options, EnsembleTotals const& totals, int ranks) {
     double const rate = totals.seconds > 0 ? static_cast<double>(totals.done()) / totals.seconds : 0.0;
-    double const turns = orbit_schedule(scene).longest * std::abs(scene.inputs.crank_speed) / (2 * std::numbers::pi);
+    double const turns = orbit_schedule(scene).longest / drive_period(scene.parts, scene.inputs);
     print_field("throughput",
                 fmt::format("{:.4g} members/s, {}{} wall time ({}{} threads, {})", rate,
                             turns > 0 ? fmt::format("{:.4g} members x revolutions/s, ", rate * turns) : "",
@@ -191,7 +191,7 @@ void print_results(RunArguments const& arguments, Scene const& scene, ResultRead
         print_tolerance(*report);
     else
         print_quantities(quantities);
-    if (!quantities.empty() && scene.inputs.crank_speed != 0) {
+    if (!quantities.empty() && std::isfinite(drive_period(scene.parts, scene.inputs))) {
         fmt::print("  (over the whole run, its transient included)\n");
     }
     print_exponents(results);

@@ -33,7 +33,7 @@ void spread_rows(std::vector<T>& values, std::vector<char> const& is_usable, std
 
 std::size_t section_width(BlockRequest const& request) {
     std::size_t const rows = request.crossings.room > 0 ? request.crossings.room : request.stops.sections();
-    return request.sections ? rows * section_columns : 0;
+    return request.sections ? rows * section_columns(request.states) : 0;
 }
 
 std::size_t shadow_count(BlockRequest const& request) { return static_cast<std::size_t>(request.shadows.count); }
@@ -43,8 +43,9 @@ std::size_t growth_width(BlockRequest const& request) { return request.stops.gro
 }  // namespace
 
 std::uint64_t block_bytes(BlockRequest const& request, std::size_t members) {
-    std::uint64_t const numbers = state_size + static_cast<std::uint64_t>(quantity_columns) + series_width(request) +
-                                  section_width(request) + growth_width(request) + state_size * shadow_count(request);
+    std::uint64_t const numbers = static_cast<std::uint64_t>(quantity_columns) + series_width(request) +
+                                  section_width(request) + growth_width(request) +
+                                  request.states * (1 + shadow_count(request));
     std::uint64_t const per_member = 2 * sizeof(Inputs) + sizeof(char) + sizeof(std::uint32_t) + sizeof(MemberRecord) +
                                      sizeof(MemberClock) + sizeof(double) * numbers;
     return members * per_member;
@@ -71,8 +72,9 @@ void BlockBuffers::draw(BlockRequest const& request, MemberSource const& source)
         usable_.push_back(drawn_[i]);
         if (request.timing) clocks_.push_back(request.timing(drawn_[i]));
         if (request.shadows.count == 0) continue;
-        directions_.resize(usable_.size() * shadow_count(request) * state_size);
-        request.directions(members_[i], &directions_[(usable_.size() - 1) * shadow_count(request) * state_size]);
+        std::size_t const of_member = shadow_count(request) * request.states;
+        directions_.resize(usable_.size() * of_member);
+        request.directions(members_[i], &directions_[(usable_.size() - 1) * of_member]);
     }
 }
 
@@ -82,7 +84,7 @@ void BlockBuffers::run(BlockKernel const& kernel, BlockRequest const& request, M
     std::size_t const members = members_.size();
     draw(request, source);
     records_.assign(members, MemberRecord{});
-    final_states_.assign(members * state_size, nan);
+    final_states_.assign(members * request.states, nan);
     quantities_.assign(members * static_cast<std::size_t>(quantity_columns), nan);
     series_.assign(members * series_width(request), nan);
     sections_.assign(members * section_width(request), nan);
@@ -123,7 +125,7 @@ void BlockBuffers::run(BlockKernel const& kernel, BlockRequest const& request, M
     invalid.status = Status::invalid_inputs;
     std::size_t const usable = usable_.size();
     spread_rows(records_, is_usable_, usable, 1, 1, invalid);
-    spread_rows(final_states_, is_usable_, usable, 1, state_size, nan);
+    spread_rows(final_states_, is_usable_, usable, 1, request.states, nan);
     spread_rows(quantities_, is_usable_, usable, 1, quantity_columns, nan);
     spread_rows(sections_, is_usable_, usable, 1, section_width(request), nan);
     spread_rows(growths_, is_usable_, usable, 1, growth_width(request), nan);

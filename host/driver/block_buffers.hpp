@@ -21,7 +21,7 @@ using MemberCost = std::function<double(Inputs const& inputs)>;
 /// When a member ends and stops, from its complete inputs.
 using MemberTiming = std::function<MemberClock(Inputs const& inputs)>;
 
-/// Unit vectors [shadows][state_size] in which a member's shadows start.
+/// Unit vectors [shadows][states] in which a member's shadows start.
 using ShadowDirections = std::function<void(std::uint64_t member, double* directions)>;
 
 /// What every block of a run has in common.
@@ -37,6 +37,7 @@ struct BlockRequest {
     CrossingPlan crossings;
     ShadowPlan shadows;  // its directions are those of
     ShadowDirections directions;
+    std::size_t states = info(Mechanism::slider_crank).states;  // numbers of a member's state
 };
 
 /// Bytes that a block of `members` needs.

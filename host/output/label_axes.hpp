@@ -9,7 +9,7 @@
 
 namespace slideway {
 
-/// Defines the dimensions of the quantity table (apex, mode_class, axis) as they are asked for, each with its labels in
+/// Defines the dimensions of the quantity table (apex, mode_class, axis, direction, channel) as they are asked for, each with its labels in
 /// `<name>_name`.
 class LabelAxes {
 public:

@@ -68,6 +68,9 @@ private:
     void describe(int variable, std::string const& unit, std::string const& long_name);
     int member_variable(std::string const& name, std::string const& unit, std::string const& long_name);
     void write_coordinates();
+    SeriesInfo const& state_info(std::size_t i) const {
+        return series_table[static_cast<int>(info(layout_.mechanism).state[i])];
+    }
 
     NetcdfFile& file_;
     ResultLayout const& layout_;
@@ -108,9 +111,10 @@ void ResultDefiner::define_members() {
         ids_.work.push_back(member_variable(counter.name, "1", counter.meaning));
     }
     ids_.end_time = member_variable("end_time", "s", "time at which the member ended");
-    for (int i = 0; i < state_size; ++i) {
-        ids_.final_states.push_back(member_variable(fmt::format("final_{}", series_table[i].name), series_table[i].unit,
-                                                    fmt::format("{} at end_time", series_table[i].long_name)));
+    for (std::size_t i = 0; i < layout_.states(); ++i) {
+        SeriesInfo const& state = state_info(i);
+        ids_.final_states.push_back(member_variable(fmt::format("final_{}", state.name), state.unit,
+                                                    fmt::format("{} at end_time", state.long_name)));
     }
     for (ParameterColumn const& parameter : layout_.parameters) {
         ids_.parameters.push_back(member_variable(parameter.name, parameter.unit, parameter.long_name));
@@ -180,9 +184,9 @@ void ResultDefiner::define_sections() {
         describe(ids_.section_columns.back(), unit, long_name);
     };
     add("section_time", "s", "time of the section since the start of the run");
-    for (std::size_t i = 0; i < state_size; ++i) {
-        SeriesInfo const& info = series_table[i];
-        add(std::string("section_") + info.name, info.unit, std::string(info.long_name) + " at the section");
+    for (std::size_t i = 0; i < layout_.states(); ++i) {
+        SeriesInfo const& state = state_info(i);
+        add(std::string("section_") + state.name, state.unit, std::string(state.long_name) + " at the section");
     }
 }
 

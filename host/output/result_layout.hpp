@@ -27,7 +27,8 @@ std::string variable_name(std::string_view key);
 
 struct ResultLayout {
     MemberSet members;
-    std::vector<double> sample_times;  // empty: no time series
+    Mechanism mechanism = Mechanism::slider_crank;  // whose states are stored
+    std::vector<double> sample_times;               // empty: no time series
     Selection quantities = 0;
     Selection series = 0;
     std::vector<ParameterColumn> parameters;
@@ -36,6 +37,8 @@ struct ResultLayout {
     bool crossings = false;          // of a surface, not of a crank angle
     std::string sweep;               // name of the parameter column that a sweep goes by; "": no sweep
     StudyTable study;                // what the study concludes of each member
+
+    std::size_t states() const { return static_cast<std::size_t>(info(mechanism).states); }
 };
 
 /// Bytes of data in the file.

@@ -12,12 +12,12 @@
 namespace slideway {
 namespace {
 
-/// The sections that a member of a block reached: [sections][section_columns].
+/// The sections that a member of a block reached: [sections][1 + states].
 std::span<double const> sections_of(BlockResult const& block, std::size_t row) {
     std::size_t const width = block.sections.size() / block.members.size();
     auto const room = block.sections.subspan(row * width, width);
     std::size_t reached = 0;
-    while (reached < width && !std::isnan(room[reached])) reached += section_columns;
+    while (reached < width && !std::isnan(room[reached])) reached += section_columns(block.states());
     return room.first(reached);
 }
 
@@ -73,7 +73,7 @@ private:
     void write_states() {
         for (std::size_t k = 0; k < ids_.final_states.size(); ++k) {
             write_each<double>(ids_.final_states[k],
-                               [&](std::size_t i) { return block_.final_states[i * state_size + k]; });
+                               [&](std::size_t i) { return block_.final_states[i * block_.states() + k]; });
         }
         for (std::size_t k = 0; k < ids_.parameters.size(); ++k) {
             write_each<double>(ids_.parameters[k],
@@ -104,11 +104,12 @@ private:
 
     void write_sections() {
         std::vector<int> counts;
-        std::vector<double> columns[section_columns];
+        std::size_t const width = section_columns(block_.states());
+        std::vector<std::vector<double>> columns(width);
         for (std::size_t const row : rows_) {
             auto const sections = sections_of(block_, row);
-            for (std::size_t i = 0; i < sections.size(); ++i) columns[i % section_columns].push_back(sections[i]);
-            int const count = static_cast<int>(sections.size() / section_columns);
+            for (std::size_t i = 0; i < sections.size(); ++i) columns[i % width].push_back(sections[i]);
+            int const count = static_cast<int>(sections.size() / width);
             counts.push_back(count);
         }
         file_.write(ids_.section_count, std::array{std::size_t{0}}, std::array{counts.size()}, counts.data());
@@ -118,7 +119,7 @@ private:
                             [&](std::size_t i) { return std::min(block_.records[i].crossings, largest); });
         }
         if (columns[0].empty()) return;
-        for (std::size_t j = 0; j < section_columns; ++j) {
+        for (std::size_t j = 0; j < width; ++j) {
             file_.write(ids_.section_columns[j], std::array{std::size_t{0}}, std::array{columns[j].size()},
                         columns[j].data());
         }
@@ -145,7 +146,7 @@ ShardImage shard_image(std::string const& name, ResultLayout layout, Provenance 
     if (rows.empty()) return image;
     layout.members = image.members;
     for (std::size_t i = 0; i < rows.size() && layout.sections > 0; ++i) {
-        layout.section_rows += sections_of(block, rows[i]).size() / section_columns;
+        layout.section_rows += sections_of(block, rows[i]).size() / section_columns(block.states());
     }
     NetcdfFile file = NetcdfFile::create_in_memory(name);
     ResultVariables const ids = define_result(file, layout, provenance);

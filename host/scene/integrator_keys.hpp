@@ -7,8 +7,13 @@
 
 namespace slideway {
 
-/// Whether a method reads the key of [integrator] with this name.
-constexpr bool has_effect(std::string_view key, Method method) {
+/// Whether a method reads the key of [integrator] with this name.  The planar mechanism has no stiff method, which `auto` could
+/// change over to, and no modes.
+constexpr bool has_effect(std::string_view key, Method method, Mechanism mechanism) {
+    if (mechanism == Mechanism::planar_slider_crank &&
+        (key == "stiff_tolerance" || key == "stiff_max_step" || key == "locate_modes")) {
+        return false;
+    }
     bool const fixed = method == Method::rk4;
     if (key == "step") return fixed;
     if (key == "rtol" || key == "atol" || key == "max_step") return !fixed;

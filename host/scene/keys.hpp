@@ -11,6 +11,10 @@
 
 namespace slideway {
 
+/// A set of mechanisms: bit i for Mechanism i.
+using MechanismSet = unsigned;
+constexpr MechanismSet set_of(Mechanism mechanism) { return 1u << static_cast<int>(mechanism); }
+
 /// What values a key may take.
 enum class Rule {
     any,
@@ -25,13 +29,15 @@ enum class Rule {
 };
 
 struct Key {
-    std::string_view name;         // dotted, as in the scene: "mechanism.crank_length"
+    std::string_view name;  // dotted, as in the scene: "mechanism.crank_length"
     double Inputs::*member;
-    std::string_view unit;         // SI, UDUNITS-2 syntax; "1" for a plain number
+    std::string_view unit;  // SI, UDUNITS-2 syntax; "1" for a plain number
     Rule rule;
-    std::string_view meaning;      // "crank length r"
+    std::string_view meaning;        // "crank length r"
+    MechanismSet mechanisms;         // for which it counts
     double Inputs::*twin = nullptr;  // a second input that the key sets too: joint.clearance, contact.young_modulus
 
+    bool counts_for(Mechanism mechanism) const { return (mechanisms & set_of(mechanism)) != 0; }
     double get(Inputs const& inputs) const { return inputs.*member; }
     void set(Inputs& inputs, double value) const {
         inputs.*member = value;
@@ -51,11 +57,11 @@ Key const* find_key(std::string_view dotted_name);
 /// for way.*, the rates for contact.chi_*, restitution for contact.restitution, friction for friction.*.
 void require_part(Parts& parts, Key const& key);
 
-/// Fills what was left to follow from other inputs (masses, inertias, thicknesses; model.md 2).
+/// Fills what was left to follow from other inputs (masses, inertias, thicknesses, point stiffness; model.md 2).
 Inputs complete_inputs(Inputs given);
 
 /// Why a set of inputs cannot be used, in words ("joint.clearance_y is 0 m (the joint needs a gap); use a value > 0"),
-/// or nothing.  Checks every key's rule and those between keys (slip_speed > stick_speed …).
-std::optional<std::string> defect(Inputs const& inputs);
+/// or nothing.  Checks every key's rule and those between keys of the mechanism (slip_speed > stick_speed …).
+std::optional<std::string> defect(Inputs const& inputs, Parts const& parts = {});
 
 }  // namespace slideway

@@ -18,6 +18,7 @@ constexpr std::string_view other_names[] = {
     "schema",
     "title",
     "mechanism.kind",
+    "mechanism.crank",
     "contact.law",
     "friction.enabled",
     "integrator.method",
@@ -87,13 +88,14 @@ Node const* find_given(std::vector<GivenKey> const& given, Key const* key) {
     return found;
 }
 
-void check_inputs(Node const& root, Inputs const& inputs) {
-    auto const found = find_defect(inputs);
+void check_inputs(Node const& root, Scene const& scene) {
+    auto const found = find_defect(scene.inputs, scene.parts);
     if (!found) return;
     auto const given = given_keys(root);
     Node const* node = find_given(given, found->key);
     if (node == nullptr) node = find_given(given, found->other);
-    throw SceneError(fmt::format("{}: {}", node != nullptr ? node->where : root.where, defect(inputs).value_or("")));
+    throw SceneError(fmt::format("{}: {}", node != nullptr ? node->where : root.where,
+                                 defect(scene.inputs, scene.parts).value_or("")));
 }
 
 }  // namespace
@@ -110,6 +112,16 @@ void refuse_study(Node const& root, Node const* node, std::string_view key, Prob
     if (node != nullptr) refuse(*node, problem);
     Node const& kind = *root.find_path("study.kind");
     throw SceneError(fmt::format("{}: {} is not given ({}); {}", kind.where, key, problem.reason, problem.advice));
+}
+
+void refuse_meaningless(std::string_view where, std::string_view name, Mechanism mechanism) {
+    throw SceneError(
+        fmt::format("{}: {} has no meaning for kind = \"{}\"; remove it", where, name, info(mechanism).name));
+}
+
+void refuse_foreign_quantity(Node const& node, std::string_view name, Mechanism mechanism) {
+    throw SceneError(
+        fmt::format("{}: {} is no quantity of a {}; see `slideway list`", node.where, name, info(mechanism).name));
 }
 
 void refuse_missing(Node const& asking, std::string_view key, std::string_view why, std::string_view advice) {
@@ -148,7 +160,7 @@ Scene parse_scene(std::string const& text, std::string const& name, Overrides co
     scene.path = name;
     if (Node const* const title = root.find("title")) scene.title = read_text_value(*title);
     read_physics(root, scene);
-    check_inputs(root, scene.inputs);
+    check_inputs(root, scene);
     read_variations(root, scene);
     read_study(root, scene);
     read_integrator(root, scene);

@@ -47,7 +47,7 @@ void read_section(Node const& root, Scene& scene);
 void read_sweep(Node const& root, Scene& scene);
 /// What a sweep asks of the lengths of time.
 void check_columns(Node const& root, Scene const& scene);
-/// [integrator]; needs the crank speed and the study.
+/// [integrator]; needs the period of the drive and the study.
 void read_integrator(Node const& root, Scene& scene);
 /// Until when, and what of [study] is recorded on the way; needs everything above.
 void read_recording(Node const& root, Scene& scene);
@@ -57,16 +57,21 @@ void read_recording(Node const& root, Scene& scene);
 void check_counts(Node const& root, Node const& node, Key const& key, Scene const& scene);
 /// What to write instead of a name that is no numeric key of the physics.
 std::string key_advice(std::string_view name);
-/// Crank speeds that members may have, by magnitude [rad/s]; the least is 0 where the limits include it.
-struct SpeedRange {
+/// Periods of the drive that members may have [s]; the most is infinite where a limit lets it stand still.
+struct PeriodRange {
     double least, most;
-    bool several;  // members may differ
+    Key const* varied;  // why they may differ between members; nullptr: they do not
 };
-SpeedRange crank_speeds(Scene const& scene);
+PeriodRange drive_periods(Scene const& scene);
+
+/// Refuses a key, or a table, that does not count for the scene's mechanism, at a position.
+[[noreturn]] void refuse_meaningless(std::string_view where, std::string_view name, Mechanism mechanism);
+/// Refuses a quantity or a series that the scene's mechanism does not have.
+[[noreturn]] void refuse_foreign_quantity(Node const& node, std::string_view name, Mechanism mechanism);
 
 /// How long the members of a study of orbits run [s], and how often their steps end at known times.
 struct RunLength {
-    double seconds;  // at the scene's own crank speed
+    double seconds;  // of the scene's own member
     double longest;
     double stops;
 };

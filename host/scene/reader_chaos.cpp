@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "host/scene/drive_period.hpp"
 #include "host/scene/reader.hpp"
 #include "host/scene/values.hpp"
 
@@ -27,22 +28,24 @@ Node const* given_of(Node const& root, SpanKeys const& keys) {
     return node != nullptr ? node : root.find_path(keys.turns);
 }
 
-[[noreturn]] void refuse_at_rest(Node const& node, std::string_view advice) {
-    refuse(node, {"mechanism.crank_speed is 0, so there are no revolutions", std::string(advice)});
+[[noreturn]] void refuse_at_rest(Node const& node, Parts const& parts, std::string_view advice) {
+    refuse(node, {fmt::format("{}, so there are no revolutions", why_no_period(parts)), std::string(advice)});
 }
 
-/// A crank at rest has no revolutions; each that would be the default is a second, as in an ensemble.
+bool has_period(Scene const& scene) { return std::isfinite(drive_period(scene.parts, scene.inputs)); }
+
+/// Where nothing turns there are no revolutions; each that would be the default is a second, as in an ensemble.
 Span read_span(Node const& root, Scene const& scene, SpanKeys const& keys, double default_turns) {
     refuse_both(root, keys.turns, keys.time);
     Range const range{0, longest_time, keys.may_be_zero};
     if (Node const* const node = root.find_path(keys.time)) {
         return {read_number(*node, "s", keys.what, range), false};
     }
-    bool const turns = scene.inputs.crank_speed != 0;
+    bool const turns = has_period(scene);
     Node const* const node = root.find_path(keys.turns);
     if (node == nullptr) return {default_turns, turns};
     double const value = read_number(*node, "1", "number of revolutions", range);
-    if (!turns) refuse_at_rest(*node, fmt::format("use {} instead", keys.time));
+    if (!turns) refuse_at_rest(*node, scene.parts, fmt::format("use {} instead", keys.time));
     return {value, true};
 }
 
@@ -54,16 +57,16 @@ Span read_dt(Node const& root, Scene const& scene) {
     Node const* const node = root.find_path(dt_keys.turns);
     std::uint64_t const per_turn =
         node != nullptr ? read_count(*node, "number of rescalings per revolution", 1, most_per_turn) : 2000;
-    if (node != nullptr && scene.inputs.crank_speed == 0) refuse_at_rest(*node, "use study.dt instead");
-    return {1 / static_cast<double>(per_turn), scene.inputs.crank_speed != 0};
+    if (node != nullptr && !has_period(scene)) refuse_at_rest(*node, scene.parts, "use study.dt instead");
+    return {1 / static_cast<double>(per_turn), has_period(scene)};
 }
 
 void read_neighbours(Node const& root, Scene& scene) {
     ChaosSettings& chaos = scene.chaos;
     Node const* const count = root.find_path("study.exponents");
     int const least = scene.study == StudyKind::sweep ? 0 : 1;
-    chaos.exponents =
-        count != nullptr ? static_cast<int>(read_count(*count, "number of exponents", least, most_shadows)) : 1;
+    int const most = std::min(most_shadows, info(scene.parts.mechanism).states);
+    chaos.exponents = count != nullptr ? static_cast<int>(read_count(*count, "number of exponents", least, most)) : 1;
     // Distances of some 1e-15 are rounding, and at 1 an offset is as large as the joint.
     Range const range{1e-14, 1, true};
     Node const *const d0 = root.find_path("study.d0"), *const lower = root.find_path("study.d0_lower"),
@@ -108,7 +111,8 @@ void check_common_count(Node const& root, Scene const& scene) {
     ChaosSettings const& chaos = scene.chaos;
     bool const by_phase = scene.study != StudyKind::lyapunov && chaos.section.on == SectionSurface::On::phase;
     bool const counts = by_phase || chaos.exponents > 0;
-    if (!counts || !crank_speeds(scene).several) return;
+    Key const* const varied = drive_periods(scene).varied;
+    if (!counts || varied == nullptr) return;
     bool const turns = by_phase || chaos.dt.revolutions;
     struct Length {
         Span const& span;
@@ -116,9 +120,8 @@ void check_common_count(Node const& root, Scene const& scene) {
     };
     for (auto const& [span, keys] : {Length{chaos.span, span_keys}, Length{chaos.transient, transient_keys}}) {
         if (span.value == 0 || span.revolutions == turns) continue;
-        std::string const reason =
-            fmt::format("mechanism.crank_speed differs between members, and so would their number of {}",
-                        by_phase ? "sections" : "rescalings");
+        std::string const reason = fmt::format("{} differs between members, and so would their number of {}",
+                                               varied->name, by_phase ? "sections" : "rescalings");
         if (span.revolutions) refuse(*root.find_path(dt_keys.time), {reason, fmt::format("use {}", dt_keys.turns)});
         refuse(*root.find_path(keys.time),
                {reason, fmt::format("use {}", by_phase || chaos.dt.revolutions ? keys.turns : keys.time)});
@@ -128,12 +131,12 @@ void check_common_count(Node const& root, Scene const& scene) {
 void check_length(Node const& root, Scene const& scene) {
     ChaosSettings const& chaos = scene.chaos;
     bool const turns = chaos.span.revolutions || chaos.transient.revolutions;
-    SpeedRange const speeds = crank_speeds(scene);
+    PeriodRange const periods = drive_periods(scene);
     Node const* const given = given_of(root, span_keys);
-    if (turns && speeds.several && speeds.least == 0) {
-        refuse_study(
-            root, given, "study.revolutions",
-            {"mechanism.crank_speed may be 0, where revolutions do not end", "vary it within limits of one sign"});
+    if (turns && periods.varied != nullptr && !std::isfinite(periods.most)) {
+        refuse_study(root, given, "study.revolutions",
+                     {fmt::format("{} may be 0, where revolutions do not end", periods.varied->name),
+                      "vary it within limits of one sign"});
     }
     double const longest = run_length(scene).longest;
     if (!(longest <= longest_time)) {
@@ -145,7 +148,7 @@ void check_length(Node const& root, Scene const& scene) {
 
 void read_history(Node const& root, Scene& scene) {
     ChaosSettings& chaos = scene.chaos;
-    double const rescalings = parts_of(chaos.span, chaos.dt, scene.inputs.crank_speed);
+    double const rescalings = parts_of(chaos.span, chaos.dt, drive_period(scene.parts, scene.inputs));
     if (!(rescalings >= 1)) {
         refuse_study(root, given_of(root, span_keys), "study.revolutions",
                      {"it ends before the first rescaling", "record for longer, or rescale oftener"});
@@ -163,25 +166,26 @@ void read_history(Node const& root, Scene& scene) {
 
 void check_memory(Node const& root, Scene const& scene) {
     ChaosSettings const& chaos = scene.chaos;
-    double const speed = scene.inputs.crank_speed;
+    double const period = drive_period(scene.parts, scene.inputs);
+    double const numbers = info(scene.parts.mechanism).states;
     bool const by_phase = chaos.section.on == SectionSurface::On::phase;
     double sections = 0;
     if (scene.study != StudyKind::lyapunov) {
-        sections = by_phase ? parts_of(chaos.span, {1, true}, speed) + 1 : static_cast<double>(chaos.max_crossings);
+        sections = by_phase ? parts_of(chaos.span, {1, true}, period) + 1 : static_cast<double>(chaos.max_crossings);
     }
     // Rescalings are recorded in sums, some thousands at most, or as many as the history asks for.
     double const records =
-        std::min(parts_of(chaos.span, chaos.dt, speed), std::max(4096.0, 2 * static_cast<double>(chaos.history)));
+        std::min(parts_of(chaos.span, chaos.dt, period), std::max(4096.0, 2 * static_cast<double>(chaos.history)));
     double const growths = chaos.exponents > 0 ? records * chaos.exponents : 0;
     Node const* const given = given_of(root, span_keys);
-    if (std::max(sections * state_size, growths) > most_numbers) {
-        refuse_study(root, given, "study.revolutions",
-                     {fmt::format("each member would hold {:.3g} numbers while it runs",
-                                  std::max(sections * state_size, growths)),
-                      fmt::format("record for a shorter time, or less often, at most {:g} numbers", most_numbers)});
+    if (std::max(sections * numbers, growths) > most_numbers) {
+        refuse_study(
+            root, given, "study.revolutions",
+            {fmt::format("each member would hold {:.3g} numbers while it runs", std::max(sections * numbers, growths)),
+             fmt::format("record for a shorter time, or less often, at most {:g} numbers", most_numbers)});
     }
     double const columns = static_cast<double>(std::max<std::size_t>(chaos.values.size(), 1));
-    double const kept = sections * state_size + static_cast<double>(chaos.history) * chaos.exponents;
+    double const kept = sections * numbers + static_cast<double>(chaos.history) * chaos.exponents;
     double const values = static_cast<double>(scene.members) * columns * kept;
     if (values > most_values) {
         refuse_study(root, root.find_path("study.members"), "study.members",
@@ -194,20 +198,24 @@ void check_memory(Node const& root, Scene const& scene) {
 
 RunLength run_length(Scene const& scene) {
     ChaosSettings const& chaos = scene.chaos;
-    auto const at = [&](double speed) { return chaos.transient.seconds(speed) + chaos.span.seconds(speed); };
-    SpeedRange const speeds = crank_speeds(scene);
+    auto const at = [&](double period) { return chaos.transient.seconds(period) + chaos.span.seconds(period); };
+    double const own = drive_period(scene.parts, scene.inputs);
     double stops = 0;
     if (chaos.exponents > 0) {
-        stops = at(scene.inputs.crank_speed) / chaos.dt.seconds(scene.inputs.crank_speed);
+        stops = at(own) / chaos.dt.seconds(own);
     } else if (chaos.section.on == SectionSurface::On::phase) {
-        stops = at(scene.inputs.crank_speed) / Span{1, true}.seconds(scene.inputs.crank_speed);
+        stops = at(own) / own;
     }
-    return {at(scene.inputs.crank_speed), std::max(at(scene.inputs.crank_speed), at(speeds.least)), std::ceil(stops)};
+    return {at(own), std::max(at(own), at(drive_periods(scene).most)), std::ceil(stops)};
 }
 
 void read_chaos(Node const& root, Scene& scene) {
     ChaosSettings& chaos = scene.chaos;
     bool const lyapunov = scene.study == StudyKind::lyapunov, sweep = scene.study == StudyKind::sweep;
+    if ((lyapunov || sweep) && scene.parts.mechanism == Mechanism::free_slider) {
+        refuse(*root.find_path("study.kind"), {"nothing drives a free_slider, and no exponents are computed of it",
+                                               "use \"ensemble\" or \"poincare\""});
+    }
     chaos.transient = read_span(root, scene, transient_keys, lyapunov ? 2 : 20);
     chaos.span = read_span(root, scene, span_keys, lyapunov ? 10 : sweep ? 50 : 150);
     if (!lyapunov) read_section(root, scene);

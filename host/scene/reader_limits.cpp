@@ -21,7 +21,7 @@ struct LimitedQuantity {
 }
 
 /// Of "mode_time[free]" or "peak_normal_force".
-LimitedQuantity read_name(Node const& node) {
+LimitedQuantity read_name(Node const& node, Mechanism mechanism) {
     std::string_view const name = node.key;
     auto const bracket = name.find('[');
     std::string_view const quantity = name.substr(0, bracket);
@@ -35,6 +35,9 @@ LimitedQuantity read_name(Node const& node) {
                     series ? std::string("limit a quantity, see `slideway list`") : choice_advice(quantity, names));
     }
     auto const index = found - names.begin();
+    if (!selects(info(mechanism).quantities, static_cast<Quantity>(index))) {
+        refuse_foreign_quantity(node, quantity, mechanism);
+    }
     QuantityInfo const& info = quantity_table[index];
     if (info.dimension == nullptr) {
         if (bracket != name.npos) refuse_name(node, "it is one number", fmt::format("write \"{}\"", quantity));
@@ -82,7 +85,7 @@ void read_limits(Node const& root, Scene& scene) {
     if (table == nullptr) return;
     if (!table->is_table()) refuse(*table, {"it must be a table", "write [study.limits] and its quantities below"});
     for (Node const& node : table->children) {
-        LimitedQuantity const limited = read_name(node);
+        LimitedQuantity const limited = read_name(node, scene.parts.mechanism);
         scene.limits.push_back(read_limit(node, limited));
         scene.quantities |= selection_of(limited.quantity);
     }

@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <iterator>
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "host/scene/drive_period.hpp"
 #include "host/scene/integrator_keys.hpp"
 #include "host/scene/reader.hpp"
 #include "host/scene/values.hpp"
@@ -13,9 +14,14 @@
 namespace slideway {
 namespace {
 
-constexpr std::string_view mechanism_names[] = {"slider_crank", "carriage", "free_slider", "planar_slider_crank",
-                                                "lorenz"};
-constexpr std::size_t available_mechanisms = 1;
+constexpr std::size_t available_mechanisms = std::size(mechanism_table);
+constexpr auto mechanism_names = [] {
+    std::array<std::string_view, available_mechanisms + 1> names;
+    for (std::size_t i = 0; i < available_mechanisms; ++i) names[i] = mechanism_table[i].name;
+    names.back() = "lorenz";
+    return names;
+}();
+constexpr std::string_view crank_names[] = {"driven", "free"};
 constexpr std::string_view law_names[] = {"paper", "conservative"};
 constexpr auto method_names = [] {
     std::array<std::string_view, method_count> names;
@@ -46,8 +52,34 @@ void check_restitution(Node const& root) {
     }
 }
 
+/// Which mechanism, and that nothing is given that does not count for it.
+void read_mechanism(Node const& root, Parts& parts) {
+    if (Node const* const kind = root.find_path("mechanism.kind")) {
+        parts.mechanism =
+            static_cast<Mechanism>(read_available(*kind, "mechanism", mechanism_names, available_mechanisms));
+    }
+    for (auto const& [key, node] : given_keys(root)) {
+        if (!key->counts_for(parts.mechanism)) refuse_meaningless(node->where, node->name, parts.mechanism);
+    }
+    auto const refuse_given = [&](std::string_view name) {
+        Node const* const node = root.find_path(name);
+        if (node != nullptr) refuse_meaningless(node->where, node->name, parts.mechanism);
+    };
+    if (parts.mechanism != Mechanism::planar_slider_crank) {
+        refuse_given("mechanism.crank");
+    } else if (Node const* const crank = root.find_path("mechanism.crank")) {
+        parts.free_crank = read_choice(*crank, "crank", crank_names) == 1;
+    }
+    if (info(parts.mechanism).spatial) return;
+    refuse_given("contact.law");
+    refuse_given("way");
+}
+
 /// Modes are what the paper's law switches between; the other parts have none, or no steps that could end there.
 void check_located_modes(Node const& node, Scene const& scene) {
+    if (!info(scene.parts.mechanism).spatial) {
+        refuse(node, {fmt::format("nothing switches in a {}", info(scene.parts.mechanism).name), "remove it"});
+    }
     if (scene.parts.law != Law::paper) refuse(node, {"only contact.law \"paper\" has modes", "remove it"});
     if (scene.parts.damping == Damping::restitution) {
         refuse(node, {"contact.restitution ends steps at its touches already", "remove one of the two"});
@@ -61,9 +93,10 @@ void check_located_modes(Node const& node, Scene const& scene) {
 void read_located_modes(Node const& root, Scene& scene) {
     IntegratorSettings& settings = scene.integrator;
     Node const* const node = root.find_path("integrator.locate_modes");
-    bool const switches = scene.parts.law == Law::paper && scene.parts.damping != Damping::restitution;
+    bool const switches = info(scene.parts.mechanism).spatial && scene.parts.law == Law::paper &&
+                          scene.parts.damping != Damping::restitution;
     bool const orbits = !runs_to_end(scene.study), neighbours = scene.chaos.exponents > 0;
-    bool const can = has_effect("locate_modes", settings.method);
+    bool const can = has_effect("locate_modes", settings.method, scene.parts.mechanism);
     // Long orbits under the law that switches take half the steps so, and neighbours need it.
     settings.locate_modes = node != nullptr ? read_boolean(*node) : switches && orbits && can;
     if (node != nullptr && settings.locate_modes) check_located_modes(*node, scene);
@@ -79,11 +112,13 @@ void read_located_modes(Node const& root, Scene& scene) {
 
 void warn_of_idle_keys(Node const& table, Scene& scene) {
     for (Node const& node : table.children) {
-        if (has_effect(node.key, scene.integrator.method)) continue;
+        if (has_effect(node.key, scene.integrator.method, scene.parts.mechanism)) continue;
         // Said to be off where it cannot be on, it is as it was asked for.
         if (node.key == "locate_modes") continue;
+        bool const of_method = !has_effect(node.key, scene.integrator.method, Mechanism::slider_crank);
         scene.warnings.push_back(
-            fmt::format("{} has no effect with method {}", node.name, name_of(scene.integrator.method)));
+            of_method ? fmt::format("{} has no effect with method {}", node.name, name_of(scene.integrator.method))
+                      : fmt::format("{} has no effect on a {}", node.name, info(scene.parts.mechanism).name));
     }
 }
 
@@ -102,9 +137,7 @@ std::vector<GivenKey> given_keys(Node const& root) {
 }
 
 void read_physics(Node const& root, Scene& scene) {
-    if (Node const* const kind = root.find_path("mechanism.kind")) {
-        scene.mechanism = mechanism_names[read_available(*kind, "mechanism", mechanism_names, available_mechanisms)];
-    }
+    read_mechanism(root, scene.parts);
     if (Node const* const law = root.find_path("contact.law")) {
         scene.parts.law = read_choice(*law, "contact law", law_names) == 0 ? Law::paper : Law::conservative;
     }
@@ -128,6 +161,11 @@ void read_integrator(Node const& root, Scene& scene) {
     if (Node const* const node = root.find_path("integrator.method")) {
         settings.method = static_cast<Method>(read_choice(*node, "method", method_names));
     }
+    if (settings.method == Method::ros34pw2 && !info(scene.parts.mechanism).spatial) {
+        refuse(*root.find_path("integrator.method"),
+               {fmt::format("the method has no Jacobian of a {}", info(scene.parts.mechanism).name),
+                "use method \"auto\", \"dopri5\", \"bs32\" or \"rk4\""});
+    }
     Node const* const step = root.find_path("integrator.step");
     if (step != nullptr) settings.fixed_step = read_number(*step, "s", "fixed step", {.low = 0, .low_included = false});
     if (settings.method == Method::rk4 && step == nullptr) {
@@ -146,12 +184,14 @@ void read_integrator(Node const& root, Scene& scene) {
     if (Node const* const node = root.find_path("integrator.atol")) {
         settings.atol = read_number(*node, "1", "absolute tolerance", {0, 0.1, false});
     }
-    // A sweep goes by its fastest crank.
-    double const speed =
-        scene.study == StudyKind::sweep ? crank_speeds(scene).most : std::abs(scene.inputs.crank_speed);
+    // A sweep goes by its fastest drive, a free crank by the speed that it starts with.
+    Parts driven = scene.parts;
+    driven.free_crank = false;
+    double const period =
+        scene.study == StudyKind::sweep ? drive_periods(scene).least : drive_period(driven, scene.inputs);
     // A step may not leap over an impact: between two of them the slider flies for milliseconds.
     constexpr double longest_step = 1e-3;
-    settings.max_step = speed > 0 ? std::min(longest_step, 2 * std::numbers::pi / speed / 2000) : longest_step;
+    settings.max_step = std::min(longest_step, period / 2000);
     if (Node const* const node = root.find_path("integrator.max_step")) {
         settings.max_step = read_number(*node, "s", "largest step", {.low = 0, .low_included = false});
     }

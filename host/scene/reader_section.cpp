@@ -1,9 +1,13 @@
 #include <algorithm>
+#include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "host/scene/drive_period.hpp"
 #include "host/scene/reader.hpp"
 #include "host/scene/suggest.hpp"
 #include "host/scene/values.hpp"
@@ -17,23 +21,32 @@ constexpr int apices = 8;
 void read_phase(Node const& root, Scene& scene) {
     Node const* const node = root.find_path("study.phase");
     if (node != nullptr) scene.chaos.section.level = read_number(*node, "rad");
-    if (scene.inputs.crank_speed != 0) return;
+    if (std::isfinite(drive_period(scene.parts, scene.inputs))) return;
     refuse_study(root, node, "study.phase",
-                 {"mechanism.crank_speed is 0, so no crank angle comes round",
-                  scene.study == StudyKind::sweep ? "give the crank a speed" : "give study.section"});
+                 {fmt::format("{}, so no crank angle comes round", why_no_period(scene.parts)),
+                  scene.study != StudyKind::sweep ? "give study.section"
+                  : scene.parts.free_crank        ? "use crank = \"driven\""
+                                                  : "give the crank a speed"});
+}
+
+char const* state_name(MechanismInfo const& mechanism, int index) {
+    return series_table[static_cast<int>(mechanism.state[index])].name;
 }
 
 /// Names of what a section may be taken of: states, then gaps.
-std::vector<std::string> surface_names() {
+std::vector<std::string> surface_names(MechanismInfo const& mechanism) {
     std::vector<std::string> names;
-    for (int i = 0; i < state_series; ++i) names.emplace_back(series_table[i].name);
+    for (int i = 0; i < mechanism.states; ++i) names.emplace_back(state_name(mechanism, i));
+    if (!mechanism.spatial) return names;
     for (char const* const face : {"gap_y", "gap_z"}) {
         for (int apex = 1; apex <= apices; ++apex) names.push_back(fmt::format("{}[P{}]", face, apex));
     }
     return names;
 }
 
-void read_section_table(Node const& table, SectionSurface& section) {
+void read_section_table(Node const& table, Scene& scene) {
+    SectionSurface& section = scene.chaos.section;
+    MechanismInfo const& mechanism = info(scene.parts.mechanism);
     constexpr std::string_view example = "{ on = \"vy\", value = \"0 mm/s\", direction = \"rising\" }";
     if (!table.is_table()) refuse(table, {"not a section", fmt::format("write for example {}", example)});
     for (Node const& node : table.children) {
@@ -47,23 +60,25 @@ void read_section_table(Node const& table, SectionSurface& section) {
                                      table.where, example));
     }
     std::string const& name = read_text_value(*on);
-    auto const known = surface_names();
+    auto const known = surface_names(mechanism);
     auto const found = std::find(known.begin(), known.end(), name);
     if (found == known.end()) {
         std::vector<std::string_view> const names(known.begin(), known.end());
         std::string_view const near = nearest_name(name, names);
-        refuse(*on, {"neither a state nor a gap",
-                     near.empty() ? std::string("use one of y, z, vy, vz, roll, yaw, pitch, wx, wy, wz, gap_y[P1] to "
-                                                "gap_y[P8], gap_z[P1] to gap_z[P8]")
-                                  : fmt::format("did you mean \"{}\"?", near)});
+        auto const states = std::span(known).first(static_cast<std::size_t>(mechanism.states));
+        refuse(*on,
+               {mechanism.spatial ? "neither a state nor a gap" : "no state of it",
+                near.empty() ? fmt::format("use one of {}{}", fmt::join(states, ", "),
+                                           mechanism.spatial ? ", gap_y[P1] to gap_y[P8], gap_z[P1] to gap_z[P8]" : "")
+                             : fmt::format("did you mean \"{}\"?", near)});
     }
     int const index = static_cast<int>(found - known.begin());
     using On = SectionSurface::On;
-    bool const state = index < state_series;
-    section.on = state ? On::state : index < state_series + apices ? On::gap_y : On::gap_z;
-    section.index = state ? index : (index - state_series) % apices;
+    int const states = mechanism.states;
+    section.on = index < states ? On::state : index < states + apices ? On::gap_y : On::gap_z;
+    section.index = index < states ? index : (index - states) % apices;
     if (Node const* const value = table.find("value")) {
-        section.level = read_number(*value, section_unit(section));
+        section.level = read_number(*value, section_unit(section, scene.parts.mechanism));
     }
     if (Node const* const direction = table.find("direction")) {
         section.direction =
@@ -73,12 +88,15 @@ void read_section_table(Node const& table, SectionSurface& section) {
 
 }  // namespace
 
-std::string_view section_unit(SectionSurface const& section) {
+std::string_view section_unit(SectionSurface const& section, Mechanism mechanism) {
     switch (section.on) {
         case SectionSurface::On::phase:
             return "rad";
-        case SectionSurface::On::state:
-            return find_key(fmt::format("initial.{}", series_table[section.index].name))->unit;
+        case SectionSurface::On::state: {
+            Series const state = info(mechanism).state[section.index];
+            Key const* const key = find_key(fmt::format("initial.{}", series_table[static_cast<int>(state)].name));
+            return key != nullptr ? key->unit : series_table[static_cast<int>(state)].unit;
+        }
         default:
             return "m";
     }
@@ -94,7 +112,7 @@ void read_section(Node const& root, Scene& scene) {
         }
         return read_phase(root, scene);
     }
-    read_section_table(*table, scene.chaos.section);
+    read_section_table(*table, scene);
     if (crossings != nullptr) {
         scene.chaos.max_crossings = read_count(*crossings, "number of crossings", 1, most_crossings);
     }

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "host/scene/drive_period.hpp"
 #include "host/scene/integrator_keys.hpp"
 #include "host/scene/reader.hpp"
 #include "host/scene/study_keys.hpp"
@@ -20,20 +20,22 @@ constexpr std::uint64_t most_samples = 1'000'000;  // of one member: they stay i
 
 struct EndTime {
     double seconds;
-    double revolutions;  // NaN when the crank does not turn
+    double revolutions;  // NaN where there are none
 };
 
-EndTime read_end_time(Node const& root, double crank_speed) {
+EndTime read_end_time(Node const& root, Scene const& scene) {
     refuse_both(root, "study.revolutions", "study.duration");
-    double const turn = crank_speed != 0 ? 2 * std::numbers::pi / std::abs(crank_speed) : NAN;
+    double const turn = drive_period(scene.parts, scene.inputs);
+    bool const turns = std::isfinite(turn);
     if (Node const* const node = root.find_path("study.duration")) {
         double const seconds = read_number(*node, "s", "duration", {0, longest_time, false});
-        return {seconds, seconds / turn};
+        return {seconds, turns ? seconds / turn : NAN};
     }
     Node const* const node = root.find_path("study.revolutions");
-    if (crank_speed == 0) {
+    if (!turns) {
         if (node != nullptr) {
-            refuse(*node, {"mechanism.crank_speed is 0, so there are none", "use study.duration instead"});
+            refuse(*node, {fmt::format("{}, so there are no revolutions", why_no_period(scene.parts)),
+                           "use study.duration instead"});
         }
         return {1, NAN};
     }
@@ -41,7 +43,7 @@ EndTime read_end_time(Node const& root, double crank_speed) {
         node != nullptr ? read_number(*node, "1", "number of revolutions", {0, longest_time, false}) : 1;
     double const seconds = revolutions * turn;
     if (!(seconds > 0 && seconds <= longest_time)) {
-        std::string const reason = fmt::format("it lasts {} s at a crank speed of {} rad/s", seconds, crank_speed);
+        std::string const reason = fmt::format("it lasts {} s, with {} s for each", seconds, turn);
         std::string const advice = fmt::format("stay below {} s", longest_time);
         if (node != nullptr) refuse(*node, {reason, advice});
         throw SceneError(fmt::format("{}: study.revolutions is 1 ({}); {}", root.where, reason, advice));
@@ -55,7 +57,7 @@ struct Sampling {
     std::size_t count = 0;
 };
 
-Sampling read_sampling(Node const& root, EndTime const& end) {
+Sampling read_sampling(Node const& root, Scene const& scene, EndTime const& end) {
     refuse_both(root, "study.samples_per_revolution", "study.samples");
     if (Node const* const node = root.find_path("study.samples")) {
         std::uint64_t const count = read_count(*node, "number of samples", 0, most_samples);
@@ -67,7 +69,8 @@ Sampling read_sampling(Node const& root, EndTime const& end) {
     std::uint64_t const per_turn = read_count(*node, "number of samples per revolution", 0, most_samples);
     if (per_turn == 0) return {node, 0};
     if (std::isnan(end.revolutions)) {
-        refuse(*node, {"mechanism.crank_speed is 0, so there are no revolutions", "use study.samples instead"});
+        refuse(*node, {fmt::format("{}, so there are no revolutions", why_no_period(scene.parts)),
+                       "use study.samples instead"});
     }
     double const intervals = std::max(1.0, std::round(static_cast<double>(per_turn) * end.revolutions));
     if (intervals >= static_cast<double>(most_samples)) {
@@ -91,6 +94,11 @@ void read_quantities(Node const& list, Scene& scene) {
     auto const names = quantity_names();
     for (Node const& node : list.children) {
         std::size_t const index = read_choice(node, "quantity", names);
+        MechanismInfo const& has = info(scene.parts.mechanism);
+        bool const known = index < std::size_t{quantity_count}
+                               ? selects(has.quantities, static_cast<Quantity>(index))
+                               : selects(has.series, static_cast<Series>(index - quantity_count));
+        if (!known) refuse_foreign_quantity(node, names[index], scene.parts.mechanism);
         if (index < std::size_t{quantity_count}) {
             scene.quantities |= Selection{1} << index;
             continue;
@@ -198,8 +206,7 @@ void read_study(Node const& root, Scene& scene) {
 
 void read_recording(Node const& root, Scene& scene) {
     bool const samples = runs_to_end(scene.study);
-    EndTime const end =
-        samples ? read_end_time(root, scene.inputs.crank_speed) : EndTime{run_length(scene).seconds, NAN};
+    EndTime const end = samples ? read_end_time(root, scene) : EndTime{run_length(scene).seconds, NAN};
     RunLength const length = samples ? RunLength{end.seconds, end.seconds, 0} : run_length(scene);
     scene.integrator.end_time = end.seconds;
     if (scene.integrator.method == Method::rk4) {
@@ -207,9 +214,9 @@ void read_recording(Node const& root, Scene& scene) {
     } else if (root.find_path("integrator.max_steps") == nullptr) {
         scene.integrator.max_steps = default_max_steps(length, scene.integrator.max_step);
     }
-    Sampling const sampling = samples ? read_sampling(root, end) : Sampling{};
+    Sampling const sampling = samples ? read_sampling(root, scene, end) : Sampling{};
     scene.sample_times = uniform_times(end.seconds, sampling.count);
-    if (!scene.sample_times.empty()) scene.series = (Selection{1} << state_series) - 1;
+    if (!scene.sample_times.empty()) scene.series = info(scene.parts.mechanism).always;
     if (Node const* const list = root.find_path("study.quantities")) read_quantities(*list, scene);
     read_limits(root, scene);
     if (scene.study == StudyKind::tolerance && scene.quantities == 0) {

@@ -94,12 +94,12 @@ std::vector<double> read_list(Node const& list, Key const& key) {
 }
 
 /// Why a column cannot be run, if it is so.
-std::optional<Problem> broken_column(Inputs inputs, Key const& key, double value) {
+std::optional<Problem> broken_column(Inputs inputs, Parts const& parts, Key const& key, double value) {
     key.set(inputs, value);
     if (key.name == "mechanism.crank_speed" && value == 0) {
         return Problem{"a crank at rest comes to no section", "leave the value out"};
     }
-    auto const found = find_defect(inputs);
+    auto const found = find_defect(inputs, parts);
     if (!found) return std::nullopt;
     return Problem{fmt::format("{} would be {}: {}", found->key->name, with_unit(found->value, found->key->unit),
                                found->problem.reason),
@@ -111,7 +111,7 @@ void check_values(Node const& root, Scene const& scene) {
     auto const& values = scene.chaos.values;
     Node const* const list = root.find_path("study.values");
     auto const check = [&](Node const& node, double value) {
-        auto const problem = broken_column(scene.inputs, key, value);
+        auto const problem = broken_column(scene.inputs, scene.parts, key, value);
         if (problem) refuse(node, with_unit(value, key.unit), *problem);
     };
     if (list != nullptr) {
@@ -121,7 +121,7 @@ void check_values(Node const& root, Scene const& scene) {
     check(*root.find_path("study.from"), values.front());
     check(*root.find_path("study.to"), values.back());
     for (double const value : values) {
-        if (auto const problem = broken_column(scene.inputs, key, value)) {
+        if (auto const problem = broken_column(scene.inputs, scene.parts, key, value)) {
             refuse(*root.find_path("study.points"),
                    {fmt::format("one is {}: {}", with_unit(value, key.unit), problem->reason),
                     "use study.values, or other limits"});
@@ -148,6 +148,12 @@ void read_sweep(Node const& root, Scene& scene) {
             refuse(*node,
                    {fmt::format("{} is where a member starts, and columns start where the one before ended", key.name),
                     "use start = \"fresh\", or another parameter"});
+        }
+        Node const* const phase = root.find_path("study.phase");
+        if (scene.chaos.continued && scene.parts.mechanism == Mechanism::carriage && phase != nullptr &&
+            read_number(*phase, "rad") != 0) {
+            refuse(*node, {"a carriage starts at phase 0, and columns would end at study.phase",
+                           "use start = \"fresh\", or phase = 0"});
         }
     }
 }

@@ -14,6 +14,7 @@ namespace slideway {
 namespace {
 
 bool is_written(Key const& key, Parts const& parts) {
+    if (!key.counts_for(parts.mechanism)) return false;
     bool const restitution = parts.damping == Damping::restitution;
     if (key.name.starts_with("way.")) return parts.misaligned_way;
     if (key.name == "contact.restitution") return restitution;
@@ -47,17 +48,18 @@ std::string quantities_text(Scene const& scene) {
     for (int i = 0; i < quantity_count; ++i) {
         if (selects(scene.quantities, static_cast<Quantity>(i))) add(quantity_table[i].name);
     }
-    for (int i = state_series; i < series_count; ++i) {
-        if (selects(scene.series, static_cast<Series>(i))) add(series_table[i].name);
+    Selection const asked = scene.series & ~info(scene.parts.mechanism).always;
+    for (int i = 0; i < series_count; ++i) {
+        if (selects(asked, static_cast<Series>(i))) add(series_table[i].name);
     }
     return text;
 }
 
 /// Only what counts with the scene's method.
-std::string integrator_table(IntegratorSettings const& settings) {
+std::string integrator_table(IntegratorSettings const& settings, Mechanism mechanism) {
     std::string text = fmt::format("\n[integrator]\nmethod = \"{}\"\n", name_of(settings.method));
     auto const add = [&](std::string_view key, std::string const& value, std::string_view unit = "") {
-        if (!has_effect(key, settings.method)) return;
+        if (!has_effect(key, settings.method, mechanism)) return;
         text += fmt::format("{} = {}{}{}\n", key, value, unit.empty() ? "" : "  # ", unit);
     };
     add("rtol", toml_number(settings.rtol));
@@ -76,14 +78,14 @@ std::string span_line(Span const& span, std::string_view turns, std::string_view
                             : fmt::format("{} = {}  # s\n", time, toml_number(span.value));
 }
 
-std::string section_line(SectionSurface const& section) {
+std::string section_line(SectionSurface const& section, Mechanism mechanism) {
     using On = SectionSurface::On;
     if (section.on == On::phase) return fmt::format("phase = {}  # rad\n", toml_number(section.level));
     std::string const on = section.on == On::state
-                               ? std::string(series_table[section.index].name)
+                               ? std::string(series_table[static_cast<int>(info(mechanism).state[section.index])].name)
                                : fmt::format("{}[P{}]", section.on == On::gap_y ? "gap_y" : "gap_z", section.index + 1);
     return fmt::format("section = {{ on = \"{}\", value = {}, direction = \"{}\" }}  # {}\n", on,
-                       toml_number(section.level), name_of(section.direction), section_unit(section));
+                       toml_number(section.level), name_of(section.direction), section_unit(section, mechanism));
 }
 
 std::string neighbours_text(ChaosSettings const& chaos) {
@@ -120,7 +122,8 @@ std::string study_table(Scene const& scene) {
     }
     if (!scene.stores_members()) text += fmt::format("store = \"{}\"\n", name_of(scene.store));
     if (scene.study == StudyKind::sweep) text += sweep_text(chaos);
-    if (scene.study == StudyKind::poincare || scene.study == StudyKind::sweep) text += section_line(chaos.section);
+    if (scene.study == StudyKind::poincare || scene.study == StudyKind::sweep)
+        text += section_line(chaos.section, scene.parts.mechanism);
     if (chaos.section.on != SectionSurface::On::phase) text += fmt::format("max_crossings = {}\n", chaos.max_crossings);
     if (scene.study == StudyKind::lyapunov || scene.study == StudyKind::sweep) text += neighbours_text(chaos);
     if (scene.study == StudyKind::lyapunov) text += fmt::format("history = {}\n", chaos.history);
@@ -132,14 +135,21 @@ std::string study_table(Scene const& scene) {
 std::string resolved_toml(Scene const& scene) {
     Inputs const complete = complete_inputs(scene.inputs);
     std::string text = fmt::format("schema = 1\ntitle = {}\n", toml_string(scene.title));
-    text += physics_table(scene, complete, "mechanism", fmt::format("kind = \"{}\"\n", scene.mechanism));
+    MechanismInfo const& mechanism = info(scene.parts.mechanism);
+    std::string kind = fmt::format("kind = \"{}\"\n", mechanism.name);
+    if (scene.parts.mechanism == Mechanism::planar_slider_crank) {
+        kind += fmt::format("crank = \"{}\"\n", scene.parts.free_crank ? "free" : "driven");
+    }
+    text += physics_table(scene, complete, "mechanism", kind);
     text += physics_table(scene, complete, "joint", "");
     if (scene.parts.misaligned_way) text += physics_table(scene, complete, "way", "");
     text += physics_table(scene, complete, "contact",
-                          fmt::format("law = \"{}\"\n", scene.parts.law == Law::paper ? "paper" : "conservative"));
+                          mechanism.spatial
+                              ? fmt::format("law = \"{}\"\n", scene.parts.law == Law::paper ? "paper" : "conservative")
+                              : std::string());
     text += physics_table(scene, complete, "friction", fmt::format("enabled = {}\n", scene.parts.friction));
     text += physics_table(scene, complete, "initial", "");
-    text += integrator_table(scene.integrator);
+    text += integrator_table(scene.integrator, scene.parts.mechanism);
     text += study_table(scene);
     return text + members_text(scene);
 }

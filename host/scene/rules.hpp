@@ -24,7 +24,7 @@ struct Defect {
     double value;
     Problem problem;
 };
-std::optional<Defect> find_defect(Inputs const& inputs);
+std::optional<Defect> find_defect(Inputs const& inputs, Parts const& parts);
 
 /// "0.05 m"; a plain number for the unit "1".
 std::string with_unit(double value, std::string_view unit);

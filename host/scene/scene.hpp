@@ -18,7 +18,6 @@ namespace slideway {
 struct Scene {
     std::string path;  // as the user gave it
     std::string title;
-    std::string mechanism = "slider_crank";
     Inputs inputs;  // as given; entries that follow others are NaN
     Parts parts;
     IntegratorSettings integrator;  // end_time and max_step resolved

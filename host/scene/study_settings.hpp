@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <string_view>
 #include <vector>
 
@@ -27,16 +26,13 @@ enum class Store { members, statistics };
 inline constexpr std::string_view store_names[] = {"members", "statistics"};
 constexpr std::string_view name_of(Store store) { return store_names[static_cast<int>(store)]; }
 
-/// A length of time: seconds, or revolutions of the member's own crank.
+/// A length of time: seconds, or revolutions of the member's own crank, periods of what drives it.
 struct Span {
     double value = 0;
     bool revolutions = false;
 
-    /// Infinite where revolutions are asked of a crank at rest.
-    double seconds(double crank_speed) const {
-        if (!revolutions || value == 0) return value;
-        return value * (2 * std::numbers::pi / std::abs(crank_speed));
-    }
+    /// @param period of the drive [s]; infinite, so is what is asked in revolutions
+    double seconds(double period) const { return !revolutions || value == 0 ? value : value * period; }
     friend bool operator==(Span const&, Span const&) = default;
 };
 
@@ -47,26 +43,27 @@ constexpr std::string_view name_of(CrossingDirection direction) {
     return crossing_direction_names[static_cast<int>(direction)];
 }
 
-/// Where a section of the orbit is taken: at a crank angle, a known time, or where a state or a gap crosses a level.
+/// Where a section of the orbit is taken: at a phase of the drive, a known time, or where a state or a gap crosses a level.
 /// A gap is the penetration of an apex, negated: > 0 apart.
 struct SectionSurface {
     enum class On { phase, state, gap_y, gap_z };
     On on = On::phase;
-    int index = 0;     // of the state (y z vy vz roll yaw pitch wx wy wz), or of the apex, P1…P8 from 0
-    double level = 0;  // crank angle [rad], any turn of it; else the state's unit, or [m] of the gap
+    int index = 0;  // in the mechanism's state (mechanism_info.hpp), or of the apex, P1…P8 from 0
+    double level =
+        0;  // crank angle, or phase of the carriage [rad], any turn; else the state's unit, or [m] of the gap
     CrossingDirection direction = CrossingDirection::rising;  // a phase has none
 
     friend bool operator==(SectionSurface const&, SectionSurface const&) = default;
 };
 
 /// SI unit of a section's level, as keys have it.
-std::string_view section_unit(SectionSurface const& section);
+std::string_view section_unit(SectionSurface const& section, Mechanism mechanism);
 
 /// How many parts of this length fit into the whole, but for rounding.  Where both count revolutions, or both seconds,
 /// all members have as many.
-inline double parts_of(Span const& whole, Span const& part, double crank_speed) {
+inline double parts_of(Span const& whole, Span const& part, double period) {
     bool const same = whole.revolutions == part.revolutions;
-    double const parts = same ? whole.value / part.value : whole.seconds(crank_speed) / part.seconds(crank_speed);
+    double const parts = same ? whole.value / part.value : whole.seconds(period) / part.seconds(period);
     return std::floor(parts * (1 + 1e-12) + 1e-9);
 }
 

@@ -36,11 +36,19 @@ std::uint64_t pays_from(Isa isa, int threads) {
 
 BackendChoice choose_backend(BackendRequest const& request, Scene const& scene, std::uint64_t members) {
     using Kind = BackendRequest::Kind;
-    if (request.kind == Kind::cuda) return {cuda_backend(request.share), ""};
+    std::string const foreign =
+        scene.parts.mechanism == Mechanism::slider_crank
+            ? std::string()
+            : fmt::format("kernels for cards are of slider_crank alone, not of {}", info(scene.parts.mechanism).name);
+    if (request.kind == Kind::cuda) {
+        if (!foreign.empty()) throw DeviceError(fmt::format("--backend cuda: {}; use --backend cpu", foreign));
+        return {cuda_backend(request.share), ""};
+    }
     Isa const isa = request.isa.value_or(best_isa());
     auto const cpu = cpu_backend(isa);
     if (request.kind == Kind::cpu) return {cpu, ""};
     if (request.isa) return {cpu, "as --isa says"};
+    if (!foreign.empty()) return {cpu, foreign};
     try {
         auto const card = cuda_backend(request.share);
         std::string const objection = objection_to(*card, request, isa, scene, members);

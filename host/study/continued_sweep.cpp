@@ -10,22 +10,22 @@
 namespace slideway {
 namespace {
 
-using State = std::array<double, state_size>;
-
-/// Where a start stands: the state in which its member of the last column ended, if that one finished, and the gaps there.
+/// Where a start stands: the inputs that start in the state in which its member of the last column ended, if that one finished.
 struct Place {
-    State state{};
-    double gap_y = 1, gap_z = 1;
+    Inputs there;
     bool is_known = false;
 };
 
 /// A state of a joint in another one: places and velocities keep their share of the clearance, tilts that of the tighter
 /// gap.  Else a slider that lay on its way would begin the next column inside it, or in the air.
-void put(Inputs& inputs, Place const& place) {
-    double const along_y = inputs.clearance_y / place.gap_y, along_z = inputs.clearance_z / place.gap_z;
-    double const tilt = std::min(along_y, along_z);
-    double const share[state_size] = {along_y, along_z, along_y, along_z, tilt, tilt, tilt, tilt, tilt, tilt};
-    for (std::size_t i = 0; i < state_size; ++i) inputs.*state_inputs[i] = share[i] * place.state[i];
+void put(Inputs& inputs, Inputs const& there, bool spatial) {
+    double const along_y = inputs.clearance_y / there.clearance_y, along_z = inputs.clearance_z / there.clearance_z;
+    double const tilt = spatial ? std::min(along_y, along_z) : along_y;
+    for (auto const input : {&Inputs::y, &Inputs::vy}) inputs.*input = along_y * there.*input;
+    for (auto const input : {&Inputs::z, &Inputs::vz}) inputs.*input = along_z * there.*input;
+    for (auto const input : {&Inputs::roll, &Inputs::yaw, &Inputs::pitch, &Inputs::wx, &Inputs::wy, &Inputs::wz}) {
+        inputs.*input = tilt * there.*input;
+    }
 }
 
 /// Runs some starts through the columns.
@@ -77,12 +77,10 @@ private:
         return turns;
     }
 
-    void remember(Place& place, std::uint64_t of_member, bool finished, std::span<double const> state) const {
-        Inputs const inputs = member_inputs(scene_, of_member);
-        place.gap_y = inputs.clearance_y;
-        place.gap_z = inputs.clearance_z;
+    void remember(Place& place, std::uint64_t of_member, bool finished, StateNumbers const& state) const {
+        place.there = member_inputs(scene_, of_member);
         place.is_known = finished;
-        std::copy_n(state.begin(), state_size, place.state.begin());
+        if (finished) set_start(scene_.parts.mechanism, state, place.there);
     }
 
     bool run_column(std::uint64_t column, std::vector<Turn> const& turns, BlockBuffers& buffers,
@@ -113,15 +111,16 @@ private:
             auto const at = std::lower_bound(members.begin(), members.end(), m) - members.begin();
             Place const& place = places[places_of[static_cast<std::size_t>(at)]];
             if (!place.is_known) return true;
-            put(inputs, place);
+            put(inputs, place.there, info(scene_.parts.mechanism).spatial);
             inputs.start_angle = scene_.chaos.section.level;  // where the column before has ended
             return true;
         };
         buffers.run(kernel_, request_, source, stop_, members);
         BlockResult const result = buffers.result();
         for (std::size_t i = 0; i < members.size(); ++i) {
-            remember(places[places_of[i]], members[i], result.records[i].status == Status::finished,
-                     result.final_states.subspan(i * state_size, state_size));
+            StateNumbers state{};
+            std::copy_n(&result.final_states[i * result.states()], result.states(), state.begin());
+            remember(places[places_of[i]], members[i], result.records[i].status == Status::finished, state);
         }
         return !emit || emit(buffers);
     }

@@ -1,20 +1,20 @@
 // A sweep whose columns go on from each other.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <optional>
 
 #include "host/backend/backend.hpp"
 #include "host/driver/ensemble.hpp"
 #include "host/scene/scene.hpp"
+#include "host/study/state_numbers.hpp"
 
 namespace slideway {
 
 /// How a member ended in an earlier run.
 struct MemberEnd {
     bool finished;
-    std::array<double, state_size> state;
+    StateNumbers state;
 };
 using MemberEnds = std::function<std::optional<MemberEnd>(std::uint64_t member)>;
 

@@ -12,13 +12,17 @@ namespace slideway {
 namespace {
 
 /// A smaller gap is crossed more often: from 0.5 to 0.05 mm the steps per second rise 1.6-fold (paper) to 6-fold (conservative).
-double predicted_cost(Inputs const& inputs) { return 1 / std::min(inputs.clearance_y, inputs.clearance_z); }
+MemberCost predicted_cost(Mechanism mechanism) {
+    if (!info(mechanism).spatial) return [](Inputs const& inputs) { return 1 / inputs.clearance_y; };
+    return [](Inputs const& inputs) { return 1 / std::min(inputs.clearance_y, inputs.clearance_z); };
+}
 
 }  // namespace
 
 ResultLayout result_layout(Scene const& scene, MemberSet const& members) {
     ResultLayout layout;
     layout.members = members;
+    layout.mechanism = scene.parts.mechanism;
     layout.sample_times = scene.sample_times;
     layout.quantities = scene.quantities;
     layout.series = scene.series;
@@ -48,15 +52,18 @@ BlockRequest block_request(Scene const& scene) {
                          scene.sample_times,
                          scene.quantities,
                          scene.series,
-                         predicted_cost,
+                         predicted_cost(scene.parts.mechanism),
                          schedule.timing,
                          schedule.stops,
                          schedule.sections,
                          schedule.crossings,
                          shadow_plan(scene),
                          {}};
-    request.directions = [seed = scene.seed, shadows = request.shadows.count](std::uint64_t member, double* out) {
-        draw_directions(seed, member, shadows, out);
+    int const states = info(scene.parts.mechanism).states;
+    request.states = static_cast<std::size_t>(states);
+    request.directions = [seed = scene.seed, shadows = request.shadows.count, states](std::uint64_t member,
+                                                                                      double* out) {
+        draw_directions(seed, member, shadows, states, out);
     };
     return request;
 }
@@ -81,7 +88,7 @@ EnsemblePlan ensemble_plan(Scene const& scene, MemberSet const& members, Backend
     plan.blocks.bounds = backend.bounds(demand_of(scene, plan.request, plan.threads, block_members));
     plan.source = [&scene](std::uint64_t member, Inputs& inputs) {
         inputs = member_inputs(scene, member);
-        return !defect(inputs);
+        return !defect(inputs, scene.parts);
     };
     return plan;
 }

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "host/scene/drive_period.hpp"
 
 namespace slideway {
 namespace {
@@ -24,7 +25,8 @@ double dimension(std::vector<double> exponents, double resolution) {
 }  // namespace
 
 ExponentTable::ExponentTable(Scene const& scene)
-    : schedule_(orbit_schedule(scene)),
+    : parts_(scene.parts),
+      schedule_(orbit_schedule(scene)),
       exponents_(static_cast<std::size_t>(shadow_plan(scene).count)),
       d0_(scene.chaos.d0) {
     if (exponents_ == 0) return;
@@ -107,7 +109,7 @@ ExponentTable::Member ExponentTable::member(BlockResult const& block, std::size_
     std::size_t const per_member = schedule_.stops.growths() * exponents_;
     GrowthLog log{block.growths.subspan(i * per_member, per_member), exponents_,
                   spacing * static_cast<double>(schedule_.stops.growth_every)};
-    double const per_turn = 2 * std::numbers::pi / (std::abs(inputs.crank_speed) * log.length);
+    double const per_turn = drive_period(parts_, inputs) / log.length;
     // Records that do not divide a turn have no period of its own.
     bool const divides = std::abs(per_turn - std::round(per_turn)) < 1e-6 * per_turn && per_turn >= 0.5;
     if (divides && per_turn < 1e9) log.period = static_cast<std::size_t>(std::round(per_turn));

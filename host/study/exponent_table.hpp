@@ -40,6 +40,7 @@ private:
     void add_history(std::size_t points);
     Member member(BlockResult const& block, std::size_t i) const;
 
+    Parts const parts_;
     OrbitSchedule const schedule_;
     std::size_t const exponents_;
     double const d0_;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "host/scene/drive_period.hpp"
 #include "host/scene/sampling.hpp"
 
 namespace slideway {
@@ -11,8 +11,6 @@ namespace {
 
 // Records of growth, for the history and its errors: at least as many where there are as many rescalings, and not far more.
 constexpr std::size_t least_records = 256, most_records = 4096;
-
-double period(Inputs const& inputs) { return 2 * std::numbers::pi / std::abs(inputs.crank_speed); }
 
 std::size_t whole(double ratio) { return static_cast<std::size_t>(std::max(0.0, std::round(ratio))); }
 
@@ -35,16 +33,16 @@ std::size_t rescalings_per_record(std::size_t rescalings, std::size_t repetition
 /// Rescalings every dt from the start; those of the transient leave no record.
 OrbitSchedule of_exponents(Scene const& scene) {
     ChaosSettings const& chaos = scene.chaos;
-    double const speed = scene.inputs.crank_speed, dt = chaos.dt.seconds(speed);
+    double const turn = drive_period(scene.parts, scene.inputs), dt = chaos.dt.seconds(turn);
     OrbitSchedule schedule;
     StopPlan& stops = schedule.stops;
-    std::size_t const rescalings = std::max<std::size_t>(1, whole(chaos.span.seconds(speed) / dt));
+    std::size_t const rescalings = std::max<std::size_t>(1, whole(chaos.span.seconds(turn) / dt));
     stops.growth_every = rescalings_per_record(rescalings, 1, std::max(least_records, chaos.history));
     std::size_t const records = (rescalings + stops.growth_every - 1) / stops.growth_every;
-    stops.transient = std::max<std::size_t>(1, whole(chaos.transient.seconds(speed) / dt)) - 1;
+    stops.transient = std::max<std::size_t>(1, whole(chaos.transient.seconds(turn) / dt)) - 1;
     stops.count = stops.transient + records * stops.growth_every + 1;
-    schedule.timing = [spacing = chaos.dt, count = stops.count](Inputs const& inputs) {
-        double const length = spacing.seconds(inputs.crank_speed);
+    schedule.timing = [parts = scene.parts, spacing = chaos.dt, count = stops.count](Inputs const& inputs) {
+        double const length = spacing.seconds(drive_period(parts, inputs));
         return clock(length, length, count);
     };
     return schedule;
@@ -53,11 +51,11 @@ OrbitSchedule of_exponents(Scene const& scene) {
 /// Sections once a revolution, with rescalings at equal times between them if there are shadows.
 OrbitSchedule of_sections(Scene const& scene) {
     ChaosSettings const& chaos = scene.chaos;
-    double const speed = scene.inputs.crank_speed, turn = period(scene.inputs);
+    double const turn = drive_period(scene.parts, scene.inputs);
     std::size_t const per_turn =
-        chaos.exponents > 0 ? std::max<std::size_t>(1, whole(turn / chaos.dt.seconds(speed))) : 1;
-    std::size_t const transient = whole(std::ceil(chaos.transient.seconds(speed) / turn - 1e-9));
-    std::size_t const sections = std::max<std::size_t>(1, whole(chaos.span.seconds(speed) / turn));
+        chaos.exponents > 0 ? std::max<std::size_t>(1, whole(turn / chaos.dt.seconds(turn))) : 1;
+    std::size_t const transient = whole(std::ceil(chaos.transient.seconds(turn) / turn - 1e-9));
+    std::size_t const sections = std::max<std::size_t>(1, whole(chaos.span.seconds(turn) / turn));
     OrbitSchedule schedule;
     schedule.sections = true;
     schedule.stops.transient = transient * per_turn;
@@ -68,8 +66,10 @@ OrbitSchedule of_sections(Scene const& scene) {
         schedule.stops.growth_lead = transient > 0 ? per_turn : 0;
         schedule.stops.growth_every = rescalings_per_record(per_turn, sections);
     }
-    schedule.timing = [phase = chaos.section.level, per_turn, count = schedule.stops.count](Inputs const& inputs) {
-        return clock(first_time_at(phase, inputs), period(inputs) / static_cast<double>(per_turn), count);
+    schedule.timing = [parts = scene.parts, phase = chaos.section.level, per_turn,
+                       count = schedule.stops.count](Inputs const& inputs) {
+        double const spacing = drive_period(parts, inputs) / static_cast<double>(per_turn);
+        return clock(first_time_at(phase, parts, inputs), spacing, count);
     };
     return schedule;
 }
@@ -84,22 +84,14 @@ OrbitSchedule of_crossings(Scene const& scene) {
                           : chaos.section.on == On::gap_y ? CrossingPlan::On::gap_y
                                                           : CrossingPlan::On::gap_z,
                           chaos.section.direction, chaos.section.index, chaos.section.level, chaos.max_crossings};
-    schedule.timing = [transient = chaos.transient, span = chaos.span](Inputs const& inputs) {
-        double const from = transient.seconds(inputs.crank_speed);
-        return MemberClock{from + span.seconds(inputs.crank_speed), from, 0};
+    schedule.timing = [parts = scene.parts, transient = chaos.transient, span = chaos.span](Inputs const& inputs) {
+        double const period = drive_period(parts, inputs), from = transient.seconds(period);
+        return MemberClock{from + span.seconds(period), from, 0};
     };
     return schedule;
 }
 
 }  // namespace
-
-double first_time_at(double phase, Inputs const& inputs) {
-    double const turn = period(inputs);
-    double const time = std::fmod((phase - inputs.start_angle) / inputs.crank_speed, turn);
-    double const positive = time > 0 ? time : time + turn;
-    // A start at the angle itself is no return to it.
-    return positive > 1e-9 * turn ? positive : positive + turn;
-}
 
 OrbitSchedule orbit_schedule(Scene const& scene) {
     OrbitSchedule schedule;
@@ -117,18 +109,18 @@ ShadowPlan shadow_plan(Scene const& scene) {
     return {chaos.exponents, chaos.d0, chaos.d0_lower, chaos.d0_upper, nullptr};
 }
 
-void draw_directions(std::uint64_t seed, std::uint64_t member, int shadows, double* directions) {
+void draw_directions(std::uint64_t seed, std::uint64_t member, int shadows, int states, double* directions) {
     for (int shadow = 0; shadow < shadows; ++shadow) {
-        double* const w = directions + shadow * state_size;
+        double* const w = directions + shadow * states;
         double squares = 0;
-        for (int i = 0; i < state_size; ++i) {
-            auto const place = static_cast<std::uint64_t>(shadow * state_size + i);
+        for (int i = 0; i < states; ++i) {
+            auto const place = static_cast<std::uint64_t>(shadow * states + i);
             std::uint64_t const word = philox({member, place, 0, 0}, {seed, name_hash("shadow")})[0];
             w[i] = static_cast<double>(static_cast<std::int64_t>(word >> 11)) * 0x1p-52 - 1;  // in [-1, 1)
             squares += w[i] * w[i];
         }
         double const length = std::sqrt(squares);
-        for (int i = 0; i < state_size; ++i) w[i] /= length;
+        for (int i = 0; i < states; ++i) w[i] /= length;
     }
 }
 

@@ -8,8 +8,8 @@
 
 namespace slideway {
 
-/// A study's stops.  All members have as many, at times of their own: a revolution is that of the member's crank.  How many is
-/// decided by the crank speed of the scene.
+/// A study's stops.  All members have as many, at times of their own: a revolution is the period of the member's drive.  How many
+/// is decided by the drive of the scene.
 struct OrbitSchedule {
     StopPlan stops;
     MemberTiming timing;
@@ -24,13 +24,10 @@ struct OrbitSchedule {
 /// Empty for an ensemble.
 OrbitSchedule orbit_schedule(Scene const& scene);
 
-/// First time in (0, T] at which the crank has the angle `phase` [s]; T = 2π/|ω|.
-double first_time_at(double phase, Inputs const& inputs);
-
 /// Shadows as a study asks for them, without directions.
 ShadowPlan shadow_plan(Scene const& scene);
 
-/// Unit vectors [shadows][state_size], drawn by seed, member and shadow alone.
-void draw_directions(std::uint64_t seed, std::uint64_t member, int shadows, double* directions);
+/// Unit vectors [shadows][states], drawn by seed, member and shadow alone.
+void draw_directions(std::uint64_t seed, std::uint64_t member, int shadows, int states, double* directions);
 
 }  // namespace slideway

@@ -75,7 +75,8 @@ StepRange steps_of_member(Scene const& scene) {
         return {steps, steps};
     }
     double const least = end / scene.integrator.max_step + stops;
-    return {least, least + end * stiffest_rate(complete_inputs(scene.inputs)) * contact_steps(scene.integrator)};
+    return {least, least + end * stiffest_rate(scene.parts.mechanism, complete_inputs(scene.inputs)) *
+                               contact_steps(scene.integrator)};
 }
 
 /// How many shards members become at most: their blocks, of the dearest members that are foreseen.
@@ -106,7 +107,13 @@ std::uint64_t most_shards(Scene const& scene, MemberSet const& members, Ensemble
 
 }  // namespace
 
-double stiffest_rate(Inputs const& in) {
+double stiffest_rate(Mechanism mechanism, Inputs const& in) {
+    if (!info(mechanism).spatial) {
+        double const n = in.hertz_exponent, speed = std::abs(in.crank_speed) * in.crank_length;
+        double const depth = std::pow((n + 1) * in.slider_mass * speed * speed / (4 * in.point_stiffness), 1 / (n + 1));
+        double const stiffness = 2 * n * in.point_stiffness * std::pow(depth, n - 1), arm = in.slider_length / 2;
+        return std::sqrt(stiffness * std::max(1 / in.slider_mass, arm * arm / in.slider_inertia_z));
+    }
     double const e1 = in.slider_young_modulus, e2 = in.way_young_modulus;
     double const series = 2 * e1 * e2 / (e1 + e2);
     auto const face = [&](double width, double thickness, double rocking_inertia) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "host/study/result_summary.hpp"
+#include "host/study/state_numbers.hpp"
 
 namespace slideway {
 namespace {
@@ -22,6 +23,10 @@ void probe_group(StateTable const& table, std::vector<std::size_t> const& rows, 
     std::vector<ProbeResult> group(rows.size());
     find_instance(isa, table.parts[rows.front()]).probe({inputs.data(), times.data(), rows.size(), group.data()});
     for (std::size_t i = 0; i < rows.size(); ++i) results[rows[i]] = group[i];
+}
+
+char const* name_of_state(MechanismInfo const& mechanism, int i) {
+    return series_table[static_cast<int>(mechanism.state[i])].name;
 }
 
 }  // namespace
@@ -42,27 +47,34 @@ std::vector<ProbeResult> probe(StateTable const& table, Isa isa) {
     return results;
 }
 
-std::vector<std::pair<std::string, double>> result_columns(ProbeResult const& result) {
+std::vector<std::pair<std::string, double>> result_columns(Mechanism mechanism, ProbeResult const& result) {
+    MechanismInfo const& has = info(mechanism);
     std::vector<std::pair<std::string, double>> columns;
-    for (int i = 0; i < state_size; ++i) {
-        columns.emplace_back(fmt::format("d_{}", series_table[i].name), result.derivative[i]);
+    for (int i = 0; i < has.states; ++i) {
+        columns.emplace_back(fmt::format("d_{}", name_of_state(has, i)), result.derivative[i]);
     }
     columns.emplace_back("power_crank", result.power_crank);
     columns.emplace_back("power_friction", result.power_friction);
     columns.emplace_back("power_damping", result.power_damping);
-    auto const add_apices = [&](std::string_view prefix, double const(&values)[8]) {
-        for (int i = 0; i < 8; ++i) columns.emplace_back(fmt::format("{}_P{}", prefix, i + 1), values[i]);
+    int const places = has.spatial ? 8 : 4;
+    auto const add_places = [&](std::string_view prefix, double const(&values)[8]) {
+        for (int i = 0; i < places; ++i) columns.emplace_back(fmt::format("{}{}", prefix, i + 1), values[i]);
     };
-    add_apices("pen_y", result.penetration_y);
-    add_apices("pen_z", result.penetration_z);
-    add_apices("fn_y", result.normal_force_y);
-    add_apices("fn_z", result.normal_force_z);
+    if (has.spatial) {
+        add_places("pen_y_P", result.penetration_y);
+        add_places("pen_z_P", result.penetration_z);
+        add_places("fn_y_P", result.normal_force_y);
+        add_places("fn_z_P", result.normal_force_z);
+    } else {
+        add_places("pen_C", result.penetration_y);
+        add_places("fn_C", result.normal_force_y);
+    }
     columns.emplace_back("surfaces", result.surfaces);
     columns.emplace_back("lines", result.lines);
     columns.emplace_back("points", result.points);
     columns.emplace_back("energy", result.energy);
     columns.emplace_back("contact_potential", result.contact_potential);
-    columns.emplace_back("crank_torque", result.crank_torque);
+    if (selects(has.series, Series::crank_torque)) columns.emplace_back("crank_torque", result.crank_torque);
     return columns;
 }
 
@@ -70,15 +82,18 @@ void write_probe_csv(std::ostream& out, StateTable const& table, std::vector<Pro
     std::string line;
     for (std::string const& name : table.parameter_names) line += name + ',';
     line += 't';
-    for (int i = 0; i < state_size; ++i) line += fmt::format(",{}", series_table[i].name);
-    for (auto const& [name, value] : result_columns({})) line += ',' + name;
+    MechanismInfo const& has = info(table.mechanism);
+    for (int i = 0; i < has.states; ++i) line += fmt::format(",{}", name_of_state(has, i));
+    for (auto const& [name, value] : result_columns(table.mechanism, {})) line += ',' + name;
     out << line << ",status\n";
     for (std::size_t row = 0; row < table.rows(); ++row) {
         line.clear();
         for (std::string const& text : table.parameter_texts[row]) line += text + ',';
         line += fmt::format("{:.17g}", table.times[row]);
-        for (auto const input : state_inputs) line += fmt::format(",{:.17g}", table.inputs[row].*input);
-        for (auto const& [name, value] : result_columns(results[row])) line += fmt::format(",{:.17g}", value);
+        StateNumbers const state = start_of(table.mechanism, table.inputs[row]);
+        for (int i = 0; i < has.states; ++i) line += fmt::format(",{:.17g}", state[static_cast<std::size_t>(i)]);
+        for (auto const& [name, value] : result_columns(table.mechanism, results[row]))
+            line += fmt::format(",{:.17g}", value);
         out << line << ',' << name_of(results[row].status) << '\n';
     }
 }

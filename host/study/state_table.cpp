@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <istream>
+#include <numbers>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/scene/csv.hpp"
 #include "host/scene/suggest.hpp"
+#include "host/study/state_numbers.hpp"
 
 namespace slideway {
 namespace {
@@ -17,27 +20,49 @@ struct Column {
     enum class Kind { ignored, time, state, law, key };
     Kind kind = Kind::ignored;
     std::string name;
-    double Inputs::*state = nullptr;
+    std::size_t state = 0;  // its place
     Key const* key = nullptr;
 };
 
-Column column_of(std::string_view name, CsvReader const& lines) {
+std::vector<std::string_view> state_names(Mechanism mechanism) {
+    std::vector<std::string_view> names;
+    for (int i = 0; i < info(mechanism).states; ++i) {
+        names.emplace_back(series_table[static_cast<int>(info(mechanism).state[i])].name);
+    }
+    return names;
+}
+
+/// What starts a member in a state, which has columns of its own.
+bool starts_a_state(std::string_view name, Mechanism mechanism) {
+    bool const crank = name == "mechanism.start_angle" || name == "mechanism.crank_speed";
+    return name.starts_with("initial.") || (crank && !info(mechanism).spatial);
+}
+
+[[noreturn]] void fail_meaningless(std::string_view name, Mechanism mechanism, CsvReader const& lines) {
+    lines.fail(fmt::format("column {}: has no meaning for kind = \"{}\"; remove it", name, info(mechanism).name));
+}
+
+Column column_of(std::string_view name, Mechanism mechanism, CsvReader const& lines) {
     Column column;
     column.name = name;
     if (name == "t") {
         column.kind = Column::Kind::time;
     } else if (name == "contact.law") {
         column.kind = Column::Kind::law;
+        if (!info(mechanism).spatial) fail_meaningless(name, mechanism, lines);
     } else if (name.find('.') == name.npos) {
-        for (int i = 0; i < state_size; ++i) {
-            if (name != series_table[i].name) continue;
-            column.kind = Column::Kind::state;
-            column.state = state_inputs[i];
-        }
+        auto const names = state_names(mechanism);
+        auto const found = std::find(names.begin(), names.end(), name);
+        if (found != names.end()) column.kind = Column::Kind::state;
+        column.state = static_cast<std::size_t>(found - names.begin());
     } else if (column.key = find_key(name); column.key != nullptr) {
         column.kind = Column::Kind::key;
-        if (name.starts_with("initial.")) {
-            lines.fail(fmt::format("column {}: the state to probe stands in the column {}", name, name.substr(8)));
+        if (!column.key->counts_for(mechanism)) fail_meaningless(name, mechanism, lines);
+        if (starts_a_state(name, mechanism)) {
+            lines.fail(info(mechanism).spatial
+                           ? fmt::format("column {}: the state to probe stands in the column {}", name, name.substr(8))
+                           : fmt::format("column {}: the state to probe stands in the columns {}", name,
+                                         fmt::join(state_names(mechanism), ", ")));
         }
     } else {
         std::vector<std::string_view> names{"contact.law"};
@@ -52,10 +77,10 @@ Column column_of(std::string_view name, CsvReader const& lines) {
     return column;
 }
 
-std::vector<Column> read_header(CsvReader const& lines) {
+std::vector<Column> read_header(Mechanism mechanism, CsvReader const& lines) {
     std::vector<Column> columns;
     for (std::string const& name : lines.fields()) {
-        Column column = column_of(name, lines);
+        Column column = column_of(name, mechanism, lines);
         if (column.kind != Column::Kind::ignored) {
             for (Column const& other : columns) {
                 if (other.name == column.name) lines.fail(fmt::format("column {}: stands there twice", name));
@@ -69,12 +94,12 @@ std::vector<Column> read_header(CsvReader const& lines) {
     auto const need = [&](std::string_view name) {
         auto const has_name = [&](Column const& column) { return column.name == name; };
         if (std::none_of(columns.begin(), columns.end(), has_name)) {
-            lines.fail(fmt::format(
-                "column {}: is missing; the table needs t, y, z, vy, vz, roll, yaw, pitch, wx, wy, wz", name));
+            lines.fail(fmt::format("column {}: is missing; the table needs t, {}", name,
+                                   fmt::join(state_names(mechanism), ", ")));
         }
     };
     need("t");
-    for (int i = 0; i < state_size; ++i) need(series_table[i].name);
+    for (std::string_view const name : state_names(mechanism)) need(name);
     return columns;
 }
 
@@ -102,6 +127,7 @@ void add_row(StateTable& table, std::vector<Column> const& columns, Scene const&
     }
     Inputs inputs = scene.inputs;
     Parts parts = scene.parts;
+    StateNumbers state{};
     double time = 0;
     std::vector<std::string> texts;
     for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -113,7 +139,7 @@ void add_row(StateTable& table, std::vector<Column> const& columns, Scene const&
                 time = number(cells[i], column, lines);
                 break;
             case Column::Kind::state:
-                inputs.*column.state = number(cells[i], column, lines);
+                state[column.state] = number(cells[i], column, lines);
                 break;
             case Column::Kind::law:
                 parts.law = law(cells[i], lines);
@@ -128,8 +154,15 @@ void add_row(StateTable& table, std::vector<Column> const& columns, Scene const&
         }
     }
     if (!std::isfinite(time)) lines.fail("column t: is not a finite number");
+    if (!info(parts.mechanism).spatial && !(std::abs(state[1]) < std::numbers::pi / 2)) {
+        lines.fail(
+            fmt::format("column rod_angle: {} rad (the rod is to point along the way); use a value within a "
+                        "right angle of 0",
+                        state[1]));
+    }
+    set_start(parts.mechanism, state, inputs);
     inputs = complete_inputs(inputs);
-    if (auto const why = defect(inputs)) lines.fail(*why);
+    if (auto const why = defect(inputs, parts)) lines.fail(*why);
     table.inputs.push_back(inputs);
     table.parts.push_back(parts);
     table.times.push_back(time);
@@ -140,8 +173,10 @@ void add_row(StateTable& table, std::vector<Column> const& columns, Scene const&
 
 StateTable start_state(Scene const& scene) {
     StateTable table;
+    table.mechanism = scene.parts.mechanism;
     table.inputs = {complete_inputs(scene.inputs)};
-    if (auto const why = defect(table.inputs[0])) throw SceneError(fmt::format("{}: {}", scene.path, *why));
+    if (auto const why = defect(table.inputs[0], scene.parts))
+        throw SceneError(fmt::format("{}: {}", scene.path, *why));
     table.parts = {scene.parts};
     table.times = {0.0};
     table.parameter_texts.resize(1);
@@ -151,8 +186,9 @@ StateTable start_state(Scene const& scene) {
 StateTable read_state_table(std::istream& in, std::string const& name, Scene const& scene) {
     CsvReader lines(in, name);
     if (!lines.next()) lines.fail("the table is empty");
-    std::vector<Column> const columns = read_header(lines);
+    std::vector<Column> const columns = read_header(scene.parts.mechanism, lines);
     StateTable table;
+    table.mechanism = scene.parts.mechanism;
     for (Column const& column : columns) {
         if (column.kind == Column::Kind::law || column.kind == Column::Kind::key) {
             table.parameter_names.push_back(column.name);

@@ -9,12 +9,8 @@
 
 namespace slideway {
 
-/// The inputs that make up the state, in its order.
-inline constexpr double Inputs::*state_inputs[state_size] = {&Inputs::y,    &Inputs::z,   &Inputs::vy,    &Inputs::vz,
-                                                             &Inputs::roll, &Inputs::yaw, &Inputs::pitch, &Inputs::wx,
-                                                             &Inputs::wy,   &Inputs::wz};
-
 struct StateTable {
+    Mechanism mechanism = Mechanism::slider_crank;          // of all rows
     std::vector<std::string> parameter_names;               // dotted keys, in the order of the input
     std::vector<std::vector<std::string>> parameter_texts;  // [row][parameter], as they are to be printed
     std::vector<Inputs> inputs;                             // [rows], complete; the initial state is the one to probe
@@ -27,7 +23,7 @@ struct StateTable {
 /// The scene's start at t = 0.  @throws SceneError if the scene's inputs cannot be used.
 StateTable start_state(Scene const& scene);
 
-/// Reads columns in any order: t and the ten states (needed), `contact.law` and numeric keys of the scene (override
+/// Reads columns in any order: t and the mechanism's states (needed), `contact.law` and numeric keys of the scene (override
 /// it); a column without a dot in its name that is none of these is ignored.  A row has the kernel parts that its
 /// parameters need: the rates where a χ is not zero, the way's pose where one of its entries is not zero, friction if
 /// the scene has it or the table has a friction.* column.

@@ -23,7 +23,8 @@ std::string to_bytes(EnsembleTotals const& totals) {
 }
 
 /// The ends of those of the members that earlier runs have finished.
-MemberEnds recalled_ends(std::string const& path, MemberSet const& wanted) {
+MemberEnds recalled_ends(std::string const& path, Mechanism mechanism, MemberSet const& wanted) {
+    MechanismInfo const& has = info(mechanism);
     auto const ends = std::make_shared<std::unordered_map<std::uint64_t, MemberEnd>>();
     ShardFolder const folder(path);
     for (Shard const& shard : folder.listed()) {
@@ -41,10 +42,12 @@ MemberEnds recalled_ends(std::string const& path, MemberSet const& wanted) {
                 for (std::size_t i = 0; i < members.size(); ++i)
                     of_shard[i].finished = statuses[i] == static_cast<signed char>(Status::finished);
             }
-            for (std::size_t k = 0; k < state_size; ++k) {
-                if (variable.name != std::string("final_") + series_table[k].name) continue;
+            for (int k = 0; k < has.states; ++k) {
+                if (variable.name != std::string("final_") + series_table[static_cast<int>(has.state[k])].name)
+                    continue;
                 file.read(variable.id, start, count, column.data());
-                for (std::size_t i = 0; i < members.size(); ++i) of_shard[i].state[k] = column[i];
+                for (std::size_t i = 0; i < members.size(); ++i)
+                    of_shard[i].state[static_cast<std::size_t>(k)] = column[i];
             }
         }
         for (std::size_t i = 0; i < members.size(); ++i) {
@@ -80,8 +83,9 @@ EnsembleTotals compute(Scene const& scene, StudyOptions const& options, StudyWor
     plan.workers = plan.threads * ranks;
     BlockKernel const kernel = options.backend->kernel(scene.parts, plan.request.shadows.count > 0);
     if (is_continued(scene)) {
-        MemberEnds const ends =
-            work.before > 0 ? recalled_ends(folder, members_before(scene, work.todo)) : MemberEnds{};
+        MemberEnds const ends = work.before > 0
+                                    ? recalled_ends(folder, scene.parts.mechanism, members_before(scene, work.todo))
+                                    : MemberEnds{};
         continue_columns(scene, plan, work.todo, kernel, ends, stop);
     }
     auto const writer = shard_writer(scene, folder, provenance(scene, *options.backend, options.threads));

@@ -7,11 +7,14 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 inline constexpr int face_count = 4;  // Y+, Y−, Z+, Z−
 
-/// v0 of restitution: per apex–face pair the δ' of its last touch [m/s], at least `least_impact_speed`.
-template <class Real> struct ImpactMemory { Quad<Real> speeds[face_count]; };
+/// v0 of restitution: per pair that may touch the δ' of its last touch [m/s], at least `least_impact_speed`.
+template <class Real, int quads> struct ImpactSpeeds { Quad<Real> speeds[quads]; };
 inline constexpr double least_impact_speed = 1e-4;
 
-template <class Real> SLIDEWAY_FN void start_memory(ImpactMemory<Real>& memory) {
+/// Of the apex–face pairs.
+template <class Real> struct ImpactMemory : ImpactSpeeds<Real, face_count> {};
+
+template <class Real, int quads> SLIDEWAY_FN void start_memory(ImpactSpeeds<Real, quads>& memory) {
     Real const least(least_impact_speed);
     for (auto& face : memory.speeds) face = {least, least, least, least};
 }

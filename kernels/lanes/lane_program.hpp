@@ -79,7 +79,7 @@ private:
         std::size_t const member = block_.order != nullptr ? block_.order[place] : place;
         auto const& inputs = block_.inputs[member];
         Record& r = record(seat);
-        r.constants.parameters = Model::parameters(inputs);
+        r.constants.parameters = pack_.model.parameters(inputs);
         Model::scales(r.constants.parameters, r.constants.scale);
         auto& c = r.course;
         c.member = static_cast<double>(member);

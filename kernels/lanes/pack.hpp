@@ -9,17 +9,19 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// Which of a model's reports a block needs.
 struct ReportNeeds {
-    bool quantities = false;  // the observer is at work
-    bool stages = false;      // at every stage, for integrals
-    bool audit = false;       // the audit's integrals meet the tolerance too
-    bool watch = false;       // steps end at touches or where the contacts change
-    bool ends = false;        // at the accepted steps
+    bool quantities = false;     // the observer is at work
+    bool stages = false;         // at every stage, for integrals
+    bool accelerations = false;  // the integrals of accelerations too
+    bool audit = false;          // the audit's integrals meet the tolerance too
+    bool watch = false;          // steps end at touches or where the contacts change
+    bool ends = false;           // at the accepted steps
 
     template <class Model, class Real> SLIDEWAY_HD static ReportNeeds of(Selection quantities, bool locate_modes) {
         using Observer = typename Model::template Observer<Real>;
         ReportNeeds needs;
         needs.quantities = quantities != 0;
         needs.stages = Observer::needs_stages(quantities);
+        needs.accelerations = Observer::needs_accelerations(quantities);
         needs.audit = Observer::audits(quantities);
         needs.watch = Model::has_memory || (Model::can_hold && locate_modes);
         needs.ends = needs.stages || Observer::needs_reports(quantities) || needs.watch;
@@ -77,7 +79,7 @@ template <class Model, class Real> struct Pack {
     /// Begins the integrals over the step with the stage at its start.
     SLIDEWAY_HD void begin_integrals(double b, double e) {
         if (!needs.stages) return;
-        for (int i = 0; i < Observer::integrals; ++i) integral[i] = Real(b) * state.observation.integrand[i];
+        for_each_integral([&](int i) { integral[i] = Real(b) * state.observation.integrand[i]; });
         for (int i = 0; i < Observer::audit_integrals; ++i) audit_error[i] = Real(e) * state.observation.integrand[i];
     }
 
@@ -85,8 +87,8 @@ template <class Model, class Real> struct Pack {
     SLIDEWAY_HD void add_integrands(double b, double e) {
         if (!needs.stages || (b == 0 && e == 0)) return;
         Real values[room(Observer::integrals)];
-        Observer::integrands(end_report, values);
-        for (int i = 0; i < Observer::integrals; ++i) integral[i] = fma(Real(b), values[i], integral[i]);
+        read_integrands(values);
+        for_each_integral([&](int i) { integral[i] = fma(Real(b), values[i], integral[i]); });
         for (int i = 0; i < Observer::audit_integrals; ++i) audit_error[i] = fma(Real(e), values[i], audit_error[i]);
     }
 
@@ -96,16 +98,27 @@ template <class Model, class Real> struct Pack {
         for (int i = 0; i < size; ++i) c.rates[i] = select(in, rates[i], c.rates[i]);
         if (!needs.stages) return;
         Real values[room(Observer::integrals)];
-        Observer::integrands(end_report, values);
-        for (int i = 0; i < Observer::integrals; ++i) {
-            state.observation.integrand[i] = select(in, values[i], state.observation.integrand[i]);
-        }
+        read_integrands(values);
+        for_each_integral(
+            [&](int i) { state.observation.integrand[i] = select(in, values[i], state.observation.integrand[i]); });
     }
 
     /// Counts evaluations of the right-hand side in the lanes of the mask.
     SLIDEWAY_HD void count_evaluations(Mask<Real> in, double evaluations) {
         auto& c = state.course;
         c.evaluations = c.evaluations + select(in, Real(evaluations), Real(0.0));
+    }
+
+private:
+    /// Those that the block asks for.
+    template <class Function> SLIDEWAY_FN void for_each_integral(Function const& function) const {
+        for (int i = 0; i < Observer::lean_integrals; ++i) function(i);
+        if (!needs.accelerations) return;
+        for (int i = Observer::lean_integrals; i < Observer::integrals; ++i) function(i);
+    }
+    SLIDEWAY_FN void read_integrands(Real* values) const {
+        Observer::integrands(end_report, values);
+        if (needs.accelerations) Observer::acceleration_integrands(end_report, values);
     }
 };
 

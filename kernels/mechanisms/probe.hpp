@@ -3,9 +3,43 @@
 #include "kernels/block.hpp"
 #include "kernels/joint/contact_report.hpp"
 #include "kernels/lane_copy.hpp"
+#include "kernels/mechanisms/planar_report.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
+
+namespace detail {
+
+/// Penetrations and forces of one lane.
+template <class Real> SLIDEWAY_HD void put_contact(ContactReport<Real> const& c, int index, ProbeResult& result) {
+    for (int face = 0; face < face_count; ++face) {
+        auto* const depth = face < 2 ? result.penetration_y : result.penetration_z;
+        auto* const force = face < 2 ? result.normal_force_y : result.normal_force_z;
+        auto const put = [&](double* to, Quad<Real> const& q) {
+            to[face_apex(face, 0)] = lane(q.a, index);
+            to[face_apex(face, 1)] = lane(q.b, index);
+            to[face_apex(face, 2)] = lane(q.c, index);
+            to[face_apex(face, 3)] = lane(q.d, index);
+        };
+        put(depth, c.penetration[face]);
+        put(force, c.normal_force[face]);
+    }
+}
+
+/// Of the planar slider: its four corners, in the places of the first four apices.
+template <class Real> SLIDEWAY_HD void put_contact(PlanarContact<Real> const& c, int index, ProbeResult& result) {
+    auto const put = [&](double* to, double* unused, Quad<Real> const& q) {
+        double const corners[8] = {lane(q.a, index), lane(q.b, index), lane(q.c, index), lane(q.d, index)};
+        for (int i = 0; i < 8; ++i) {
+            to[i] = i < 4 ? corners[i] : not_a_number;
+            unused[i] = not_a_number;
+        }
+    };
+    put(result.penetration_y, result.penetration_z, c.penetration[0]);
+    put(result.normal_force_y, result.normal_force_z, c.normal_force[0]);
+}
+
+}  // namespace detail
 
 /// Evaluates a table of states, a pack at a time; the last pack is filled up with the last row.
 template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& table, Model const& model = {}) {
@@ -19,7 +53,7 @@ template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& tabl
         Real t, state[size], rates[size];
         for (int i = 0; i < width; ++i) {
             std::size_t const row = first + i < table.rows ? first + i : table.rows - 1;
-            load_lane(p, i, Model::parameters(table.inputs[row]));
+            load_lane(p, i, model.parameters(table.inputs[row]));
             double start[size];
             Model::initial_state(table.inputs[row], start);
             for (int j = 0; j < size; ++j) set_lane(state[j], i, start[j]);
@@ -34,18 +68,7 @@ template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& tabl
                 finite = finite && result.derivative[j] - result.derivative[j] == 0;
             }
             auto const& c = report.contact;
-            for (int face = 0; face < face_count; ++face) {
-                auto* const depth = face < 2 ? result.penetration_y : result.penetration_z;
-                auto* const force = face < 2 ? result.normal_force_y : result.normal_force_z;
-                auto const put = [&](double* to, Quad<Real> const& q) {
-                    to[face_apex(face, 0)] = lane(q.a, i);
-                    to[face_apex(face, 1)] = lane(q.b, i);
-                    to[face_apex(face, 2)] = lane(q.c, i);
-                    to[face_apex(face, 3)] = lane(q.d, i);
-                };
-                put(depth, c.penetration[face]);
-                put(force, c.normal_force[face]);
-            }
+            detail::put_contact(c, i, result);
             result.power_crank = lane(report.crank_power, i);
             result.power_friction = lane(c.friction_power, i);
             result.power_damping = lane(c.damping_power, i);

@@ -96,6 +96,9 @@ template <class Real> struct SliderLinearisation {
         return select(stiff, Real(0.5) * clamped(negated(sum)) / select(stiff, squared, Real(1.0)), Real(0.0));
     }
 
+protected:
+    Real hg_;
+
 private:
     /// Trace of M⁻¹(−matrix), of which positive terms alone count.
     SLIDEWAY_FN Real trace(Real const (&matrix)[5][5]) const {
@@ -124,9 +127,18 @@ private:
         }
     }
 
-    Real hg_;
     Real matrix_[5][5];  // W = M − hγ D − (hγ)² K
     LuFactors<5, Real> factors_;
+};
+
+/// The same with x and vx, along which no contact is stiff: they follow explicitly.
+template <class Real> struct FreeSliderLinearisation : SliderLinearisation<Real> {
+    /// As that of the ten, of twelve.
+    SLIDEWAY_NOINLINE void solve(Real const* r, Real* u) const {
+        SliderLinearisation<Real>::solve(r, u);
+        u[10] = fma(this->hg_, r[11], r[10]);
+        u[11] = r[11];
+    }
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

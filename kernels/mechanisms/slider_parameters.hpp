@@ -9,7 +9,8 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// All numbers that the slider-crank's kernels need of one member (or one pack), derived once from its inputs.
+/// All numbers that the kernels of a mechanism with one slider in a clearance joint need of a member (or a pack), derived once from its
+/// inputs.
 template <class Real> struct SliderParameters {
     // crank and rod
     Real crank_length;          // r [m]
@@ -20,6 +21,12 @@ template <class Real> struct SliderParameters {
     Real mass;                  // m = M + m_BB [kg]
     Real gravity_x, gravity_y;  // g⃗ [m/s²]
     Real weighing_mass;         // M + m_r f_r: whose weight acts on B [kg]
+    // carriage
+    Real carriage_speed;  // v [m/s]
+    Real stroke_time;     // T_s = stroke/v [s]
+    Real reversal_time;   // t_r [s]
+    Real stroke_rate;     // 1/(T_s + t_r) [1/s]
+    Real reversal_rate;   // π/t_r [1/s]
     // slider
     Real slider_mass;    // M [kg]
     Vec3<Real> inertia;  // I [kg m²]
@@ -33,8 +40,23 @@ template <class Real> struct SliderParameters {
     // scales of the error control
     Real length_scale_y, length_scale_z;  // clearances [m]
     Real tilt_scale;                      // 2c/L_k [rad]
-    Real rate_scale;                      // |ω|, at least 1 [1/s]
+    Real rate_scale;                      // |ω|, of whatever repeats itself, at least 1 [1/s]
 };
+
+/// K δⁿ + C δ δ' with C = η K.  Source: model.md 2.
+SLIDEWAY_FN PointContact<double> point_contact(Inputs const& in) {
+    return {in.point_stiffness, in.hertz_exponent, in.eta * in.point_stiffness, 1 / (in.hertz_exponent + 1)};
+}
+
+SLIDEWAY_FN FrictionParameters<double> friction_parameters(Inputs const& in) {
+    double const pi = 3.14159265358979323846;
+    return {in.friction_static,
+            in.friction_kinetic,
+            in.friction_stick_speed,
+            in.friction_slip_speed,
+            pi / (2 * in.friction_stick_speed),
+            pi / (in.friction_slip_speed - in.friction_stick_speed)};
+}
 
 namespace detail {
 
@@ -68,6 +90,11 @@ SLIDEWAY_FN SliderParameters<double> slider_parameters(Inputs const& in) {
     p.gravity_x = -in.gravity * slope.sin;
     p.gravity_y = -in.gravity * slope.cos;
     p.weighing_mass = in.slider_mass + in.rod_mass * center;
+    p.carriage_speed = in.carriage_speed;
+    p.stroke_time = in.stroke / in.carriage_speed;
+    p.reversal_time = in.reversal_time;
+    p.stroke_rate = 1 / (p.stroke_time + in.reversal_time);
+    p.reversal_rate = 3.14159265358979323846 / in.reversal_time;
     p.slider_mass = in.slider_mass;
     p.inertia = {in.slider_inertia_x, in.slider_inertia_y, in.slider_inertia_z};
     p.inverse_inertia = {1 / in.slider_inertia_x, 1 / in.slider_inertia_y, 1 / in.slider_inertia_z};
@@ -79,9 +106,8 @@ SLIDEWAY_FN SliderParameters<double> slider_parameters(Inputs const& in) {
     double const e1 = in.slider_young_modulus, e2 = in.way_young_modulus;
     double const reduced = 1 / ((1 - nu1 * nu1) / e1 + (1 - nu2 * nu2) / e2);  // E*
     double const series = 2 * e1 * e2 / (e1 + e2);                             // E_s
-    double const point_stiffness = 4.0 / 3.0 * reduced * ::sqrt(in.apex_radius);
     auto& c = p.joint.contact;
-    c.point = {point_stiffness, in.hertz_exponent, in.eta * point_stiffness, 1 / (in.hertz_exponent + 1)};
+    c.point = point_contact(in);
     c.damping = {in.chi_line, in.chi_surface, restitution_slope(in.restitution)};
     c.along = detail::line_contact(reduced, in.edge_radius, in.slider_length);
     c.across_y_face = detail::line_contact(reduced, in.edge_radius, in.way_depth);
@@ -89,13 +115,7 @@ SLIDEWAY_FN SliderParameters<double> slider_parameters(Inputs const& in) {
     c.surface_stiffness_y = series * in.slider_length * in.way_depth / in.thickness_y;
     c.surface_stiffness_z = series * in.slider_length * in.way_width / in.thickness_z;
 
-    double const pi = 3.14159265358979323846;
-    p.joint.friction = {in.friction_static,
-                        in.friction_kinetic,
-                        in.friction_stick_speed,
-                        in.friction_slip_speed,
-                        pi / (2 * in.friction_stick_speed),
-                        pi / (in.friction_slip_speed - in.friction_stick_speed)};
+    p.joint.friction = friction_parameters(in);
 
     p.rod_mass = in.rod_mass;
     p.rod_mass_center = center;

@@ -3,25 +3,32 @@
 #include "kernels/joint/contact_report.hpp"
 #include "kernels/math/vec3.hpp"
 #include "kernels/mechanisms/slider_parameters.hpp"
+#include "kernels/mechanisms/slider_turning.hpp"
 #include "kernels/observers/quantities.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// One end of the rod.
-template <class Real> struct CrankState { Vec3<Real> position, velocity, acceleration; };
+/// Motion of a point: of an end of the rod, or of the slider's centre.
+template <class Real> struct PointMotion { Vec3<Real> position, velocity, acceleration; };
 
-/// All that a state of the slider-crank tells beside its derivative.
+/// All that a state of a mechanism with one slider in a clearance joint tells beside its derivative.  Without a crank its numbers are 0.
 template <class Real> struct SliderReport {
+    static constexpr int apices = 8;
     ContactReport<Real> contact;
-    Real x, vx;           // slider's centre along the way
-    Real crank_power;     // F_A · v_A [W]
-    Real crank_torque;    // (A × F_A)_z [N m]
-    Real drive_torque;    // the crank's own weight included [N m]
-    Real energy;          // E of model.md 8, contact potential included [J]
-    Real position_error;  // distance of the slider's centre from the ideal mechanism's [m]
-    Real rod_spin;        // rod's angular velocity, magnitude [rad/s]
-    Real rod_spin_z;      // its component about Z
+    Real x, vx;               // slider's centre along the way
+    Real crank_power;         // of the drive: F_A · v_A, or F_x vx of the carriage [W]
+    Real crank_torque;        // (A × F_A)_z [N m]
+    Real drive_torque;        // the crank's own weight included [N m]
+    Real energy;              // E of model.md 8, contact potential included [J]
+    Real position_error;      // distance of the slider's centre from the ideal mechanism's [m]
+    Real rod_spin;            // rod's angular velocity, magnitude [rad/s]
+    Real rod_spin_z;          // its component about Z
+    Vec3<Real> acceleration;  // of the slider's centre [m/s²]
+    Real top, front;  // what sensors 10 mm above the way's Y+ and Z+ faces feel along the slider's Y and Z [m/s²]
+
+    /// Roll, yaw and pitch [rad].
+    SLIDEWAY_FN static Real tilt(Real const* state, int axis) { return state[4 + axis]; }
 
     /// Value of an entry of `series_table` beyond the state.
     SLIDEWAY_FN Real series_value(int entry) const {
@@ -42,16 +49,56 @@ template <class Real> struct SliderReport {
                 return contact.lines;
             case Series::points:
                 return contact.points;
+            case Series::ax:
+                return acceleration.x;
+            case Series::ay:
+                return acceleration.y;
+            case Series::az:
+                return acceleration.z;
+            case Series::acceleration_top:
+                return top;
+            case Series::acceleration_front:
+                return front;
             default:
                 return Real(not_a_number);
         }
     }
 
-    SLIDEWAY_FN void fill(CrankState<Real> const& a, CrankState<Real> const& b, Real d, Vec3<Real> const& omega,
-                          Vec3<Real> const& contact_force, SliderParameters<Real> const& p) {
+    /// What the slider alone tells.  @param u motion of its centre.
+    SLIDEWAY_FN void fill_slider(PointMotion<Real> const& u, SliderTurning<Real> const& turning,
+                                 SliderParameters<Real> const& p) {
+        x = u.position.x;
+        vx = u.velocity.x;
+        acceleration = u.acceleration;
+        // a + ω' × ρ + ω × (ω × ρ) along the sensor's own axis e, ρ = h e: e·a − h (|ω|² − ω_e²).
+        Real const mount(0.01);
+        auto const& w = turning.omega;
+        Real const about_y = fma(w.x, w.x, w.z * w.z), about_z = fma(w.x, w.x, w.y * w.y);
+        top = fnma(p.joint.geometry.half_width + mount, about_y, dot(turning.axes.y, u.acceleration));
+        front = fnma(p.joint.geometry.half_depth + mount, about_z, dot(turning.axes.z, u.acceleration));
+    }
+
+    /// Of a slider without crank and rod.  @param drive force of the drive along X [N].
+    SLIDEWAY_FN void fill_guided(PointMotion<Real> const& u, SliderTurning<Real> const& turning, Real drive,
+                                 SliderParameters<Real> const& p) {
+        fill_slider(u, turning, p);
+        Real const zero(0.0), half(0.5);
+        auto const& w = turning.omega;
+        Vec3<Real> gravity{p.gravity_x, p.gravity_y, zero};
+        Vec3<Real> momentum{p.inertia.x * w.x, p.inertia.y * w.y, p.inertia.z * w.z};
+        Real const kinetic = half * fma(p.slider_mass, dot(u.velocity, u.velocity), dot(w, momentum));
+        energy = fnma(p.slider_mass, dot(gravity, u.position), kinetic) + contact.potential;
+        crank_power = drive * u.velocity.x;
+        crank_torque = drive_torque = rod_spin = rod_spin_z = zero;
+        position_error = sqrt(fma(u.position.y, u.position.y, u.position.z * u.position.z));
+    }
+
+    SLIDEWAY_FN void fill(PointMotion<Real> const& a, PointMotion<Real> const& b, Real d,
+                          SliderTurning<Real> const& turning, Vec3<Real> const& contact_force,
+                          SliderParameters<Real> const& p) {
         Real const zero(0.0), half(0.5), one(1.0);
-        x = b.position.x;
-        vx = b.velocity.x;
+        fill_slider(b, turning, p);
+        auto const& omega = turning.omega;
         Vec3<Real> gravity{p.gravity_x, p.gravity_y, zero};
 
         // Force of the crank pin on the rod: F_A = m_AA a_A + m_AB a_B − m_r (1 − f_r) g⃗ + Λ with
@@ -87,9 +134,9 @@ template <class Real> struct SliderReport {
         // No spin about the rod's own axis: ω = e × (v_B − v_A)/L, e the rod's direction.
         Real const inverse_l = one / p.rod_length;
         auto along = b.position - a.position;
-        auto turning = inverse_l * inverse_l * cross(along, relative);
-        rod_spin = sqrt(dot(turning, turning));
-        rod_spin_z = turning.z;
+        auto rod_turning = inverse_l * inverse_l * cross(along, relative);
+        rod_spin = sqrt(dot(rod_turning, rod_turning));
+        rod_spin_z = rod_turning.z;
     }
 };
 

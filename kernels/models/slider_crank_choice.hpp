@@ -7,10 +7,9 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// One of several slider-cranks that leave the same memory and books of energy, chosen when the run begins: the lanes are compiled once
-/// for all of them, as with SliderCrankTable, but every call names its function.  The assembler for GPUs so sees what each call
+/// for all of them, as with SliderTable, but every call names its function.  The assembler for GPUs so sees what each call
 /// needs of the registers; behind a pointer it must save half of them (docs/performance.md).  All threads of a grid choose alike.
-template <class First, class... Others>
-struct SliderCrankChoice : SliderCrankBase, SliderLanes<First::conserving> {
+template <class First, class... Others> struct SliderCrankChoice : SliderBase, SliderLanes<First::conserving> {
     static_assert(((Others::conserving == First::conserving && Others::has_memory == First::has_memory &&
                     Others::can_hold == First::can_hold) &&
                    ...));

@@ -5,12 +5,24 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
+/// Which component of a model's state a series is, from 0; -1 if none.
+template <class Model> SLIDEWAY_HD constexpr int state_of_series(int series) {
+    if constexpr (requires { Model::state_of_series(series); }) {
+        return Model::state_of_series(series);
+    } else {
+        return series < Model::size ? series : -1;
+    }
+}
+
 /// Writes the time series of a pack's members into the block's memory.
 template <class Model> class Sampler {
 public:
     SLIDEWAY_HD explicit Sampler(BlockBase const& block) : block_(block) {
-        for (int i = 0; i < Model::series; ++i) selected_ += (block.series >> i) & 1u;
-        beyond_state_ = (block.series >> Model::size) != 0;
+        for (int i = 0; i < Model::series; ++i) {
+            if (!((block.series >> i) & 1u)) continue;
+            ++selected_;
+            beyond_state_ = beyond_state_ || state_of_series<Model>(i) < 0;
+        }
     }
 
     SLIDEWAY_HD bool beyond_state() const { return beyond_state_; }
@@ -23,8 +35,9 @@ public:
         for (int i = 0; i < Model::series; ++i) {
             if (!((block_.series >> i) & 1u)) continue;
             double value = not_a_number;
-            if (i < Model::size) {
-                value = lane(state[i], index);
+            int const component = state_of_series<Model>(i);
+            if (component >= 0) {
+                value = lane(state[component], index);
             } else if constexpr (Model::series > Model::size) {
                 value = lane(report.series_value(i), index);
             }

@@ -10,15 +10,18 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// The scalar quantities of a pack of slider-cranks.  Only the energy audit has a say in the steps:
-/// its integrals meet the tolerance too. Integrals run over the stages with the stepper's own weights, so they have its order; peaks, mode times and onsets go by
+/// The scalar quantities of a pack of mechanisms with one slider.  Only the energy audit has a say in the steps:
+/// its integrals meet the tolerance too.  Integrals run over the stages with the stepper's own weights, so they have its order; peaks, mode times and onsets go by
 /// the accepted steps.
-/// @tparam conserving of the law: it makes no energy.
-template <class Real, bool conserving = true> class SliderObserver {
+/// @tparam conserving of the law: it makes no energy.  @tparam Report_ SliderReport or PlanarReport
+template <class Real, bool conserving = true, template <class> class Report_ = SliderReport> class SliderObserver {
 public:
-    /// Integrands: crank, friction and damping power, total force, torque², error², rod spin², eight apex forces, |crank power|; of
+    using Report = Report_<Real>;
+    /// Integrands: crank, friction and damping power, total force, torque², error², rod spin², |crank power|, the apices' forces; of
     /// a law that switches also the springs' power.
-    static constexpr int integrals = conserving ? 16 : 17;
+    static constexpr int lean_integrals = 8 + Report::apices + (conserving ? 0 : 1);
+    /// And where accelerations are asked for ax², ay², az² and what the two sensors feel.
+    static constexpr int integrals = lean_integrals + 5;
     static constexpr int columns = quantity_columns;  // of a member's row
     /// The first of them are the energy audit's.
     static constexpr int audit_integrals = 3;
@@ -30,7 +33,11 @@ public:
               Quantity::rms_rod_angular_velocity}) {
             if (selects(q, i)) return true;
         }
-        return false;
+        return needs_accelerations(q);
+    }
+    /// Whether the integrals of accelerations are asked for.
+    SLIDEWAY_HD static constexpr bool needs_accelerations(Selection q) {
+        return selects(q, Quantity::rms_acceleration) || selects(q, Quantity::acceleration_area);
     }
     /// The quantities of the energy audit; any of them brings the whole of it along.
     static constexpr Selection audit_quantities =
@@ -41,7 +48,7 @@ public:
     /// Whether a report is needed at the accepted steps.
     SLIDEWAY_HD static constexpr bool needs_reports(Selection q) { return q != 0; }
 
-    SLIDEWAY_FN static void integrands(SliderReport<Real> const& r, Real* values) {
+    SLIDEWAY_FN static void integrands(Report const& r, Real* values) {
         values[0] = r.crank_power;
         values[1] = r.contact.friction_power;
         values[2] = r.contact.damping_power;
@@ -49,13 +56,25 @@ public:
         values[4] = r.drive_torque * r.drive_torque;
         values[5] = r.position_error * r.position_error;
         values[6] = r.rod_spin * r.rod_spin;
-        for (int apex = 0; apex < 8; ++apex) values[7 + apex] = r.contact.apex_force(apex);
-        values[15] = abs(r.crank_power);
-        if constexpr (!conserving) values[16] = r.contact.elastic_power;
+        values[7] = abs(r.crank_power);
+        if constexpr (Report::apices > 0) {
+            for (int apex = 0; apex < Report::apices; ++apex) values[8 + apex] = r.contact.apex_force(apex);
+        }
+        if constexpr (!conserving) values[lean_integrals - 1] = r.contact.elastic_power;
+    }
+
+    /// Those of the accelerations.  @param values of all integrands.
+    SLIDEWAY_FN static void acceleration_integrands(Report const& r, Real* values) {
+        auto const& a = r.acceleration;
+        values[lean_integrals] = a.x * a.x;
+        values[lean_integrals + 1] = a.y * a.y;
+        values[lean_integrals + 2] = a.z * a.z;
+        values[lean_integrals + 3] = abs(r.top);
+        values[lean_integrals + 4] = abs(r.front);
     }
 
     /// Begins the members in the lanes of the mask.
-    SLIDEWAY_FN void start(Mask<Real> fresh, SliderReport<Real> const& r, Real const* state) {
+    SLIDEWAY_FN void start(Mask<Real> fresh, Report const& r, Real const* state) {
         Real const zero(0.0);
         for (auto* value : {&force_, &torque_, &error_, &spin_, &roll_, &yaw_, &pitch_, &onsets_, &largest_potential_,
                             &made_, &astray_, &exchanged_}) {
@@ -63,6 +82,7 @@ public:
         }
         for (auto& value : integral_) value = select(fresh, zero, value);
         for (auto& value : apex_) value = select(fresh, zero, value);
+        for (auto& value : acceleration_) value = select(fresh, zero, value);
         for (auto& value : mode_time_) value = select(fresh, zero, value);
         start_energy_ = select(fresh, r.energy, start_energy_);
         resume(fresh, r);
@@ -71,8 +91,7 @@ public:
     }
 
     /// One accepted step of the lanes in the mask.  @param integral Σ b_s · integrand of the step's stages.
-    SLIDEWAY_FN void accept(Mask<Real> accepted, Real h, Real const* integral, SliderReport<Real> const& r,
-                            Real const* state) {
+    SLIDEWAY_FN void accept(Mask<Real> accepted, Real h, Real const* integral, Report const& r, Real const* state) {
         Real const zero(0.0), half(0.5);
         for (int i = 0; i < integrals; ++i) {
             integral_[i] = select(accepted, fma(h, integral[i], integral_[i]), integral_[i]);
@@ -93,7 +112,7 @@ public:
     }
 
     /// What the next step starts from, in the lanes of the mask; again where the law changes there without a step.
-    SLIDEWAY_FN void resume(Mask<Real> in, SliderReport<Real> const& r) {
+    SLIDEWAY_FN void resume(Mask<Real> in, Report const& r) {
         energy_ = select(in, r.energy, energy_);
         potential_ = select(in, r.contact.potential, potential_);
         if constexpr (!conserving) pattern_ = select(in, r.contact.pattern(), pattern_);
@@ -104,7 +123,7 @@ public:
 
     /// The energy audit up to the last accepted step, where it ran.
     SLIDEWAY_FN EnergyAudit<Real> audit() const {
-        return {energy_ - start_energy_, integral_[0], integral_[1], integral_[2], integral_[15],
+        return {energy_ - start_energy_, integral_[0], integral_[1], integral_[2], integral_[7],
                 largest_potential_,      made_,        astray_,      exchanged_};
     }
 
@@ -118,9 +137,9 @@ public:
         auto const energies = audit();
         put(Quantity::peak_normal_force, 0, lane(force_, index));
         put(Quantity::mean_normal_force, 0, total(3) * mean);
-        for (int apex = 0; apex < 8; ++apex) {
+        for (int apex = 0; apex < Report::apices; ++apex) {
             put(Quantity::peak_apex_force, apex, lane(apex_[apex], index));
-            put(Quantity::mean_apex_force, apex, total(7 + apex) * mean);
+            put(Quantity::mean_apex_force, apex, total(8 + apex) * mean);
         }
         for (int i = 0; i < 4; ++i) put(Quantity::mode_time, i, lane(mode_time_[i], index));
         put(Quantity::contact_onsets, 0, lane(onsets_, index));
@@ -138,11 +157,19 @@ public:
         put(Quantity::peak_tilt, 0, lane(roll_, index));
         put(Quantity::peak_tilt, 1, lane(yaw_, index));
         put(Quantity::peak_tilt, 2, lane(pitch_, index));
+        for (int i = 0; i < 3; ++i) {
+            put(Quantity::peak_acceleration, i, lane(acceleration_[i], index));
+            put(Quantity::rms_acceleration, i, sqrt(total(lean_integrals + i) * mean));
+        }
+        for (int i = 0; i < 2; ++i) {
+            put(Quantity::peak_channel_acceleration, i, lane(acceleration_[3 + i], index));
+            put(Quantity::acceleration_area, i, total(lean_integrals + 3 + i));
+        }
     }
 
 private:
     /// 0 free, 1 point, 2 line, 3 surface: the hardest contact of the configuration.
-    SLIDEWAY_FN static Real mode_class(SliderReport<Real> const& r) {
+    SLIDEWAY_FN static Real mode_class(Report const& r) {
         Real const zero(0.0);
         Real const soft = select(r.contact.points > zero, Real(1.0), zero);
         return select(r.contact.surfaces > zero, Real(3.0), select(r.contact.lines > zero, Real(2.0), soft));
@@ -152,12 +179,12 @@ private:
     /// did for what they hold: E − U must follow from the powers, whatever U does.  Where the apices that touch stay the same no
     /// switch is made; nor at the border to free flight, where U is 0 on both sides: a step that leaps into the way or out of it has
     /// no such excuse.
-    SLIDEWAY_FN void audit_step(Mask<Real> accepted, Real h, Real const* integral, SliderReport<Real> const& r) {
+    SLIDEWAY_FN void audit_step(Mask<Real> accepted, Real h, Real const* integral, Report const& r) {
         Real const zero(0.0);
         Real made = fnma(h, integral[0] - integral[1] - integral[2], r.energy - energy_);
         Real exchanged = r.contact.potential - potential_;
         if constexpr (!conserving) {
-            Real const taken_up = h * integral[16];
+            Real const taken_up = h * integral[lean_integrals - 1];
             Real const pattern = r.contact.pattern();
             auto const may_switch = (pattern != pattern_) & (pattern != zero) & (pattern_ != zero);
             made = made - select(may_switch, exchanged - taken_up, zero);
@@ -168,21 +195,27 @@ private:
         exchanged_ = select(accepted, exchanged_ + abs(exchanged), exchanged_);
     }
 
-    SLIDEWAY_FN void take_peaks(Mask<Real> lanes_taken, SliderReport<Real> const& r, Real const* state) {
+    SLIDEWAY_FN void take_peaks(Mask<Real> lanes_taken, Report const& r, Real const* state) {
         auto const raise = [&](Real& peak, Real value) { peak = select(lanes_taken, max(value, peak), peak); };
         raise(force_, r.contact.total_force());
         raise(largest_potential_, r.contact.potential);
-        for (int apex = 0; apex < 8; ++apex) raise(apex_[apex], r.contact.apex_force(apex));
+        if constexpr (Report::apices > 0) {
+            for (int apex = 0; apex < Report::apices; ++apex) raise(apex_[apex], r.contact.apex_force(apex));
+        }
         raise(torque_, abs(r.drive_torque));
         raise(error_, r.position_error);
         raise(spin_, r.rod_spin);
-        raise(roll_, abs(state[4]));
-        raise(yaw_, abs(state[5]));
-        raise(pitch_, abs(state[6]));
+        raise(roll_, abs(Report::tilt(state, 0)));
+        raise(yaw_, abs(Report::tilt(state, 1)));
+        raise(pitch_, abs(Report::tilt(state, 2)));
+        auto const& a = r.acceleration;
+        Real const accelerations[5] = {a.x, a.y, a.z, r.top, r.front};
+        for (int i = 0; i < 5; ++i) raise(acceleration_[i], abs(accelerations[i]));
     }
 
     Real integral_[integrals];
-    Real apex_[8];
+    Real apex_[Report::apices > 0 ? Report::apices : 1];
+    Real acceleration_[5];  // peaks
     Real mode_time_[4];
     Real force_, torque_, error_, spin_, roll_, yaw_, pitch_;
     Real onsets_, mode_, start_energy_, largest_potential_;

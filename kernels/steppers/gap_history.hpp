@@ -6,14 +6,15 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Depths and rates of the apex–face pairs at the start of a step, and where inside it they meet or leave their faces.
-template <class Real> class GapHistory {
+/// Depths and rates of the pairs that may touch at the start of a step, and where inside it they meet or leave their faces.
+/// @tparam quads of them: one per face of the clearance joint, one for the corners of the planar slider
+template <class Real, int quads = face_count> class GapHistory {
 public:
-    /// Remembers the gaps at the start of the next step.
-    SLIDEWAY_FN void keep(Mask<Real> taken, ContactReport<Real> const& r) {
-        for (int face = 0; face < face_count; ++face) {
-            keep(taken, r.penetration[face], start_depth_[face]);
-            keep(taken, r.rate[face], start_rate_[face]);
+    /// Remembers the gaps at the start of the next step.  @param r ContactReport or PlanarContact
+    template <class Contact> SLIDEWAY_FN void keep(Mask<Real> taken, Contact const& r) {
+        for (int face = 0; face < quads; ++face) {
+            keep_quad(taken, r.penetration[face], start_depth_[face]);
+            keep_quad(taken, r.rate[face], start_rate_[face]);
         }
     }
 
@@ -42,8 +43,8 @@ protected:
     }
 
     /// The least fraction for a face: `of` tells that of one pair.
-    template <class OfPair>
-    SLIDEWAY_FN Real least_of_face(int face, ContactReport<Real> const& end, OfPair const& of) const {
+    template <class Contact, class OfPair>
+    SLIDEWAY_FN Real least_of_face(int face, Contact const& end, OfPair const& of) const {
         auto const& d0 = start_depth_[face];
         auto const& v0 = start_rate_[face];
         auto const& d1 = end.penetration[face];
@@ -52,7 +53,7 @@ protected:
                    min(of(d0.c, v0.c, d1.c, v1.c), of(d0.d, v0.d, d1.d, v1.d)));
     }
 
-    Quad<Real> start_depth_[face_count], start_rate_[face_count];
+    Quad<Real> start_depth_[quads], start_rate_[quads];
 
 private:
     /// Values and slopes at both ends of [0, 1].
@@ -68,7 +69,7 @@ private:
         return {select(rises.any, min(first, Real(0.999)), one), Mask<Real>(rises.any & (twice | (depth.v1 < zero)))};
     }
 
-    SLIDEWAY_FN static void keep(Mask<Real> taken, Quad<Real> const& from, Quad<Real>& to) {
+    SLIDEWAY_FN static void keep_quad(Mask<Real> taken, Quad<Real> const& from, Quad<Real>& to) {
         to = {select(taken, from.a, to.a), select(taken, from.b, to.b), select(taken, from.c, to.c),
               select(taken, from.d, to.d)};
     }

@@ -6,36 +6,39 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Finds where apex–face pairs touch inside an accepted step, so that steps end there, and keeps the speeds of touch that
+/// Finds where pairs touch inside an accepted step, so that steps end there, and keeps the speeds of touch that
 /// restitution needs (model.md 4: v0 changes only at accepted touch events).
 /// @tparam partings steps end where pairs part too: for a law that switches there, between shadows and their member
-template <class Real, bool partings = false> class TouchLocator : public GapHistory<Real> {
+/// @tparam quads of pairs, as of GapHistory
+template <class Real, bool partings = false, int quads = face_count>
+class TouchLocator : public GapHistory<Real, quads> {
 public:
     /// Depth [clearances] up to which a new touch counts as located: below it the contact force is nil.
     static constexpr double tolerance = 1e-8;
 
     /// What the first step starts from.
-    SLIDEWAY_FN void begin(Mask<Real> fresh, ContactReport<Real> const& r, ImpactMemory<Real>&) {
+    template <class Contact> SLIDEWAY_FN void begin(Mask<Real> fresh, Contact const& r, ImpactSpeeds<Real, quads>&) {
         this->keep(fresh, r);
     }
 
     /// Fraction of the step at which the first pair touches, 1 where none touches before the end or the end is the touch.
     /// @param located depth [m] up to which it counts as that
-    SLIDEWAY_FN Real earliest(Mask<Real> candidates, ContactReport<Real> const& end, Real step, Real located,
-                              ImpactMemory<Real> const&) const {
+    template <class Contact>
+    SLIDEWAY_FN Real earliest(Mask<Real> candidates, Contact const& end, Real step, Real located,
+                              ImpactSpeeds<Real, quads> const&) const {
         Real fraction(1.0);
         auto const of_pair = [&](Real d0, Real v0, Real d1, Real v1) {
             return touching_at(candidates, d0, v0, d1, v1, step, located);
         };
-        for (int face = 0; face < face_count; ++face) fraction = min(fraction, this->least_of_face(face, end, of_pair));
+        for (int face = 0; face < quads; ++face) fraction = min(fraction, this->least_of_face(face, end, of_pair));
         return fraction;
     }
 
     /// After an accepted step: sets the impact speed of pairs that have just touched.  @return lanes where one did.
-    SLIDEWAY_FN Mask<Real> update(Mask<Real> accepted, ContactReport<Real> const& end, ImpactMemory<Real>& memory,
-                                  Real*) {
+    template <class Contact>
+    SLIDEWAY_FN Mask<Real> update(Mask<Real> accepted, Contact const& end, ImpactSpeeds<Real, quads>& memory, Real*) {
         auto touched = mask_of<Real>(false);
-        for (int face = 0; face < face_count; ++face) {
+        for (int face = 0; face < quads; ++face) {
             auto const& d0 = this->start_depth_[face];
             auto const& d1 = end.penetration[face];
             auto const& v1 = end.rate[face];
@@ -53,7 +56,7 @@ private:
     /// a later one at the touch.
     SLIDEWAY_FN static Real touching_at(Mask<Real> candidates, Real d0, Real v0, Real d1, Real v1, Real step,
                                         Real located) {
-        auto const change = GapHistory<Real>::first_change(candidates, d0, v0, d1, v1, step, located);
+        auto const change = GapHistory<Real, quads>::first_change(candidates, d0, v0, d1, v1, step, located);
         if constexpr (partings) return change.fraction;
         return select((d0 <= Real(0.0)) | change.returns, change.fraction, Real(1.0));
     }

@@ -18,7 +18,7 @@ namespace slideway::testing {
 
 /// All that a model says of a state, number by number.
 template <class Model> std::vector<double> answers(Model const& model, oracle::Case const& c) {
-    auto const p = SliderCrankBase::parameters(c.inputs);
+    auto const p = SliderBase::parameters(c.inputs);
     typename Model::template Memory<double> memory;
     start_memory(memory);
     if constexpr (Model::has_memory) {

@@ -44,7 +44,7 @@ TEST(SceneFiles, AreThePapersCases) {
         EXPECT_DOUBLE_EQ(scene.integrator.end_time, 4 * pi / c.speed);
         EXPECT_EQ(scene.sample_times.size(), 401u);
         EXPECT_EQ(scene.members, 1u);
-        EXPECT_EQ(scene.parts, (Parts{Law::paper, Damping::point, true, false}));
+        EXPECT_EQ(scene.parts, (Parts{Mechanism::slider_crank, Law::paper, Damping::point, true, false}));
         EXPECT_TRUE(contains(scene.title, c.figure)) << scene.title;
         EXPECT_EQ(read_scene(path_of(c.file), {{"contact.law", "conservative"}}).parts.law, Law::conservative);
         // what the files leave out is the default of model.md 2
@@ -120,7 +120,7 @@ TEST(SceneFiles, TheEnsembleIsTheDemo) {
     EXPECT_EQ(scene.seed, 1u);
     EXPECT_EQ(scene.integrator.end_time, 0.1);
     EXPECT_TRUE(scene.sample_times.empty());
-    EXPECT_EQ(scene.parts, (Parts{Law::paper, Damping::point, true, false}));
+    EXPECT_EQ(scene.parts, (Parts{Mechanism::slider_crank, Law::paper, Damping::point, true, false}));
     EXPECT_TRUE(selects(scene.quantities, Quantity::energy_residual));
     EXPECT_EQ(scene.variations.size(), 5u);
 }
@@ -141,7 +141,7 @@ TEST(SceneFiles, ThePoincareSectionIsThePapers) {
     EXPECT_EQ(scene.chaos.section, SectionSurface{});
     EXPECT_EQ(scene.chaos.span, (Span{150, true}));
     EXPECT_EQ(scene.chaos.transient, (Span{20, true}));
-    EXPECT_EQ(scene.parts, (Parts{Law::paper, Damping::point, true, false}));
+    EXPECT_EQ(scene.parts, (Parts{Mechanism::slider_crank, Law::paper, Damping::point, true, false}));
     EXPECT_TRUE(scene.warnings.empty());
     expect_free_starts(scene);
     Scene const conservative = read_scene(path_of("poincare_0.1mm.toml"), {{"contact.law", "conservative"}});
@@ -153,7 +153,7 @@ TEST(SceneFiles, TheExponentsAreOfAThousandStarts) {
     EXPECT_EQ(scene.study, StudyKind::lyapunov);
     EXPECT_EQ(scene.members, 1000u);
     EXPECT_EQ(scene.chaos.exponents, 1);
-    EXPECT_EQ(scene.parts, (Parts{Law::paper, Damping::point, true, false}));
+    EXPECT_EQ(scene.parts, (Parts{Mechanism::slider_crank, Law::paper, Damping::point, true, false}));
     EXPECT_TRUE(scene.integrator.locate_modes);
     EXPECT_TRUE(scene.warnings.empty());
     expect_free_starts(scene);
@@ -167,7 +167,7 @@ TEST(SceneFiles, TheSweepIsOfTheClearance) {
     EXPECT_EQ(scene.chaos.values.front(), 0.05e-3);
     EXPECT_EQ(scene.chaos.values.back(), 0.5e-3);
     EXPECT_EQ(scene.chaos.values[5], 1e-4) << "the bits of a scene of that clearance";
-    EXPECT_EQ(scene.parts, (Parts{Law::paper, Damping::point, true, false}));
+    EXPECT_EQ(scene.parts, (Parts{Mechanism::slider_crank, Law::paper, Damping::point, true, false}));
     EXPECT_TRUE(scene.warnings.empty());
     expect_free_starts(scene);
 }
@@ -179,7 +179,7 @@ TEST(SceneFiles, TheTolerancesAreASensitivityStudyWithinItsLimit) {
     EXPECT_EQ(scene.variations.size(), 8u);
     EXPECT_EQ(scene.members, 256u * 10);
     EXPECT_EQ(scene.integrator.end_time, 0.1);
-    EXPECT_EQ(scene.parts, (Parts{Law::conservative, Damping::rate, true, true}));
+    EXPECT_EQ(scene.parts, (Parts{Mechanism::slider_crank, Law::conservative, Damping::rate, true, true}));
     ASSERT_EQ(scene.limits.size(), 1u);
     EXPECT_EQ(scene.limits[0].name(), "peak_normal_force");
     EXPECT_EQ(scene.limits[0].high, 1000);

@@ -60,7 +60,7 @@ quantities = ["peak_normal_force", "energy_residual", "mode_time"]
     EXPECT_EQ(scene.inputs.z, 1e-5);
     EXPECT_EQ(scene.inputs.friction_slip_speed, 0.01);
     EXPECT_TRUE(std::isnan(scene.inputs.slider_mass));
-    EXPECT_EQ(scene.parts, (Parts{Law::paper, Damping::point, true, false}));
+    EXPECT_EQ(scene.parts, (Parts{Mechanism::slider_crank, Law::paper, Damping::point, true, false}));
     EXPECT_EQ(scene.integrator.method, Method::automatic);
     EXPECT_EQ(scene.integrator.rtol, 1e-6);
     EXPECT_DOUBLE_EQ(scene.integrator.end_time, 4);       // two turns at half a turn per second

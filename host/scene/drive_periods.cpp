@@ -1,8 +1,11 @@
+#include "host/scene/drive_period.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "host/scene/reader.hpp"
+#include "host/scene/rules.hpp"
 
 namespace slideway {
 namespace {
@@ -29,11 +32,15 @@ std::pair<double, double> ends_of(Distribution const& d) {
     }
 }
 
-}  // namespace
+/// Magnitudes that members may have of a key; the least is 0 where the limits include it.
+struct Magnitudes {
+    double least, most;
+    bool several = false;  // members may differ
+};
 
-SpeedRange crank_speeds(Scene const& scene) {
-    Key const& key = *find_key("mechanism.crank_speed");
-    SpeedRange range{std::abs(scene.inputs.crank_speed), std::abs(scene.inputs.crank_speed), false};
+Magnitudes magnitudes(Scene const& scene, Key const& key) {
+    double const own = std::abs(key.get(scene.inputs));
+    Magnitudes range{own, own};
     auto const take = [&](double low, double high) {
         if (!range.several) range.least = range.most = std::abs(low);
         range.several = true;
@@ -50,7 +57,7 @@ SpeedRange crank_speeds(Scene const& scene) {
             MemberTable const& table = *scene.design.table;
             for (std::size_t row = 0; row < std::min<std::size_t>(table.rows(), scene.members); ++row) {
                 double const value = table.values[row * table.columns + variation.column];
-                if (std::isfinite(value)) take(value, value);  // other members fail before they run
+                if (!broken_rule(key, value)) take(value, value);  // other members fail before they run
             }
         } else if (variation.distribution.kind == Distribution::Kind::values) {
             take_each(variation.distribution.list);
@@ -60,6 +67,31 @@ SpeedRange crank_speeds(Scene const& scene) {
         }
     }
     if (scene.chaos.parameter == &key) take_each(scene.chaos.values);
+    return range;
+}
+
+}  // namespace
+
+PeriodRange drive_periods(Scene const& scene) {
+    Inputs shortest = scene.inputs, longest = scene.inputs;
+    PeriodRange range{0, 0, nullptr};
+    /// @param lengthens whether the period grows with the key
+    auto const vary = [&](double Inputs::*input, std::string_view name, bool lengthens) {
+        Key const& key = *find_key(name);
+        Magnitudes const of_key = magnitudes(scene, key);
+        if (of_key.several && range.varied == nullptr) range.varied = &key;
+        (lengthens ? shortest : longest).*input = of_key.least;
+        (lengthens ? longest : shortest).*input = of_key.most;
+    };
+    if (scene.parts.mechanism == Mechanism::carriage) {
+        vary(&Inputs::carriage_speed, "mechanism.carriage_speed", false);
+        vary(&Inputs::stroke, "mechanism.stroke", true);
+        vary(&Inputs::reversal_time, "mechanism.reversal_time", true);
+    } else if (std::isfinite(drive_period(scene.parts, Inputs{}))) {
+        vary(&Inputs::crank_speed, "mechanism.crank_speed", false);
+    }
+    range.least = drive_period(scene.parts, shortest);
+    range.most = drive_period(scene.parts, longest);
     return range;
 }
 

@@ -1,18 +1,22 @@
 #pragma once
 
 #include "kernels/block.hpp"
+#include "kernels/mechanisms/mechanism_info.hpp"
+#include "kernels/mechanisms/slider_linearisation.hpp"
 #include "kernels/mechanisms/slider_parameters.hpp"
 #include "kernels/mechanisms/slider_report.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// What all slider-cranks share, whatever their law, friction, way and damping.
-struct SliderCrankBase {
+/// What all mechanisms with one slider in a clearance joint share, and what the slider-crank has of it, whatever law, friction, way and
+/// damping.
+struct SliderBase {
     using Inputs = slideway::Inputs;
     static constexpr int size = state_size;
     template <class Real> using Parameters = SliderParameters<Real>;
     template <class Real> using Report = SliderReport<Real>;
+    template <class Real> using Linearisation = SliderLinearisation<Real>;
 
     /// Sizes against which integrator.atol is meant: c, c·ω, 2c/L_k, 2c/L_k·ω.
     template <class Real> SLIDEWAY_FN static void scales(SliderParameters<Real> const& p, Real* scale) {
@@ -40,6 +44,42 @@ struct SliderCrankBase {
     SLIDEWAY_HD static void initial_state(Inputs const& in, double* s) {
         double const start[size] = {in.y, in.z, in.vy, in.vz, in.roll, in.yaw, in.pitch, in.wx, in.wy, in.wz};
         for (int i = 0; i < size; ++i) s[i] = start[i];
+    }
+};
+
+/// The carriage's way passes through (0, offset_y, offset_z), and its period is to and fro.
+struct CarriageBase : SliderBase {
+    SLIDEWAY_HD static SliderParameters<double> parameters(Inputs const& in) {
+        auto p = slider_parameters(in);
+        p.joint.way.offset.x = 0;
+        p.rate_scale = max(3.14159265358979323846 * p.stroke_rate, 1.0);
+        return p;
+    }
+};
+
+/// A slider free along the way too.  The way passes through (0, offset_y, offset_z); speeds are counted by the fall through the clearance,
+/// √(g c).
+struct FreeSliderBase : SliderBase {
+    static constexpr int size = info(Mechanism::free_slider).states;
+    template <class Real> using Linearisation = FreeSliderLinearisation<Real>;
+
+    template <class Real> SLIDEWAY_FN static void scales(SliderParameters<Real> const& p, Real* scale) {
+        SliderBase::scales(p, scale);
+        scale[10] = p.length_scale_y;
+        scale[11] = p.length_scale_y * p.rate_scale;
+    }
+
+    SLIDEWAY_HD static SliderParameters<double> parameters(Inputs const& in) {
+        auto p = slider_parameters(in);
+        p.joint.way.offset.x = 0;
+        p.rate_scale = max(::sqrt(::fabs(in.gravity) / min(in.clearance_y, in.clearance_z)), 1.0);
+        return p;
+    }
+
+    SLIDEWAY_HD static void initial_state(Inputs const& in, double* s) {
+        SliderBase::initial_state(in, s);
+        s[10] = in.x;
+        s[11] = in.vx;
     }
 };
 
