@@ -41,8 +41,9 @@ Kinematics kinematics_of(Inputs const& in, Real t, State const& state) {
 }
 
 Matrix4 pose_of_way(Inputs const& in, Parts const& parts) {
-    if (!parts.misaligned_way) return translation(Vector3(in.rod_length, 0, 0));
-    return pose_of(Vector3(in.rod_length, in.way_offset_y, in.way_offset_z), in.way_roll, in.way_yaw, in.way_pitch);
+    Real const station = parts.mechanism == Mechanism::slider_crank ? Real(in.rod_length) : 0;
+    if (!parts.misaligned_way) return translation(Vector3(station, 0, 0));
+    return pose_of(Vector3(station, in.way_offset_y, in.way_offset_z), in.way_roll, in.way_yaw, in.way_pitch);
 }
 
 Motion solve_motion(Inputs const& in, Kinematics const& k, Vector3 const& gravity, Vector3 const& contact_force) {

@@ -26,7 +26,8 @@ struct Kinematics {
 /// Of the mechanism at t [s]; nothing but the crank where the rod does not reach.
 Kinematics kinematics_of(Inputs const& in, Real t, State const& state);
 
-/// The way where the parts have it: misaligned, or along X.  It turns about x = L, whatever drives the slider.
+/// The way where the parts have it: misaligned, or along X.  It turns about x = L where there is a rod, else about
+/// x = 0, where a carriage starts.
 Matrix4 pose_of_way(Inputs const& in, Parts const& parts);
 
 struct Motion {

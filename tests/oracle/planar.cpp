@@ -137,7 +137,7 @@ PlanarResult PlanarMechanism::at(PlanarState const& s, Corners const* impact_spe
     Matrix const solved = solution(system, right);
     Vector3 const accelerations = solved.topRows(3);
     for (int i = 0; i < 3; ++i) result.derivative[i] = rates[i], result.derivative[3 + i] = accelerations[i];
-    result.drive_torque = solved(3, 0);
+    result.drive_torque = parts_.free_crank ? torque : solved(3, 0);
     result.power_drive = result.drive_torque * s[3];
 
     Point const& centre = bodies[2].centre;

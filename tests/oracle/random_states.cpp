@@ -198,6 +198,7 @@ void slow_to_friction(Dice& dice, Case& c) {
     Inputs& in = c.inputs;
     double const speed = dice.scale(0.1 * in.friction_stick_speed, 2 * in.friction_slip_speed);
     in.crank_speed = (in.crank_speed < 0 ? -1 : 1) * speed / in.crank_length;
+    in.stroke *= speed / in.carriage_speed;
     in.carriage_speed = speed;
     c.state[11] = std::copysign(speed, c.state[11]);
 }
@@ -209,7 +210,7 @@ void set_along_the_way(Dice& dice, Case& c) {
     if (dice.chance(0.5)) in.point_stiffness = dice.scale(1e6, 1e11);
     if (c.parts.mechanism == Mechanism::carriage) {
         in.carriage_speed = dice.scale(1e-3, 1);
-        in.stroke = dice.uniform(0.01, 0.3);
+        in.stroke = in.carriage_speed * dice.uniform(0.1, 2);
         in.reversal_time = dice.scale(1e-3, 0.3);
     } else {
         c.state[10] = dice.uniform(-0.2, 0.3);

@@ -14,68 +14,15 @@
 #include "kernels/mechanisms/slider_report.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/random_states.hpp"
+#include "tests/unit/oracle_comparison.hpp"
 
 namespace slideway {
 namespace {
 
-constexpr double tolerance = 2e-8;
-
-/// Group by group as in model.md 11: each entry against the largest of its group in the reference.
-class Comparison {
-public:
-    explicit Comparison(std::string what) : what_(std::move(what)) {}
-
-    template <class A, class B>
-    void group(char const* name, A const& reference, B const& got, std::size_t n, double floor = 0) {
-        double scale = floor;
-        for (std::size_t i = 0; i < n; ++i) scale = std::max(scale, std::abs(static_cast<double>(reference[i])));
-        if (scale == 0) scale = 1e-300;
-        for (std::size_t i = 0; i < n; ++i) {
-            EXPECT_LE(std::abs(static_cast<double>(reference[i]) - static_cast<double>(got[i])), tolerance * scale)
-                << what_ << ": " << name << " " << i << " is " << got[i] << ", the oracle says " << reference[i];
-        }
-    }
-    void value(char const* name, double reference, double got, double floor = 0) {
-        group(name, &reference, &got, 1, floor);
-    }
-
-private:
-    std::string what_;
-};
-
-double load_of(oracle::Result const& r) {
-    double sum = 0;
-    for (int i = 0; i < 8; ++i) sum += r.fn_y[static_cast<std::size_t>(i)] + r.fn_z[static_cast<std::size_t>(i)];
-    return sum;
-}
-
-template <std::size_t n>
-std::array<double, 2 * n> joined(std::array<double, n> const& a, std::array<double, n> const& b) {
-    std::array<double, 2 * n> all;
-    std::copy(a.begin(), a.end(), all.begin());
-    std::copy(b.begin(), b.end(), all.begin() + n);
-    return all;
-}
-
-void compare(std::string const& what, oracle::Case const& c, oracle::Result const& r, double const* d,
-             double const* depths, double const* forces, double const* powers, double energy, double potential,
-             double torque) {
-    Comparison compare(what);
-    double const load = load_of(r);
-    compare.group("position rates", r.derivative.data(), d, 2);
-    compare.group("accelerations", r.derivative.data() + 2, d + 2, 2, load / c.inputs.slider_mass);
-    compare.group("attitude rates", r.derivative.data() + 4, d + 4, 3);
-    double const inertia = std::min({c.inputs.slider_inertia_x, c.inputs.slider_inertia_y, c.inputs.slider_inertia_z});
-    compare.group("angular accelerations", r.derivative.data() + 7, d + 7, 3, load * c.inputs.slider_length / inertia);
-    compare.group("penetrations", joined(r.pen_y, r.pen_z), depths, 16);
-    compare.group("forces", joined(r.fn_y, r.fn_z), forces, 16);
-    double const reference_powers[] = {r.power_crank, r.power_friction, r.power_damping};
-    compare.group("powers", reference_powers, powers, 3);
-    compare.value("energy", r.energy, energy);
-    // A penetration is good to about 1e-18 m, whatever its size.
-    compare.value("potential", r.contact_potential, potential, load * 1e-18 / tolerance);
-    compare.value("crank torque", r.crank_torque, torque);
-}
+using testing::compare;
+using testing::compare_probe;
+using testing::Comparison;
+using testing::load_of;
 
 class KernelsAgainstOracle : public ::testing::TestWithParam<Isa> {};
 
@@ -83,33 +30,8 @@ TEST_P(KernelsAgainstOracle, AgreeOnThousandsOfStates) {
     if (!is_supported(GetParam())) GTEST_SKIP() << "this machine lacks " << name_of(GetParam());
     auto const cases = oracle::make_cases(20200103, 4000);
     int compared = 0;
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-        auto const& c = cases[i];
-        // The probe's impact speeds are their start value.
-        oracle::Pairs start;
-        start.fill(1e-4);
-        auto const r = oracle::evaluate(c.inputs, c.parts, c.t, c.state, &start);
-        if (r.geometry || r.contact_domain) continue;
-        Inputs in = c.inputs;
-        double* const state[] = {&in.y, &in.z, &in.vy, &in.vz, &in.roll, &in.yaw, &in.pitch, &in.wx, &in.wy, &in.wz};
-        for (std::size_t j = 0; j < 10; ++j) *state[j] = c.state[j];
-        ProbeResult p;
-        find_instance(GetParam(), c.parts).probe({&in, &c.t, 1, &p});
-        std::vector<double> depths(p.penetration_y, p.penetration_y + 8),
-            forces(p.normal_force_y, p.normal_force_y + 8);
-        depths.insert(depths.end(), p.penetration_z, p.penetration_z + 8);
-        forces.insert(forces.end(), p.normal_force_z, p.normal_force_z + 8);
-        double const powers[] = {p.power_crank, p.power_friction, p.power_damping};
-        auto const what = "case " + std::to_string(i);
-        EXPECT_EQ(p.status, Status::finished) << what;
-        EXPECT_EQ(p.surfaces, r.surfaces) << what;
-        EXPECT_EQ(p.lines, r.lines) << what;
-        EXPECT_EQ(p.points, r.points) << what;
-        compare(what, c, r, p.derivative, depths.data(), forces.data(), powers, p.energy, p.contact_potential,
-                p.crank_torque);
-        ++compared;
-        if (HasFailure()) break;
-    }
+    for (std::size_t i = 0; i < cases.size() && !HasFailure(); ++i)
+        compared += compare_probe(GetParam(), cases[i], "case " + std::to_string(i));
     EXPECT_GT(compared, 3500);
 }
 
@@ -118,8 +40,7 @@ INSTANTIATE_TEST_SUITE_P(Isas, KernelsAgainstOracle, ::testing::Values(Isa::scal
 
 /// The restitution memory and what only observers see, which the probe does not show: through the kernel itself.
 template <class Law, class Friction, class Way>
-SliderReport<double> restitution_report(oracle::Case const& c, SliderParameters<double> const& p,
-                                             double (&rates)[10]) {
+SliderReport<double> restitution_report(oracle::Case const& c, SliderParameters<double> const& p, double (&rates)[10]) {
     using Model = SliderCrank<Law, Friction, Way, RestitutionDamping>;
     typename Model::template Memory<double> memory;
     for (int face = 0; face < face_count; ++face) {
@@ -134,8 +55,7 @@ SliderReport<double> restitution_report(oracle::Case const& c, SliderParameters<
 }
 
 template <class Law>
-SliderReport<double> restitution_report(oracle::Case const& c, SliderParameters<double> const& p,
-                                             double (&rates)[10]) {
+SliderReport<double> restitution_report(oracle::Case const& c, SliderParameters<double> const& p, double (&rates)[10]) {
     if (c.parts.friction) {
         return c.parts.misaligned_way ? restitution_report<Law, StickSlipFriction, MisalignedWay>(c, p, rates)
                                       : restitution_report<Law, StickSlipFriction, AlignedWay>(c, p, rates);
