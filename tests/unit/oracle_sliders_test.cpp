@@ -136,6 +136,19 @@ TEST(OracleCarriage, LiesStillUnderTheLoadOfStatics) {
     EXPECT_NEAR(deep, weight / (2.07e11 * 0.04 * 0.03 / 0.02), 0.15 * deep);  // the softer modes bear a tenth
 }
 
+TEST(OracleCarriage, StartsWhereItsTiltedWayIs) {
+    Inputs in = oracle::completed({});
+    in.way_pitch = 0.02, in.way_offset_y = 3e-4;
+    Parts parts = carriage;
+    parts.misaligned_way = true;
+    State state{};
+    state[0] = in.way_offset_y, state[6] = in.way_pitch;
+    for (double const depth : oracle::penetrations(in, parts, 0, state)) EXPECT_NEAR(depth, -1e-4, 1e-16);
+    // 75 mm on, the way is higher.
+    state[0] += 0.075 * std::tan(0.02);
+    for (double const depth : oracle::penetrations(in, parts, 1.25, state)) EXPECT_NEAR(depth, -1e-4, 1e-16);
+}
+
 TEST(FreeSlider, FallsAlongTheSlope) {
     Inputs in = oracle::completed({});
     in.inclination = 0.3;
