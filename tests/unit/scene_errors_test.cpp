@@ -1,4 +1,5 @@
 // What a user reads: one line with file, line, key, value, why, and what to do.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/unit/scene_fixture.hpp"
