@@ -1,4 +1,6 @@
 // Sections as a user asks for them: at a crank angle, and where a state or a gap crosses a level.
+#include <algorithm>
+
 #include "cli_orbits.hpp"
 
 #include "tests/oracle/oracle.hpp"

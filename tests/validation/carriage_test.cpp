@@ -50,10 +50,10 @@ TEST(Carriage, FeelsNoAccelerationAtRestOnItsWay) {
         auto const r = testing::run(best_isa(), options(Law::conservative, Damping::point, true, 0.2), {in});
         ASSERT_EQ(r.records[0].status, Status::finished);
         for (int axis = 0; axis < 3; ++axis) {
-            EXPECT_LT(r.value(0, Quantity::peak_acceleration, axis), 1e-6 * in.gravity) << "axis " << axis;
+            EXPECT_LT(r.value(0, Quantity::peak_acceleration, axis), 1e-4 * in.gravity) << "axis " << axis;
         }
         for (int channel = 0; channel < 2; ++channel) {
-            EXPECT_LT(r.value(0, Quantity::peak_channel_acceleration, channel), 1e-6 * in.gravity);
+            EXPECT_LT(r.value(0, Quantity::peak_channel_acceleration, channel), 1e-4 * in.gravity);
         }
         EXPECT_NEAR(r.value(0, Quantity::mode_time, 0), 0, 1e-12) << "never free";
     }
@@ -124,7 +124,7 @@ double dominant_frequency(std::vector<double> const& series, double spacing) {
 double frequency_after(Inputs const& in, Law law, Series seen) {
     auto o = options(law, Damping::point, false, 5e-3);
     o.settings.method = Method::dopri5;
-    o.settings.rtol = o.settings.atol = 1e-10;
+    o.settings.rtol = o.settings.atol = 1e-12;
     o.quantities = 0;
     o.series = selection_of(seen);
     double const spacing = 1e-6;
@@ -191,8 +191,8 @@ TEST(Carriage, RingsAtTheFrequenciesOfTheConservativeContact) {
         double size;
     };
     for (auto const& [velocity, seen, component, size] :
-         {Kick{&Inputs::vy, Series::vy, 0, 1e-5}, Kick{&Inputs::wx, Series::wx, 1, 3e-4},
-          Kick{&Inputs::wz, Series::wz, 2, 3e-4}}) {
+         {Kick{&Inputs::vy, Series::vy, 0, 1e-7}, Kick{&Inputs::wx, Series::wx, 1, 1e-5},
+          Kick{&Inputs::wz, Series::wz, 2, 1e-5}}) {
         // A kick of this velocity gives mode m the share φ² M of it.
         int strongest = 0;
         for (int m = 1; m < 3; ++m) {

@@ -41,7 +41,8 @@ TEST(FreeSlider, FliesAParabolaDownAnInclinedWay) {
 }
 
 TEST(FreeSlider, BouncesBackAsOftenAndHighAsRestitutionSays) {
-    // Dropped flat from a clearance above its way: impacts at speeds v0 eⁿ, with flights of 2 v0 eⁿ/g between them.
+    // Dropped flat from a clearance above its way: impacts at speeds v0 eⁿ, with flights of 2 v0 eⁿ/g between them.  Under the paper's
+    // law, for a flat impact of the conservative one is a saddle: within four of them roundings have tilted the slider.
     Inputs in;
     in.clearance_y = in.clearance_z = 1e-3;
     in.restitution = 0.6;
@@ -53,7 +54,7 @@ TEST(FreeSlider, BouncesBackAsOftenAndHighAsRestitutionSays) {
     for (int n = 1; n < 4; ++n) time += 2 * v0 * std::pow(e, n) / in.gravity;
     double const v4 = v0 * std::pow(e, 4);
     time += v4 / in.gravity;
-    auto const r = testing::run(best_isa(), options(Law::conservative, Damping::restitution, false, time), {in});
+    auto const r = testing::run(best_isa(), options(Law::paper, Damping::restitution, false, time), {in});
     ASSERT_EQ(r.records[0].status, Status::finished);
     EXPECT_EQ(r.value(0, Quantity::contact_onsets), 4);
     double const height = v4 * v4 / (2 * in.gravity);
@@ -89,7 +90,7 @@ TEST(FreeSlider, KeepsItsEnergyWithoutLosses) {
     EXPECT_LT(worst[1], 0.1 * worst[0]);
 }
 
-TEST(FreeSlider, ComesToRestByFrictionAlongItsWay) {
+TEST(FreeSlider, IsBrakedByFrictionAlongItsWay) {
     // Glides on its way at v: kinetic friction brakes it at μd g.
     Inputs in;
     in.vx = 0.5;
