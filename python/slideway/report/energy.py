@@ -39,22 +39,31 @@ class Balance:
     work: float
     friction: float
     damping: float
+    change: float  # of the mechanical energy, E(t) - E(0)
     duration: float  # of a member [s]
 
     @property
+    def scale_named(self) -> tuple[float, str]:
+        """What the residual is compared with, and its name: the first that is there; NaN where none is."""
+        for size, name in (
+            (abs(self.work), "the drive's work"),
+            (self.friction + self.damping, "what friction and damping took"),
+            (self.damping, "what damping took"),
+            (abs(self.change), "the change of the mechanical energy"),
+        ):
+            if size > 0:
+                return size, name
+        return math.nan, ""
+
+    @property
     def scale(self) -> float:
-        """The work of the crank, or where it is not stored what friction and damping took."""
-        if math.isfinite(self.work):
-            return abs(self.work)
-        losses = [loss for loss in (self.friction, self.damping) if math.isfinite(loss)]
-        return sum(losses) if losses else math.nan
+        """See :attr:`scale_named` [J]."""
+        return self.scale_named[0]
 
     @property
     def scale_name(self) -> str:
-        """Words for :attr:`scale`."""
-        if math.isfinite(self.work):
-            return "the drive's work"
-        return "what friction and damping took"
+        """See :attr:`scale_named`."""
+        return self.scale_named[1]
 
 
 def balance(result: xr.Dataset, every: list[Column]) -> Balance | None:
@@ -62,12 +71,15 @@ def balance(result: xr.Dataset, every: list[Column]) -> Balance | None:
     residual = column(every, "energy_residual")
     if residual is None or residual.count == 0:
         return None
-    means = {name: column(every, name) for name in ("crank_work", "friction_loss", "damping_loss")}
-    work, friction, damping = (one.mean if one else math.nan for one in means.values())
+    terms = (column(every, name) for name in ("crank_work", "friction_loss", "damping_loss", "energy_change"))
+    work, friction, damping, change = (one.mean if one else math.nan for one in terms)
+    mechanism = slideway.scene(result)["mechanism"]
+    if mechanism["kind"] == "free_slider" or mechanism.get("crank") == "free":
+        work = 0.0
     ends = result["end_time"].values[slideway.finished(result).values] if "status" in result else []
     duration = float(ends.mean()) if len(ends) else float(slideway.scene(result)["study"].get("duration", math.nan))
     largest = max(abs(residual.low), abs(residual.high))
-    return Balance(residual.mean, largest, work, friction, damping, duration)
+    return Balance(residual.mean, largest, work, friction, damping, change, duration)
 
 
 def verdict(result: xr.Dataset, every: list[Column]) -> Verdict:

@@ -8,7 +8,7 @@ import numpy as np
 
 from .columns import Column
 from .energy import Balance, joules
-from .numbers import counted, number, percent, scaled
+from .numbers import counted, number, percent, scaled, unit_words
 from .traces import Figure, Variant, bars_of, bins, packed, rows, text
 
 CLASSES = ("free", "point", "line", "surface")
@@ -29,7 +29,7 @@ def histograms(every: list[Column]) -> Figure | None:
             continue
         factor, named = scaled(max(abs(one.low), abs(one.high)), one.unit)
         data = [bars_of(edges * factor, counts, one.name, "@c1")]
-        unit = "" if named == "1" else f" [{text(named)}]"
+        unit = "" if named == "1" else f" [{text(unit_words(named))}]"
         layout = rows(["members"], f"{text(one.name)}{unit}")
         mean = one.mean * factor
         layout |= {"bargap": 0, "shapes": [_mark(mean)], "annotations": [_named(mean, "mean")]}
@@ -90,11 +90,13 @@ def energy_balance(terms: Balance) -> Figure | None:
         ("made by law and method", terms.residual, "@bad", "came from"),
         ("friction", terms.friction, "@c2", "went to"),
         ("contact damping", terms.damping, "@c3", "went to"),
-        ("stored in the motion", kept, "@c4", "went to"),
+        ("motion, height, springs", kept, "@c4", "went to"),
     ]
     data = []
     for name, amount, colour, side in parts:
-        if amount < 0:  # what the motion gave back came from it
+        if amount == 0:
+            continue
+        if amount < 0:
             side, amount = ("came from" if side == "went to" else "went to"), -amount
         data.append(
             {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 import warnings
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 
 from .contact import mode_classes
 from .members import chosen
-from .numbers import counted, number, scaled
+from .numbers import counted, number, scaled, unit_words
 from .poses import Poses
 from .traces import Figure, Trace, Variant, band, bars_of, line, packed, points, rows, text, thinned
 
@@ -20,9 +21,9 @@ COUNTS = ("surfaces", "lines", "points")
 BAND_TIMES = 1000
 BAND_MEMBERS = 2000
 
-# (title, series, factor to the unit of the title) of each row of states.
-PLACE = [("y, z [mm]", ("y", "z"), 1e3), ("tilt [mrad]", ("roll", "yaw", "pitch"), 1e3)]
-RATE = [("velocity [mm/s]", ("vy", "vz"), 1e3), ("angular velocity [rad/s]", ("wx", "wy", "wz"), 1.0)]
+# (unit, series, factor to this unit) of each row of states.
+PLACE = [("mm", ("y", "z"), 1e3), ("mrad", ("roll", "yaw", "pitch"), 1e3)]
+RATE = [("mm/s", ("vy", "vz"), 1e3), ("rad/s", ("wx", "wy", "wz"), 1.0)]
 COLOURS = ("@c1", "@c2", "@c3")
 
 
@@ -41,7 +42,7 @@ def time_series(result: xr.Dataset, seen: dict[int, Poses]) -> list[Figure]:
         ("rates", "Velocities", RATE, []),
     ):
         groups = [(head, [s for s in group if s in names], factor) for head, group, factor in groups]
-        groups = [group for group in groups if group[1]]
+        groups = [(f"{', '.join(group)}<br>[{unit}]", group, factor) for unit, group, factor in groups if group]
         titles = [head for head, _, _ in groups] + [_axis_title(result, one) for one in extra]
         if not titles:
             continue
@@ -67,7 +68,8 @@ def time_series(result: xr.Dataset, seen: dict[int, Poses]) -> list[Figure]:
 
 def _axis_title(result: xr.Dataset, name: str) -> str:
     units = str(result[name].attrs.get("units", "1"))
-    return text(name.replace("_", " ")) + ("" if units == "1" else f"<br>[{text(units)}]")
+    lines = textwrap.wrap(name.replace("_", " "), 16) + ([] if units == "1" else [f"[{unit_words(units)}]"])
+    return "<br>".join(map(text, lines))
 
 
 def _rows_of(
@@ -130,7 +132,7 @@ def bands(result: xr.Dataset) -> Figure | None:
             curves = np.nanquantile(values, (0.05, 0.25, 0.5, 0.75, 0.95), axis=0)
         factor, named = scaled(float(np.nanmax(np.abs(curves))), str(thin[name].attrs.get("units", "1")))
         low, quarter, middle, three, high = curves * factor
-        title = name.replace("_", " ") + ("" if named == "1" else f" [{text(named)}]")
+        title = name.replace("_", " ") + ("" if named == "1" else f" [{text(unit_words(named))}]")
         time = thin["time"].values
         data = band(time, low, high, "5 to 95 %", "@c1/0.18") + band(time, quarter, three, "25 to 75 %", "@c1/0.35")
         data.append(line(time, middle, "median", "@c1", width=2))

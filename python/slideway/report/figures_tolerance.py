@@ -10,7 +10,7 @@ import xarray as xr
 import slideway
 
 from .columns import Array, Column
-from .numbers import counted, scaled
+from .numbers import counted, scaled, unit_words
 from .traces import Figure, Trace, Variant, packed, rows, text
 
 
@@ -35,7 +35,7 @@ def quantiles(every: list[Column], limits: dict[str, Any]) -> Figure | None:
         if one.quantile_intervals:
             ends = np.array(list(one.quantile_intervals.values())) * factor
             trace["error_x"] = _interval(value, ends, "@c1/0.6")
-        unit = "" if named == "1" else f" [{text(named)}]"
+        unit = "" if named == "1" else f" [{text(unit_words(named))}]"
         layout = rows(["members below [%]"], f"{text(one.name)}{unit}")
         marks = [(name, edge * factor) for name, edge in limits.get(one.name, {}).items()]
         layout["shapes"] = [_line(edge) for _, edge in marks]

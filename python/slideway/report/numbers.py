@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 _raised = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
@@ -41,9 +42,19 @@ def scaled(size: float, unit: str) -> tuple[float, str]:
     if unit not in _prefixed or not math.isfinite(size) or size == 0:
         return 1.0, unit
     for factor, prefix in _prefixes:
-        if abs(size) >= 0.9999 * factor and not (prefix in ("G", "M", "k") and unit in ("s", "m", "rad")):
+        if abs(size) >= 0.9999 * factor and (factor <= 1 or unit in ("N", "J", "Pa", "N m")):
             return float(f"{1 / factor:.12g}"), prefix + unit
     return 1.0, unit
+
+
+def unit_words(unit: str) -> str:
+    """A unit of a file as people write it.
+
+    >>> from slideway.report.numbers import unit_words
+    >>> unit_words("rad s-1"), unit_words("N m")
+    ('rad s⁻¹', 'N m')
+    """
+    return re.sub(r"(?<=[a-zA-Z])-?\d+\b", lambda power: power.group().translate(_raised), unit)
 
 
 def amount(value: float, unit: str, digits: int = 4) -> str:
@@ -54,7 +65,7 @@ def amount(value: float, unit: str, digits: int = 4) -> str:
     ('37.62 mJ', '−515 nJ')
     """
     factor, named = scaled(value, unit)
-    return f"{number(value * factor, digits)} {'' if named == '1' else named}".strip()
+    return f"{number(value * factor, digits)} {'' if named == '1' else unit_words(named)}".strip()
 
 
 def percent(share: float) -> str:

@@ -18,7 +18,7 @@ from .columns import Column, columns
 from .markup import data_block, table, tag, words
 from .markup import facts as fact_list
 from .members import chosen
-from .numbers import number, percent, scaled
+from .numbers import number, percent, scaled, unit_words
 from .traces import Figure
 
 # Nothing is fetched: the page may run its own scripts and show its own pictures, no more.
@@ -201,7 +201,7 @@ def _animation_section(film: Film | str) -> Section:
         "p",
         words(
             f"Bodies are to scale; gaps and tilts are drawn {factor} times as large, so that what touches in the drawing touches in the joint. "
-            "A frame is a stored sample: impacts shorter than their spacing fall between the frames."
+            f"A frame is {_frames(members[0])}; what is shorter than their spacing, as most impacts are, falls between the frames."
         ),
     )
     key = (("var(--point)", "point"), ("var(--line)", "line"), ("var(--surface)", "surface"), ("var(--free)", "free (below the pictures)"))
@@ -211,7 +211,7 @@ def _animation_section(film: Film | str) -> Section:
         "side": "From the side: X to the right, Y up",
         "top": "From above: X to the right, Z down",
     }
-    solid = "" if planar else " Solid: the slider's section at the nearer end, dashed at the farther one."
+    solid = " Solid and dots: the slider and its apices at the nearer end; dashed and rings: at the farther one."
     views = [
         tag(
             "figure",
@@ -225,6 +225,11 @@ def _animation_section(film: Film | str) -> Section:
     if "x" in members[0]:
         body += tag("figure", tag("svg", id="view-strip", role="img", aria_label="The mechanism to scale"), tag("figcaption", "The mechanism, to scale."), class_="strip")
     return Section("animation", "The slider in its way", body)
+
+
+def _frames(member: dict[str, object]) -> str:
+    shown, stored = member["count"], member["of"]
+    return "a stored sample" if shown == stored else f"one of {stored:,} stored samples, an even choice of {shown:,}"
 
 
 def _film_controls(labels: list[str]) -> str:
@@ -271,19 +276,20 @@ def _summary_section(result: xr.Dataset, every: list[Column], figures: dict[str,
     if shown:
         wanted = [p for p in (0.05, 0.5, 0.95) if all(p in one.quantiles for one in shown)]
         single = all(one.count == 1 for one in shown)
-        head = ("quantity", "unit", "value") if single else ("quantity", "unit", "members", "mean", "sd", "least", *(f"{100 * p:g} %" for p in wanted), "largest")
+        head = ("quantity", "meaning", "unit", "value") if single else ("quantity", "unit", "members", "mean", "sd", "least", *(f"{100 * p:g} %" for p in wanted), "largest")
         lines = [_summary_row(one, wanted, single) for one in shown]
-        body += table(head, lines, "Quantities of the members that finished, over the whole run, its transient included", numeric=2)
-        body += tag("details", tag("summary", "What the quantities mean"), fact_list((one.name, one.meaning) for one in shown))
+        body += table(head, lines, "Quantities of the members that finished, over the whole run, its transient included", numeric=3 if single else 2)
+        if not single:
+            body += tag("details", tag("summary", "What the quantities mean"), fact_list((one.name, one.meaning) for one in shown))
     return Section("summary", "Summary", body) if body else None
 
 
 def _summary_row(one: Column, wanted: list[float], single: bool) -> tuple[str, ...]:
     factor, unit = scaled(max(abs(one.low), abs(one.high)), one.unit)
     if single:
-        return one.name, unit, number(one.mean * factor, 5)
+        return one.name, one.meaning, unit_words(unit), number(one.mean * factor, 5)
     values = (one.mean, one.sd, one.low, *(one.quantiles[p] for p in wanted), one.high)
-    return one.name, unit, f"{one.count:,}", *(number(value * factor) for value in values)
+    return one.name, unit_words(unit), f"{one.count:,}", *(number(value * factor) for value in values)
 
 
 def percent3(share: float) -> str:
