@@ -11,7 +11,7 @@ from . import scenes as scenes_
 from . import sections as sections_
 
 
-@xr.register_dataset_accessor("slideway")
+@xr.register_dataset_accessor("slideway")  # type: ignore[no-untyped-call, unused-ignore]
 class ResultAccessor:
     """Everything about a result that is no variable of it, as ``result.slideway``.
 

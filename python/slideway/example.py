@@ -101,5 +101,5 @@ def example() -> xr.Dataset:
     for name, values, units in (("y", reach * np.sin(angle), "m"), ("z", reach * np.cos(angle), "m"),
                                 ("vy", 50 * reach * np.cos(2 * angle), "m s-1"), ("time", np.tile(np.arange(turns) * 2.0, members), "s")):
         dataset[f"section_{name}"] = ("section", values, {"units": units, "long_name": f"{name} at the section"})
-    dataset.attrs = {"source": "slideway", "title": "Made-up example", "scene": _scene, "sweep_parameter": "joint.clearance"}
+    dataset.attrs = {"source": "slideway", "title": "Made-up example", "scene": _scene, "sweep_parameter": "joint_clearance"}
     return dataset

@@ -58,8 +58,11 @@ def temporary_file(name: str) -> str:
     return os.path.join(folder, name)
 
 
-def call(program: StrPath | None, arguments: Sequence[str]) -> str:
+def call(program: StrPath | None, arguments: Sequence[str], good: Sequence[int] = (0,)) -> str:
     """Calls a command that is soon done.
+
+    Args:
+        good: exit codes that are no error.
 
     Returns:
         What it wrote to stdout.
@@ -68,7 +71,7 @@ def call(program: StrPath | None, arguments: Sequence[str]) -> str:
         RunError: it failed; the text is its own last line.
     """
     done = subprocess.run([find_program(program), *arguments], capture_output=True, text=True, encoding="utf-8", check=False)
-    if done.returncode != 0:
+    if done.returncode not in good:
         raise error_of(done.returncode, _last_line(done.stderr.splitlines()), "", find_program(program))
     return done.stdout
 

@@ -40,6 +40,11 @@ def open(path: StrPath, group: str | None = None) -> xr.Dataset:  # noqa: A001
         there = ", ".join(groups(name)) or "no groups"
         raise SlidewayError(f'{name}: has no group "{group}", but {there}; see slideway.groups(path)')
     dataset = _labelled(_opened(name, group))
+    if group is not None:
+        # A group shares the file's dimensions, whose labels lie outside it.
+        with _labelled(_opened(name, None)) as whole:
+            shared = {d: whole[d].load() for d in dataset.dims if d in whole.indexes and d not in dataset.coords}
+        dataset = dataset.assign_coords(shared)
     dataset.encoding["source"] = os.path.abspath(name)
     return dataset
 

@@ -81,7 +81,8 @@ def run(
     try:
         code, line = follow(command, show=progress)
     except Interrupted as stopped:
-        raise KeyboardInterrupt from error_of(stopped.code, stopped.line, result, found)
+        # Code 0: the run was at its end already.
+        raise KeyboardInterrupt from error_of(stopped.code, stopped.line, result, found) if stopped.code != 0 else None
     if code != 0:
         raise error_of(code, line, result, found)
     return open_result(result)

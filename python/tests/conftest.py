@@ -35,7 +35,7 @@ recipes: dict[str, tuple[str, dict[str, object]]] = {
         "study.design": "lhs", "study.members": 64, "study.duration": "20 ms"}),
     "stored": ("ensemble_starts.toml", {"study.members": 64, "study.duration": "20 ms", "study.store": "statistics"}),
     "failing": ("ensemble_starts.toml", {
-        "study.members": 8, "study.samples": 11, "study.duration": "4 ms", "integrator.max_steps": 40}),
+        "study.members": 8, "study.samples": 11, "study.duration": "20 ms", "integrator.max_steps": 40}),
 }
 
 
