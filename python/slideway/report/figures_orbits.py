@@ -188,6 +188,6 @@ def _exponent_row(result: xr.Dataset, parameter: np.ndarray) -> list[dict[str, o
     wide = result["lyapunov_exponent_half_width"].values[ended, 0]
     bars = {"type": "data", "array": packed(wide), "color": "@c2/0.4", "thickness": 1, "width": 0}
     each = points(x, largest, "member", "@c2", axis=2, size=4, error_y=bars)
-    columns = np.unique(x)
+    columns = np.unique(x[np.isfinite(largest)])
     means = np.array([np.nanmean(largest[x == column]) for column in columns])
     return [each, line(columns, means, "mean of the column", "@c3", 2, width=2)]

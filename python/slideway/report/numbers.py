@@ -12,8 +12,8 @@ def number(value: float, digits: int = 4) -> str:
     """A number with so many significant digits, powers of ten raised.
 
     >>> from slideway.report.numbers import number
-    >>> number(0.0376152), number(-5.1525e-07), number(4706.79), number(float("nan"))
-    ('0.03762', '−5.153·10⁻⁷', '4707', '–')
+    >>> number(0.0376152), number(-5.1537e-07), number(4706.79), number(float("nan"))
+    ('0.03762', '−5.154·10⁻⁷', '4707', '–')
     """
     if not math.isfinite(value):
         return "–" if math.isnan(value) else ("∞" if value > 0 else "−∞")
