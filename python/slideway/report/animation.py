@@ -49,7 +49,7 @@ def _member(pose: Poses, label: str) -> dict[str, Any]:
     joint = pose.joint
     states = {name: getattr(pose, name)[kept] for name in ("roll", "yaw", "pitch")}
     lengths = {name: getattr(pose, name)[kept] * 1e3 for name in ("y", "z")}
-    extra = {}
+    extra: dict[str, Any] = {}
     if pose.x is not None:
         extra["x"] = packed(pose.x[kept] * 1e3)
     if pose.crank is not None and pose.links is not None:

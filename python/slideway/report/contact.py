@@ -39,7 +39,9 @@ def rotation(roll: Array, yaw: Array, pitch: Array) -> Array:
     return np.stack([np.stack(np.broadcast_arrays(*row), -1) for row in rows], -2)
 
 
-def spatial_depths(y: Array, z: Array, attitude: Array, length: float, width: float, depth: float, gap_y: float, gap_z: float) -> Array:
+def spatial_depths(
+    y: Array, z: Array, attitude: Array, length: float, width: float, depth: float, gap_y: float, gap_z: float
+) -> Array:
     """Penetrations of the sixteen apex-face pairs (model.md section 3, evaluated clearance first).
 
     Args:
@@ -89,10 +91,11 @@ def spatial_modes(touching: Flags) -> NDArray[np.int64]:
     faces = [list(face) for face in Y_FACES] + [[8 + apex for apex in face] for face in Z_FACES]
     for face in faces:
         on = touching[:, face]
-        surface = on.all(1)
-        edge = on & np.roll(on, -1, 1) & ~surface[:, None]
+        surface: Flags = np.all(on, axis=1)
+        other = np.logical_not(surface)[:, None]
+        edge = on & np.roll(on, -1, 1) & other
         on_line = edge | np.roll(edge, 1, 1)
-        triple += np.stack([surface, edge.sum(1), (on & ~on_line & ~surface[:, None]).sum(1)], 1)
+        triple += np.stack([surface, edge.sum(1), (on & ~on_line & other).sum(1)], 1)
     return triple
 
 
@@ -107,9 +110,7 @@ def planar_depths(y: Array, pitch: Array, length: float, height: float, gap: flo
         (n, 4) [m], > 0 in contact: upper corners ahead (+X) and behind, then the lower ones.
     """
     sink = 2 * (height / 2) * np.sin(pitch / 2) ** 2
-    return np.stack(
-        [side * (y + end * length / 2 * np.sin(pitch)) - sink - gap for side in (1, -1) for end in (1, -1)], -1
-    )
+    return np.stack([side * (y + end * length / 2 * np.sin(pitch)) - sink - gap for side in (1, -1) for end in (1, -1)], -1)
 
 
 def planar_modes(touching: Flags) -> NDArray[np.int64]:

@@ -76,8 +76,10 @@ def balance(result: xr.Dataset, every: list[Column]) -> Balance | None:
     mechanism = slideway.scene(result)["mechanism"]
     if mechanism["kind"] == "free_slider" or mechanism.get("crank") == "free":
         work = 0.0
-    ends = result["end_time"].values[slideway.finished(result).values] if "status" in result else []
-    duration = float(ends.mean()) if len(ends) else float(slideway.scene(result)["study"].get("duration", math.nan))
+    if "status" in result:
+        duration = float(result["end_time"].values[slideway.finished(result).values].mean())
+    else:
+        duration = float(slideway.scene(result)["study"].get("duration", math.nan))
     largest = max(abs(residual.low), abs(residual.high))
     return Balance(residual.mean, largest, work, friction, damping, change, duration)
 
@@ -89,7 +91,9 @@ def verdict(result: xr.Dataset, every: list[Column]) -> Verdict:
         if column(every, "energy_residual") is not None:
             return Verdict("none", "No energy audit", ["No member finished, so there is nothing to audit."])
         wanted = "energy_residual, crank_work, friction_loss and damping_loss"
-        return Verdict("none", "No energy audit", [f"The scene did not ask for it; add {wanted} to study.quantities to have it."])
+        return Verdict(
+            "none", "No energy audit", [f"The scene did not ask for it; add {wanted} to study.quantities to have it."]
+        )
     scene = slideway.scene(result)
     planar = scene["mechanism"]["kind"] == "planar_slider_crank"
     if not planar and scene["contact"]["law"] == "paper":
@@ -110,49 +114,60 @@ def _amount(terms: Balance) -> str:
 
 def _of_conserving(terms: Balance, law: str) -> Verdict:
     share = _share(terms)
-    no_energy = f"{law} derives its elastic forces from one potential, so by itself it makes no energy: friction and damping alone take some, and both are in the balance."
-    found = f"The residual is {_amount(terms)}."
+    found = [
+        f"The residual is {_amount(terms)}.",
+        f"{law} derives its elastic forces from one potential, so by itself it makes no energy: friction and damping alone take "
+        "some, and both are in the balance.",
+    ]
     if math.isnan(share):
-        return Verdict(
-            "none",
-            f"Residual {joules(terms.residual)}",
-            [found, no_energy, "Whether that is much cannot be said without the drive's work and the losses; add crank_work, friction_loss and damping_loss to study.quantities."],
+        unknown = (
+            "Whether that is much cannot be said without the drive's work and the losses; add crank_work, friction_loss and "
+            "damping_loss to study.quantities."
         )
+        return Verdict("none", f"Residual {joules(terms.residual)}", [*found, unknown])
     if share <= CLEAN:
-        return Verdict(
-            "good",
-            f"Energy is kept to {percent(share)}",
-            [found, no_energy, "What is left is the error of the integration; it falls with integrator.rtol and atol."],
-        )
+        left = "What is left is the error of the integration; it falls with integrator.rtol and atol."
+        return Verdict("good", f"Energy is kept to {percent(share)}", [*found, left])
     if share <= SMALL:
-        return Verdict(
-            "warn",
-            f"Energy is kept to {percent(abs(terms.residual) / terms.scale)} on average, {percent(share)} at worst",
-            [found, no_energy, "What is left is error of the integration, and in the worst member more than is needless: smaller integrator.rtol and atol make it smaller."],
+        mean = percent(abs(terms.residual) / terms.scale)
+        left = (
+            "What is left is error of the integration, and in the worst member more than need be: smaller integrator.rtol "
+            "and atol make it smaller."
         )
-    return Verdict(
-        "bad",
-        f"The method made or lost up to {percent(share)}",
-        [found, no_energy, "So this is no physics but error of the integration, and too much of it: use smaller integrator.rtol and atol, or another method, before trusting these results."],
+        return Verdict("warn", f"Energy is kept to {mean} on average, {percent(share)} at worst", [*found, left])
+    much = (
+        "So this is no physics but error of the integration, and too much of it: use smaller integrator.rtol and atol, or "
+        "another method, before trusting these results."
     )
+    return Verdict("bad", f"The method made or lost up to {percent(share)}", [*found, much])
 
 
 def _of_paper(terms: Balance) -> Verdict:
     share = _share(terms)
     found = f"The residual is {_amount(terms)}."
-    why = "The paper's law switches between surface, line and point contact, and the force jumps where it does. Each mode by itself keeps energy, the jumps do not."
+    why = (
+        "The paper's law switches between surface, line and point contact, and the force jumps where it does. "
+        "Each mode by itself keeps energy, the jumps do not."
+    )
     if share <= CLEAN:
-        return Verdict("good", f"Energy is kept to {percent(share)}", [found, why, "Here the modes hardly switched under load, so hardly any energy was made."])
-    sentences = [found]
+        hardly = "Here the modes hardly switched under load, so hardly any energy was made."
+        return Verdict("good", f"Energy is kept to {percent(share)}", [found, why, hardly])
+    if terms.duration > 0:
+        found += f" That is {joules(terms.residual / terms.duration)} in each second."
+    sentences = [found, why]
     if terms.residual > 0:
-        headline = f"The contact law made {percent(terms.residual / terms.scale)} of {terms.scale_name}" if terms.scale > 0 else f"The contact law made {joules(terms.residual)}"
-        sentences += [why, "So this is not physics: a real joint makes no energy. It is a property of the law, does not go away with smaller tolerances, and keeps the slider bouncing and flying."]
+        made = (
+            percent(terms.residual / terms.scale) + f" of {terms.scale_name}" if terms.scale > 0 else joules(terms.residual)
+        )
+        headline = f"The contact law made {made}"
+        sentences.append(
+            "So this is not physics: a real joint makes no energy. It is a property of the law, does not go away with smaller "
+            "tolerances, and keeps the slider bouncing and flying."
+        )
     else:
         headline = "Switching modes cost energy"
-        sentences += [why, "Here they took more than they gave; that is a property of the law too, not physics."]
-    if terms.duration > 0:
-        sentences[0] += f" That is {joules(terms.residual / terms.duration)} in each second."
+        sentences.append("Here they took more than they gave; that is a property of the law too, not physics.")
     if terms.residual > 0 and terms.damping > 0:
         sentences.append(f"Contact damping took {joules(terms.damping)}; the law made {joules(terms.residual)}.")
-    sentences.append('Run the scene with --set contact.law=conservative to see what is left without it.')
+    sentences.append("Run the scene with --set contact.law=conservative to see what is left without it.")
     return Verdict("warn", headline, sentences)

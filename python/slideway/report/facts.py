@@ -42,7 +42,7 @@ def of_scene(result: xr.Dataset, members: int) -> Facts:
         ("friction", _friction(scene.get("friction", {}))),
         ("members", counted(members, "member") + _design(study)),
         ("time", _time(study)),
-        ("integrator", f"{integrator.get('method', '')}, rtol {number(integrator.get('rtol', np.nan))}, atol {number(integrator.get('atol', np.nan))}"),
+        ("integrator", _integrator(integrator)),
     ]
     if "parameter" in study:
         facts.append((f"sweeps: {study['parameter']}", _sweep(result, str(study["parameter"]))))
@@ -130,6 +130,11 @@ def _time(study: dict[str, Any]) -> str:
 def _unit(result: xr.Dataset, key: str) -> str:
     variable = key.replace(".", "_")
     return str(result[variable].attrs.get("units", "1")) if variable in result else "1"
+
+
+def _integrator(integrator: dict[str, Any]) -> str:
+    tolerances = [f"{key} {number(integrator[key])}" for key in ("rtol", "atol", "step") if key in integrator]
+    return ", ".join([str(integrator.get("method", "")), *tolerances])
 
 
 def _sweep(result: xr.Dataset, key: str) -> str:

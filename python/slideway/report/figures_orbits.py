@@ -30,10 +30,18 @@ def exponent_words(result: xr.Dataset) -> list[str]:
         f"{len(largest) - positive - negative} of them; positive means that neighbouring motions part exponentially.",
     ]
     for name, words in (
-        ("grown_offsets", "offsets had grown to the size of the joint, so exponents are too small; rescale oftener (study.rescalings_per_revolution) or use a smaller study.d0"),
+        (
+            "grown_offsets",
+            "offsets had grown to the size of the joint, so exponents are too small; rescale oftener "
+            "(study.rescalings_per_revolution) or use a smaller study.d0",
+        ),
         ("lost_offsets", "offsets had shrunk into rounding, so exponents are upper bounds"),
     ):
-        share = float(result[name].values[ended].sum() / max(result["rescalings"].values[ended].sum(), 1)) if name in result else 0
+        share = (
+            float(result[name].values[ended].sum() / max(result["rescalings"].values[ended].sum(), 1))
+            if name in result
+            else 0
+        )
         if share > 0.01:
             sentences.append(f"At {number(100 * share, 2)} % of the rescalings {words}.")
     return sentences
@@ -53,7 +61,8 @@ def exponents(result: xr.Dataset) -> list[Figure]:
     layout = {**rows(["members"], "exponent [s<sup>−1</sup>]"), "barmode": "overlay", "bargap": 0}
     figures = []
     if len(values) > 1 and slideway.scene(result)["study"].get("kind") != "sweep":
-        caption = f"Finite-time exponents of {counted(len(values), 'member')} over {number(float(result['lyapunov_time'].values[ended].mean()))} s each."
+        span = float(result["lyapunov_time"].values[ended].mean())
+        caption = f"Finite-time exponents of {counted(len(values), 'member')} over {number(span)} s each."
         figures.append(Figure("exponents", "Lyapunov exponents", caption, [Variant("all", data, layout)]))
     converged = _convergence(result, ended)
     return figures + ([converged] if converged else [])
@@ -80,12 +89,16 @@ def _convergence(result: xr.Dataset, ended: np.ndarray) -> Figure | None:
         data.append(line(time, mean, "mean", "@c1", width=2.2))
         late = time >= from_
         data.append(
-            line(time[late], limit + memory / time[late], f"fit, tends to {number(limit)} s⁻¹", "@c2", width=2.2, dash="dash")
+            line(
+                time[late], limit + memory / time[late], f"fit, tends to {number(limit)} s⁻¹", "@c2", width=2.2, dash="dash"
+            )
         )
         layout = rows([f"{name} so far [s<sup>−1</sup>]"], "time after the transient [s]")
         layout["yaxis"] |= {"rangemode": "normal"}
         variants.append(Variant(name, data, layout))
-    caption = "Running exponents. The fit is λ + a/t over the second half of the mean: what the start leaves behind decays as 1/t."
+    caption = (
+        "Running exponents. The fit is λ + a/t over the second half of the mean: what the start leaves behind decays as 1/t."
+    )
     return Figure("convergence", "Convergence of the exponents", caption, variants, choice="Exponent")
 
 
@@ -125,25 +138,31 @@ def poincare(result: xr.Dataset) -> Figure | None:
             continue
         (x, x_title), (y, y_title) = (_scaled(sections, name) for name in (across, up))
         if len(shown) <= 4:
-            data = [
-                points(x[members == m], y[members == m], f"member {m}", f"@c{k % 4 + 1}")
-                for k, m in enumerate(shown)
-            ]
+            data = [points(x[members == m], y[members == m], f"member {m}", f"@c{k % 4 + 1}") for k, m in enumerate(shown)]
         else:
             data = [points(x, y, "all members", "@c1/0.6", size=3)]
         layout = {**rows([y_title], x_title), "hovermode": "closest"}
         variants.append(Variant(f"{up} over {across}", data, layout))
     if not variants:
         return None
-    where = f"at the crank angle {number(study.get('phase', 0.0))} rad" if "section" not in study else "where the scene's study.section is crossed"
-    caption = f"{counted(len(members), 'state')} of {counted(len(shown), 'member')} {where}. A few points are a periodic motion, a closed curve a quasi-periodic one, a cloud an irregular one."
+    where = (
+        f"at the crank angle {number(study.get('phase', 0.0))} rad"
+        if "section" not in study
+        else "where the scene's study.section is crossed"
+    )
+    caption = (
+        f"{counted(len(members), 'state')} of {counted(len(shown), 'member')} {where}. "
+        "A few points are a periodic motion, a closed curve a quasi-periodic one, a cloud an irregular one."
+    )
     if len(members) > 5000:
         caption += " An even choice of 5,000 is drawn."
     return Figure("poincare", "Poincaré map", caption, variants, height=480, choice="Plane")
 
 
 def _scaled(sections: xr.Dataset, name: str) -> tuple[np.ndarray, str]:
-    factor, unit = FACTORS.get(str(sections[name].attrs.get("units", "1")), (1.0, str(sections[name].attrs.get("units", "1"))))
+    factor, unit = FACTORS.get(
+        str(sections[name].attrs.get("units", "1")), (1.0, str(sections[name].attrs.get("units", "1")))
+    )
     return sections[name].values * factor, f"{text(name)} [{text(unit)}]"
 
 
@@ -160,8 +179,8 @@ def bifurcation(result: xr.Dataset) -> Figure | None:
     sections = slideway.sections(result) if "section_member" in result.coords else None
     lower = _exponent_row(result, values.values * factor)
     variants = []
-    for name in ("y", "z", "roll", "yaw", "pitch", "vy", "vz") if sections is not None else ():
-        if name not in sections:
+    for name in ("y", "z", "roll", "yaw", "pitch", "vy", "vz"):
+        if sections is None or name not in sections:
             continue
         y, title = _scaled(sections, name)
         at = np.array([of_member[m] for m in sections["member"].values.tolist()])

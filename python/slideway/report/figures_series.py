@@ -41,13 +41,13 @@ def time_series(result: xr.Dataset, seen: dict[int, Poses]) -> list[Figure]:
         ("series", "Time series", PLACE, asked),
         ("rates", "Velocities", RATE, []),
     ):
-        groups = [(head, [s for s in group if s in names], factor) for head, group, factor in groups]
-        groups = [(f"{', '.join(group)}<br>[{unit}]", group, factor) for unit, group, factor in groups if group]
-        titles = [head for head, _, _ in groups] + [_axis_title(result, one) for one in extra]
+        kept = [(unit, [s for s in states if s in names], factor) for unit, states, factor in groups]
+        drawn = [(f"{', '.join(states)}<br>[{unit}]", states, factor) for unit, states, factor in kept if states]
+        titles = [head for head, _, _ in drawn] + [_axis_title(result, one) for one in extra]
         if not titles:
             continue
         variants = [
-            Variant(label, _rows_of(result, member, groups, extra, seen[member]), rows(titles, "time [s]"))
+            Variant(label, _rows_of(result, member, drawn, extra, seen[member]), rows(titles, "time [s]"))
             for member, label in chosen(result).items()
         ]
         if name == "series":
@@ -156,7 +156,14 @@ def orbit(result: xr.Dataset, seen: dict[int, Poses]) -> Figure | None:
         start = points(z[:1], y[:1], "start", "@c2", size=9)
         joint = pose.joint
         across, up = joint.gap_z * 1e3, joint.gap_y * 1e3
-        walls = {"type": "rect", "x0": -across, "x1": across, "y0": -up, "y1": up, "line": {"color": "@muted", "dash": "dot", "width": 1}}
+        walls = {
+            "type": "rect",
+            "x0": -across,
+            "x1": across,
+            "y0": -up,
+            "y1": up,
+            "line": {"color": "@muted", "dash": "dot", "width": 1},
+        }
         layout = rows(["y [mm]"], "z [mm]")
         layout["yaxis"] |= {"scaleanchor": "x", "scaleratio": 1, "constrain": "domain"}
         layout["xaxis"] |= {"constrain": "domain"}

@@ -14,6 +14,9 @@ from .numbers import counted, scaled, unit_words
 from .traces import Figure, Trace, Variant, packed, rows, text
 
 
+Kinds = tuple[tuple[str, str, str], ...]  # name in the file, in words, colour
+
+
 def quantiles(every: list[Column], limits: dict[str, Any]) -> Figure | None:
     """Distribution of each quantity by its quantiles, with their intervals and the scene's limits."""
     variants = []
@@ -50,7 +53,14 @@ def quantiles(every: list[Column], limits: dict[str, Any]) -> Figure | None:
 def _interval(values: Array, ends: Array, colour: str) -> dict[str, Any]:
     """Error bars from values (n) to ends (n, 2), none where an end is unknown."""
     up, down = (np.nan_to_num(np.clip(part, 0, None)) for part in (ends[:, 1] - values, values - ends[:, 0]))
-    return {"type": "data", "symmetric": False, "array": packed(up), "arrayminus": packed(down), "color": colour, "thickness": 1.2}
+    return {
+        "type": "data",
+        "symmetric": False,
+        "array": packed(up),
+        "arrayminus": packed(down),
+        "color": colour,
+        "thickness": 1.2,
+    }
 
 
 def _line(x: float) -> dict[str, Any]:
@@ -58,7 +68,15 @@ def _line(x: float) -> dict[str, Any]:
 
 
 def _label(x: float, name: str) -> dict[str, Any]:
-    return {"x": x, "y": 1, "yref": "paper", "yanchor": "bottom", "text": f"limit ({text(name)})", "showarrow": False, "font": {"color": "@bad"}}
+    return {
+        "x": x,
+        "y": 1,
+        "yref": "paper",
+        "yanchor": "bottom",
+        "text": f"limit ({text(name)})",
+        "showarrow": False,
+        "font": {"color": "@bad"},
+    }
 
 
 def yields(result: xr.Dataset) -> list[tuple[str, int, int, float, float, float]]:
@@ -87,7 +105,7 @@ def sensitivity(result: xr.Dataset) -> Figure | None:
     with slideway.open(slideway.results.path_of(result), group="sensitivity") as opened:
         group = opened.load()
     inputs = [text(name) for name in group["input"].values.tolist()]
-    kinds = (("first", "first order: alone", "@c1"), ("total", "total: with all that it interacts with", "@c2"))
+    kinds: Kinds = (("first", "first order: alone", "@c1"), ("total", "total: with all that it interacts with", "@c2"))
     if not any(str(name).endswith("_total") for name in group):
         kinds = (("rank_correlation", "rank correlation", "@c1"),)
     variants = []
@@ -100,7 +118,9 @@ def sensitivity(result: xr.Dataset) -> Figure | None:
             data = _bars(one, name, kinds, inputs)
             if data:
                 layout = {
-                    "xaxis": {"title": {"text": "share of the variance" if len(kinds) > 1 else "Spearman's rank correlation"}},
+                    "xaxis": {
+                        "title": {"text": "share of the variance" if len(kinds) > 1 else "Spearman's rank correlation"}
+                    },
                     "yaxis": {"automargin": True},
                     "barmode": "group",
                     "hovermode": "closest",
@@ -109,17 +129,22 @@ def sensitivity(result: xr.Dataset) -> Figure | None:
     if not variants:
         return None
     if len(kinds) > 1:
-        caption = f"Sobol indices of {counted(int(group['rows_used']), 'row')} of the design, bars: 95 % intervals. The total less the first is what an input does together with others."
+        caption = (
+            f"Sobol indices of {counted(int(group['rows_used']), 'row')} of the design, bars: 95 % intervals. "
+            "The total less the first is what an input does together with others."
+        )
     else:
         caption = "How the ranks of input and quantity go together, from −1 to 1, bars: 95 % intervals where the design allows some."
-    return Figure("sensitivity", "What drives the scatter", caption, variants, height=140 + 42 * len(inputs), choice="Quantity")
+    return Figure(
+        "sensitivity", "What drives the scatter", caption, variants, height=140 + 42 * len(inputs), choice="Quantity"
+    )
 
 
 def _labels(result: xr.Dataset, dimension: str, size: int) -> list[str]:
     return [str(v) for v in result[dimension].values] if dimension in result.coords else [str(k) for k in range(size)]
 
 
-def _bars(one: xr.Dataset, name: str, kinds: tuple[tuple[str, str, str], ...], inputs: list[str]) -> list[Trace]:
+def _bars(one: xr.Dataset, name: str, kinds: Kinds, inputs: list[str]) -> list[Trace]:
     order = np.argsort(np.abs(one[f"{name}_{kinds[-1][0]}"].values), kind="stable")  # the strongest on top
     data = []
     for kind, words, colour in reversed(kinds):

@@ -5,7 +5,17 @@ from __future__ import annotations
 import html
 import json
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from typing import Any
+
+
+@dataclass(frozen=True)
+class Section:
+    """A part of the page with a place in its table of contents."""
+
+    name: str  # of its element
+    title: str
+    body: str  # HTML
 
 
 def tag(name: str, *children: str, **attributes: object) -> str:
@@ -16,7 +26,7 @@ def tag(name: str, *children: str, **attributes: object) -> str:
     '<p class="a" data-x="1">&lt;b&gt;</p>'
     """
     written = "".join(
-        f' {key.rstrip("_").replace("_", "-")}="{html.escape(str(value))}"' if value is not True else f' {key}'
+        f' {key.rstrip("_").replace("_", "-")}="{html.escape(str(value))}"' if value is not True else f" {key}"
         for key, value in attributes.items()
         if value is not False and value is not None
     )
@@ -31,15 +41,15 @@ def words(text: object) -> str:
 def table(head: Sequence[str], body: Iterable[Sequence[object]], caption: str, numeric: int = 1) -> str:
     """A table that scrolls by itself on a narrow page; columns from `numeric` on hold numbers."""
 
-    def cells(row: Sequence[object], name: str) -> str:
-        parts = [
-            tag("th" if name == "td" and k == 0 else name, words(cell), class_="n" if k >= numeric else None, scope="row" if name == "td" and k == 0 else ("col" if name == "th" else None))
-            for k, cell in enumerate(row)
-        ]
+    def cells(row: Sequence[object], head: bool) -> str:
+        parts = []
+        for k, cell in enumerate(row):
+            scope = "col" if head else "row" if k == 0 else None
+            parts.append(tag("th" if scope else "td", words(cell), class_="n" if k >= numeric else None, scope=scope))
         return tag("tr", *parts)
 
-    lines = [cells(row, "td") for row in body]
-    inner = tag("caption", words(caption)) + tag("thead", cells(head, "th")) + tag("tbody", *lines)
+    lines = [cells(row, False) for row in body]
+    inner = tag("caption", words(caption)) + tag("thead", cells(head, True)) + tag("tbody", *lines)
     return tag("div", tag("table", inner), class_="scroll", tabindex="0", role="region", aria_label=caption)
 
 

@@ -15,12 +15,13 @@ MOST = 3
 def chosen(result: xr.Dataset) -> dict[int, str]:
     """Numbers and labels of the members to look at: the first, the one in the middle and the most loaded of those that finished.
 
-    Where none finished, the first that have any samples, for these may show why.
+    Where none finished, the first that have any samples, for these may show why. The result has time series.
     """
     numbers = result["member"].values
     ended = np.flatnonzero(slideway.finished(result).values)
     if len(ended) == 0:
-        ran = np.flatnonzero(slideway.statuses(result).values != "not_run")
+        began = np.isfinite(result["y"].transpose("member", "sample").values[:, 0])
+        ran = np.flatnonzero(began & (slideway.statuses(result).values != "not_run"))
         return {int(numbers[k]): label(result, int(numbers[k])) for k in ran[:MOST]}
     picks = {int(numbers[ended[0]]): ""}
     if "peak_normal_force" in result and len(ended) > 2:

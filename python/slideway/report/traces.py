@@ -125,9 +125,7 @@ def rows(titles: list[str], x_title: str, **x_axis: Any) -> dict[str, Any]:
     count = len(titles)
     gap = 0.06 if count > 1 else 0.0
     height = (1 - gap * (count - 1)) / count
-    layout: dict[str, Any] = {
-        "xaxis": {"title": {"text": x_title}, "anchor": "y" if count == 1 else f"y{count}", **x_axis}
-    }
+    layout: dict[str, Any] = {"xaxis": {"title": {"text": x_title}, "anchor": "y" if count == 1 else f"y{count}", **x_axis}}
     for row, title in enumerate(titles, start=1):
         top = 1 - (row - 1) * (height + gap)
         key = "yaxis" if row == 1 else f"yaxis{row}"
@@ -163,6 +161,22 @@ def bins(values: ArrayLike, most: int = 60) -> NDArray[np.float64]:
 
 def vertical(x: float, label: str, colour: str = "@bad") -> tuple[dict[str, Any], dict[str, Any]]:
     """A line across all rows at x with a label at its top: a shape and an annotation."""
-    shape = {"type": "line", "x0": x, "x1": x, "yref": "paper", "y0": 0, "y1": 1, "line": {"color": colour, "dash": "dash", "width": 1.5}}
-    note = {"x": x, "y": 1, "yref": "paper", "yanchor": "bottom", "text": text(label), "showarrow": False, "font": {"color": colour}}
+    shape = {
+        "type": "line",
+        "x0": x,
+        "x1": x,
+        "yref": "paper",
+        "y0": 0,
+        "y1": 1,
+        "line": {"color": colour, "dash": "dash", "width": 1.5},
+    }
+    note = {
+        "x": x,
+        "y": 1,
+        "yref": "paper",
+        "yanchor": "bottom",
+        "text": text(label),
+        "showarrow": False,
+        "font": {"color": colour},
+    }
     return shape, note

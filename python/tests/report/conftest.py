@@ -87,9 +87,7 @@ class Page:
 
 
 @pytest.fixture(scope="session")
-def page_of(
-    result_of: Callable[[str], xr.Dataset], tmp_path_factory: pytest.TempPathFactory
-) -> Callable[[str], Page]:
+def page_of(result_of: Callable[[str], xr.Dataset], tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Page]:
     """The page about a recipe's result."""
     folder = tmp_path_factory.mktemp("pages")
     made: dict[str, Page] = {}

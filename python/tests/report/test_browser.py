@@ -48,7 +48,8 @@ def test_complaints_of_a_page_are_heard(page_of: Pages, browser: Browser) -> Non
 
 PLAY = """
   const stage = document.getElementById("stage"), wait = (ms) => new Promise((done) => setTimeout(done, ms));
-  const state = () => [Number(stage.dataset.frame), document.getElementById("now-time").textContent, document.querySelector("#view-end .near").getAttribute("d")];
+  const state = () => [Number(stage.dataset.frame), document.getElementById("now-time").textContent,
+                       document.querySelector("#view-end .near").getAttribute("d")];
   const start = state();
   document.getElementById("play").click();
   await wait(600);
@@ -87,10 +88,12 @@ TOUCH = """
   for (let k = 0; k < 40; ++k) {
     document.getElementById("contact").click();
     for (const apex of document.querySelectorAll("#view-end .apex")) {
-      const path = document.querySelector(apex.classList.contains("back") ? "#view-end .far" : "#view-end .near").getAttribute("d");
-      const ring = path.split("Z")[1].slice(1).split("L").map((corner) => corner.split(",").map(Number)); // the hole
+      const end = apex.classList.contains("back") ? "#view-end .far" : "#view-end .near";
+      const hole = document.querySelector(end).getAttribute("d").split("Z")[1].slice(1);
+      const ring = hole.split("L").map((corner) => corner.split(",").map(Number));
       const [x, y] = [Number(apex.getAttribute("cx")), Number(apex.getAttribute("cy"))];
-      rows.push([/ on[123]/.test(apex.getAttribute("class")), Math.min(...ring.map((corner, i) => near(x, y, corner, ring[(i + 1) % 4])))]);
+      const distance = Math.min(...ring.map((corner, i) => near(x, y, corner, ring[(i + 1) % 4])));
+      rows.push([/ on[123]/.test(apex.getAttribute("class")), distance]);
     }
   }
   return rows;
@@ -126,9 +129,7 @@ def test_a_page_fits_a_phone(name: str, page_of: Pages, browser: Browser) -> Non
     assert browser.look(page_of(name).path, SURVEY, width=390).found["overflow"] <= 0
 
 
-def test_hostile_text_does_nothing(
-    result_of: Callable[[str], xr.Dataset], browser: Browser, tmp_path: Path
-) -> None:
+def test_hostile_text_does_nothing(result_of: Callable[[str], xr.Dataset], browser: Browser, tmp_path: Path) -> None:
     with result_of("ensemble") as result:
         path = report.write(hostile(result), tmp_path / "hostile.html")
     seen = browser.look(path, "return document.title")

@@ -60,14 +60,15 @@
     const rise = half[v] + 2 * room[v] + wall;
     const svg = svgOf("view-" + id, [-reach * 1.06, -rise * 1.1, reach * 2.12, rise * 2.2]);
     const spot = (r) => [r[h], up * r[v]];
-    add(svg, "rect", { class: "way", x: closed ? -half[h] : -reach * 1.06, y: -half[v], width: closed ? 2 * half[h] : reach * 2.12, height: 2 * half[v] });
+    const long = closed ? half[h] : reach * 1.06;
+    add(svg, "rect", { class: "way", x: -long, y: -half[v], width: 2 * long, height: 2 * half[v] });
     const far = add(svg, "path", { class: "far" });
     const body = add(svg, "path", { class: "near" });
     const faces = rings.map(() => add(svg, "path", {}));
     const edges = add(svg, "g", {});
     const size = 0.022 * reach;
     const apexOf = (k, front) => {
-      const [x, y] = spot([0, 1, 2].map((axis) => signs[k][axis] * half[axis]));
+      const [x, y] = spot(half.map((size, axis) => signs[k][axis] * size));
       return { k, front, mark: add(svg, "circle", { cx: x, cy: y, r: front ? size : size * 1.9 }) };
     };
     const order = [...signs.keys()];
@@ -77,13 +78,15 @@
     ];
     const font = 0.055 * reach + "px";
     add(svg, "text", { x: reach * 0.99, y: -reach * 0.02, "text-anchor": "end", style: "font-size:" + font }, names[0]);
-    add(svg, "text", { x: reach * 0.02, y: up * (rise * 1.02), style: "font-size:" + font, "dominant-baseline": up < 0 ? "hanging" : "auto" }, names[1]);
+    const above = up < 0 ? "hanging" : "auto";
+    add(svg, "text", { x: reach * 0.02, y: up * rise * 1.02, style: "font-size:" + font, "dominant-baseline": above }, names[1]);
 
     // Displacement of the slider's faces normal to `axis`, m times: constant part and slope along the other axis of the drawing.
     const outline = (f, depth) => {
       const place = [0, one.y[f], one.z[f]];
       const turn = [one.roll[f], one.yaw[f], one.pitch[f]];
-      const cross = (r) => [turn[1] * r[2] - turn[2] * r[1], turn[2] * r[0] - turn[0] * r[2], turn[0] * r[1] - turn[1] * r[0]];
+      const crossed = (r, i, j) => turn[i] * r[j] - turn[j] * r[i];
+      const cross = (r) => [crossed(r, 1, 2), crossed(r, 2, 0), crossed(r, 0, 1)];
       const unit = (axis, size) => [0, 1, 2].map((k) => (k === axis ? size : 0));
       const base = cross(unit(d, depth));
       const shift = (axis) => m * (place[axis] + base[axis]);
@@ -109,10 +112,11 @@
         const seen = face.kind && face.axis === v ? 0 : face.kind && face.axis === h ? 1 : -1;
         faces[k].setAttribute("class", seen < 0 ? "" : "face of" + face.kind);
         const across = seen === 0 ? h : v;
-        const ends = [-1, 1].map((s) => spot([0, 1, 2].map((axis) => (axis === face.axis ? face.side * half[axis] : axis === across ? s * half[axis] : 0))));
+        const signOf = (axis, end) => (axis === face.axis ? face.side : axis === across ? end : 0);
+        const ends = [-1, 1].map((end) => spot(half.map((size, axis) => signOf(axis, end) * size)));
         faces[k].setAttribute("d", seen < 0 ? "" : "M" + ends.join("L"));
         for (const edge of seen < 0 ? [] : face.edges) {
-          const [from, to] = edge.map((apex) => spot([0, 1, 2].map((axis) => signs[apex][axis] * half[axis])));
+          const [from, to] = edge.map((apex) => spot(half.map((size, axis) => signs[apex][axis] * size)));
           add(edges, "path", { class: "edge of2", d: `M${from}L${to}` });
         }
       });
@@ -144,7 +148,6 @@
         mark.setAttribute("class", "apex" + (contacts.bits >> k & 1 ? " on" + wallKind : ""));
       });
       faces.forEach((face, k) => face.setAttribute("class", contacts.walls[k] ? "face of" + contacts.walls[k] : ""));
-      if (!contacts.walls[0]) faces[0].setAttribute("class", "none");
     };
   }
 
@@ -158,16 +161,17 @@
     const svg = at("view-strip");
     if (!svg || !one.x) return () => {};
     const [r, rod] = one.links || [0, 0];
-    const low = one.x.reduce((least, v) => Math.min(least, v), Infinity), high = one.x.reduce((most, v) => Math.max(most, v), -Infinity);
-    const left = Math.min(one.links ? -r : low - one.length, low - one.length) - 8, right = high + one.length + 8;
+    const low = Math.min(...one.x), high = Math.max(...one.x);
+    const left = Math.min(one.links ? -r : Infinity, low - one.length) - 8, right = high + one.length + 8;
     const tall = Math.max(r, one.width) + 8;
     svgOf("view-strip", [left, -tall, right - left, 2 * tall]);
     add(svg, "line", { class: "axis", x1: left, x2: right, y1: 0, y2: 0 });
     const thin = one.width * (film.planar ? 1.1 : 0.5);
     if (film.planar) {
-      for (const side of [-1, 1]) add(svg, "line", { class: "rod", x1: low - one.length, x2: right, y1: side * thin / 2, y2: side * thin / 2, style: "stroke:var(--muted)" });
+      for (const y of [-thin / 2, thin / 2]) add(svg, "line", { class: "wall", x1: low - one.length, x2: right, y1: y, y2: y });
     } else {
-      add(svg, "rect", { class: "way", x: low - one.length, y: -thin / 2, width: right - low + one.length, height: thin });
+      const place = { x: low - one.length, width: right - low + one.length, y: -thin / 2, height: thin };
+      add(svg, "rect", { class: "way", ...place });
     }
     const block = add(svg, "rect", { class: "near", y: -one.width * 0.5, width: one.length, height: one.width });
     if (one.links) add(svg, "circle", { class: "axis", cx: 0, cy: 0, r });
@@ -210,7 +214,7 @@
     const held = counts.map(([count, noun]) => `${count} ${noun}${count === 1 ? "" : "s"}`).join(", ");
     const mm = (value) => value.toFixed(4).replace("-", "−") + " mm";
     at("now-time").textContent = one.time[frame].toFixed(4) + " s";
-    at("now-mode").textContent = `(${surfaces}, ${lines}, ${points}) ` + (held || "free flight");
+    at("now-mode").textContent = `(${surfaces}, ${lines}, ${points}) ${held || "free flight"}`;
     at("now-place").textContent = film.planar
       ? `y ${mm(one.y[frame])}, pitch ${(1e3 * one.pitch[frame]).toFixed(3).replace("-", "−")} mrad`
       : `y ${mm(one.y[frame])}, z ${mm(one.z[frame])}`;
@@ -222,7 +226,8 @@
   function choose() {
     one = film.members[at("film-choice") ? at("film-choice").selectedIndex : 0];
     slide.max = one.count - 1;
-    views = film.planar ? [planarView(one, film.magnification)] : Object.keys(plans).map((id) => spatialView(id, one, film.magnification));
+    const m = film.magnification;
+    views = film.planar ? [planarView(one, m)] : Object.keys(plans).map((id) => spatialView(id, one, m));
     views.push(strip(one));
     timeline();
     pace();
@@ -234,7 +239,7 @@
   function pace() {
     const length = one.time[one.count - 1] - one.time[0];
     const real = (length / secondsOfWhole) * Number(at("speed").value);
-    at("pace").textContent = one.count > 1 ? (real > 1 ? `${short(real)} times real time` : `slowed down ${short(1 / real)} times`) : "one frame";
+    at("pace").textContent = real > 1 ? `${short(real)} times real time` : `slowed down ${short(1 / real)} times`;
   }
 
   function stop() {
