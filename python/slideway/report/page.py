@@ -19,6 +19,7 @@ from . import (
     figures_members,
     figures_orbits,
     figures_series,
+    figures_signals,
     figures_tolerance,
     poses,
     sections,
@@ -121,6 +122,7 @@ def _figures(result: xr.Dataset, every: list[Column], film: Film | str) -> dict[
         seen, _ = film
         made += figures_series.time_series(result, seen)
         made += [figures_series.bands(result), figures_series.orbit(result, seen), figures_series.forces(result, seen)]
+        made.append(figures_signals.spectra(result, seen))
     if "status" in result:
         sweep = figures_orbits.bifurcation(result)
         made += [sweep or figures_orbits.poincare(result), *figures_orbits.exponents(result)]

@@ -18,7 +18,9 @@ Pages = Callable[[str], Page]
 SURVEY = """
   const drawn = [...document.querySelectorAll(".plot")].map((plot) =>
     [plot.id, plot.querySelectorAll(".scatterlayer .trace, .barlayer .point").length]);
-  return { drawn: Object.fromEntries(drawn),
+  const wide = [...document.querySelectorAll(".plot, .views svg")].map((one) =>
+    Math.max(...[one, ...one.querySelectorAll(".main-svg")].map((part) => part.getBoundingClientRect().right)));
+  return { drawn: Object.fromEntries(drawn), beyond: Math.max(...wide) - document.documentElement.clientWidth,
            overflow: document.documentElement.scrollWidth - document.documentElement.clientWidth };
 """
 
@@ -126,7 +128,9 @@ def test_a_page_follows_the_readers_colours(dark: bool, page_of: Pages, browser:
 
 @pytest.mark.parametrize("name", ["ensemble", "failing"])
 def test_a_page_fits_a_phone(name: str, page_of: Pages, browser: Browser) -> None:
-    assert browser.look(page_of(name).path, SURVEY, width=390).found["overflow"] <= 0
+    found = browser.look(page_of(name).path, SURVEY, width=390).found
+    assert found["overflow"] <= 0
+    assert found["beyond"] <= 0
 
 
 def test_hostile_text_does_nothing(result_of: Callable[[str], xr.Dataset], browser: Browser, tmp_path: Path) -> None:
