@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that slideway's build and tests need, only those that are missing.
-# Usage: scripts/setup.sh [tests].  With `tests` also what only the tests compare with.
+# Usage: scripts/setup.sh [tests].  With `tests` also what only the tests compare with, and what the Python package is tested with.
 # Run by scripts/test.sh and scripts/demo.sh; needs root or sudo only when something is missing.
 set -euo pipefail
 
@@ -11,7 +11,7 @@ packages=(
     libgtest-dev libbenchmark-dev
     libopenmpi-dev openmpi-bin
 )
-[[ ${1:-} == tests ]] && packages+=(libopenturns-dev)
+[[ ${1:-} == tests ]] && packages+=(libopenturns-dev python3 python3-pip python3-venv chromium)
 
 fail() {
     echo "setup.sh: $*" >&2

@@ -11,10 +11,10 @@ namespace {
 constexpr std::size_t longest_source = 500;  // lines
 
 std::vector<SourceFile> repository_files() {
-    auto files = files_below({".ci", "bench", "cmake", "docs", "host", "kernels", "scenes", "scripts", "tests"});
+    auto files = files_below({".ci", "bench", "cmake", "docs", "host", "kernels", "python", "scenes", "scripts", "tests"});
     auto const in_root = files_in_root();
     files.insert(files.end(), in_root.begin(), in_root.end());
-    std::erase_if(files, [](SourceFile const& f) { return has_ending(f.path, {".csv", ".png", ".nc"}); });
+    std::erase_if(files, [](SourceFile const& f) { return has_ending(f.path, {".csv", ".png", ".nc", ".pyc"}); });
     return files;
 }
 

@@ -1,0 +1,55 @@
+"""Runs slideway, opens its results as xarray Datasets, and plots them.
+
+>>> result = slideway.example()
+>>> result.y.sizes["member"], result.y.units
+(12, 'm')
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+from ._version import __version__
+from .accessor import ResultAccessor
+from .errors import FileError, RunError, SceneError, SlidewayError, StoppedEarly, TooManyFailures
+from .example import example
+from .members import finished, statuses
+from .results import groups, open  # noqa: A004 (slideway.open is the name that users expect)
+from .runs import info, run
+from .scenes import scene
+from .sections import sections
+from .series_statistics import SeriesStatistics, stats
+
+if TYPE_CHECKING:
+    from . import plot
+
+__all__ = [
+    "FileError",
+    "ResultAccessor",
+    "RunError",
+    "SceneError",
+    "SeriesStatistics",
+    "SlidewayError",
+    "StoppedEarly",
+    "TooManyFailures",
+    "__version__",
+    "example",
+    "finished",
+    "groups",
+    "info",
+    "open",
+    "plot",
+    "run",
+    "scene",
+    "sections",
+    "stats",
+    "statuses",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """slideway.plot is imported when it is first used: matplotlib takes its time."""
+    if name == "plot":
+        return importlib.import_module(".plot", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

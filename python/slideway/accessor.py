@@ -1,0 +1,74 @@
+"""ds.slideway: what a result knows beyond its variables."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import xarray as xr
+
+from . import members, results
+from . import scenes as scenes_
+from . import sections as sections_
+
+
+@xr.register_dataset_accessor("slideway")  # type: ignore[no-untyped-call, unused-ignore]
+class ResultAccessor:
+    """Everything about a result that is no variable of it, as ``result.slideway``.
+
+    >>> result = slideway.example()
+    >>> result.slideway.scene["joint"]["clearance_y"]
+    0.0001
+    >>> result.slideway.sections(member=2).sizes["section"]
+    40
+    """
+
+    def __init__(self, result: xr.Dataset) -> None:
+        self._result = result
+
+    @property
+    def path(self) -> str:
+        """The file that the result comes from."""
+        return results.path_of(self._result)
+
+    @property
+    def scene(self) -> dict[str, Any]:
+        """See :func:`slideway.scene`."""
+        return scenes_.scene(self._result)
+
+    @property
+    def groups(self) -> list[str]:
+        """See :func:`slideway.groups`."""
+        return results.groups(self._result)
+
+    @property
+    def statistics(self) -> xr.Dataset:
+        """Counts, moments, quantiles and histograms of each quantity, of a tolerance study."""
+        return self.group("statistics")
+
+    @property
+    def yields(self) -> xr.Dataset:
+        """Shares of the members that meet the scene's limits (the group "yield")."""
+        return self.group("yield")
+
+    @property
+    def sensitivity(self) -> xr.Dataset:
+        """Sobol indices, or rank correlations, of each quantity and input."""
+        return self.group("sensitivity")
+
+    @property
+    def statuses(self) -> xr.DataArray:
+        """See :func:`slideway.statuses`."""
+        return members.statuses(self._result)
+
+    @property
+    def finished(self) -> xr.DataArray:
+        """See :func:`slideway.finished`."""
+        return members.finished(self._result)
+
+    def group(self, name: str) -> xr.Dataset:
+        """A group of the file, as slideway.open(path, group=name)."""
+        return results.open(self.path, group=name)
+
+    def sections(self, member: int | None = None) -> xr.Dataset:
+        """See :func:`slideway.sections`."""
+        return sections_.sections(self._result, member)

@@ -1,0 +1,87 @@
+"""What goes wrong: one family of exceptions, each with one line that says what is wrong and what to do."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+class SlidewayError(Exception):
+    """Whatever slideway cannot do: its text is one line that says what is wrong and what to do.
+
+    >>> try:
+    ...     slideway.open("nowhere.nc")
+    ... except slideway.SlidewayError as error:
+    ...     print(error)
+    nowhere.nc: there is no such file; check the path
+    """
+
+
+class RunError(SlidewayError):
+    """The program ended with an error.
+
+    Attributes:
+        code: its exit code; negative: the signal that ended it.
+        line: the last line that it wrote to stderr, which says why.
+    """
+
+    def __init__(self, code: int, line: str) -> None:
+        super().__init__(line)
+        self.code = code
+        self.line = line
+
+
+class SceneError(RunError):
+    """The scene or an option is wrong (exit code 2); the text says where and what to do."""
+
+
+class FileError(RunError):
+    """A file could not be read or written (exit code 4)."""
+
+
+class KeptResults(RunError):
+    """An end that leaves results: `dataset` is what was computed.
+
+    Attributes:
+        output: the result file that the run was to make, or made.
+    """
+
+    def __init__(self, code: int, line: str, output: str) -> None:
+        super().__init__(code, line)
+        self.output = output
+
+    @property
+    def dataset(self) -> xr.Dataset:
+        """What was computed before the end."""
+        from .results import open as open_result
+
+        return open_result(self.output)
+
+
+class TooManyFailures(KeptResults):
+    """More members failed than max_failures allows (exit code 3). All members are in `dataset`, with the status of each."""
+
+
+class StoppedEarly(KeptResults):
+    """Stopped by a signal or by max_hours (exit code 5). `dataset` holds the members that ended before; with the same output and
+    ``resume=True`` the run goes on."""
+
+    def __init__(self, code: int, line: str, output: str, program: str) -> None:
+        super().__init__(code, line, output)
+        self.program = program
+        self._merged: str | None = None
+
+    @property
+    def dataset(self) -> xr.Dataset:
+        """One file of the members that ended before the stop; the others have the status not_run. The shards stay as they are."""
+        from .program import call, temporary_file
+        from .results import open as open_result
+
+        if self._merged is None:
+            merged = temporary_file("merged.nc")
+            # Code 5 says that members are missing, which is known.
+            call(self.program, ["merge", self.output + ".shards", "-o", merged], good=(0, 5))
+            self._merged = merged
+        return open_result(self._merged)

@@ -1,0 +1,67 @@
+"""The mechanisms without clearance, whose slider keeps to the axis of the way."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+_on_axis = ("y", "z", "vy", "vz", "ay", "az", "roll", "yaw", "pitch", "wx", "wy", "wz")
+
+
+def ideal(scene: Mapping[str, Any], variable: str, time: np.ndarray) -> np.ndarray | None:
+    """What a series would be without clearance.
+
+    Args:
+        scene: a resolved scene (:func:`slideway.scene`).
+        variable: name of the series.
+        time: since the start of the run [s].
+
+    Returns:
+        Its values at these times in its own unit, or None where there is no ideal motion to compare with: of forces, of a
+        slider that nothing drives along the way, or of what no part of the mechanism prescribes.
+
+    >>> import numpy as np
+    >>> ideal(slideway.scene(slideway.example()), "x", np.array([0.0, 1.0])).round(4)
+    array([0.1922, 0.0922])
+    """
+    if variable in _on_axis:
+        return np.zeros_like(time)
+    mechanism = scene["mechanism"]
+    motion = _motions.get(str(mechanism["kind"]))
+    if motion is None or variable not in ("x", "vx", "ax") or mechanism.get("crank") == "free":
+        return None
+    return motion(mechanism, time)[("x", "vx", "ax").index(variable)]
+
+
+def _slider_crank(mechanism: Mapping[str, Any], time: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """x = r cos θ + D, D = √(L² − r² sin² θ), θ = θ0 + ωt, and its derivatives: D D' = −r² ω sin θ cos θ."""
+    r, length, speed = (float(mechanism[key]) for key in ("crank_length", "rod_length", "crank_speed"))
+    angle = float(mechanism.get("start_angle", 0.0)) + speed * time
+    sine, cosine = np.sin(angle), np.cos(angle)
+    reach = np.sqrt(length**2 - (r * sine) ** 2)
+    reach_rate = -(r**2) * speed * sine * cosine / reach
+    reach_acceleration = -((r * speed) ** 2 * (cosine**2 - sine**2) + reach_rate**2) / reach
+    return r * cosine + reach, -r * speed * sine + reach_rate, -r * speed**2 * cosine + reach_acceleration
+
+
+def _carriage(mechanism: Mapping[str, Any], time: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """From x = 0 at +v for T = stroke/v, then v cos(π τ/t_r) for 0 ≤ τ ≤ t_r, then the same with −v, and so on."""
+    speed, stroke, turn = (float(mechanism[key]) for key in ("carriage_speed", "stroke", "reversal_time"))
+    there = stroke / speed
+    half = there + turn
+    within = np.mod(time, half)
+    sign = np.where(np.mod(np.floor_divide(time, half), 2) == 0, 1.0, -1.0)
+    angle = np.pi * np.clip(within - there, 0.0, None) / turn
+    way = np.minimum(within, there) * speed + speed * turn / np.pi * np.sin(angle)
+    # A reversal ends where it began, so that each half period starts at an end of the stroke.
+    x = np.where(sign > 0, way, stroke - way)
+    return x, sign * speed * np.cos(angle), -sign * speed * np.pi / turn * np.sin(angle)
+
+
+_motions: dict[str, Callable[[Mapping[str, Any], np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]] = {
+    "slider_crank": _slider_crank,
+    "planar_slider_crank": _slider_crank,
+    "carriage": _carriage,
+}

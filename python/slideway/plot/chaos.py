@@ -1,0 +1,133 @@
+"""Growth of small differences."""
+
+from __future__ import annotations
+
+from typing import Union
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+
+from ..errors import SlidewayError
+from ..intervals import student_t
+from ..series_statistics import SeriesStatistics, stats
+from .style import Members, axis, chosen, colours, draw_members, failures, finish, grey, label, numbered, plus_minus, scaled, variable
+
+
+def divergence(
+    curve: Union[SeriesStatistics, xr.Dataset], name: str = "y", member: int | None = None, ax: Axes | None = None, **options: object
+) -> Axes:
+    """How far neighbours of one series part, after Rosenstein, with the fitted line whose slope is the exponent.
+
+    Args:
+        curve: what :func:`slideway.stats` returned, or a result, of which it is called (with `options`).
+        name: of the series, where `curve` is a result.
+        member: of the result; left out: its first.
+
+    Raises:
+        SlidewayError: the result has no such series, or too few samples.
+
+    >>> import numpy as np
+    >>> time = np.arange(20) * 1e-3
+    >>> curve = slideway.SeriesStatistics({}, time, 600 * time - 12, 600.0, 5.0, (2, 12))
+    >>> slideway.plot.divergence(curve).get_ylabel()
+    'mean ln distance'
+    """
+    if isinstance(curve, xr.Dataset):
+        variable(curve, name)
+        curve = stats(curve, name, member, **options)  # type: ignore[arg-type]
+    factor, unit = scaled("s", curve.time)
+    ax = axis(ax)
+    ax.plot(factor * curve.time, curve.mean_log_distance, ".-", color=colours[0], ms=4, lw=0.8, label="neighbours of the series")
+    if curve.exponent is not None and curve.fit is not None:
+        first, last = curve.fit
+        time, values = curve.time[first : last + 1], curve.mean_log_distance[first : last + 1]
+        line = values.mean() + curve.exponent * (time - time.mean())
+        ax.plot(factor * time, line, color=colours[1], lw=2.2,
+                label=f"λ₁ = ({plus_minus(curve.exponent, curve.error or 0)}) 1/s, samples {first} to {last}")
+    else:
+        ax.plot([], [], " ", label="no line to fit")
+    return finish(ax, label("time", unit), "mean ln distance", "lower right")
+
+
+def exponent_history(result: xr.Dataset, member: Members = None, ax: Axes | None = None, *, exponent: int = 1) -> Axes:
+    """How a Lyapunov exponent settles with the time over which it is taken.
+
+    Args:
+        member: number of a member, or several; left out: all.
+        exponent: its number, 1 the largest.
+
+    Raises:
+        SlidewayError: the result has no history (study.kind = "lyapunov", study.history > 0).
+
+    >>> slideway.plot.exponent_history(slideway.example()).get_ylabel()
+    'running λ₁ [1/s]'
+    """
+    data = _exponent(variable(result, "lyapunov_history"), exponent)
+    members = chosen(result, member)
+    rows = data.sel(member=members).values
+    # All members are rescaled at the same times: the schedule is the scene's.
+    every = (result["lyapunov_time"] / result["rescalings"]).sel(member=members).values
+    if not np.isfinite(every).any():
+        raise SlidewayError("none of these members finished; see slideway.statuses(result)")
+    time = result["history"].values * float(np.nanmedian(every))
+    factor, unit = scaled("s", time)
+    ax = axis(ax)
+    ax.axhline(0, color=grey, lw=1)
+    draw_members(ax, factor * time, rows, members, failures(result, members))
+    # The first values are those of single stretches, and would flatten all others.
+    later = rows[:, rows.shape[1] // 10 :]
+    low, high = np.nanmin(later), np.nanmax(later)
+    ax.set_ylim(min(low, 0) - 0.05 * (high - low), max(high, 0) + 0.1 * (high - low))
+    return finish(ax, label("time", unit), f"running {numbered('λ', exponent)} [1/s]")
+
+
+def exponent_histogram(result: xr.Dataset, ax: Axes | None = None, *, exponent: int = 1, bins: int | str = "auto") -> Axes:
+    """Lyapunov exponents of all members that finished, with their mean and its 95 % interval.
+
+    Of a single member the interval of its own estimate is drawn.
+
+    Args:
+        exponent: its number, 1 the largest.
+        bins: of numpy.histogram.
+
+    Raises:
+        SlidewayError: the result has no exponents, or no member finished.
+
+    >>> slideway.plot.exponent_histogram(slideway.example()).get_xlabel()
+    'λ₁ [1/s]'
+    """
+    data = _exponent(variable(result, "lyapunov_exponent"), exponent).values
+    there = np.isfinite(data)
+    values = data[there]
+    if values.size == 0:
+        raise SlidewayError("no member has an exponent, for none finished; see slideway.statuses(result)")
+    mean = float(values.mean())
+    if values.size > 1:
+        half = student_t(values.size - 1) * float(values.std(ddof=1)) / np.sqrt(values.size)
+    elif "lyapunov_exponent_half_width" in result:
+        half = float(_exponent(result["lyapunov_exponent_half_width"], exponent).values[there][0])
+    else:
+        half = np.nan
+    ax = axis(ax)
+    if values.size > 1:
+        # Equal exponents would make bins of no width.
+        span = np.ptp(values) or max(abs(mean), 1.0) * 1e-3
+        ax.hist(values, bins=bins if np.ptp(values) else 1, range=None if np.ptp(values) else (mean - span, mean + span),
+                color=colours[0], alpha=0.7, edgecolor="white", lw=0.5)
+    ax.axvspan(mean - half, mean + half, color=colours[1], alpha=0.25, lw=0)
+    missing = data.size - values.size
+    note = f", {missing} failed" if missing else ""
+    count = f"{values.size} members{note}" if data.size > 1 else "one member"
+    ax.axvline(mean, color=colours[1], lw=2, label=f"({plus_minus(mean, half)}) 1/s, {count}")
+    ax.axvline(0, color=grey, lw=1)
+    if values.size == 1:
+        ax.set_yticks([])
+    return finish(ax, f"{numbered('λ', exponent)} [1/s]", "members" if values.size > 1 else "")
+
+
+def _exponent(data: xr.DataArray, number: int) -> xr.DataArray:
+    count = data.sizes["exponent"]
+    if not 1 <= number <= count:
+        raise SlidewayError(f"there is no exponent {number} in this result, which has {count}; use study.exponents = {number}")
+    return data.isel(exponent=number - 1)

@@ -1,0 +1,92 @@
+"""Orbits in the play of the joint, and their sections."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm
+from matplotlib.patches import Rectangle
+
+from ..errors import SlidewayError
+from ..scenes import scene
+from ..sections import sections
+from .style import Members, axis, chosen, colours, finish, grey, label, most_lines, scaled, variable, words_of
+
+
+def orbit_yz(result: xr.Dataset, member: Members = None, ax: Axes | None = None) -> Axes:
+    """The slider's centre across the way, within the clearance (Fig. 13 of Qian et al. 2020).
+
+    Up to eight members are lines from a dot, where they start; of more the time that all of them spend is a map.
+
+    Args:
+        member: number of a member, or several; left out: all.
+
+    Raises:
+        SlidewayError: the result has no y and z, or nothing in them.
+
+    >>> slideway.plot.orbit_yz(slideway.example(), member=[0, 1]).get_xlabel()
+    'z [µm]'
+    """
+    y, z = variable(result, "y"), variable(result, "z")
+    members = chosen(result, member)
+    ys, zs = y.sel(member=members).values, z.sel(member=members).values
+    if not np.isfinite(ys).any():
+        raise SlidewayError("these members have no samples, for they failed before the first; see slideway.statuses(result)")
+    factor, unit = scaled("m", np.concatenate([ys.ravel(), zs.ravel()]))
+    ax = axis(ax)
+    for width, height in _gaps(result, members):
+        ax.add_patch(Rectangle((-factor * width, -factor * height), 2 * factor * width, 2 * factor * height, fill=False,
+                               ec=grey, ls="--", label=None if ax.patches else "clearance"))
+    if len(members) <= most_lines:
+        for number, row_y, row_z, colour in zip(members, ys, zs, colours, strict=False):
+            ax.plot(factor * row_z, factor * row_y, color=colour, lw=0.6, alpha=0.8, label=f"member {number}" if len(members) > 1 else None)
+            ax.plot(factor * row_z[:1], factor * row_y[:1], "o", ms=4, color=colour)
+    else:
+        there = np.isfinite(ys) & np.isfinite(zs)
+        image = ax.hist2d(factor * zs[there], factor * ys[there], bins=120, cmap="viridis_r", norm=LogNorm())[3]
+        ax.figure.colorbar(image, ax=ax, label=f"samples of {len(members)} members")
+    ax.set_aspect("equal", adjustable="box")
+    ax.autoscale_view()
+    return finish(ax, label("z", unit), label("y", unit))
+
+
+def poincare(result: xr.Dataset, x: str = "y", y: str = "vy", member: Members = None, ax: Axes | None = None) -> Axes:
+    """Sections of the orbits: a few points are a periodic motion, a cloud is an irregular one (Fig. 17 of Qian et al. 2020).
+
+    Args:
+        x, y: states of the sections, one for each axis.
+        member: number of a member, or several; left out: all.
+
+    Raises:
+        SlidewayError: the result has no sections, or no such state.
+
+    >>> slideway.plot.poincare(slideway.example(), member=0).get_ylabel()
+    'vy [mm/s]'
+    """
+    rows = sections(result)
+    for name in (x, y):
+        if name not in rows:
+            raise SlidewayError(f"the sections have no {name}, but {', '.join(str(v) for v in rows.data_vars)}")
+    members = chosen(result, member)
+    here = np.isin(rows["member"].values, members)
+    xs, ys, owners = rows[x].values[here], rows[y].values[here], rows["member"].values[here]
+    (fx, unit_x), (fy, unit_y) = scaled(rows[x].attrs["units"], xs), scaled(rows[y].attrs["units"], ys)
+    size = float(np.clip(3000 / max(xs.size, 1), 1.5, 14))
+    ax = axis(ax)
+    if len(members) <= most_lines:
+        for number, colour in zip(members, colours, strict=False):
+            own = owners == number
+            ax.scatter(fx * xs[own], fy * ys[own], s=size, color=colour, lw=0, label=f"member {number}, {own.sum()} sections")
+    else:
+        ax.scatter(fx * xs, fy * ys, s=size, color=colours[0], alpha=0.6, lw=0, rasterized=xs.size > 20000,
+                   label=f"{len(members)} members, {xs.size} sections")
+    return finish(ax, label(words_of(x), unit_x), label(words_of(y), unit_y))
+
+
+def _gaps(result: xr.Dataset, members: list[int]) -> set[tuple[float, float]]:
+    """Clearances along z and y [m] of few members, or of all where they are the same."""
+    shown = members if len(members) <= most_lines else [members[0], members[len(members) // 2], members[-1]]
+    joints = [scene(result, m).get("joint", {}) for m in shown]
+    gaps = {(float(j["clearance_z"]), float(j["clearance_y"])) for j in joints if "clearance_z" in j and "clearance_y" in j}
+    return gaps if len(members) <= most_lines or len(gaps) == 1 else set()

@@ -1,0 +1,79 @@
+"""What accuracy costs."""
+
+from __future__ import annotations
+
+import csv
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any, Union
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from ..errors import SlidewayError
+from .style import axis, colours, finish, label
+
+Table = Union[str, "os.PathLike[str]", Mapping[str, Sequence[Any]]]
+_markers = "os^Dv<>P"
+
+
+def work_precision(
+    table: Table, problem: str | None = None, ax: Axes | None = None, *, error: str = "p95_error", cost: str = "seconds_per_member"
+) -> Axes:
+    """Error against run time, a curve for each method (`bench/results/work_precision.csv`).
+
+    Args:
+        table: path of the CSV, or its columns (a pandas DataFrame also does): problem, method, code, error, cost, error_unit.
+        problem: left out: the only one in the table.
+        error, cost: columns of the two axes.
+
+    Raises:
+        SlidewayError: a column is missing, or the problem is not in the table.
+
+    >>> table = {"problem": ["decay"] * 2, "method": ["dopri5"] * 2, "code": ["avx2"] * 2, "error_unit": ["1"] * 2,
+    ...          "p95_error": [1e-3, 1e-6], "seconds_per_member": [1e-5, 3e-5]}
+    >>> slideway.plot.work_precision(table).get_title()
+    'decay'
+    """
+    columns = _columns(table)
+    for name in ("problem", "method", "code", error, cost):
+        if name not in columns:
+            raise SlidewayError(f"the table has no column {name}, but {', '.join(columns)}")
+    problems = list(dict.fromkeys(columns["problem"]))
+    if problem is None and len(problems) > 1:
+        raise SlidewayError(f"the table has several problems; give problem=, one of {', '.join(problems)}")
+    problem = problems[0] if problem is None else problem
+    if problem not in problems:
+        raise SlidewayError(f"the table has no problem {problem}, but {', '.join(problems)}")
+    rows = [i for i, name in enumerate(columns["problem"]) if name == problem]
+    families = list(dict.fromkeys(columns["method"][i] for i in rows))
+    ax = axis(ax)
+    for method, code in dict.fromkeys((columns["method"][i], columns["code"][i]) for i in rows):
+        own = [i for i in rows if (columns["method"][i], columns["code"][i]) == (method, code)]
+        errors = np.array([float(columns[error][i]) for i in own])
+        costs = np.array([float(columns[cost][i]) for i in own])
+        place = families.index(method)
+        marker = _markers[(place + place // len(colours)) % len(_markers)]  # another one when the colours begin again
+        # Vectorised code is a full line, the scalar peer of the same method a dashed one of its colour.
+        ax.plot(costs, np.where(errors > 0, errors, np.nan), ls="--" if code == "scalar" else "-", marker=marker,
+                ms=4, lw=1.2, color=colours[place % len(colours)], mfc="white" if code == "scalar" else None, label=f"{method}, {code}")
+    ax.set_xscale("log")
+    ax.set_yscale("log")
+    ax.set_title(problem)
+    unit = columns["error_unit"][rows[0]] if "error_unit" in columns else "1"
+    words = {"p95_error": "error, 95th percentile", "median_error": "error, median"}.get(error, error.replace("_", " "))
+    finish(ax, "time per member [s]" if cost == "seconds_per_member" else cost.replace("_", " "),
+           label(words, "" if unit == "1" else unit), None)
+    ax.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), frameon=False, fontsize="small")
+    return ax
+
+
+def _columns(table: Table) -> dict[str, list[str]]:
+    if isinstance(table, (str, os.PathLike)):
+        try:
+            with open(table, encoding="utf-8", newline="") as file:
+                rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        except OSError as problem:
+            raise SlidewayError(f"{os.fspath(table)}: cannot be read ({problem.strerror}); check the path") from problem
+        return {name: [row[name] for row in rows] for name in (rows[0] if rows else ())}
+    return {str(name): [str(value) for value in table[name]] for name in table}

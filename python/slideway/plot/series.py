@@ -1,0 +1,101 @@
+"""Series over the time."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+
+from ..errors import SlidewayError
+from ..ideal import ideal
+from ..scenes import scene
+from ..signals import running_integral
+from .style import Members, axis, chosen, draw_members, failures, finish, grey, label, scaled, variable, words_of
+
+
+def time_series(
+    result: xr.Dataset, name: str = "y", member: Members = None, ax: Axes | None = None, *, difference: bool = False, gap: bool = True
+) -> Axes:
+    """A series over the time, with the mechanism without clearance behind it.
+
+    Up to eight members are lines, more of them bands. Of y and z the ideal is the axis of the way, and dotted lines are the ends of
+    the clearance, where a slider that is not tilted touches.
+
+    Args:
+        name: of the series.
+        member: number of a member, or several; left out: all.
+        difference: draw the difference to the ideal mechanism, as of x, whose deviations are small beside its travel.
+        gap: draw the ends of the clearance.
+
+    Raises:
+        SlidewayError: there is no such series; the text says what to add to the scene.
+
+    >>> slideway.plot.time_series(slideway.example(), "y", member=0).get_ylabel()
+    'y [µm]'
+    """
+    data = variable(result, name)
+    if "sample" not in data.dims:
+        raise SlidewayError(f"{name} is no series over the time; see slideway.plot.quantiles")
+    members = chosen(result, member)
+    time = result["time"].values
+    rows = np.array(data.sel(member=members).values)
+    background = ideal(scene(result, members[0] if len(members) == 1 else None), name, time)
+    words = words_of(name)
+    if difference:
+        if background is None:
+            raise SlidewayError(f"there is no ideal {name} to take the difference to; leave out difference=True")
+        for row, number in zip(rows, members, strict=True):
+            own = ideal(scene(result, number), name, time)
+            row -= background if own is None else own
+        background, words = None, f"{words} − ideal"
+    factor, unit = scaled(str(data.attrs.get("units", "1")), rows)
+    second, time_unit = scaled("s", time)
+    ax = axis(ax)
+    if background is not None:
+        ax.plot(second * time, factor * background, color=grey, lw=2.5, alpha=0.6, zorder=1,
+                label="axis of the way" if name in ("y", "z") else "ideal mechanism")
+    clearance = _clearance(result, members, name) if gap and not difference else None
+    if clearance is not None:
+        for end, words_of_line in ((clearance, "clearance"), (-clearance, None)):
+            ax.axhline(factor * end, color=grey, lw=1, ls=":", label=words_of_line, zorder=1)
+    draw_members(ax, second * time, factor * rows, members, failures(result, members))
+    return finish(ax, label("time", time_unit), label(words, unit))
+
+
+def cumulative_area(result: xr.Dataset, name: str = "acceleration_top", member: Members = None, ax: Axes | None = None) -> Axes:
+    """∫|a| dt over the time, as Fig. 4 of Qian et al. (2020): its slope is the mean magnitude of an acceleration.
+
+    Args:
+        name: of the series, an acceleration or any other.
+        member: number of a member, or several; left out: all.
+
+    Raises:
+        SlidewayError: there is no such series.
+
+    >>> slideway.plot.cumulative_area(slideway.example()).get_ylabel()
+    '∫|acceleration top| dt [mm/s]'
+    """
+    data = variable(result, name)
+    members = chosen(result, member)
+    time = result["time"].values
+    rows = running_integral(np.abs(data.sel(member=members).values), time)
+    units = str(data.attrs.get("units", "1"))
+    factor, unit = scaled({"m s-2": "m s-1", "m s-1": "m", "rad s-1": "rad"}.get(units, f"{units} s".removeprefix("1 ")), rows)
+    second, time_unit = scaled("s", time)
+    ax = axis(ax)
+    draw_members(ax, second * time, factor * rows, members, failures(result, members))
+    ax.set_ylim(bottom=0)
+    return finish(ax, label("time", time_unit), label(f"∫|{words_of(name)}| dt", unit))
+
+
+def _clearance(result: xr.Dataset, members: list[int], name: str) -> float | None:
+    """Half the play of y or z [m], where all members share it and the way lies on the axis."""
+    if name not in ("y", "z") or any(scene(result).get("way", {}).values()):
+        return None
+    if len(members) > 1 and any(key.startswith(("joint.", "way.")) for key in scene(result).get("study", {}).get("vary", {})):
+        return None
+    try:
+        ends = {float(scene(result, m)["joint"][f"clearance_{name}"]) for m in (members[0], members[-1])}
+    except KeyError:
+        return None
+    return ends.pop() if len(ends) == 1 else None

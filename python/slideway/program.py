@@ -1,0 +1,149 @@
+"""The program slideway: where it is, and how it is called."""
+
+from __future__ import annotations
+
+import atexit
+import itertools
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from .errors import FileError, RunError, SceneError, SlidewayError, StoppedEarly, TooManyFailures
+
+if TYPE_CHECKING:
+    from .results import StrPath
+
+_files = itertools.count()
+_folder: str | None = None
+
+
+def find_program(program: StrPath | None = None) -> str:
+    """Where the program is: the argument, else the environment variable SLIDEWAY_PROGRAM, else on the PATH.
+
+    Raises:
+        SlidewayError: it is in none of these places.
+
+    >>> find_program("/nowhere/slideway")
+    Traceback (most recent call last):
+    slideway.errors.SlidewayError: /nowhere/slideway: is no program that can be run; give the path of the program slideway
+    """
+    for given in (program, os.environ.get("SLIDEWAY_PROGRAM")):
+        if given:
+            found = shutil.which(os.fspath(given))
+            if not found:
+                raise SlidewayError(f"{os.fspath(given)}: is no program that can be run; give the path of the program slideway")
+            return found
+    found = shutil.which("slideway")
+    if not found:
+        raise SlidewayError(
+            "the program slideway was not found; build it (scripts/demo.sh does), then set SLIDEWAY_PROGRAM to its path, give "
+            "program=..., or put its folder on the PATH"
+        )
+    return found
+
+
+def temporary_file(name: str) -> str:
+    """A new path for a file that lives as long as this Python does."""
+    global _folder
+    if _folder is None:
+        _folder = tempfile.mkdtemp(prefix="slideway_")
+        atexit.register(shutil.rmtree, _folder, ignore_errors=True)
+    folder = os.path.join(_folder, str(next(_files)))
+    os.mkdir(folder)
+    return os.path.join(folder, name)
+
+
+def call(program: StrPath | None, arguments: Sequence[str], good: Sequence[int] = (0,)) -> str:
+    """Calls a command that is soon done.
+
+    Args:
+        good: exit codes that are no error.
+
+    Returns:
+        What it wrote to stdout.
+
+    Raises:
+        RunError: it failed; the text is its own last line.
+    """
+    done = subprocess.run([find_program(program), *arguments], capture_output=True, text=True, encoding="utf-8", check=False)
+    if done.returncode not in good:
+        raise error_of(done.returncode, _last_line(done.stderr.splitlines()), "", find_program(program))
+    return done.stdout
+
+
+def follow(command: Sequence[str], show: bool) -> tuple[int, str]:
+    """Runs a command to its end and shows what it says on stderr, line by line; without `show` its warnings alone.
+
+    Ctrl-C asks the command to stop, waits until it has written what it has, and is then raised again; a second Ctrl-C does
+    not wait.
+
+    Returns:
+        The exit code, and the last line on stderr.
+    """
+    # In a process group of its own: a terminal's Ctrl-C reaches Python alone, which passes it on once.
+    process = subprocess.Popen(
+        command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, encoding="utf-8",
+        errors="replace", start_new_session=True,
+    )
+    lines: list[str] = []
+    interrupt: KeyboardInterrupt | None = None
+    try:
+        while True:
+            try:
+                _pass_on(process, lines, show)
+                code = process.wait()
+                break
+            except KeyboardInterrupt as error:
+                if interrupt is not None:
+                    raise
+                interrupt = error
+                process.send_signal(signal.SIGINT)
+    finally:
+        if process.poll() is None:
+            process.kill()
+            process.wait()
+    if interrupt is not None:
+        raise Interrupted(code, _last_line(lines)) from interrupt
+    return code, _last_line(lines)
+
+
+class Interrupted(Exception):
+    """A run that Ctrl-C ended, with its exit code and last line."""
+
+    def __init__(self, code: int, line: str) -> None:
+        super().__init__(line)
+        self.code = code
+        self.line = line
+
+
+def error_of(code: int, line: str, output: str, program: str) -> RunError:
+    """The exception for an exit code other than 0."""
+    if code == 2:
+        return SceneError(code, line)
+    if code == 3:
+        return TooManyFailures(code, line, output)
+    if code == 4:
+        return FileError(code, line)
+    if code == 5:
+        return StoppedEarly(code, line, output, program)
+    if code < 0:
+        return RunError(code, f"slideway was ended by {signal.Signals(-code).name}; what it had finished can be resumed")
+    return RunError(code, line or f"slideway ended with exit code {code} and said nothing")
+
+
+def _pass_on(process: subprocess.Popen[str], lines: list[str], show: bool) -> None:
+    assert process.stderr is not None
+    for line in process.stderr:
+        lines.append(line.rstrip("\n"))
+        del lines[:-20]
+        if show or lines[-1].startswith("warning: "):
+            print(lines[-1], file=sys.stderr, flush=True)
+
+
+def _last_line(lines: Sequence[str]) -> str:
+    return next((line.strip() for line in reversed(lines) if line.strip()), "")

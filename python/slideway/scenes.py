@@ -1,0 +1,68 @@
+"""The resolved scene that every result carries."""
+
+from __future__ import annotations
+
+import re
+import sys
+from typing import Any
+
+import xarray as xr
+
+from .errors import SlidewayError
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+# A key whose value is computed where the scene does not give it stands in the resolved scene as a comment.
+_derived = re.compile(r"^# (\w+ = .*follows from other keys)$", re.MULTILINE)
+
+
+def scene(result: xr.Dataset, member: int | None = None, derived: bool = False) -> dict[str, Any]:
+    """The scene that was run, all defaults filled in, as nested dictionaries in SI units.
+
+    Args:
+        member: with the values that this member drew, where keys vary.
+        derived: also what follows from other keys, such as masses from sizes; without it the scene can be run again.
+
+    Raises:
+        SlidewayError: the Dataset carries no scene, or has no such member.
+
+    >>> scene = slideway.scene(slideway.example())
+    >>> scene["mechanism"]["crank_length"]
+    0.05
+    >>> slideway.scene(slideway.example(), derived=True)["mechanism"]["slider_mass"]
+    0.1872
+    """
+    text = result.attrs.get("scene")
+    if not text:
+        raise SlidewayError("this Dataset carries no scene; use the one that slideway.open or slideway.run returned")
+    resolved = tomllib.loads(_derived.sub(r"\1", text) if derived else text)
+    if member is not None:
+        _draw(resolved, result, member)
+    return resolved
+
+
+def varied(result: xr.Dataset) -> dict[str, str]:
+    """Dotted keys that differ between members, and the variable that holds each of them.
+
+    >>> slideway.scenes.varied(slideway.example())
+    {'joint.clearance': 'joint_clearance'}
+    """
+    study = scene(result).get("study", {})
+    keys = [*study.get("vary", {}), *([study["parameter"]] if "parameter" in study else [])]
+    return {key: key.replace(".", "_") for key in keys if key.replace(".", "_") in result}
+
+
+def _draw(resolved: dict[str, Any], result: xr.Dataset, member: int) -> None:
+    """Puts what a member drew in the place of the common values."""
+    if "member" not in result.coords or member not in result["member"].values:
+        raise SlidewayError(f"there is no member {member} in this result; see its coordinate member")
+    both = {"joint.clearance": ("clearance_y", "clearance_z"),
+            "contact.young_modulus": ("slider_young_modulus", "way_young_modulus")}
+    for key, variable in varied(result).items():
+        group, name = key.split(".", 1)
+        value = float(result[variable].sel(member=member))
+        for each in both.get(key, (name,)):
+            resolved.setdefault(group, {})[each] = value

@@ -1,0 +1,70 @@
+"""Results that tests share: the program runs once for each of them in a session."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import matplotlib
+import matplotlib.pyplot as plt
+import pytest
+import slideway
+import xarray as xr
+
+matplotlib.use("Agg")
+
+root = Path(__file__).resolve().parents[2]
+scenes = root / "scenes"
+
+# name: scene file and what makes it small
+recipes: dict[str, tuple[str, dict[str, object]]] = {
+    "single": ("slider_crank_0.1mm.toml", {
+        "study.revolutions": 0.2, "study.samples_per_revolution": 20000,
+        "study.quantities": ["x", "vx", "normal_force", "surfaces", "lines", "points", "mode_time", "energy_residual"]}),
+    "ensemble": ("ensemble_starts.toml", {"study.members": 64, "study.samples": 401, "study.duration": "20 ms"}),
+    "lyapunov": ("lyapunov_0.1mm.toml", {
+        "study.members": 16, "study.transient_revolutions": 0, "study.revolutions": 0.1, "study.history": 40}),
+    "poincare": ("poincare_0.1mm.toml", {"study.members": 3, "study.transient_revolutions": 0, "study.revolutions": 2}),
+    "crossings": ("poincare_0.1mm.toml", {
+        "study.members": 3, "study.transient_revolutions": 0, "study.revolutions": 0.05, "study.section": {"on": "vy"},
+        "study.vary": {"initial.y": {"dist": "unif", "low": "-0.03 mm", "high": "0.03 mm"}}}),
+    "sweep": ("sweep_clearance.toml", {
+        "study.members": 2, "study.points": 5, "study.transient_revolutions": 0, "study.revolutions": 1}),
+    "tolerance": ("tolerance_0.1mm.toml", {"study.base": 16, "study.duration": "20 ms"}),
+    "correlations": ("tolerance_0.1mm.toml", {
+        "study.design": "lhs", "study.members": 64, "study.duration": "20 ms"}),
+    "stored": ("ensemble_starts.toml", {"study.members": 64, "study.duration": "20 ms", "study.store": "statistics"}),
+    "failing": ("ensemble_starts.toml", {
+        "study.members": 8, "study.samples": 11, "study.duration": "20 ms", "integrator.max_steps": 40}),
+}
+
+
+@pytest.fixture(autouse=True)
+def _figures() -> Iterator[None]:
+    """Closes the figures of each test."""
+    yield
+    plt.close("all")
+
+
+@pytest.fixture(scope="session")
+def program() -> str:
+    """The program: SLIDEWAY_PROGRAM, else what the release build made."""
+    given = os.environ.get("SLIDEWAY_PROGRAM", str(root / "build/release/bin/slideway"))
+    os.environ["SLIDEWAY_PROGRAM"] = given
+    return slideway.program.find_program()
+
+
+@pytest.fixture(scope="session")
+def result_of(program: str, tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], xr.Dataset]:
+    """The result of a recipe, run when it is first asked for."""
+    folder = tmp_path_factory.mktemp("results")
+
+    def of(name: str) -> xr.Dataset:
+        path = folder / f"{name}.nc"
+        if not path.exists():
+            scene, changes = recipes[name]
+            slideway.run(scenes / scene, path, set=changes, threads=2, progress=False, max_failures="100%").close()
+        return slideway.open(path)
+
+    return of

@@ -1,0 +1,58 @@
+"""The package as a whole: its version, its face, its documents."""
+
+from __future__ import annotations
+
+import inspect
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import slideway
+
+root = Path(__file__).resolve().parents[2]
+
+
+def python_blocks(document: str) -> list[str]:
+    return re.findall(r"^```python\n(.*?)^```", (root / document).read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+
+
+def test_version_is_that_of_the_program() -> None:
+    stated = re.search(r"project\(slideway VERSION (\S+)", (root / "CMakeLists.txt").read_text(encoding="utf-8"))
+    assert stated is not None
+    assert slideway.__version__ == stated[1]
+
+
+def test_package_is_marked_as_typed() -> None:
+    assert (Path(slideway.__file__).parent / "py.typed").exists()
+
+
+@pytest.mark.parametrize("module", [slideway, slideway.plot])
+def test_every_public_function_has_an_example(module: object) -> None:
+    functions = {name: getattr(module, name) for name in module.__all__ if inspect.isfunction(getattr(module, name))}  # type: ignore[attr-defined]
+    assert functions
+    for name, function in functions.items():
+        assert ">>> " in (function.__doc__ or ""), name
+
+
+@pytest.mark.parametrize("function", [getattr(slideway.plot, name) for name in slideway.plot.__all__], ids=slideway.plot.__all__)
+def test_every_plot_takes_an_axis(function: object) -> None:
+    assert inspect.signature(function).parameters["ax"].default is None  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("document", ["README.md", "docs/python.md", "python/README.md"])
+def test_examples_of_documents_run(document: str, program: str, tmp_path: Path) -> None:
+    blocks = python_blocks(document)
+    assert blocks
+    (tmp_path / "scenes").symlink_to(root / "scenes")
+    # The blocks of a page follow each other, in the root of the repository.
+    script = "import matplotlib\nmatplotlib.use('Agg')\n" + "\n".join(blocks)
+    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+def test_importing_the_package_leaves_matplotlib_alone() -> None:
+    code = "import sys, slideway; print('matplotlib' in sys.modules, slideway.plot.__name__, 'matplotlib' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["False", "slideway.plot", "True"]

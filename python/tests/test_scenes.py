@@ -1,0 +1,89 @@
+"""Resolved scenes, and dictionaries as TOML."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+import slideway
+import xarray as xr
+from slideway.toml_writer import to_toml
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+Result = Callable[[str], xr.Dataset]
+
+
+def test_scene_is_resolved_in_si_units(result_of: Result) -> None:
+    scene = slideway.scene(result_of("ensemble"))
+    assert scene["mechanism"]["kind"] == "slider_crank"
+    assert scene["joint"]["clearance_y"] == 1e-4
+    assert scene["study"]["vary"]["initial.y"] == {"dist": "unif", "low": -4e-5, "high": 4e-5}
+    assert "slider_mass" not in scene["mechanism"]
+
+
+def test_derived_keys_are_there_when_asked_for(result_of: Result) -> None:
+    mechanism = slideway.scene(result_of("ensemble"), derived=True)["mechanism"]
+    assert mechanism["slider_mass"] == pytest.approx(7800 * 0.04 * 0.02 * 0.03)
+
+
+def test_members_have_what_they_drew(result_of: Result) -> None:
+    result = result_of("ensemble")
+    for member in (0, 5):
+        assert slideway.scene(result, member)["initial"]["y"] == float(result.initial_y[member])
+    assert slideway.scene(result)["initial"]["y"] == 0
+
+
+def test_sweep_sets_both_clearances(result_of: Result) -> None:
+    result = result_of("sweep")  # five columns from 0.05 mm to 0.5 mm, two members each
+    widest = slideway.scene(result, member=9)["joint"]
+    assert widest["clearance_y"] == widest["clearance_z"] == pytest.approx(5e-4)
+    assert slideway.scene(result, member=0)["joint"]["clearance_y"] == pytest.approx(5e-5)
+
+
+def test_member_that_is_not_there_has_no_scene(result_of: Result) -> None:
+    with pytest.raises(slideway.SlidewayError, match="no member 64"):
+        slideway.scene(result_of("ensemble"), member=64)
+
+
+def test_dataset_without_scene_says_so() -> None:
+    with pytest.raises(slideway.SlidewayError, match="carries no scene"):
+        slideway.scene(xr.Dataset())
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        {"schema": 1, "title": 'quotes ", \\ and\nlines, π\x07'},
+        {"study": {"members": 8, "values": [1, 2.5, 1e-300, -0.0], "texts": ["0.1 mm", ""], "flag": True, "none": []}},
+        {"study": {"vary": {"initial.y": {"dist": "unif", "low": -1e-5, "high": "0.02 mm"}}}},
+        {"study": {"vary": {"initial.y": {"dist": "unif"}}, "members": 3}, "title": "tables before values"},
+        {"study": {"section": {"on": "vy", "value": 0}, "limits": {"mode_time[free]": {"max": "1 ms"}}}},
+        {"study": {"correlation": {"keys": ["a.b", "c"], "matrix": [[1, 0.5], [0.5, 1]]}}},
+        {"friction": {}, "study": {"vary": {}}},
+    ],
+)
+def test_toml_reads_back_as_it_was(scene: dict[str, Any]) -> None:
+    assert tomllib.loads(to_toml(scene)) == scene
+
+
+def test_toml_takes_numpy_numbers_and_lists() -> None:
+    text = to_toml({"study": {"values": np.array([1.5, 2.0]), "members": np.int64(4), "pair": (1, 2)}})
+    assert tomllib.loads(text) == {"study": {"values": [1.5, 2.0], "members": 4, "pair": [1, 2]}}
+
+
+def test_toml_keeps_every_bit_of_a_number() -> None:
+    numbers = [0.1, 1 / 3, 5e-324, 1.7976931348623157e308, 3.141592653589793]
+    assert tomllib.loads(to_toml({"n": numbers}))["n"] == numbers
+
+
+@pytest.mark.parametrize("value", [None, object(), 1j, {1, 2}])
+def test_what_toml_cannot_hold_is_refused_by_its_key(value: object) -> None:
+    with pytest.raises(slideway.SlidewayError, match=r"study\.base is .*use a number"):
+        to_toml({"study": {"base": value}})
