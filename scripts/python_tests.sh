@@ -40,7 +40,7 @@ report=$environment/report.xml
 rm -f "$report"
 code=0
 # Neither caches nor byte code: the sources are those of the repository.
-(cd python && SLIDEWAY_PROGRAM=$program PYTHONDONTWRITEBYTECODE=1 "$root/$environment/bin/pytest" -q -p no:cacheprovider \
+(cd python && SLIDEWAY_PROGRAM=$program PYTHONDONTWRITEBYTECODE=1 "$root/$environment/bin/pytest" -q -rs -p no:cacheprovider \
     --junitxml="$root/$report" "$@") || code=$?
 
 count() { sed -n "s/.*<testsuite [^>]*\b$1=\"\([0-9]*\)\".*/\1/p" "$report" 2>/dev/null | head -n 1; }

@@ -119,7 +119,7 @@ std::vector<Axis> axes(Law law, bool quick) {
 
 double linear_limit(std::vector<Inputs> const& members) {
     double rate = 0;
-    for (auto const& in : members) rate = std::max(rate, stiffest_rate(in));
+    for (auto const& in : members) rate = std::max(rate, stiffest_rate(Mechanism::slider_crank, in));
     return 2 * std::numbers::sqrt2 / rate;
 }
 

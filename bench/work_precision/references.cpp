@@ -43,7 +43,7 @@ CrankState start_of(Inputs const& in) {
 
 auto oracle_rates(Inputs const& inputs, Parts const& parts) {
     return [&](CrankState const& y, CrankState& slope, Real t) {
-        oracle::State state;
+        oracle::State state{};
         for (std::size_t i = 0; i < state_size; ++i) state[i] = static_cast<double>(y[i]);
         auto const r = oracle::evaluate(inputs, parts, static_cast<double>(t), state);
         for (std::size_t i = 0; i < state_size; ++i) slope[i] = r.derivative[i];

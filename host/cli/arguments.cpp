@@ -11,7 +11,7 @@
 namespace slideway::cli {
 namespace {
 
-constexpr std::string_view command_names[] = {"run", "check", "probe", "info", "stats", "merge", "list"};
+constexpr std::string_view command_names[] = {"run", "check", "probe", "info", "stats", "merge", "report", "list"};
 
 /// Texts of the options as CLI11 fills them in; checked and turned into arguments afterwards.
 struct Words {
@@ -125,14 +125,15 @@ StatsArguments stats_arguments(Words const& words) {
 void require_known_command(int argc, char const* const* argv) {
     if (argc < 2)
         throw SceneError(
-            "slideway: a command is missing; use run, check, probe, info, stats, merge or list (see slideway --help)");
+            "slideway: a command is missing; use run, check, probe, info, stats, merge, report or list (see slideway "
+            "--help)");
     std::string_view const word = argv[1];
     if (word == "--help" || word == "-h" || word == "--version") return;
     if (std::find(std::begin(command_names), std::end(command_names), word) != std::end(command_names)) return;
     std::string_view const meant = nearest_name(word, command_names);
-    throw SceneError(fmt::format(
-        "slideway: there is no command '{}'; {}", word,
-        meant.empty() ? "use run, check, probe, info, stats, merge or list" : fmt::format("did you mean {}?", meant)));
+    throw SceneError(fmt::format("slideway: there is no command '{}'; {}", word,
+                                 meant.empty() ? "use run, check, probe, info, stats, merge, report or list"
+                                               : fmt::format("did you mean {}?", meant)));
 }
 
 std::string one_line(std::string text) {
@@ -197,6 +198,14 @@ Arguments parse_arguments(int argc, char const* const* argv) {
     merge->add_option("DIR", words.file, "Folder of shards, OUT.nc.shards")->required()->type_name("");
     merge->add_option("-o,--output", words.output, "Result file")->required()->type_name("OUT.nc");
 
+    CLI::App* const report = app.add_subcommand(
+        "report", "A page to look at, without a network, of a result file (uses the Python companion)");
+    report->add_option("FILE", words.file, "Result file")->required()->type_name("");
+    report->add_option("-o,--output", words.output, "Page (default: FILE with .html)")->type_name("OUT.html");
+    report->footer(
+        "The companion is the package slideway of the interpreter that SLIDEWAY_PYTHON names, else of python3;\n"
+        "pip install ./python in the source tree installs it.");
+
     CLI::App* const list = app.add_subcommand("list", "Mechanisms, laws, quantities, keys: what a scene may ask for");
 
     try {
@@ -217,6 +226,7 @@ Arguments parse_arguments(int argc, char const* const* argv) {
     if (info->parsed()) return InfoArguments{words.file};
     if (stats->parsed()) return stats_arguments(words);
     if (merge->parsed()) return MergeArguments{words.file, words.output};
+    if (report->parsed()) return ReportArguments{words.file, words.output};
     if (list->parsed()) return ListArguments{};
     throw SceneError("slideway: a command is missing; see slideway --help");
 }

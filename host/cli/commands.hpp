@@ -86,6 +86,13 @@ struct MergeArguments {
 };
 int merge(MergeArguments const& arguments);
 
+struct ReportArguments {
+    std::string path;
+    std::string output;  // empty: the path with .html
+};
+/// Ends as the companion in Python, which writes the page; returns only by an exception.
+int report(ReportArguments const& arguments);
+
 struct ListArguments {};
 int list(ListArguments const& arguments);
 
@@ -95,7 +102,7 @@ struct TextOnly {
 };
 
 using Arguments = std::variant<RunArguments, CheckArguments, ProbeArguments, InfoArguments, StatsArguments,
-                               MergeArguments, ListArguments, TextOnly>;
+                               MergeArguments, ReportArguments, ListArguments, TextOnly>;
 
 /// @throws SceneError with one line for a command line that cannot be used.
 Arguments parse_arguments(int argc, char const* const* argv);

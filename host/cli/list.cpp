@@ -5,6 +5,7 @@
 
 #include "host/cli/commands.hpp"
 #include "host/scene/distribution_forms.hpp"
+#include "host/scene/labels.hpp"
 #include "host/scene/study_keys.hpp"
 
 namespace slideway::cli {
@@ -30,7 +31,7 @@ void print_mechanisms() {
         std::string states, beside;
         Selection left = mechanism.always;
         for (int i = 0; i < mechanism.states; ++i) {
-            states += fmt::format("{}{}", i > 0 ? ", " : "", series_table[static_cast<int>(mechanism.state[i])].name);
+            states += fmt::format("{}{}", i > 0 ? ", " : "", state_info(mechanism, i).name);
             left &= ~selection_of(mechanism.state[i]);
         }
         for (int s = 0; s < series_count; ++s) {

@@ -22,6 +22,7 @@ int dispatch(Arguments const& arguments) {
         int operator()(InfoArguments const& given) const { return info(given); }
         int operator()(StatsArguments const& given) const { return stats(given); }
         int operator()(MergeArguments const& given) const { return merge(given); }
+        int operator()(ReportArguments const& given) const { return report(given); }
         int operator()(ListArguments const& given) const { return list(given); }
         int operator()(TextOnly const& only) const {
             fmt::print("{}", only.text);

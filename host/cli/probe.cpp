@@ -9,6 +9,7 @@
 
 #include "host/cli/commands.hpp"
 #include "host/cli/text.hpp"
+#include "host/scene/labels.hpp"
 #include "host/study/state_numbers.hpp"
 
 namespace slideway::cli {
@@ -57,7 +58,7 @@ void print_listing(Scene const& scene, StateTable const& table, ProbeResult cons
     fmt::print("\n  {:<{}} {:<8} {:>24} {:>24}\n", "state", width, "unit", "value", "derivative");
     StateNumbers const state = start_of(table.mechanism, table.inputs[0]);
     for (int i = 0; i < has.states; ++i) {
-        SeriesInfo const& entry = series_table[static_cast<int>(has.state[i])];
+        SeriesInfo const& entry = state_info(has, i);
         fmt::print("  {:<{}} {:<8} {:>24.16g} {:>24.16g}\n", entry.name, width, entry.unit,
                    state[static_cast<std::size_t>(i)], result.derivative[i]);
     }

@@ -137,8 +137,8 @@ void print_energy_made(Scene const& scene, EndedMembers const& ended, std::vecto
     fmt::print("\n{} made {:.3g} J of energy per member on average", cause, made);
     QuantitySummary const* const work = mean_of("crank_work");
     if (work != nullptr && work->values.mean != 0) {
-        fmt::print(", {:.3g} % of the crank's work of {:.3g} J", 100 * made / std::abs(work->values.mean),
-                   work->values.mean);
+        fmt::print(", {:.3g} % of the {}'s work of {:.3g} J", 100 * made / std::abs(work->values.mean),
+                   scene.parts.mechanism == Mechanism::carriage ? "drive" : "crank", work->values.mean);
     }
     if (doubtful) {
         fmt::print("; {} tells them apart",

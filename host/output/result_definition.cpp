@@ -68,9 +68,6 @@ private:
     void describe(int variable, std::string const& unit, std::string const& long_name);
     int member_variable(std::string const& name, std::string const& unit, std::string const& long_name);
     void write_coordinates();
-    SeriesInfo const& state_info(std::size_t i) const {
-        return series_table[static_cast<int>(info(layout_.mechanism).state[i])];
-    }
 
     NetcdfFile& file_;
     ResultLayout const& layout_;
@@ -112,7 +109,7 @@ void ResultDefiner::define_members() {
     }
     ids_.end_time = member_variable("end_time", "s", "time at which the member ended");
     for (std::size_t i = 0; i < layout_.states(); ++i) {
-        SeriesInfo const& state = state_info(i);
+        SeriesInfo const& state = state_info(info(layout_.mechanism), i);
         ids_.final_states.push_back(member_variable(fmt::format("final_{}", state.name), state.unit,
                                                     fmt::format("{} at end_time", state.long_name)));
     }
@@ -185,7 +182,7 @@ void ResultDefiner::define_sections() {
     };
     add("section_time", "s", "time of the section since the start of the run");
     for (std::size_t i = 0; i < layout_.states(); ++i) {
-        SeriesInfo const& state = state_info(i);
+        SeriesInfo const& state = state_info(info(layout_.mechanism), i);
         add(std::string("section_") + state.name, state.unit, std::string(state.long_name) + " at the section");
     }
 }

@@ -75,20 +75,20 @@ Magnitudes magnitudes(Scene const& scene, Key const& key) {
 PeriodRange drive_periods(Scene const& scene) {
     Inputs shortest = scene.inputs, longest = scene.inputs;
     PeriodRange range{0, 0, nullptr};
-    /// @param lengthens whether the period grows with the key
-    auto const vary = [&](double Inputs::*input, std::string_view name, bool lengthens) {
+    /// @param at_least, at_most whose period has the key's least and largest magnitude
+    auto const vary = [&](std::string_view name, Inputs& at_least, Inputs& at_most) {
         Key const& key = *find_key(name);
         Magnitudes const of_key = magnitudes(scene, key);
         if (of_key.several && range.varied == nullptr) range.varied = &key;
-        (lengthens ? shortest : longest).*input = of_key.least;
-        (lengthens ? longest : shortest).*input = of_key.most;
+        key.set(at_least, of_key.least);
+        key.set(at_most, of_key.most);
     };
     if (scene.parts.mechanism == Mechanism::carriage) {
-        vary(&Inputs::carriage_speed, "mechanism.carriage_speed", false);
-        vary(&Inputs::stroke, "mechanism.stroke", true);
-        vary(&Inputs::reversal_time, "mechanism.reversal_time", true);
+        vary("mechanism.carriage_speed", longest, shortest);
+        vary("mechanism.stroke", shortest, longest);
+        vary("mechanism.reversal_time", shortest, longest);
     } else if (std::isfinite(drive_period(scene.parts, Inputs{}))) {
-        vary(&Inputs::crank_speed, "mechanism.crank_speed", false);
+        vary("mechanism.crank_speed", longest, shortest);
     }
     range.least = drive_period(scene.parts, shortest);
     range.most = drive_period(scene.parts, longest);

@@ -2,8 +2,6 @@
 
 #include <iterator>
 
-#include "kernels/observers/quantities.hpp"
-
 namespace slideway {
 
 std::vector<std::string> labels_of(std::string_view dimension) {

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "host/scene/drive_period.hpp"
+#include "host/scene/labels.hpp"
 #include "host/scene/reader.hpp"
 #include "host/scene/suggest.hpp"
 #include "host/scene/values.hpp"
@@ -29,14 +30,10 @@ void read_phase(Node const& root, Scene& scene) {
                                                   : "give the crank a speed"});
 }
 
-char const* state_name(MechanismInfo const& mechanism, int index) {
-    return series_table[static_cast<int>(mechanism.state[index])].name;
-}
-
 /// Names of what a section may be taken of: states, then gaps.
 std::vector<std::string> surface_names(MechanismInfo const& mechanism) {
     std::vector<std::string> names;
-    for (int i = 0; i < mechanism.states; ++i) names.emplace_back(state_name(mechanism, i));
+    for (int i = 0; i < mechanism.states; ++i) names.emplace_back(state_info(mechanism, i).name);
     if (!mechanism.spatial) return names;
     for (char const* const face : {"gap_y", "gap_z"}) {
         for (int apex = 1; apex <= apices; ++apex) names.push_back(fmt::format("{}[P{}]", face, apex));
@@ -93,9 +90,9 @@ std::string_view section_unit(SectionSurface const& section, Mechanism mechanism
         case SectionSurface::On::phase:
             return "rad";
         case SectionSurface::On::state: {
-            Series const state = info(mechanism).state[section.index];
-            Key const* const key = find_key(fmt::format("initial.{}", series_table[static_cast<int>(state)].name));
-            return key != nullptr ? key->unit : series_table[static_cast<int>(state)].unit;
+            SeriesInfo const& state = state_info(info(mechanism), section.index);
+            Key const* const key = find_key(fmt::format("initial.{}", state.name));
+            return key != nullptr ? key->unit : state.unit;
         }
         default:
             return "m";

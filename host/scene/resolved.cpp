@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "host/scene/integrator_keys.hpp"
+#include "host/scene/labels.hpp"
 #include "host/scene/resolved_members.hpp"
 #include "host/scene/scene.hpp"
 #include "host/scene/scene_text.hpp"
@@ -82,7 +83,7 @@ std::string section_line(SectionSurface const& section, Mechanism mechanism) {
     using On = SectionSurface::On;
     if (section.on == On::phase) return fmt::format("phase = {}  # rad\n", toml_number(section.level));
     std::string const on = section.on == On::state
-                               ? std::string(series_table[static_cast<int>(info(mechanism).state[section.index])].name)
+                               ? std::string(state_info(info(mechanism), section.index).name)
                                : fmt::format("{}[P{}]", section.on == On::gap_y ? "gap_y" : "gap_z", section.index + 1);
     return fmt::format("section = {{ on = \"{}\", value = {}, direction = \"{}\" }}  # {}\n", on,
                        toml_number(section.level), name_of(section.direction), section_unit(section, mechanism));

@@ -30,14 +30,16 @@ inline constexpr StudyKey study_keys[] = {
     {"study.members", "1", study_sets::all, "members; sweep: starts per column"},
     {"study.seed", "1", study_sets::all, "seed of what [study.vary] draws"},
     {"study.revolutions", "1", study_sets::all,
-     "how many are recorded; ensemble and tolerance 1, lyapunov 10, poincare 150, sweep 50"},
+     "how many are recorded, of the crank, or of a carriage there and back; ensemble and tolerance 1, lyapunov 10, "
+     "poincare 150, sweep 50"},
     {"study.duration", "s", study_sets::all & ~study_sets::sweep, "or a time"},
     {"study.samples_per_revolution", "1", study_sets::to_end, "samples of the time series, 0 for none"},
     {"study.samples", "1", study_sets::to_end, "or their number in all, first and last included"},
     {"study.quantities", "", study_sets::all, "names of quantities and, with samples, series"},
     {"study.transient_revolutions", "1", study_sets::chaos, "left out before them; lyapunov 2, else 20"},
     {"study.Ttr", "s", study_sets::chaos, "or a time"},
-    {"study.phase", "rad", study_sets::poincare | study_sets::sweep, "crank angle of the sections; 0"},
+    {"study.phase", "rad", study_sets::poincare | study_sets::sweep,
+     "crank angle of the sections, or phase of a carriage; 0"},
     {"study.section", "", study_sets::poincare,
      "{ on = \"vy\", value = \"0 mm/s\", direction = \"rising\" }: a state, or a gap like gap_y[P1]; rising, falling, "
      "both"},

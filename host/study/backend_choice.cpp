@@ -36,19 +36,18 @@ std::uint64_t pays_from(Isa isa, int threads) {
 
 BackendChoice choose_backend(BackendRequest const& request, Scene const& scene, std::uint64_t members) {
     using Kind = BackendRequest::Kind;
-    std::string const foreign =
-        scene.parts.mechanism == Mechanism::slider_crank
-            ? std::string()
-            : fmt::format("kernels for cards are of slider_crank alone, not of {}", info(scene.parts.mechanism).name);
+    char const* const only = "the kernels for cards are of slider_crank alone";
+    bool const has_kernel = scene.parts.mechanism == Mechanism::slider_crank;
     if (request.kind == Kind::cuda) {
-        if (!foreign.empty()) throw DeviceError(fmt::format("--backend cuda: {}; use --backend cpu", foreign));
-        return {cuda_backend(request.share), ""};
+        if (has_kernel) return {cuda_backend(request.share), ""};
+        throw SceneError(fmt::format("{}: mechanism.kind is \"{}\" ({}); use --backend cpu", scene.path,
+                                     info(scene.parts.mechanism).name, only));
     }
     Isa const isa = request.isa.value_or(best_isa());
     auto const cpu = cpu_backend(isa);
     if (request.kind == Kind::cpu) return {cpu, ""};
     if (request.isa) return {cpu, "as --isa says"};
-    if (!foreign.empty()) return {cpu, foreign};
+    if (!has_kernel) return {cpu, only};
     try {
         auto const card = cuda_backend(request.share);
         std::string const objection = objection_to(*card, request, isa, scene, members);

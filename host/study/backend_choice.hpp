@@ -31,7 +31,8 @@ std::uint64_t pays_from(Isa isa, int threads);
 
 /// `automatic` takes a card where there is one that has room for the scene's blocks, is much faster than the processor in double precision, and
 /// has members enough.
-/// @param members of the run that may be at work at once  @throws DeviceError if a card is asked for and none can be used
+/// @param members of the run that may be at work at once  @throws DeviceError if a card is asked for and none can be used;
+/// SceneError if one is asked for a mechanism of which it has no kernels
 BackendChoice choose_backend(BackendRequest const& request, Scene const& scene, std::uint64_t members);
 
 }  // namespace slideway

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "host/scene/labels.hpp"
 #include "host/study/result_summary.hpp"
 #include "host/study/state_numbers.hpp"
 
@@ -23,10 +24,6 @@ void probe_group(StateTable const& table, std::vector<std::size_t> const& rows, 
     std::vector<ProbeResult> group(rows.size());
     find_instance(isa, table.parts[rows.front()]).probe({inputs.data(), times.data(), rows.size(), group.data()});
     for (std::size_t i = 0; i < rows.size(); ++i) results[rows[i]] = group[i];
-}
-
-char const* name_of_state(MechanismInfo const& mechanism, int i) {
-    return series_table[static_cast<int>(mechanism.state[i])].name;
 }
 
 }  // namespace
@@ -51,7 +48,7 @@ std::vector<std::pair<std::string, double>> result_columns(Mechanism mechanism, 
     MechanismInfo const& has = info(mechanism);
     std::vector<std::pair<std::string, double>> columns;
     for (int i = 0; i < has.states; ++i) {
-        columns.emplace_back(fmt::format("d_{}", name_of_state(has, i)), result.derivative[i]);
+        columns.emplace_back(fmt::format("d_{}", state_info(has, i).name), result.derivative[i]);
     }
     columns.emplace_back("power_crank", result.power_crank);
     columns.emplace_back("power_friction", result.power_friction);
@@ -83,7 +80,7 @@ void write_probe_csv(std::ostream& out, StateTable const& table, std::vector<Pro
     for (std::string const& name : table.parameter_names) line += name + ',';
     line += 't';
     MechanismInfo const& has = info(table.mechanism);
-    for (int i = 0; i < has.states; ++i) line += fmt::format(",{}", name_of_state(has, i));
+    for (int i = 0; i < has.states; ++i) line += fmt::format(",{}", state_info(has, i).name);
     for (auto const& [name, value] : result_columns(table.mechanism, {})) line += ',' + name;
     out << line << ",status\n";
     for (std::size_t row = 0; row < table.rows(); ++row) {

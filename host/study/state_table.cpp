@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "host/scene/csv.hpp"
+#include "host/scene/labels.hpp"
 #include "host/scene/suggest.hpp"
 #include "host/study/state_numbers.hpp"
 
@@ -27,7 +28,7 @@ struct Column {
 std::vector<std::string_view> state_names(Mechanism mechanism) {
     std::vector<std::string_view> names;
     for (int i = 0; i < info(mechanism).states; ++i) {
-        names.emplace_back(series_table[static_cast<int>(info(mechanism).state[i])].name);
+        names.emplace_back(state_info(info(mechanism), i).name);
     }
     return names;
 }

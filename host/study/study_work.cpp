@@ -5,6 +5,7 @@
 
 #include "host/output/shard_writer.hpp"
 #include "host/output/statistics_shard.hpp"
+#include "host/scene/labels.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/exponent_table.hpp"
 #include "host/study/study_run.hpp"
@@ -43,8 +44,7 @@ MemberEnds recalled_ends(std::string const& path, Mechanism mechanism, MemberSet
                     of_shard[i].finished = statuses[i] == static_cast<signed char>(Status::finished);
             }
             for (int k = 0; k < has.states; ++k) {
-                if (variable.name != std::string("final_") + series_table[static_cast<int>(has.state[k])].name)
-                    continue;
+                if (variable.name != std::string("final_") + state_info(has, k).name) continue;
                 file.read(variable.id, start, count, column.data());
                 for (std::size_t i = 0; i < members.size(); ++i)
                     of_shard[i].state[static_cast<std::size_t>(k)] = column[i];

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <type_traits>
+
+#include "kernels/mechanisms/faults.hpp"
 #include "kernels/models/slider_lanes.hpp"
 #include "kernels/real.hpp"
 

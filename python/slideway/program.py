@@ -77,7 +77,7 @@ def call(program: StrPath | None, arguments: Sequence[str], good: Sequence[int] 
 
 
 def follow(command: Sequence[str], show: bool) -> tuple[int, str]:
-    """Runs a command to its end and shows what it says on stderr, line by line.
+    """Runs a command to its end and shows what it says on stderr, line by line; without `show` its warnings alone.
 
     Ctrl-C asks the command to stop, waits until it has written what it has, and is then raised again; a second Ctrl-C does
     not wait.
@@ -141,7 +141,7 @@ def _pass_on(process: subprocess.Popen[str], lines: list[str], show: bool) -> No
     for line in process.stderr:
         lines.append(line.rstrip("\n"))
         del lines[:-20]
-        if show:
+        if show or lines[-1].startswith("warning: "):
             print(lines[-1], file=sys.stderr, flush=True)
 
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import matplotlib
+import matplotlib.pyplot as plt
 import pytest
 import slideway
 import xarray as xr
@@ -37,6 +38,13 @@ recipes: dict[str, tuple[str, dict[str, object]]] = {
     "failing": ("ensemble_starts.toml", {
         "study.members": 8, "study.samples": 11, "study.duration": "20 ms", "integrator.max_steps": 40}),
 }
+
+
+@pytest.fixture(autouse=True)
+def _figures() -> Iterator[None]:
+    """Closes the figures of each test."""
+    yield
+    plt.close("all")
 
 
 @pytest.fixture(scope="session")

@@ -109,6 +109,11 @@ def test_progress_is_passed_on(capfd: pytest.CaptureFixture[str]) -> None:
     assert capfd.readouterr().err == ""
 
 
+def test_warnings_are_passed_on_without_progress(capfd: pytest.CaptureFixture[str]) -> None:
+    slideway.run(short, progress=False, study__base=16)
+    assert capfd.readouterr().err.startswith("warning: study.base has no effect")
+
+
 def test_progress_goes_where_python_says_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     lines: list[str] = []
 

@@ -9,7 +9,7 @@ namespace oracle::detail {
 
 FaceLoads::FaceLoads(Inputs const& in, Parts const& parts, FaceOfWay const& face, std::array<Pair, 8>& pairs)
     : in_(in), parts_(parts), face_(face), pairs_(pairs) {
-    point_stiffness_ = Real(4) / 3 * contact_modulus(in) * std::sqrt(Real(in.apex_radius));
+    point_stiffness_ = point_stiffness(in);
     Real const modulus = 2 * Real(in.slider_young_modulus) * in.way_young_modulus /
                          (Real(in.slider_young_modulus) + in.way_young_modulus);
     Real const width = face.axis == 1 ? in.way_depth : in.way_width;

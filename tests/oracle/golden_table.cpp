@@ -1,6 +1,7 @@
 #include "golden_table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -191,7 +192,7 @@ std::vector<std::string> computed_row(oracle::Result const& result) {
     auto const put = [&row](auto const& values) {
         for (double value : values) row.push_back(digits(value));
     };
-    put(result.derivative);
+    for (std::size_t i = 0; i < state_names.size(); ++i) row.push_back(digits(result.derivative[i]));
     put(std::array{result.power_crank, result.power_friction, result.power_damping});
     put(result.pen_y), put(result.pen_z), put(result.fn_y), put(result.fn_z);
     for (int count : {result.surfaces, result.lines, result.points}) row.push_back(std::to_string(count));
@@ -235,7 +236,7 @@ Difference worst_difference(Table const& trajectories, std::size_t row, oracle::
         return result;
     };
     double const speed = largest({"vy", "vz"}), spin = largest({"wx", "wy", "wz"});
-    oracle::State const scales = {clearance, clearance, speed, speed, tilt, tilt, tilt, spin, spin, spin};
+    std::array const scales = {clearance, clearance, speed, speed, tilt, tilt, tilt, spin, spin, spin};
     Difference worst;
     for (std::size_t i = 0; i < state_names.size(); ++i) {
         double const error = std::abs(trajectories.number(row, state_names[i]) - got[i]);

@@ -38,6 +38,11 @@ Real contact_modulus(Inputs const& in) {
     return 1 / ((1 - nu1 * nu1) / in.slider_young_modulus + (1 - nu2 * nu2) / in.way_young_modulus);
 }
 
+Real point_stiffness(Inputs const& in) {
+    if (!std::isnan(in.point_stiffness)) return in.point_stiffness;
+    return Real(4) / 3 * contact_modulus(in) * std::sqrt(Real(in.apex_radius));
+}
+
 Real line_force(Inputs const& in, Real length, Real approach) {
     return pi * contact_modulus(in) * length * line_strain(in, length, approach);
 }

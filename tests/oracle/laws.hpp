@@ -5,11 +5,14 @@
 
 namespace oracle::detail {
 
-/// E* [Pa]: 1/E* = (1 - ν1²)/E1 + (1 - ν2²)/E2.
 /// W₋₁, the branch below -1, as Boost has it.
 Real lower_lambert_w(Real x);
 
+/// E* [Pa]: 1/E* = (1 - ν1²)/E1 + (1 - ν2²)/E2.
 Real contact_modulus(Inputs const& in);
+
+/// K [N/mⁿ]: as given, else 4/3 E* √R_p.
+Real point_stiffness(Inputs const& in);
 
 /// Total load P [N] of a line of length l [m] at approach δ̄ [m]; NaN beyond l²/R_e.
 Real line_force(Inputs const& in, Real length, Real approach);

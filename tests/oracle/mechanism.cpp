@@ -8,6 +8,18 @@
 
 namespace oracle::detail {
 
+SliderMotion slider_motion(Vector3 const& centre, Vector3 const& velocity, State const& state) {
+    SliderMotion m;
+    m.centre = centre, m.velocity = velocity;
+    m.roll = state[4], m.yaw = state[5], m.pitch = state[6];
+    m.angular_velocity = Vector3(state[7], state[8], state[9]);
+    m.pose = pose_of(m.centre, m.roll, m.yaw, m.pitch);
+    m.pose_rate = Matrix4::Zero();
+    m.pose_rate.topLeftCorner<3, 3>() = m.pose.topLeftCorner<3, 3>() * cross_matrix(m.angular_velocity);
+    m.pose_rate.topRightCorner<3, 1>() = m.velocity;
+    return m;
+}
+
 Kinematics kinematics_of(Inputs const& in, Real t, State const& state) {
     Kinematics k;
     Real const speed = in.crank_speed;
@@ -22,28 +34,22 @@ Kinematics kinematics_of(Inputs const& in, Real t, State const& state) {
     k.reached = reach > 0;
     if (!k.reached) return k;
     Real const along = std::sqrt(reach);
-    k.centre = Vector3(k.pin.x() + along, y, z);
     // (B - A) · (v_B - v_A) = 0
-    k.velocity = Vector3(k.pin_velocity.x() - (above * (vy - k.pin_velocity.y()) + z * vz) / along, vy, vz);
-
-    k.roll = state[4], k.yaw = state[5], k.pitch = state[6];
-    k.angular_velocity = Vector3(state[7], state[8], state[9]);
-    k.pose = pose_of(k.centre, k.roll, k.yaw, k.pitch);
-    k.pose_rate = Matrix4::Zero();
-    k.pose_rate.topLeftCorner<3, 3>() = k.pose.topLeftCorner<3, 3>() * cross_matrix(k.angular_velocity);
-    k.pose_rate.topRightCorner<3, 1>() = k.velocity;
+    Real const vx = k.pin_velocity.x() - (above * (vy - k.pin_velocity.y()) + z * vz) / along;
+    k.slider = slider_motion(Vector3(k.pin.x() + along, y, z), Vector3(vx, vy, vz), state);
     return k;
 }
 
 Matrix4 pose_of_way(Inputs const& in, Parts const& parts) {
-    if (!parts.misaligned_way) return translation(Vector3(in.rod_length, 0, 0));
-    return pose_of(Vector3(in.rod_length, in.way_offset_y, in.way_offset_z), in.way_roll, in.way_yaw, in.way_pitch);
+    Real const station = parts.mechanism == Mechanism::slider_crank ? Real(in.rod_length) : 0;
+    if (!parts.misaligned_way) return translation(Vector3(station, 0, 0));
+    return pose_of(Vector3(station, in.way_offset_y, in.way_offset_z), in.way_roll, in.way_yaw, in.way_pitch);
 }
 
 Motion solve_motion(Inputs const& in, Kinematics const& k, Vector3 const& gravity, Vector3 const& contact_force) {
     Real const mass = in.slider_mass, rod = in.rod_mass, fraction = in.rod_mass_center, length = in.rod_length;
-    Vector3 const span = k.centre - k.pin;
-    Vector3 const spread = k.velocity - k.pin_velocity;
+    Vector3 const span = k.slider.centre - k.pin;
+    Vector3 const spread = k.slider.velocity - k.pin_velocity;
     Vector3 const across_1 = span.unitOrthogonal(), across_2 = span.cross(across_1).normalized();
 
     Eigen::Matrix<Real, 9, 9> matrix = Eigen::Matrix<Real, 9, 9>::Zero();
@@ -75,15 +81,20 @@ Motion solve_motion(Inputs const& in, Kinematics const& k, Vector3 const& gravit
     return {accelerations.segment<3>(0), accelerations.segment<3>(3)};
 }
 
-Real kinetic_and_weight(Inputs const& in, Kinematics const& k, Vector3 const& gravity, Vector3 const& inertia) {
+Real slider_energy(Inputs const& in, SliderMotion const& slider, Vector3 const& gravity) {
+    Vector3 const inertia(in.slider_inertia_x, in.slider_inertia_y, in.slider_inertia_z);
+    Real const twice_kinetic = in.slider_mass * slider.velocity.squaredNorm() +
+                               slider.angular_velocity.dot(inertia.cwiseProduct(slider.angular_velocity));
+    return twice_kinetic / 2 - in.slider_mass * gravity.dot(slider.centre);
+}
+
+Real rod_energy(Inputs const& in, Kinematics const& k, Vector3 const& gravity) {
     Real const fraction = in.rod_mass_center, length = in.rod_length;
-    Vector3 const rod_centre = (1 - fraction) * k.pin + fraction * k.centre;
-    Vector3 const rod_velocity = (1 - fraction) * k.pin_velocity + fraction * k.velocity;
-    Vector3 const rod_spin = (k.centre - k.pin).cross(k.velocity - k.pin_velocity) / (length * length);
-    Real const kinetic = in.slider_mass * k.velocity.squaredNorm() + in.rod_mass * rod_velocity.squaredNorm() +
-                         in.rod_inertia * rod_spin.squaredNorm() +
-                         k.angular_velocity.dot(inertia.cwiseProduct(k.angular_velocity));
-    return kinetic / 2 - in.slider_mass * gravity.dot(k.centre) - in.rod_mass * gravity.dot(rod_centre);
+    Vector3 const centre = (1 - fraction) * k.pin + fraction * k.slider.centre;
+    Vector3 const velocity = (1 - fraction) * k.pin_velocity + fraction * k.slider.velocity;
+    Vector3 const spin = (k.slider.centre - k.pin).cross(k.slider.velocity - k.pin_velocity) / (length * length);
+    return (in.rod_mass * velocity.squaredNorm() + in.rod_inertia * spin.squaredNorm()) / 2 -
+           in.rod_mass * gravity.dot(centre);
 }
 
 }  // namespace oracle::detail

@@ -6,20 +6,28 @@
 
 namespace oracle::detail {
 
-struct Kinematics {
-    bool reached = true;
-    Real angle = 0;  // θ of the crank
-    Vector3 pin, pin_velocity, pin_acceleration;
-    Vector3 centre, velocity;  // of the slider
+struct SliderMotion {
+    Vector3 centre, velocity;
     Real roll = 0, yaw = 0, pitch = 0;
     Vector3 angular_velocity;  // body frame
     Matrix4 pose, pose_rate;   // slider in the inertial frame
 };
 
+/// Attitude and its rate are the state's.
+SliderMotion slider_motion(Vector3 const& centre, Vector3 const& velocity, State const& state);
+
+struct Kinematics {
+    bool reached = true;
+    Real angle = 0;  // θ of the crank
+    Vector3 pin, pin_velocity, pin_acceleration;
+    SliderMotion slider;
+};
+
 /// Of the mechanism at t [s]; nothing but the crank where the rod does not reach.
 Kinematics kinematics_of(Inputs const& in, Real t, State const& state);
 
-/// The way where the parts have it: misaligned, or along X.
+/// The way where the parts have it: misaligned, or along X.  It turns about x = L where there is a rod, else about
+/// x = 0, where a carriage starts.
 Matrix4 pose_of_way(Inputs const& in, Parts const& parts);
 
 struct Motion {
@@ -31,7 +39,8 @@ struct Motion {
 /// directions across it (spherical ends and no spin leave none along it), and |AB| = L differentiated twice.
 Motion solve_motion(Inputs const& in, Kinematics const& k, Vector3 const& gravity, Vector3 const& contact_force);
 
-/// Energy [J] of slider and rod: kinetic and of their weight, without contact and crank.
-Real kinetic_and_weight(Inputs const& in, Kinematics const& k, Vector3 const& gravity, Vector3 const& inertia);
+/// Energy [J] of a body: kinetic and of its weight.
+Real slider_energy(Inputs const& in, SliderMotion const& slider, Vector3 const& gravity);
+Real rod_energy(Inputs const& in, Kinematics const& k, Vector3 const& gravity);
 
 }  // namespace oracle::detail

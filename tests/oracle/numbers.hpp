@@ -10,6 +10,7 @@ namespace oracle::detail {
 using slideway::Damping;
 using slideway::Inputs;
 using slideway::Law;
+using slideway::Mechanism;
 using slideway::Parts;
 
 // 64 bits of mantissa: a penetration of 1e-10 m taken as the difference of two half widths keeps eleven digits.

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "face_loads.hpp"
+#include "joint_loads.hpp"
 #include "laws.hpp"
 #include "mechanism.hpp"
 #include "pairs.hpp"
@@ -18,6 +18,44 @@ using namespace detail;
 
 Vector array_of(Vector3 const& v) {
     return {static_cast<double>(v.x()), static_cast<double>(v.y()), static_cast<double>(v.z())};
+}
+
+SliderMotion slider_without_crank(Parts const& parts, CarriageMotion const& carriage, State const& state) {
+    bool const driven = parts.mechanism == Mechanism::carriage;
+    Real const x = driven ? carriage.x : Real(state[10]), vx = driven ? carriage.vx : Real(state[11]);
+    return slider_motion(Vector3(x, state[0], state[1]), Vector3(vx, state[2], state[3]), state);
+}
+
+void report_crank(Inputs const& in, Kinematics const& k, Motion const& motion, Vector3 const& gravity, Result& result) {
+    result.power_crank = static_cast<double>(motion.pin_force.dot(k.pin_velocity));
+    Real const torque = k.pin.cross(motion.pin_force).z();
+    result.crank_torque = static_cast<double>(torque);
+    Vector3 const crank_weight = Real(in.crank_mass) * gravity;
+    result.crank_torque_with_weight = static_cast<double>(torque - (k.pin / 2).cross(crank_weight).z());
+    Vector3 const span = k.slider.centre - k.pin, spread = k.slider.velocity - k.pin_velocity;
+    result.rod_angular_velocity = array_of(span.cross(spread) / span.squaredNorm());
+    result.pin_force = array_of(motion.pin_force);
+    Real const rod_length = in.rod_length;
+    result.ideal_x = static_cast<double>(k.pin.x() + std::sqrt(rod_length * rod_length - k.pin.y() * k.pin.y()));
+}
+
+void report_joint(JointLoads const& joint, Result& result) {
+    result.contact_domain = std::isnan(joint.potential);
+    result.surfaces = joint.surfaces, result.lines = joint.lines, result.points = joint.points;
+    result.faces = joint.faces;
+    result.power_friction = static_cast<double>(joint.friction_loss);
+    result.power_damping = static_cast<double>(joint.damping_loss);
+    for (int i = 0; i < 8; ++i) {
+        Pair const &y = joint.pairs[1][i], &z = joint.pairs[2][i];
+        result.pen_y[i] = static_cast<double>(y.depth), result.pen_z[i] = static_cast<double>(z.depth);
+        result.rate_y[i] = static_cast<double>(y.rate), result.rate_z[i] = static_cast<double>(z.rate);
+        result.fn_y[i] = static_cast<double>(y.force), result.fn_z[i] = static_cast<double>(z.force);
+        result.elastic_y[i] = static_cast<double>(y.elastic), result.elastic_z[i] = static_cast<double>(z.elastic);
+        result.slip_y[i] = static_cast<double>(y.slip.norm()), result.slip_z[i] = static_cast<double>(z.slip.norm());
+    }
+    result.contact_potential = static_cast<double>(joint.potential);
+    result.normal_force = array_of(joint.normal);
+    result.normal_torque = array_of(joint.normal_torque);
 }
 
 }  // namespace
@@ -34,118 +72,114 @@ Inputs completed(Inputs in) {
     follow(in.slider_inertia_x, in.slider_mass * (0.02 * 0.02 + 0.03 * 0.03) / 12);
     follow(in.slider_inertia_y, in.slider_mass * (0.04 * 0.04 + 0.03 * 0.03) / 12);
     follow(in.slider_inertia_z, in.slider_mass * (0.04 * 0.04 + 0.02 * 0.02) / 12);
+    follow(in.crank_inertia, in.crank_mass * in.crank_length * in.crank_length / 12);
+    follow(in.point_stiffness, static_cast<double>(point_stiffness(in)));
     follow(in.thickness_y, in.way_width);
     follow(in.thickness_z, in.way_depth);
     return in;
 }
 
 Result evaluate(Inputs const& in, Parts const& parts, double t, State const& state, Pairs const* impact_speeds) {
-    Result result;
-    Kinematics const k = kinematics_of(in, t, state);
-    if (!k.reached) {
-        result.geometry = true;
-        result.derivative.fill(std::numeric_limits<double>::quiet_NaN());
-        return result;
-    }
-    Matrix4 const way = pose_of_way(in, parts);
-    PairTable pairs = pairs_of(in, k, way, impact_speeds);
-
-    Real potential = 0;
-    for (int f = 0; f < face_count; ++f) {
-        FaceLoads loads(in, parts, faces_of_way[f], pairs[faces_of_way[f].axis]);
-        loads.detect();
-        if (parts.law == Law::paper)
-            loads.load_by_paper();
-        else
-            loads.load_by_conservative();
-        result.surfaces += loads.surfaces();
-        result.lines += loads.lines();
-        result.points += loads.points();
-        result.faces[f] = loads.surfaces() ? FaceKind::surface
-                          : loads.lines()  ? FaceKind::lines
-                          : loads.points() ? FaceKind::points
-                                           : FaceKind::none;
-        potential += loads.potential();
-    }
-    result.contact_domain = std::isnan(potential);
-
-    // Way coordinates.  The way has no end, so a normal force does not push along it; its torque is complete.
-    Vector3 normal = Vector3::Zero(), friction = Vector3::Zero(), normal_torque = Vector3::Zero(),
-            friction_torque = Vector3::Zero();
-    Real friction_loss = 0, damping_loss = 0;
-    for (int axis : {1, 2}) {
-        for (Pair const& pair : pairs[axis]) {
-            if (!(pair.depth > 0)) continue;
-            Vector3 const push = pair.side * pair.force * pair.normal;
-            normal += Vector3(0, push.y(), push.z());
-            normal_torque += pair.arm.cross(push);
-            damping_loss += (pair.force - pair.elastic) * pair.rate;
-            Real const speed = pair.slip.norm();
-            if (!parts.friction || speed == 0) continue;
-            Vector3 const drag = -friction_value(in, speed) * pair.force / speed * pair.slip;
-            friction += drag;
-            friction_torque += pair.arm.cross(drag);
-            friction_loss -= drag.dot(pair.slip);
+    Kinematics crank;
+    CarriageMotion carriage;
+    SliderMotion slider;
+    if (parts.mechanism == Mechanism::slider_crank) {
+        crank = kinematics_of(in, t, state);
+        if (!crank.reached) {
+            Result nothing;
+            nothing.geometry = true;
+            nothing.derivative.fill(std::numeric_limits<double>::quiet_NaN());
+            return nothing;
         }
+        slider = crank.slider;
+    } else {
+        carriage = carriage_motion(in, t);
+        slider = slider_without_crank(parts, carriage, state);
     }
-    Matrix3 const turn_back = way.topLeftCorner<3, 3>();
-    normal = turn_back * normal;
-    normal_torque = turn_back * normal_torque;
-    Vector3 const contact_force = normal + turn_back * friction;
-    Vector3 const torque = normal_torque + turn_back * friction_torque;
+    JointLoads const joint = joint_loads(in, parts, slider, impact_speeds);
 
     Real const beta = in.inclination;
     Vector3 const gravity = -Real(in.gravity) * Vector3(std::sin(beta), std::cos(beta), 0);
-    Motion const motion = solve_motion(in, k, gravity, contact_force);
-    Vector3 const inertia(in.slider_inertia_x, in.slider_inertia_y, in.slider_inertia_z);
-    Vector3 const body_torque = k.pose.topLeftCorner<3, 3>().transpose() * torque;
-    Vector3 const gyroscopic = k.angular_velocity.cross(inertia.cwiseProduct(k.angular_velocity));
-    Vector3 const spin_up = (body_torque - gyroscopic).cwiseQuotient(inertia);
-    Vector3 const angle_rates = euler_rates(k.roll, k.yaw, k.angular_velocity);
+    Vector3 acceleration = joint.force / in.slider_mass + gravity;
+    Real energy = slider_energy(in, slider, gravity) + joint.potential;
+    Result result;
+    if (parts.mechanism == Mechanism::slider_crank) {
+        Motion const motion = solve_motion(in, crank, gravity, joint.force);
+        acceleration = motion.slider_acceleration;
+        energy += rod_energy(in, crank, gravity);
+        report_crank(in, crank, motion, gravity, result);
+    } else if (parts.mechanism == Mechanism::carriage) {
+        // The drive gives what the joint and the weight leave of M x''.
+        Real const drive = in.slider_mass * (carriage.ax - acceleration.x());
+        acceleration.x() = carriage.ax;
+        result.power_crank = static_cast<double>(drive * carriage.vx);
+        result.ideal_x = static_cast<double>(carriage.x);
+    } else {
+        result.derivative[10] = state[11];
+        result.derivative[11] = static_cast<double>(acceleration.x());
+        result.ideal_x = std::numeric_limits<double>::quiet_NaN();
+    }
+    result.energy = static_cast<double>(energy);
 
-    result.derivative = {state[2], state[3]};
-    for (int i = 0; i < 2; ++i) result.derivative[2 + i] = static_cast<double>(motion.slider_acceleration[1 + i]);
+    Vector3 const inertia(in.slider_inertia_x, in.slider_inertia_y, in.slider_inertia_z);
+    Matrix3 const attitude = slider.pose.topLeftCorner<3, 3>();
+    Vector3 const& spin = slider.angular_velocity;
+    Vector3 const gyroscopic = spin.cross(inertia.cwiseProduct(spin));
+    Vector3 const spin_up = (attitude.transpose() * joint.torque - gyroscopic).cwiseQuotient(inertia);
+    Vector3 const angle_rates = euler_rates(slider.roll, slider.yaw, spin);
+    for (int i = 0; i < 2; ++i) result.derivative[i] = state[2 + i];
+    for (int i = 0; i < 2; ++i) result.derivative[2 + i] = static_cast<double>(acceleration[1 + i]);
     for (int i = 0; i < 3; ++i) result.derivative[4 + i] = static_cast<double>(angle_rates[i]);
     for (int i = 0; i < 3; ++i) result.derivative[7 + i] = static_cast<double>(spin_up[i]);
-    result.power_crank = static_cast<double>(motion.pin_force.dot(k.pin_velocity));
-    result.power_friction = static_cast<double>(friction_loss);
-    result.power_damping = static_cast<double>(damping_loss);
-    for (int i = 0; i < 8; ++i) {
-        Pair const &y = pairs[1][i], &z = pairs[2][i];
-        result.pen_y[i] = static_cast<double>(y.depth), result.pen_z[i] = static_cast<double>(z.depth);
-        result.rate_y[i] = static_cast<double>(y.rate), result.rate_z[i] = static_cast<double>(z.rate);
-        result.fn_y[i] = static_cast<double>(y.force), result.fn_z[i] = static_cast<double>(z.force);
-        result.elastic_y[i] = static_cast<double>(y.elastic), result.elastic_z[i] = static_cast<double>(z.elastic);
-        result.slip_y[i] = static_cast<double>(y.slip.norm()), result.slip_z[i] = static_cast<double>(z.slip.norm());
-    }
-    result.contact_potential = static_cast<double>(potential);
-    result.energy = static_cast<double>(kinetic_and_weight(in, k, gravity, inertia) + potential);
-    Real const crank_torque = k.pin.cross(motion.pin_force).z();
-    result.crank_torque = static_cast<double>(crank_torque);
-    Vector3 const crank_weight = Real(in.crank_mass) * gravity;
-    result.crank_torque_with_weight = static_cast<double>(crank_torque - (k.pin / 2).cross(crank_weight).z());
-    result.x = static_cast<double>(k.centre.x());
-    result.vx = static_cast<double>(k.velocity.x());
-    result.acceleration = array_of(motion.slider_acceleration);
-    Vector3 const span = k.centre - k.pin, spread = k.velocity - k.pin_velocity;
-    result.rod_angular_velocity = array_of(span.cross(spread) / span.squaredNorm());
-    result.pin_force = array_of(motion.pin_force);
-    result.normal_force = array_of(normal);
-    result.normal_torque = array_of(normal_torque);
-    Real const rod_length = in.rod_length;
-    result.ideal_x = static_cast<double>(k.pin.x() + std::sqrt(rod_length * rod_length - k.pin.y() * k.pin.y()));
+
+    auto const sensor = [&](int axis, Real half_way) {
+        Vector3 const place = (half_way + 0.01L) * Vector3::Unit(axis);
+        Vector3 const about_centre = spin_up.cross(place) + spin.cross(spin.cross(place));
+        return static_cast<double>(attitude.col(axis).dot(acceleration + attitude * about_centre));
+    };
+    result.acceleration = array_of(acceleration);
+    result.acceleration_top = sensor(1, Real(in.way_width) / 2);
+    result.acceleration_front = sensor(2, Real(in.way_depth) / 2);
+    result.x = static_cast<double>(slider.centre.x());
+    result.vx = static_cast<double>(slider.velocity.x());
+    report_joint(joint, result);
     return result;
 }
 
 Pairs penetrations(Inputs const& in, Parts const& parts, double t, State const& state) {
     Pairs depths;
     depths.fill(std::numeric_limits<double>::quiet_NaN());
-    Kinematics const k = kinematics_of(in, t, state);
-    if (!k.reached) return depths;
-    PairTable const pairs = pairs_of(in, k, pose_of_way(in, parts), nullptr);
+    SliderMotion slider;
+    if (parts.mechanism == Mechanism::slider_crank) {
+        Kinematics const crank = kinematics_of(in, t, state);
+        if (!crank.reached) return depths;
+        slider = crank.slider;
+    } else {
+        slider = slider_without_crank(parts, carriage_motion(in, t), state);
+    }
+    PairTable const pairs = pairs_of(in, slider, pose_of_way(in, parts), nullptr);
     for (int axis : {1, 2})
         for (int i = 0; i < 8; ++i) depths[(axis - 1) * 8 + i] = static_cast<double>(pairs[axis][i].depth);
     return depths;
+}
+
+CarriageMotion carriage_motion(Inputs const& in, long double t) {
+    Real const speed = in.carriage_speed, reversal = in.reversal_time;
+    Real const straight = in.stroke / speed;
+    // There and back are alike: x(t + half) = stroke - x(t).
+    Real const half = straight + reversal;
+    Real const halves = std::floor(t / half);
+    bool const back = std::fmod(halves, 2) != 0;
+    Real const since = t - halves * half;
+    CarriageMotion way_out;
+    if (since <= straight) {
+        way_out = {speed * since, speed, 0};
+    } else {
+        Real const rate = pi / reversal, angle = rate * (since - straight);
+        way_out = {in.stroke + speed / rate * std::sin(angle), speed * std::cos(angle),
+                   -speed * rate * std::sin(angle)};
+    }
+    return back ? CarriageMotion{in.stroke - way_out.x, -way_out.vx, -way_out.ax} : way_out;
 }
 
 double friction_coefficient(Inputs const& inputs, double speed) {

@@ -1,4 +1,4 @@
-// The independent oracle: the spatial slider-crank evaluated as the textbook writes it, in 80-bit arithmetic and
+// The independent oracle: the spatial mechanisms evaluated as the textbook writes them, in 80-bit arithmetic and
 // without any of the kernels' shortcuts.  Poses are homogeneous 4 x 4 matrices (Qian et al. 2020, Eq. 1-4), every
 // apex-face pair is transformed on its own, and the rod is a free body with unknown end forces.  It shares no code
 // with kernels/, only the plain struct of inputs, so that agreement of the two means something.
@@ -9,8 +9,9 @@
 
 namespace oracle {
 
-/// y z [m], vy vz [m/s], roll yaw pitch [rad], ω in the slider's frame [rad/s].
-using State = std::array<double, 10>;
+/// y z [m], vy vz [m/s], roll yaw pitch [rad], ω in the slider's frame [rad/s]; of a free slider also x [m], vx [m/s],
+/// which nobody reads where a crank or a carriage prescribes them.
+using State = std::array<double, 12>;
 /// One value per apex-face pair: Y faces P1..P8, then Z faces P1..P8.
 using Pairs = std::array<double, 16>;
 using Vector = std::array<double, 3>;
@@ -25,7 +26,7 @@ struct Result {
     bool contact_domain = false;  // a line beyond δ̄ ≤ l²/R_e: its load, and what follows from it, is NaN
 
     State derivative{};
-    double power_crank = 0;                          // F_A · v_A [W]
+    double power_crank = 0;                          // F_A · v_A, or F_x vx of the carriage's drive [W]
     double power_friction = 0;                       // loss, -Σ F_t · v_t [W]
     double power_damping = 0;                        // loss, Σ (F - F_elastic) δ' [W]
     std::array<double, 8> pen_y{}, pen_z{};          // δ [m], > 0 in contact
@@ -37,27 +38,36 @@ struct Result {
     std::array<FaceKind, face_count> faces{};
     double energy = 0;                    // E of section 8 [J], contact potential included
     double contact_potential = 0;         // U [J]
-    double crank_torque = 0;              // (A x F_A)_z [N m], as in the golden tables
+    double crank_torque = 0;              // (A x F_A)_z [N m], as in the golden tables; 0 without a crank
     double crank_torque_with_weight = 0;  // with the weight of the crank itself
     double x = 0, vx = 0;                 // slider's centre along X [m], [m/s]
     Vector acceleration{};                // of the slider's centre [m/s²]
-    Vector rod_angular_velocity{};        // no spin about the rod [rad/s]
-    Vector pin_force{};                   // F_A, on the rod at the crank pin [N]
-    Vector normal_force{};                // Σ normal forces, without the way's X, inertial frame [N]
-    Vector normal_torque{};               // their torque about the slider's centre, inertial frame [N m]
-    double ideal_x = 0;                   // slider of the mechanism without clearance [m]; NaN if it does not reach
+    double acceleration_top = 0;    // along K's Y of the body point (0, w_a/2 + 10 mm, 0), without gravity [m/s²]
+    double acceleration_front = 0;  // along K's Z of (0, 0, w_b/2 + 10 mm)
+    Vector rod_angular_velocity{};  // no spin about the rod [rad/s]
+    Vector pin_force{};             // F_A, on the rod at the crank pin [N]
+    Vector normal_force{};          // Σ normal forces, without the way's X, inertial frame [N]
+    Vector normal_torque{};         // their torque about the slider's centre, inertial frame [N m]
+    double ideal_x = 0;             // of the mechanism without clearance [m]; NaN if it does not reach, or is free
 };
 
 /// Fills the inputs that follow from others (section 2): a slider of 40 x 20 x 30 mm, crank and rod of their sections.
 slideway::Inputs completed(slideway::Inputs inputs);
 
-/// Everything at one instant.  @param impact_speeds v0 [m/s] per pair for Damping::restitution, its start value 1e-4
+/// Everything at one instant, of the mechanism that the parts name: one of the three spatial ones.  @param impact_speeds v0 [m/s] per pair for Damping::restitution, its start value 1e-4
 /// where null.  Parts rule: no friction, no way pose, no χ where they say so, whatever the inputs hold.
 Result evaluate(slideway::Inputs const& completed, slideway::Parts const& parts, double t, State const& state,
                 Pairs const* impact_speeds = nullptr);
 
 /// The sixteen δ [m] alone; NaN where the rod does not reach.
 Pairs penetrations(slideway::Inputs const& completed, slideway::Parts const& parts, double t, State const& state);
+
+/// A carriage at constant speed whose direction is reversed along half a cosine (model.md 7).
+struct CarriageMotion {
+    long double x = 0, vx = 0, ax = 0;  // [m], [m/s], [m/s²]
+};
+/// @param t >= 0 [s]
+CarriageMotion carriage_motion(slideway::Inputs const& inputs, long double t);
 
 // Pieces of the laws, for tests of their own.
 double friction_coefficient(slideway::Inputs const& inputs, double speed);

@@ -12,15 +12,15 @@ Real const least_impact_speed = 1e-4;
 
 }  // namespace
 
-PairTable pairs_of(Inputs const& in, Kinematics const& k, Matrix4 const& way, Pairs const* impact_speeds) {
+PairTable pairs_of(Inputs const& in, SliderMotion const& motion, Matrix4 const& way, Pairs const* impact_speeds) {
     Matrix4 const from_inertial = inverse_of(way);
-    Matrix4 const slider = from_inertial * k.pose;
-    Matrix4 const slider_rate = from_inertial * k.pose_rate;
+    Matrix4 const slider = from_inertial * motion.pose;
+    Matrix4 const slider_rate = from_inertial * motion.pose_rate;
     Matrix4 const into_slider = inverse_of(slider);
     Matrix3 const attitude = slider.topLeftCorner<3, 3>();
     Vector3 const centre = slider.topRightCorner<3, 1>();
     Vector3 const velocity = slider_rate.topRightCorner<3, 1>();
-    Vector3 const angular_velocity = attitude * k.angular_velocity;
+    Vector3 const angular_velocity = attitude * motion.angular_velocity;
     Real const half_hole[3] = {0, Real(in.way_width) / 2 + in.clearance_y, Real(in.way_depth) / 2 + in.clearance_z};
 
     PairTable table;

@@ -45,6 +45,6 @@ using PairTable = std::array<std::array<Pair, 8>, 3>;  // [axis 1 or 2][apex]
 
 /// Depths, rates and slips; no forces yet.  @param impact_speeds v0 [m/s], the start value 1e-4 where null; never
 /// taken below it.
-PairTable pairs_of(Inputs const& in, Kinematics const& k, Matrix4 const& way, Pairs const* impact_speeds);
+PairTable pairs_of(Inputs const& in, SliderMotion const& motion, Matrix4 const& way, Pairs const* impact_speeds);
 
 }  // namespace oracle::detail

@@ -3,116 +3,22 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <random>
 #include <utility>
 
 #include "linear_solve.hpp"
+#include "random_inputs.hpp"
 
 namespace oracle {
 namespace {
 
-using slideway::Damping;
+using detail::any_inputs;
+using detail::Dice;
+using detail::parts_number;
 using slideway::Inputs;
-using slideway::Law;
+using slideway::Mechanism;
 using slideway::Parts;
 
 constexpr double deepest = 3e-5;  // δ [m]
-
-class Dice {
-public:
-    explicit Dice(std::uint64_t seed) : bits_(seed) {}
-
-    double uniform(double low, double high) {
-        return low + (high - low) * static_cast<double>(bits_() >> 11) * 0x1p-53;
-    }
-    double scale(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
-    double signed_scale(double low, double high) {
-        double const size = scale(low, high);
-        return chance(0.5) ? size : -size;
-    }
-    bool chance(double probability) { return uniform(0, 1) < probability; }
-    int below(int count) { return static_cast<int>(bits_() % static_cast<std::uint64_t>(count)); }
-
-private:
-    std::mt19937_64 bits_;
-};
-
-// ---- parameters --------------------------------------------------------------------------------------------------
-
-Parts parts_number(int i) {
-    Parts parts;
-    parts.law = i % 2 == 0 ? Law::paper : Law::conservative;
-    parts.friction = i / 2 % 2 != 0;
-    parts.misaligned_way = i / 4 % 2 != 0;
-    parts.damping = std::array{Damping::point, Damping::rate, Damping::restitution}[i / 8 % 3];
-    return parts;
-}
-
-void vary_mechanism(Dice& dice, Inputs& in) {
-    in.crank_length = dice.uniform(0.03, 0.07);
-    in.rod_length = dice.uniform(0.11, 0.2);
-    in.start_angle = dice.uniform(-std::numbers::pi, std::numbers::pi);
-    in.gravity = dice.uniform(0, 20);
-    in.inclination = dice.uniform(-0.6, 0.6);
-    in.crank_mass = dice.uniform(0.002, 0.02);
-    in.rod_mass = dice.uniform(0.05, 0.2);
-    in.rod_mass_center = dice.uniform(0.3, 0.7);
-    in.rod_inertia = in.rod_mass * in.rod_length * in.rod_length / dice.uniform(8, 16);
-    in.slider_mass = dice.uniform(0.1, 0.4);
-    in.slider_inertia_x = dice.scale(5e-6, 5e-5);
-    in.slider_inertia_y = dice.scale(1e-5, 1e-4);
-    in.slider_inertia_z = dice.scale(1e-5, 1e-4);
-}
-
-void vary_joint(Dice& dice, Inputs& in) {
-    in.slider_length = dice.uniform(0.02, 0.06);
-    in.way_width = dice.uniform(0.01, 0.04);
-    in.way_depth = dice.uniform(0.01, 0.04);
-    in.thickness_y = dice.uniform(0.005, 0.03);
-    in.thickness_z = dice.uniform(0.005, 0.03);
-}
-
-void vary_contact(Dice& dice, Inputs& in) {
-    in.slider_young_modulus = dice.scale(1e9, 1e12);
-    in.way_young_modulus = dice.scale(1e9, 1e12);
-    in.slider_poisson_ratio = dice.uniform(0, 0.49);
-    in.way_poisson_ratio = dice.uniform(0, 0.49);
-    in.edge_radius = dice.scale(1e-5, 1e-2);
-    in.apex_radius = dice.scale(1e-5, 1e-2);
-    in.hertz_exponent = dice.chance(0.25) ? 1.5 : dice.uniform(1.1, 2);
-    in.eta = dice.chance(0.25) ? 0 : dice.scale(1e-4, 1);
-    in.friction_static = dice.uniform(0.05, 1);
-    in.friction_kinetic = in.friction_static * dice.uniform(0.1, 1);
-    in.friction_stick_speed = dice.scale(1e-4, 1e-2);
-    in.friction_slip_speed = in.friction_stick_speed * dice.uniform(1.5, 20);
-}
-
-void misalign(Dice& dice, Inputs& in) {
-    in.way_offset_y = dice.signed_scale(1e-6, 1e-3);
-    in.way_offset_z = dice.signed_scale(1e-6, 1e-3);
-    in.way_roll = dice.signed_scale(1e-5, 3e-2);
-    in.way_yaw = dice.signed_scale(1e-5, 3e-2);
-    in.way_pitch = dice.signed_scale(1e-5, 3e-2);
-}
-
-/// Every parameter half of the time; else the paper's values but for those that a part brings along.
-Inputs any_inputs(Dice& dice, Parts const& parts) {
-    Inputs in;
-    if (dice.chance(0.5)) vary_mechanism(dice, in);
-    if (dice.chance(0.5)) vary_joint(dice, in);
-    if (dice.chance(0.5)) vary_contact(dice, in);
-    in = completed(in);
-    in.crank_speed = dice.chance(0.1) ? 0 : dice.signed_scale(1e-4, 100);
-    double const widest = dice.chance(0.9) ? 1e-3 : 5e-3;
-    in.clearance_y = dice.scale(1e-5, widest);
-    in.clearance_z = dice.chance(0.5) ? in.clearance_y : dice.scale(1e-5, widest);
-    in.chi_line = dice.chance(0.2) ? 0 : dice.scale(1e-2, 30);
-    in.chi_surface = dice.chance(0.2) ? 0 : dice.scale(1e-2, 30);
-    in.restitution = dice.chance(0.1) ? 1 : dice.uniform(0.05, 0.999);
-    if (parts.misaligned_way) misalign(dice, in);
-    return in;
-}
 
 // ---- places ------------------------------------------------------------------------------------------------------
 
@@ -267,7 +173,8 @@ bool place(Inputs const& in, Parts const& parts, double t, Targets const& target
             moved[free_coordinates[j]] += step;
             slopes.col(j) = (error(moved) - now) / (moved[free_coordinates[j]] - state[free_coordinates[j]]);
         }
-        Eigen::Matrix<double, 5, 1> const correction = solution(slopes.cast<long double>(), now.cast<long double>()).cast<double>();
+        Eigen::Matrix<double, 5, 1> const correction =
+            solution(slopes.cast<long double>(), now.cast<long double>()).cast<double>();
         if (!correction.allFinite()) return false;
         for (int j = 0; j < 5; ++j) state[free_coordinates[j]] -= correction[j];
     }
@@ -286,21 +193,49 @@ void set_rates(Dice& dice, Inputs const& in, State& state) {
     }
 }
 
-/// A crank whose pin pushes the slider at about a speed at which friction changes.
-void slow_to_friction(Dice& dice, Inputs& in) {
+/// What moves the slider along the way does so at about a speed at which friction changes.
+void slow_to_friction(Dice& dice, Case& c) {
+    Inputs& in = c.inputs;
     double const speed = dice.scale(0.1 * in.friction_stick_speed, 2 * in.friction_slip_speed);
     in.crank_speed = (in.crank_speed < 0 ? -1 : 1) * speed / in.crank_length;
+    in.stroke *= speed / in.carriage_speed;
+    in.carriage_speed = speed;
+    c.state[11] = std::copysign(speed, c.state[11]);
 }
 
-Case make_case(Dice& dice, int number) {
+/// What a slider-crank does not have.
+void set_along_the_way(Dice& dice, Case& c) {
+    if (c.parts.mechanism == Mechanism::slider_crank) return;
+    Inputs& in = c.inputs;
+    if (dice.chance(0.5)) in.point_stiffness = dice.scale(1e6, 1e11);
+    if (c.parts.mechanism == Mechanism::carriage) {
+        in.carriage_speed = dice.scale(1e-3, 1);
+        in.stroke = in.carriage_speed * dice.uniform(0.1, 2);
+        in.reversal_time = dice.scale(1e-3, 0.3);
+    } else {
+        c.state[10] = dice.uniform(-0.2, 0.3);
+        c.state[11] = dice.chance(0.1) ? 0 : dice.signed_scale(1e-4, 3);
+    }
+}
+
+/// @return t [s]: of a carriage somewhere on its first periods, as often turning round as under way.
+double any_time(Dice& dice, Case const& c) {
+    if (c.parts.mechanism != Mechanism::carriage) return dice.uniform(0, 2);
+    double const straight = c.inputs.stroke / c.inputs.carriage_speed, half = straight + c.inputs.reversal_time;
+    double const since = dice.chance(0.5) ? dice.uniform(0, straight) : dice.uniform(straight, half);
+    return dice.below(6) * half + since;
+}
+
+Case make_case(Dice& dice, int number, Mechanism mechanism) {
     for (;;) {
         Case result;
-        result.parts = parts_number(number);
+        result.parts = parts_number(number, mechanism);
         result.inputs = any_inputs(dice, result.parts);
         Inputs& in = result.inputs;
+        set_along_the_way(dice, result);
         int const kind = number / 24 % 4;
-        if (dice.chance(0.4)) slow_to_friction(dice, in);
-        result.t = dice.uniform(0, 2);
+        if (dice.chance(0.4)) slow_to_friction(dice, result);
+        result.t = any_time(dice, result);
         int const combination = number / 96 + 24 * (number % 24);  // in step with the parts, one of 64 at a time
         Targets const targets = kind == 1   ? wedged(dice, in, combination)
                                 : kind == 3 ? loose(dice, in)
@@ -320,11 +255,11 @@ Case make_case(Dice& dice, int number) {
 
 }  // namespace
 
-std::vector<Case> make_cases(std::uint64_t seed, int count) {
+std::vector<Case> make_cases(std::uint64_t seed, int count, Mechanism mechanism) {
     Dice dice(seed);
     std::vector<Case> cases;
     cases.reserve(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) cases.push_back(make_case(dice, i));
+    for (int i = 0; i < count; ++i) cases.push_back(make_case(dice, i, mechanism));
     return cases;
 }
 

@@ -25,6 +25,10 @@ struct Case {
 ///   through all 8 x 8 combinations, opposite faces at once included;
 /// - loose (a quarter): any place and tilt within the clearance, mostly free; some lie flat, without any tilt.
 /// Rates run from zero, also exactly, to impacts; sliding speeds from zero over the range of friction and beyond.
-std::vector<Case> make_cases(std::uint64_t seed, int count);
+/// A carriage is anywhere on its way, at constant speed or turning round; a free slider moves along the way as well.
+/// Of both every other point stiffness is given and does not follow from the apex.
+/// @param mechanism a spatial one
+std::vector<Case> make_cases(std::uint64_t seed, int count,
+                             slideway::Mechanism mechanism = slideway::Mechanism::slider_crank);
 
 }  // namespace oracle

@@ -70,7 +70,7 @@ TEST_P(ProbeParity, NeitherNeighboursNorIsaChangeABit) {
     auto const rows = rows_of(GetParam().file);
     std::size_t const n = rows.inputs.size();
     for (bool const friction : {false, true}) {
-        Parts const parts{Mechanism::slider_crank, GetParam().law, GetParam().damping, friction, false};
+        Parts const parts{GetParam().law, GetParam().damping, friction, false};
         std::vector<ProbeResult> alone(n), together(n);
         find_instance(Isa::scalar, parts).probe({rows.inputs.data(), rows.times.data(), n, alone.data()});
         int both_sides = 0;

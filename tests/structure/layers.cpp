@@ -46,13 +46,14 @@ constexpr std::array layers = {
 };
 
 // Plain data without code of any instruction set: every layer may share it, the host included.
-constexpr std::array<std::string_view, 7> plain_data = {
+constexpr std::array<std::string_view, 8> plain_data = {
     "kernels/inputs.hpp",
     "kernels/status.hpp",
     "kernels/methods.hpp",
     "kernels/block.hpp",
     "kernels/grid_task.hpp",
     "kernels/map_block.hpp",
+    "kernels/mechanisms/mechanism_info.hpp",
     "kernels/observers/quantities.hpp",
 };
 

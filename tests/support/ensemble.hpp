@@ -1,6 +1,7 @@
 // Runs members through the compiled kernels, as the driver does, and keeps all they return.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -13,7 +14,7 @@ namespace slideway::testing {
 
 struct EnsembleResult {
     std::vector<MemberRecord> records;
-    std::vector<std::array<double, state_size>> states;  // at the end
+    std::vector<std::array<double, most_states>> states;  // at the end; as many numbers as the mechanism has
     std::vector<std::array<double, quantity_columns>> quantities;
     std::vector<double> series;  // [series][member][sample]
     std::uint64_t lane_steps_executed = 0, lane_steps_useful = 0;
@@ -23,7 +24,7 @@ struct EnsembleResult {
 };
 
 inline constexpr Selection all_quantities = (Selection(1) << quantity_count) - 1;
-inline constexpr Selection state_selection = (Selection(1) << state_series) - 1;
+inline constexpr Selection state_selection = info(Mechanism::slider_crank).always;
 
 struct RunOptions {
     Parts parts;
@@ -53,10 +54,13 @@ inline EnsembleResult run(Isa isa, RunOptions const& options, std::vector<Inputs
     block.quantities = options.quantities;
     block.series = options.series;
     block.records = r.records.data();
-    block.final_states = n == 0 ? nullptr : r.states[0].data();
+    auto const width = static_cast<std::size_t>(info(options.parts.mechanism).states);
+    std::vector<double> states(n * width);
+    block.final_states = states.data();
     block.quantity_values = n == 0 ? nullptr : r.quantities[0].data();
     block.series_values = r.series.data();
     find_instance(isa, options.parts).run(block);
+    for (std::size_t i = 0; i < n; ++i) std::copy_n(&states[i * width], width, r.states[i].begin());
     r.lane_steps_executed = block.lane_steps_executed;
     r.lane_steps_useful = block.lane_steps_useful;
     return r;

@@ -75,7 +75,7 @@ std::vector<Array> results_of(Block const& b, BlockPlan const& plan) {
 
 /// Blocks with and without each of the arrays that a block may lack.
 std::map<std::string, BlockPlan> plans() {
-    Parts const parts{Mechanism::slider_crank, Law::conservative, Damping::point, true, false};
+    Parts const parts{Law::conservative, Damping::point, true, false};
     std::map<std::string, BlockPlan> all;
     all["bare"] = testing::sampled_block(5, parts);
     all["bare"].series = 0;

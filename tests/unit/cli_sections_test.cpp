@@ -1,4 +1,6 @@
 // Sections as a user asks for them: at a crank angle, and where a state or a gap crosses a level.
+#include <algorithm>
+
 #include "cli_orbits.hpp"
 
 #include "tests/oracle/oracle.hpp"
@@ -127,7 +129,9 @@ TEST_F(SectionsByCrossing, OfAGapLieOnItsLevelAndOpen) {
         Inputs const completed = oracle::completed(inputs);
         for (Section const& section : sections[i]) {
             ++count;
-            auto const there = oracle::evaluate(completed, parts, section.time, section.state);
+            oracle::State state{};
+            std::copy(section.state.begin(), section.state.end(), state.begin());
+            auto const there = oracle::evaluate(completed, parts, section.time, state);
             EXPECT_NEAR(-there.pen_y[1], gap_level, 1e-12 * 1e-4);
             EXPECT_LT(there.rate_y[1], 0);  // the depth falls where the gap rises
         }

@@ -27,6 +27,49 @@ TEST_F(Usage, OfCommands) {
     expect_refusal(2, "FILE", {"info"});
 }
 
+TEST_F(Usage, OfCardsForOtherMechanisms) {
+    write("c.toml", "schema = 1\n[mechanism]\nkind = \"carriage\"\n");
+    for (char const* const command : {"run", "check"}) {
+        expect_refusal(2,
+                       "c.toml: mechanism.kind is \"carriage\" (the kernels for cards are of slider_crank alone); use "
+                       "--backend cpu",
+                       {command, "c.toml", "--backend", "cuda"});
+    }
+    EXPECT_NE(run({"check", "c.toml"}).out.find("the kernels for cards are of slider_crank alone"), std::string::npos);
+    EXPECT_EQ(run({"check", "s.toml"}).out.find("of slider_crank alone"), std::string::npos);
+}
+
+TEST_F(Usage, CheckShowsThePartsOfEachMechanism) {
+    auto const parts = [&](std::string const& lines) {
+        write("m.toml", "schema = 1\n[mechanism]\n" + lines + "\n[study]\nduration = \"1 ms\"\n");
+        std::string const out = run({"check", "m.toml"}).out;
+        auto const from = out.find("parts in");
+        return out.substr(from, out.find("\nasked for") - from);
+    };
+    EXPECT_EQ(parts("kind = \"carriage\""),
+              "parts in     carriage mechanism; paper law; damping of point contacts\n"
+              "parts out    conservative law; damping of line and surface contacts; restitution; friction; pose of a "
+              "misaligned way; time series");
+    EXPECT_EQ(parts("kind = \"planar_slider_crank\"\ncrank = \"free\"\n[contact]\nrestitution = 0.5"),
+              "parts in     planar_slider_crank mechanism; free crank; contact of corners; restitution\n"
+              "parts out    friction; time series");
+}
+
+TEST_F(Usage, ListShowsWhatEachMechanismHas) {
+    std::string const list = run({"list"}).out;
+    for (char const* const line : {
+             "  planar_slider_crank            block between two walls",
+             "crank_angle, rod_angle, pitch, crank_angular_velocity, rod_angular_velocity, wz; series have y, vy too\n",
+             "  peak_crank_torque              N m      largest magnitude of the drive torque, crank weight included "
+             "(slider_crank, planar_slider_crank)\n",
+             "  crank_angle                    rad      angle of the crank (planar_slider_crank)\n",
+             "  mechanism.stroke               m        way of the carriage at constant speed (carriage)\n",
+             "  mechanism.gravity              m/s2     gravity\n",
+         }) {
+        EXPECT_NE(list.find(line), std::string::npos) << line;
+    }
+}
+
 TEST_F(Usage, OfOptionsOfRun) {
     expect_refusal(2, "--threads 0", {"run", "s.toml", "--threads", "0"});
     expect_refusal(2, "--threads", {"run", "s.toml", "--threads", "many"});

@@ -119,7 +119,7 @@ TEST_F(GridThread, GivesTheHeldContactsOfAProgramAlone) {
 }
 
 TEST_F(GridThread, AreAsManyAsYouLike) {
-    auto const plan = testing::sampled_block(13, {Mechanism::slider_crank, Law::conservative, Damping::rate, true, false});
+    auto const plan = testing::sampled_block(13, {Law::conservative, Damping::rate, true, false});
     for (int const threads : {1, 2, 13, 40}) expect_as_alone(plan, threads);
     expect_as_alone(testing::sampled_block(1, plan.parts), 5);
     GridState state;
@@ -150,7 +150,7 @@ TEST_F(GridThread, HandsEveryMemberToOneThread) {
 }
 
 TEST_F(GridThread, TakesMembersInTheBlocksOrder) {
-    auto plan = testing::sampled_block(9, {Mechanism::slider_crank, Law::paper, Damping::point, true, false});
+    auto plan = testing::sampled_block(9, {Law::paper, Damping::point, true, false});
     plan.settings.end_time = 2e-3;
     plan.order = {4, 0, 8, 2, 6, 1, 3, 7, 5};
     OwnedBlock owned(plan);
@@ -177,7 +177,7 @@ TEST_F(GridThread, TakesMembersInTheBlocksOrder) {
 }
 
 TEST_F(GridThread, AFailingMemberChangesNoNeighbour) {
-    Parts const parts{Mechanism::slider_crank, Law::conservative, Damping::point, true, true};
+    Parts const parts{Law::conservative, Damping::point, true, true};
     auto const good = testing::sampled_block(10, parts);
     OwnedBlock alone(good);
     run_alone(alone);
@@ -217,7 +217,7 @@ TEST_F(GridThread, AFailingMemberChangesNoNeighbour) {
 TEST_F(GridThread, AStopLeavesNoMemberHalfWritten) {
     constexpr std::array<std::string_view, 3> on_the_way = {"series", "sections", "growths"};
     for (bool const shadowed : {false, true}) {
-        Parts const parts{Mechanism::slider_crank, Law::paper, Damping::point, true, false};
+        Parts const parts{Law::paper, Damping::point, true, false};
         auto const plan = shadowed ? testing::shadowed_block(30, parts) : testing::crossing_block(30, parts);
         OwnedBlock alone(plan), stopped(plan);
         run_alone(alone);

@@ -19,7 +19,7 @@ TEST(MisalignedWay, GivesThePenetrationsOfASliderUpsideDown) {
         in.way_roll = 0.02;
         in.way_yaw = -0.01;
         in = oracle::completed(in);
-        Parts const parts{Mechanism::slider_crank, Law::conservative, Damping::point, false, true};
+        Parts const parts{Law::conservative, Damping::point, false, true};
         oracle::State const state{in.y, in.z, in.vy, in.vz, in.roll, in.yaw, in.pitch, in.wx, in.wy, in.wz};
         auto const expected = oracle::penetrations(in, parts, 0.0, state);
         for (Isa const isa : all_isas()) {

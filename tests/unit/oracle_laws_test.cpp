@@ -171,7 +171,7 @@ TEST(Oracle, DissipatesLinesAndSurfacesByTheRateOfTheirApproach) {
     state[0] = -(in.clearance_y + 1e-8);
     state[2] = -0.01;
     auto const force = [&](Damping damping) {
-        return oracle::evaluate(in, {Law::paper, damping, false, false}, 0, state).normal_force[1];
+        return oracle::evaluate(in, {.damping = damping}, 0, state).normal_force[1];
     };
     EXPECT_NEAR(force(Damping::rate) / force(Damping::point), 1 + 7 * 0.01, 1e-9);
     state[6] = 1e-5;  // pitch lifts one end: a line is left

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <set>
 #include <tuple>
+#include <vector>
 
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/random_states.hpp"
@@ -23,6 +24,7 @@ using oracle::testing::seed;
 using oracle::testing::Triple;
 using slideway::Inputs;
 using slideway::Law;
+using slideway::Mechanism;
 
 /// One axis of flat parallel faces: f(s3, s) = t + a3 s3 + a s against ±1 shows every pattern that can occur.
 std::set<Triple> triples_of_one_axis() {
@@ -82,15 +84,41 @@ TEST(RandomStates, CoverDepthsSlidingSpeedsAndParts) {
     EXPECT_EQ(parts.size(), 24u);
 }
 
-TEST(RandomStates, VaryEveryParameter) {
-    constexpr int numbers = sizeof(Inputs) / sizeof(double);
-    constexpr int initial = 10;  // the start of a run; a case carries its own state
+/// How many values each number of Inputs takes, its start of a run aside; a case carries its own state.
+std::vector<std::size_t> values_of_inputs(std::vector<Mechanism> const& mechanisms) {
+    constexpr int numbers = sizeof(Inputs) / sizeof(double), initial = 12;
     std::array<std::set<double>, numbers> seen;
-    for (Case const& c : oracle::make_cases(seed, 500)) {
-        auto const values = std::bit_cast<std::array<double, numbers>>(c.inputs);
-        for (int i = 0; i < numbers; ++i) seen[i].insert(values[i]);
+    for (Mechanism const mechanism : mechanisms) {
+        for (Case const& c : oracle::make_cases(seed, 500, mechanism)) {
+            auto const values = std::bit_cast<std::array<double, numbers>>(c.inputs);
+            for (int i = 0; i < numbers; ++i) seen[i].insert(values[i]);
+        }
     }
-    for (int i = 0; i < numbers - initial; ++i) EXPECT_GT(seen[i].size(), 50u) << "number " << i << " of Inputs";
+    std::vector<std::size_t> counts;
+    for (int i = 0; i < numbers - initial; ++i) counts.push_back(seen[i].size());
+    return counts;
+}
+
+TEST(RandomStates, VaryEveryParameter) {
+    Inputs const where;
+    auto const place_of = [&where](double const& member) {
+        return static_cast<std::size_t>(&member - reinterpret_cast<double const*>(&where));
+    };
+    auto const counts = values_of_inputs({Mechanism::slider_crank, Mechanism::carriage, Mechanism::free_slider});
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (i == place_of(where.slider_height)) continue;  // of the planar block alone
+        EXPECT_GT(counts[i], 50u) << "number " << i << " of Inputs";
+    }
+}
+
+TEST(RandomStates, TakeTheCarriageThroughBothWaysAndBothReversals) {
+    int there = 0, back = 0, turning_back = 0, turning_forth = 0;
+    for (Case const& c : oracle::make_cases(seed, 500, Mechanism::carriage)) {
+        auto const [x, vx, ax] = oracle::carriage_motion(c.inputs, c.t);
+        there += vx == c.inputs.carriage_speed, back += vx == -c.inputs.carriage_speed;
+        turning_back += ax<0, turning_forth += ax> 0;
+    }
+    for (int const count : {there, back, turning_back, turning_forth}) EXPECT_GT(count, 60);
 }
 
 TEST(RandomStates, AreTheSameForTheSameSeed) {

@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_sections = 3, samples = 2, series = 2;
+constexpr std::size_t row_size = section_columns(state_size);
 
 /// Of the run: with gaps, as --members and a continued run make them.
 MemberSet run_members() {
@@ -88,8 +89,8 @@ private:
         for (int k = 0; k < state_size; ++k) states.push_back(value(m, 3, static_cast<std::size_t>(k)));
         for (int k = 0; k < quantity_columns; ++k) quantities.push_back(value(m, 4, static_cast<std::size_t>(k)));
         for (std::size_t row = 0; row < most_sections; ++row) {
-            for (std::size_t j = 0; j < section_columns; ++j) {
-                sections.push_back(row < sections_of(m) ? value(m, 8, row * section_columns + j) : nan);
+            for (std::size_t j = 0; j < row_size; ++j) {
+                sections.push_back(row < sections_of(m) ? value(m, 8, row * row_size + j) : nan);
             }
         }
         study[0].push_back(value(m, 9));
@@ -137,8 +138,7 @@ TEST_F(Merge, OfOneShardHoldsEveryMemberAtItsPlace) {
         EXPECT_EQ(result.values("rates")[6 * i + 5], value(m, 10, 5));
         EXPECT_EQ(result.values("section_count")[i], static_cast<double>(sections_of(m)));
         EXPECT_EQ(result.values("section_crossings")[i], 2.0 * static_cast<double>(m));
-        for (std::size_t row = 0; row < sections_of(m); ++row)
-            section_times.push_back(value(m, 8, row * section_columns));
+        for (std::size_t row = 0; row < sections_of(m); ++row) section_times.push_back(value(m, 8, row * row_size));
     }
     EXPECT_EQ(result.values("section_time"), section_times);
 }
@@ -193,8 +193,7 @@ TEST_F(Merge, LeavesAPlaceForMembersThatHaveNotRun) {
         for (std::size_t k = 0; k < 8; ++k) EXPECT_EQ(std::isnan(result.values("peak_apex_force")[8 * i + k]), !ran);
         EXPECT_EQ(result.values("section_count")[i], ran ? static_cast<double>(sections_of(m)) : 0);
         EXPECT_EQ(result.values("section_crossings")[i], ran ? 2.0 * static_cast<double>(m) : 0);
-        for (std::size_t row = 0; ran && row < sections_of(m); ++row)
-            times.push_back(value(m, 8, row * section_columns));
+        for (std::size_t row = 0; ran && row < sections_of(m); ++row) times.push_back(value(m, 8, row * row_size));
     }
     EXPECT_EQ(result.values("section_time"), times);
     EXPECT_EQ(result.values("exponent"), (std::vector<double>{1, 2}));

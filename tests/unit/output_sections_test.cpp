@@ -15,6 +15,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t members = 8, room = 3;
+constexpr std::size_t row_size = section_columns(state_size);
 
 /// Members 3 and 5 failed, the one after a section, the other before any.
 constexpr std::size_t rows_of_members[members] = {3, 0, 2, 1, 3, 0, 0, 2};
@@ -58,15 +59,15 @@ struct FakeBlock {
           records(count),
           states(count * state_size, 1.0),
           quantities(count * quantity_columns, nan),
-          sections(count * room * section_columns, nan) {
+          sections(count * room * row_size, nan) {
         for (std::size_t i = 0; i < count; ++i) {
             std::size_t const member = first + i;
             numbers.push_back(member);
             records[i].status = status_of(member);
             records[i].crossings = rows_of_members[member] == room ? room + member : rows_of_members[member];
             for (std::size_t row = 0; row < rows_of_members[member]; ++row) {
-                for (std::size_t j = 0; j < section_columns; ++j) {
-                    sections[(i * room + row) * section_columns + j] = entry(member, row, j);
+                for (std::size_t j = 0; j < row_size; ++j) {
+                    sections[(i * room + row) * row_size + j] = entry(member, row, j);
                 }
             }
             study[0].push_back(scalar_entry(member));
@@ -95,16 +96,16 @@ protected:
     }
 };
 
-char const* const variables[section_columns] = {"section_time", "section_y",    "section_z",   "section_vy",
-                                                "section_vz",   "section_roll", "section_yaw", "section_pitch",
-                                                "section_wx",   "section_wy",   "section_wz"};
+char const* const variables[row_size] = {"section_time", "section_y",    "section_z",   "section_vy",
+                                         "section_vz",   "section_roll", "section_yaw", "section_pitch",
+                                         "section_wx",   "section_wy",   "section_wz"};
 
 TEST_F(SectionsFile, HoldsTheRowsOfEachMemberInTheirOrder) {
     write({{0, members}});
     ResultReader const results(path());
     auto const counts = results.values("section_count");
     EXPECT_EQ(counts, (std::vector<double>{3, 0, 2, 1, 3, 0, 0, 2}));
-    for (std::size_t j = 0; j < section_columns; ++j) {
+    for (std::size_t j = 0; j < row_size; ++j) {
         std::vector<double> expected;
         for (std::size_t member = 0; member < members; ++member) {
             for (std::size_t row = 0; row < rows_of_members[member]; ++row) expected.push_back(entry(member, row, j));
@@ -223,10 +224,10 @@ TEST_F(SectionsFile, OfCrossingsSaysHowManyThereWere) {
 TEST_F(SectionsFile, HashNoticesThatARowBelongsToAnotherMember) {
     FakeBlock one(0, members), other(0, members);
     // The second row of member 2 becomes the first of member 1: the columns stay as they are.
-    for (std::size_t j = 0; j < section_columns; ++j) {
-        other.sections[(1 * room + 0) * section_columns + j] = entry(2, 0, j);
-        other.sections[(2 * room + 0) * section_columns + j] = entry(2, 1, j);
-        other.sections[(2 * room + 1) * section_columns + j] = nan;
+    for (std::size_t j = 0; j < row_size; ++j) {
+        other.sections[(1 * room + 0) * row_size + j] = entry(2, 0, j);
+        other.sections[(2 * room + 0) * row_size + j] = entry(2, 1, j);
+        other.sections[(2 * room + 1) * row_size + j] = nan;
     }
     std::string const before = hash_of({one});
     auto const times = ResultReader(path()).values("section_time");

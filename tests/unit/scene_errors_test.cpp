@@ -1,4 +1,5 @@
 // What a user reads: one line with file, line, key, value, why, and what to do.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/unit/scene_fixture.hpp"
@@ -87,8 +88,8 @@ TEST(SceneErrors, UnknownNamesComeWithASuggestion) {
 }
 
 TEST(SceneErrors, WhatLaterVersionsHave) {
-    EXPECT_EQ(error_in("mechanism", "kind = \"carriage\""),
-              "scene.toml:3: mechanism.kind is \"carriage\" (this mechanism is not available in this version); "
+    EXPECT_EQ(error_in("mechanism", "kind = \"lorenz\""),
+              "scene.toml:3: mechanism.kind is \"lorenz\" (this mechanism is not available in this version); "
               "use \"slider_crank\"");
     EXPECT_TRUE(contains(error_in("mechanism", "kind = \"slider_cranc\""), "did you mean \"slider_crank\"?"));
     EXPECT_TRUE(contains(error_in("study", "kind = \"x\""), "there is no such study"));
@@ -129,7 +130,11 @@ TEST(SceneErrors, NanAnywhere) {
     for (Key const& key : keys()) {
         auto const dot = key.name.find('.');
         std::string const line = std::string(key.name.substr(dot + 1)) + " = nan";
-        std::string const error = error_in(key.name.substr(0, dot), line);
+        // Under the first mechanism that has it.
+        int kind = 0;
+        while (!key.counts_for(static_cast<Mechanism>(kind))) ++kind;
+        std::string const error = error_of(fmt::format("schema = 1\n[{}]\n{}", key.name.substr(0, dot), line),
+                                           {{"mechanism.kind", mechanism_table[kind].name}});
         EXPECT_EQ(error,
                   "scene.toml:3: " + std::string(key.name) + " is nan (not a finite number); use a finite number");
     }

@@ -60,15 +60,16 @@ TEST(Keys, TwinKeysSetBothInputs) {
 
 TEST(Keys, MassesFollowFromSteelBodies) {
     Inputs const in = complete_inputs({});
-    EXPECT_NEAR(in.slider_mass, 0.1872, 1e-15);             // 7800 · 0.04 · 0.02 · 0.03
-    EXPECT_NEAR(in.crank_mass, 0.004875, 1e-17);            // 7800 · 0.05 · 0.005 · 0.0025
-    EXPECT_NEAR(in.rod_mass, 0.1118255112, 1e-15);          // 7800 · 0.1422 · 0.0142 · 0.0071
-    EXPECT_NEAR(in.rod_inertia, 0.000188433814157784, 1e-15);   // m L²/12
-    EXPECT_NEAR(in.slider_inertia_x, 2.028e-5, 1e-19);      // 0.1872 (0.02² + 0.03²)/12
-    EXPECT_NEAR(in.slider_inertia_y, 3.9e-5, 1e-19);        // 0.1872 (0.04² + 0.03²)/12
-    EXPECT_NEAR(in.slider_inertia_z, 3.12e-5, 1e-19);       // 0.1872 (0.04² + 0.02²)/12
+    EXPECT_NEAR(in.slider_mass, 0.1872, 1e-15);                // 7800 · 0.04 · 0.02 · 0.03
+    EXPECT_NEAR(in.crank_mass, 0.004875, 1e-17);               // 7800 · 0.05 · 0.005 · 0.0025
+    EXPECT_NEAR(in.rod_mass, 0.1118255112, 1e-15);             // 7800 · 0.1422 · 0.0142 · 0.0071
+    EXPECT_NEAR(in.rod_inertia, 0.000188433814157784, 1e-15);  // m L²/12
+    EXPECT_NEAR(in.slider_inertia_x, 2.028e-5, 1e-19);         // 0.1872 (0.02² + 0.03²)/12
+    EXPECT_NEAR(in.slider_inertia_y, 3.9e-5, 1e-19);           // 0.1872 (0.04² + 0.03²)/12
+    EXPECT_NEAR(in.slider_inertia_z, 3.12e-5, 1e-19);          // 0.1872 (0.04² + 0.02²)/12
     EXPECT_EQ(in.thickness_y, 0.02);
     EXPECT_EQ(in.thickness_z, 0.03);
+    EXPECT_NEAR(in.crank_inertia, 1.015625e-6, 1e-20);  // 0.004875 · 0.05²/12
 }
 
 TEST(Keys, WhatFollowsFollowsWhatIsGiven) {
@@ -84,6 +85,16 @@ TEST(Keys, WhatFollowsFollowsWhatIsGiven) {
     EXPECT_NEAR(in.slider_inertia_x, 2 * 2.028e-5, 1e-18);  // the block's sections stay 40 × 20 × 30 mm
     EXPECT_EQ(in.thickness_y, 0.05);
     EXPECT_EQ(in.thickness_z, 0.007);
+}
+
+TEST(Keys, ThePointStiffnessFollowsFromTheModuliAndTheRadius) {
+    // 1/E* = 2 (1 − 0.29²)/2.07e11, K = 4/3 E* √R_p (model.md 2).
+    EXPECT_NEAR(complete_inputs({}).point_stiffness, 4.0 / 3 * 2.07e11 / (2 * 0.9159) * std::sqrt(5e-4), 1);
+    Inputs given;
+    given.apex_radius = 2e-3;
+    EXPECT_NEAR(complete_inputs(given).point_stiffness, 2 * complete_inputs({}).point_stiffness, 1);
+    given.point_stiffness = 1e11;
+    EXPECT_EQ(complete_inputs(given).point_stiffness, 1e11);
 }
 
 TEST(Keys, DefaultsHaveNoDefect) { EXPECT_EQ(defect({}), std::nullopt); }
@@ -139,7 +150,7 @@ TEST(Keys, RulesHoldAtTheirLimits) {
         {"friction.static", 0, -0.1},
         {"friction.kinetic", 2, -0.1},
         {"friction.stick_speed", 1e-6, 0},
-        {"friction.slip_speed", 1.1e-3, 1e-3},  // must be above stick_speed
+        {"friction.slip_speed", 1.1e-3, 1e-3},   // must be above stick_speed
         {"mechanism.rod_length", 0.0501, 0.05},  // must be longer than the crank
         {"initial.y", -1, std::numeric_limits<double>::infinity()},
         {"mechanism.gravity", -9.81, -std::numeric_limits<double>::infinity()},
@@ -157,15 +168,23 @@ TEST(Keys, RulesHoldAtTheirLimits) {
     }
 }
 
-TEST(Keys, EveryKeyRefusesNanAndInfinity) {
+TEST(Keys, EveryKeyThatCountsRefusesNanAndInfinity) {
+    int compared = 0;
     for (Key const& key : keys()) {
-        Inputs in;
-        key.set(in, std::numeric_limits<double>::infinity());
-        EXPECT_TRUE(defect(in).has_value()) << key.name;
-        bool const may_follow = std::isnan(key.get(Inputs{}));
-        key.set(in, std::numeric_limits<double>::quiet_NaN());
-        EXPECT_EQ(defect(in).has_value(), !may_follow) << key.name;
+        for (int i = 0; i < 4; ++i) {
+            Parts parts;
+            parts.mechanism = static_cast<Mechanism>(i);
+            bool const counts = key.counts_for(parts.mechanism);
+            Inputs in;
+            key.set(in, std::numeric_limits<double>::infinity());
+            EXPECT_EQ(defect(in, parts).has_value(), counts) << key.name << ' ' << i;
+            bool const may_follow = std::isnan(key.get(Inputs{}));
+            key.set(in, std::numeric_limits<double>::quiet_NaN());
+            EXPECT_EQ(defect(in, parts).has_value(), counts && !may_follow) << key.name << ' ' << i;
+            compared += counts ? 1 : 0;
+        }
     }
+    EXPECT_GT(compared, 100);
 }
 
 TEST(Keys, HugeSizesWhoseMassesOverflowAreRefused) {
@@ -180,6 +199,35 @@ TEST(Keys, AShortRodMayStandStill) {
     EXPECT_TRUE(defect(in).has_value());
     in.crank_speed = 0;
     EXPECT_EQ(defect(in), std::nullopt);
+}
+
+Parts parts_of(Mechanism mechanism) {
+    Parts parts;
+    parts.mechanism = mechanism;
+    return parts;
+}
+
+TEST(Keys, ARodCountsWhereThereIsACrank) {
+    Inputs in;
+    in.rod_length = 0.04;
+    EXPECT_TRUE(defect(in, parts_of(Mechanism::planar_slider_crank)).has_value());
+    EXPECT_EQ(defect(in, parts_of(Mechanism::carriage)), std::nullopt);
+    EXPECT_EQ(defect(in, parts_of(Mechanism::free_slider)), std::nullopt);
+}
+
+TEST(Keys, ThePlanarRodHasToReachTheStart) {
+    Parts const planar = parts_of(Mechanism::planar_slider_crank);
+    Inputs in;  // the crank's pin is at y = 0.05, the rod 0.1422 m long
+    in.start_angle = std::asin(1.0);
+    in.y = 0.19;
+    EXPECT_EQ(defect(in, planar), std::nullopt);
+    in.y = 0.193;
+    EXPECT_EQ(defect(in, planar)->substr(0, 44), "initial.y is 0.193 m (the rod of 0.1422 m do");
+    EXPECT_EQ(defect(in), std::nullopt) << "in space a member ends with a status";
+    in.y = -0.09;
+    EXPECT_EQ(defect(in, planar), std::nullopt);
+    in.y = -0.093;
+    EXPECT_TRUE(defect(in, planar).has_value());
 }
 
 TEST(Keys, RequireTheKernelPartsTheyNeed) {

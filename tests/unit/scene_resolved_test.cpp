@@ -39,7 +39,6 @@ void expect_equal(Design const& a, Design const& b) {
 
 void expect_equal(Scene const& a, Scene const& b) {
     EXPECT_EQ(a.title, b.title);
-    EXPECT_EQ(a.mechanism, b.mechanism);
     for (Key const& key : keys()) {
         double const x = key.get(a.inputs), y = key.get(b.inputs);
         EXPECT_TRUE(x == y || (std::isnan(x) && std::isnan(y))) << key.name << ": " << x << " and " << y;
@@ -225,6 +224,7 @@ TEST(ResolvedScene, LongListsTakeSeveralLines) {
     int const n = 40;
     for (int i = 0; i < n; ++i) {
         std::string const name(keys()[static_cast<std::size_t>(i)].name);
+        if (!find_key(name)->counts_for(Mechanism::slider_crank)) continue;
         if (name == "contact.restitution" || name == "contact.hertz_exponent" || name.starts_with("friction."))
             continue;
         vary += "\"" + name + "\" = {dist=\"unif\", low=0.1, high=0.2}\n";

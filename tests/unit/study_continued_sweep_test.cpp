@@ -1,7 +1,9 @@
 // What a continued sweep runs, and what it leaves alone.
 #include "host/study/continued_sweep.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -48,6 +50,56 @@ std::uint64_t integrated_for(Scene const& scene, MemberSet const& asked, MemberE
         plan, kernel, [&](BlockResult const& block) { emitted += block.members.size(); }, stop);
     EXPECT_EQ(emitted, asked.count());
     return drawn;
+}
+
+/// The starts of the members of the second column, whose kernel ends every member of the first in `end`.
+std::vector<Inputs> second_column(Scene const& scene, StateNumbers const& end) {
+    EnsemblePlan plan = ensemble_plan(scene, MemberSet({0, 2}), *cpu_backend(Isa::scalar), 1);
+    std::vector<Inputs> starts;
+    BlockKernel const kernel = [&](Block& block) {
+        for (std::size_t i = 0; i < block.members; ++i) {
+            starts.push_back(block.inputs[i]);
+            block.records[i].status = Status::finished;
+            auto const states = static_cast<std::size_t>(info(scene.parts.mechanism).states);
+            std::copy_n(end.begin(), states, block.final_states + i * states);
+        }
+    };
+    StopRequest stop;
+    continue_columns(scene, plan, MemberSet({0, 2}), kernel, {}, stop);
+    run_ensemble(
+        plan, kernel, [](BlockResult const&) {}, stop);
+    EXPECT_EQ(starts.size(), 2u);
+    return starts;
+}
+
+std::string continued(std::string const& kind, std::string const& study) {
+    return "schema = 1\n[mechanism]\nkind = \"" + kind +
+           "\"\n[study]\nkind = \"sweep\"\nparameter = \"joint.clearance\"\nvalues = [1e-4, 2e-4]\n"
+           "transient_revolutions = 0\nrevolutions = 1\nexponents = 0\nstart = \"continue\"\n" +
+           study;
+}
+
+TEST(ContinuedSweepStarts, OfTheSliderShareTheClearance) {
+    for (char const* const kind : {"slider_crank", "carriage"}) {
+        auto const starts = second_column(testing::scene_of(continued(kind, "")), {1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
+        Inputs const& in = starts[1];
+        EXPECT_EQ((std::vector{in.y, in.z, in.vy, in.vz, in.roll, in.yaw, in.pitch, in.wx, in.wy, in.wz}),
+                  (std::vector<double>{2, 4, 6, 8, 10, 12, 14, 16, 18, 20}));
+    }
+}
+
+TEST(ContinuedSweepStarts, OfThePlanarMechanismFollowFromItsAngles) {
+    // Half a turn after the phase nothing is left of the crank's height: y = L sin θ2.
+    double const rod = 1e-4, rate = 0.5, pi = std::acos(-1.0);
+    Scene const scene = testing::scene_of(continued("planar_slider_crank", "phase = \"180 deg\"\n"));
+    auto const starts = second_column(scene, {pi, rod, 1e-3, scene.inputs.crank_speed, rate, 0.2});
+    Inputs const& in = starts[1];
+    EXPECT_NEAR(in.y, 2 * 0.1422 * std::sin(rod), 1e-16);
+    EXPECT_NEAR(in.vy, 2 * (0.1422 * std::cos(rod) * rate - 0.05 * scene.inputs.crank_speed), 1e-15);
+    EXPECT_DOUBLE_EQ(in.pitch, 2e-3);
+    EXPECT_DOUBLE_EQ(in.wz, 0.4);
+    EXPECT_DOUBLE_EQ(in.start_angle, pi);
+    EXPECT_EQ(in.crank_speed, scene.inputs.crank_speed);
 }
 
 TEST(ContinuedSweepParts, IntegrateEachMemberOnce) {

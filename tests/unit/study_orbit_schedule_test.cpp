@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "host/scene/drive_period.hpp"
 #include "tests/unit/scene_fixture.hpp"
 
 namespace slideway {
@@ -35,27 +36,44 @@ Inputs crank(double speed, double start_angle = 0) {
 
 // ---- times of crank angles ----
 
+TEST(OrbitSchedule, OfACarriageGoesByItsPeriod) {
+    // T = 2 (0.1/0.5 + 0.3) = 1 s; another speed, another T of the same number of sections.
+    Scene const scene = scene_of(
+        "schema = 1\n[mechanism]\nkind = \"carriage\"\ncarriage_speed = 0.5\nstroke = 0.1\nreversal_time = "
+        "0.3\n[study]\n"
+        "kind = \"poincare\"\ntransient_revolutions = 2\nrevolutions = 3\nphase = \"90 deg\"\n");
+    OrbitSchedule const schedule = orbit_schedule(scene);
+    EXPECT_EQ(schedule.stops.transient, 2u);
+    EXPECT_EQ(schedule.stops.sections(), 3u);
+    EXPECT_DOUBLE_EQ(schedule.timing(scene.inputs).first_stop, 0.25);
+    EXPECT_DOUBLE_EQ(schedule.timing(scene.inputs).end, 4.25);
+    Inputs slower = scene.inputs;
+    slower.carriage_speed = 0.125;  // T = 2.2 s
+    EXPECT_DOUBLE_EQ(schedule.timing(slower).first_stop, 0.55);
+    EXPECT_DOUBLE_EQ(schedule.timing(slower).period, 2.2);
+}
+
 TEST(FirstTimeAt, IsThatOfTheNextPassage) {
-    EXPECT_DOUBLE_EQ(first_time_at(1, crank(2)), 0.5);
-    EXPECT_DOUBLE_EQ(first_time_at(1, crank(2, 0.5)), 0.25);
-    EXPECT_DOUBLE_EQ(first_time_at(1, crank(2, 1.5)), (2 * pi - 0.5) / 2);
-    EXPECT_DOUBLE_EQ(first_time_at(-1, crank(2)), (2 * pi - 1) / 2);
+    EXPECT_DOUBLE_EQ(first_time_at(1, Parts{}, crank(2)), 0.5);
+    EXPECT_DOUBLE_EQ(first_time_at(1, Parts{}, crank(2, 0.5)), 0.25);
+    EXPECT_DOUBLE_EQ(first_time_at(1, Parts{}, crank(2, 1.5)), (2 * pi - 0.5) / 2);
+    EXPECT_DOUBLE_EQ(first_time_at(-1, Parts{}, crank(2)), (2 * pi - 1) / 2);
 }
 
 TEST(FirstTimeAt, GoesTheOtherWayRoundWithANegativeSpeed) {
-    EXPECT_DOUBLE_EQ(first_time_at(1, crank(-2)), (2 * pi - 1) / 2);
-    EXPECT_DOUBLE_EQ(first_time_at(-1, crank(-2)), 0.5);
-    EXPECT_DOUBLE_EQ(first_time_at(0.5, crank(-2, 1)), 0.25);
+    EXPECT_DOUBLE_EQ(first_time_at(1, Parts{}, crank(-2)), (2 * pi - 1) / 2);
+    EXPECT_DOUBLE_EQ(first_time_at(-1, Parts{}, crank(-2)), 0.5);
+    EXPECT_DOUBLE_EQ(first_time_at(0.5, Parts{}, crank(-2, 1)), 0.25);
 }
 
 TEST(FirstTimeAt, IsAWholeTurnWhereTheCrankStarts) {
     for (double const speed : {2.0, -2.0, pi, 0.1}) {
         double const turn = 2 * pi / std::abs(speed);
         for (double const start : {0.0, 1.0, -2.5, 40.0}) {
-            EXPECT_DOUBLE_EQ(first_time_at(start, crank(speed, start)), turn) << speed << ' ' << start;
+            EXPECT_DOUBLE_EQ(first_time_at(start, Parts{}, crank(speed, start)), turn) << speed << ' ' << start;
             // Another turn of the same angle differs by rounding alone, and may not give a stop at the start.
             for (int const turns : {1, 2, 3, 7, -1, -5}) {
-                EXPECT_NEAR(first_time_at(start + 2 * pi * turns, crank(speed, start)), turn, 2e-9 * turn)
+                EXPECT_NEAR(first_time_at(start + 2 * pi * turns, Parts{}, crank(speed, start)), turn, 2e-9 * turn)
                     << speed << ' ' << start << ' ' << turns;
             }
         }
@@ -66,7 +84,7 @@ TEST(FirstTimeAt, FindsEveryAngleWithinATurn) {
     for (double const speed : {3.0, -3.0, 0.7}) {
         for (double const start : {0.0, 2.0, -9.0}) {
             for (double phase = -13; phase < 13; phase += 0.37) {
-                double const time = first_time_at(phase, crank(speed, start));
+                double const time = first_time_at(phase, Parts{}, crank(speed, start));
                 EXPECT_GT(time, 0);
                 EXPECT_LE(time, 2 * pi / std::abs(speed) * (1 + 1e-9));
                 EXPECT_NEAR(std::remainder(start + speed * time - phase, 2 * pi), 0, 1e-13);
@@ -278,7 +296,7 @@ TEST(ShadowPlan, IsForStudiesThatAskForExponents) {
 
 std::vector<double> directions(std::uint64_t seed, std::uint64_t member, int shadows) {
     std::vector<double> values(static_cast<std::size_t>(shadows) * state_size);
-    draw_directions(seed, member, shadows, values.data());
+    draw_directions(seed, member, shadows, state_size, values.data());
     return values;
 }
 
@@ -309,6 +327,15 @@ TEST(ShadowDirections, DependOnTheirAddressAlone) {
     auto const many = directions(5, 1234567890123u, 6), few = directions(5, 1234567890123u, 2);
     EXPECT_EQ(many, directions(5, 1234567890123u, 6));
     EXPECT_EQ(few, std::vector<double>(many.begin(), many.begin() + 2 * state_size));
+}
+
+TEST(ShadowDirections, OfFewerStatesHaveTheSameNumbersInAnotherOrder) {
+    // Each is the ratio of draws, whose addresses are counted through: six states of two shadows are the first twelve draws.
+    std::vector<double> six(12), twelve(12);
+    draw_directions(3, 8, 2, 6, six.data());
+    draw_directions(3, 8, 1, 12, twelve.data());
+    for (int i = 1; i < 6; ++i) EXPECT_NEAR(six[i] / six[0], twelve[i] / twelve[0], 1e-12 * std::abs(six[i] / six[0]));
+    for (int i = 7; i < 12; ++i) EXPECT_NEAR(six[i] / six[6], twelve[i] / twelve[6], 1e-12 * std::abs(six[i] / six[6]));
 }
 
 TEST(ShadowDirections, FavourNoSide) {

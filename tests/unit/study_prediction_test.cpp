@@ -1,5 +1,7 @@
 #include "host/study/prediction.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "host/study/ensemble_plan.hpp"
@@ -23,6 +25,22 @@ TEST(Prediction, RangeHoldsWhatRingingContactCosts) {
     }
     EXPECT_GT(prediction_of("[integrator]\nrtol = 1e-8\natol = 1e-8\n").most_steps, prediction_of("").most_steps);
     EXPECT_LT(prediction_of("[contact]\nyoung_modulus = 1e9\n").most_steps, 0.1 * prediction_of("").most_steps);
+}
+
+TEST(StiffestRate, OfThePlanarBlockIsThatOfTwoCornersInAnImpact) {
+    Inputs in;
+    in.hertz_exponent = 1, in.point_stiffness = 2e6, in.slider_mass = 0.5, in.slider_inertia_z = 1e-3;
+    in.slider_length = 0.04;
+    in = complete_inputs(in);
+    // Linear springs 2 K: as a whole √(4e6/0.5), rocking √(4e6 0.02²/1e-3) = √1.6e6, whatever the speed.
+    EXPECT_DOUBLE_EQ(stiffest_rate(Mechanism::planar_slider_crank, in), std::sqrt(8e6));
+    in.slider_length = 0.2;  // √(4e6 0.1²/1e-3) = √4e7
+    EXPECT_DOUBLE_EQ(stiffest_rate(Mechanism::planar_slider_crank, in), std::sqrt(4e7));
+    // 2 K δ^{n+1}/(n+1) = M v²/2 gives δ ∝ v^{2/(n+1)}: with n = 2 the stiffness grows as v^{2/3}.
+    in.hertz_exponent = 2;
+    double const before = stiffest_rate(Mechanism::planar_slider_crank, in);
+    in.crank_speed *= 8;
+    EXPECT_NEAR(stiffest_rate(Mechanism::planar_slider_crank, in) / before, 2, 1e-12);
 }
 
 TEST(Prediction, FixedStepsAreExact) {

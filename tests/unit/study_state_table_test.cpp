@@ -1,10 +1,13 @@
 #include "host/study/state_table.hpp"
 
+#include <cmath>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "host/study/probe.hpp"
+#include "host/study/state_numbers.hpp"
 
 namespace slideway {
 namespace {
@@ -16,9 +19,9 @@ StateTable read(std::string const& text, Scene const& scene = {}) {
     return read_state_table(in, "states.csv", scene);
 }
 
-std::string error_of(std::string const& text) {
+std::string error_of(std::string const& text, Scene const& scene = {}) {
     try {
-        read(text);
+        read(text, scene);
     } catch (SceneError const& error) {
         return error.what();
     }
@@ -103,6 +106,85 @@ TEST(StateTable, SaysWhereItCannotBeUsed) {
     EXPECT_EQ(error_of(with_column("joint.clearance_y", "-1")).substr(0, 37), "states.csv:2: joint.clearance_y is -1");
     EXPECT_NE(error_of(header + "0,nan,0,0,0,0,0,0,0,0,0\n"), "");
     EXPECT_NE(error_of(header + "inf,0,0,0,0,0,0,0,0,0,0\n"), "");
+}
+
+Scene scene_of(Mechanism mechanism) {
+    Scene scene;
+    scene.parts.mechanism = mechanism;
+    return scene;
+}
+
+TEST(StateTable, OfAFreeSliderHasItsWay) {
+    Scene const free = scene_of(Mechanism::free_slider);
+    StateTable const table = read(std::string(states) + ",x,vx\n0,1,2,3,4,5,6,7,8,9,10,11,12\n", free);
+    EXPECT_EQ(table.inputs[0].wz, 10);
+    EXPECT_EQ(table.inputs[0].x, 11);
+    EXPECT_EQ(table.inputs[0].vx, 12);
+    EXPECT_EQ(
+        error_of(std::string(states) + "\n0,1,2,3,4,5,6,7,8,9,10\n", free),
+        "states.csv:1: column x: is missing; the table needs t, y, z, vy, vz, roll, yaw, pitch, wx, wy, wz, x, vx");
+}
+
+constexpr char const* planar_states = "t,crank_angle,rod_angle,pitch,crank_angular_velocity,rod_angular_velocity,wz";
+
+TEST(StateTable, OfThePlanarMechanismHasItsAngles) {
+    Scene planar = scene_of(Mechanism::planar_slider_crank);
+    planar.inputs.crank_length = 0.3, planar.inputs.rod_length = 0.5;
+    // sin 30° = 1/2 and sin θ2 = −3/10 put the slider on its line, whatever turns; cos 30° = √3/2.
+    double const rod = std::asin(-0.3), cosine = std::sqrt(0.91);
+    std::string const row = fmt::format("0,{:.17g},{:.17g},0.01,2,-3,4\n", std::acos(-1.0) / 6, rod);
+    StateTable const table = read(std::string(planar_states) + "\n" + row, planar);
+    Inputs const& in = table.inputs[0];
+    EXPECT_DOUBLE_EQ(in.start_angle, std::acos(-1.0) / 6);
+    EXPECT_NEAR(in.y, 0, 1e-16);
+    EXPECT_NEAR(in.vy, 0.3 * std::sqrt(0.75) * 2 - 0.5 * cosine * 3, 1e-15);
+    EXPECT_EQ(in.pitch, 0.01);
+    EXPECT_EQ(in.crank_speed, 2);
+    EXPECT_EQ(in.wz, 4);
+    StateNumbers const back = start_of(Mechanism::planar_slider_crank, in);
+    EXPECT_NEAR(back[1], rod, 1e-15);
+    EXPECT_NEAR(back[4], -3, 1e-14);
+    EXPECT_EQ(error_of(std::string(planar_states) + "\n0,0,1.6,0,0,0,0\n", planar),
+              "states.csv:2: column rod_angle: 1.6 rad (the rod is to point along the way); use a value within a right "
+              "angle of 0");
+}
+
+TEST(StateTable, HasNoColumnsThatDoNotCountForTheMechanism) {
+    std::string const row = "0.1,0,0,0,0,0,0,0\n";
+    Scene const planar = scene_of(Mechanism::planar_slider_crank);
+    auto const error = [&](std::string const& name) {
+        return error_of(name + "," + planar_states + "\n" + row, planar);
+    };
+    EXPECT_EQ(error("way.pitch"),
+              "states.csv:1: column way.pitch: has no meaning for kind = \"planar_slider_crank\"; remove it");
+    EXPECT_EQ(error("contact.law"),
+              "states.csv:1: column contact.law: has no meaning for kind = \"planar_slider_crank\"; remove it");
+    EXPECT_EQ(error("mechanism.start_angle").substr(0, 78),
+              "states.csv:1: column mechanism.start_angle: the state to probe stands in the c");
+    EXPECT_EQ(error("joint.slider_height"), "");
+    EXPECT_EQ(error_of(with_column("mechanism.rod_length", "1"), scene_of(Mechanism::carriage)),
+              "states.csv:1: column mechanism.rod_length: has no meaning for kind = \"carriage\"; remove it");
+    EXPECT_EQ(error_of(with_column("mechanism.start_angle", "1")), "") << "an angle of the slider-crank";
+}
+
+std::string header_of(Mechanism mechanism, std::string const& columns, std::string const& row) {
+    StateTable const table = read(columns + "\n" + row, scene_of(mechanism));
+    std::ostringstream out;
+    write_probe_csv(out, table, std::vector<ProbeResult>(table.rows()));
+    return out.str().substr(0, out.str().find('\n'));
+}
+
+TEST(ProbeTable, HasTheColumnsOfItsMechanism) {
+    EXPECT_EQ(header_of(Mechanism::planar_slider_crank, planar_states, "0,0,0,0,0,0,0\n"),
+              std::string(planar_states) +
+                  ",d_crank_angle,d_rod_angle,d_pitch,d_crank_angular_velocity,d_rod_angular_velocity,d_wz,power_crank,"
+                  "power_friction,power_damping,pen_C1,pen_C2,pen_C3,pen_C4,fn_C1,fn_C2,fn_C3,fn_C4,surfaces,lines,"
+                  "points,energy,contact_potential,crank_torque,status");
+    std::string const free =
+        header_of(Mechanism::free_slider, std::string(states) + ",x,vx", "0,0,0,0,0,0,0,0,0,0,0,0,0\n");
+    EXPECT_NE(free.find(",wz,x,vx,d_y,"), free.npos) << free;
+    EXPECT_NE(free.find(",d_wz,d_x,d_vx,power_crank,"), free.npos) << free;
+    EXPECT_TRUE(free.ends_with("fn_z_P8,surfaces,lines,points,energy,contact_potential,status")) << free;
 }
 
 TEST(ProbeTable, HasTheColumnsOfTheInputThenTheGoldenOnes) {

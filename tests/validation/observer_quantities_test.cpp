@@ -70,8 +70,8 @@ protected:
         return result_.series[(static_cast<std::size_t>(s) * members_.size() + member) * (intervals + 1) + sample];
     }
     oracle::State state(std::size_t member, std::size_t sample) const {
-        oracle::State s;
-        for (std::size_t i = 0; i < s.size(); ++i) s[i] = at(static_cast<Series>(i), member, sample);
+        oracle::State s{};
+        for (std::size_t i = 0; i < state_size; ++i) s[i] = at(static_cast<Series>(i), member, sample);
         return s;
     }
     oracle::Result oracle_at(std::size_t member, std::size_t sample) const {
@@ -238,7 +238,7 @@ TEST_P(SampledRun, ModeTimesAndOnsetsAreThoseOfTheSampledModes) {
 
 TEST_P(SampledRun, EnergyIsTheOraclesOfTheFirstAndLastState) {
     for (std::size_t m = 0; m < members_.size(); ++m) {
-        oracle::State last;
+        oracle::State last{};
         std::copy(result_.states[m].begin(), result_.states[m].end(), last.begin());
         auto const first = oracle_at(m, 0);
         double const end = oracle::evaluate(members_[m], options_.parts, end_time, last).energy;

@@ -17,6 +17,7 @@
 namespace slideway {
 namespace {
 
+constexpr std::size_t row_size = section_columns(state_size);
 constexpr char const* scattered_starts = R"(
 [study.vary]
 "initial.y" = { dist = "unif", low = "-0.03 mm", high = "0.03 mm" }
@@ -209,10 +210,9 @@ revolutions = 0.3
     EnsemblePlan const plan = ensemble_plan(scene, MemberSet(MemberRange{0, scene.members}), *cpu_backend(isa), 1);
     Sections found;
     found.records.resize(scene.members);
-    found.rows.resize(scene.members * scene.chaos.max_crossings * section_columns);
+    found.rows.resize(scene.members * scene.chaos.max_crossings * row_size);
     auto const keep = [&](BlockResult const& block) {
-        auto const rows =
-            static_cast<std::ptrdiff_t>(block.members.front() * scene.chaos.max_crossings * section_columns);
+        auto const rows = static_cast<std::ptrdiff_t>(block.members.front() * scene.chaos.max_crossings * row_size);
         std::copy(block.sections.begin(), block.sections.end(), found.rows.begin() + rows);
         std::copy(block.records.begin(), block.records.end(),
                   found.records.begin() + static_cast<std::ptrdiff_t>(block.members.front()));
@@ -225,7 +225,7 @@ TEST(SectionsOfStiffSteps, LieOnTheirSurfaceAndCostWhatTheirMemberNeeds) {
     for (char const* const method : {"auto", "ros34pw2"}) {
         Sections const one = sections(is_supported(Isa::scalar) ? Isa::scalar : Isa::sse2, method);
         std::size_t count = 0, stiff = 0;
-        for (std::size_t i = 0; i < one.rows.size(); i += section_columns) {
+        for (std::size_t i = 0; i < one.rows.size(); i += row_size) {
             if (std::isnan(one.rows[i])) continue;
             ++count;
             EXPECT_LT(std::abs(one.rows[i + 3]), 1e-11) << method;  // vy [m/s], of impacts of 1e-2 m/s

@@ -1,0 +1,92 @@
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "host/cli/commands.hpp"
+#include "host/output/result_reader.hpp"
+#include "host/scene/error.hpp"
+
+namespace slideway::cli {
+namespace {
+
+/// argv of a program, as the calls of POSIX want it.
+class ArgumentList {
+public:
+    explicit ArgumentList(std::vector<std::string> words) : words_(std::move(words)) {
+        for (std::string& word : words_) pointers_.push_back(word.data());
+        pointers_.push_back(nullptr);
+    }
+    char* const* get() const { return pointers_.data(); }
+
+private:
+    std::vector<std::string> words_;
+    std::vector<char*> pointers_;
+};
+
+std::string interpreter() {
+    char const* const named = std::getenv("SLIDEWAY_PYTHON");
+    return named && *named ? named : "python3";
+}
+
+FileError no_interpreter(std::string const& python, int reason) {
+    return FileError(
+        fmt::format("slideway report: cannot start {}: {}; install Python 3.10 or newer, or name an interpreter with "
+                    "SLIDEWAY_PYTHON=PATH",
+                    python, std::strerror(reason)));
+}
+
+/// Whether the interpreter finds the companion; that takes a fraction of what importing it does.
+bool has_companion(std::string const& python) {
+    ArgumentList const words({python, "-c",
+                              "import importlib.util as u, sys; s = u.find_spec('slideway'); "
+                              "sys.exit(0 if s and s.origin else 1)"});
+    pid_t child = 0;
+    int const error = posix_spawnp(&child, python.c_str(), nullptr, nullptr, words.get(), environ);
+    if (error != 0) throw no_interpreter(python, error);
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0) {
+        if (errno != EINTR) throw no_interpreter(python, errno);
+    }
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+void require_intact(std::string const& path) {
+    // Closed again before the companion opens it.
+    ResultReader const results(path);
+    if (results.computed_hash() != results.stored_hash()) {
+        throw FileError(fmt::format(
+            "{}: the data do not match their hash; the file is damaged or was edited, see slideway info", path));
+    }
+}
+
+}  // namespace
+
+int report(ReportArguments const& arguments) {
+    std::string page = arguments.output;
+    if (page.empty()) page = std::filesystem::path(arguments.path).replace_extension(".html").string();
+    std::error_code missing;
+    if (page == arguments.path || std::filesystem::equivalent(page, arguments.path, missing)) {
+        throw SceneError(fmt::format("{}: is the result itself; give the page another name with -o", page));
+    }
+    require_intact(arguments.path);
+    // Packages come from where they are installed, not from whatever lies in this folder.
+    setenv("PYTHONSAFEPATH", "1", 1);
+    std::string const python = interpreter();
+    if (!has_companion(python)) {
+        throw FileError(fmt::format(
+            "slideway report: {} has no package slideway; install it with pip install ./python in the source "
+            "tree, and if that was in a virtual environment, name its interpreter with SLIDEWAY_PYTHON=PATH",
+            python));
+    }
+    ArgumentList const words({python, "-m", "slideway", "report", "--output=" + page, "--", arguments.path});
+    execvp(python.c_str(), words.get());
+    throw no_interpreter(python, errno);
+}
+
+}  // namespace slideway::cli

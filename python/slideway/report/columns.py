@@ -1,0 +1,133 @@
+"""Quantities of a result as columns of members, or as the statistics that a file holds in their place."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+import slideway
+
+Array = NDArray[np.float64]
+
+SHOWN = (0.05, 0.25, 0.5, 0.75, 0.95)  # probabilities of the quantiles in the table
+
+
+@dataclass(frozen=True)
+class Histogram:
+    """edges (k + 1) in the column's unit and counts (k)."""
+
+    edges: Array
+    counts: Array
+
+
+@dataclass(frozen=True)
+class Column:
+    """One number per member that finished, summarised; in the column's unit."""
+
+    name: str  # with its component, as in "mode_time[free]"
+    meaning: str
+    unit: str
+    count: int
+    mean: float
+    sd: float  # NaN of a single member
+    low: float
+    high: float
+    quantiles: dict[float, float]
+    quantile_intervals: dict[float, tuple[float, float]]  # NaN where there are too few members for one; empty without any
+    values: Array | None  # of the members that finished; None where the file has only statistics
+    histogram: Histogram | None  # where the file has one
+
+
+def columns(result: xr.Dataset) -> list[Column]:
+    """All quantities that the scene asked for, of the members that finished; from the group statistics where there is one."""
+    if "statistics" in slideway.groups(result):
+        with slideway.open(slideway.results.path_of(result), group="statistics") as statistics:
+            return [column for name in _asked(result) for column in _from_statistics(result, statistics.load(), name)]
+    if "status" not in result:
+        return []
+    ended = slideway.finished(result).values
+    return [_of_members(name, meaning, unit, values[ended]) for name, meaning, unit, values in _stored(result)]
+
+
+def column(every: list[Column], name: str) -> Column | None:
+    """The column of that name."""
+    return next((one for one in every if one.name == name), None)
+
+
+def _asked(result: xr.Dataset) -> list[str]:
+    return [str(name) for name in slideway.scene(result).get("study", {}).get("quantities", [])]
+
+
+def _stored(result: xr.Dataset) -> Iterator[tuple[str, str, str, Array]]:
+    """Name, meaning, unit and values (member) of each component of each quantity."""
+    for name in _asked(result):
+        if name not in result or "sample" in result[name].dims:
+            continue
+        variable = result[name].transpose("member", ...)
+        meaning, unit = str(variable.attrs.get("long_name", "")), str(variable.attrs.get("units", "1"))
+        if variable.ndim == 1:
+            yield name, meaning, unit, variable.values
+            continue
+        for k, label in enumerate(_labels(result, str(variable.dims[1]), variable.shape[1])):
+            yield f"{name}[{label}]", meaning, unit, variable.values[:, k]
+
+
+def _labels(result: xr.Dataset, dimension: str, size: int) -> list[str]:
+    if dimension in result.coords:
+        return [str(label) for label in result[dimension].values]
+    return [str(k) for k in range(size)]
+
+
+def _of_members(name: str, meaning: str, unit: str, values: Array) -> Column:
+    there = values[np.isfinite(values)]
+    none = len(there) == 0
+    return Column(
+        name=name,
+        meaning=meaning,
+        unit=unit,
+        count=len(there),
+        mean=np.nan if none else float(there.mean()),
+        sd=float(there.std(ddof=1)) if len(there) > 1 else np.nan,
+        low=np.nan if none else float(there.min()),
+        high=np.nan if none else float(there.max()),
+        quantiles={} if none else dict(zip(SHOWN, np.quantile(there, SHOWN).tolist(), strict=True)),
+        quantile_intervals={},
+        values=there,
+        histogram=None,
+    )
+
+
+def _from_statistics(result: xr.Dataset, statistics: xr.Dataset, name: str) -> Iterator[Column]:
+    if f"{name}_mean" not in statistics:
+        return
+    mean = statistics[f"{name}_mean"]
+    probabilities = statistics["probability"].values.tolist()
+    members = dict((one, values) for one, _, _, values in _stored(result)) if "status" in result else {}
+    ended = slideway.finished(result).values if members else None
+    labels = _labels(result, str(mean.dims[0]), mean.shape[0]) if mean.ndim else [None]
+    for k, label in enumerate(labels):
+        component = statistics if label is None else statistics.isel({str(mean.dims[0]): k})
+        full = name if label is None else f"{name}[{label}]"
+        edges = component[f"{name}_bin_edge"].values
+        edges = edges[np.isfinite(edges)]
+        counts = component[f"{name}_bin_count"].values[: max(len(edges) - 1, 0)]
+        bounds = component[f"{name}_quantile_interval"].values
+        has_bounds = np.isfinite(bounds).any()
+        yield Column(
+            name=full,
+            meaning=str(mean.attrs.get("long_name", "")).removeprefix("mean: "),
+            unit=str(mean.attrs.get("units", "1")),
+            count=int(component[f"{name}_count"]),
+            mean=float(component[f"{name}_mean"]),
+            sd=float(component[f"{name}_sd"]),
+            low=float(component[f"{name}_min"]),
+            high=float(component[f"{name}_max"]),
+            quantiles=dict(zip(probabilities, component[f"{name}_quantile"].values.tolist(), strict=True)),
+            quantile_intervals=dict(zip(probabilities, map(tuple, bounds.tolist()), strict=True)) if has_bounds else {},
+            values=members[full][ended] if full in members and ended is not None else None,
+            histogram=Histogram(edges, counts) if len(edges) > 1 else None,
+        )

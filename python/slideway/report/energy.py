@@ -1,0 +1,173 @@
+"""The energy audit in plain words (model.md section 8): how much energy the contact law and the method made, and what that means."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import xarray as xr
+
+import slideway
+
+from .columns import Column, column
+from .numbers import amount, percent
+
+CLEAN = 1e-3  # of the work: a residual that no conclusion of a study depends on
+SMALL = 1e-2  # one that a few members may have
+
+
+def joules(energy: float) -> str:
+    """An energy in words."""
+    return amount(energy, "J", 3)
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What the audit says."""
+
+    grade: str  # good, warn, bad, none
+    headline: str
+    sentences: list[str]
+
+
+@dataclass(frozen=True)
+class Balance:
+    """Means over the members that finished, in joules; NaN where the file lacks the quantity."""
+
+    residual: float
+    largest: float  # magnitude of any member's residual
+    work: float
+    friction: float
+    damping: float
+    change: float  # of the mechanical energy, E(t) - E(0)
+    duration: float  # of a member [s]
+
+    @property
+    def scale_named(self) -> tuple[float, str]:
+        """What the residual is compared with, and its name: the first that is there; NaN where none is."""
+        for size, name in (
+            (abs(self.work), "the drive's work"),
+            (self.friction + self.damping, "what friction and damping took"),
+            (self.damping, "what damping took"),
+            (abs(self.change), "the change of the mechanical energy"),
+        ):
+            if size > 0:
+                return size, name
+        return math.nan, ""
+
+    @property
+    def scale(self) -> float:
+        """See :attr:`scale_named` [J]."""
+        return self.scale_named[0]
+
+    @property
+    def scale_name(self) -> str:
+        """See :attr:`scale_named`."""
+        return self.scale_named[1]
+
+
+def balance(result: xr.Dataset, every: list[Column]) -> Balance | None:
+    """The terms of the audit; None where the file lacks energy_residual, or no member finished."""
+    residual = column(every, "energy_residual")
+    if residual is None or residual.count == 0:
+        return None
+    terms = (column(every, name) for name in ("crank_work", "friction_loss", "damping_loss", "energy_change"))
+    work, friction, damping, change = (one.mean if one else math.nan for one in terms)
+    mechanism = slideway.scene(result)["mechanism"]
+    if mechanism["kind"] == "free_slider" or mechanism.get("crank") == "free":
+        work = 0.0
+    if "status" in result:
+        duration = float(result["end_time"].values[slideway.finished(result).values].mean())
+    else:
+        duration = float(slideway.scene(result)["study"].get("duration", math.nan))
+    largest = max(abs(residual.low), abs(residual.high))
+    return Balance(residual.mean, largest, work, friction, damping, change, duration)
+
+
+def verdict(result: xr.Dataset, every: list[Column]) -> Verdict:
+    """What the residual of the energy audit means for this result, in words."""
+    terms = balance(result, every)
+    if terms is None:
+        if column(every, "energy_residual") is not None:
+            return Verdict("none", "No energy audit", ["No member finished, so there is nothing to audit."])
+        wanted = "energy_residual, crank_work, friction_loss and damping_loss"
+        return Verdict(
+            "none", "No energy audit", [f"The scene did not ask for it; add {wanted} to study.quantities to have it."]
+        )
+    scene = slideway.scene(result)
+    planar = scene["mechanism"]["kind"] == "planar_slider_crank"
+    if not planar and scene["contact"]["law"] == "paper":
+        return _of_paper(terms)
+    return _of_conserving(terms, "The contact law of corners" if planar else "The conservative law")
+
+
+def _share(terms: Balance) -> float:
+    return terms.largest / terms.scale if terms.scale > 0 else math.nan
+
+
+def _amount(terms: Balance) -> str:
+    words = f"{joules(terms.residual)} per member on average (at most {joules(terms.largest)})"
+    if terms.scale > 0:
+        return f"{words}, {percent(terms.residual / terms.scale)} of {terms.scale_name} ({joules(terms.scale)})"
+    return words
+
+
+def _of_conserving(terms: Balance, law: str) -> Verdict:
+    share = _share(terms)
+    found = [
+        f"The residual is {_amount(terms)}.",
+        f"{law} derives its elastic forces from one potential, so by itself it makes no energy: friction and damping alone take "
+        "some, and both are in the balance.",
+    ]
+    if math.isnan(share):
+        unknown = (
+            "Whether that is much cannot be said without the drive's work and the losses; add crank_work, friction_loss and "
+            "damping_loss to study.quantities."
+        )
+        return Verdict("none", f"Residual {joules(terms.residual)}", [*found, unknown])
+    if share <= CLEAN:
+        left = "What is left is the error of the integration; it falls with integrator.rtol and atol."
+        return Verdict("good", f"Energy is kept to {percent(share)}", [*found, left])
+    if share <= SMALL:
+        mean = percent(abs(terms.residual) / terms.scale)
+        left = (
+            "What is left is error of the integration, and in the worst member more than need be: smaller integrator.rtol "
+            "and atol make it smaller."
+        )
+        return Verdict("warn", f"Energy is kept to {mean} on average, {percent(share)} at worst", [*found, left])
+    much = (
+        "So this is no physics but error of the integration, and too much of it: use smaller integrator.rtol and atol, or "
+        "another method, before trusting these results."
+    )
+    return Verdict("bad", f"The method made or lost up to {percent(share)}", [*found, much])
+
+
+def _of_paper(terms: Balance) -> Verdict:
+    share = _share(terms)
+    found = f"The residual is {_amount(terms)}."
+    why = (
+        "The paper's law switches between surface, line and point contact, and the force jumps where it does. "
+        "Each mode by itself keeps energy, the jumps do not."
+    )
+    if share <= CLEAN:
+        hardly = "Here the modes hardly switched under load, so hardly any energy was made."
+        return Verdict("good", f"Energy is kept to {percent(share)}", [found, why, hardly])
+    if terms.duration > 0:
+        found += f" That is {joules(terms.residual / terms.duration)} in each second."
+    sentences = [found, why]
+    if terms.residual > 0:
+        made = (
+            percent(terms.residual / terms.scale) + f" of {terms.scale_name}" if terms.scale > 0 else joules(terms.residual)
+        )
+        headline = f"The contact law made {made}"
+        sentences.append(
+            "So this is not physics: a real joint makes no energy. It is a property of the law, does not go away with smaller "
+            "tolerances, and keeps the slider bouncing and flying."
+        )
+    else:
+        headline = "Switching modes cost energy"
+        sentences.append("Here they took more than they gave; that is a property of the law too, not physics.")
+    if terms.residual > 0 and terms.damping > 0:
+        sentences.append(f"Contact damping took {joules(terms.damping)}; the law made {joules(terms.residual)}.")
+    sentences.append("Run the scene with --set contact.law=conservative to see what is left without it.")
+    return Verdict("warn", headline, sentences)

@@ -1,0 +1,166 @@
+"""Figures of tolerance studies: quantiles, yields, and what drives the scatter."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+import slideway
+
+from .columns import Array, Column
+from .numbers import counted, scaled, unit_words
+from .traces import Figure, Trace, Variant, packed, rows, text
+
+
+Kinds = tuple[tuple[str, str, str], ...]  # name in the file, in words, colour
+
+
+def quantiles(every: list[Column], limits: dict[str, Any]) -> Figure | None:
+    """Distribution of each quantity by its quantiles, with their intervals and the scene's limits."""
+    variants = []
+    for one in every:
+        if len(one.quantiles) < 6 or not one.high > one.low:
+            continue
+        factor, named = scaled(max(abs(one.low), abs(one.high)), one.unit)
+        probability = np.array(list(one.quantiles))
+        value = np.array(list(one.quantiles.values())) * factor
+        trace: Trace = {
+            "type": "scatter",
+            "mode": "lines+markers",
+            "name": text(one.name),
+            "x": packed(value),
+            "y": packed(probability * 100),
+            "line": {"color": "@c1"},
+            "showlegend": False,
+        }
+        if one.quantile_intervals:
+            ends = np.array(list(one.quantile_intervals.values())) * factor
+            trace["error_x"] = _interval(value, ends, "@c1/0.6")
+        unit = "" if named == "1" else f" [{text(unit_words(named))}]"
+        layout = rows(["members below [%]"], f"{text(one.name)}{unit}")
+        marks = [(name, edge * factor) for name, edge in limits.get(one.name, {}).items()]
+        layout["shapes"] = [_line(edge) for _, edge in marks]
+        layout["annotations"] = [_label(edge, name) for name, edge in marks]
+        variants.append(Variant(one.name, [trace], {**layout, "hovermode": "closest"}))
+    if not variants:
+        return None
+    caption = "Quantiles of the members that finished, bars: their 95 % intervals where the design allows some."
+    return Figure("quantiles", "Quantiles", caption, variants, choice="Quantity")
+
+
+def _interval(values: Array, ends: Array, colour: str) -> dict[str, Any]:
+    """Error bars from values (n) to ends (n, 2), none where an end is unknown."""
+    up, down = (np.nan_to_num(np.clip(part, 0, None)) for part in (ends[:, 1] - values, values - ends[:, 0]))
+    return {
+        "type": "data",
+        "symmetric": False,
+        "array": packed(up),
+        "arrayminus": packed(down),
+        "color": colour,
+        "thickness": 1.2,
+    }
+
+
+def _line(x: float) -> dict[str, Any]:
+    return {"type": "line", "x0": x, "x1": x, "yref": "paper", "y0": 0, "y1": 1, "line": {"color": "@bad", "dash": "dash"}}
+
+
+def _label(x: float, name: str) -> dict[str, Any]:
+    return {
+        "x": x,
+        "y": 1,
+        "yref": "paper",
+        "yanchor": "bottom",
+        "text": f"limit ({text(name)})",
+        "showarrow": False,
+        "font": {"color": "@bad"},
+    }
+
+
+def yields(result: xr.Dataset) -> list[tuple[str, int, int, float, float, float]]:
+    """Of each limit and of all: name, members that meet it, members that ran, share, ends of its interval (NaN for none)."""
+    if "yield" not in slideway.groups(result):
+        return []
+    with slideway.open(slideway.results.path_of(result), group="yield") as group:
+        trials = int(group["trials"])
+        table = []
+        for k, name in enumerate(group["limit"].values.tolist()):
+            one = group.isel(limit=k)
+            bounds = [f"{sign} {float(one[end]):g}" for sign, end in (("≥", "low"), ("≤", "high")) if np.isfinite(one[end])]
+            unit = str(one["unit_name"].values)
+            words = f"{name} {' and '.join(bounds)} {'' if unit == '1' else unit}".strip()
+            low, high = one["share_interval"].values.tolist()
+            table.append((words, int(one["met"]), trials, float(one["share"]), low, high))
+        low, high = group["all_share_interval"].values.tolist()
+        table.append(("all limits", int(group["all_met"]), trials, float(group["all_share"]), low, high))
+    return table
+
+
+def sensitivity(result: xr.Dataset) -> Figure | None:
+    """Which inputs drive each quantity: Sobol indices, or rank correlations where the design has none."""
+    if "sensitivity" not in slideway.groups(result):
+        return None
+    with slideway.open(slideway.results.path_of(result), group="sensitivity") as opened:
+        group = opened.load()
+    inputs = [text(name) for name in group["input"].values.tolist()]
+    kinds: Kinds = (("first", "first order: alone", "@c1"), ("total", "total: with all that it interacts with", "@c2"))
+    if not any(str(name).endswith("_total") for name in group):
+        kinds = (("rank_correlation", "rank correlation", "@c1"),)
+    variants = []
+    for name in [str(name)[: -len(kinds[0][0]) - 1] for name in group if str(name).endswith(f"_{kinds[0][0]}")]:
+        variable = group[f"{name}_{kinds[0][0]}"]
+        others = [str(d) for d in variable.dims if d != "input"]
+        labels = _labels(result, others[0], variable.sizes[others[0]]) if others else [None]
+        for k, label in enumerate(labels):
+            one = group if label is None else group.isel({others[0]: k})
+            data = _bars(one, name, kinds, inputs)
+            if data:
+                layout = {
+                    "xaxis": {
+                        "title": {"text": "share of the variance" if len(kinds) > 1 else "Spearman's rank correlation"}
+                    },
+                    "yaxis": {"automargin": True},
+                    "barmode": "group",
+                    "hovermode": "closest",
+                }
+                variants.append(Variant(name if label is None else f"{name}[{label}]", data, layout))
+    if not variants:
+        return None
+    if len(kinds) > 1:
+        caption = (
+            f"Sobol indices of {counted(int(group['rows_used']), 'row')} of the design, bars: 95 % intervals. "
+            "The total less the first is what an input does together with others."
+        )
+    else:
+        caption = "How the ranks of input and quantity go together, from −1 to 1, bars: 95 % intervals where the design allows some."
+    return Figure(
+        "sensitivity", "What drives the scatter", caption, variants, height=140 + 42 * len(inputs), choice="Quantity"
+    )
+
+
+def _labels(result: xr.Dataset, dimension: str, size: int) -> list[str]:
+    return [str(v) for v in result[dimension].values] if dimension in result.coords else [str(k) for k in range(size)]
+
+
+def _bars(one: xr.Dataset, name: str, kinds: Kinds, inputs: list[str]) -> list[Trace]:
+    order = np.argsort(np.abs(one[f"{name}_{kinds[-1][0]}"].values), kind="stable")  # the strongest on top
+    data = []
+    for kind, words, colour in reversed(kinds):
+        values = one[f"{name}_{kind}"].values[order]
+        if not np.isfinite(values).any():
+            return []
+        ends = one[f"{name}_{kind}_interval"].values[order]
+        trace: Trace = {
+            "type": "bar",
+            "orientation": "h",
+            "name": words,
+            "y": [inputs[k] for k in order],
+            "x": packed(values),
+            "marker": {"color": colour},
+        }
+        if np.isfinite(ends).any():
+            trace["error_x"] = _interval(values, ends, "@muted")
+        data.append(trace)
+    return data

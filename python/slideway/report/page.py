@@ -1,0 +1,203 @@
+"""The page: what was run, how it ended, what it means, and pictures to look into."""
+
+from __future__ import annotations
+
+import os
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+import slideway
+from slideway.errors import SlidewayError
+from slideway.results import StrPath
+
+from . import (
+    animation,
+    energy,
+    figures_members,
+    figures_orbits,
+    figures_series,
+    figures_signals,
+    figures_tolerance,
+    poses,
+    sections,
+    statuses,
+)
+from .columns import Column, columns
+from .film_section import animation_section
+from .markup import Section, data_block, tag, words
+from .members import chosen
+from .numbers import percent
+from .traces import Figure
+
+# Nothing is fetched: the page may run its own scripts and show its own pictures, no more.
+POLICY = (
+    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; "
+    "form-action 'none'"
+)
+
+
+def write(result: StrPath | xr.Dataset, out: StrPath) -> Path:
+    """Write a page about a result: one HTML file that needs no network and no other file.
+
+    Args:
+        result: a file of slideway run, or its Dataset from slideway.open.
+        out: the page; an older one is replaced once the new one is complete.
+
+    Returns:
+        The path of the page.
+
+    Raises:
+        SlidewayError: the result cannot be read, or the page cannot be written.
+    """
+    if isinstance(result, xr.Dataset):
+        text = html_of(result)
+    else:
+        with slideway.open(result) as opened:
+            text = html_of(opened)
+    path = Path(os.fspath(out))
+    part = path.with_name(path.name + ".part")
+    try:
+        part.write_text(text, encoding="utf-8")
+        os.replace(part, path)
+    except OSError as error:
+        part.unlink(missing_ok=True)
+        raise SlidewayError(f"{path}: cannot write the report: {error.strerror or error}") from error
+    return path
+
+
+def html_of(result: xr.Dataset) -> str:
+    """The page's text."""
+    every = columns(result)
+    ended = statuses.endings(result)
+    judged = energy.verdict(result, every)
+    film = _film(result)
+    figures = _figures(result, every, film)
+    plots = [figure for name, figure in figures.items() if name != "balance"]
+    parts = [
+        sections.endings_section(result, ended),
+        animation_section(film if isinstance(film, str) else film[1]),
+        sections.energy_section(judged, figures.get("balance")),
+        sections.summary_section(result, every),
+        sections.plots_section(plots),
+        sections.run_section(result, sum(ending.count for ending in ended)),
+    ]
+    there = [part for part in parts if part]
+    title = str(result.attrs.get("title") or os.path.basename(slideway.results.path_of(result)))
+    body = (
+        tag("a", "Skip to the content", class_="skip", href="#content")
+        + tag("div", _header(result, title, ended, judged, there), _main(there), _footer(result), class_="wrap")
+        + _scripts(figures, film)
+    )
+    head = (
+        '<meta charset="utf-8">'
+        + f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
+        + '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        + tag("title", words(f"{title} – slideway report"))
+        + tag("style", _asset("page.css"))
+    )
+    return "<!doctype html>\n" + tag("html", tag("head", head), tag("body", body), lang="en") + "\n"
+
+
+Film = tuple[dict[int, poses.Poses], dict[str, Any]]
+
+
+def _film(result: xr.Dataset) -> Film | str:
+    """Poses of the chosen members and the frames of them, or in one line why there are none."""
+    why = poses.why_none(result)
+    if why is not None:
+        return why
+    seen = {member: poses.poses(result, member) for member in chosen(result)}
+    if not seen:
+        return "No member has any samples, so there is nothing to draw."
+    return seen, animation.frames(result, seen)
+
+
+def _figures(result: xr.Dataset, every: list[Column], film: Film | str) -> dict[str, Figure]:
+    """All figures that suit the result, in their order on the page."""
+    made: list[Figure | None] = []
+    if not isinstance(film, str):
+        seen, _ = film
+        made += figures_series.time_series(result, seen)
+        made += [figures_series.bands(result), figures_series.orbit(result, seen), figures_series.forces(result, seen)]
+        made.append(figures_signals.spectra(result, seen))
+    if "status" in result:
+        sweep = figures_orbits.bifurcation(result)
+        made += [sweep or figures_orbits.poincare(result), *figures_orbits.exponents(result)]
+    limits = slideway.scene(result).get("study", {}).get("limits", {})
+    terms = energy.balance(result, every)
+    made += [
+        figures_members.mode_shares(every),
+        figures_tolerance.sensitivity(result),
+        figures_tolerance.quantiles(every, limits),
+        figures_members.histograms(every),
+        figures_members.energy_balance(terms) if terms else None,
+    ]
+    return {figure.name: figure for figure in made if figure}
+
+
+def _header(
+    result: xr.Dataset, title: str, ended: list[statuses.Ending], judged: energy.Verdict, parts: list[Section]
+) -> str:
+    cards = [(*statuses.headline(ended), "Members", "endings"), (judged.grade, judged.headline, "Energy", "energy")]
+    exponents = figures_orbits.exponent_words(result) if "status" in result else []
+    if exponents:
+        cards.append(("none", exponents[0].split(", from")[0], "Chaos", "plots"))
+    yields = figures_tolerance.yields(result)
+    if yields:
+        *_, share, low, high = yields[-1]
+        interval = f" ({percent(low)} to {percent(high)})" if low == low else ""
+        cards.append(("none", f"{percent(share)}{interval} meet all limits", "Yield", "summary"))
+    items = [
+        tag("li", tag("span", words(about)), tag("a", words(line), href=f"#{target}"), class_=grade)
+        for grade, line, about, target in cards
+    ]
+    links = [tag("li", tag("a", words(section.title), href=f"#{section.name}")) for section in parts]
+    study = str(slideway.scene(result).get("study", {}).get("kind", ""))
+    created = str(result.attrs.get("created", "")).replace("T", " ").replace("Z", " UTC")
+    return tag(
+        "header",
+        tag("p", words(f"slideway report, study {study}, run {created}")),
+        tag("h1", words(title)),
+        tag("ul", *items, class_="cards"),
+        tag("nav", tag("ul", *links), aria_label="Contents"),
+    )
+
+
+def _main(parts: list[Section]) -> str:
+    def written(part: Section) -> str:
+        heading = tag("h2", words(part.title), id=f"{part.name}-title")
+        return tag("section", heading, part.body, id=part.name, aria_labelledby=f"{part.name}-title")
+
+    return tag("main", *map(written, parts), id="content")
+
+
+def _footer(result: xr.Dataset) -> str:
+    version = result.attrs.get("version", "")
+    made = f"Made by slideway's Python companion {slideway.__version__} from a result of slideway {version}."
+    return tag("footer", words(f"{made} Quantities are in SI units unless a label says otherwise."))
+
+
+def _scripts(figures: dict[str, Figure], film: Film | str) -> str:
+    blocks = ""
+    if figures:
+        from plotly.offline import get_plotlyjs
+
+        blocks += tag("script", get_plotlyjs())
+    data = {
+        figure.name: {
+            "height": figure.height,
+            "variants": [{"data": variant.data, "layout": variant.layout} for variant in figure.variants],
+        }
+        for figure in figures.values()
+    }
+    blocks += data_block("figures", data)
+    if not isinstance(film, str):
+        blocks += data_block("film", film[1])
+    return blocks + tag("script", _asset("page.js")) + tag("script", _asset("animation.js"))
+
+
+def _asset(name: str) -> str:
+    return resources.files(__package__).joinpath("assets", name).read_text(encoding="utf-8")

@@ -1,0 +1,183 @@
+"""Where a member's slider lies in its way, from the stored samples and the resolved scene."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+import slideway
+
+from . import contact
+from .contact import Array
+
+STATES = {"spatial": ("y", "z", "roll", "yaw", "pitch"), "planar": ("y", "pitch")}
+
+
+@dataclass(frozen=True)
+class Joint:
+    """Sizes of the joint that the drawings and contacts need, all in metres."""
+
+    planar: bool
+    length: float  # L_k
+    width: float  # w_a along Y; of the planar block its height
+    depth: float  # w_b along Z
+    gap_y: float  # per side
+    gap_z: float
+
+
+@dataclass(frozen=True)
+class Poses:
+    """A member's samples up to its end, in way coordinates; angles are small, so roll, yaw and pitch add like a vector's components.
+
+    All arrays are (n); touching is (n, 16) or, of a planar block, (n, 4), and modes is (n, 3).
+    """
+
+    joint: Joint
+    samples: NDArray[np.int64]  # which of the file's samples these are
+    time: Array  # [s]
+    y: Array  # [m]
+    z: Array
+    roll: Array  # [rad]
+    yaw: Array
+    pitch: Array
+    touching: NDArray[np.bool_]
+    modes: NDArray[np.int64]  # surfaces, lines, points
+    x: Array | None  # along the way, inertial [m]; None where neither file nor mechanism gives it
+    crank: Array | None  # crank angle [rad]; None without a crank
+    links: tuple[float, float] | None  # lengths of crank and rod [m]
+
+
+def why_none(result: xr.Dataset) -> str | None:
+    """Why there are no poses in this result, in one line; None where there are some."""
+    if "status" not in result:
+        return 'The members are not stored (study.store = "statistics"), so there is no time series to draw.'
+    if "sample" not in result.sizes or result.sizes["sample"] == 0:
+        return "The file holds no time series; set study.samples_per_revolution (or study.samples) to have one."
+    planar = slideway.scene(result).get("mechanism", {}).get("kind") == "planar_slider_crank"
+    missing = [name for name in STATES["planar" if planar else "spatial"] if name not in result]
+    if missing:
+        return f"The time series lack {', '.join(missing)}, which place the slider in its way."
+    return None
+
+
+def poses(result: xr.Dataset, member: int) -> Poses:
+    """Poses and contacts of one member, by its number in the ensemble (model.md sections 1, 3, 6 and 7).
+
+    Samples behind a member's end hold no numbers and are left out.
+    """
+    scene = slideway.scene(result, member=member)
+    joint = _joint(scene)
+    row = result.sel(member=member)
+    states = {name: row[name].values for name in STATES["planar" if joint.planar else "spatial"]}
+    kept = np.flatnonzero(np.all([np.isfinite(column) for column in states.values()], axis=0))
+    states = {name: column[kept] for name, column in states.items()}
+    time = row["time"].values[kept]
+    stored = {name: row[name].values[kept] for name in ("x", "crank_angle") if name in row}
+    crank, links = _crank(scene, time, stored.get("crank_angle"))
+    y, pitch = states["y"], states["pitch"]
+    zero = np.zeros_like(y)
+    if joint.planar:
+        touching = contact.planar_depths(y, pitch, joint.length, joint.width, joint.gap_y) > 0
+        x = stored.get("x", _along(scene, time, y, zero, crank, links))
+        return Poses(
+            joint, kept, time, y, zero, zero, zero, pitch, touching, contact.planar_modes(touching), x, crank, links
+        )
+    x = stored.get("x", _along(scene, time, y, states["z"], crank, links))
+    attitude = contact.rotation(states["roll"], states["yaw"], pitch)
+    place = np.stack([zero if x is None else x, y, states["z"]], -1)
+    place, attitude = _in_way(scene, place, attitude)
+    touching = contact.spatial_depths(place[:, 1], place[:, 2], attitude, *_sizes(joint)) > 0
+    return Poses(
+        joint=joint,
+        samples=kept,
+        time=time,
+        y=place[:, 1],
+        z=place[:, 2],
+        roll=attitude[:, 2, 1],
+        yaw=attitude[:, 0, 2],
+        pitch=attitude[:, 1, 0],
+        touching=touching,
+        modes=contact.spatial_modes(touching),
+        x=x,
+        crank=crank,
+        links=links,
+    )
+
+
+def _sizes(joint: Joint) -> tuple[float, float, float, float, float]:
+    return joint.length, joint.width, joint.depth, joint.gap_y, joint.gap_z
+
+
+def _joint(scene: dict[str, Any]) -> Joint:
+    sizes = scene["joint"]
+    if scene["mechanism"]["kind"] == "planar_slider_crank":
+        return Joint(True, sizes["slider_length"], sizes["slider_height"], 0.0, sizes["clearance_y"], 0.0)
+    return Joint(
+        False,
+        sizes["slider_length"],
+        sizes["way_width"],
+        sizes["way_depth"],
+        sizes["clearance_y"],
+        sizes["clearance_z"],
+    )
+
+
+def _crank(scene: dict[str, Any], time: Array, stored: Array | None) -> tuple[Array | None, tuple[float, float] | None]:
+    """Crank angle [rad] and lengths of crank and rod [m]: stored, or of constant speed (model.md section 6)."""
+    mechanism = scene["mechanism"]
+    if not str(mechanism["kind"]).endswith("slider_crank"):
+        return None, None
+    links = (float(mechanism["crank_length"]), float(mechanism["rod_length"]))
+    if stored is not None:
+        return stored, links
+    return mechanism.get("start_angle", 0.0) + mechanism["crank_speed"] * time, links
+
+
+def _along(
+    scene: dict[str, Any], time: Array, y: Array, z: Array, crank: Array | None, links: tuple[float, float] | None
+) -> Array | None:
+    """x [m] that follows from the mechanism: of a rod that reaches from the crank pin, or of a carriage's motion."""
+    if crank is not None and links is not None:
+        r, rod = links
+        return r * np.cos(crank) + np.sqrt(np.maximum(rod**2 - (y - r * np.sin(crank)) ** 2 - z**2, 0))
+    mechanism = scene["mechanism"]
+    if {"carriage_speed", "stroke", "reversal_time"} <= mechanism.keys():
+        return carriage_place(time, mechanism["carriage_speed"], mechanism["stroke"], mechanism["reversal_time"])
+    return None
+
+
+def carriage_place(time: Array, speed: float, stroke: float, reversal: float) -> Array:
+    """Place of a carriage that runs to and fro [m] (model.md section 7).
+
+    Args:
+        time [s]; speed v [m/s]; stroke [m]; reversal t_r [s].
+
+    >>> from slideway.report.poses import carriage_place
+    >>> carriage_place(np.array([0.0, 1.0, 2.0, 3.0]), 1.0, 1.0, 1.0).round(3).tolist()
+    [0.0, 1.0, 1.0, 0.0]
+    """
+    run = stroke / abs(speed)
+    half = run + reversal
+    phase = np.mod(time, 2 * half)
+    back = phase >= half
+    into = np.where(back, phase - half, phase)
+    turn = reversal / math.pi * np.sin(math.pi * np.maximum(into - run, 0) / reversal) if reversal > 0 else 0.0
+    gone = speed * (np.minimum(into, run) + turn)
+    return np.where(back, speed * run - gone, gone)
+
+
+def _in_way(scene: dict[str, Any], place: Array, attitude: Array) -> tuple[Array, Array]:
+    """Place and attitude in the way's frame (model.md section 1); the same where the way is where it should be."""
+    way = scene.get("way", {})
+    angles = [way.get(key, 0.0) for key in ("roll", "yaw", "pitch")]
+    offsets = [way.get(key, 0.0) for key in ("offset_y", "offset_z")]
+    if not any(angles) and not any(offsets):
+        return place, attitude
+    frame = contact.rotation(*(np.asarray(angle) for angle in angles))
+    reach = scene["mechanism"].get("rod_length", 0.0)
+    return (place - np.array([reach, *offsets])) @ frame, frame.T @ attitude

@@ -1,0 +1,96 @@
+"""The verdict of the energy audit, from numbers made up so that the shares are round."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+import xarray as xr
+from slideway.report import energy
+from slideway.report.columns import Column
+
+
+def scene(law: str, kind: str = "slider_crank", more: str = "") -> xr.Dataset:
+    text = f'[mechanism]\nkind = "{kind}"\n{more}\n[contact]\nlaw = "{law}"\n[study]\nduration = 2.0\n'
+    return xr.Dataset(attrs={"scene": text})
+
+
+def quantity(name: str, mean: float, low: float | None = None, high: float | None = None) -> Column:
+    low, high = mean if low is None else low, mean if high is None else high
+    return Column(name, "", "J", 4, mean, 0.0, low, high, {}, {}, None, None)
+
+
+def of(law: str, residual: float, worst: float | None = None, **others: float) -> energy.Verdict:
+    high = residual if worst is None else worst
+    every = [quantity("energy_residual", residual, min(residual, high), max(residual, high))]
+    every += [quantity(name, mean) for name, mean in others.items()]
+    return energy.verdict(scene(law), every)
+
+
+def test_the_conservative_law_is_said_to_keep_energy() -> None:
+    found = of("conservative", 2e-8, crank_work=0.01)
+    assert found.grade == "good"
+    assert found.headline == "Energy is kept to 2 ppm"
+    assert "makes no energy" in " ".join(found.sentences)
+    assert "rtol" in " ".join(found.sentences)
+
+
+def test_much_residual_of_the_conservative_law_is_the_methods() -> None:
+    found = of("conservative", 0.002, crank_work=0.02)
+    assert found.grade == "bad"
+    assert "10 %" in found.headline
+    assert "error of the integration" in " ".join(found.sentences)
+
+
+def test_a_bad_member_shows_though_the_mean_is_fine() -> None:
+    found = of("conservative", 2e-6, worst=5e-5, crank_work=0.01)
+    assert found.grade == "warn"
+    assert found.headline == "Energy is kept to 0.02 % on average, 0.5 % at worst"
+
+
+def test_energy_of_mode_switching_is_called_no_physics() -> None:
+    found = of("paper", 0.01, crank_work=0.04, damping_loss=0.009)
+    words = " ".join(found.sentences)
+    assert found.grade == "warn"
+    assert found.headline == "The contact law made 25 % of the drive's work"
+    assert "not physics" in words
+    assert "switches" in words
+    assert "10 mJ per member" in words
+    assert "5 mJ in each second" in words  # 10 mJ in the 2 s of the scene
+    assert "damping took 9 mJ" in words
+
+
+def test_the_paper_law_that_hardly_switches_is_not_blamed() -> None:
+    assert of("paper", 1e-9, crank_work=0.04).grade == "good"
+
+
+def test_losses_stand_in_for_work_that_is_not_stored() -> None:
+    found = of("paper", 0.01, friction_loss=0.015, damping_loss=0.005)
+    assert found.headline == "The contact law made 50 % of what friction and damping took"
+
+
+def test_without_any_scale_nothing_is_judged() -> None:
+    found = of("conservative", 3e-6)
+    assert found.grade == "none"
+    assert "3 µJ" in found.headline
+    assert "crank_work" in " ".join(found.sentences)
+
+
+def test_a_free_crank_is_compared_with_what_it_lost() -> None:
+    every = [quantity("energy_residual", 1e-6), quantity("energy_change", -0.5)]
+    found = energy.verdict(scene("conservative", "planar_slider_crank", 'crank = "free"'), every)
+    assert found.headline == "Energy is kept to 2 ppm"
+    assert "corners" in " ".join(found.sentences)
+
+
+def test_missing_quantities_are_named() -> None:
+    found = energy.verdict(scene("paper"), [])
+    assert found.grade == "none"
+    assert "study.quantities" in found.sentences[0]
+
+
+@pytest.mark.parametrize("name", ["work", "friction", "damping"])
+def test_unknown_terms_are_no_numbers(name: str) -> None:
+    terms = energy.balance(scene("paper"), [quantity("energy_residual", 1.0)])
+    assert terms is not None
+    assert math.isnan(getattr(terms, name))

@@ -1,0 +1,113 @@
+// The measure by which a kernel's numbers are held against the oracle's: group by group, as in model.md 11.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/backend/backend.hpp"
+#include "kernels/block.hpp"
+#include "tests/oracle/oracle.hpp"
+#include "tests/oracle/random_states.hpp"
+
+namespace slideway::testing {
+
+/// Each entry against the largest of its group in the reference.
+class Comparison {
+public:
+    static constexpr double tolerance = 2e-8;
+
+    explicit Comparison(std::string what) : what_(std::move(what)) {}
+
+    template <class A, class B>
+    void group(char const* name, A const& reference, B const& got, std::size_t n, double floor = 0) {
+        double scale = floor;
+        for (std::size_t i = 0; i < n; ++i) scale = std::max(scale, std::abs(static_cast<double>(reference[i])));
+        if (scale == 0) scale = 1e-300;
+        for (std::size_t i = 0; i < n; ++i) {
+            EXPECT_LE(std::abs(static_cast<double>(reference[i]) - static_cast<double>(got[i])), tolerance * scale)
+                << what_ << ": " << name << " " << i << " is " << got[i] << ", the oracle says " << reference[i];
+        }
+    }
+    void value(char const* name, double reference, double got, double floor = 0) {
+        group(name, &reference, &got, 1, floor);
+    }
+
+private:
+    std::string what_;
+};
+
+inline double load_of(oracle::Result const& r) {
+    double sum = 0;
+    for (int i = 0; i < 8; ++i) sum += r.fn_y[static_cast<std::size_t>(i)] + r.fn_z[static_cast<std::size_t>(i)];
+    return sum;
+}
+
+template <std::size_t n>
+std::array<double, 2 * n> joined(std::array<double, n> const& a, std::array<double, n> const& b) {
+    std::array<double, 2 * n> all;
+    std::copy(a.begin(), a.end(), all.begin());
+    std::copy(b.begin(), b.end(), all.begin() + n);
+    return all;
+}
+
+inline void compare(std::string const& what, oracle::Case const& c, oracle::Result const& r, double const* d,
+                    double const* depths, double const* forces, double const* powers, double energy, double potential,
+                    double torque) {
+    Comparison compare(what);
+    double const load = load_of(r);
+    compare.group("position rates", r.derivative.data(), d, 2);
+    compare.group("accelerations", r.derivative.data() + 2, d + 2, 2, load / c.inputs.slider_mass);
+    if (info(c.parts.mechanism).states == 12) {
+        compare.value("velocity along the way", r.derivative[10], d[10]);
+        compare.value("acceleration along the way", r.derivative[11], d[11],
+                      load / c.inputs.slider_mass + c.inputs.gravity);
+    }
+    compare.group("attitude rates", r.derivative.data() + 4, d + 4, 3);
+    double const inertia = std::min({c.inputs.slider_inertia_x, c.inputs.slider_inertia_y, c.inputs.slider_inertia_z});
+    compare.group("angular accelerations", r.derivative.data() + 7, d + 7, 3, load * c.inputs.slider_length / inertia);
+    compare.group("penetrations", joined(r.pen_y, r.pen_z), depths, 16);
+    compare.group("forces", joined(r.fn_y, r.fn_z), forces, 16);
+    double const reference_powers[] = {r.power_crank, r.power_friction, r.power_damping};
+    // A rate of penetration is a small difference of velocities, each of which is rounded.
+    double const speed = std::abs(r.vx) + std::hypot(c.state[2], c.state[3]) +
+                         c.inputs.slider_length * std::hypot(c.state[7], c.state[8], c.state[9]);
+    compare.group("powers", reference_powers, powers, 3, 1e-6 * load * speed);
+    compare.value("energy", r.energy, energy);
+    // A penetration is good to about 1e-18 m, whatever its size.
+    compare.value("potential", r.contact_potential, potential, load * 1e-18 / Comparison::tolerance);
+    if (c.parts.mechanism == Mechanism::slider_crank) compare.value("crank torque", r.crank_torque, torque);
+}
+
+/// Probes the state of a spatial mechanism and compares all that the probe tells.
+/// @return false, with nothing compared, where the state has no equations
+inline bool compare_probe(Isa isa, oracle::Case const& c, std::string const& what) {
+    // The probe's impact speeds are their start value.
+    auto const r = oracle::evaluate(c.inputs, c.parts, c.t, c.state);
+    if (r.geometry || r.contact_domain) return false;
+    Inputs in = c.inputs;
+    double* const state[] = {&in.y,     &in.z,  &in.vy, &in.vz, &in.roll, &in.yaw,
+                             &in.pitch, &in.wx, &in.wy, &in.wz, &in.x,    &in.vx};
+    for (std::size_t j = 0; j < c.state.size(); ++j) *state[j] = c.state[j];
+    ProbeResult p;
+    find_instance(isa, c.parts).probe({&in, &c.t, 1, &p});
+    std::vector<double> depths(p.penetration_y, p.penetration_y + 8), forces(p.normal_force_y, p.normal_force_y + 8);
+    depths.insert(depths.end(), p.penetration_z, p.penetration_z + 8);
+    forces.insert(forces.end(), p.normal_force_z, p.normal_force_z + 8);
+    double const powers[] = {p.power_crank, p.power_friction, p.power_damping};
+    EXPECT_EQ(p.status, Status::finished) << what;
+    EXPECT_EQ(p.surfaces, r.surfaces) << what;
+    EXPECT_EQ(p.lines, r.lines) << what;
+    EXPECT_EQ(p.points, r.points) << what;
+    compare(what, c, r, p.derivative, depths.data(), forces.data(), powers, p.energy, p.contact_potential,
+            p.crank_torque);
+    return true;
+}
+
+}  // namespace slideway::testing
