@@ -19,11 +19,20 @@ from .scale import SCALES
 from .sections import Bench, Section
 
 SECTIONS: tuple[Callable[[Bench], Section], ...] = (
-    experiment.section, modes.section, clearance.section, scatter.positions, scatter.forces, maps.section, exponents.section, parameters.section,
+    experiment.section,
+    modes.section,
+    clearance.section,
+    scatter.positions,
+    scatter.forces,
+    maps.section,
+    exponents.section,
+    parameters.section,
 )
 
 
-def reproduce(scenes: Path, output: Path, scale: str = "full", threads: int | None = None, say: Callable[[str], None] = print) -> tuple[list[Section], list[str]]:
+def reproduce(
+    scenes: Path, output: Path, scale: str = "full", threads: int | None = None, say: Callable[[str], None] = print
+) -> tuple[list[Section], list[str]]:
     """Makes all results and the page OUTPUT/reproduction.html.
 
     Args:
@@ -50,17 +59,34 @@ def reproduce(scenes: Path, output: Path, scale: str = "full", threads: int | No
             say(f"judged  {sections[-1].title}")
         except (Missing, slideway.SlidewayError) as error:
             failures.append(f"{build.__module__.rpartition('.')[2]}: the section cannot be made: {error}")
-    facts = [f"{laboratory.version}; {len(runs)} runs in {made:.0f} s, page in {time.monotonic() - began - made:.0f} s (runs that were there already took no time). "
-             "Each run's scene lies beside its result: slideway run NAME.toml makes it again."]
+    facts = [
+        f"{laboratory.version}; {len(runs)} runs in {made:.0f} s, page in {time.monotonic() - began - made:.0f} s (runs that were there already took no time). "
+        "Each run's scene lies beside its result: slideway run NAME.toml makes it again."
+    ]
+    facts += energy_words(bench)
     if scale != "full":
-        facts.append(f"Made at the scale \"{scale}\", which tests the machinery: none of these numbers means anything.")
+        facts.append(f'Made at the scale "{scale}", which tests the machinery: none of these numbers means anything.')
     (output / "reproduction.html").write_text(page(sections, facts, failures), encoding="utf-8")
     return sections, failures
 
 
+def energy_words(bench: Bench) -> list[str]:
+    """How much of the drive's work each law made, over all cases; nothing where no audit could be made."""
+    words = []
+    if all(bench.shares.values()):
+        made, kept = bench.shares["paper"], bench.shares["conservative"]
+        words.append(
+            f"Over all cases the law as published made {100 * min(made):.0f} to {100 * max(made):.0f} % of the drive's work out of nothing, "
+            f"the conservative law {100 * max(map(abs, kept)):.1g} % at most."
+        )
+    return words
+
+
 def main() -> int:
     """The command; exit code 1 where a part could not be made."""
-    parser = argparse.ArgumentParser(prog="python -m reproduction", description="Every table and figure of Qian et al. (2020) under both contact laws.")
+    parser = argparse.ArgumentParser(
+        prog="python -m reproduction", description="Every table and figure of Qian et al. (2020) under both contact laws."
+    )
     parser.add_argument("output", type=Path, help="folder of the results and of reproduction.html")
     parser.add_argument("--scenes", type=Path, default=Path(__file__).resolve().parents[2] / "scenes", help="folder of the scenes")
     parser.add_argument("--scale", choices=sorted(SCALES), default="full", help="tiny: the machinery alone, in seconds")

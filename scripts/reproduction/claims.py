@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .estimates import Estimate, difference, estimate, grows
+from .estimates import Estimate, difference, estimate, grows, share
 
 LAWS = ("paper", "conservative")
 LAW_WORDS = {"paper": "law as published", "conservative": "conservative law"}
@@ -81,7 +81,13 @@ def claim(place: str, words: str, findings: Mapping[str, Finding], verdict: Verd
 
 
 def growth(
-    place: str, words: str, labels: Sequence[str], columns: Mapping[str, Sequence[np.ndarray]], unit: str, factor: float = 1.0, floor: float = 0.0
+    place: str,
+    words: str,
+    labels: Sequence[str],
+    columns: Mapping[str, Sequence[np.ndarray]],
+    unit: str,
+    factor: float = 1.0,
+    floor: float = 0.0,
 ) -> Claim:
     """The claim that a quantity grows from case to case.
 
@@ -89,7 +95,7 @@ def growth(
         labels: of the cases.
         columns: by law, the members' values in each case.
         factor: brings the values into `unit`.
-        floor: where every case stays below it, nothing moves, and nothing can grow.
+        floor: where most starts of every case stay below it, nothing moves, and nothing can grow.
     """
     findings = {}
     for law, values in columns.items():
@@ -97,8 +103,11 @@ def growth(
         lines = [f"{name}: {said(t, unit, factor)}" for name, t in zip(labels, taken, strict=True)]
         whole = difference(values[0], values[-1])
         answer = grows(list(values))
-        if all(t.high < floor for t in taken):
-            lines.append(f"nothing moves: all below {factor * floor:.2g} {unit}")
+        moving = [share(v > floor, np.isfinite(v)) for v in values]
+        if floor > 0 and all(m.high < 0.5 for m in moving):
+            lines.append(
+                f"nothing moves in {100 * min(1 - m.mean for m in moving):.0f} % of the starts at least: below {factor * floor:.2g} {unit}".rstrip()
+            )
             answer = False
         elif np.isfinite(whole.half_width) and whole.base != 0:
             lines.append(f"{labels[0]} → {labels[-1]}: {percent(whole.mean / whole.base, whole.half_width / abs(whole.base))}")
@@ -124,22 +133,32 @@ def percent(mean: float, half: float) -> str:
     if mean > 3:
         return f"× {plus_minus(1 + mean, half)}"
     text = plus_minus(100 * mean, 100 * half)
-    return ("" if text.startswith("-") else "+") + text.replace("-", "−") + " %"
+    return ("" if text.startswith(("−", "(−")) else "+") + text + " %"
 
 
 def plus_minus(value: float, half: float) -> str:
-    """A value and the half width of its interval, to two digits of the latter."""
+    """A value and the half width of its interval, to two digits of the latter; of small and large ones the power of ten stands apart.
+
+    >>> plus_minus(1.234e-7, 2e-9), plus_minus(-0.0451, 0.0031), plus_minus(2.33075, 1e-9)
+    ('(1.234 ± 0.020)·10⁻⁷', '−0.0451 ± 0.0031', '2.33075 ± 0.00001')
+    """
     if not np.isfinite(value):
         return "no number"
     if not np.isfinite(half) or half <= 0:
-        return f"{value:.4g}"
+        return _minus(f"{value:.4g}")
+    # More than six digits say nothing: an interval that is narrower is rounded up to the last of them.
+    half = max(half, 10.0 ** np.floor(np.log10(abs(value))) * 1e-5) if value else half
     size = int(np.floor(np.log10(max(abs(value), half))))
-    if size >= 5 or size <= -4:
-        places = max(1, size - int(np.floor(np.log10(half))) + 1)
-        if places > 6:
-            return f"{value:.6g} ± {half:.1g}"
-        return f"({value / 10.0**size:.{places}f} ± {half / 10.0**size:.{places}f})e{size}"
-    places = 1 - int(np.floor(np.log10(half)))
-    if places > 8:
-        return f"{value:.6g} ± {half:.1g}"
-    return f"{round(value, places):.{max(places, 0)}f} ± {round(half, places):.{max(places, 0)}f}"
+    power = size if size >= 5 or size <= -4 else 0
+    mean, width = value / 10.0**power, half / 10.0**power
+    digits = 0 if half <= abs(value) * 1.0001e-4 else 1
+    places = digits - int(np.floor(np.log10(width) + 1e-9))
+    text = _minus(f"{round(mean, places):.{max(places, 0)}f} ± {round(width, places):.{max(places, 0)}f}")
+    return f"({text})·10{str(power).translate(_SUPERSCRIPTS)}" if power else text
+
+
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def _minus(text: str) -> str:
+    return text.replace("-", "−") if "e" not in text else ("−" + text[1:] if text.startswith("-") else text)

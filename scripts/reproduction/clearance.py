@@ -11,7 +11,7 @@ from slideway.plot.style import colours, finish
 from .claims import LAWS, Claim, Finding, claim, growth, said
 from .estimates import Change, difference, estimate
 from .plan import CARRIAGE_CLEARANCES, CLEARANCES, MAPS, crank
-from .sections import WINDOWS, Bench, Section, draw
+from .sections import WINDOWS, Bench, Section, draw, wide_scale
 
 Quantity = Callable[[Bench, str, str, str], np.ndarray]
 """Of bench, case, window and law: a value of each member."""
@@ -22,29 +22,64 @@ QUIET_ACCELERATION = 0.01  # m/s², a thousandth of g
 
 def section(bench: Bench) -> Section:
     """Judges Fig. 12 (clearances of Fig. 17) and Fig. 15 (with 0.15 and 0.22 mm)."""
-    page = Section("Fig. 12 and Fig. 15: velocities and accelerations grow with clearance", [
-        "The paper shows the slider's velocity and acceleration \"in the z-direction\" and the angular velocity of the rod. Its axes are named "
-        "inconsistently (model.md 10), so both the vertical (y) and the lateral (z) motion are judged.",
-        "Each claim is judged twice: over the first two revolutions from starts scattered within the clearance, as the paper's plots begin at t = 0, "
-        "and over the next two, when what the start brought along is gone.",
-    ])
+    page = Section(
+        "Fig. 12 and Fig. 15: velocities and accelerations grow with clearance",
+        [
+            'The paper shows the slider\'s velocity and acceleration "in the z-direction" and the angular velocity of the rod. Its axes are named '
+            "inconsistently (model.md 10), so both the vertical (y) and the lateral (z) motion are judged.",
+            "Each claim is judged twice: over the first two revolutions from starts scattered within the clearance, as the paper's plots begin at t = 0, "
+            "and over the next two, when what the start brought along is gone.",
+        ],
+    )
     for window, when in WINDOWS.items():
-        page.claims += [_growth(bench, window, place, f"{words}, {when}.", q, unit, floor) for place, words, q, unit, floor in _kinematics()]
+        page.claims += [
+            _growth(bench, window, place, f"{words}, {when}.", q, unit, floor) for place, words, q, unit, floor in _kinematics()
+        ]
     page.claims += [
-        _growth(bench, "settled", "Fig. 15b", "The acceleration of the slider-crank grows with clearance, 0.15 and 0.22 mm included.", _across, "m/s²",
-                QUIET_ACCELERATION, CLEARANCES),
-        growth("Fig. 15a", "The acceleration of the carriage (the experiment) grows with clearance.", list(CARRIAGE_CLEARANCES),
-               {law: [_carriage(bench, case, "settled", law) for case in CARRIAGE_CLEARANCES.values()] for law in LAWS}, "m/s²", floor=QUIET_ACCELERATION),
-        _exception(bench, "slider-crank", ("0.15 mm", "0.22 mm", "0.3 mm"), _across, [crank(CLEARANCES[c]) for c in ("0.15 mm", "0.22 mm", "0.3 mm")]),
+        _growth(
+            bench,
+            "settled",
+            "Fig. 15b",
+            "The acceleration of the slider-crank grows with clearance, 0.15 and 0.22 mm included.",
+            _across,
+            "m/s²",
+            QUIET_ACCELERATION,
+            CLEARANCES,
+        ),
+        growth(
+            "Fig. 15a",
+            "The acceleration of the carriage (the experiment) grows with clearance.",
+            list(CARRIAGE_CLEARANCES),
+            {law: [_carriage(bench, case, "settled", law) for case in CARRIAGE_CLEARANCES.values()] for law in LAWS},
+            "m/s²",
+            floor=QUIET_ACCELERATION,
+        ),
+        _exception(
+            bench,
+            "slider-crank",
+            ("0.15 mm", "0.22 mm", "0.3 mm"),
+            _across,
+            [crank(CLEARANCES[c]) for c in ("0.15 mm", "0.22 mm", "0.3 mm")],
+        ),
         _exception(bench, "carriage", tuple(CARRIAGE_CLEARANCES), _carriage, list(CARRIAGE_CLEARANCES.values())),
     ]
     page.figures = [
-        draw("Fig. 12a: velocity across the way, rms, by clearance.", lambda law, ax: _chart(bench, law, ax, {"y": _vy, "z": _vz}, 1e3, "rms velocity [mm/s]")),
-        draw("Figs. 12b, 15: acceleration across the way, rms, by clearance.", lambda law, ax: _chart(bench, law, ax, {"y": _ay, "z": _az}, 1, "rms acceleration [m/s²]")),
-        draw("Fig. 12c: largest angular velocity of the rod, by clearance; the dotted line is the mechanism without clearance.",
-             lambda law, ax: _rod_chart(bench, law, ax)),
+        draw(
+            "Fig. 12a: velocity across the way, rms, by clearance.",
+            lambda law, ax: _chart(bench, law, ax, {"y": _vy, "z": _vz}, 1e3, "rms velocity [mm/s]"),
+        ),
+        draw(
+            "Figs. 12b, 15: acceleration across the way, rms, by clearance.",
+            lambda law, ax: _chart(bench, law, ax, {"y": _ay, "z": _az}, 1, "rms acceleration [m/s²]"),
+        ),
+        draw(
+            "Fig. 12c: largest angular velocity of the rod, by clearance; the dotted line is the mechanism without clearance.",
+            lambda law, ax: _rod_chart(bench, law, ax),
+        ),
     ]
-    page.tables = [bench.audit("crank", [(c, crank(v)) for c, v in CLEARANCES.items()], window, bench.scale.revolutions) for window in WINDOWS]
+    page.tables = [
+        bench.audit("crank", [(c, crank(v)) for c, v in CLEARANCES.items()], window, bench.scale.revolutions) for window in WINDOWS
+    ]
     return page
 
 
@@ -58,7 +93,9 @@ def _kinematics() -> list[tuple[str, str, Quantity, str, float]]:
     ]
 
 
-def _growth(bench: Bench, window: str, place: str, words: str, quantity: Quantity, unit: str, floor: float, cases: dict[str, float] = MAPS) -> Claim:
+def _growth(
+    bench: Bench, window: str, place: str, words: str, quantity: Quantity, unit: str, floor: float, cases: dict[str, float] = MAPS
+) -> Claim:
     columns = {law: [quantity(bench, crank(c), window, law) for c in cases.values()] for law in LAWS}
     return growth(place, words, list(cases), columns, unit, 1e3 if unit == "mm/s" else 1.0, floor)
 
@@ -76,7 +113,7 @@ def _exception(bench: Bench, of: str, labels: tuple[str, ...], quantity: Quantit
 
 
 def _rms(rows: np.ndarray) -> np.ndarray:
-    return np.sqrt(np.mean(rows**2, axis=1))
+    return np.asarray(np.sqrt(np.mean(rows**2, axis=1)))
 
 
 def _vz(bench: Bench, case: str, window: str, law: str) -> np.ndarray:
@@ -96,11 +133,11 @@ def _ay(bench: Bench, case: str, window: str, law: str) -> np.ndarray:
 
 
 def _across(bench: Bench, case: str, window: str, law: str) -> np.ndarray:
-    return np.hypot(_ay(bench, case, window, law), _az(bench, case, window, law))
+    return np.asarray(np.hypot(_ay(bench, case, window, law), _az(bench, case, window, law)))
 
 
 def _carriage(bench: Bench, case: str, window: str, law: str) -> np.ndarray:
-    return np.hypot(*(bench.values("carriage", case, window, law, "rms_acceleration", along) for along in ("y", "z")))
+    return np.asarray(np.hypot(*(bench.values("carriage", case, window, law, "rms_acceleration", along) for along in ("y", "z"))))
 
 
 def _rod(bench: Bench, case: str, window: str, law: str) -> np.ndarray:
@@ -110,8 +147,22 @@ def _rod(bench: Bench, case: str, window: str, law: str) -> np.ndarray:
 def _chart(bench: Bench, law: str, ax: Axes, quantities: dict[str, Quantity], factor: float, words: str) -> None:
     for (axis_name, quantity), colour in zip(quantities.items(), colours):
         for (window, when), style in zip(WINDOWS.items(), ("--", "-")):
-            _errors(ax, [factor * quantity(bench, crank(c), window, law) for c in CLEARANCES.values()], colour, style, f"{axis_name}, {when}")
-    ax.set_yscale("log")
+            _errors(
+                ax,
+                [factor * quantity(bench, crank(c), window, law) for c in CLEARANCES.values()],
+                colour,
+                style,
+                f"{axis_name}, {when}",
+            )
+    _finish(ax, words)
+
+
+def _finish(ax: Axes, words: str) -> None:
+    """From zero, or logarithmic where there are more than two decades to show."""
+    values = np.concatenate([line.get_ydata() for line in ax.get_lines()])
+    wide_scale(ax, values[values > 0])
+    if ax.get_yscale() == "linear":
+        ax.set_ylim(bottom=0)
     finish(ax, "clearance per side [mm]", words)
 
 
@@ -125,4 +176,15 @@ def _rod_chart(bench: Bench, law: str, ax: Axes) -> None:
 
 def _errors(ax: Axes, columns: list[np.ndarray], colour: str, style: str, words: str) -> None:
     taken = [estimate(c) for c in columns]
-    ax.errorbar(list(CLEARANCES.values()), [t.mean for t in taken], [t.half_width for t in taken], color=colour, ls=style, marker="o", ms=4, capsize=3, lw=1.3, label=words)
+    ax.errorbar(
+        list(CLEARANCES.values()),
+        [t.mean for t in taken],
+        [t.half_width for t in taken],
+        color=colour,
+        ls=style,
+        marker="o",
+        ms=4,
+        capsize=3,
+        lw=1.3,
+        label=words,
+    )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import slideway
 from matplotlib.axes import Axes
@@ -18,20 +20,32 @@ SPEED = np.pi  # rad/s
 
 def section(bench: Bench) -> Section:
     """Judges Fig. 17: x and vx of the slider once a revolution, at crank angle 0, over 150 revolutions after 20."""
-    page = Section("Fig. 17: the map of (x, vx)", [
-        "x and vx follow from the states across the way, for the rod is rigid: at crank angle 0 x = r + √(L² − y² − z²), so that x is of second order in the "
-        "clearance (micrometres and less), and vx of first order. The paper does not say at which angle its map is taken.",
-    ])
+    page = Section(
+        "Fig. 17: the map of (x, vx)",
+        [
+            "x and vx follow from the states across the way, for the rod is rigid: at crank angle 0 x = r + √(L² − y² − z²), so that x is of second order in the "
+            "clearance (micrometres and less), and vx of first order. The paper does not say at which angle its map is taken.",
+        ],
+    )
     page.claims = [_scattered(bench)]
     for what, index, unit, factor in (("x", 0, "nm", 1e9), ("vx", 1, "µm/s", 1e6)):
         for power, words in ((0, "wider"), (1, "wider, even in units of what the clearance allows")):
             columns = {law: [_spread(bench, c, law)[index] / (_room(c)[index] if power else 1) for c in MAPS.values()] for law in LAWS}
             # What a drift of the resting slider by a thousandth of its room makes is no scatter.
             floor = 1e-3 if power else 1e-3 * _room(0.08)[index]
-            page.claims.append(growth("Fig. 17a–d", f"The map spreads {words} with larger clearance (sd of {what}).", list(MAPS), columns,
-                                      "" if power else unit, 1.0 if power else factor, floor))
+            page.claims.append(
+                growth(
+                    "Fig. 17a–d",
+                    f"The map spreads {words} with larger clearance (sd of {what}).",
+                    list(MAPS),
+                    columns,
+                    "" if power else unit,
+                    1.0 if power else factor,
+                    floor,
+                )
+            )
     page.claims.append(_dimension(bench))
-    page.figures = [draw(f"Fig. 17: the map, {words}, 150 revolutions of one start.", lambda law, ax, c=c: _map(bench, law, ax, c)) for words, c in MAPS.items()]
+    page.figures = [draw(f"Fig. 17: the map, {words}, 150 revolutions of one start.", partial(_map, bench, c)) for words, c in MAPS.items()]
     rows = []
     for words, c in MAPS.items():
         row = [words]
@@ -40,9 +54,11 @@ def section(bench: Bench) -> Section:
             mean = np.array([v.mean() for _, v in _points(bench, c, law)])
             row += [said(estimate(x), "", 1e9), said(estimate(vx), "", 1e6), said(estimate(mean), "", 1e6)]
         rows.append(row)
-    columns = ("sd of x [nm]", "sd of vx [µm/s]", "mean of vx [µm/s]")
-    page.tables = [Table("Spread of the map.", ["clearance", *(f"{LAW_WORDS[law]}: {w}" for law in LAWS for w in columns)], rows),
-                   bench.audit("map", [(w, crank(c)) for w, c in MAPS.items()], "settled", bench.scale.map_transient + bench.scale.map_revolutions)]
+    heads = ("sd of x [nm]", "sd of vx [µm/s]", "mean of vx [µm/s]")
+    page.tables = [
+        Table("Spread of the map.", ["clearance", *(f"{LAW_WORDS[law]}: {w}" for law in LAWS for w in heads)], rows),
+        bench.audit("map", [(w, crank(c)) for w, c in MAPS.items()], "settled", bench.scale.map_transient + bench.scale.map_revolutions),
+    ]
     return page
 
 
@@ -58,12 +74,14 @@ def along(y: np.ndarray, z: np.ndarray, vy: np.ndarray, vz: np.ndarray) -> tuple
 def correlation_dimension(points: np.ndarray) -> float:
     """Slope of ln C(r) over ln r, C the share of pairs nearer than r, between its 2 % and 20 % quantiles.
 
-    Source: Grassberger and Procaccia, Physica D 9 (1983) 189. Coordinates are scaled to unit deviation.
+        Source: Grassberger and Procaccia, Physica D 9 (1983) 189. Coordinates are scaled to unit deviation.
 
-    >>> import numpy as np
-    >>> line = np.linspace(0, 1, 400)
-    >>> round(correlation_dimension(np.stack([line, line], axis=1)), 1)
-    1.0
+        >>> from functools import partial
+
+    import numpy as np
+        >>> line = np.linspace(0, 1, 400)
+        >>> round(correlation_dimension(np.stack([line, line], axis=1)), 1)
+        1.0
     """
     deviation = points.std(axis=0)
     if len(points) < 10 or not (deviation > 0).all():
@@ -102,7 +120,11 @@ def _scattered(bench: Bench) -> Claim:
         lines = tuple(f"{w}: {said(t, '')}" for w, t in zip(MAPS, taken, strict=True))
         answer = True if all(t.low > 0.01 for t in taken) else False if all(t.high < 0.01 for t in taken) else None
         findings[law] = Finding(lines, answer)
-    return claim("Fig. 17", "The map is scattered: the motion does not repeat (sd of vx above a hundredth of c r ω/L, what the clearance allows).", findings)
+    return claim(
+        "Fig. 17",
+        "The map is scattered: the motion does not repeat (sd of vx above a hundredth of c r ω/L, what the clearance allows).",
+        findings,
+    )
 
 
 def _dimension(bench: Bench) -> Claim:
@@ -110,13 +132,15 @@ def _dimension(bench: Bench) -> Claim:
     for law in LAWS:
         slopes = np.array([correlation_dimension(np.stack(p, axis=1)) for p in _points(bench, 0.1, law)])
         taken = estimate(slopes)
-        words = f"correlation dimension at 0.1 mm: {said(taken, '')}" if law == "paper" else f"of what is left of the spread: {said(taken, '')}"
+        words = (
+            f"correlation dimension at 0.1 mm: {said(taken, '')}" if law == "paper" else f"of what is left of the spread: {said(taken, '')}"
+        )
         findings[law] = Finding((words,), None)
     verdict = Verdict("cannot be told from 150 points; 2 would be a plane that is filled without structure", UNTOLD.kind)
-    return claim("4.7.1", "The points have \"certain fractal dimension characteristics\".", findings, verdict)
+    return claim("4.7.1", 'The points have "certain fractal dimension characteristics".', findings, verdict)
 
 
-def _map(bench: Bench, law: str, ax: Axes, clearance: float) -> None:
+def _map(bench: Bench, clearance: float, law: str, ax: Axes) -> None:
     x, vx = _points(bench, clearance, law)[0]
     ax.plot(1e9 * x, 1e3 * vx, ".", ms=4, color=colours[0], alpha=0.8)
     # A map that repeats is one dot in the room that the clearance leaves, not a magnified rounding error.

@@ -20,10 +20,32 @@ CARRIAGE_CLEARANCES = {"0.15 mm": "2", "0.22 mm": "0.22", "0.25 mm": "1"}
 """Carriages at 6 cm/s, by the difference of the widths."""
 
 AUDIT = ["energy_residual", "crank_work", "friction_loss", "damping_loss"]
-_CRANK = [*AUDIT, "peak_normal_force", "mean_normal_force", "mode_time", "contact_onsets", "peak_rod_angular_velocity",
-          "rms_rod_angular_velocity", "peak_acceleration", "rms_acceleration", "peak_tilt", "normal_force", "rod_angular_velocity"]
-_CARRIAGE = [*AUDIT, "peak_normal_force", "mode_time", "contact_onsets", "peak_acceleration", "rms_acceleration",
-             "peak_channel_acceleration", "acceleration_area", "acceleration_top", "acceleration_front"]
+_CRANK = [
+    *AUDIT,
+    "peak_normal_force",
+    "mean_normal_force",
+    "mode_time",
+    "contact_onsets",
+    "peak_rod_angular_velocity",
+    "rms_rod_angular_velocity",
+    "peak_acceleration",
+    "rms_acceleration",
+    "peak_tilt",
+    "normal_force",
+    "rod_angular_velocity",
+]
+_CARRIAGE = [
+    *AUDIT,
+    "peak_normal_force",
+    "mode_time",
+    "contact_onsets",
+    "peak_acceleration",
+    "rms_acceleration",
+    "peak_channel_acceleration",
+    "acceleration_area",
+    "acceleration_top",
+    "acceleration_front",
+]
 _DENSE = [*AUDIT, "mode_time", "peak_normal_force", "normal_force", "surfaces", "lines", "points"]
 
 
@@ -54,12 +76,30 @@ def _cranks(scale: Scale, law: str) -> list[Run]:
     runs = []
     for case, clearance in cases.items():
         scene = f"slider_crank_{case}.toml"
-        keys = {"contact.law": law, "study.revolutions": scale.revolutions, "study.samples_per_revolution": scale.crank_samples, "study.quantities": _CRANK}
+        keys = {
+            "contact.law": law,
+            "study.revolutions": scale.revolutions,
+            "study.samples_per_revolution": scale.crank_samples,
+            "study.quantities": _CRANK,
+        }
         start = name("crank", case, "start", law)
         runs.append(Run(start, scene, {**keys, "study.members": scale.members, "study.vary": starts(clearance)}))
         runs.append(Run(name("crank", case, "settled", law), scene, keys, after=start))
-    dense = {"contact.law": law, "study.revolutions": scale.dense_revolutions, "study.samples_per_revolution": scale.dense_samples, "study.quantities": _DENSE}
-    runs.append(Run(name("crank", "0.15mm", "dense", law), "slider_crank_0.15mm.toml", dense, name("crank", "0.15mm", "start", law), scale.dense_members))
+    dense = {
+        "contact.law": law,
+        "study.revolutions": scale.dense_revolutions,
+        "study.samples_per_revolution": scale.dense_samples,
+        "study.quantities": _DENSE,
+    }
+    runs.append(
+        Run(
+            name("crank", "0.15mm", "dense", law),
+            "slider_crank_0.15mm.toml",
+            dense,
+            name("crank", "0.15mm", "start", law),
+            scale.dense_members,
+        )
+    )
     return runs
 
 
@@ -68,15 +108,26 @@ def _carriages(scale: Scale, law: str) -> list[Run]:
     for case in dict.fromkeys([*CASES.values(), *CARRIAGE_CLEARANCES.values()]):
         own: dict[str, Any] = {"joint.clearance": "0.11 mm"} if case == "0.22" else {}
         scene = f"carriage_{case if case in CASES.values() else '1'}.toml"
-        keys = {**own, "contact.law": law, "study.revolutions": scale.carriage_revolutions, "study.samples_per_revolution": scale.carriage_samples, "study.quantities": _CARRIAGE}
+        keys = {
+            **own,
+            "contact.law": law,
+            "study.revolutions": scale.carriage_revolutions,
+            "study.samples_per_revolution": scale.carriage_samples,
+            "study.quantities": _CARRIAGE,
+        }
         start = name("carriage", case, "start", law)
         # Half the difference of the widths in Table 1 is the clearance per side.
         gap = {"1": 0.125, "2": 0.075, "3": 0.125, "4": 0.125, "0.22": 0.11}[case]
         runs.append(Run(start, scene, {**keys, "study.members": scale.carriages, "study.vary": starts(gap)}))
         runs.append(Run(name("carriage", case, "settled", law), scene, keys, after=start))
         if case in CASES.values():
-            dense = {**keys, "study.revolutions": None, "study.duration": 0.1 * scale.dense_revolutions, "study.samples_per_revolution": None,
-                     "study.samples": round(scale.dense_samples * scale.dense_revolutions) + 1}
+            dense = {
+                **keys,
+                "study.revolutions": None,
+                "study.duration": 0.1 * scale.dense_revolutions,
+                "study.samples_per_revolution": None,
+                "study.samples": round(scale.dense_samples * scale.dense_revolutions) + 1,
+            }
             runs.append(Run(name("carriage", case, "dense", law), scene, dense, start, scale.dense_members))
     return runs
 
@@ -84,15 +135,52 @@ def _carriages(scale: Scale, law: str) -> list[Run]:
 def _chaos(scale: Scale, law: str) -> list[Run]:
     runs = []
     for clearance in MAPS.values():
-        own = {"contact.law": law, "joint.clearance": f"{clearance:g} mm", "study.quantities": AUDIT, "study.vary": starts(clearance)}
-        runs.append(Run(name("map", crank(clearance), "settled", law), "poincare_0.1mm.toml", {
-            **own, "study.members": scale.maps, "study.transient_revolutions": scale.map_transient, "study.revolutions": scale.map_revolutions}))
-        runs.append(Run(name("exponent", crank(clearance), "settled", law), "lyapunov_0.1mm.toml", {
-            **own, "study.members": scale.exponents, "study.transient_revolutions": scale.exponent_transient,
-            "study.revolutions": scale.exponent_revolutions, "study.history": scale.exponent_history}))
-    series = {"contact.law": law, "study.revolutions": scale.series_revolutions, "study.samples_per_revolution": scale.series_samples,
-              "study.quantities": [*AUDIT, "x"]}
-    runs.append(Run(name("series", "0.1mm", "settled", law), "slider_crank_0.1mm.toml", series, name("crank", "0.1mm", "start", law), scale.series))
+        own = {
+            "contact.law": law,
+            "joint.clearance": f"{clearance:g} mm",
+            "study.quantities": AUDIT,
+            "study.vary": starts(clearance),
+        }
+        runs.append(
+            Run(
+                name("map", crank(clearance), "settled", law),
+                "poincare_0.1mm.toml",
+                {
+                    **own,
+                    "study.members": scale.maps,
+                    "study.transient_revolutions": scale.map_transient,
+                    "study.revolutions": scale.map_revolutions,
+                },
+            )
+        )
+        runs.append(
+            Run(
+                name("exponent", crank(clearance), "settled", law),
+                "lyapunov_0.1mm.toml",
+                {
+                    **own,
+                    "study.members": scale.exponents,
+                    "study.transient_revolutions": scale.exponent_transient,
+                    "study.revolutions": scale.exponent_revolutions,
+                    "study.history": scale.exponent_history,
+                },
+            )
+        )
+    series = {
+        "contact.law": law,
+        "study.revolutions": scale.series_revolutions,
+        "study.samples_per_revolution": scale.series_samples,
+        "study.quantities": [*AUDIT, "x"],
+    }
+    runs.append(
+        Run(
+            name("series", "0.1mm", "settled", law),
+            "slider_crank_0.1mm.toml",
+            series,
+            name("crank", "0.1mm", "start", law),
+            scale.series,
+        )
+    )
     return runs
 
 
@@ -104,4 +192,8 @@ def starts(clearance: float) -> dict[str, Any]:
         ends = (f"{-half:.6g} {unit}", f"{half:.6g} {unit}") if unit else (-half, half)
         return {"dist": "unif", "low": ends[0], "high": ends[1]}
 
-    return {"initial.y": even(place, "mm"), "initial.z": even(place, "mm"), **{f"initial.{axis}": even(tilt) for axis in ("roll", "yaw", "pitch")}}
+    return {
+        "initial.y": even(place, "mm"),
+        "initial.z": even(place, "mm"),
+        **{f"initial.{axis}": even(tilt) for axis in ("roll", "yaw", "pitch")},
+    }

@@ -20,7 +20,18 @@ if sys.version_info >= (3, 11):
 else:
     import tomli as tomllib
 
-UNITS = {"y": "m", "z": "m", "vy": "m/s", "vz": "m/s", "roll": "rad", "yaw": "rad", "pitch": "rad", "wx": "rad/s", "wy": "rad/s", "wz": "rad/s"}
+UNITS = {
+    "y": "m",
+    "z": "m",
+    "vy": "m/s",
+    "vz": "m/s",
+    "roll": "rad",
+    "yaw": "rad",
+    "pitch": "rad",
+    "wx": "rad/s",
+    "wy": "rad/s",
+    "wz": "rad/s",
+}
 """Of the states that a start has."""
 
 
@@ -140,4 +151,3 @@ def _starts(result: xr.Dataset, members: int | None) -> str:
     lines = [",".join(f"initial.{name} [{UNITS[name]}]" for name in UNITS)]
     lines += [",".join(f"{value:.17g}" for value in row) for row in zip(*columns, strict=True)]
     return "\n".join(lines) + "\n"
-

@@ -59,10 +59,15 @@ class Section:
 
 @dataclass(frozen=True)
 class Bench:
-    """The results, by what they are of."""
+    """The results, by what they are of.
+
+    Attributes:
+        shares: by law, of the drive's work that the law made, each time an audit was asked for.
+    """
 
     laboratory: Laboratory
     scale: Scale
+    shares: dict[str, list[float]] = field(default_factory=lambda: {law: [] for law in LAWS})
 
     def result(self, family: str, case: str, stage: str, law: str) -> xr.Dataset:
         """A result.
@@ -76,13 +81,15 @@ class Bench:
         """A quantity of each member, in SI units; NaN of one that failed.
 
         Args:
-            entry: label of the entry of a quantity with several: "top", "z" ...
+            entry: label of the entry of a quantity with several: "top", "z" ...; left out: the first.
         """
         result = self.result(family, case, stage, law)
         data = result[quantity]
         if entry is not None:
             (dimension,) = (d for d in data.dims if d != "member")
             data = data.sel({dimension: entry})
+        elif data.ndim > 1:
+            data = data.isel({d: 0 for d in data.dims if d != "member"})
         return np.where(slideway.finished(result).values, np.asarray(data.values, dtype=float), np.nan)
 
     def series(self, family: str, case: str, stage: str, law: str, variable: str) -> np.ndarray:
@@ -104,10 +111,22 @@ class Bench:
                 made = self.values(family, case, stage, law, "energy_residual") / revolutions
                 work = self.values(family, case, stage, law, "crank_work") / revolutions
                 share = estimate(made).mean / estimate(work).mean
-                row += [f"{_scientific(made)} J", f"{plus_minus(*_pair(work))} J", f"{100 * share:.2g} %"]
+                self.shares[law].append(share)
+                row += [
+                    f"{plus_minus(*_pair(made))} J",
+                    f"{plus_minus(*_pair(work))} J",
+                    f"{100 * share:.2g} %" if abs(share) > 1e-4 else "below 0.01 %",
+                ]
             rows.append(row)
-        header = ["energy audit, a revolution", *(f"{LAW_WORDS[law]}: {what}" for law in LAWS for what in ("energy made", "drive's work", "share"))]
-        return Table("Energy that the contact law made out of nothing (the residual ε of the audit), beside the work of the drive.", header, rows)
+        header = [
+            "energy audit, a revolution",
+            *(f"{LAW_WORDS[law]}: {what}" for law in LAWS for what in ("energy made", "drive's work", "share")),
+        ]
+        return Table(
+            "Energy that the contact law made out of nothing (the residual ε of the audit), beside the work of the drive.",
+            header,
+            rows,
+        )
 
 
 def draw(caption: str, painter: Callable[[str, Axes], None], height: float = 3.9) -> Figure:
@@ -136,6 +155,7 @@ def _pair(values: np.ndarray) -> tuple[float, float]:
     return taken.mean, taken.half_width
 
 
-def _scientific(values: np.ndarray) -> str:
-    mean, half = _pair(values)
-    return plus_minus(mean, half)
+def wide_scale(ax: Axes, values: np.ndarray) -> None:
+    """A logarithmic axis where there are more than two decades to show."""
+    if values.size and values.max() > 100 * values.min():
+        ax.set_yscale("log")

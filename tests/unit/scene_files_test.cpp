@@ -25,6 +25,7 @@ constexpr Case cases[] = {
     {"slider_crank_0.08mm.toml", 0.08e-3, pi, "Fig. 17a"},
     {"slider_crank_0.1mm.toml", 0.1e-3, pi, "Figs. 13a"},
     {"slider_crank_0.15mm.toml", 0.15e-3, pi, "Fig. 11"},
+    {"slider_crank_0.22mm.toml", 0.22e-3, pi, "Fig. 15"},
     {"slider_crank_0.3mm.toml", 0.3e-3, pi, "Fig. 17c"},
     {"slider_crank_0.5mm.toml", 0.5e-3, pi, "Figs. 13b"},
     {"slider_crank_0.1mm_1.22pi.toml", 0.1e-3, 1.22 * pi, "Figs. 13c"},

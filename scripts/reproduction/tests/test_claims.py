@@ -26,8 +26,13 @@ def test_verdict_is_that_of_both_laws(paper: bool | None, conservative: bool | N
 
 
 def test_growth_under_one_law_alone_is_the_laws() -> None:
-    found = growth("Fig. 0", "It grows.", ["small", "large"],
-                   {"paper": [around(1, 0.1), around(2, 0.1)], "conservative": [around(1, 0.01), around(1, 0.01)]}, "N")
+    found = growth(
+        "Fig. 0",
+        "It grows.",
+        ["small", "large"],
+        {"paper": [around(1, 0.1), around(2, 0.1)], "conservative": [around(1, 0.01), around(1, 0.01)]},
+        "N",
+    )
     assert found.verdict.words == "holds only under the paper's law"
     assert found.findings["paper"].lines[0] == "small: 1.000 ± 0.032 N"  # t = 2.0227 of 39, 0.1/sqrt(40)
     assert "+100.0 ± 4.5 %" in found.findings["paper"].lines[-1]
@@ -40,13 +45,13 @@ def test_what_does_not_move_does_not_grow() -> None:
     still = growth("Fig. 0", "It grows.", ["a", "b"], {"paper": quiet, "conservative": quiet}, "m", floor=1e-7)
     assert moving.verdict.words == "holds"
     assert still.verdict.words == "does not hold"
-    assert still.findings["paper"].lines[-1] == "nothing moves: all below 1e-07 m"
+    assert still.findings["paper"].lines[-1] == "nothing moves in 100 % of the starts at least: below 1e-07 m"
 
 
 def test_numbers_have_the_digits_of_their_intervals() -> None:
     assert plus_minus(684.52, 103.2) == "680 ± 100"
-    assert plus_minus(-0.04512, 0.0031) == "-0.0451 ± 0.0031"
-    assert plus_minus(1.234e-7, 2e-9) == "(1.234 ± 0.020)e-7"
+    assert plus_minus(-0.04512, 0.0031) == "−0.0451 ± 0.0031"
+    assert plus_minus(1.234e-7, 2e-9) == "(1.234 ± 0.020)·10⁻⁷"
     assert plus_minus(2.0, np.nan) == "2"
     assert plus_minus(np.nan, 1.0) == "no number"
     assert percent(-0.5, 0.013) == "−50.0 ± 1.3 %"

@@ -7,8 +7,12 @@ from reproduction.plan import plan
 from reproduction.runs import Laboratory, Missing, Run
 from reproduction.scale import SCALES
 
-KEYS = {"study.members": 3, "study.revolutions": 0.005, "study.samples_per_revolution": 2000,
-        "study.vary": {"initial.y": {"dist": "unif", "low": -1e-5, "high": 1e-5}}}
+KEYS = {
+    "study.members": 3,
+    "study.revolutions": 0.005,
+    "study.samples_per_revolution": 2000,
+    "study.vary": {"initial.y": {"dist": "unif", "low": -1e-5, "high": 1e-5}},
+}
 
 
 @pytest.fixture
@@ -21,7 +25,10 @@ def laboratory(scenes: Path, folder: Path, said: list[str]) -> Laboratory:
 
 
 def test_a_result_of_the_same_scene_is_not_made_again(scenes: Path, tmp_path: Path, said: list[str]) -> None:
-    first, other = Run("one", "slider_crank_0.1mm.toml", KEYS), Run("one", "slider_crank_0.1mm.toml", {**KEYS, "study.members": 2})
+    first, other = (
+        Run("one", "slider_crank_0.1mm.toml", KEYS),
+        Run("one", "slider_crank_0.1mm.toml", {**KEYS, "study.members": 2}),
+    )
     laboratory(scenes, tmp_path, said).make([first])
     made = (tmp_path / "one.nc").stat().st_mtime_ns
     laboratory(scenes, tmp_path, said).make([first])
@@ -34,7 +41,12 @@ def test_a_result_of_the_same_scene_is_not_made_again(scenes: Path, tmp_path: Pa
 
 def test_a_run_goes_on_from_where_another_ended(scenes: Path, tmp_path: Path, said: list[str]) -> None:
     bench = laboratory(scenes, tmp_path, said)
-    bench.make([Run("one", "slider_crank_0.1mm.toml", KEYS), Run("two", "slider_crank_0.1mm.toml", {**KEYS, "study.vary": None}, after="one", members=2)])
+    bench.make(
+        [
+            Run("one", "slider_crank_0.1mm.toml", KEYS),
+            Run("two", "slider_crank_0.1mm.toml", {**KEYS, "study.vary": None}, after="one", members=2),
+        ]
+    )
     assert not bench.failures
     assert bench.result("two").sizes["member"] == 2
     for state in ("y", "vz", "pitch", "wx"):
@@ -43,8 +55,13 @@ def test_a_run_goes_on_from_where_another_ended(scenes: Path, tmp_path: Path, sa
 
 def test_a_run_that_fails_stops_no_other(scenes: Path, tmp_path: Path, said: list[str]) -> None:
     bench = laboratory(scenes, tmp_path, said)
-    bench.make([Run("bad", "slider_crank_0.1mm.toml", {"joint.clearance": "-1 mm"}), Run("after", "slider_crank_0.1mm.toml", KEYS, after="bad"),
-                Run("good", "slider_crank_0.1mm.toml", KEYS)])
+    bench.make(
+        [
+            Run("bad", "slider_crank_0.1mm.toml", {"joint.clearance": "-1 mm"}),
+            Run("after", "slider_crank_0.1mm.toml", KEYS, after="bad"),
+            Run("good", "slider_crank_0.1mm.toml", KEYS),
+        ]
+    )
     assert set(bench.failures) == {"bad", "after"}
     assert "clearance" in bench.failures["bad"]
     assert bench.result("good").sizes["member"] == 3
