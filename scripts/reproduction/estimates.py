@@ -116,7 +116,7 @@ def grows(columns: list[np.ndarray], margin: float = MARGIN) -> bool | None:
 
 def _finite(values: np.ndarray) -> np.ndarray:
     flat = np.asarray(values, dtype=float).ravel()
-    return flat[np.isfinite(flat)]
+    return np.asarray(flat[np.isfinite(flat)])
 
 
 @dataclass(frozen=True)

@@ -10,9 +10,9 @@ import slideway
 from matplotlib.axes import Axes
 from slideway.plot.style import colours, finish
 
-from .claims import LAW_WORDS, LAWS, UNTOLD, Claim, Finding, Verdict, claim, said
+from .claims import LAW_WORDS, LAWS, UNTOLD, Claim, Finding, Verdict, claim, plus_minus, said
 from .estimates import estimate, share
-from .plan import MAPS, crank, name
+from .plan import MAPS, crank
 from .sections import Bench, Section, Table, draw
 
 Series = list[tuple[slideway.SeriesStatistics, Union[slideway.SeriesStatistics, None]]]
@@ -47,7 +47,7 @@ def section(bench: Bench) -> Section:
         row = [words]
         for law in LAWS:
             values = _exponents(bench, c, law)
-            row += [said(estimate(values), ""), said(estimate(values), "", PERIOD), f"{np.nanmedian(values):.3g}"]
+            row += [said(estimate(values), ""), said(estimate(values), "", PERIOD), plus_minus(float(np.nanmedian(values)), np.nan)]
         rows.append(row)
     columns = ("λ₁ [1/s]", "λ₁ a revolution", "median [1/s]")
     revolutions = bench.scale.exponent_transient + bench.scale.exponent_revolutions

@@ -45,8 +45,8 @@ class Scale:
 
 
 FULL = Scale(
-    members=48,
-    carriages=24,
+    members=64,
+    carriages=48,
     dense_members=8,
     dense_samples=20000,
     dense_revolutions=1,

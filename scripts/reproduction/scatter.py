@@ -181,7 +181,7 @@ def _sd(axis: str) -> Quantity:
 
 def _highest(bench: Bench, case: str, window: str, law: str) -> np.ndarray:
     """Rise above the way's lower side, where y = −c [m]: what a peak adds to lying still."""
-    return bench.series("crank", case, window, law, "y").max(axis=1) + GAPS[case]
+    return np.asarray(bench.series("crank", case, window, law, "y").max(axis=1) + GAPS[case])
 
 
 def _peak(bench: Bench, case: str, window: str, law: str) -> np.ndarray:
@@ -189,7 +189,7 @@ def _peak(bench: Bench, case: str, window: str, law: str) -> np.ndarray:
 
 
 def _fluctuation(bench: Bench, case: str, window: str, law: str) -> np.ndarray:
-    return MASS * np.hypot(*(bench.values("crank", case, window, law, "rms_acceleration", along) for along in ("y", "z")))
+    return np.asarray(MASS * np.hypot(*(bench.values("crank", case, window, law, "rms_acceleration", along) for along in ("y", "z"))))
 
 
 def _orbit(bench: Bench, case: str, law: str, ax: Axes) -> None:

@@ -16,7 +16,7 @@ import slideway
 import xarray as xr
 from matplotlib.axes import Axes
 
-from .claims import LAW_WORDS, LAWS, Claim, plus_minus
+from .claims import LAW_WORDS, LAWS, Claim, said
 from .estimates import estimate
 from .plan import name
 from .runs import Laboratory, Missing
@@ -108,23 +108,23 @@ class Bench:
         for words, case in cases:
             row = [words]
             for law in LAWS:
-                made = self.values(family, case, stage, law, "energy_residual") / revolutions
-                work = self.values(family, case, stage, law, "crank_work") / revolutions
+                made, work, seconds = (
+                    self.values(family, case, stage, law, name) for name in ("energy_residual", "crank_work", "end_time")
+                )
                 share = estimate(made).mean / estimate(work).mean
                 self.shares[law].append(share)
+                turn = 1e3 / revolutions
                 row += [
-                    f"{plus_minus(*_pair(made))} J",
-                    f"{plus_minus(*_pair(work))} J",
+                    said(estimate(turn * made), ""),
+                    said(estimate(1e3 * made / seconds), ""),
+                    said(estimate(turn * work), ""),
                     f"{100 * share:.2g} %" if abs(share) > 1e-4 else "below 0.01 %",
                 ]
             rows.append(row)
-        header = [
-            "energy audit, a revolution",
-            *(f"{LAW_WORDS[law]}: {what}" for law in LAWS for what in ("energy made", "drive's work", "share")),
-        ]
+        columns = ("made [mJ a turn]", "made [mJ/s]", "drive's work [mJ a turn]", "share")
         return Table(
             "Energy that the contact law made out of nothing (the residual ε of the audit), beside the work of the drive.",
-            header,
+            ["energy audit", *(f"{LAW_WORDS[law]}: {what}" for law in LAWS for what in columns)],
             rows,
         )
 
@@ -148,11 +148,6 @@ def draw(caption: str, painter: Callable[[str, Axes], None], height: float = 3.9
         finally:
             plt.close(figure)
     return Figure(caption, images)
-
-
-def _pair(values: np.ndarray) -> tuple[float, float]:
-    taken = estimate(values)
-    return taken.mean, taken.half_width
 
 
 def wide_scale(ax: Axes, values: np.ndarray) -> None:
