@@ -180,14 +180,15 @@ try:
 except KeyboardInterrupt as stop:
     print(type(stop.__cause__).__name__, stop.__cause__.code, int(slideway.finished(stop.__cause__.dataset).sum()) > 0)
 """
-    python = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    python = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                              start_new_session=True)
     assert python.stderr is not None and python.stdout is not None
     for line in python.stderr:  # it says that it has begun
         if line.startswith("memory"):
             break
     time.sleep(1.5)
     began = time.monotonic()
-    python.send_signal(signal.SIGINT)
+    os.killpg(python.pid, signal.SIGINT)  # as a terminal does: to the whole group
     out, _ = python.communicate(timeout=30)
     assert out.split() == ["StoppedEarly", "5", "True"]
     assert time.monotonic() - began < 20
