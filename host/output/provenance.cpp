@@ -4,7 +4,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <fstream>
 #include <system_error>
+#include <thread>
 
 #include <fmt/chrono.h>
 
@@ -13,6 +15,22 @@
 #include "host/scene/fnv1a.hpp"
 
 namespace slideway {
+
+namespace {
+
+/// The first value of a key of /proc/cpuinfo; "unknown" without it.
+std::string cpu_info(std::string const& key) {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        auto const colon = line.find(": ");
+        if (colon != std::string::npos && line.substr(0, line.find_last_not_of(" \t", colon - 1) + 1) == key) {
+            return line.substr(colon + 2);
+        }
+    }
+    return "unknown";
+}
+
+}  // namespace
 
 std::string build_of(std::string const& commit, std::string const& program) {
     if (!commit.ends_with("-dirty") && commit != "unknown") return commit;
@@ -25,6 +43,12 @@ BuildInfo const& build_info() {
 }
 
 std::string BuildInfo::text() const { return fmt::format("slideway {}, commit {}, {}", version, commit, compiler); }
+
+std::string cpu_name() {
+    return fmt::format("{}, family {} model {}", cpu_info("model name"), cpu_info("cpu family"), cpu_info("model"));
+}
+
+std::string machine_name() { return fmt::format("{} ({} threads)", cpu_name(), std::thread::hardware_concurrency()); }
 
 std::string creation_time() {
     std::time_t seconds = std::time(nullptr);
