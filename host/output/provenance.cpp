@@ -5,13 +5,15 @@
 #include <cstring>
 #include <ctime>
 #include <fstream>
+#include <string_view>
 #include <system_error>
 #include <thread>
+#include <vector>
 
 #include <fmt/chrono.h>
 
 #include "host/output/commit.hpp"
-#include "host/output/durable_file.hpp"
+#include "host/scene/error.hpp"
 #include "host/scene/fnv1a.hpp"
 
 namespace slideway {
@@ -30,11 +32,24 @@ std::string cpu_info(std::string const& key) {
     return "unknown";
 }
 
+/// Piece by piece: a program is larger than many a run.
+std::uint64_t checksum_of(std::string const& program) {
+    std::ifstream file(program, std::ios::binary);
+    Fnv1a hash;
+    std::vector<char> piece(1 << 16);
+    while (file) {
+        file.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+        hash.add(std::string_view(piece.data(), static_cast<std::size_t>(file.gcount())));
+    }
+    if (!file.eof()) throw FileError(fmt::format("{}: cannot be read", program));
+    return hash.value();
+}
+
 }  // namespace
 
 std::string build_of(std::string const& commit, std::string const& program) {
     if (!commit.ends_with("-dirty") && commit != "unknown") return commit;
-    return fmt::format("{}-{:016x}", commit, fnv1a(read_bytes(program)));
+    return fmt::format("{}-{:016x}", commit, checksum_of(program));
 }
 
 BuildInfo const& build_info() {
