@@ -5,7 +5,6 @@
 
 namespace slideway {
 
-std::string cpu_name();           // "AMD EPYC, family 26 model 2", as the kernel names it
 std::string card_driver();        // "535.104.05", of cards that CUDA knows
 std::string machine_and_build();  // Markdown lines: CPU, compiler, commit, date
 

@@ -32,8 +32,8 @@ int info(InfoArguments const& arguments) {
     bool const intact = computed == results.stored_hash();
 
     print_field("file", arguments.path);
-    for (char const* const name : {"title", "created", "version", "commit", "compiler", "flags", "backend", "isa",
-                                   "threads", "seed", "completeness"}) {
+    for (char const* const name : {"title", "created", "version", "commit", "compiler", "flags", "machine", "backend",
+                                   "isa", "threads", "seed", "completeness"}) {
         print_field(name, results.attribute(name));
     }
     print_field("payload", intact ? fmt::format("{}: matches the data", computed)

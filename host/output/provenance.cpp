@@ -4,19 +4,52 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <fstream>
+#include <string_view>
 #include <system_error>
+#include <thread>
+#include <vector>
 
 #include <fmt/chrono.h>
 
 #include "host/output/commit.hpp"
-#include "host/output/durable_file.hpp"
+#include "host/scene/error.hpp"
 #include "host/scene/fnv1a.hpp"
 
 namespace slideway {
 
+namespace {
+
+/// The first value of a key of /proc/cpuinfo; "unknown" without it.
+std::string cpu_info(std::string const& key) {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        auto const colon = line.find(": ");
+        if (colon != std::string::npos && line.substr(0, line.find_last_not_of(" \t", colon - 1) + 1) == key) {
+            return line.substr(colon + 2);
+        }
+    }
+    return "unknown";
+}
+
+/// Piece by piece: a program is larger than many a run.
+std::uint64_t checksum_of(std::string const& program) {
+    std::ifstream file(program, std::ios::binary);
+    Fnv1a hash;
+    std::vector<char> piece(1 << 16);
+    while (file) {
+        file.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+        hash.add(std::string_view(piece.data(), static_cast<std::size_t>(file.gcount())));
+    }
+    if (!file.eof()) throw FileError(fmt::format("{}: cannot be read", program));
+    return hash.value();
+}
+
+}  // namespace
+
 std::string build_of(std::string const& commit, std::string const& program) {
     if (!commit.ends_with("-dirty") && commit != "unknown") return commit;
-    return fmt::format("{}-{:016x}", commit, fnv1a(read_bytes(program)));
+    return fmt::format("{}-{:016x}", commit, checksum_of(program));
 }
 
 BuildInfo const& build_info() {
@@ -25,6 +58,12 @@ BuildInfo const& build_info() {
 }
 
 std::string BuildInfo::text() const { return fmt::format("slideway {}, commit {}, {}", version, commit, compiler); }
+
+std::string cpu_name() {
+    return fmt::format("{}, family {} model {}", cpu_info("model name"), cpu_info("cpu family"), cpu_info("model"));
+}
+
+std::string machine_name() { return fmt::format("{} ({} threads)", cpu_name(), std::thread::hardware_concurrency()); }
 
 std::string creation_time() {
     std::time_t seconds = std::time(nullptr);

@@ -31,6 +31,9 @@ struct Provenance {
     int threads = 1;
 };
 
+std::string cpu_name();      // "AMD EPYC, family 26 model 2", as the kernel names it; "unknown" for what it does not
+std::string machine_name();  // that and its threads
+
 /// Now, or SOURCE_DATE_EPOCH (seconds since 1970) where the environment sets it: `2024-05-01T12:00:00Z`.
 std::string creation_time();
 

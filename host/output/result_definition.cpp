@@ -33,6 +33,7 @@ void put_provenance(NetcdfFile& file, Provenance const& provenance) {
     attribute("flags", provenance.flags);
     attribute("backend", provenance.backend);
     attribute("isa", provenance.isa);
+    attribute("machine", machine_name());
     file.put_number(NetcdfFile::global, "threads", provenance.threads);
     attribute("seed", fmt::format("{}", provenance.seed));  // CF-1.8 has no 64-bit integers
     attribute("created", creation_time());

@@ -128,12 +128,43 @@ TEST(Observer, IntegrandsAreThoseOfTheTable) {
     EXPECT_EQ(values[4], 49);
     EXPECT_EQ(values[5], 121);
     EXPECT_EQ(values[6], 169);
-    for (int apex = 0; apex < 8; ++apex) EXPECT_EQ(values[7 + apex], apex_forces[apex]) << apex;
-    EXPECT_EQ(values[15], 2);
+    EXPECT_EQ(values[7], 2);
+    for (int apex = 0; apex < 8; ++apex) EXPECT_EQ(values[8 + apex], apex_forces[apex]) << apex;
     using Switching = SliderObserver<double, false>;
     double more[Switching::integrals];
     Switching::integrands(busy(), more);
-    EXPECT_EQ(more[Switching::integrals - 1], 19) << "the springs' power";
+    EXPECT_EQ(more[Switching::lean_integrals - 1], 19) << "the springs' power";
+}
+
+TEST(Observer, AccelerationsArePeaksSquaresAndAreas) {
+    auto const with = [](double ax, double ay, double az, double top, double front) {
+        auto r = with_energy(0);
+        r.acceleration = {ax, ay, az};
+        r.top = top;
+        r.front = front;
+        return r;
+    };
+    double values[Observer::integrals];
+    Observer::acceleration_integrands(with(2, -3, 5, -7, 11), values);
+    EXPECT_EQ(std::vector<double>(values + Observer::lean_integrals, values + Observer::integrals),
+              (std::vector<double>{4, 9, 25, 7, 11}));
+
+    Watched watched;
+    watched.start(with(1, 0, 0, 0, 0));
+    std::vector<double> means(Observer::integrals, 0.0);
+    for (int i = 0; i < 5; ++i) means[static_cast<std::size_t>(Observer::lean_integrals + i)] = i + 1;
+    watched.step(2, with(-3, 2, 0, 5, -6), {}, means);
+    watched.step(2, with(2, -4, 1, -1, 2), {}, means);
+    watched.finish(4);
+    double const peaks[] = {3, 4, 1};
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(watched(Quantity::peak_acceleration, i), peaks[i]);
+        EXPECT_EQ(watched(Quantity::rms_acceleration, i), std::sqrt(i + 1.0));
+    }
+    EXPECT_EQ(watched(Quantity::peak_channel_acceleration, 0), 5);
+    EXPECT_EQ(watched(Quantity::peak_channel_acceleration, 1), 6);
+    EXPECT_EQ(watched(Quantity::acceleration_area, 0), 4 * 4);
+    EXPECT_EQ(watched(Quantity::acceleration_area, 1), 4 * 5);
 }
 
 TEST(Observer, MeansAndSumsAreIntegralsOfTheSteps) {
@@ -155,7 +186,7 @@ TEST(Observer, MeansAndSumsAreIntegralsOfTheSteps) {
     EXPECT_EQ(watched(Quantity::rms_position_error), std::sqrt(42 / 4.0));
     EXPECT_EQ(watched(Quantity::rms_rod_angular_velocity), std::sqrt(49 / 4.0));
     for (int apex = 0; apex < 8; ++apex)
-        EXPECT_EQ(watched(Quantity::mean_apex_force, apex), 7 * (8 + apex) / 4.0) << apex;
+        EXPECT_EQ(watched(Quantity::mean_apex_force, apex), 7 * (9 + apex) / 4.0) << apex;
 }
 
 /// E and U at the end of a step, and the first of the apices that touch.
@@ -170,9 +201,9 @@ Report with_contact(double energy, double potential, int apices) {
 
 /// Means of a step whose springs took up `taken_up` and which lost `loss` to friction.
 std::vector<double> audit_means(double taken_up, double loss) {
-    std::vector<double> means(17, 0.0);
+    std::vector<double> means(SliderObserver<double, false>::integrals, 0.0);
     means[1] = loss;
-    means[16] = taken_up;
+    means[static_cast<std::size_t>(SliderObserver<double, false>::lean_integrals - 1)] = taken_up;
     return means;
 }
 

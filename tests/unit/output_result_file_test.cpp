@@ -113,6 +113,8 @@ TEST_F(ResultFile, SaysWhereItComesFrom) {
     EXPECT_EQ(results.attribute("threads"), "3");
     EXPECT_EQ(results.attribute("created"), "1970-01-02T00:00:00Z");
     EXPECT_EQ(results.attribute("completeness"), "complete");
+    std::string const threads = " (" + std::to_string(std::thread::hardware_concurrency()) + " threads)";
+    EXPECT_TRUE(results.attribute("machine").ends_with(threads)) << results.attribute("machine");
     for (char const* const name : {"version", "commit", "compiler"}) EXPECT_NE(results.attribute(name), "") << name;
 }
 

@@ -79,18 +79,21 @@ TEST(Samples, AreTheStatesOfRunsThatEndThere) {
 TEST(Samples, BeyondTheEndOfAMemberAreMissing) {
     auto const members = soft_members(11);
     auto o = options_of(1e-6, 0.02);
-    o.series = (Selection(1) << series_count) - 1;
+    o.series = info(o.parts.mechanism).series;
     for (int i = 0; i <= 400; ++i) o.sample_times.push_back(5e-5 * i);
     o.settings.max_steps = 60;
     auto const r = testing::run(best_isa(), o, members);
     for (std::size_t m = 0; m < members.size(); ++m) {
         EXPECT_EQ(r.records[m].status, Status::max_steps);
-        for (std::size_t row = 0; row < series_count; ++row) {
+        std::size_t row = 0;
+        for (int series = 0; series < series_count; ++series) {
+            if (!selects(o.series, static_cast<Series>(series))) continue;
             for (std::size_t i = 0; i < o.sample_times.size(); ++i) {
                 bool const reached = o.sample_times[i] <= r.records[m].time;
                 EXPECT_EQ(std::isfinite(series_value(r, members.size(), o.sample_times.size(), row, m, i)), reached)
-                    << "member " << m << " " << series_table[row].name << " sample " << i;
+                    << "member " << m << " " << series_table[series].name << " sample " << i;
             }
+            ++row;
         }
     }
 }

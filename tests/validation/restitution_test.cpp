@@ -22,8 +22,8 @@ double returned(Law law, double e, double speed, double exponent, Mechanism mech
     testing::RunOptions options;
     options.parts = {law, Damping::restitution, false, false, mechanism};
     options.settings.rtol = options.settings.atol = 1e-8;
-    options.settings.end_time = 3e-4 / speed;
-    options.settings.max_step = options.settings.end_time / 50;
+    options.settings.end_time = 6e-4 / speed;
+    options.settings.max_step = options.settings.end_time / 100;
     auto const r = testing::run(best_isa(), options, {complete_inputs(in)});
     EXPECT_EQ(r.records[0].status, Status::finished);
     EXPECT_EQ(r.value(0, Quantity::contact_onsets), 1);

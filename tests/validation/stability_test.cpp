@@ -210,10 +210,12 @@ TEST(AdaptiveMethods, AreNeverAccused) {
 TEST(Scenes, AreNeverAccused) {
     for (auto const& entry : std::filesystem::directory_iterator(SLIDEWAY_SCENES)) {
         if (entry.path().extension() != ".toml") continue;
-        for (char const* const law : {"paper", "conservative"}) {
-            for (char const* const method : {"auto", "dopri5"}) {
-                Scene const scene =
-                    read_scene(entry.path().string(), {{"contact.law", law}, {"integrator.method", method}});
+        bool const spatial = info(read_scene(entry.path().string()).parts.mechanism).spatial;
+        for (std::string const law : {"paper", "conservative"}) {
+            for (std::string const method : {"auto", "dopri5"}) {
+                Overrides overrides{{"integrator.method", method}};
+                if (spatial) overrides.emplace_back("contact.law", law);  // a plane has no faces
+                Scene const scene = read_scene(entry.path().string(), overrides);
                 testing::RunOptions o;
                 o.parts = scene.parts;
                 o.settings = scene.integrator;
