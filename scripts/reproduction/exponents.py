@@ -34,7 +34,7 @@ def section(bench: Bench) -> Section:
     page.claims = [_by_neighbours(bench, c) for c in MAPS.values()] + [_by_series(series), _by_line(series)] + _embedding(series)
     page.figures = [
         draw(
-            "How the exponent settles, 0.1 mm: mean and 90 % of the starts.",
+            "How the exponent settles, 0.1 mm; linear within ±0.1 1/s, logarithmic beyond.",
             lambda law, ax: _history(bench, law, ax),
         ),
         draw(

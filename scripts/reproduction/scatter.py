@@ -35,7 +35,7 @@ def positions(bench: Bench) -> Section:
         "Fig. 13: the slider's place",
         [
             "Larger clearance and higher speed are said to make the slider's place scatter more. Scatter is the standard deviation over time of y "
-            "(vertical) and z (lateral). Of larger clearance that alone says little, for there is more room: the table has it in units of the clearance too.",
+            "(vertical) and z (lateral). Of larger clearance that alone says little, for there is more room: the table has it in units of the clearance too. Under the conservative law the highest place of a start is that where it starts.",
         ],
     )
     _add(
