@@ -11,7 +11,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// A `Model` states, for `Real` a number or a pack of them:
 ///  - `Inputs` (plain numbers of one member), `size` (of the state), `parameters(inputs)` and `initial_state(inputs, state)`, in double;
 ///  - `Parameters<Real>`, `Report<Real>` (what a state tells beside its derivative), `Memory<Real>` (what events leave behind) and
-///    `Watch<Real>` (what finds them), which hold Reals only, and `Observer<Real>` (quantities on the way);
+///    `Watch<Real>` (what finds them), which hold Reals only, and `Observer<Real>` (quantities on the way), also `Accelerations<Real>` where those may be asked for;
 ///  - `derivative<Full>(t, state, parameters, memory, rates, report)`, which fills the report if Full and returns `Faults`;
 ///  - `series`: how many columns a sample may have, the state first, or where `state_of_series(series)` says; `has_memory` or `can_hold`: the report then has a `contact`, and the
 ///    watch `begin`, `earliest`, `update` and `keep` (kernels/steppers/touch.hpp), `touch_scale(parameters)` being its length;

@@ -4,6 +4,7 @@
 
 #include "kernels/block.hpp"
 #include "kernels/lane_copy.hpp"
+#include "kernels/observers/acceleration_record.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -17,6 +18,17 @@ template <class Real> struct ResetHistory {
     Real in_row;  // how many followed one another at once
 };
 struct NoResets {};
+
+/// Whether a model's accelerations may be asked for: it names an `Accelerations<Real>`.
+template <class Model> inline constexpr bool has_accelerations = requires {
+    typename Model::template Accelerations<double>;
+};
+template <class Model, class Real> struct AccelerationsOf { using Type = NoAccelerations; };
+template <class Model, class Real>
+requires has_accelerations<Model>
+struct AccelerationsOf<Model, Real> {
+    using Type = typename Model::template Accelerations<Real>;
+};
 struct NoShadows {};
 
 /// What a member has on account of its shadows.
@@ -67,6 +79,9 @@ template <class Model, class Real> struct MemberState {
         Real integrand[room(Observer::integrals)];  // at the start of the next step
     };
 
+    /// Present where accelerations are asked for.
+    using Accelerations = typename AccelerationsOf<Model, Real>::Type;
+
     /// What of its course a copy of the member has for itself.
     struct Shadow {
         Real y[Model::size], rates[Model::size];
@@ -79,6 +94,7 @@ template <class Model, class Real> struct MemberState {
     Constants constants;
     Course course;
     Observation observation;
+    [[no_unique_address]] Accelerations accelerations;
     [[no_unique_address]] std::conditional_t<Model::has_shadows, Shadow[most_shadows], NoShadows> shadows;
 };
 

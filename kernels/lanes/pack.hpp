@@ -11,7 +11,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 struct ReportNeeds {
     bool quantities = false;     // the observer is at work
     bool stages = false;         // at every stage, for integrals
-    bool accelerations = false;  // the integrals of accelerations too
+    bool accelerations = false;  // their record is at work
     bool audit = false;          // the audit's integrals meet the tolerance too
     bool watch = false;          // steps end at touches or where the contacts change
     bool ends = false;           // at the accepted steps
@@ -21,7 +21,11 @@ struct ReportNeeds {
         ReportNeeds needs;
         needs.quantities = quantities != 0;
         needs.stages = Observer::needs_stages(quantities);
-        needs.accelerations = Observer::needs_accelerations(quantities);
+        if constexpr (has_accelerations<Model>) {
+            using Accelerations = typename Model::template Accelerations<Real>;
+            needs.accelerations = (quantities & Accelerations::quantities) != 0;
+            needs.stages = needs.stages || Accelerations::needs_stages(quantities);
+        }
         needs.audit = Observer::audits(quantities);
         needs.watch = Model::has_memory || (Model::can_hold && locate_modes);
         needs.ends = needs.stages || Observer::needs_reports(quantities) || needs.watch;
@@ -79,7 +83,10 @@ template <class Model, class Real> struct Pack {
     /// Begins the integrals over the step with the stage at its start.
     SLIDEWAY_HD void begin_integrals(double b, double e) {
         if (!needs.stages) return;
-        for_each_integral([&](int i) { integral[i] = Real(b) * state.observation.integrand[i]; });
+        for (int i = 0; i < Observer::integrals; ++i) integral[i] = Real(b) * state.observation.integrand[i];
+        if constexpr (has_accelerations<Model>) {
+            if (needs.accelerations) state.accelerations.begin_step(b);
+        }
         for (int i = 0; i < Observer::audit_integrals; ++i) audit_error[i] = Real(e) * state.observation.integrand[i];
     }
 
@@ -87,8 +94,11 @@ template <class Model, class Real> struct Pack {
     SLIDEWAY_HD void add_integrands(double b, double e) {
         if (!needs.stages || (b == 0 && e == 0)) return;
         Real values[room(Observer::integrals)];
-        read_integrands(values);
-        for_each_integral([&](int i) { integral[i] = fma(Real(b), values[i], integral[i]); });
+        Observer::integrands(end_report, values);
+        for (int i = 0; i < Observer::integrals; ++i) integral[i] = fma(Real(b), values[i], integral[i]);
+        if constexpr (has_accelerations<Model>) {
+            if (needs.accelerations) state.accelerations.add_stage(b, end_report);
+        }
         for (int i = 0; i < Observer::audit_integrals; ++i) audit_error[i] = fma(Real(e), values[i], audit_error[i]);
     }
 
@@ -98,27 +108,19 @@ template <class Model, class Real> struct Pack {
         for (int i = 0; i < size; ++i) c.rates[i] = select(in, rates[i], c.rates[i]);
         if (!needs.stages) return;
         Real values[room(Observer::integrals)];
-        read_integrands(values);
-        for_each_integral(
-            [&](int i) { state.observation.integrand[i] = select(in, values[i], state.observation.integrand[i]); });
+        Observer::integrands(end_report, values);
+        for (int i = 0; i < Observer::integrals; ++i) {
+            state.observation.integrand[i] = select(in, values[i], state.observation.integrand[i]);
+        }
+        if constexpr (has_accelerations<Model>) {
+            if (needs.accelerations) state.accelerations.begin_next(in, end_report);
+        }
     }
 
     /// Counts evaluations of the right-hand side in the lanes of the mask.
     SLIDEWAY_HD void count_evaluations(Mask<Real> in, double evaluations) {
         auto& c = state.course;
         c.evaluations = c.evaluations + select(in, Real(evaluations), Real(0.0));
-    }
-
-private:
-    /// Those that the block asks for.
-    template <class Function> SLIDEWAY_FN void for_each_integral(Function const& function) const {
-        for (int i = 0; i < Observer::lean_integrals; ++i) function(i);
-        if (!needs.accelerations) return;
-        for (int i = Observer::lean_integrals; i < Observer::integrals; ++i) function(i);
-    }
-    SLIDEWAY_FN void read_integrands(Real* values) const {
-        Observer::integrands(end_report, values);
-        if (needs.accelerations) Observer::acceleration_integrands(end_report, values);
     }
 };
 

@@ -197,6 +197,9 @@ private:
         if constexpr (Model::events > 0) search_.reset(pack_);
         if (pack_.needs.quantities) {
             pack_.state.observation.observer.accept(accepted, pack_.step, pack_.integral, pack_.end_report, pack_.end);
+            if constexpr (has_accelerations<Model>) {
+                if (pack_.needs.accelerations) pack_.state.accelerations.accept(accepted, pack_.step, pack_.end_report);
+            }
         }
         for (int i = 0; i < size; ++i) c.y[i] = select(accepted, pack_.end[i], c.y[i]);
         c.t = select(accepted, t_end, c.t);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/mechanisms/planar_slider_crank.hpp"
+#include "kernels/observers/acceleration_record.hpp"
 #include "kernels/observers/energy_audit.hpp"
 #include "kernels/observers/slider_observer.hpp"
 #include "kernels/steppers/no_watch.hpp"
@@ -18,6 +19,7 @@ struct PlanarLanes {
     static constexpr bool has_crossings = true;
     static constexpr bool has_linearisation = false;
     template <class Real> using Observer = SliderObserver<Real, true, PlanarReport>;
+    template <class Real> using Accelerations = AccelerationRecord<Real>;
 
     /// Members whose energy audit says that their method left its stable range.
     template <class Real>

@@ -2,6 +2,7 @@
 
 #include "kernels/mechanisms/no_memory.hpp"
 #include "kernels/mechanisms/slider_base.hpp"
+#include "kernels/observers/acceleration_record.hpp"
 #include "kernels/observers/energy_audit.hpp"
 #include "kernels/observers/quantities.hpp"
 #include "kernels/observers/slider_observer.hpp"
@@ -21,6 +22,7 @@ template <bool conserving> struct SliderLanes {
     static constexpr bool has_crossings = true;
     static constexpr bool has_linearisation = true;
     template <class Real> using Observer = SliderObserver<Real, conserving>;
+    template <class Real> using Accelerations = AccelerationRecord<Real>;
 
     /// Largest of the squared velocities and rates, each in its scale.
     template <class Real> SLIDEWAY_HD static Real squared_speed(Real const* state, Real const* scale) {

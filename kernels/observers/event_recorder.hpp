@@ -9,16 +9,14 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// then the member has come to its end.
 template <class Real, int transient, int kept> class EventRecorder {
 public:
-    static constexpr int integrals = 0, lean_integrals = 0, audit_integrals = 0;
+    static constexpr int integrals = 0, audit_integrals = 0;
     static constexpr int columns = kept;
 
     static constexpr Selection audit_quantities = 0;
     SLIDEWAY_HD static constexpr bool needs_stages(Selection) { return false; }
-    SLIDEWAY_HD static constexpr bool needs_accelerations(Selection) { return false; }
     SLIDEWAY_HD static constexpr bool audits(Selection) { return false; }
     SLIDEWAY_HD static constexpr bool needs_reports(Selection) { return false; }
     template <class Report> SLIDEWAY_FN static void integrands(Report const&, Real*) {}
-    template <class Report> SLIDEWAY_FN static void acceleration_integrands(Report const&, Real*) {}
     SLIDEWAY_FN Real integral(int) const { return Real(0.0); }
 
     template <class Report> SLIDEWAY_FN void start(Mask<Real> fresh, Report const&, Real const*) {

@@ -19,9 +19,7 @@ public:
     using Report = Report_<Real>;
     /// Integrands: crank, friction and damping power, total force, torque², error², rod spin², |crank power|, the apices' forces; of
     /// a law that switches also the springs' power.
-    static constexpr int lean_integrals = 8 + Report::apices + (conserving ? 0 : 1);
-    /// And where accelerations are asked for ax², ay², az² and what the two sensors feel.
-    static constexpr int integrals = lean_integrals + 5;
+    static constexpr int integrals = 8 + Report::apices + (conserving ? 0 : 1);
     static constexpr int columns = quantity_columns;  // of a member's row
     /// The first of them are the energy audit's.
     static constexpr int audit_integrals = 3;
@@ -33,11 +31,7 @@ public:
               Quantity::rms_rod_angular_velocity}) {
             if (selects(q, i)) return true;
         }
-        return needs_accelerations(q);
-    }
-    /// Whether the integrals of accelerations are asked for.
-    SLIDEWAY_HD static constexpr bool needs_accelerations(Selection q) {
-        return selects(q, Quantity::rms_acceleration) || selects(q, Quantity::acceleration_area);
+        return false;
     }
     /// The quantities of the energy audit; any of them brings the whole of it along.
     static constexpr Selection audit_quantities =
@@ -60,17 +54,7 @@ public:
         if constexpr (Report::apices > 0) {
             for (int apex = 0; apex < Report::apices; ++apex) values[8 + apex] = r.contact.apex_force(apex);
         }
-        if constexpr (!conserving) values[lean_integrals - 1] = r.contact.elastic_power;
-    }
-
-    /// Those of the accelerations.  @param values of all integrands.
-    SLIDEWAY_FN static void acceleration_integrands(Report const& r, Real* values) {
-        auto const& a = r.acceleration;
-        values[lean_integrals] = a.x * a.x;
-        values[lean_integrals + 1] = a.y * a.y;
-        values[lean_integrals + 2] = a.z * a.z;
-        values[lean_integrals + 3] = abs(r.top);
-        values[lean_integrals + 4] = abs(r.front);
+        if constexpr (!conserving) values[integrals - 1] = r.contact.elastic_power;
     }
 
     /// Begins the members in the lanes of the mask.
@@ -82,7 +66,6 @@ public:
         }
         for (auto& value : integral_) value = select(fresh, zero, value);
         for (auto& value : apex_) value = select(fresh, zero, value);
-        for (auto& value : acceleration_) value = select(fresh, zero, value);
         for (auto& value : mode_time_) value = select(fresh, zero, value);
         start_energy_ = select(fresh, r.energy, start_energy_);
         resume(fresh, r);
@@ -157,14 +140,6 @@ public:
         put(Quantity::peak_tilt, 0, lane(roll_, index));
         put(Quantity::peak_tilt, 1, lane(yaw_, index));
         put(Quantity::peak_tilt, 2, lane(pitch_, index));
-        for (int i = 0; i < 3; ++i) {
-            put(Quantity::peak_acceleration, i, lane(acceleration_[i], index));
-            put(Quantity::rms_acceleration, i, sqrt(total(lean_integrals + i) * mean));
-        }
-        for (int i = 0; i < 2; ++i) {
-            put(Quantity::peak_channel_acceleration, i, lane(acceleration_[3 + i], index));
-            put(Quantity::acceleration_area, i, total(lean_integrals + 3 + i));
-        }
     }
 
 private:
@@ -184,7 +159,7 @@ private:
         Real made = fnma(h, integral[0] - integral[1] - integral[2], r.energy - energy_);
         Real exchanged = r.contact.potential - potential_;
         if constexpr (!conserving) {
-            Real const taken_up = h * integral[lean_integrals - 1];
+            Real const taken_up = h * integral[integrals - 1];
             Real const pattern = r.contact.pattern();
             auto const may_switch = (pattern != pattern_) & (pattern != zero) & (pattern_ != zero);
             made = made - select(may_switch, exchanged - taken_up, zero);
@@ -208,14 +183,10 @@ private:
         raise(roll_, abs(Report::tilt(state, 0)));
         raise(yaw_, abs(Report::tilt(state, 1)));
         raise(pitch_, abs(Report::tilt(state, 2)));
-        auto const& a = r.acceleration;
-        Real const accelerations[5] = {a.x, a.y, a.z, r.top, r.front};
-        for (int i = 0; i < 5; ++i) raise(acceleration_[i], abs(accelerations[i]));
     }
 
     Real integral_[integrals];
     Real apex_[Report::apices > 0 ? Report::apices : 1];
-    Real acceleration_[5];  // peaks
     Real mode_time_[4];
     Real force_, torque_, error_, spin_, roll_, yaw_, pitch_;
     Real onsets_, mode_, start_energy_, largest_potential_;

@@ -8,16 +8,14 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// Records kind, time and state of the first events of every lane.
 template <class Real> class BallObserver {
 public:
-    static constexpr int integrals = 0, lean_integrals = 0, audit_integrals = 0;
+    static constexpr int integrals = 0, audit_integrals = 0;
     static constexpr Selection audit_quantities = 0;
     static constexpr int columns = 4 * testing::recorded_ball_events;
 
     SLIDEWAY_HD static constexpr bool needs_stages(Selection) { return false; }
-    SLIDEWAY_HD static constexpr bool needs_accelerations(Selection) { return false; }
     SLIDEWAY_HD static constexpr bool audits(Selection) { return false; }
     SLIDEWAY_HD static constexpr bool needs_reports(Selection) { return false; }
     template <class Report> SLIDEWAY_FN static void integrands(Report const&, Real*) {}
-    template <class Report> SLIDEWAY_FN static void acceleration_integrands(Report const&, Real*) {}
     SLIDEWAY_FN Real integral(int) const { return Real(0.0); }
     template <class Report> SLIDEWAY_FN void start(Mask<Real> fresh, Report const&, Real const*) {
         count_ = select(fresh, Real(0.0), count_);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kernels/block.hpp"
+#include "kernels/observers/acceleration_record.hpp"
 #include "kernels/observers/slider_observer.hpp"
 
 namespace slideway {
@@ -133,10 +134,10 @@ TEST(Observer, IntegrandsAreThoseOfTheTable) {
     using Switching = SliderObserver<double, false>;
     double more[Switching::integrals];
     Switching::integrands(busy(), more);
-    EXPECT_EQ(more[Switching::lean_integrals - 1], 19) << "the springs' power";
+    EXPECT_EQ(more[Switching::integrals - 1], 19) << "the springs' power";
 }
 
-TEST(Observer, AccelerationsArePeaksSquaresAndAreas) {
+TEST(AccelerationRecord, HoldsPeaksMeanSquaresAndAreas) {
     auto const with = [](double ax, double ay, double az, double top, double front) {
         auto r = with_energy(0);
         r.acceleration = {ax, ay, az};
@@ -144,27 +145,34 @@ TEST(Observer, AccelerationsArePeaksSquaresAndAreas) {
         r.front = front;
         return r;
     };
-    double values[Observer::integrals];
-    Observer::acceleration_integrands(with(2, -3, 5, -7, 11), values);
-    EXPECT_EQ(std::vector<double>(values + Observer::lean_integrals, values + Observer::integrals),
-              (std::vector<double>{4, 9, 25, 7, 11}));
-
-    Watched watched;
-    watched.start(with(1, 0, 0, 0, 0));
-    std::vector<double> means(Observer::integrals, 0.0);
-    for (int i = 0; i < 5; ++i) means[static_cast<std::size_t>(Observer::lean_integrals + i)] = i + 1;
-    watched.step(2, with(-3, 2, 0, 5, -6), {}, means);
-    watched.step(2, with(2, -4, 1, -1, 2), {}, means);
-    watched.finish(4);
-    double const peaks[] = {3, 4, 1};
+    AccelerationRecord<double> record{};
+    record.start(true, with(1, 0, 0, 0, 0));
+    record.begin_next(true, with(1, 0, 0, 0, 0));
+    // A step of two stages with weights 1/4 and 3/4: ax² is 1 and 9, ay² 0 and 4, |top| 0 and 5, |front| 0 and 6.
+    record.begin_step(0.25);
+    record.add_stage(0.75, with(-3, 2, 0, 5, -6));
+    record.accept(true, 2, with(-3, 2, 0, 5, -6));
+    record.begin_next(true, with(-3, 2, 0, 5, -6));
+    // One whose start has all the weight, and one that is not accepted.
+    record.begin_step(1);
+    record.add_stage(0, with(9, 9, 9, 9, 9));
+    record.accept(true, 2, with(2, -4, 1, -1, 2));
+    record.begin_step(1);
+    record.accept(false, 100, with(99, 99, 99, 99, 99));
+    std::array<double, quantity_columns> row{};
+    record.finish(0, 4, everything, row.data());
+    auto const value = [&](Quantity q, int column) {
+        return row[static_cast<std::size_t>(quantity_column(q) + column)];
+    };
+    double const peaks[] = {3, 4, 1}, squares[] = {2 * (0.25 + 6.75) + 2 * 9, 2 * 3 + 2 * 4, 0};
     for (int i = 0; i < 3; ++i) {
-        EXPECT_EQ(watched(Quantity::peak_acceleration, i), peaks[i]);
-        EXPECT_EQ(watched(Quantity::rms_acceleration, i), std::sqrt(i + 1.0));
+        EXPECT_EQ(value(Quantity::peak_acceleration, i), peaks[i]);
+        EXPECT_EQ(value(Quantity::rms_acceleration, i), std::sqrt(squares[i] / 4));
     }
-    EXPECT_EQ(watched(Quantity::peak_channel_acceleration, 0), 5);
-    EXPECT_EQ(watched(Quantity::peak_channel_acceleration, 1), 6);
-    EXPECT_EQ(watched(Quantity::acceleration_area, 0), 4 * 4);
-    EXPECT_EQ(watched(Quantity::acceleration_area, 1), 4 * 5);
+    EXPECT_EQ(value(Quantity::peak_channel_acceleration, 0), 5);
+    EXPECT_EQ(value(Quantity::peak_channel_acceleration, 1), 6);
+    EXPECT_EQ(value(Quantity::acceleration_area, 0), 2 * 3.75 + 2 * 5);
+    EXPECT_EQ(value(Quantity::acceleration_area, 1), 2 * 4.5 + 2 * 6);
 }
 
 TEST(Observer, MeansAndSumsAreIntegralsOfTheSteps) {
@@ -203,7 +211,7 @@ Report with_contact(double energy, double potential, int apices) {
 std::vector<double> audit_means(double taken_up, double loss) {
     std::vector<double> means(SliderObserver<double, false>::integrals, 0.0);
     means[1] = loss;
-    means[static_cast<std::size_t>(SliderObserver<double, false>::lean_integrals - 1)] = taken_up;
+    means[static_cast<std::size_t>(SliderObserver<double, false>::integrals - 1)] = taken_up;
     return means;
 }
 

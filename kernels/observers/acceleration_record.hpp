@@ -1,0 +1,91 @@
+#pragma once
+
+#include "kernels/observers/quantities.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// A model whose accelerations nobody may ask for.
+struct NoAccelerations {};
+
+/// Peaks and integrals of the accelerations of a pack's sliders: of the centre along X, Y and Z, and of the sensors top and front.  Apart
+/// from the other quantities, for a member that asks for none carries nothing of it along.  Peaks go by the accepted steps; of the
+/// integrals ∫ax², ∫ay², ∫az², ∫|top|, ∫|front| each step takes the mean over its stages with the stepper's weights.
+template <class Real> class AccelerationRecord {
+public:
+    static constexpr Selection quantities =
+        selection_of(Quantity::peak_acceleration) | selection_of(Quantity::rms_acceleration) |
+        selection_of(Quantity::peak_channel_acceleration) | selection_of(Quantity::acceleration_area);
+    /// Whether the integrals are asked for.
+    SLIDEWAY_HD static constexpr bool needs_stages(Selection q) {
+        return selects(q, Quantity::rms_acceleration) || selects(q, Quantity::acceleration_area);
+    }
+
+    /// Begins the members in the lanes of the mask.
+    template <class Report> SLIDEWAY_FN void start(Mask<Real> fresh, Report const& r) {
+        Real const zero(0.0);
+        for (int i = 0; i < count; ++i) {
+            peak_[i] = select(fresh, zero, peak_[i]);
+            integral_[i] = select(fresh, zero, integral_[i]);
+        }
+        raise(fresh, r);
+    }
+
+    /// Begins a step with the stage at its start.
+    SLIDEWAY_FN void begin_step(double weight) {
+        for (int i = 0; i < count; ++i) mean_[i] = Real(weight) * at_start_[i];
+    }
+    template <class Report> SLIDEWAY_FN void add_stage(double weight, Report const& r) {
+        Real values[count];
+        integrands(r, values);
+        for (int i = 0; i < count; ++i) mean_[i] = fma(Real(weight), values[i], mean_[i]);
+    }
+    /// What the next step starts from, in the lanes of the mask.
+    template <class Report> SLIDEWAY_FN void begin_next(Mask<Real> in, Report const& r) {
+        Real values[count];
+        integrands(r, values);
+        for (int i = 0; i < count; ++i) at_start_[i] = select(in, values[i], at_start_[i]);
+    }
+    /// One accepted step of the lanes in the mask.
+    template <class Report> SLIDEWAY_FN void accept(Mask<Real> accepted, Real h, Report const& r) {
+        for (int i = 0; i < count; ++i) integral_[i] = select(accepted, fma(h, mean_[i], integral_[i]), integral_[i]);
+        raise(accepted, r);
+    }
+
+    /// Writes the selected quantities of one lane.  @param time [s] the member was integrated.
+    SLIDEWAY_HD void finish(int index, double time, Selection selected, double* row) const {
+        auto const put = [&](Quantity q, int column, double value) {
+            if (selects(selected, q)) row[quantity_column(q) + column] = value;
+        };
+        for (int i = 0; i < 3; ++i) {
+            put(Quantity::peak_acceleration, i, lane(peak_[i], index));
+            put(Quantity::rms_acceleration, i, time > 0 ? sqrt(lane(integral_[i], index) / time) : 0.0);
+        }
+        for (int i = 0; i < 2; ++i) {
+            put(Quantity::peak_channel_acceleration, i, lane(peak_[3 + i], index));
+            put(Quantity::acceleration_area, i, lane(integral_[3 + i], index));
+        }
+    }
+
+private:
+    static constexpr int count = 5;
+
+    template <class Report> SLIDEWAY_FN static void integrands(Report const& r, Real* values) {
+        auto const& a = r.acceleration;
+        values[0] = a.x * a.x;
+        values[1] = a.y * a.y;
+        values[2] = a.z * a.z;
+        values[3] = abs(r.top);
+        values[4] = abs(r.front);
+    }
+    template <class Report> SLIDEWAY_FN void raise(Mask<Real> taken, Report const& r) {
+        auto const& a = r.acceleration;
+        Real const values[count] = {abs(a.x), abs(a.y), abs(a.z), abs(r.top), abs(r.front)};
+        for (int i = 0; i < count; ++i) peak_[i] = select(taken, max(values[i], peak_[i]), peak_[i]);
+    }
+
+    Real peak_[count], integral_[count];
+    Real at_start_[count], mean_[count];  // of the integrands, of the step that is tried
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA
