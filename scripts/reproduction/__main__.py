@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 import time
 from collections.abc import Callable
@@ -77,9 +78,15 @@ def energy_words(bench: Bench) -> list[str]:
         made, kept = bench.shares["paper"], bench.shares["conservative"]
         words.append(
             f"Over all cases the law as published made {100 * min(made):.0f} to {100 * max(made):.0f} % of the drive's work out of nothing, "
-            f"the conservative law {100 * max(map(abs, kept)):.1g} % at most."
+            f"the conservative law less than {_rounded_up(100 * max(map(abs, kept))):.1g} %."
         )
     return words
+
+
+def _rounded_up(value: float) -> float:
+    """A positive number, rounded up to one digit."""
+    size = 10.0 ** math.floor(math.log10(value)) if value > 0 else 1.0
+    return math.ceil(value / size) * size
 
 
 def main() -> int:
@@ -97,6 +104,9 @@ def main() -> int:
     except (slideway.SlidewayError, OSError) as error:
         print(f"reproduce: {error}", file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        print("reproduce: stopped; the same command goes on where it was", file=sys.stderr)
+        return 130
     print()
     for section in sections:
         print(section.title)
