@@ -16,7 +16,7 @@ stop() {
 
 if [[ -z ${SLIDEWAY_PROGRAM:-} ]]; then
     build=build/release
-    bash scripts/setup.sh || stop "the set-up failed (see above)"
+    bash scripts/setup.sh python || stop "the set-up failed (see above)"
     cmake --preset release --log-level=WARNING || stop "the configuration failed (see above)"
     cmake --build "$build" --parallel "$(nproc)" --target slideway || stop "the build failed (see above)"
     SLIDEWAY_PROGRAM=$root/$build/bin/slideway

@@ -11,7 +11,9 @@ packages=(
     libgtest-dev libbenchmark-dev
     libopenmpi-dev openmpi-bin
 )
-[[ ${1:-} == tests ]] && packages+=(libopenturns-dev python3 python3-pip python3-venv chromium)
+python=(python3 python3-pip python3-venv)
+[[ ${1:-} == tests ]] && packages+=(libopenturns-dev "${python[@]}" chromium)
+[[ ${1:-} == python ]] && packages+=("${python[@]}")
 
 fail() {
     echo "setup.sh: $*" >&2
