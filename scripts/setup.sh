@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that slideway's build and tests need, only those that are missing.
-# Usage: scripts/setup.sh [tests].  With `tests` also what only the tests compare with, and what the Python package is tested with.
-# Run by scripts/test.sh and scripts/demo.sh; needs root or sudo only when something is missing.
+# Usage: scripts/setup.sh [tests|python].  With `tests` also what only the tests compare with, and what the Python package is tested with;
+# with `python` what scripts/reproduce.sh makes its Python environment of.
+# Run by scripts/test.sh, scripts/demo.sh and scripts/reproduce.sh; needs root or sudo only when something is missing.
 set -euo pipefail
 
 packages=(
