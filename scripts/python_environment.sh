@@ -19,12 +19,16 @@ mkdir -p build
 exec 9>build/python.lock
 flock 9
 needs=$(python3 --version && cat python/pyproject.toml)
+package=$(find python/slideway python/pyproject.toml -type f -not -name '*.pyc' -print0 | sort -z | xargs -0 sha256sum | sha256sum)
 if [[ $(cat "$stamp" 2>/dev/null) != "$needs" ]]; then
     rm -rf "$environment"
     python3 -m venv "$environment" >&2 || stop "python3 -m venv failed; install it (Debian: python3-venv)"
     "${pip[@]}" install hatchling "./python[test]" >&2 || stop "pip could not install the package (see above)"
     echo "$needs" >"$stamp"
-else
+    echo "$package" >"$stamp.package"
+elif [[ $(cat "$stamp.package" 2>/dev/null) != "$package" ]]; then
+    # Only then: another script may be at work in it.
     "${pip[@]}" install --no-deps --no-build-isolation --force-reinstall ./python >&2 || stop "pip could not install the package (see above)"
+    echo "$package" >"$stamp.package"
 fi
 echo "$environment"
