@@ -40,8 +40,11 @@ template <class Law, class Friction, class Damping> struct Joint {
                                            Mask<Real>& outside) {
         outside = mask_of<Real>(false);
         if constexpr (Full) report->clear();
+        // 0, or NaN in a lane whose pose is: else it would depend on its neighbours' contacts what such a lane gets.
+        Real const whole = (motion.y + motion.z) + (motion.axes.x.x + motion.axes.y.z);
+        Real const nothing = whole - whole;
         Wrench<Real> w;
-        w.force = w.torque = {Real(0.0), Real(0.0), Real(0.0)};
+        w.force = w.torque = {nothing, nothing, nothing};
         add_faces<Axis::y, Full>(motion.axes.y, motion.axes.y_shortfall, motion, memory, p, report, outside, w);
         add_faces<Axis::z, Full>(motion.axes.z, motion.axes.z_shortfall, motion, memory, p, report, outside, w);
         return w;

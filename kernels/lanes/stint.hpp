@@ -120,6 +120,9 @@ private:
             }
             accepted = busy & (squared_norm <= Real(1.0));
             divergent = !(squared_norm < Real(1e300));
+            // No number beyond all bounds says more than another: an infinite one times the zero of what does not touch is NaN or not as
+            // the neighbours have it.
+            squared_norm = select(divergent, Real(not_a_number), squared_norm);
             Real const former_memory = c.error_memory;
             wish = step * Control::factor(squared_norm, accepted, c.rejections > Real(0.5), c.error_memory);
             // A step that was shortened to land says little of what the next may be.

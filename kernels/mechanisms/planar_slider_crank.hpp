@@ -101,7 +101,9 @@ template <class Friction, class Damping, bool free_crank> struct PlanarSliderCra
         Real const base_rate = base_slope * w3;
         Quad<Real> const rate{front_rate - base_rate, negated(front_rate) - base_rate, negated(rear_rate) - base_rate,
                               rear_rate - base_rate};
-        Real fx = zero, fy = zero, torque = zero;
+        // 0, or NaN in a lane whose angles are, whatever its neighbours touch.
+        Real const whole = front + (rear + base), nothing = whole - whole;
+        Real fx = nothing, fy = nothing, torque = nothing;
         Quad<Real> force{zero, zero, zero, zero}, elastic = force;
         if constexpr (Full) clear(report->contact, depth, rate);
         if (any(deepest(depth) > zero)) {
@@ -111,9 +113,8 @@ template <class Friction, class Damping, bool free_crank> struct PlanarSliderCra
             force = {damped(elastic.a, depth.a, rate.a, speeds.a, p), damped(elastic.b, depth.b, rate.b, speeds.b, p),
                      damped(elastic.c, depth.c, rate.c, speeds.c, p), damped(elastic.d, depth.d, rate.d, speeds.d, p)};
             // −F ∂δ/∂q of each corner.
-            fy = (force.b - force.a) + (force.c - force.d);
-            // No zero of either sign is left to those that do not touch: they have it without this pass too.
-            torque = fma(lift_slope, (force.b - force.a) + (force.d - force.c), base_slope * sum(force)) + zero;
+            fy = fy + ((force.b - force.a) + (force.c - force.d));
+            torque = torque + fma(lift_slope, (force.b - force.a) + (force.d - force.c), base_slope * sum(force));
             if constexpr (Friction::enabled) {
                 Real const tall = p.half_height * block.cos;
                 Real power = zero;
