@@ -66,7 +66,7 @@ void print_listing(Scene const& scene, StateTable const& table, ProbeResult cons
     print_field("mode", fmt::format("{} surfaces, {} lines, {} points", result.surfaces, result.lines, result.points));
     print_field("energy",
                 fmt::format("{:.10g} J, of it {:.10g} J in the contacts", result.energy, result.contact_potential));
-    print_field("power", fmt::format("{:.10g} W crank, {:.10g} W friction, {:.10g} W damping", result.power_crank,
+    print_field("power", fmt::format("{:.10g} W drive, {:.10g} W friction, {:.10g} W damping", result.power_crank,
                                      result.power_friction, result.power_damping));
     if (!selects(has.series, Series::crank_torque)) return;
     print_field("crank torque", fmt::format("{:.10g} N m, without the crank's own weight", result.crank_torque));

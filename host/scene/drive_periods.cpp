@@ -95,4 +95,10 @@ PeriodRange drive_periods(Scene const& scene) {
     return range;
 }
 
+double shortest_reversal(Scene const& scene) {
+    double const least = magnitudes(scene, *find_key("mechanism.reversal_time")).least;
+    // Members at 0 fail before they run.
+    return least > 0 ? least : scene.inputs.reversal_time;
+}
+
 }  // namespace slideway

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/scene/scene_text.hpp"
 #include "host/scene/study_keys.hpp"
@@ -143,7 +144,7 @@ std::size_t read_available(Node const& node, std::string_view meaning, std::span
     std::string const& text = read_text_value(node);
     if (contains(names.subspan(available), text)) {
         refuse(node, {fmt::format("this {} is not available in this version", meaning),
-                      fmt::format("use \"{}\"", offered.front())});
+                      fmt::format("use \"{}\"", fmt::join(offered, "\", \""))});
     }
     return read_choice(node, meaning, offered);
 }

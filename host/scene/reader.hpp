@@ -64,6 +64,9 @@ struct PeriodRange {
 };
 PeriodRange drive_periods(Scene const& scene);
 
+/// The least reversal_time that members of a carriage may have [s], > 0.
+double shortest_reversal(Scene const& scene);
+
 /// Refuses a key, or a table, that does not count for the scene's mechanism, at a position.
 [[noreturn]] void refuse_meaningless(std::string_view where, std::string_view name, Mechanism mechanism);
 /// Refuses a quantity or a series that the scene's mechanism does not have.

@@ -65,7 +65,7 @@ void read_neighbours(Node const& root, Scene& scene) {
     ChaosSettings& chaos = scene.chaos;
     Node const* const count = root.find_path("study.exponents");
     int const least = scene.study == StudyKind::sweep ? 0 : 1;
-    int const most = std::min(most_shadows, info(scene.parts.mechanism).states);
+    int const most = std::min(most_shadows, free_states(scene.parts));
     chaos.exponents = count != nullptr ? static_cast<int>(read_count(*count, "number of exponents", least, most)) : 1;
     // Distances of some 1e-15 are rounding, and at 1 an offset is as large as the joint.
     Range const range{1e-14, 1, true};

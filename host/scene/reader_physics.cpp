@@ -192,11 +192,15 @@ void read_integrator(Node const& root, Scene& scene) {
     // A step may not leap over an impact: between two of them the slider flies for milliseconds.
     constexpr double longest_step = 1e-3;
     settings.max_step = std::min(longest_step, period / 2000);
+    // Nor over a carriage's reversal, which accelerates it for a small part of its period.
+    bool const reverses = scene.parts.mechanism == Mechanism::carriage;
+    double const reversal = reverses ? shortest_reversal(scene) / 20 : settings.max_step;
+    settings.max_step = std::min(settings.max_step, reversal);
     if (Node const* const node = root.find_path("integrator.max_step")) {
         settings.max_step = read_number(*node, "s", "largest step", {.low = 0, .low_included = false});
     }
     // The stiff method runs in lasting contact alone, where nothing is to be leapt over.
-    settings.stiff_max_step = 10 * settings.max_step;
+    settings.stiff_max_step = reverses ? std::min(10 * settings.max_step, reversal) : 10 * settings.max_step;
     if (Node const* const node = root.find_path("integrator.stiff_max_step")) {
         settings.stiff_max_step = read_number(*node, "s", "largest step", {.low = 0, .low_included = false});
     }

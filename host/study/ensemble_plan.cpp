@@ -59,12 +59,9 @@ BlockRequest block_request(Scene const& scene) {
                          schedule.crossings,
                          shadow_plan(scene),
                          {}};
-    int const states = info(scene.parts.mechanism).states;
-    request.states = static_cast<std::size_t>(states);
-    request.directions = [seed = scene.seed, shadows = request.shadows.count, states](std::uint64_t member,
-                                                                                      double* out) {
-        draw_directions(seed, member, shadows, states, out);
-    };
+    request.states = static_cast<std::size_t>(info(scene.parts.mechanism).states);
+    request.directions = [seed = scene.seed, shadows = request.shadows.count, parts = scene.parts](
+                             std::uint64_t member, double* out) { draw_directions(seed, member, shadows, parts, out); };
     return request;
 }
 

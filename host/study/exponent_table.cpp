@@ -64,7 +64,8 @@ void ExponentTable::add_exponents() {
         });
     if (exponents_ < 2) return;
     add("kaplan_yorke_dimension", "1",
-        "Kaplan-Yorke dimension of the map over a turn of the crank, one less than the flow's; a lower bound where it "
+        "Kaplan-Yorke dimension of the map over a period of the drive, one less than the flow's; a lower bound where "
+        "it "
         "is the number of exponents",
         {}, [](Member const& m, Column& column) { column.push_back(dimension(m.exponents.value, m.resolution)); });
 }

@@ -109,14 +109,17 @@ ShadowPlan shadow_plan(Scene const& scene) {
     return {chaos.exponents, chaos.d0, chaos.d0_lower, chaos.d0_upper, nullptr};
 }
 
-void draw_directions(std::uint64_t seed, std::uint64_t member, int shadows, int states, double* directions) {
+void draw_directions(std::uint64_t seed, std::uint64_t member, int shadows, Parts const& parts, double* directions) {
+    int const states = info(parts.mechanism).states;
     for (int shadow = 0; shadow < shadows; ++shadow) {
         double* const w = directions + shadow * states;
         double squares = 0;
         for (int i = 0; i < states; ++i) {
             auto const place = static_cast<std::uint64_t>(shadow * states + i);
             std::uint64_t const word = philox({member, place, 0, 0}, {seed, name_hash("shadow")})[0];
-            w[i] = static_cast<double>(static_cast<std::int64_t>(word >> 11)) * 0x1p-52 - 1;  // in [-1, 1)
+            w[i] = is_prescribed(parts, i)
+                       ? 0
+                       : static_cast<double>(static_cast<std::int64_t>(word >> 11)) * 0x1p-52 - 1;  // in [-1, 1)
             squares += w[i] * w[i];
         }
         double const length = std::sqrt(squares);

@@ -27,7 +27,7 @@ OrbitSchedule orbit_schedule(Scene const& scene);
 /// Shadows as a study asks for them, without directions.
 ShadowPlan shadow_plan(Scene const& scene);
 
-/// Unit vectors [shadows][states], drawn by seed, member and shadow alone.
-void draw_directions(std::uint64_t seed, std::uint64_t member, int shadows, int states, double* directions);
+/// Unit vectors [shadows][states], drawn by seed, member and shadow alone; 0 in what a drive prescribes.
+void draw_directions(std::uint64_t seed, std::uint64_t member, int shadows, Parts const& parts, double* directions);
 
 }  // namespace slideway

@@ -141,9 +141,7 @@ private:
                 load_lane(pack_.state.constants, i, r.constants);
                 load_lane(pack_.state.course, i, r.course);
                 if (pack_.needs.quantities) load_lane(pack_.state.observation, i, r.observation);
-                if constexpr (has_accelerations<Model>) {
-                    if (pack_.needs.accelerations) load_lane(pack_.state.accelerations, i, r.accelerations);
-                }
+                pack_.with_accelerations([&](auto& a) { load_lane(a, i, r.accelerations); });
                 if constexpr (Model::has_shadows) {
                     for (int s = 0; s < block_.shadows.count; ++s) load_lane(pack_.state.shadows[s], i, r.shadows[s]);
                 }
@@ -166,11 +164,7 @@ private:
                 if (pack_.needs.quantities) {
                     store_lane(pack_.state.observation, i, records_[seat].observation);
                 }
-                if constexpr (has_accelerations<Model>) {
-                    if (pack_.needs.accelerations) {
-                        store_lane(pack_.state.accelerations, i, records_[seat].accelerations);
-                    }
-                }
+                pack_.with_accelerations([&](auto& a) { store_lane(a, i, records_[seat].accelerations); });
                 if constexpr (Model::has_shadows) {
                     auto& shadows = records_[seat].shadows;
                     for (int s = 0; s < block_.shadows.count; ++s) store_lane(pack_.state.shadows[s], i, shadows[s]);
@@ -214,9 +208,7 @@ private:
         pack_.count_evaluations(pack_.busy, 1);
         auto const whole = is_finite(c.y, pack_.end_rates);
         if (pack_.needs.quantities) pack_.state.observation.observer.start(pack_.busy, pack_.end_report, c.y);
-        if constexpr (has_accelerations<Model>) {
-            if (pack_.needs.accelerations) pack_.state.accelerations.start(pack_.busy, pack_.end_report);
-        }
+        pack_.with_accelerations([&](auto& a) { a.start(pack_.busy, pack_.end_report); });
         pack_.begin_next(pack_.busy, pack_.end_rates);
         if constexpr (Model::has_memory || Model::can_hold) {
             if (pack_.needs.watch) {

@@ -80,13 +80,23 @@ template <class Model, class Real> struct Pack {
                              : model.template derivative<false>(t, at, p, memory, rates, &report);
     }
 
+    /// Has the function see the accelerations' record, where it is at work.
+    template <class Function> SLIDEWAY_HD void with_accelerations(Function const& function) {
+        if constexpr (has_accelerations<Model>) {
+            if (needs.accelerations) function(state.accelerations);
+        }
+    }
+    template <class Function> SLIDEWAY_HD void with_accelerations(Function const& function) const {
+        if constexpr (has_accelerations<Model>) {
+            if (needs.accelerations) function(state.accelerations);
+        }
+    }
+
     /// Begins the integrals over the step with the stage at its start.
     SLIDEWAY_HD void begin_integrals(double b, double e) {
         if (!needs.stages) return;
         for (int i = 0; i < Observer::integrals; ++i) integral[i] = Real(b) * state.observation.integrand[i];
-        if constexpr (has_accelerations<Model>) {
-            if (needs.accelerations) state.accelerations.begin_step(b);
-        }
+        with_accelerations([&](auto& record) { record.begin_step(b); });
         for (int i = 0; i < Observer::audit_integrals; ++i) audit_error[i] = Real(e) * state.observation.integrand[i];
     }
 
@@ -96,9 +106,7 @@ template <class Model, class Real> struct Pack {
         Real values[room(Observer::integrals)];
         Observer::integrands(end_report, values);
         for (int i = 0; i < Observer::integrals; ++i) integral[i] = fma(Real(b), values[i], integral[i]);
-        if constexpr (has_accelerations<Model>) {
-            if (needs.accelerations) state.accelerations.add_stage(b, end_report);
-        }
+        with_accelerations([&](auto& record) { record.add_stage(b, end_report); });
         for (int i = 0; i < Observer::audit_integrals; ++i) audit_error[i] = fma(Real(e), values[i], audit_error[i]);
     }
 
@@ -112,9 +120,7 @@ template <class Model, class Real> struct Pack {
         for (int i = 0; i < Observer::integrals; ++i) {
             state.observation.integrand[i] = select(in, values[i], state.observation.integrand[i]);
         }
-        if constexpr (has_accelerations<Model>) {
-            if (needs.accelerations) state.accelerations.begin_next(in, end_report);
-        }
+        with_accelerations([&](auto& record) { record.begin_next(in, end_report); });
     }
 
     /// Counts evaluations of the right-hand side in the lanes of the mask.

@@ -162,12 +162,9 @@ public:
                 constexpr auto columns = Pack<Model, Real>::Observer::columns;
                 pack.state.observation.observer.finish(i, time, block_.quantities,
                                                        block_.quantity_values + member * columns);
-                if constexpr (has_accelerations<Model>) {
-                    if (pack.needs.accelerations) {
-                        pack.state.accelerations.finish(i, time, block_.quantities,
-                                                        block_.quantity_values + member * columns);
-                    }
-                }
+                pack.with_accelerations([&](auto const& a) {
+                    a.finish(i, time, block_.quantities, block_.quantity_values + member * columns);
+                });
             }
             if (block_.samples > 0) sampler_.fill_missing(member, number(c.sample, i));
             fill_missing_stops(member, number(c.stop, i), number(c.crossings, i));

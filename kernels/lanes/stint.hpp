@@ -120,8 +120,7 @@ private:
             }
             accepted = busy & (squared_norm <= Real(1.0));
             divergent = !(squared_norm < Real(1e300));
-            // No number beyond all bounds says more than another: an infinite one times the zero of what does not touch is NaN or not as
-            // the neighbours have it.
+            // Whether what is beyond all bounds came out infinite or NaN may be the neighbours' doing.
             squared_norm = select(divergent, Real(not_a_number), squared_norm);
             Real const former_memory = c.error_memory;
             wish = step * Control::factor(squared_norm, accepted, c.rejections > Real(0.5), c.error_memory);
@@ -200,9 +199,7 @@ private:
         if constexpr (Model::events > 0) search_.reset(pack_);
         if (pack_.needs.quantities) {
             pack_.state.observation.observer.accept(accepted, pack_.step, pack_.integral, pack_.end_report, pack_.end);
-            if constexpr (has_accelerations<Model>) {
-                if (pack_.needs.accelerations) pack_.state.accelerations.accept(accepted, pack_.step, pack_.end_report);
-            }
+            pack_.with_accelerations([&](auto& a) { a.accept(accepted, pack_.step, pack_.end_report); });
         }
         for (int i = 0; i < size; ++i) c.y[i] = select(accepted, pack_.end[i], c.y[i]);
         c.t = select(accepted, t_end, c.t);

@@ -101,4 +101,15 @@ inline constexpr MechanismInfo mechanism_table[] = {
 
 constexpr MechanismInfo const& info(Mechanism mechanism) { return mechanism_table[static_cast<int>(mechanism)]; }
 
+/// Whether a drive prescribes a component of the state, so that neighbours cannot differ in it: angle and speed of a driven planar crank.
+constexpr bool is_prescribed(Parts const& parts, int component) {
+    return parts.mechanism == Mechanism::planar_slider_crank && !parts.free_crank && (component == 0 || component == 3);
+}
+/// How many components neighbours may differ in.
+constexpr int free_states(Parts const& parts) {
+    int count = 0;
+    for (int i = 0; i < info(parts.mechanism).states; ++i) count += is_prescribed(parts, i) ? 0 : 1;
+    return count;
+}
+
 }  // namespace slideway

@@ -25,8 +25,9 @@ public:
     template <class Report> SLIDEWAY_FN void start(Mask<Real> fresh, Report const& r) {
         Real const zero(0.0);
         for (int i = 0; i < count; ++i) {
-            peak_[i] = select(fresh, zero, peak_[i]);
-            integral_[i] = select(fresh, zero, integral_[i]);
+            for (auto* number : {&peak_[i], &integral_[i], &at_start_[i], &mean_[i]}) {
+                *number = select(fresh, zero, *number);
+            }
         }
         raise(fresh, r);
     }

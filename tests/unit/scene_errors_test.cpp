@@ -90,7 +90,7 @@ TEST(SceneErrors, UnknownNamesComeWithASuggestion) {
 TEST(SceneErrors, WhatLaterVersionsHave) {
     EXPECT_EQ(error_in("mechanism", "kind = \"lorenz\""),
               "scene.toml:3: mechanism.kind is \"lorenz\" (this mechanism is not available in this version); "
-              "use \"slider_crank\"");
+              "use \"slider_crank\", \"carriage\", \"free_slider\", \"planar_slider_crank\"");
     EXPECT_TRUE(contains(error_in("mechanism", "kind = \"slider_cranc\""), "did you mean \"slider_crank\"?"));
     EXPECT_TRUE(contains(error_in("study", "kind = \"x\""), "there is no such study"));
 }

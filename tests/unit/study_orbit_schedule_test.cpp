@@ -296,7 +296,7 @@ TEST(ShadowPlan, IsForStudiesThatAskForExponents) {
 
 std::vector<double> directions(std::uint64_t seed, std::uint64_t member, int shadows) {
     std::vector<double> values(static_cast<std::size_t>(shadows) * state_size);
-    draw_directions(seed, member, shadows, state_size, values.data());
+    draw_directions(seed, member, shadows, Parts{}, values.data());
     return values;
 }
 
@@ -332,10 +332,32 @@ TEST(ShadowDirections, DependOnTheirAddressAlone) {
 TEST(ShadowDirections, OfFewerStatesHaveTheSameNumbersInAnotherOrder) {
     // Each is the ratio of draws, whose addresses are counted through: six states of two shadows are the first twelve draws.
     std::vector<double> six(12), twelve(12);
-    draw_directions(3, 8, 2, 6, six.data());
-    draw_directions(3, 8, 1, 12, twelve.data());
+    Parts planar, free;
+    planar.mechanism = Mechanism::planar_slider_crank;
+    planar.free_crank = true;
+    free.mechanism = Mechanism::free_slider;
+    draw_directions(3, 8, 2, planar, six.data());
+    draw_directions(3, 8, 1, free, twelve.data());
     for (int i = 1; i < 6; ++i) EXPECT_NEAR(six[i] / six[0], twelve[i] / twelve[0], 1e-12 * std::abs(six[i] / six[0]));
     for (int i = 7; i < 12; ++i) EXPECT_NEAR(six[i] / six[6], twelve[i] / twelve[6], 1e-12 * std::abs(six[i] / six[6]));
+}
+
+TEST(ShadowDirections, LeaveOutWhatADrivePrescribes) {
+    Parts driven;
+    driven.mechanism = Mechanism::planar_slider_crank;
+    std::vector<double> w(12);
+    draw_directions(3, 8, 2, driven, w.data());
+    for (int shadow = 0; shadow < 12; shadow += 6) {
+        EXPECT_EQ(w[shadow], 0) << "crank angle";
+        EXPECT_EQ(w[shadow + 3], 0) << "crank speed";
+        double squares = 0;
+        for (int i = 0; i < 6; ++i) squares += w[shadow + i] * w[shadow + i];
+        EXPECT_NEAR(squares, 1, 1e-14);
+    }
+    EXPECT_EQ(free_states(driven), 4);
+    driven.free_crank = true;
+    EXPECT_EQ(free_states(driven), 6);
+    EXPECT_EQ(free_states(Parts{}), 10);
 }
 
 TEST(ShadowDirections, FavourNoSide) {

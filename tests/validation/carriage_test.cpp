@@ -4,9 +4,11 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "host/chaos/power_spectrum.hpp"
+#include "host/scene/scene.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/support/ensemble.hpp"
 
@@ -105,6 +107,29 @@ TEST(Carriage, GoesToAndFro) {
         EXPECT_NEAR(r.series[i], x[i], 1e-12) << i;
         EXPECT_NEAR(r.series[8 + i], vx[i], 1e-11 * 1 + 1e-9 * v) << i;
         EXPECT_NEAR(r.series[16 + i], ax[i], 1e-9 * peak) << i;
+    }
+}
+
+TEST(Carriage, CountsWhatItsReversalsAccelerate) {
+    // As a scene asks for it, with the largest steps that it gives; ax is −v π/t_r sin(π τ/t_r) for t_r of each half period, else 0.
+    for (double const reversal : {2e-3, 20e-3}) {
+        Scene const scene = parse_scene(
+            "schema = 1\n[mechanism]\nkind = \"carriage\"\nreversal_time = " + std::to_string(reversal) +
+                "\n[contact]\nlaw = \"conservative\"\nchi_line = 1000\nchi_surface = 1000\n[initial]\ny = -1e-4\n"
+                "[study]\nrevolutions = 1\nquantities = [\"rms_acceleration\", \"peak_acceleration\", "
+                "\"energy_residual\"]\n",
+            "scene");
+        testing::RunOptions o;
+        o.parts = scene.parts;
+        o.settings = scene.integrator;
+        Inputs const in = member_inputs(scene, 0);
+        auto const r = testing::run(best_isa(), o, {in});
+        ASSERT_EQ(r.records[0].status, Status::finished);
+        double const peak = in.carriage_speed * std::numbers::pi / reversal;
+        double const period = 2 * (in.stroke / in.carriage_speed + reversal);
+        double const rms = peak * std::sqrt(reversal / period);  // two reversals, the mean of sin² being 1/2
+        EXPECT_NEAR(r.value(0, Quantity::peak_acceleration, 0), peak, 1e-2 * peak);
+        EXPECT_NEAR(r.value(0, Quantity::rms_acceleration, 0), rms, 2e-3 * rms);
     }
 }
 
