@@ -69,7 +69,9 @@ void print_listing(Scene const& scene, StateTable const& table, ProbeResult cons
     print_field("power", fmt::format("{:.10g} W drive, {:.10g} W friction, {:.10g} W damping", result.power_crank,
                                      result.power_friction, result.power_damping));
     if (!selects(has.series, Series::crank_torque)) return;
-    print_field("crank torque", fmt::format("{:.10g} N m, without the crank's own weight", result.crank_torque));
+    print_field("crank torque",
+                fmt::format("{:.10g} N m, {}", result.crank_torque,
+                            has.spatial ? "without the crank's own weight" : "the crank's own weight included"));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "host/cli/commands.hpp"
+#include "host/output/result_merge.hpp"
 #include "host/output/result_reader.hpp"
 #include "host/scene/error.hpp"
 
@@ -74,6 +75,7 @@ int report(ReportArguments const& arguments) {
     if (page == arguments.path || std::filesystem::equivalent(page, arguments.path, missing)) {
         throw SceneError(fmt::format("{}: is the result itself; give the page another name with -o", page));
     }
+    require_writable_place(page);
     require_intact(arguments.path);
     // Packages come from where they are installed, not from whatever lies in this folder.
     setenv("PYTHONSAFEPATH", "1", 1);

@@ -221,6 +221,11 @@ void read_chaos(Node const& root, Scene& scene) {
     if (!lyapunov) read_section(root, scene);
     if (lyapunov || sweep) read_neighbours(root, scene);
     if (sweep) check_columns(root, scene);
+    if (sweep && chaos.exponents > 0 && chaos.transient.value == 0 &&
+        chaos.span.seconds(drive_period(scene.parts, scene.inputs)) < 2 * drive_period(scene.parts, scene.inputs)) {
+        refuse_study(root, given_of(root, span_keys), "study.revolutions",
+                     {"exponents are taken between its sections, and there is one", "use at least 2, or a transient"});
+    }
     check_common_count(root, scene);
     check_length(root, scene);
     if (lyapunov) read_history(root, scene);

@@ -41,7 +41,8 @@ inline constexpr StudyKey study_keys[] = {
     {"study.phase", "rad", study_sets::poincare | study_sets::sweep,
      "crank angle of the sections, or phase of a carriage; 0"},
     {"study.section", "", study_sets::poincare,
-     "{ on = \"vy\", value = \"0 mm/s\", direction = \"rising\" }: a state, or a gap like gap_y[P1]; rising, falling, "
+     "{ on = \"vy\", value = \"0 mm/s\", direction = \"rising\" }: a state, or in space a gap like gap_y[P1]; rising, "
+     "falling, "
      "both"},
     {"study.max_crossings", "1", study_sets::poincare,
      "most crossings of study.section that are recorded of a member; 1000"},

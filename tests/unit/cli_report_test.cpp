@@ -68,6 +68,13 @@ TEST_F(Report, RefusesADamagedResult) {
     expect_refusal(4, "do not match their hash", {"report", "s.nc"});
 }
 
+TEST_F(Report, ReplacesFilesAlone) {
+    set_interpreter(true);
+    ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+    expect_refusal(4, "is a device or a pipe", {"report", "s.nc", "-o", "pipe"});
+    EXPECT_TRUE(std::filesystem::is_fifo(path("pipe")));
+}
+
 TEST_F(Report, NeverReplacesTheResult) {
     set_interpreter(true);
     expect_refusal(2, "is the result itself", {"report", "s.nc", "-o", "./s.nc"});
