@@ -27,48 +27,92 @@ class ResultAccessor:
 
     @property
     def path(self) -> str:
-        """The file that the result comes from."""
+        """The file that the result comes from.
+
+        >>> slideway.open(example_file).slideway.path.endswith("ensemble.nc")
+        True
+        """
         return results.path_of(self._result)
 
     @property
     def scene(self) -> dict[str, Any]:
-        """See :func:`slideway.scene`."""
+        """See :func:`slideway.scene`.
+
+        >>> slideway.example().slideway.scene["study"]["kind"]
+        'sweep'
+        """
         return scenes_.scene(self._result)
 
     @property
     def groups(self) -> list[str]:
-        """See :func:`slideway.groups`."""
+        """See :func:`slideway.groups`.
+
+        >>> "sensitivity" in slideway.open(tolerance_file).slideway.groups
+        True
+        """
         return results.groups(self._result)
 
     @property
     def statistics(self) -> xr.Dataset:
-        """Counts, moments, quantiles and histograms of each quantity, of a tolerance study."""
+        """Counts, moments, quantiles and histograms of each quantity, of a tolerance study.
+
+        >>> with slideway.open(tolerance_file).slideway.statistics as statistics:
+        ...     statistics.members.to_series().to_dict()  # 16 rows of a Saltelli design in 8 inputs: 16 · (8 + 2)
+        {'finished': 160}
+        """
         return self.group("statistics")
 
     @property
     def yields(self) -> xr.Dataset:
-        """Shares of the members that meet the scene's limits (the group "yield")."""
+        """Shares of the members that meet the scene's limits (the group "yield").
+
+        >>> with slideway.open(tolerance_file).slideway.yields as yields:
+        ...     yields.limit.values.tolist(), 0 <= float(yields.all_share) <= 1
+        (['peak_normal_force'], True)
+        """
         return self.group("yield")
 
     @property
     def sensitivity(self) -> xr.Dataset:
-        """Sobol indices, or rank correlations, of each quantity and input."""
+        """Sobol indices, or rank correlations, of each quantity and input.
+
+        >>> with slideway.open(tolerance_file).slideway.sensitivity as sensitivity:
+        ...     int(sensitivity.rows_used), sensitivity.peak_normal_force_first.sizes["input"]
+        (16, 8)
+        """
         return self.group("sensitivity")
 
     @property
     def statuses(self) -> xr.DataArray:
-        """See :func:`slideway.statuses`."""
+        """See :func:`slideway.statuses`.
+
+        >>> slideway.example().slideway.statuses.values[-1].item()
+        'max_steps'
+        """
         return members.statuses(self._result)
 
     @property
     def finished(self) -> xr.DataArray:
-        """See :func:`slideway.finished`."""
+        """See :func:`slideway.finished`.
+
+        >>> int(slideway.example().slideway.finished.sum())
+        11
+        """
         return members.finished(self._result)
 
     def group(self, name: str) -> xr.Dataset:
-        """A group of the file, as slideway.open(path, group=name)."""
+        """A group of the file, as slideway.open(path, group=name).
+
+        >>> with slideway.open(tolerance_file).slideway.group("statistics") as statistics:
+        ...     statistics.sizes["probability"] > 0
+        True
+        """
         return results.open(self.path, group=name)
 
     def sections(self, member: int | None = None) -> xr.Dataset:
-        """See :func:`slideway.sections`."""
+        """See :func:`slideway.sections`.
+
+        >>> slideway.example().slideway.sections(member=2).sizes["section"]
+        40
+        """
         return sections_.sections(self._result, member)

@@ -35,6 +35,20 @@ def ideal(scene: Mapping[str, Any], variable: str, time: np.ndarray) -> np.ndarr
     return motion(mechanism, time)[("x", "vx", "ax").index(variable)]
 
 
+def rod_reach(crank_length: float, rod_length: float, angle: np.ndarray, y: Any = 0.0, z: Any = 0.0) -> np.ndarray:
+    """x of the end of a rod that starts at the crank pin [m]: r cos θ + √(L² − (y − r sin θ)² − z²).
+
+    Args:
+        crank_length r, rod_length L [m]; angle θ [rad]; y, z: of the rod's end [m], on the axis where they are left out.
+
+    >>> import numpy as np
+    >>> rod_reach(3.0, 5.0, np.array([0.0, np.pi / 2])).tolist()
+    [8.0, 4.0]
+    """
+    height = y - crank_length * np.sin(angle)
+    return np.asarray(crank_length * np.cos(angle) + np.sqrt(np.maximum(rod_length**2 - height**2 - np.square(z), 0.0)))
+
+
 def _slider_crank(mechanism: Mapping[str, Any], time: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """x = r cos θ + D, D = √(L² − r² sin² θ), θ = θ0 + ωt, and its derivatives: D D' = −r² ω sin θ cos θ."""
     r, length, speed = (float(mechanism[key]) for key in ("crank_length", "rod_length", "crank_speed"))
@@ -43,7 +57,7 @@ def _slider_crank(mechanism: Mapping[str, Any], time: np.ndarray) -> tuple[np.nd
     reach = np.sqrt(length**2 - (r * sine) ** 2)
     reach_rate = -(r**2) * speed * sine * cosine / reach
     reach_acceleration = -((r * speed) ** 2 * (cosine**2 - sine**2) + reach_rate**2) / reach
-    return r * cosine + reach, -r * speed * sine + reach_rate, -r * speed**2 * cosine + reach_acceleration
+    return rod_reach(r, length, angle), -r * speed * sine + reach_rate, -r * speed**2 * cosine + reach_acceleration
 
 
 def _carriage(mechanism: Mapping[str, Any], time: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import atexit
+import contextlib
+import ctypes
 import itertools
 import os
 import shutil
@@ -10,13 +12,16 @@ import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from .errors import FileError, RunError, SceneError, SlidewayError, StoppedEarly, TooManyFailures
 
 if TYPE_CHECKING:
     from .results import StrPath
+
+_set_parent_death_signal = 1  # PR_SET_PDEATHSIG of prctl(2)
+_patience = 30.0  # until a program that was asked to end is made to [s]
 
 _files = itertools.count()
 _folder: str | None = None
@@ -80,15 +85,17 @@ def follow(command: Sequence[str], show: bool) -> tuple[int, str]:
     """Runs a command to its end and shows what it says on stderr, line by line; without `show` its warnings alone.
 
     Ctrl-C asks the command to stop, waits until it has written what it has, and is then raised again; a second Ctrl-C does
-    not wait.
+    not wait. Any other exception, such as one that a handler of SIGTERM raises, ends it in the same way, and so does the end of
+    Python itself (on Linux), whatever ended it.
 
     Returns:
         The exit code, and the last line on stderr.
     """
     # In a process group of its own: a terminal's Ctrl-C reaches Python alone, which passes it on once.
+    # SIGPIPE stays ignored: once Python is gone nobody reads stderr, and what is finished has to be written all the same.
     process = subprocess.Popen(
         command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, encoding="utf-8",
-        errors="replace", start_new_session=True,
+        errors="replace", start_new_session=True, restore_signals=False, preexec_fn=_end_with_python(),
     )
     lines: list[str] = []
     interrupt: KeyboardInterrupt | None = None
@@ -100,13 +107,12 @@ def follow(command: Sequence[str], show: bool) -> tuple[int, str]:
                 break
             except KeyboardInterrupt as error:
                 if interrupt is not None:
+                    process.kill()
                     raise
                 interrupt = error
                 process.send_signal(signal.SIGINT)
     finally:
-        if process.poll() is None:
-            process.kill()
-            process.wait()
+        _end(process)
     if interrupt is not None:
         raise Interrupted(code, _last_line(lines)) from interrupt
     return code, _last_line(lines)
@@ -134,6 +140,39 @@ def error_of(code: int, line: str, output: str, program: str) -> RunError:
     if code < 0:
         return RunError(code, f"slideway was ended by {signal.Signals(-code).name}; what it had finished can be resumed")
     return RunError(code, line or f"slideway ended with exit code {code} and said nothing")
+
+
+def _end_with_python() -> Callable[[], None] | None:
+    """What the new process calls before it becomes the program, so that it gets SIGTERM when Python ends; None where Linux is not there.
+
+    All that it needs is loaded here: between fork and exec another thread's locks may be held for ever.
+    """
+    if not sys.platform.startswith("linux"):
+        return None
+    try:
+        prctl = ctypes.CDLL(None).prctl
+    except (OSError, AttributeError):
+        return None
+    python, get_parent, leave, request, end = os.getpid(), os.getppid, os._exit, _set_parent_death_signal, int(signal.SIGTERM)
+
+    def ask() -> None:
+        prctl(request, end, 0, 0, 0)
+        if get_parent() != python:  # Python ended before it could be asked for
+            leave(128 + end)
+
+    return ask
+
+
+def _end(process: subprocess.Popen[str]) -> None:
+    """Asks a process that still runs to end, and makes it when it does not."""
+    if process.poll() is None:
+        process.terminate()
+        try:
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(_patience)
+        finally:
+            process.kill()
+            process.wait()
 
 
 def _pass_on(process: subprocess.Popen[str], lines: list[str], show: bool) -> None:

@@ -19,9 +19,10 @@ names = [m.name for m in pkgutil.walk_packages(slideway.__path__, "slideway.") i
 def test_examples_in_docstrings_hold(name: str, result_of: Callable[[str], xr.Dataset]) -> None:
     module = importlib.import_module(name)
     example_file = result_of("ensemble").encoding["source"]
+    tolerance_file = result_of("tolerance").encoding["source"]
     outcome = doctest.testmod(
         module,
-        extraglobs={"slideway": slideway, "example_file": example_file},
+        extraglobs={"slideway": slideway, "example_file": example_file, "tolerance_file": tolerance_file},
         optionflags=doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS | doctest.IGNORE_EXCEPTION_DETAIL,
     )
     assert outcome.failed == 0

@@ -36,6 +36,13 @@ def test_every_public_function_has_an_example(module: object) -> None:
         assert ">>> " in (function.__doc__ or ""), name
 
 
+def test_every_member_of_the_accessor_has_an_example() -> None:
+    members = {name: member for name, member in vars(slideway.ResultAccessor).items() if not name.startswith("_")}
+    assert {"group", "sections", "statistics", "yields", "sensitivity"} <= members.keys()
+    for name, member in members.items():
+        assert ">>> " in (member.__doc__ or ""), name
+
+
 @pytest.mark.parametrize("function", [getattr(slideway.plot, name) for name in slideway.plot.__all__], ids=slideway.plot.__all__)
 def test_every_plot_takes_an_axis(function: object) -> None:
     assert inspect.signature(function).parameters["ax"].default is None  # type: ignore[arg-type]

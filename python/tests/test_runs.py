@@ -194,6 +194,68 @@ except KeyboardInterrupt as stop:
     assert time.monotonic() - began < 20
 
 
+def state_of(process: int) -> str:
+    """A letter of proc(5), Z of one that ended and that nobody asked for yet; empty of one that is gone."""
+    try:
+        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0]
+    except OSError:
+        return ""
+
+
+def wait_until(holds: Callable[[], bool], what: str, seconds: float = 30.0) -> None:
+    end = time.monotonic() + seconds
+    while not holds():
+        assert time.monotonic() < end, what
+        time.sleep(0.02)
+
+
+on_linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the program ends with Python on Linux alone")
+
+
+@on_linux
+@pytest.mark.parametrize("handler", ["", "signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))"], ids=["no handler", "handler"])
+@pytest.mark.parametrize("ending", [signal.SIGTERM, signal.SIGHUP, signal.SIGKILL], ids=["TERM", "HUP", "KILL"])
+def test_program_is_asked_to_end_when_python_does(tmp_path: Path, ending: signal.Signals, handler: str) -> None:
+    # It also speaks on a stderr that nobody reads any more, before it writes what it has.
+    program = stub(tmp_path, f"""trap 'echo stopping >&2; echo kept >{tmp_path}/kept; exit 5' TERM
+echo $$ >{tmp_path}/new; mv {tmp_path}/new {tmp_path}/process
+while :; do sleep 0.05; done""")
+    script = f"import signal, sys, slideway\n{handler}\nslideway.run('{tmp_path}/scene.toml', program='{program}')"
+    python = subprocess.Popen([sys.executable, "-c", script], stderr=subprocess.DEVNULL, start_new_session=True)
+    wait_until((tmp_path / "process").exists, "the program did not begin")
+    child = int((tmp_path / "process").read_text())
+    os.killpg(python.pid, ending)
+    python.wait(timeout=30)
+    try:
+        wait_until(lambda: state_of(child) in ("", "Z"), "the program went on without Python", seconds=10)
+    finally:
+        if state_of(child) not in ("", "Z"):
+            os.kill(child, signal.SIGKILL)
+    assert (tmp_path / "kept").read_text() == "kept\n"
+
+
+@on_linux
+def test_program_keeps_what_is_finished_when_python_is_killed(tmp_path: Path) -> None:
+    script = f"""
+import slideway
+slideway.run(r"{scenes}/ensemble_starts.toml", r"{tmp_path}/a.nc", study__members=200000, threads=1)
+"""
+    python = subprocess.Popen([sys.executable, "-c", script], stderr=subprocess.PIPE, text=True, start_new_session=True)
+    assert python.stderr is not None
+    for line in python.stderr:  # it says that it has begun
+        if line.startswith("memory"):
+            break
+    child = int(Path(f"/proc/{python.pid}/task/{python.pid}/children").read_text().split()[0])
+    time.sleep(1.5)
+    assert state_of(child) not in ("", "Z")
+    python.kill()
+    python.communicate(timeout=30)
+    wait_until(lambda: state_of(child) in ("", "Z"), "the program went on without Python")
+    slideway.program.call(None, ["merge", f"{tmp_path}/a.nc.shards", "-o", f"{tmp_path}/merged.nc"], good=(0, 5))
+    with slideway.open(tmp_path / "merged.nc") as merged:
+        assert 0 < int(slideway.finished(merged).sum()) < 200000
+
+
 def test_end_by_a_signal_is_named(tmp_path: Path) -> None:
     with pytest.raises(slideway.RunError, match="SIGKILL") as caught:
         slideway.run(short, program=stub(tmp_path, "kill -9 $$"), progress=False)

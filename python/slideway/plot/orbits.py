@@ -11,13 +11,15 @@ from matplotlib.patches import Rectangle
 from ..errors import SlidewayError
 from ..scenes import scene
 from ..sections import sections
+from ..way import across, may_be_misaligned
 from .style import Members, axis, chosen, colours, finish, grey, label, most_lines, scaled, variable, words_of
 
 
 def orbit_yz(result: xr.Dataset, member: Members = None, ax: Axes | None = None) -> Axes:
     """The slider's centre across the way, within the clearance (Fig. 13 of Qian et al. 2020).
 
-    Up to eight members are lines from a dot, where they start; of more the time that all of them spend is a map.
+    Up to eight members are lines from a dot, where they start; of more the time that all of them spend is a map. Where the scene's [way]
+    moves or turns the way, y and z are from its axis, and the axes say so.
 
     Args:
         member: number of a member, or several; left out: all.
@@ -30,12 +32,13 @@ def orbit_yz(result: xr.Dataset, member: Members = None, ax: Axes | None = None)
     """
     y, z = variable(result, "y"), variable(result, "z")
     members = chosen(result, member)
-    ys, zs = y.sel(member=members).values, z.sel(member=members).values
+    turned = across(result, members)
+    ys, zs = turned if turned is not None else (y.sel(member=members).values, z.sel(member=members).values)
     if not np.isfinite(ys).any():
         raise SlidewayError("these members have no samples, for they failed before the first; see slideway.statuses(result)")
     factor, unit = scaled("m", np.concatenate([ys.ravel(), zs.ravel()]))
     ax = axis(ax)
-    for width, height in _gaps(result, members):
+    for width, height in _gaps(result, members) if turned is not None else ():
         ax.add_patch(Rectangle((-factor * width, -factor * height), 2 * factor * width, 2 * factor * height, fill=False,
                                ec=grey, ls="--", label=None if ax.patches else "clearance"))
     if len(members) <= most_lines:
@@ -48,7 +51,8 @@ def orbit_yz(result: xr.Dataset, member: Members = None, ax: Axes | None = None)
         ax.figure.colorbar(image, ax=ax, label=f"samples of {len(members)} members")
     ax.set_aspect("equal", adjustable="box")
     ax.autoscale_view()
-    return finish(ax, label("z", unit), label("y", unit))
+    origin = " from the way's axis" if turned is not None and may_be_misaligned(result) else ""
+    return finish(ax, label(f"z{origin}", unit), label(f"y{origin}", unit))
 
 
 def poincare(result: xr.Dataset, x: str = "y", y: str = "vy", member: Members = None, ax: Axes | None = None) -> Axes:

@@ -10,6 +10,7 @@ from ..errors import SlidewayError
 from ..ideal import ideal
 from ..scenes import scene
 from ..signals import running_integral
+from ..way import across, may_be_misaligned
 from .style import Members, axis, chosen, draw_members, failures, finish, grey, label, scaled, variable, words_of
 
 
@@ -19,7 +20,8 @@ def time_series(
     """A series over the time, with the mechanism without clearance behind it.
 
     Up to eight members are lines, more of them bands. Of y and z the ideal is the axis of the way, and dotted lines are the ends of
-    the clearance, where a slider that is not tilted touches.
+    the clearance, where a slider that is not tilted touches. Where the scene's [way] moves or turns the way, y and z are drawn from its
+    axis, and the axis says so.
 
     Args:
         name: of the series.
@@ -41,6 +43,13 @@ def time_series(
     rows = np.array(data.sel(member=members).values)
     background = ideal(scene(result, members[0] if len(members) == 1 else None), name, time)
     words = words_of(name)
+    moved = may_be_misaligned(result)
+    if moved and background is not None and name not in ("x", "vx", "ax"):
+        background = None  # the way's own height, slope and attitude, which are not those of the axis
+    if moved and name in ("y", "z"):
+        turned = across(result, members)
+        if turned is not None:
+            rows, background, words = turned[name == "z"].copy(), np.zeros_like(time), f"{name} from the way's axis"
     if difference:
         if background is None:
             raise SlidewayError(f"there is no ideal {name} to take the difference to; leave out difference=True")
@@ -54,7 +63,7 @@ def time_series(
     if background is not None:
         ax.plot(second * time, factor * background, color=grey, lw=2.5, alpha=0.6, zorder=1,
                 label="axis of the way" if name in ("y", "z") else "ideal mechanism")
-    clearance = _clearance(result, members, name) if gap and not difference else None
+    clearance = _clearance(result, members, name) if gap and background is not None and not difference else None
     if clearance is not None:
         for end, words_of_line in ((clearance, "clearance"), (-clearance, None)):
             ax.axhline(factor * end, color=grey, lw=1, ls=":", label=words_of_line, zorder=1)
@@ -89,10 +98,10 @@ def cumulative_area(result: xr.Dataset, name: str = "acceleration_top", member: 
 
 
 def _clearance(result: xr.Dataset, members: list[int], name: str) -> float | None:
-    """Half the play of y or z [m], where all members share it and the way lies on the axis."""
-    if name not in ("y", "z") or any(scene(result).get("way", {}).values()):
+    """Half the play of y or z [m], where all members share it."""
+    if name not in ("y", "z"):
         return None
-    if len(members) > 1 and any(key.startswith(("joint.", "way.")) for key in scene(result).get("study", {}).get("vary", {})):
+    if len(members) > 1 and any(key.startswith("joint.") for key in scene(result).get("study", {}).get("vary", {})):
         return None
     try:
         ends = {float(scene(result, m)["joint"][f"clearance_{name}"]) for m in (members[0], members[-1])}

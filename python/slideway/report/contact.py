@@ -17,28 +17,6 @@ Y_FACES = ((0, 3, 7, 4), (1, 2, 6, 5))  # top, bottom
 Z_FACES = ((0, 1, 5, 4), (3, 2, 6, 7))  # front, back
 
 
-def rotation(roll: Array, yaw: Array, pitch: Array) -> Array:
-    """Rz(pitch) Ry(yaw) Rx(roll) of each sample (model.md section 1).
-
-    Args:
-        roll, yaw, pitch: angles about X, Y, Z [rad], of one shape (...).
-
-    Returns:
-        (..., 3, 3); columns are the body's axes.
-
-    >>> from slideway.report.contact import rotation
-    >>> bool(np.allclose(rotation(0.0, 0.0, np.pi / 2) @ [1, 0, 0], [0, 1, 0]))
-    True
-    """
-    (sx, cx), (sy, cy), (sz, cz) = ((np.sin(a), np.cos(a)) for a in (roll, yaw, pitch))
-    rows = (
-        (cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx),
-        (sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx),
-        (-sy, cy * sx, cy * cx),
-    )
-    return np.stack([np.stack(np.broadcast_arrays(*row), -1) for row in rows], -2)
-
-
 def spatial_depths(
     y: Array, z: Array, attitude: Array, length: float, width: float, depth: float, gap_y: float, gap_z: float
 ) -> Array:

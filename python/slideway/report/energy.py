@@ -41,19 +41,29 @@ class Balance:
     damping: float
     change: float  # of the mechanical energy, E(t) - E(0)
     duration: float  # of a member [s]
+    reference: float = math.nan  # an energy of the mechanism itself, which none of the above has to reach
+    reference_name: str = ""
 
     @property
     def scale_named(self) -> tuple[float, str]:
-        """What the residual is compared with, and its name: the first that is there; NaN where none is."""
-        for size, name in (
+        """What the residual is compared with, and its name: the largest energy that is known; NaN where none is.
+
+        The work and the losses of a mechanism without friction are residuals themselves, so they alone are no measure.
+        """
+        sizes = (
             (abs(self.work), "the drive's work"),
             (self.friction + self.damping, "what friction and damping took"),
             (self.damping, "what damping took"),
             (abs(self.change), "the change of the mechanical energy"),
-        ):
-            if size > 0:
-                return size, name
-        return math.nan, ""
+            (self.reference, self.reference_name),
+        )
+        known = [named for named in sizes if named[0] > 0]
+        return max(known, key=lambda named: named[0]) if known else (math.nan, "")
+
+    @property
+    def complete(self) -> bool:
+        """Whether a term is there that would be large if the mechanism turned over much more than its reference energy."""
+        return abs(self.work) > 0 or any(map(math.isfinite, (self.friction + self.damping, self.change)))
 
     @property
     def scale(self) -> float:
@@ -81,7 +91,19 @@ def balance(result: xr.Dataset, every: list[Column]) -> Balance | None:
     else:
         duration = float(slideway.scene(result)["study"].get("duration", math.nan))
     largest = max(abs(residual.low), abs(residual.high))
-    return Balance(residual.mean, largest, work, friction, damping, change, duration)
+    return Balance(residual.mean, largest, work, friction, damping, change, duration, *_reference(result))
+
+
+def _reference(result: xr.Dataset) -> tuple[float, str]:
+    """M g c of a slider that falls through its gap, or of a planar one ½ m (r ω)² [J], and its name; NaN where the scene lacks the sizes."""
+    scene = slideway.scene(result, derived=True)
+    mechanism, joint = scene["mechanism"], scene.get("joint", {})
+    mass = float(mechanism.get("slider_mass", math.nan))
+    if mechanism["kind"] == "planar_slider_crank":
+        speed = mechanism.get("crank_length", math.nan) * mechanism.get("crank_speed", math.nan)
+        return mass * speed**2 / 2, "the slider's kinetic energy at the speed of the crank pin"
+    fall = mechanism.get("gravity", math.nan) * joint.get("clearance_y", math.nan)
+    return mass * fall, "the weight's energy across the gap"
 
 
 def verdict(result: xr.Dataset, every: list[Column]) -> Verdict:
@@ -112,14 +134,22 @@ def _amount(terms: Balance) -> str:
     return words
 
 
+def _compared(terms: Balance) -> list[str]:
+    """Why the residual is compared with what it is, where that is not the work."""
+    if not terms.scale > 0 or terms.scale_name == "the drive's work":
+        return []
+    return [f"It is compared with {terms.scale_name}, the largest of the energies that are known here."]
+
+
 def _of_conserving(terms: Balance, law: str) -> Verdict:
     share = _share(terms)
     found = [
         f"The residual is {_amount(terms)}.",
+        *_compared(terms),
         f"{law} derives its elastic forces from one potential, so by itself it makes no energy: friction and damping alone take "
         "some, and both are in the balance.",
     ]
-    if math.isnan(share):
+    if math.isnan(share) or (share > CLEAN and not terms.complete):
         unknown = (
             "Whether that is much cannot be said without the drive's work and the losses; add crank_work, friction_loss and "
             "damping_loss to study.quantities."
@@ -151,10 +181,10 @@ def _of_paper(terms: Balance) -> Verdict:
     )
     if share <= CLEAN:
         hardly = "Here the modes hardly switched under load, so hardly any energy was made."
-        return Verdict("good", f"Energy is kept to {percent(share)}", [found, why, hardly])
+        return Verdict("good", f"Energy is kept to {percent(share)}", [found, *_compared(terms), why, hardly])
     if terms.duration > 0:
         found += f" That is {joules(terms.residual / terms.duration)} in each second."
-    sentences = [found, why]
+    sentences = [found, *_compared(terms), why]
     if terms.residual > 0:
         made = (
             percent(terms.residual / terms.scale) + f" of {terms.scale_name}" if terms.scale > 0 else joules(terms.residual)

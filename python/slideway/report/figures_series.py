@@ -9,6 +9,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from slideway.ideal import rod_reach
+from slideway.way import may_be_misaligned
+
 from .contact import mode_classes
 from .members import chosen
 from .numbers import counted, number, scaled, unit_words
@@ -42,7 +45,7 @@ def time_series(result: xr.Dataset, seen: dict[int, Poses]) -> list[Figure]:
         ("rates", "Velocities", RATE, []),
     ):
         kept = [(unit, [s for s in states if s in names], factor) for unit, states, factor in groups]
-        drawn = [(f"{', '.join(states)}<br>[{unit}]", states, factor) for unit, states, factor in kept if states]
+        drawn = [(f"{', '.join(states)}{_origin(result, states)}<br>[{unit}]", states, factor) for unit, states, factor in kept if states]
         titles = [head for head, _, _ in drawn] + [_axis_title(result, one) for one in extra]
         if not titles:
             continue
@@ -66,6 +69,11 @@ def time_series(result: xr.Dataset, seen: dict[int, Poses]) -> list[Figure]:
     return figures
 
 
+def _origin(result: xr.Dataset, states: list[str]) -> str:
+    """What y and z are from, where that is not the inertial axis."""
+    return "<br>from the way's axis" if "y" in states and may_be_misaligned(result) else ""
+
+
 def _axis_title(result: xr.Dataset, name: str) -> str:
     units = str(result[name].attrs.get("units", "1"))
     lines = textwrap.wrap(name.replace("_", " "), 16) + ([] if units == "1" else [f"[{unit_words(units)}]"])
@@ -76,17 +84,17 @@ def _rows_of(
     result: xr.Dataset, member: int, groups: list[tuple[str, list[str], float]], extra: list[str], pose: Poses
 ) -> list[Trace]:
     row = result.sel(member=member).isel(sample=pose.samples)
+    across = {"y": pose.y, "z": pose.z}  # from the way's axis, as the walls
     data: list[Trace] = []
     for place, (_, names, factor) in enumerate(groups, start=1):
         data += [
-            line(pose.time, row[name].values * factor, name, colour, place)
+            line(pose.time, (across[name] if name in across else row[name].values) * factor, name, colour, place)
             for name, colour in zip(names, COLOURS, strict=False)
         ]
     for place, name in enumerate(extra, start=len(groups) + 1):
         if name == "x" and pose.crank is not None and pose.links is not None:
             r, rod = pose.links
-            ideal = r * np.cos(pose.crank) + np.sqrt(rod**2 - (r * np.sin(pose.crank)) ** 2)
-            data.append(line(pose.time, ideal, "x of the ideal mechanism", "@muted", place, width=4))
+            data.append(line(pose.time, rod_reach(r, rod, pose.crank), "x of the ideal mechanism", "@muted", place, width=4))
         data.append(line(pose.time, row[name].values, name, "@c4", place, showlegend=name == "x"))
     return data
 
@@ -107,6 +115,8 @@ def _series_caption(result: xr.Dataset, name: str) -> str:
     caption = f"{counted(samples, 'sample')}, every {number(_spacing(result))} s."
     if name == "series":
         caption += " Dotted: the clearance, where the slider without tilt would touch."
+        if may_be_misaligned(result):
+            caption += " y and z are from the way's axis, all else is not."
     if samples > 5000:
         caption += " Of so many, the least and the largest of each short stretch are drawn (at most 5,000 points a curve)."
     return caption
@@ -140,6 +150,8 @@ def bands(result: xr.Dataset) -> Figure | None:
     caption = f"At each time, of the {counted(thin.sizes['member'], 'member')} that got there."
     if step > 1:
         caption += f" Every {step}th sample."
+    if may_be_misaligned(result):
+        caption += " As stored: y and z are not from the way's axis."
     return Figure("bands", "All members over time", caption, variants, choice="Series")
 
 
@@ -164,7 +176,8 @@ def orbit(result: xr.Dataset, seen: dict[int, Poses]) -> Figure | None:
             "y1": up,
             "line": {"color": "@muted", "dash": "dot", "width": 1},
         }
-        layout = rows(["y [mm]"], "z [mm]")
+        origin = " from the way's axis" if may_be_misaligned(result) else ""
+        layout = rows([f"y{origin} [mm]"], f"z{origin} [mm]")
         layout["yaxis"] |= {"scaleanchor": "x", "scaleratio": 1, "constrain": "domain"}
         layout["xaxis"] |= {"constrain": "domain"}
         variants.append(Variant(label, [path, start], {**layout, "shapes": [walls]}))

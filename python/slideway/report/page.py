@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import tempfile
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -58,14 +59,33 @@ def write(result: StrPath | xr.Dataset, out: StrPath) -> Path:
         with slideway.open(result) as opened:
             text = html_of(opened)
     path = Path(os.fspath(out))
-    part = path.with_name(path.name + ".part")
     try:
-        part.write_text(text, encoding="utf-8")
-        os.replace(part, path)
+        _replace(path, text)
     except OSError as error:
-        part.unlink(missing_ok=True)
         raise SlidewayError(f"{path}: cannot write the report: {error.strerror or error}") from error
     return path
+
+
+def _replace(path: Path, text: str) -> None:
+    """Puts a text in a file that others see old or new, never in part; its unfinished name is this call's own."""
+    descriptor, part = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
+    try:
+        with open(descriptor, "w", encoding="utf-8") as file:
+            file.write(text)
+        os.chmod(part, _usual_mode(path))
+        os.replace(part, path)
+    except BaseException:
+        os.unlink(part)
+        raise
+
+
+def _usual_mode(path: Path) -> int:
+    """Permissions of the file as it is, or of any new one: those of a temporary file are for its owner alone."""
+    if path.exists():
+        return path.stat().st_mode & 0o777
+    mask = os.umask(0)
+    os.umask(mask)
+    return 0o666 & ~mask
 
 
 def html_of(result: xr.Dataset) -> str:

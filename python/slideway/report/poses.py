@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,6 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 import slideway
+from slideway import way
 
 from . import contact
 from .contact import Array
@@ -58,10 +58,13 @@ def why_none(result: xr.Dataset) -> str | None:
         return 'The members are not stored (study.store = "statistics"), so there is no time series to draw.'
     if "sample" not in result.sizes or result.sizes["sample"] == 0:
         return "The file holds no time series; set study.samples_per_revolution (or study.samples) to have one."
-    planar = slideway.scene(result).get("mechanism", {}).get("kind") == "planar_slider_crank"
+    kind = slideway.scene(result).get("mechanism", {}).get("kind")
+    planar = kind == "planar_slider_crank"
     missing = [name for name in STATES["planar" if planar else "spatial"] if name not in result]
     if missing:
         return f"The time series lack {', '.join(missing)}, which place the slider in its way."
+    if kind == "free_slider" and "x" not in result and way.may_be_misaligned(result):
+        return "The time series lack x, which places the slider in its turned way."
     return None
 
 
@@ -83,14 +86,17 @@ def poses(result: xr.Dataset, member: int) -> Poses:
     zero = np.zeros_like(y)
     if joint.planar:
         touching = contact.planar_depths(y, pitch, joint.length, joint.width, joint.gap_y) > 0
-        x = stored.get("x", _along(scene, time, y, zero, crank, links))
+        x = stored.get("x", way.along(scene, time, y, zero, crank))
         return Poses(
             joint, kept, time, y, zero, zero, zero, pitch, touching, contact.planar_modes(touching), x, crank, links
         )
-    x = stored.get("x", _along(scene, time, y, states["z"], crank, links))
-    attitude = contact.rotation(states["roll"], states["yaw"], pitch)
-    place = np.stack([zero if x is None else x, y, states["z"]], -1)
-    place, attitude = _in_way(scene, place, attitude)
+    x = stored.get("x", way.along(scene, time, y, states["z"], crank))
+    place = way.place(scene, x, y, states["z"])
+    if place is None:
+        raise slideway.SlidewayError("x is not stored, so where the slider lies in a turned way is unknown; ask why_none first")
+    attitude = way.rotation(states["roll"], states["yaw"], pitch)
+    if way.misaligned(scene):
+        attitude = way.frame(scene)[1].T @ attitude
     touching = contact.spatial_depths(place[:, 1], place[:, 2], attitude, *_sizes(joint)) > 0
     return Poses(
         joint=joint,
@@ -136,48 +142,3 @@ def _crank(scene: dict[str, Any], time: Array, stored: Array | None) -> tuple[Ar
     if stored is not None:
         return stored, links
     return mechanism.get("start_angle", 0.0) + mechanism["crank_speed"] * time, links
-
-
-def _along(
-    scene: dict[str, Any], time: Array, y: Array, z: Array, crank: Array | None, links: tuple[float, float] | None
-) -> Array | None:
-    """x [m] that follows from the mechanism: of a rod that reaches from the crank pin, or of a carriage's motion."""
-    if crank is not None and links is not None:
-        r, rod = links
-        return r * np.cos(crank) + np.sqrt(np.maximum(rod**2 - (y - r * np.sin(crank)) ** 2 - z**2, 0))
-    mechanism = scene["mechanism"]
-    if {"carriage_speed", "stroke", "reversal_time"} <= mechanism.keys():
-        return carriage_place(time, mechanism["carriage_speed"], mechanism["stroke"], mechanism["reversal_time"])
-    return None
-
-
-def carriage_place(time: Array, speed: float, stroke: float, reversal: float) -> Array:
-    """Place of a carriage that runs to and fro [m] (model.md section 7).
-
-    Args:
-        time [s]; speed v [m/s]; stroke [m]; reversal t_r [s].
-
-    >>> from slideway.report.poses import carriage_place
-    >>> carriage_place(np.array([0.0, 1.0, 2.0, 3.0]), 1.0, 1.0, 1.0).round(3).tolist()
-    [0.0, 1.0, 1.0, 0.0]
-    """
-    run = stroke / abs(speed)
-    half = run + reversal
-    phase = np.mod(time, 2 * half)
-    back = phase >= half
-    into = np.where(back, phase - half, phase)
-    turn = reversal / math.pi * np.sin(math.pi * np.maximum(into - run, 0) / reversal) if reversal > 0 else 0.0
-    gone = speed * (np.minimum(into, run) + turn)
-    return np.where(back, speed * run - gone, gone)
-
-
-def _in_way(scene: dict[str, Any], place: Array, attitude: Array) -> tuple[Array, Array]:
-    """Place and attitude in the way's frame (model.md section 1); the same where the way is where it should be."""
-    way = scene.get("way", {})
-    angles = [way.get(key, 0.0) for key in ("roll", "yaw", "pitch")]
-    offsets = [way.get(key, 0.0) for key in ("offset_y", "offset_z")]
-    if not any(angles) and not any(offsets):
-        return place, attitude
-    frame = contact.rotation(*(np.asarray(angle) for angle in angles))
-    reach = scene["mechanism"].get("rod_length", 0.0)
-    return (place - np.array([reach, *offsets])) @ frame, frame.T @ attitude

@@ -49,3 +49,24 @@ def test_a_page_can_be_written_from_python(result_of: Callable[[str], xr.Dataset
         assert report.write(result, tmp_path / "p.html") == tmp_path / "p.html"
         with pytest.raises(slideway.SlidewayError, match="cannot write"):
             report.write(result, tmp_path / "nowhere" / "p.html")
+
+
+def test_a_page_that_cannot_be_put_in_place_leaves_nothing(result_of: Callable[[str], xr.Dataset], tmp_path: Path) -> None:
+    from slideway import report
+
+    (tmp_path / "p.html").mkdir()  # a folder, which no file replaces
+    with result_of("poincare") as result, pytest.raises(slideway.SlidewayError, match="cannot write"):
+        report.write(result, tmp_path / "p.html")
+    assert [path.name for path in tmp_path.iterdir()] == ["p.html"]
+
+
+def test_pages_leave_the_files_of_others_alone(result_of: Callable[[str], xr.Dataset], tmp_path: Path) -> None:
+    from slideway import report
+
+    (tmp_path / "p.html.part").write_text("of another")
+    with result_of("poincare") as result:
+        report.write(result, tmp_path / "p.html")
+    assert (tmp_path / "p.html.part").read_text() == "of another"
+    (tmp_path / "new").touch()
+    assert (tmp_path / "p.html").stat().st_mode == (tmp_path / "new").stat().st_mode
+    assert len(list(tmp_path.iterdir())) == 3

@@ -10,7 +10,9 @@ import numpy as np
 import pytest
 import slideway
 import xarray as xr
+from slideway.ideal import ideal
 from slideway.report import contact, poses
+from slideway.way import rotation
 
 golden = Path(__file__).resolve().parents[3] / "tests" / "golden"
 PAIRS = [f"pen_{axis}_P{k}" for axis in "yz" for k in range(1, 9)]
@@ -32,7 +34,7 @@ def test_penetrations_are_the_golden_ones(name: str) -> None:
     rows = table(name)
     y, z, roll, yaw, pitch = numbers(rows, STATES).T
     gaps = numbers(rows, ["joint.clearance_y", "joint.clearance_z"])
-    attitude = contact.rotation(roll, yaw, pitch)
+    attitude = rotation(roll, yaw, pitch)
     for k, (gap_y, gap_z) in enumerate(gaps):
         one = slice(k, k + 1)
         depths = contact.spatial_depths(y[one], z[one], attitude[one], 0.04, 0.02, 0.03, gap_y, gap_z)
@@ -97,13 +99,14 @@ def test_a_planar_block_touches_with_the_corners_that_are_beyond_the_walls() -> 
 
 def test_a_carriage_moves_as_prescribed() -> None:
     v, stroke, turn = 0.06, 0.15, 0.02
+    carriage = {"mechanism": {"kind": "carriage", "carriage_speed": v, "stroke": stroke, "reversal_time": turn}}
     run = stroke / v
     time = np.linspace(0, 2 * (run + turn), 200001)[:-1]  # before it begins anew
     phase = np.mod(time, run + turn)
     speed = np.where(phase < run, v, v * np.cos(np.pi * (phase - run) / turn))
     speed *= np.where(time >= run + turn, -1, 1)
     place = np.concatenate([[0], np.cumsum((speed[1:] + speed[:-1]) / 2 * np.diff(time))])
-    assert np.abs(poses.carriage_place(time, v, stroke, turn) - place).max() < 1e-7
+    assert np.abs(ideal(carriage, "x", time) - place).max() < 1e-7
 
 
 def test_there_are_no_poses_without_time_series(result_of: Callable[[str], xr.Dataset]) -> None:

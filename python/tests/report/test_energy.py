@@ -83,6 +83,64 @@ def test_a_free_crank_is_compared_with_what_it_lost() -> None:
     assert "corners" in " ".join(found.sentences)
 
 
+GAP = """slider_mass = 0.2
+gravity = 10.0
+[joint]
+clearance_y = 1e-4
+"""  # M g c = 2e-4 J
+
+
+def in_gap(kind: str, residual: float, **others: float) -> energy.Verdict:
+    every = [quantity("energy_residual", residual), *(quantity(name, mean) for name, mean in others.items())]
+    return energy.verdict(scene("conservative", kind, GAP), every)
+
+
+def test_a_carriage_without_friction_is_compared_with_its_weight() -> None:
+    found = in_gap("carriage", -642e-12, crank_work=638e-12, friction_loss=0.0, damping_loss=0.0)
+    assert found.grade == "good"
+    assert found.headline == "Energy is kept to 3.2 ppm"  # 642e-12 of 2e-4
+    assert "the weight's energy across the gap (200 µJ)" in found.sentences[0]
+    assert "compared with the weight's energy across the gap" in found.sentences[1]
+
+
+def test_a_slider_that_turned_over_nothing_yet_is_compared_with_its_weight() -> None:
+    assert in_gap("free_slider", 1e-9, friction_loss=10e-9, damping_loss=4e-9, energy_change=-14e-9).grade == "good"
+
+
+def test_much_residual_beside_the_weight_is_bad() -> None:
+    found = in_gap("carriage", 1e-4, crank_work=1e-9, friction_loss=0.0, damping_loss=0.0)
+    assert found.grade == "bad"
+    assert "50 %" in found.headline
+
+
+def test_the_largest_energy_is_the_scale_whatever_it_is() -> None:
+    named = {"crank_work": "the drive's work", "energy_change": "the change of the mechanical energy"}
+    for name, words in named.items():
+        assert f"1 % of {words}" in in_gap("carriage", 1e-5, **{name: 1e-3}).sentences[0]
+    lost = in_gap("carriage", 1e-5, crank_work=1e-9, friction_loss=6e-4, damping_loss=4e-4)
+    assert "1 % of what friction and damping took" in lost.sentences[0]
+
+
+def test_the_weight_alone_condemns_nothing() -> None:
+    assert in_gap("carriage", 1e-6).grade == "none"
+    assert in_gap("carriage", 1e-8).grade == "good"
+
+
+def test_mass_that_follows_from_other_keys_counts() -> None:
+    result = scene("conservative", "carriage", GAP.replace("slider_mass = 0.2", "# slider_mass = 0.2  # kg, follows from other keys"))
+    terms = energy.balance(result, [quantity("energy_residual", 1e-9)])
+    assert terms is not None
+    assert terms.scale == pytest.approx(2e-4)
+
+
+def test_a_planar_slider_is_compared_with_its_motion() -> None:
+    more = 'slider_mass = 0.08\ncrank_length = 0.1\ncrank_speed = 50.0\ncrank = "free"'  # ½ · 0.08 · 5² = 1 J
+    every = [quantity("energy_residual", 1e-4), quantity("energy_change", -1e-5)]
+    found = energy.verdict(scene("conservative", "planar_slider_crank", more), every)
+    assert found.grade == "good"
+    assert "kinetic energy at the speed of the crank pin (1 J)" in found.sentences[0]
+
+
 def test_missing_quantities_are_named() -> None:
     found = energy.verdict(scene("paper"), [])
     assert found.grade == "none"
