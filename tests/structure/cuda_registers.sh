@@ -27,9 +27,11 @@ done <"$reports" | c++filt | awk -f "$rows" | awk -F'\t' -v release="$release" '
         # [B], a little above what was measured
         stack["integrate_members"] = 13200
         stack["integrate_shadowed"] = 24000
-        # What lean derivatives store and load of spills, [B]; those of other dampings none.
+        # What lean derivatives store and load of spills, [B]; those of other parts none.
+        spills["StickSlipFriction MisalignedWay RateDamping"] = 16
+        spills["StickSlipFriction MisalignedWay PointDamping"] = 16
         spills["NoFriction AlignedWay RestitutionDamping"] = 8
-        spills["NoFriction MisalignedWay RestitutionDamping"] = 24
+        spills["NoFriction MisalignedWay RestitutionDamping"] = 48
         spills["StickSlipFriction AlignedWay RestitutionDamping"] = 32
         spills["StickSlipFriction MisalignedWay RestitutionDamping"] = 400
     }

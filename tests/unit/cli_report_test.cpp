@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include <netcdf.h>
+#include <sys/stat.h>
 
 namespace slideway::testing {
 namespace {

@@ -57,7 +57,7 @@ def why_none(result: xr.Dataset) -> str | None:
     if "status" not in result:
         return 'The members are not stored (study.store = "statistics"), so there is no time series to draw.'
     if "sample" not in result.sizes or result.sizes["sample"] == 0:
-        return "The file holds no time series; set study.samples_per_revolution (or study.samples) to have one."
+        return "The file holds no time series; an ensemble with study.samples_per_revolution (or study.samples) has one."
     kind = slideway.scene(result).get("mechanism", {}).get("kind")
     planar = kind == "planar_slider_crank"
     missing = [name for name in STATES["planar" if planar else "spatial"] if name not in result]
