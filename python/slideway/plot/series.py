@@ -43,11 +43,9 @@ def time_series(
     rows = np.array(data.sel(member=members).values)
     background = ideal(scene(result, members[0] if len(members) == 1 else None), name, time)
     words = words_of(name)
-    moved = may_be_misaligned(result)
-    if moved and background is not None and name not in ("x", "vx", "ax"):
-        background = None  # the way's own height, slope and attitude, which are not those of the axis
-    if moved and name in ("y", "z"):
-        turned = across(result, members)
+    if may_be_misaligned(result) and name not in ("x", "vx", "ax"):
+        background = None  # the way has a height, a slope and an attitude of its own
+        turned = across(result, members) if name in ("y", "z") else None
         if turned is not None:
             rows, background, words = turned[name == "z"].copy(), np.zeros_like(time), f"{name} from the way's axis"
     if difference:

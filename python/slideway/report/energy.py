@@ -95,7 +95,7 @@ def balance(result: xr.Dataset, every: list[Column]) -> Balance | None:
 
 
 def _reference(result: xr.Dataset) -> tuple[float, str]:
-    """M g c of a slider that falls through its gap, or of a planar one ½ m (r ω)² [J], and its name; NaN where the scene lacks the sizes."""
+    """M g c of a slider that falls through its gap, of a planar one ½ m (r ω)² [J], and its name; NaN without the sizes."""
     scene = slideway.scene(result, derived=True)
     mechanism, joint = scene["mechanism"], scene.get("joint", {})
     mass = float(mechanism.get("slider_mass", math.nan))

@@ -45,7 +45,11 @@ def time_series(result: xr.Dataset, seen: dict[int, Poses]) -> list[Figure]:
         ("rates", "Velocities", RATE, []),
     ):
         kept = [(unit, [s for s in states if s in names], factor) for unit, states, factor in groups]
-        drawn = [(f"{', '.join(states)}{_origin(result, states)}<br>[{unit}]", states, factor) for unit, states, factor in kept if states]
+        drawn = [
+            (f"{', '.join(states)}{_origin(result, states)}<br>[{unit}]", states, factor)
+            for unit, states, factor in kept
+            if states
+        ]
         titles = [head for head, _, _ in drawn] + [_axis_title(result, one) for one in extra]
         if not titles:
             continue
