@@ -30,7 +30,7 @@ recipes: dict[str, tuple[str, dict[str, object]]] = {
         "study.members": 3, "study.transient_revolutions": 0, "study.revolutions": 0.05, "study.section": {"on": "vy"},
         "study.vary": {"initial.y": {"dist": "unif", "low": "-0.03 mm", "high": "0.03 mm"}}}),
     "sweep": ("sweep_clearance.toml", {
-        "study.members": 2, "study.points": 5, "study.transient_revolutions": 0, "study.revolutions": 1}),
+        "study.members": 2, "study.points": 5, "study.transient_revolutions": 0, "study.revolutions": 2}),
     "tolerance": ("tolerance_0.1mm.toml", {"study.base": 16, "study.duration": "20 ms"}),
     "correlations": ("tolerance_0.1mm.toml", {
         "study.design": "lhs", "study.members": 64, "study.duration": "20 ms"}),

@@ -40,6 +40,11 @@ TEST(SceneChaosErrors, KeysOfOtherStudies) {
                                   key, kind));
         }
     }
+    EXPECT_EQ(
+        sweep_error("transient_revolutions = 0\nrevolutions = 1\nexponents = 1"),
+        "scene.toml:7: study.revolutions is 1 (exponents are taken between its sections, and there is one); use at "
+        "least 2, or a transient");
+    EXPECT_EQ(sweep_error("transient_revolutions = 1\nrevolutions = 1\nexponents = 1"), "");
     EXPECT_EQ(error("sweep", "duration = 1"),
               "scene.toml:4: study.duration is 1 (a sweep records whole revolutions); use study.revolutions");
     EXPECT_EQ(error("sweep", "section = {on=\"y\"}"),
