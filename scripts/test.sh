@@ -24,8 +24,12 @@ bash scripts/setup.sh tests || stop "the set-up failed, no test ran"
 # Without a card one of its kinds says as much about the kernels as two, in half the time.
 nvidia-smi -L >/dev/null 2>&1 || export CUDAARCHS=90-real
 
+# Benchmarks are for those who measure, with scripts/bench.sh.
+options=()
+[[ ${CI:-false} == true ]] && options+=(-DSLIDEWAY_BENCH=OFF)
+
 SECONDS=0
-cmake --preset release --log-level=WARNING || stop "the configuration failed, no test ran"
+cmake --preset release --log-level=WARNING "${options[@]}" || stop "the configuration failed, no test ran"
 cmake --build "$build" --parallel "$jobs" || stop "the build failed, no test ran"
 echo "build: $SECONDS s"
 
