@@ -5,16 +5,27 @@
 
 #include <limits>
 
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
+
 namespace slideway {
 
 /// Marks an input that was not given and follows from others (`complete_inputs` in host/scene fills it).
 inline constexpr double follows = std::numeric_limits<double>::quiet_NaN();
 
-/// What moves the slider (docs/model.md 6, 7); mechanisms/mechanism_info.hpp tells what each has.
-enum class Mechanism { slider_crank, carriage, free_slider, planar_slider_crank };
+/// What moves the slider (docs/model.md 6, 7): the rows of mechanisms/list.hpp.
+enum class Mechanism {
+#define SLIDEWAY_NAME(name, Type, Base) name,
+    SLIDEWAY_MECHANISMS(SLIDEWAY_NAME)
+#undef SLIDEWAY_NAME
+};
 
-/// The kernel parts a scene may leave out; each is a template argument of the mechanism.
-enum class Law { paper, conservative };
+/// How contacts push (docs/model.md 4): the rows of laws/list.hpp.
+enum class Law {
+#define SLIDEWAY_NAME(name, Type) name,
+    SLIDEWAY_LAWS(SLIDEWAY_NAME)
+#undef SLIDEWAY_NAME
+};
 /// point: C of point contacts alone (χ = 0).  rate: C and χ.  restitution: replaces both.
 enum class Damping { point, rate, restitution };
 
@@ -76,6 +87,8 @@ struct Inputs {
     double chi_line = 0;                    // [s/m]
     double chi_surface = 0;                 // [s/m]
     double restitution = 1;                 // e in (0, 1]; used by Damping::restitution alone
+    // What a contact law has of its own, under the keys that its LawInfo names; 0 where a law has fewer.
+    double law_a = 0, law_b = 0, law_c = 0, law_d = 0;
     // [friction]
     double friction_static = 0.15;       // μs
     double friction_kinetic = 0.10;      // μd
