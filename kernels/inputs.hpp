@@ -121,6 +121,12 @@ struct Inputs {
     double law_a = 0, law_b = 0, law_c = 0, law_d = 0;
 };
 
+constexpr double Key::get(Inputs const& inputs) const { return inputs.*member; }
+constexpr void Key::set(Inputs& inputs, double value) const {
+    inputs.*member = value;
+    if (twin != nullptr) inputs.*twin = value;
+}
+
 inline constexpr Key input_keys[] = {
 #define SLIDEWAY_KEY(member, key, preset, unit, rule, group, meaning) \
     {key, &Inputs::member, unit, Rule::rule, KeyGroup::group, meaning, preset},

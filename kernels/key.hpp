@@ -35,12 +35,14 @@ enum class KeyGroup {
     hertz,          // point contacts K δⁿ
     point_damping,  // η, or a coefficient of restitution
     edges,          // line and surface contacts
+    law,            // what a contact law has of its own
 };
 using KeyGroups = unsigned;
 template <class... Groups> constexpr KeyGroups groups_of(Groups... groups) {
     return (0u | ... | (1u << static_cast<int>(groups)));
 }
 constexpr bool has_group(KeyGroups groups, KeyGroup group) { return (groups & groups_of(group)) != 0; }
+/// Those of which contact.law says whether they count.
 inline constexpr KeyGroups contact_groups =
     groups_of(KeyGroup::elastic, KeyGroup::hertz, KeyGroup::point_damping, KeyGroup::edges);
 
@@ -53,6 +55,14 @@ struct Key {
     std::string_view meaning;        // "crank length"
     double preset;                   // the value that it has when nobody gives one; NaN: it follows from others
     double Inputs::*twin = nullptr;  // a second input that the key sets too: joint.clearance, contact.young_modulus
+
+    constexpr double get(Inputs const& inputs) const;
+    constexpr void set(Inputs& inputs, double value) const;
+    constexpr bool sets(double Inputs::*input) const { return member == input || twin == input; }
+    /// Whether both set the same input.
+    constexpr bool overlaps(Key const& other) const {
+        return sets(other.member) || (other.twin != nullptr && sets(other.twin));
+    }
 };
 
 }  // namespace slideway

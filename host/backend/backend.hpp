@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "host/backend/instance_table.hpp"
+#include "host/backend/mechanism_kernels.hpp"
 #include "kernels/block.hpp"
 
 namespace slideway {

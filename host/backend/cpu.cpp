@@ -4,10 +4,22 @@
 
 #include "host/backend/backend.hpp"
 #include "host/backend/built_isas.hpp"
-#include "host/backend/instances.hpp"
 #include "host/backend/processor.hpp"
 
 namespace slideway {
+
+// Each instruction set has kernels of every mechanism.
+#define SLIDEWAY_DECLARED(name, Type, Base) extern MechanismKernels const name##_kernels;
+#define SLIDEWAY_ADDRESS(name, Type, Base) &name##_kernels,
+#define SLIDEWAY_KERNELS_OF(isa)                                                                        \
+    namespace isa {                                                                                     \
+    SLIDEWAY_MECHANISMS(SLIDEWAY_DECLARED)                                                              \
+    constexpr MechanismKernels const* kernels[] = {SLIDEWAY_MECHANISMS(SLIDEWAY_ADDRESS)}; \
+    }
+SLIDEWAY_FOR_EACH_ISA(SLIDEWAY_KERNELS_OF)
+#undef SLIDEWAY_DECLARED
+#undef SLIDEWAY_ADDRESS
+#undef SLIDEWAY_KERNELS_OF
 
 namespace {
 
@@ -24,10 +36,10 @@ constexpr std::array known_isas = {Isa::scalar, Isa::scalar_libm, Isa::avx2, Isa
 struct BuiltIsa {
     Isa isa;
     char const* flags;
+    MechanismKernels const* const* kernels;  // [mechanism]
 };
 
-// In the order of the tables of instances.
-#define SLIDEWAY_BUILT_ISA(isa) BuiltIsa{Isa::isa, SLIDEWAY_FLAGS_##isa},
+#define SLIDEWAY_BUILT_ISA(isa) BuiltIsa{Isa::isa, SLIDEWAY_FLAGS_##isa, isa::kernels},
 constexpr BuiltIsa built_table[] = {SLIDEWAY_FOR_EACH_ISA(SLIDEWAY_BUILT_ISA)};
 #undef SLIDEWAY_BUILT_ISA
 
@@ -76,15 +88,8 @@ std::span<Isa const> built_isas() {
 }
 
 KernelInstance find_instance(Isa isa, Parts const& parts) {
-    auto const place = place_of(compiled_isa(isa));
-    auto const mechanism = static_cast<int>(parts.mechanism);
-    int const friction = parts.friction ? 1 : 0;
-    if (!info(parts.mechanism).spatial) {
-        return planar_tables[place]
-            ->at[parts.damping == Damping::restitution ? 1 : 0][friction][parts.free_crank ? 1 : 0];
-    }
-    auto const& table = *instance_tables[place][static_cast<int>(parts.law)][static_cast<int>(parts.damping)];
-    return table.at[mechanism][friction][parts.misaligned_way ? 1 : 0];
+    auto const& built = built_table[place_of(compiled_isa(isa))];
+    return {built.kernels[static_cast<int>(parts.mechanism)], parts};
 }
 
 }  // namespace slideway

@@ -52,8 +52,9 @@ public:
     }
 
     BlockKernel kernel(Parts const& parts, bool shadows) const override {
-        KernelInstance const instance = find_instance(isa_, parts);
-        return shadows ? instance.run_shadowed : instance.run;
+        return [instance = find_instance(isa_, parts), shadows](Block& block) {
+            shadows ? instance.run_shadowed(block) : instance.run(block);
+        };
     }
 
     double peak() const override { return 0; }

@@ -1,8 +1,28 @@
-// The lanes of one instruction set, kind of memory and of law, for members with shadows or without.
+// The lanes of one instruction set for the mechanisms of a base: members without shadows, or with them.
 #include "host/backend/cpu_lanes.hpp"
+
+#include "kernels/integrate.hpp"
+#include "kernels/mechanisms/probe.hpp"
+#include "kernels/models/planar_lanes.hpp"
+#include "kernels/models/shadowed.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-SLIDEWAY_LANES_OF(SLIDEWAY_BASE, SLIDEWAY_MEMORY, SLIDEWAY_CONSERVING, )  // plain or shadowed
+#if SLIDEWAY_SHADOWED
+template <class Base> void run_shadowed_lanes(Block& block, IsaTable<Base> const& table) {
+    using Table = Shadowed<IsaTable<Base>>;
+    integrate<Table, IsaReal>(block, Table{table});
+}
+template void run_shadowed_lanes(Block&, IsaTable<SLIDEWAY_BASE> const&);
+#else
+template <class Base> void run_lanes(Block& block, IsaTable<Base> const& table) {
+    integrate<IsaTable<Base>, IsaReal>(block, table);
+}
+template <class Base> void probe_states(ProbeTable const& states, IsaTable<Base> const& table) {
+    probe<IsaTable<Base>, IsaReal>(states, table);
+}
+template void run_lanes(Block&, IsaTable<SLIDEWAY_BASE> const&);
+template void probe_states(ProbeTable const&, IsaTable<SLIDEWAY_BASE> const&);
+#endif
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -31,8 +31,7 @@ void print_parts(Scene const& scene) {
         list += fmt::format("{}{}", list.empty() ? "" : "; ", name);
     };
     if (mechanism.spatial) {
-        sort(scene.parts.law == Law::paper, "paper law");
-        sort(scene.parts.law == Law::conservative, "conservative law");
+        for (LawInfo const& law : laws()) sort(&law == &info(scene.parts.law), fmt::format("{} law", law.name));
     } else {
         sort(true, scene.parts.free_crank ? "free crank" : "driven crank");
         sort(true, "contact of corners");

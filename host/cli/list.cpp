@@ -15,7 +15,7 @@ namespace {
 template <class Has> std::string owners_text(Has has) {
     std::string names;
     bool all = true;
-    for (MechanismInfo const& mechanism : mechanism_table) {
+    for (MechanismInfo const& mechanism : mechanisms()) {
         if (!has(mechanism))
             all = false;
         else
@@ -27,7 +27,7 @@ template <class Has> std::string owners_text(Has has) {
 /// Their states, and what else comes with every time series.
 void print_mechanisms() {
     fmt::print("mechanisms (mechanism.kind), with the numbers of their state\n");
-    for (MechanismInfo const& mechanism : mechanism_table) {
+    for (MechanismInfo const& mechanism : mechanisms()) {
         std::string states, beside;
         Selection left = mechanism.always;
         for (int i = 0; i < mechanism.states; ++i) {
@@ -46,7 +46,7 @@ void print_mechanisms() {
 void print_keys(std::span<Key const> table) {
     for (Key const& key : table) {
         fmt::print("  {:<30} {:<8} {}{}\n", key.name, key.unit, key.meaning, owners_text([&](MechanismInfo const& one) {
-                       return key.counts_for(static_cast<Mechanism>(&one - mechanism_table));
+                       return counts_for(key, static_cast<Mechanism>(&one - mechanisms().data()));
                    }));
     }
 }
@@ -92,11 +92,9 @@ std::string state_of(Isa isa) {
 
 int list(ListArguments const&) {
     print_mechanisms();
+    fmt::print("\ncontact laws (contact.law){}\n", owners_text([](MechanismInfo const& one) { return one.spatial; }));
+    for (LawInfo const& law : laws()) fmt::print("  {:<30} {}\n", law.name, law.words);
     fmt::print(
-        "\ncontact laws (contact.law), of slider_crank, carriage and free_slider\n"
-        "  paper                          one mode per face: surface, lines or points (makes energy where it "
-        "switches)\n"
-        "  conservative                   one potential of all contacts, no switching\n"
         "\ndamping\n"
         "  point                          contact.eta: point contacts alone\n"
         "  rate                           contact.chi_line, contact.chi_surface: lines and surfaces too\n"

@@ -118,7 +118,7 @@ void print_failures(RunArguments const& arguments, Scene const& scene, EndedMemb
 
 /// The paper's law makes energy where its modes switch (model.md 8); a reader of results has to know how much.
 void print_energy_made(Scene const& scene, EndedMembers const& ended, std::vector<QuantitySummary> const& quantities) {
-    if (!info(scene.parts.mechanism).spatial || scene.parts.law != Law::paper) return;
+    if (!info(scene.parts.mechanism).spatial || !info(scene.parts.law).switches) return;
     auto const mean_of = [&](std::string_view label) -> QuantitySummary const* {
         for (QuantitySummary const& quantity : quantities) {
             if (quantity.label == label && quantity.values.count > 0) return &quantity;
@@ -138,7 +138,7 @@ void print_energy_made(Scene const& scene, EndedMembers const& ended, std::vecto
     QuantitySummary const* const work = mean_of("crank_work");
     if (work != nullptr && work->values.mean != 0) {
         fmt::print(", {:.3g} % of the {}'s work of {:.3g} J", 100 * made / std::abs(work->values.mean),
-                   scene.parts.mechanism == Mechanism::carriage ? "drive" : "crank", work->values.mean);
+                   counts_for(*find_key("mechanism.rod_length"), scene.parts.mechanism) ? "crank" : "drive", work->values.mean);
     }
     if (doubtful) {
         fmt::print("; {} tells them apart",

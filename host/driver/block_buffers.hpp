@@ -37,7 +37,7 @@ struct BlockRequest {
     CrossingPlan crossings;
     ShadowPlan shadows;  // its directions are those of
     ShadowDirections directions;
-    std::size_t states = info(Mechanism::slider_crank).states;  // numbers of a member's state
+    std::size_t states = state_size;  // numbers of a member's state
 };
 
 /// Bytes that a block of `members` needs.

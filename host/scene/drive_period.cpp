@@ -4,20 +4,21 @@
 #include <limits>
 #include <numbers>
 
+#include "host/scene/descriptors.hpp"
+
 namespace slideway {
 namespace {
 
 /// Nothing holds a speed, of a crank or of the slider.
 bool is_free(Parts const& parts) {
-    return parts.mechanism == Mechanism::free_slider ||
-           (parts.mechanism == Mechanism::planar_slider_crank && parts.free_crank);
+    return parts.free_crank || info(parts.mechanism).drive == DriveKind::none;
 }
 
 }  // namespace
 
 double drive_period(Parts const& parts, Inputs const& inputs) {
     if (is_free(parts)) return std::numeric_limits<double>::infinity();
-    if (parts.mechanism == Mechanism::carriage) {
+    if (info(parts.mechanism).drive == DriveKind::carriage) {
         return 2 * (inputs.stroke / inputs.carriage_speed + inputs.reversal_time);
     }
     return 2 * std::numbers::pi / std::abs(inputs.crank_speed);
@@ -25,7 +26,7 @@ double drive_period(Parts const& parts, Inputs const& inputs) {
 
 double first_time_at(double phase, Parts const& parts, Inputs const& inputs) {
     double const turn = drive_period(parts, inputs);
-    double const from_start = parts.mechanism == Mechanism::carriage
+    double const from_start = info(parts.mechanism).drive == DriveKind::carriage
                                   ? phase * (turn / (2 * std::numbers::pi))
                                   : (phase - inputs.start_angle) / inputs.crank_speed;
     double const time = std::fmod(from_start, turn);
@@ -36,7 +37,7 @@ double first_time_at(double phase, Parts const& parts, Inputs const& inputs) {
 
 std::string why_no_period(Parts const& parts) {
     if (!is_free(parts)) return "mechanism.crank_speed is 0";
-    return parts.mechanism == Mechanism::free_slider ? "nothing drives a free_slider" : "nothing drives a free crank";
+    return std::string("nothing drives a ") + (parts.free_crank ? "free crank" : info(parts.mechanism).name);
 }
 
 }  // namespace slideway

@@ -83,7 +83,7 @@ PeriodRange drive_periods(Scene const& scene) {
         key.set(at_least, of_key.least);
         key.set(at_most, of_key.most);
     };
-    if (scene.parts.mechanism == Mechanism::carriage) {
+    if (info(scene.parts.mechanism).drive == DriveKind::carriage) {
         vary("mechanism.carriage_speed", longest, shortest);
         vary("mechanism.stroke", shortest, longest);
         vary("mechanism.reversal_time", shortest, longest);

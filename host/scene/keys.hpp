@@ -7,46 +7,17 @@
 #include <string>
 #include <string_view>
 
+#include "host/scene/descriptors.hpp"
 #include "kernels/inputs.hpp"
 
 namespace slideway {
 
-/// A set of mechanisms: bit i for Mechanism i.
-using MechanismSet = unsigned;
-constexpr MechanismSet set_of(Mechanism mechanism) { return 1u << static_cast<int>(mechanism); }
+/// Whether a key means anything for a mechanism, whatever its law.
+bool counts_for(Key const& key, Mechanism mechanism);
+/// The same with the scene's law.
+bool counts_for(Key const& key, Parts const& parts);
 
-/// What values a key may take.
-enum class Rule {
-    any,
-    positive,        // > 0
-    not_negative,    // >= 0
-    gap,             // > 0, the reason being the joint's clearance
-    unit_interval,   // [0, 1]
-    half_open_unit,  // (0, 1]
-    poisson_ratio,   // (-1, 0.5]
-    hertz_exponent,  // [1, 3]
-    right_angle,     // [-π/2, π/2]
-};
-
-struct Key {
-    std::string_view name;  // dotted, as in the scene: "mechanism.crank_length"
-    double Inputs::*member;
-    std::string_view unit;  // SI, UDUNITS-2 syntax; "1" for a plain number
-    Rule rule;
-    std::string_view meaning;        // "crank length r"
-    MechanismSet mechanisms;         // for which it counts
-    double Inputs::*twin = nullptr;  // a second input that the key sets too: joint.clearance, contact.young_modulus
-
-    bool counts_for(Mechanism mechanism) const { return (mechanisms & set_of(mechanism)) != 0; }
-    double get(Inputs const& inputs) const { return inputs.*member; }
-    void set(Inputs& inputs, double value) const {
-        inputs.*member = value;
-        if (twin != nullptr) inputs.*twin = value;
-    }
-    bool overlaps(Key const& other) const;  // do both set the same input?
-};
-
-/// One key per input, in the order of `Inputs`.
+/// One key per input, in the order of `Inputs`, and what the laws have of their own.
 std::span<Key const> keys();
 /// The keys that set two inputs at once: joint.clearance, contact.young_modulus.
 std::span<Key const> twin_keys();

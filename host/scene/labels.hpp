@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kernels/mechanisms/mechanism_info.hpp"
+#include "host/scene/descriptors.hpp"
 
 namespace slideway {
 

@@ -212,8 +212,8 @@ RunLength run_length(Scene const& scene) {
 void read_chaos(Node const& root, Scene& scene) {
     ChaosSettings& chaos = scene.chaos;
     bool const lyapunov = scene.study == StudyKind::lyapunov, sweep = scene.study == StudyKind::sweep;
-    if ((lyapunov || sweep) && scene.parts.mechanism == Mechanism::free_slider) {
-        refuse(*root.find_path("study.kind"), {"nothing drives a free_slider, and no exponents are computed of it",
+    if ((lyapunov || sweep) && !info(scene.parts.mechanism).has_exponents) {
+        refuse(*root.find_path("study.kind"), {fmt::format("nothing drives a {0}, and no exponents are computed of it", info(scene.parts.mechanism).name),
                                                "use \"ensemble\" or \"poincare\""});
     }
     chaos.transient = read_span(root, scene, transient_keys, lyapunov ? 2 : 20);

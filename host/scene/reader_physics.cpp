@@ -14,15 +14,7 @@
 namespace slideway {
 namespace {
 
-constexpr std::size_t available_mechanisms = std::size(mechanism_table);
-constexpr auto mechanism_names = [] {
-    std::array<std::string_view, available_mechanisms + 1> names;
-    for (std::size_t i = 0; i < available_mechanisms; ++i) names[i] = mechanism_table[i].name;
-    names.back() = "lorenz";
-    return names;
-}();
 constexpr std::string_view crank_names[] = {"driven", "free"};
-constexpr std::string_view law_names[] = {"paper", "conservative"};
 constexpr auto method_names = [] {
     std::array<std::string_view, method_count> names;
     for (std::size_t i = 0; i < names.size(); ++i) names[i] = method_table[i].name;
@@ -56,16 +48,16 @@ void check_restitution(Node const& root) {
 void read_mechanism(Node const& root, Parts& parts) {
     if (Node const* const kind = root.find_path("mechanism.kind")) {
         parts.mechanism =
-            static_cast<Mechanism>(read_available(*kind, "mechanism", mechanism_names, available_mechanisms));
+            static_cast<Mechanism>(read_choice(*kind, "mechanism", mechanism_names()));
     }
     for (auto const& [key, node] : given_keys(root)) {
-        if (!key->counts_for(parts.mechanism)) refuse_meaningless(node->where, node->name, parts.mechanism);
+        if (!counts_for(*key, parts.mechanism)) refuse_meaningless(node->where, node->name, parts.mechanism);
     }
     auto const refuse_given = [&](std::string_view name) {
         Node const* const node = root.find_path(name);
         if (node != nullptr) refuse_meaningless(node->where, node->name, parts.mechanism);
     };
-    if (parts.mechanism != Mechanism::planar_slider_crank) {
+    if (!info(parts.mechanism).free_crank) {
         refuse_given("mechanism.crank");
     } else if (Node const* const crank = root.find_path("mechanism.crank")) {
         parts.free_crank = read_choice(*crank, "crank", crank_names) == 1;
@@ -80,7 +72,9 @@ void check_located_modes(Node const& node, Scene const& scene) {
     if (!info(scene.parts.mechanism).spatial) {
         refuse(node, {fmt::format("nothing switches in a {}", info(scene.parts.mechanism).name), "remove it"});
     }
-    if (scene.parts.law != Law::paper) refuse(node, {"only contact.law \"paper\" has modes", "remove it"});
+    if (!info(scene.parts.law).switches) {
+        refuse(node, {fmt::format("contact.law \"{}\" has no modes to switch between", info(scene.parts.law).name), "remove it"});
+    }
     if (scene.parts.damping == Damping::restitution) {
         refuse(node, {"contact.restitution ends steps at its touches already", "remove one of the two"});
     }
@@ -93,29 +87,30 @@ void check_located_modes(Node const& node, Scene const& scene) {
 void read_located_modes(Node const& root, Scene& scene) {
     IntegratorSettings& settings = scene.integrator;
     Node const* const node = root.find_path("integrator.locate_modes");
-    bool const switches = info(scene.parts.mechanism).spatial && scene.parts.law == Law::paper &&
+    bool const switches = info(scene.parts.mechanism).spatial && info(scene.parts.law).switches &&
                           scene.parts.damping != Damping::restitution;
     bool const orbits = !runs_to_end(scene.study), neighbours = scene.chaos.exponents > 0;
-    bool const can = has_effect("locate_modes", settings.method, scene.parts.mechanism);
+    bool const can = has_effect("locate_modes", settings.method, info(scene.parts.mechanism));
     // Long orbits under the law that switches take half the steps so, and neighbours need it.
     settings.locate_modes = node != nullptr ? read_boolean(*node) : switches && orbits && can;
     if (node != nullptr && settings.locate_modes) check_located_modes(*node, scene);
     if (!switches || !neighbours || settings.locate_modes) return;
     // In trials exponents came out up to half as large again.
     scene.warnings.push_back(
-        fmt::format("{}: steps leap over mode switches of contact.law \"paper\" and miss how they separate neighbours, "
+        fmt::format("{}: steps leap over mode switches of contact.law \"{}\" and miss how they separate neighbours, "
                     "so that exponents come out wrong; {}",
                     can ? std::string("integrator.locate_modes is false")
                         : fmt::format("integrator.method is {}", name_of(settings.method)),
+                    info(scene.parts.law).name,
                     can ? "leave it out" : "use method \"auto\", \"dopri5\" or \"bs32\""));
 }
 
 void warn_of_idle_keys(Node const& table, Scene& scene) {
     for (Node const& node : table.children) {
-        if (has_effect(node.key, scene.integrator.method, scene.parts.mechanism)) continue;
+        if (has_effect(node.key, scene.integrator.method, info(scene.parts.mechanism))) continue;
         // Said to be off where it cannot be on, it is as it was asked for.
         if (node.key == "locate_modes") continue;
-        bool const of_method = !has_effect(node.key, scene.integrator.method, Mechanism::slider_crank);
+        bool const of_method = !has_effect(node.key, scene.integrator.method, info(Mechanism::slider_crank));
         scene.warnings.push_back(
             of_method ? fmt::format("{} has no effect with method {}", node.name, name_of(scene.integrator.method))
                       : fmt::format("{} has no effect on a {}", node.name, info(scene.parts.mechanism).name));
@@ -139,10 +134,16 @@ std::vector<GivenKey> given_keys(Node const& root) {
 void read_physics(Node const& root, Scene& scene) {
     read_mechanism(root, scene.parts);
     if (Node const* const law = root.find_path("contact.law")) {
-        scene.parts.law = read_choice(*law, "contact law", law_names) == 0 ? Law::paper : Law::conservative;
+        scene.parts.law = static_cast<Law>(read_choice(*law, "contact law", law_names()));
     }
+    for (Key const& key : info(scene.parts.law).keys) key.set(scene.inputs, key.preset);
     auto const given = given_keys(root);
-    for (auto const& [key, node] : given) key->set(scene.inputs, read_number(*node, *key));
+    for (auto const& [key, node] : given) {
+        if (!counts_for(*key, scene.parts)) {
+            refuse(*node, {fmt::format("contact.law \"{}\" does not know it", info(scene.parts.law).name), "remove it"});
+        }
+        key->set(scene.inputs, read_number(*node, *key));
+    }
     check_rivals(given);
     check_restitution(root);
 
@@ -193,7 +194,7 @@ void read_integrator(Node const& root, Scene& scene) {
     constexpr double longest_step = 1e-3;
     settings.max_step = std::min(longest_step, period / 2000);
     // Nor over a carriage's reversal, which accelerates it for a small part of its period.
-    bool const reverses = scene.parts.mechanism == Mechanism::carriage;
+    bool const reverses = info(scene.parts.mechanism).drive == DriveKind::carriage;
     double const reversal = reverses ? shortest_reversal(scene) / 20 : settings.max_step;
     settings.max_step = std::min(settings.max_step, reversal);
     if (Node const* const node = root.find_path("integrator.max_step")) {

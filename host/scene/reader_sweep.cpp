@@ -150,7 +150,7 @@ void read_sweep(Node const& root, Scene& scene) {
                     "use start = \"fresh\", or another parameter"});
         }
         Node const* const phase = root.find_path("study.phase");
-        if (scene.chaos.continued && scene.parts.mechanism == Mechanism::carriage && phase != nullptr &&
+        if (scene.chaos.continued && info(scene.parts.mechanism).drive == DriveKind::carriage && phase != nullptr &&
             read_number(*phase, "rad") != 0) {
             refuse(*node, {"a carriage starts at phase 0, and columns would end at study.phase",
                            "use start = \"fresh\", or phase = 0"});

@@ -15,7 +15,7 @@ namespace slideway {
 namespace {
 
 bool is_written(Key const& key, Parts const& parts) {
-    if (!key.counts_for(parts.mechanism)) return false;
+    if (!counts_for(key, parts)) return false;
     bool const restitution = parts.damping == Damping::restitution;
     if (key.name.starts_with("way.")) return parts.misaligned_way;
     if (key.name == "contact.restitution") return restitution;
@@ -31,7 +31,9 @@ std::string physics_table(Scene const& scene, Inputs const& complete, std::strin
         if (key.name.substr(0, dot) != table || !is_written(key, scene.parts)) continue;
         std::string_view const name = key.name.substr(dot + 1);
         std::string_view const unit = key.unit == "1" ? "" : key.unit;
-        if (std::isnan(key.get(scene.inputs))) {
+        if (std::isnan(key.get(complete))) {
+            text += fmt::format("# {} follows from other keys\n", name);
+        } else if (std::isnan(key.get(scene.inputs))) {
             text += fmt::format("# {} = {}  # {}{}follows from other keys\n", name, toml_number(key.get(complete)),
                                 unit, unit.empty() ? "" : ", ");
         } else if (unit.empty()) {
@@ -57,7 +59,7 @@ std::string quantities_text(Scene const& scene) {
 }
 
 /// Only what counts with the scene's method.
-std::string integrator_table(IntegratorSettings const& settings, Mechanism mechanism) {
+std::string integrator_table(IntegratorSettings const& settings, MechanismInfo const& mechanism) {
     std::string text = fmt::format("\n[integrator]\nmethod = \"{}\"\n", name_of(settings.method));
     auto const add = [&](std::string_view key, std::string const& value, std::string_view unit = "") {
         if (!has_effect(key, settings.method, mechanism)) return;
@@ -138,7 +140,7 @@ std::string resolved_toml(Scene const& scene) {
     std::string text = fmt::format("schema = 1\ntitle = {}\n", toml_string(scene.title));
     MechanismInfo const& mechanism = info(scene.parts.mechanism);
     std::string kind = fmt::format("kind = \"{}\"\n", mechanism.name);
-    if (scene.parts.mechanism == Mechanism::planar_slider_crank) {
+    if (mechanism.free_crank) {
         kind += fmt::format("crank = \"{}\"\n", scene.parts.free_crank ? "free" : "driven");
     }
     text += physics_table(scene, complete, "mechanism", kind);
@@ -146,11 +148,11 @@ std::string resolved_toml(Scene const& scene) {
     if (scene.parts.misaligned_way) text += physics_table(scene, complete, "way", "");
     text += physics_table(scene, complete, "contact",
                           mechanism.spatial
-                              ? fmt::format("law = \"{}\"\n", scene.parts.law == Law::paper ? "paper" : "conservative")
+                              ? fmt::format("law = \"{}\"\n", info(scene.parts.law).name)
                               : std::string());
     text += physics_table(scene, complete, "friction", fmt::format("enabled = {}\n", scene.parts.friction));
     text += physics_table(scene, complete, "initial", "");
-    text += integrator_table(scene.integrator, scene.parts.mechanism);
+    text += integrator_table(scene.integrator, mechanism);
     text += study_table(scene);
     return text + members_text(scene);
 }

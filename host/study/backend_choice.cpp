@@ -37,7 +37,7 @@ std::uint64_t pays_from(Isa isa, int threads) {
 BackendChoice choose_backend(BackendRequest const& request, Scene const& scene, std::uint64_t members) {
     using Kind = BackendRequest::Kind;
     char const* const only = "the kernels for cards are of slider_crank alone";
-    bool const has_kernel = scene.parts.mechanism == Mechanism::slider_crank;
+    bool const has_kernel = info(scene.parts.mechanism).on_cards;
     if (request.kind == Kind::cuda) {
         if (has_kernel) return {cuda_backend(request.share), ""};
         throw SceneError(fmt::format("{}: mechanism.kind is \"{}\" ({}); use --backend cpu", scene.path,

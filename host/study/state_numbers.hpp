@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "kernels/mechanisms/mechanism_info.hpp"
+#include "host/scene/descriptors.hpp"
 
 namespace slideway {
 

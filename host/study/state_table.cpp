@@ -58,7 +58,7 @@ Column column_of(std::string_view name, Mechanism mechanism, CsvReader const& li
         column.state = static_cast<std::size_t>(found - names.begin());
     } else if (column.key = find_key(name); column.key != nullptr) {
         column.kind = Column::Kind::key;
-        if (!column.key->counts_for(mechanism)) fail_meaningless(name, mechanism, lines);
+        if (!counts_for(*column.key, mechanism)) fail_meaningless(name, mechanism, lines);
         if (starts_a_state(name, mechanism)) {
             lines.fail(info(mechanism).spatial
                            ? fmt::format("column {}: the state to probe stands in the column {}", name, name.substr(8))
@@ -111,9 +111,10 @@ double number(std::string_view text, Column const& column, CsvReader const& line
 }
 
 Law law(std::string_view text, CsvReader const& lines) {
-    if (text == "paper") return Law::paper;
-    if (text == "conservative") return Law::conservative;
-    lines.fail(fmt::format("column contact.law: '{}' is no law; use paper or conservative", text));
+    auto const known = law_names();
+    auto const found = std::ranges::find(known, text);
+    if (found != known.end()) return static_cast<Law>(found - known.begin());
+    lines.fail(fmt::format("column contact.law: '{}' is no law; use one of {}", text, fmt::join(known, ", ")));
 }
 
 /// A part with its parameter at zero does what the code without it does.

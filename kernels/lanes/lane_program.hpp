@@ -33,8 +33,7 @@ public:
     static_assert(Model::events == 0 || !(Model::has_shadows || Model::has_crossings),
                   "an event ends its step early, which neither shadows nor sections know of");
 
-    SLIDEWAY_HD LaneProgram(Block& block, Model const& model) : block_(block), results_(block) {
-        pack_.model = model;
+    SLIDEWAY_HD LaneProgram(Block& block, Model const& model) : block_(block), results_(block), pack_(model) {
         // What is observed for the status alone is not written.
         Selection const for_status =
             is_always_audited(block.settings.method) ? MemberState<Model, Real>::Observer::audit_quantities : 0;

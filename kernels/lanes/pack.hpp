@@ -64,6 +64,8 @@ template <class Model, class Real> struct Pack {
     using Report = typename Model::template Report<Real>;
     using Observer = typename Model::template Observer<Real>;
 
+    explicit SLIDEWAY_HD Pack(Model const& of_block) : model(of_block) {}
+
     [[no_unique_address]] Model model;
     ReportNeeds needs;
     MemberState<Model, Real> state;

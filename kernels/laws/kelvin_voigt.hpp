@@ -10,8 +10,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// No mode but that an apex touches or not; without damping and friction it keeps energy.  Source: docs/model.md 4.
 struct KelvinVoigt {
     static constexpr Key keys[] = {
-        {"contact.apex_stiffness", &Inputs::law_a, "N/m", Rule::positive, KeyGroup::slider, "stiffness of an apex", follows},
-        {"contact.apex_damping", &Inputs::law_b, "N s/m", Rule::not_negative, KeyGroup::slider, "damping of an apex", 0}};
+        {"contact.apex_stiffness", &Inputs::law_a, "N/m", Rule::positive, KeyGroup::law, "stiffness of an apex", follows},
+        {"contact.apex_damping", &Inputs::law_b, "N s/m", Rule::not_negative, KeyGroup::law, "damping of an apex", 0}};
     static constexpr LawInfo info{.name = "kelvin_voigt",
                                   .words = "a linear spring and damper at each apex, no modes",
                                   .switches = false,

@@ -1,0 +1,27 @@
+// What the mechanisms and contact laws of the kernels say of themselves: each in its own header, here in the order of their lists.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "kernels/laws/law_info.hpp"
+#include "kernels/mechanisms/mechanism_info.hpp"
+
+namespace slideway {
+
+std::span<MechanismInfo const> mechanisms();
+std::span<LawInfo const> laws();
+
+/// What a scene calls them.
+std::span<std::string_view const> mechanism_names();
+std::span<std::string_view const> law_names();
+
+MechanismInfo const& info(Mechanism mechanism);
+LawInfo const& info(Law law);
+
+/// Whether a drive prescribes a component of the state, so that neighbours cannot differ in it.
+bool is_prescribed(Parts const& parts, int component);
+/// How many components neighbours may differ in.
+int free_states(Parts const& parts);
+
+}  // namespace slideway
