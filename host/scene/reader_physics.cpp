@@ -14,11 +14,9 @@
 namespace slideway {
 namespace {
 
-constexpr std::size_t available_mechanisms = std::size(mechanism_table);
 constexpr auto mechanism_names = [] {
-    std::array<std::string_view, available_mechanisms + 1> names;
-    for (std::size_t i = 0; i < available_mechanisms; ++i) names[i] = mechanism_table[i].name;
-    names.back() = "lorenz";
+    std::array<std::string_view, std::size(mechanism_table)> names;
+    for (std::size_t i = 0; i < names.size(); ++i) names[i] = mechanism_table[i].name;
     return names;
 }();
 constexpr std::string_view crank_names[] = {"driven", "free"};
@@ -55,8 +53,7 @@ void check_restitution(Node const& root) {
 /// Which mechanism, and that nothing is given that does not count for it.
 void read_mechanism(Node const& root, Parts& parts) {
     if (Node const* const kind = root.find_path("mechanism.kind")) {
-        parts.mechanism =
-            static_cast<Mechanism>(read_available(*kind, "mechanism", mechanism_names, available_mechanisms));
+        parts.mechanism = static_cast<Mechanism>(read_choice(*kind, "mechanism", mechanism_names));
     }
     for (auto const& [key, node] : given_keys(root)) {
         if (!key->counts_for(parts.mechanism)) refuse_meaningless(node->where, node->name, parts.mechanism);
