@@ -3,8 +3,8 @@
 
 #include "host/backend/isa_real.hpp"
 #include "kernels/integrate.hpp"
-#include "kernels/models/lorenz_model.hpp"
-#include "kernels/models/relief_valve_model.hpp"
+#include "tests/models/lorenz_model.hpp"
+#include "tests/models/relief_valve_model.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 namespace {

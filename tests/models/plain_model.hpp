@@ -3,9 +3,9 @@
 #include "kernels/mechanisms/event_info.hpp"
 #include "kernels/mechanisms/faults.hpp"
 #include "kernels/mechanisms/no_memory.hpp"
-#include "kernels/observers/event_recorder.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/no_watch.hpp"
+#include "tests/models/event_recorder.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 

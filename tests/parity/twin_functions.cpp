@@ -3,8 +3,8 @@
 
 #include "host/backend/isa_real.hpp"
 #include "kernels/integrate.hpp"
-#include "kernels/models/relief_valve_model.hpp"
-#include "kernels/twin.hpp"
+#include "tests/models/relief_valve_model.hpp"
+#include "tests/models/twin.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 namespace {

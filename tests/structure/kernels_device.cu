@@ -1,5 +1,5 @@
-// Compiled, never run here: every header as device code, and what of the kernels host/backend/cuda.cu does not hold, with Real =
-// double.  Each thread has a block of members of its own; one probes a table.
+// Compiled, never run here: every header of kernels/ and of the tests' models as device code, and what of them host/backend/cuda.cu
+// does not hold, with Real = double.  Each thread has a block of members of its own; one probes a table.
 #include "all_kernels.hpp"
 
 namespace slideway {

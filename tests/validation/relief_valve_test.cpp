@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "kernels/mechanisms/relief_valve.hpp"
 #include "kernels/steppers/runge_kutta4.hpp"
+#include "tests/models/relief_valve.hpp"
 
 namespace slideway {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "kernels/mechanisms/lorenz.hpp"
-#include "kernels/observers/event_recorder.hpp"
 #include "kernels/steppers/no_watch.hpp"
+#include "tests/models/event_recorder.hpp"
+#include "tests/models/lorenz.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
