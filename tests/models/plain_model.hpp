@@ -24,6 +24,7 @@ template <int components> struct PlainModel {
     template <class Real> using Observer = EventRecorder<Real, 0, 0>;
     template <class Real> using Watch = NoWatch<Real>;
 
+    /// Sizes against which the absolute tolerance is meant.
     template <class Parameters, class Real> SLIDEWAY_FN static void scales(Parameters const&, Real* scale) {
         for (int i = 0; i < size; ++i) scale[i] = Real(1.0);
     }

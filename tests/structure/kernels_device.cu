@@ -9,7 +9,7 @@ template <class Model> __global__ void integrate_blocks(BlockOf<typename Model::
     if (i < count) integrate<Model, double>(blocks[i]);
 }
 template __global__ void integrate_blocks<LorenzModel>(BlockOf<Lorenz::Inputs>*, int);
-template __global__ void integrate_blocks<ReliefValveModel>(BlockOf<ReliefValve::Inputs>*, int);
+template __global__ void integrate_blocks<ReliefValve>(BlockOf<ReliefValve::Inputs>*, int);
 
 template <class Model> __global__ void fixed_steps(FixedStepBlock<Model> const* blocks, int count) {
     int const i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
