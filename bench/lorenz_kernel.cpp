@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "host/backend/isa_real.hpp"
-#include "kernels/fixed_step.hpp"
-#include "kernels/mechanisms/lorenz.hpp"
+#include "tests/models/fixed_step.hpp"
+#include "tests/models/lorenz.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 

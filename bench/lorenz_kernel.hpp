@@ -16,7 +16,7 @@ struct LorenzRun {
 };
 
 /// Operations of a step as the equations and the textbook's method need them, a multiply-add counted as two: four derivatives of 8
-/// (kernels/mechanisms/lorenz.hpp), and per component three stages of 2 and y + h/6 (k₁ + 2k₂ + 2k₃ + k₄), which is 7.
+/// (tests/models/lorenz.hpp), and per component three stages of 2 and y + h/6 (k₁ + 2k₂ + 2k₃ + k₄), which is 7.
 /// That is 45 instructions, 11 of them additions.  Where additions have units of their own (Zen), 34 compete for the multiply-add
 /// units, and 71/68 of their peak is the most there can be; where they have not (Intel), it is 71/90.
 inline constexpr double lorenz_step_flops = 4 * 8 + 3 * (3 * 2 + 7);

@@ -103,7 +103,7 @@ Comparison compare(Row const& row, std::vector<ValveGolden> const& golden) {
     for (std::size_t i = 0; i < members; ++i) {
         if (golden[i].period == 0) continue;
         ++c.periodic;
-        double const difference = valve_difference(row.orbits[i], golden[i].orbit(), golden[i].period);
+        double const difference = valve_difference(row.orbits[i], repeated(golden[i]), golden[i].period);
         if (difference <= agreement) {
             ++c.same;
             c.worst = std::max(c.worst, difference);
@@ -165,7 +165,7 @@ int write_reference(char const* path) {
 }
 
 int benchmark(int rounds) {
-    auto const golden = read_valve_golden(SLIDEWAY_TEST_DATA "/golden/relief_valve.csv");
+    auto const golden = testing::read_valve_golden(SLIDEWAY_TEST_DATA "/golden/relief_valve.csv");
     if (golden.size() != members) {
         fmt::print(stderr, "{}/golden/relief_valve.csv: {} members ({} are needed)\n", SLIDEWAY_TEST_DATA,
                    golden.size(), members);

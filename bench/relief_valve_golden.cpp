@@ -2,13 +2,13 @@
 
 #include <fstream>
 #include <iomanip>
-#include <sstream>
 
 namespace slideway::bench {
 
-ValveOrbit ValveGolden::orbit() const {
+ValveOrbit repeated(ValveGolden const& golden) {
     ValveOrbit orbit;
-    for (std::size_t i = 0; period > 0 && i < valve_recorded_events; ++i) orbit.events.push_back(events[i % period]);
+    if (golden.period == 0) return orbit;
+    for (std::size_t i = 0; i < valve_recorded_events; ++i) orbit.events.push_back(golden.events[i % golden.period]);
     return orbit;
 }
 
@@ -30,24 +30,6 @@ bool write_valve_golden(std::string const& path, std::vector<ValveGolden> const&
         }
     }
     return static_cast<bool>(out.flush());
-}
-
-std::vector<ValveGolden> read_valve_golden(std::string const& path) {
-    std::ifstream in(path);
-    std::vector<ValveGolden> golden;
-    std::string line;
-    std::getline(in, line);
-    while (std::getline(in, line)) {
-        std::istringstream row(line);
-        char comma = 0;
-        std::size_t member = 0, period = 0;
-        double inflow = 0;
-        row >> member >> comma >> inflow >> comma >> period;
-        if (member == golden.size()) golden.push_back({inflow, period, {}});
-        ValveEvent e;
-        if (row >> comma >> e.impact >> comma >> e.x >> comma >> e.v >> comma >> e.p) golden.back().events.push_back(e);
-    }
-    return golden;
 }
 
 }  // namespace slideway::bench

@@ -7,15 +7,15 @@
 #include "bench/relief_valve_orbit.hpp"
 #include "host/backend/isa_real.hpp"
 #include "kernels/integrate.hpp"
-#include "kernels/models/relief_valve_model.hpp"
-#include "kernels/twin.hpp"
+#include "tests/models/relief_valve.hpp"
+#include "tests/models/twin.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
 void integrate_valves(ValveRun const& run) {
     // Two packs abreast: one alone leaves the core waiting for its own results.
     using Real = std::conditional_t<lanes<IsaReal> == 1, IsaReal, Twin<IsaReal>>;
-    using Observer = ReliefValveModel::Observer<Real>;
+    using Observer = ReliefValve::Observer<Real>;
     static_assert(Observer::columns == static_cast<int>(bench::valve_recorded_events));
 
     std::vector<ReliefValve::Inputs> inputs(run.members);
@@ -32,7 +32,7 @@ void integrate_valves(ValveRun const& run) {
     block.records = run.records;
     block.final_states = final_states.data();
     block.quantity_values = run.lifts;
-    integrate<ReliefValveModel, Real>(block);
+    integrate<ReliefValve, Real>(block);
 }
 
 }  // namespace slideway::inline SLIDEWAY_ISA

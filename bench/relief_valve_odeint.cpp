@@ -4,7 +4,7 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_cash_karp54.hpp>
 
 #include "bench/relief_valve_scalar.hpp"
-#include "kernels/mechanisms/relief_valve.hpp"
+#include "tests/models/relief_valve.hpp"
 
 namespace slideway::bench {
 namespace {

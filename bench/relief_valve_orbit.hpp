@@ -5,17 +5,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "tests/support/valve_golden.hpp"
+
 namespace slideway::bench {
 
 inline constexpr std::size_t valve_transient_events = 2048;  // extrema or impacts, not kept
 inline constexpr std::size_t valve_recorded_events = 64;
 
-struct ValveEvent {
-    bool impact = false;  // else an extremum of x
-    double x = 0;         // lift, 0 at impacts
-    double v = 0;         // speed, before the impact
-    double p = 0;         // pressure
-};
+using testing::ValveEvent;
 
 struct ValveOrbit {
     std::vector<ValveEvent> events;  // the recorded ones; fewer if the run gave up

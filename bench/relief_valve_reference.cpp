@@ -10,7 +10,7 @@ namespace {
 using Number = long double;
 using State = std::array<Number, 3>;
 
-/// The equations, with the valve's rules of rest as kernels/mechanisms/relief_valve.hpp states them.
+/// The equations, with the valve's rules of rest as tests/models/relief_valve.hpp states them.
 struct PlainEquations {
     Number q;
 

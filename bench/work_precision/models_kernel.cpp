@@ -3,8 +3,8 @@
 
 #include "host/backend/isa_real.hpp"
 #include "kernels/integrate.hpp"
-#include "kernels/models/lorenz_model.hpp"
-#include "kernels/models/relief_valve_model.hpp"
+#include "tests/models/lorenz.hpp"
+#include "tests/models/relief_valve.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 namespace {
@@ -29,7 +29,7 @@ void integrate_lorenz_members(bench::LorenzMember const* members, BlockBase cons
 void integrate_valve_members(bench::ValveMember const* members, BlockBase const& block) {
     std::vector<ReliefValve::Inputs> inputs;
     for (std::size_t i = 0; i < block.members; ++i) inputs.push_back({.inflow = members[i].inflow});
-    integrate_inputs<ReliefValveModel>(inputs, block);
+    integrate_inputs<ReliefValve>(inputs, block);
 }
 
 }  // namespace slideway::inline SLIDEWAY_ISA

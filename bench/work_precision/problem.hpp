@@ -25,7 +25,7 @@ struct LorenzEnsemble {
     std::vector<LorenzMember> members;
 };
 
-/// The relief valve of kernels/mechanisms/relief_valve.hpp from its one start.
+/// The relief valve of tests/models/relief_valve.hpp from its one start.
 struct ValveMember {
     double inflow;
 };

@@ -128,7 +128,7 @@ Problem lorenz(double end, Crowd crowd, std::vector<double> tolerances) {
 
 /// Extrema and impacts after the transient, against an 80-bit run at 1e-13.
 Problem relief_valve(std::vector<double> tolerances) {
-    auto const golden = read_valve_golden(SLIDEWAY_TEST_DATA "/golden/relief_valve.csv");
+    auto const golden = testing::read_valve_golden(SLIDEWAY_TEST_DATA "/golden/relief_valve.csv");
     ValveEnsemble ensemble;
     std::vector<std::vector<double>> periods;
     for (auto const& orbit : golden) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "host/scene/scene_text.hpp"
 #include "host/scene/study_keys.hpp"
@@ -136,17 +135,6 @@ void refuse_unknown(Node const& node, std::string_view what, std::span<std::stri
                                                    : fmt::format("did you mean {}?", near);
     throw SceneError(fmt::format("{}: {} is no {} of a scene (mistyped, it would have no effect); {}", node.where,
                                  one_line(node.name), what, advice));
-}
-
-std::size_t read_available(Node const& node, std::string_view meaning, std::span<std::string_view const> names,
-                           std::size_t available) {
-    auto const offered = names.first(available);
-    std::string const& text = read_text_value(node);
-    if (contains(names.subspan(available), text)) {
-        refuse(node, {fmt::format("this {} is not available in this version", meaning),
-                      fmt::format("use \"{}\"", fmt::join(offered, "\", \""))});
-    }
-    return read_choice(node, meaning, offered);
 }
 
 Scene read_scene(std::string const& path, Overrides const& overrides) {

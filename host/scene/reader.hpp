@@ -106,8 +106,4 @@ void refuse_both(Node const& root, std::string_view first, std::string_view seco
 [[noreturn]] void refuse_missing(Node const& asking, std::string_view key, std::string_view why,
                                  std::string_view advice);
 
-/// The choice of a node among names some of which belong to later versions; `available` of them come first.
-std::size_t read_available(Node const& node, std::string_view meaning, std::span<std::string_view const> names,
-                           std::size_t available);
-
 }  // namespace slideway

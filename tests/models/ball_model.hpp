@@ -2,25 +2,18 @@
 
 #include "tests/models/models.hpp"
 #include "tests/models/plain_model.hpp"
+#include "tests/models/plain_observer.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// Records kind, time and state of the first events of every lane.
-template <class Real> class BallObserver {
+template <class Real> class BallObserver : public PlainObserver<Real> {
 public:
-    static constexpr int integrals = 0, audit_integrals = 0;
-    static constexpr Selection audit_quantities = 0;
     static constexpr int columns = 4 * testing::recorded_ball_events;
 
-    SLIDEWAY_HD static constexpr bool needs_stages(Selection) { return false; }
-    SLIDEWAY_HD static constexpr bool audits(Selection) { return false; }
-    SLIDEWAY_HD static constexpr bool needs_reports(Selection) { return false; }
-    template <class Report> SLIDEWAY_FN static void integrands(Report const&, Real*) {}
-    SLIDEWAY_FN Real integral(int) const { return Real(0.0); }
-    template <class Report> SLIDEWAY_FN void start(Mask<Real> fresh, Report const&, Real const*) {
+    template <class Report> SLIDEWAY_FN void start(Mask<Real> fresh, Report const&, Real const*, bool) {
         count_ = select(fresh, Real(0.0), count_);
     }
-    template <class Report> SLIDEWAY_FN void accept(Mask<Real>, Real, Real const*, Report const&, Real const*) {}
 
     SLIDEWAY_HD void event(Mask<Real> at, int kind, Real t, Real const* state) {
         for (int i = 0; i < lanes<Real>; ++i) {

@@ -1,15 +1,15 @@
 // Compiled once per instruction set.
 #include "host/backend/isa_real.hpp"
 #include "kernels/integrate.hpp"
-#include "kernels/map_orbit.hpp"
-#include "kernels/maps/henon.hpp"
-#include "kernels/maps/logistic.hpp"
-#include "kernels/models/lorenz_model.hpp"
-#include "kernels/models/relief_valve_model.hpp"
 #include "kernels/models/shadowed.hpp"
 #include "tests/models/ball_model.hpp"
+#include "tests/models/henon.hpp"
+#include "tests/models/logistic.hpp"
+#include "tests/models/lorenz.hpp"
+#include "tests/models/map_orbit.hpp"
 #include "tests/models/models.hpp"
 #include "tests/models/oscillator_model.hpp"
+#include "tests/models/relief_valve.hpp"
 #include "tests/models/table_ball_model.hpp"
 #include "tests/models/tracker_model.hpp"
 
@@ -17,11 +17,11 @@ namespace slideway::inline SLIDEWAY_ISA {
 namespace {
 
 /// The valve with inputs that no instruction set owns.
-struct ValveModel : ReliefValveModel {
+struct ValveModel : ReliefValve {
     using Inputs = testing::ValveInputs;
     static Parameters<double> parameters(Inputs const& in) { return {in.inflow}; }
     static void initial_state(Inputs const& in, double* s) {
-        ReliefValveModel::initial_state({.inflow = in.inflow}, s);
+        ReliefValve::initial_state({.inflow = in.inflow}, s);
     }
 };
 

@@ -8,7 +8,7 @@
 
 #include "host/backend/backend.hpp"
 #include "kernels/block.hpp"
-#include "kernels/map_block.hpp"
+#include "tests/models/map_block.hpp"
 
 namespace slideway::testing {
 

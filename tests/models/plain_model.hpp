@@ -3,9 +3,9 @@
 #include "kernels/mechanisms/event_info.hpp"
 #include "kernels/mechanisms/faults.hpp"
 #include "kernels/mechanisms/no_memory.hpp"
-#include "kernels/observers/event_recorder.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/no_watch.hpp"
+#include "tests/models/event_recorder.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -14,7 +14,7 @@ template <int components> struct PlainModel {
     static constexpr int size = components;
     static constexpr int series = components;
     static constexpr int events = 0;
-    static constexpr bool has_memory = false, can_hold = false;
+    static constexpr bool has_contacts = false;
     static constexpr bool has_patterns = false;
     static constexpr bool has_shadows = false;
     static constexpr bool has_crossings = false;
@@ -24,6 +24,7 @@ template <int components> struct PlainModel {
     template <class Real> using Observer = EventRecorder<Real, 0, 0>;
     template <class Real> using Watch = NoWatch<Real>;
 
+    /// Sizes against which the absolute tolerance is meant.
     template <class Parameters, class Real> SLIDEWAY_FN static void scales(Parameters const&, Real* scale) {
         for (int i = 0; i < size; ++i) scale[i] = Real(1.0);
     }

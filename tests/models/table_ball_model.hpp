@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/math/trigonometry.hpp"
+#include "kernels/steppers/contact_watch.hpp"
 #include "kernels/steppers/cubic_roots.hpp"
 #include "tests/models/models.hpp"
 #include "tests/models/plain_model.hpp"
@@ -8,7 +9,10 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// Speed of the ball's last impact.
-template <class Real> struct TableBallMemory { Real speed; };
+template <class Real> struct TableBallMemory {
+    static constexpr int speeds = 1;
+    Real speed;
+};
 template <class Real> SLIDEWAY_FN void start_memory(TableBallMemory<Real>& memory) { memory.speed = Real(0.0); }
 
 /// What an impact needs of a state.
@@ -18,13 +22,14 @@ template <class Real> struct TableBallReport { TableBallContact<Real> contact; }
 /// Ends steps where the ball meets the table, and throws it back there.
 template <class Real> class TableBallWatch {
 public:
-    static constexpr double tolerance = 1e-12;  // of a ball without shadows
+    static constexpr double tolerance(Watching) { return 1e-12; }  // of a ball without shadows
     using Contact = TableBallContact<Real>;
     using Memory = TableBallMemory<Real>;
 
-    SLIDEWAY_HD void begin(Mask<Real> fresh, Contact const& c, Memory&) { keep(fresh, c.gap, c.rate); }
+    SLIDEWAY_HD void keep(Mask<Real> in, Contact const& c) { keep(in, c.gap, c.rate); }
+    SLIDEWAY_HD void begin(Mask<Real> fresh, Contact const& c, Memory&, Watching) { keep(fresh, c.gap, c.rate); }
 
-    SLIDEWAY_HD Real earliest(Mask<Real> candidates, Contact const& end, Real step, Real located, Memory const&) const {
+    SLIDEWAY_HD Real earliest(Mask<Real> candidates, Contact const& end, Real step, Real located, Watching) const {
         Real const beyond = Real(0.5) * located;  // aims below the table, so that the ball is there for certain
         Real const reached = select(end.gap < negated(located), end.gap, max(end.gap, Real(0.0)));
         Real const v0 = gap_ + beyond, s0 = step * rate_, v1 = reached + beyond, s1 = step * end.rate;
@@ -35,7 +40,7 @@ public:
         return select(zeros.any, min(first, Real(0.999)), Real(1.0));
     }
 
-    SLIDEWAY_HD Mask<Real> update(Mask<Real> accepted, Contact const& end, Memory& memory, Real* y) {
+    SLIDEWAY_HD Mask<Real> update(Mask<Real> accepted, Contact const& end, Memory& memory, Real* y, Watching) {
         auto const touched = accepted & (end.gap < Real(0.0)) & (end.rate < Real(0.0));
         Real const speed = abs(end.rate);
         memory.speed = select(touched, speed, memory.speed);
@@ -55,13 +60,13 @@ private:
 };
 
 template <class Real> struct TableBallObserver : EventRecorder<Real, 0, 0> {
-    template <class Report> SLIDEWAY_FN void resume(Mask<Real>, Report const&) {}
+    template <class Report> SLIDEWAY_FN void resume(Mask<Real>, Report const&, bool) {}
 };
 
 /// Its impacts are found as touches of the joint are, not as events: shadows know these alone.
 struct TableBallModel : PlainModel<2> {
     using Inputs = testing::TableBallInputs;
-    static constexpr bool has_memory = true;
+    static constexpr bool has_contacts = true;
     template <class Real> struct Parameters { Real gravity, amplitude, frequency, phase, restitution, thrust; };
     template <class Real> using Report = TableBallReport<Real>;
     template <class Real> using Memory = TableBallMemory<Real>;
@@ -77,6 +82,8 @@ struct TableBallModel : PlainModel<2> {
         return Faults<Real>::none();
     }
 
+    SLIDEWAY_HD static Watching watching(bool, bool) { return Watching::touches; }
+    SLIDEWAY_HD static bool switches() { return false; }
     template <class Real> SLIDEWAY_FN static Real touch_scale(Parameters<Real> const&) { return Real(1.0); }
     template <class Real> SLIDEWAY_HD static Real remembered(Real speed) { return speed; }
 

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "host/backend/isa_real.hpp"
-#include "kernels/fixed_step.hpp"
-#include "kernels/mechanisms/lorenz.hpp"
-#include "kernels/mechanisms/relief_valve.hpp"
+#include "tests/models/fixed_step.hpp"
+#include "tests/models/lorenz.hpp"
+#include "tests/models/relief_valve.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 namespace {

@@ -3,13 +3,13 @@
 
 #include "host/backend/isa_real.hpp"
 #include "kernels/integrate.hpp"
-#include "kernels/models/relief_valve_model.hpp"
-#include "kernels/twin.hpp"
+#include "tests/models/relief_valve.hpp"
+#include "tests/models/twin.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 namespace {
 
-struct ShortValve : ReliefValveModel {
+struct ShortValve : ReliefValve {
     template <class Real> using Observer = EventRecorder<Real, 4, recorded_twin_events>;
 };
 

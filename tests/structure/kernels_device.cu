@@ -1,5 +1,5 @@
-// Compiled, never run here: every header as device code, and what of the kernels host/backend/cuda.cu does not hold, with Real =
-// double.  Each thread has a block of members of its own; one probes a table.
+// Compiled, never run here: every header of kernels/ and of the tests' models as device code, and what of them host/backend/cuda.cu
+// does not hold, with Real = double.  Each thread has a block of members of its own; one probes a table.
 #include "all_kernels.hpp"
 
 namespace slideway {
@@ -9,7 +9,7 @@ template <class Model> __global__ void integrate_blocks(BlockOf<typename Model::
     if (i < count) integrate<Model, double>(blocks[i]);
 }
 template __global__ void integrate_blocks<LorenzModel>(BlockOf<Lorenz::Inputs>*, int);
-template __global__ void integrate_blocks<ReliefValveModel>(BlockOf<ReliefValve::Inputs>*, int);
+template __global__ void integrate_blocks<ReliefValve>(BlockOf<ReliefValve::Inputs>*, int);
 
 template <class Model> __global__ void fixed_steps(FixedStepBlock<Model> const* blocks, int count) {
     int const i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);

@@ -20,20 +20,16 @@ struct Layer {
 constexpr std::array layers = {
     Layer{"kernels/real.hpp", 1},
     Layer{"kernels/lane_copy.hpp", 2},
-    Layer{"kernels/twin.hpp", 2},
     Layer{"kernels/math", 2},
     Layer{"kernels/laws", 3},
     Layer{"kernels/joint", 4},
     Layer{"kernels/mechanisms", 5},
-    Layer{"kernels/maps", 5},
     Layer{"kernels/observers", 6},
     Layer{"kernels/steppers", 6},
     Layer{"kernels/lanes", 7},
     Layer{"kernels/models", 8},
     Layer{"kernels/integrate.hpp", 8},
     Layer{"kernels/grid_thread.hpp", 8},
-    Layer{"kernels/fixed_step.hpp", 7},
-    Layer{"kernels/map_orbit.hpp", 7},
     Layer{"host/scene", 10},
     Layer{"host/backend", 10},
     Layer{"host/output", 11},
@@ -46,13 +42,12 @@ constexpr std::array layers = {
 };
 
 // Plain data without code of any instruction set: every layer may share it, the host included.
-constexpr std::array<std::string_view, 8> plain_data = {
+constexpr std::array<std::string_view, 7> plain_data = {
     "kernels/inputs.hpp",
     "kernels/status.hpp",
     "kernels/methods.hpp",
     "kernels/block.hpp",
     "kernels/grid_task.hpp",
-    "kernels/map_block.hpp",
     "kernels/mechanisms/mechanism_info.hpp",
     "kernels/observers/quantities.hpp",
 };

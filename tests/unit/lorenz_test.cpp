@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "kernels/fixed_step.hpp"
-#include "kernels/mechanisms/lorenz.hpp"
+#include "tests/models/fixed_step.hpp"
+#include "tests/models/lorenz.hpp"
 
 namespace slideway {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/mechanisms/relief_valve.hpp"
+#include "tests/models/relief_valve.hpp"
 
 namespace slideway {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "kernels/fixed_step.hpp"
-#include "kernels/mechanisms/lorenz.hpp"
 #include "kernels/steppers/runge_kutta4.hpp"
+#include "tests/models/fixed_step.hpp"
+#include "tests/models/lorenz.hpp"
 
 namespace slideway {
 namespace {

@@ -3,47 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/models/models.hpp"
+#include "tests/support/valve_golden.hpp"
 
 namespace slideway {
 namespace {
 
-struct Orbit {
-    double inflow = 0;
-    std::vector<double> lifts;  // at the events of one period: 0 at an impact, else an extremum; empty without a period
-};
-
-std::vector<Orbit> golden_orbits() {
-    std::ifstream in(SLIDEWAY_TEST_DATA "/golden/relief_valve.csv");
-    std::vector<Orbit> orbits;
-    std::string line;
-    std::getline(in, line);
-    while (std::getline(in, line)) {
-        std::istringstream row(line);
-        char comma = 0;
-        std::size_t member = 0, period = 0;
-        double inflow = 0, lift = 0;
-        bool impact = false;
-        row >> member >> comma >> inflow >> comma >> period;
-        if (member == orbits.size()) orbits.push_back({inflow, {}});
-        if (row >> comma >> impact >> comma >> lift) orbits.back().lifts.push_back(lift);
-    }
-    return orbits;
-}
-
 /// Largest difference of a record of lifts from the repeated period, begun where it fits best: a transient of other length shifts it.
-double difference(double const* recorded, std::vector<double> const& period) {
+double difference(double const* recorded, std::vector<testing::ValveEvent> const& period) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t shift = 0; shift < period.size(); ++shift) {
         double largest = 0;
         for (std::size_t i = 0; i < testing::recorded_valve_events; ++i) {
-            double const off = std::abs(recorded[i] - period[(i + shift) % period.size()]);
+            double const off = std::abs(recorded[i] - period[(i + shift) % period.size()].x);
             largest = off <= largest ? largest : off;  // NaN too
         }
         least = std::min(least, largest);
@@ -52,7 +28,7 @@ double difference(double const* recorded, std::vector<double> const& period) {
 }
 
 TEST(ReliefValveLanes, HaveTheExtremaOfEveryPeriodicOrbit) {
-    auto const orbits = golden_orbits();
+    auto const orbits = testing::read_valve_golden(SLIDEWAY_TEST_DATA "/golden/relief_valve.csv");
     ASSERT_EQ(orbits.size(), 256u);
     std::vector<testing::ValveInputs> members;
     for (auto const& orbit : orbits) members.push_back({orbit.inflow});
@@ -67,9 +43,9 @@ TEST(ReliefValveLanes, HaveTheExtremaOfEveryPeriodicOrbit) {
     for (std::size_t i = 0; i < orbits.size(); ++i) {
         EXPECT_EQ(r.records[i].status, Status::finished) << "q = " << orbits[i].inflow;
         EXPECT_LT(r.records[i].time, settings.end_time) << "ends with its last event, q = " << orbits[i].inflow;
-        if (orbits[i].lifts.empty()) continue;
+        if (orbits[i].events.empty()) continue;
         ++periodic;
-        double const off = difference(&r.quantities[i * testing::recorded_valve_events], orbits[i].lifts);
+        double const off = difference(&r.quantities[i * testing::recorded_valve_events], orbits[i].events);
         EXPECT_LE(off, 1e-6) << "member " << i << ", q = " << orbits[i].inflow;
         worst = std::max(worst, off);
     }

@@ -4,47 +4,24 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <sstream>
-#include <string>
 #include <vector>
 
-#include "kernels/mechanisms/relief_valve.hpp"
 #include "kernels/steppers/runge_kutta4.hpp"
+#include "tests/models/relief_valve.hpp"
+#include "tests/support/valve_golden.hpp"
 
 namespace slideway {
 namespace {
 
 using State = std::array<double, 3>;
 
-struct Event {
-    bool impact;
-    State state;  // before the impact
-};
+using testing::ValveEvent;
 
-struct Orbit {
-    std::size_t member;
-    double inflow;
-    std::vector<Event> events;
-};
+State state_at(ValveEvent const& e) { return {e.x, e.v, e.p}; }
 
-std::vector<Orbit> periodic_orbits() {
-    std::ifstream in(SLIDEWAY_TEST_DATA "/golden/relief_valve.csv");
-    std::vector<Orbit> orbits;
-    std::string line;
-    std::getline(in, line);
-    while (std::getline(in, line)) {
-        std::istringstream row(line);
-        char comma;
-        std::size_t member, period;
-        double inflow;
-        Event e;
-        row >> member >> comma >> inflow >> comma >> period >> comma >> e.impact >> comma >> e.state[0] >> comma >>
-            e.state[1] >> comma >> e.state[2];
-        if (!row) continue;
-        if (orbits.empty() || orbits.back().member != member) orbits.push_back({member, inflow, {}});
-        orbits.back().events.push_back(e);
-    }
+std::vector<testing::ValveGolden> periodic_orbits() {
+    auto orbits = testing::read_valve_golden(SLIDEWAY_TEST_DATA "/golden/relief_valve.csv");
+    std::erase_if(orbits, [](auto const& orbit) { return orbit.events.empty(); });
     return orbits;
 }
 
@@ -53,8 +30,8 @@ public:
     explicit Valve(double inflow) : p_(ReliefValve::parameters({.inflow = inflow})) {}
 
     /// The next impact or extremum, by small equal steps and bisection of the last.
-    Event next(Event const& from) const {
-        State y = from.state;
+    ValveEvent next(ValveEvent const& from) const {
+        State y = state_at(from);
         if (from.impact) ReliefValve::reset(ReliefValve::impact, true, y.data(), p_);
         double const direction = y[1] != 0 ? y[1] : rates(y)[1];
         auto const beyond = [&](State const& s) { return s[1] * direction < 0 || (direction < 0 && s[0] < 0); };
@@ -65,7 +42,7 @@ public:
         for (int i = 0; i < 60; ++i) (beyond(step(y, (low + high) / 2)) ? high : low) = (low + high) / 2;
         end = step(y, high);
         bool const impact = direction < 0 && end[0] < 1e-9 && end[1] < 0;
-        return {impact, end};
+        return {impact, end[0], end[1], end[2]};
     }
 
 private:
@@ -106,7 +83,7 @@ TEST(ReliefValveOrbits, FollowAnIndependentProgramFromEventToEvent) {
             auto const got = valve.next(orbit.events[i]);
             ASSERT_EQ(got.impact, want.impact) << "q = " << orbit.inflow << ", event " << i;
             for (std::size_t j = 0; j < 3; ++j) {
-                EXPECT_NEAR(got.state[j], want.state[j], 1e-6)
+                EXPECT_NEAR(state_at(got)[j], state_at(want)[j], 1e-6)
                     << "q = " << orbit.inflow << ", event " << i << ", " << j;
             }
             ++(want.impact ? impacts : extrema);
@@ -120,7 +97,7 @@ TEST(ReliefValveOrbits, EndAtRestWhereTheInflowIsLarge) {
     for (auto const& orbit : periodic_orbits()) {
         if (orbit.inflow < 8.7) continue;
         // The equilibrium: x √(x + 10) = q.
-        double const x = orbit.events.front().state[0];
+        double const x = orbit.events.front().x;
         EXPECT_EQ(orbit.events.size(), 1u) << orbit.inflow;
         EXPECT_NEAR(x * std::sqrt(x + 10), orbit.inflow, 1e-6);
     }

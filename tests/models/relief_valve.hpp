@@ -1,9 +1,6 @@
 #pragma once
 
-#include "kernels/mechanisms/event_info.hpp"
-#include "kernels/mechanisms/faults.hpp"
-#include "kernels/mechanisms/no_memory.hpp"
-#include "kernels/real.hpp"
+#include "tests/models/plain_model.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -15,17 +12,14 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// - Below the opening pressure bounces come to an end: they pile up in finite time.  A rebound slower than `seat_speed`
 ///   whose remaining bounces raise p by little ends on the seat, x = v = 0 exactly, where v' = 0 until p > δ lifts the disc.
 /// From q = 8.7 or so on orbits end in an equilibrium, at which extrema are but rounding errors: see `at_rest`.
-struct ReliefValve {
+struct ReliefValve : PlainModel<3> {  // x v p
     struct Inputs {
         double inflow = 5;                           // q
         double lift = 0.2, speed = 0, pressure = 0;  // x, v, p at the start
     };
-    static constexpr int size = 3;  // x v p
-    static constexpr bool has_memory = false, can_hold = false;
-
     template <class Real> struct Parameters { Real inflow; };
-    template <class Real> struct Report {};
-    template <class Real> using Memory = NoMemory<Real>;
+    /// Of the impacts and the extrema of the lift 64 are recorded, after a transient of 2,048.
+    template <class Real> using Observer = EventRecorder<Real, 2048, 64>;
 
     static constexpr double damping = 1.25;     // κ
     static constexpr double preload = 10;       // δ, the opening pressure
@@ -46,11 +40,6 @@ struct ReliefValve {
         rates[1] = select(seated, zero, push);
         rates[2] = Real(stiffness) * (p.inflow - flow);
         return Faults<Real>::none();
-    }
-
-    /// Sizes against which the absolute tolerance is meant.
-    template <class Real> SLIDEWAY_FN static void scales(Parameters<Real> const&, Real* scale) {
-        for (int i = 0; i < size; ++i) scale[i] = Real(1.0);
     }
 
     enum Event { impact, extremum };

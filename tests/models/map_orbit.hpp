@@ -1,10 +1,10 @@
 #pragma once
 
 #include "kernels/lane_copy.hpp"
-#include "kernels/map_block.hpp"
 #include "kernels/math/gram_schmidt.hpp"
 #include "kernels/math/offset_growth.hpp"
 #include "kernels/real.hpp"
+#include "tests/models/map_block.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 

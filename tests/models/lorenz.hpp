@@ -1,28 +1,20 @@
 #pragma once
 
-#include "kernels/mechanisms/event_info.hpp"
-#include "kernels/mechanisms/faults.hpp"
-#include "kernels/mechanisms/no_memory.hpp"
-#include "kernels/real.hpp"
+#include "tests/models/plain_model.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// The Lorenz equations, a small smooth model that tests and benchmarks of the steppers share:
 ///   x' = σ (y − x),   y' = x (ρ − z) − y,   z' = x y − β z.
 /// Source: Lorenz, J. Atmos. Sci. 20 (1963) 130–141, equations 25–27.  Dimensionless; every state has a derivative.
-struct Lorenz {
+struct Lorenz : PlainModel<3> {  // x y z
     struct Inputs {
         double sigma = 10;
         double rho = 28;
         double beta = 8.0 / 3.0;
         double x = 10, y = 10, z = 10;  // at the start
     };
-    static constexpr int size = 3;  // x y z
-    static constexpr bool has_memory = false, can_hold = false;
-
     template <class Real> struct Parameters { Real sigma, rho, beta; };
-    template <class Real> struct Report {};
-    template <class Real> using Memory = NoMemory<Real>;
 
     /// Operations of one derivative: x' subtracts and multiplies (2), y' subtracts, multiplies, subtracts (3), z' multiplies
     /// twice and subtracts (3).
@@ -37,11 +29,6 @@ struct Lorenz {
         rates[1] = fms(x, p.rho - z, y);
         rates[2] = fms(x, y, p.beta * z);
         return Faults<Real>::none();
-    }
-
-    /// Sizes against which the absolute tolerance is meant.
-    template <class Real> SLIDEWAY_FN static void scales(Parameters<Real> const&, Real* scale) {
-        for (int i = 0; i < size; ++i) scale[i] = Real(1.0);
     }
 
     /// Maxima of z, the section that Lorenz plotted: z' = 0 from above.
@@ -63,6 +50,11 @@ struct Lorenz {
         s[1] = in.y;
         s[2] = in.z;
     }
+};
+
+/// The Lorenz equations as the lanes integrate them: nothing is observed but the states.
+struct LorenzModel : Lorenz {
+    static constexpr int events = 0;
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

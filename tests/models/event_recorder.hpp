@@ -2,28 +2,19 @@
 
 #include "kernels/block.hpp"
 #include "kernels/real.hpp"
+#include "tests/models/plain_observer.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// Records the first state component at a model's events: `transient` events are counted only, the next `kept` are recorded, and
 /// then the member has come to its end.
-template <class Real, int transient, int kept> class EventRecorder {
+template <class Real, int transient, int kept> class EventRecorder : public PlainObserver<Real> {
 public:
-    static constexpr int integrals = 0, audit_integrals = 0;
     static constexpr int columns = kept;
-
-    static constexpr Selection audit_quantities = 0;
-    SLIDEWAY_HD static constexpr bool needs_stages(Selection) { return false; }
-    SLIDEWAY_HD static constexpr bool audits(Selection) { return false; }
-    SLIDEWAY_HD static constexpr bool needs_reports(Selection) { return false; }
-    template <class Report> SLIDEWAY_FN static void integrands(Report const&, Real*) {}
-    SLIDEWAY_FN Real integral(int) const { return Real(0.0); }
 
     template <class Report> SLIDEWAY_FN void start(Mask<Real> fresh, Report const&, Real const*, bool) {
         count_ = select(fresh, Real(0.0), count_);
     }
-    template <class Report>
-    SLIDEWAY_FN void accept(Mask<Real>, Real, Real const*, Report const&, Real const*, bool) {}
 
     /// An event in the lanes of the mask.
     SLIDEWAY_HD void event(Mask<Real> at, int, Real, Real const* state) {
