@@ -77,7 +77,7 @@ int benchmark(int rounds) {
     for (auto const& c : cases) members.push_back(members_of(c, member_count));
     std::vector<Row> rows;
     for (std::size_t i = 0; i < cases.size(); ++i) {
-        for (Isa const isa : {Isa::scalar, Isa::avx2, Isa::avx512}) {
+        for (Isa const isa : built_isas()) {
             if (is_supported(isa)) rows.push_back({.scene = &cases[i], .members = &members[i], .isa = isa});
         }
     }
@@ -93,7 +93,7 @@ int benchmark(int rounds) {
         }
     }
     fmt::print("# The engine, method auto\n\n{}", machine_and_build());
-    for (Isa const isa : {Isa::scalar, Isa::avx2, Isa::avx512}) {
+    for (Isa const isa : built_isas()) {
         if (is_supported(isa)) fmt::print("- flags, {}: {}\n", name_of(isa), flags_of(isa));
     }
     fmt::print(

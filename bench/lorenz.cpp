@@ -13,22 +13,12 @@
 #include "bench/lorenz_kernel.hpp"
 #include "bench/machine.hpp"
 #include "bench/median.hpp"
-#include "host/backend/backend.hpp"
+#include "host/backend/by_isa.hpp"
 
 namespace slideway {
 
-namespace scalar {
-FmaPeakRounds fma_peak_rounds;
-LorenzIntegrator integrate_lorenz;
-}  // namespace scalar
-namespace avx2 {
-FmaPeakRounds fma_peak_rounds;
-LorenzIntegrator integrate_lorenz;
-}  // namespace avx2
-namespace avx512 {
-FmaPeakRounds fma_peak_rounds;
-LorenzIntegrator integrate_lorenz;
-}  // namespace avx512
+SLIDEWAY_BY_ISA(FmaPeakRounds, fma_peak_rounds)
+SLIDEWAY_BY_ISA(LorenzIntegrator, integrate_lorenz)
 
 namespace {
 
@@ -36,18 +26,6 @@ constexpr std::size_t members = 1536;  // whole groups of every instruction set
 constexpr std::uint64_t steps = 1000;
 constexpr double step = 1e-3;
 constexpr int rounds = 25;
-
-struct Kernel {
-    Isa isa;
-    LorenzIntegrator* integrate;
-    FmaPeakRounds* multiply_add;
-};
-
-constexpr Kernel kernels[] = {
-    {Isa::scalar, scalar::integrate_lorenz, scalar::fma_peak_rounds},
-    {Isa::avx2, avx2::integrate_lorenz, avx2::fma_peak_rounds},
-    {Isa::avx512, avx512::integrate_lorenz, avx512::fma_peak_rounds},
-};
 
 /// Of the processor, not of the clock: other work on the machine counts for little.
 template <class Work> double seconds(Work work) {
@@ -79,14 +57,15 @@ int benchmark() {
     LorenzRun run{rho.data(), members, step, steps, states.data()};
 
     std::vector<Row> rows;
-    for (auto const& kernel : kernels) {
-        if (!is_supported(kernel.isa)) continue;
-        run.states = kernel.isa == Isa::scalar ? reference.data() : states.data();
-        kernel.integrate(run);
+    for (Isa const isa : built_isas()) {
+        if (!is_supported(isa)) continue;
+        auto* const integrate = integrate_lorenz_by_isa(isa);
+        run.states = isa == Isa::scalar ? reference.data() : states.data();
+        integrate(run);
         bool const same = std::memcmp(run.states, reference.data(), 3 * members * sizeof(double)) == 0;
-        rows.push_back({std::string(name_of(kernel.isa)), kernel.integrate, kernel.multiply_add, same, {}, {}, {}});
+        rows.push_back({std::string(name_of(isa)), integrate, fma_peak_rounds_by_isa(isa), same, {}, {}, {}});
     }
-    rows.push_back({"Odeint runge_kutta4", odeint_lorenz, scalar::fma_peak_rounds, false, {}, {}, {}});
+    rows.push_back({"Odeint runge_kutta4", odeint_lorenz, fma_peak_rounds_by_isa(Isa::scalar), false, {}, {}, {}});
     run.states = states.data();
     for (int round = 0; round < rounds; ++round) {
         for (auto& row : rows) measure(row, run);

@@ -19,19 +19,11 @@
 #include "bench/relief_valve_golden.hpp"
 #include "bench/relief_valve_kernel.hpp"
 #include "bench/relief_valve_odeint.hpp"
-#include "host/backend/backend.hpp"
+#include "host/backend/by_isa.hpp"
 
 namespace slideway {
 
-namespace scalar {
-ValveIntegrator integrate_valves;
-}
-namespace avx2 {
-ValveIntegrator integrate_valves;
-}
-namespace avx512 {
-ValveIntegrator integrate_valves;
-}
+SLIDEWAY_BY_ISA(ValveIntegrator, integrate_valves)
 
 namespace {
 
@@ -78,15 +70,9 @@ Orbits engine_orbits(ValveIntegrator* integrate) {
 
 std::vector<Row> make_rows() {
     std::vector<Row> rows{{"Odeint Cash-Karp 5(4)", odeint_orbits, {}, {}}};
-    struct Kernel {
-        Isa isa;
-        ValveIntegrator* integrate;
-    };
-    for (auto const& [isa, integrate] : {Kernel{Isa::scalar, scalar::integrate_valves},
-                                         {Isa::avx2, avx2::integrate_valves},
-                                         {Isa::avx512, avx512::integrate_valves}}) {
+    for (Isa const isa : built_isas()) {
         if (!is_supported(isa)) continue;
-        auto const run = integrate;
+        auto* const run = integrate_valves_by_isa(isa);
         rows.push_back(
             {std::string("slideway, ") + std::string(name_of(isa)), [run] { return engine_orbits(run); }, {}, {}});
     }

@@ -20,28 +20,14 @@
 #include "bench/fma_peak.hpp"
 #include "bench/machine.hpp"
 #include "bench/rhs_kernel.hpp"
-#include "host/backend/backend.hpp"
+#include "host/backend/by_isa.hpp"
 #include "tests/oracle/golden_table.hpp"
 #include "tests/support/ensemble.hpp"
 
 namespace slideway {
 
-namespace scalar {
-RhsKernelMaker rhs_kernels;
-FmaPeakRounds fma_peak_rounds;
-}  // namespace scalar
-namespace sse2 {
-RhsKernelMaker rhs_kernels;
-FmaPeakRounds fma_peak_rounds;
-}  // namespace sse2
-namespace avx2 {
-RhsKernelMaker rhs_kernels;
-FmaPeakRounds fma_peak_rounds;
-}  // namespace avx2
-namespace avx512 {
-RhsKernelMaker rhs_kernels;
-FmaPeakRounds fma_peak_rounds;
-}  // namespace avx512
+SLIDEWAY_BY_ISA(RhsKernelMaker, rhs_kernels)
+SLIDEWAY_BY_ISA(FmaPeakRounds, fma_peak_rounds)
 namespace counted {
 RhsKernelMaker rhs_kernels;
 OperationCounter operations;
@@ -152,34 +138,6 @@ RhsKernel kernel_of(RhsKernels const& kernels, Law law) {
     return law == Law::paper ? kernels.paper : kernels.conservative;
 }
 
-RhsKernels kernels_of(Isa isa) {
-    switch (isa) {
-        case Isa::scalar:
-            return scalar::rhs_kernels();
-        case Isa::sse2:
-            return sse2::rhs_kernels();
-        case Isa::avx2:
-            return avx2::rhs_kernels();
-        case Isa::avx512:
-            return avx512::rhs_kernels();
-    }
-    return {};
-}
-
-FmaPeakRounds* fma_peak_of(Isa isa) {
-    switch (isa) {
-        case Isa::scalar:
-            return &scalar::fma_peak_rounds;
-        case Isa::sse2:
-            return &sse2::fma_peak_rounds;
-        case Isa::avx2:
-            return &avx2::fma_peak_rounds;
-        case Isa::avx512:
-            return &avx512::fma_peak_rounds;
-    }
-    return nullptr;
-}
-
 /// Something to measure: `run(n)` does its unit of work n times.
 class Work {
 public:
@@ -257,7 +215,7 @@ std::vector<Row> rows_of(std::vector<States> const& all, std::vector<Isa> const&
         for (bool const full : {false, true}) {
             double const flops = useful_flops(states, full);
             for (Isa const isa : isas) {
-                auto const packs = std::make_shared<Loaded>(kernel_of(kernels_of(isa), states.law), states);
+                auto const packs = std::make_shared<Loaded>(kernel_of(rhs_kernels_by_isa(isa)(), states.law), states);
                 Row row{&states, isa, full, flops, Work([packs, full](std::uint64_t n) {
                             packs->evaluate(full, evaluations_in_a_row, static_cast<int>(n));
                         })};
@@ -302,7 +260,7 @@ void run(int rounds, std::string const& text) {
     }
     std::vector<Peak> peaks;
     for (Isa const isa : isas) {
-        auto* const peak_rounds = fma_peak_of(isa);
+        auto* const peak_rounds = fma_peak_rounds_by_isa(isa);
         peaks.push_back({isa, static_cast<double>(peak_rounds(1)), Work([=](std::uint64_t n) { peak_rounds(n); })});
     }
     auto const states = all_states();

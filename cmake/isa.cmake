@@ -1,16 +1,43 @@
-include(CheckCXXCompilerFlag)
-
 # The instruction sets that kernels are built for.  Every unit built for one of them sees its name as SLIDEWAY_ISA,
-# the inline namespace of kernels/real.hpp, so that no two of them share a function.
+# the inline namespace of kernels/real.hpp, so that no two of them share a function.  The flags of processors stand here and nowhere else.
+include(CheckCXXCompilerFlag)
+include(${CMAKE_CURRENT_LIST_DIR}/isa_choice.cmake)
 
-# `scalar` is one member per Real on a machine with AVX2 and FMA: the reference that avx2 and avx512 must meet bit for
-# bit.  `sse2` runs on every x86-64 but rounds each multiply-add twice.
-set(SLIDEWAY_ISAS scalar sse2 avx2 avx512)
+# `scalar` is one member per Real: the reference that all others meet bit for bit.  On x86-64 it needs AVX2 and FMA; `scalar_libm` takes its
+# place on machines without, where the C library multiplies and adds with one rounding.
+set(SLIDEWAY_ISAS all CACHE STRING
+    "Instruction sets of the kernels: all, native (scalar and the widest of this machine; builds sooner), or a list of names")
+set(machine_features)
+if(SLIDEWAY_ISAS STREQUAL "native")
+    if(CMAKE_CROSSCOMPILING)
+        message(FATAL_ERROR "SLIDEWAY_ISAS=native is of the machine that builds; name the instruction sets of ${CMAKE_SYSTEM_PROCESSOR}")
+    endif()
+    file(STRINGS /proc/cpuinfo machine_features REGEX "^flags" LIMIT_COUNT 1)
+endif()
+slideway_chosen_isas("${SLIDEWAY_ISAS}" ${CMAKE_SYSTEM_PROCESSOR} "${machine_features}" SLIDEWAY_BUILT_ISAS)
+list(JOIN SLIDEWAY_BUILT_ISAS ", " names)
+message(STATUS "Kernels are compiled for: ${names}")
+
+# What code may know of the choice: host/backend/built_isas.hpp.
+set(rows)
+foreach(isa IN LISTS SLIDEWAY_BUILT_ISAS)
+    string(APPEND rows " \\\n    row(${isa} __VA_OPT__(, ) __VA_ARGS__)")
+endforeach()
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/host/backend/built_isas.hpp @ONLY CONTENT
+"// Made by cmake/isa.cmake.
+#pragma once
+
+/// row(name, ...) for each instruction set that the kernels of this build were compiled for, by its name in Isa.
+#define SLIDEWAY_FOR_EACH_ISA(row, ...)@rows@
+")
+include_directories(${PROJECT_BINARY_DIR}/generated)
+
 # Members per Real.
 set(SLIDEWAY_LANES_scalar 1)
-set(SLIDEWAY_LANES_sse2 2)
+set(SLIDEWAY_LANES_scalar_libm 1)
 set(SLIDEWAY_LANES_avx2 4)
 set(SLIDEWAY_LANES_avx512 8)
+set(SLIDEWAY_LANES_neon 2)
 
 # g++ copies structures in pieces of 16 bytes unless told otherwise; a pack that was stored in two pieces and is read back whole
 # waits until the stores have left the core.
@@ -18,8 +45,13 @@ check_cxx_compiler_flag("-mmove-max=256 -mstore-max=256" SLIDEWAY_HAS_MOVE_MAX)
 
 # slideway_isa_flags(<isa> <out_var>): compile options for a unit of that instruction set.
 function(slideway_isa_flags isa out_var)
+    slideway_known_isas(${CMAKE_SYSTEM_PROCESSOR} known)
+    set(x86 FALSE)
+    if(avx2 IN_LIST known)
+        set(x86 TRUE)
+    endif()
     set(flags -DSLIDEWAY_ISA=${isa})
-    if(isa STREQUAL "scalar" OR isa STREQUAL "avx2")
+    if(x86 AND isa MATCHES "^(scalar|avx2)$")
         list(APPEND flags -mavx2 -mfma -mpopcnt)
     elseif(isa STREQUAL "avx512")
         list(APPEND flags -mavx512f -mavx512dq -mavx512cd -mavx512bw -mavx512vl -mfma -mpopcnt -mprefer-vector-width=512)
@@ -27,10 +59,6 @@ function(slideway_isa_flags isa out_var)
         if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
             list(APPEND flags -Wno-uninitialized -Wno-maybe-uninitialized)
         endif()
-    elseif(isa STREQUAL "sse2")
-        list(APPEND flags -DSLIDEWAY_NO_FMA)
-    else()
-        message(FATAL_ERROR "slideway_isa_flags: unknown instruction set '${isa}' (one of: ${SLIDEWAY_ISAS})")
     endif()
     if(SLIDEWAY_HAS_MOVE_MAX AND isa STREQUAL "avx2")
         list(APPEND flags -mmove-max=256 -mstore-max=256)
@@ -38,7 +66,7 @@ function(slideway_isa_flags isa out_var)
         list(APPEND flags -mmove-max=512 -mstore-max=512)
     endif()
     # Pairing operations of one member costs the scalar kernels 4 %: they are to be the best scalar build there is.
-    if(isa STREQUAL "scalar")
+    if(isa MATCHES "^scalar")
         list(APPEND flags -fno-tree-slp-vectorize)
     endif()
     set(${out_var} ${flags} PARENT_SCOPE)
@@ -54,7 +82,7 @@ function(slideway_isa_unit library isa source)
     if(NOT TARGET ${headers})
         add_library(${headers} OBJECT ${PROJECT_SOURCE_DIR}/cmake/headers.cpp)
         target_compile_options(${headers} PRIVATE ${options})
-        target_precompile_headers(${headers} PRIVATE <immintrin.h> <xsimd/xsimd.hpp> <cmath> <cstddef> <cstdint> <vector>)
+        target_precompile_headers(${headers} PRIVATE <xsimd/xsimd.hpp> <cmath> <cstddef> <cstdint> <vector>)
     endif()
     add_library(${library} OBJECT ${source})
     target_compile_options(${library} PRIVATE ${options})

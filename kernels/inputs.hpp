@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "kernels/key.hpp"
 #include "kernels/laws/list.hpp"
 #include "kernels/mechanisms/list.hpp"
 
@@ -26,80 +27,105 @@ enum class Law {
     SLIDEWAY_LAWS(SLIDEWAY_NAME)
 #undef SLIDEWAY_NAME
 };
-/// point: C of point contacts alone (χ = 0).  rate: C and χ.  restitution: replaces both.
-enum class Damping { point, rate, restitution };
 
+/// point: C of point contacts alone (χ = 0), or what the law has of its own.  rate: C and χ.  restitution: replaces both.
+enum class Damping { point, rate, restitution };
+inline constexpr int damping_count = 3;
+
+/// What a scene has, the same for all of its members.
 struct Parts {
     Law law = Law::paper;  // of the spatial mechanisms
     Damping damping = Damping::point;
     bool friction = false;        // absent [friction]: no friction code runs
-    bool misaligned_way = false;  // only with a [way] table is the code for its pose in the kernel
+    bool misaligned_way = false;  // only with a [way] table does the code for its pose run
     Mechanism mechanism = Mechanism::slider_crank;
     bool free_crank = false;  // of planar_slider_crank: no drive holds the crank's speed
     friend bool operator==(Parts const&, Parts const&) = default;
 };
 
+// Every number of a member: row(member, key, preset, unit, rule, group, meaning), with its symbol of docs/model.md.
+// clang-format off
+#define SLIDEWAY_INPUTS(row) \
+    /* [mechanism] */ \
+    row(crank_length, "mechanism.crank_length", 0.05, "m", positive, crank, "crank length")  /* r */ \
+    row(rod_length, "mechanism.rod_length", 0.1422, "m", positive, links, "rod length")  /* L */ \
+    row(crank_speed, "mechanism.crank_speed", 3.141592653589793, "rad/s", any, crank, "crank speed")  /* ω, constant; of a free crank at the start */ \
+    row(start_angle, "mechanism.start_angle", 0, "rad", any, crank, "crank angle at the start")  /* θ0 */ \
+    row(gravity, "mechanism.gravity", 9.81, "m/s2", any, slider, "gravity")  /* g */ \
+    row(inclination, "mechanism.inclination", 0, "rad", right_angle, slider, "inclination of the way")  /* β */ \
+    row(crank_mass, "mechanism.crank_mass", follows, "kg", positive, links, "mass of the crank")  /* m_c: steel, 5 × 2.5 mm × crank_length */ \
+    row(rod_mass, "mechanism.rod_mass", follows, "kg", positive, links, "mass of the rod")  /* m_r: steel, 14.2 × 7.1 mm × rod_length */ \
+    row(rod_mass_center, "mechanism.rod_mass_center", 0.5, "1", unit_interval, rod_centre, "centre of mass of the rod as a fraction of its length from the crank pin")  /* f_r */ \
+    row(rod_inertia, "mechanism.rod_inertia", follows, "kg m2", not_negative, links, "transverse inertia of the rod about its centre of mass")  /* J: m_r L²/12 */ \
+    row(slider_mass, "mechanism.slider_mass", follows, "kg", positive, slider, "mass of the slider")  /* M: steel, 40 × 20 × 30 mm */ \
+    row(slider_inertia_x, "mechanism.slider_inertia_x", follows, "kg m2", positive, spatial, "inertia of the slider about X")  /* I: that block with mass M */ \
+    row(slider_inertia_y, "mechanism.slider_inertia_y", follows, "kg m2", positive, spatial, "inertia of the slider about Y") \
+    row(slider_inertia_z, "mechanism.slider_inertia_z", follows, "kg m2", positive, slider, "inertia of the slider about Z") \
+    row(crank_inertia, "mechanism.crank_inertia", follows, "kg m2", not_negative, planar, "inertia of the crank about its centre of mass")  /* J1: m_c r²/12 */ \
+    row(carriage_speed, "mechanism.carriage_speed", 0.06, "m/s", positive, carriage, "speed of the carriage")  /* v */ \
+    row(stroke, "mechanism.stroke", 0.15, "m", positive, carriage, "way of the carriage at constant speed") \
+    row(reversal_time, "mechanism.reversal_time", 0.02, "s", positive, carriage, "time in which the carriage turns round")  /* t_r */ \
+    /* [joint] */ \
+    row(slider_length, "joint.slider_length", 0.04, "m", positive, slider, "length of the slider")  /* L_k */ \
+    row(way_width, "joint.way_width", 0.02, "m", positive, spatial, "width of the way along Y")  /* w_a */ \
+    row(way_depth, "joint.way_depth", 0.03, "m", positive, spatial, "depth of the way along Z")  /* w_b */ \
+    row(thickness_y, "joint.thickness_y", follows, "m", positive, spatial, "compressed thickness behind the Y faces")  /* l_a: way_width */ \
+    row(thickness_z, "joint.thickness_z", follows, "m", positive, spatial, "compressed thickness behind the Z faces")  /* l_b: way_depth */ \
+    row(clearance_y, "joint.clearance_y", 1e-4, "m", gap, slider, "clearance per side along Y")  /* c_a */ \
+    row(clearance_z, "joint.clearance_z", 1e-4, "m", gap, spatial, "clearance per side along Z")  /* c_b */ \
+    row(slider_height, "joint.slider_height", 0.02, "m", positive, planar, "height of the planar slider")  /* 2b */ \
+    /* [way] */ \
+    row(way_offset_y, "way.offset_y", 0, "m", any, spatial, "offset of the way along Y")  /* u_l */ \
+    row(way_offset_z, "way.offset_z", 0, "m", any, spatial, "offset of the way along Z") \
+    row(way_roll, "way.roll", 0, "rad", any, spatial, "roll of the way")  /* A_l */ \
+    row(way_yaw, "way.yaw", 0, "rad", any, spatial, "yaw of the way") \
+    row(way_pitch, "way.pitch", 0, "rad", any, spatial, "pitch of the way") \
+    /* [contact] */ \
+    row(slider_young_modulus, "contact.slider_young_modulus", 2.07e11, "Pa", positive, elastic, "modulus of the slider")  /* E1 */ \
+    row(way_young_modulus, "contact.way_young_modulus", 2.07e11, "Pa", positive, elastic, "modulus of the way")  /* E2 */ \
+    row(slider_poisson_ratio, "contact.slider_poisson_ratio", 0.29, "1", poisson_ratio, hertz, "Poisson's ratio of the slider")  /* ν1 */ \
+    row(way_poisson_ratio, "contact.way_poisson_ratio", 0.29, "1", poisson_ratio, hertz, "Poisson's ratio of the way")  /* ν2 */ \
+    row(edge_radius, "contact.edge_radius", 5e-4, "m", positive, edges, "edge radius of line contacts")  /* R_e */ \
+    row(apex_radius, "contact.apex_radius", 5e-4, "m", positive, hertz, "apex radius of point contacts")  /* R_p */ \
+    row(point_stiffness, "contact.point_stiffness", follows, "1", positive, hertz, "stiffness of point contacts [N/m^n, n the Hertz exponent]")  /* K: 4/3 E* √R_p */ \
+    row(hertz_exponent, "contact.hertz_exponent", 1.5, "1", hertz_exponent, hertz, "Hertz exponent of point contacts")  /* n */ \
+    row(eta, "contact.eta", 0.01, "1", not_negative, point_damping, "damping ratio of point contacts")  /* η, C = ηK numerically */ \
+    row(chi_line, "contact.chi_line", 0, "s/m", not_negative, edges, "dissipation of line contacts")  /* χ */ \
+    row(chi_surface, "contact.chi_surface", 0, "s/m", not_negative, edges, "dissipation of surface contacts") \
+    row(restitution, "contact.restitution", 1, "1", half_open_unit, point_damping, "coefficient of restitution")  /* e */ \
+    /* [friction] */ \
+    row(friction_static, "friction.static", 0.15, "1", not_negative, slider, "static friction coefficient")  /* μs */ \
+    row(friction_kinetic, "friction.kinetic", 0.10, "1", not_negative, slider, "kinetic friction coefficient")  /* μd */ \
+    row(friction_stick_speed, "friction.stick_speed", 1e-3, "m/s", positive, slider, "speed of the largest friction")  /* Vs */ \
+    row(friction_slip_speed, "friction.slip_speed", 1e-2, "m/s", positive, slider, "speed where kinetic friction begins")  /* Vd */ \
+    /* [initial] */ \
+    row(y, "initial.y", 0, "m", any, slider, "vertical position at the start") \
+    row(z, "initial.z", 0, "m", any, spatial, "lateral position at the start") \
+    row(vy, "initial.vy", 0, "m/s", any, slider, "vertical velocity at the start") \
+    row(vz, "initial.vz", 0, "m/s", any, spatial, "lateral velocity at the start") \
+    row(roll, "initial.roll", 0, "rad", any, spatial, "roll at the start")  /* φ ϑ ψ */ \
+    row(yaw, "initial.yaw", 0, "rad", any, spatial, "yaw at the start") \
+    row(pitch, "initial.pitch", 0, "rad", any, slider, "pitch at the start") \
+    row(wx, "initial.wx", 0, "rad/s", any, spatial, "angular velocity about the slider's X at the start")  /* ω in the slider's frame */ \
+    row(wy, "initial.wy", 0, "rad/s", any, spatial, "angular velocity about the slider's Y at the start") \
+    row(wz, "initial.wz", 0, "rad/s", any, slider, "angular velocity about the slider's Z at the start") \
+    row(x, "initial.x", 0, "m", any, along, "position along the way at the start") \
+    row(vx, "initial.vx", 0, "m/s", any, along, "velocity along the way at the start")
+// clang-format on
+
 struct Inputs {
-    // [mechanism]
-    double crank_length = 0.05;              // r [m]
-    double rod_length = 0.1422;              // L [m]
-    double crank_speed = 3.141592653589793;  // ω [rad/s], constant; of a free crank at the start
-    double start_angle = 0;                  // θ0 [rad]
-    double gravity = 9.81;                   // g [m/s²]
-    double inclination = 0;                  // β [rad], of the way
-    double crank_mass = follows;             // m_c [kg]: steel, 5 × 2.5 mm × crank_length
-    double rod_mass = follows;               // m_r [kg]: steel, 14.2 × 7.1 mm × rod_length
-    double rod_mass_center = 0.5;            // f_r, fraction of the rod from the crank pin
-    double rod_inertia = follows;            // J [kg m²], transverse about the centre of mass: m_r L²/12
-    double slider_mass = follows;            // M [kg]: steel, 40 × 20 × 30 mm
-    double slider_inertia_x = follows;       // I [kg m²] about the slider's axes: that block with mass M
-    double slider_inertia_y = follows;
-    double slider_inertia_z = follows;
-    double crank_inertia = follows;  // J1 [kg m²], of the planar crank about its centre of mass: m_c r²/12
-    double carriage_speed = 0.06;    // v [m/s]
-    double stroke = 0.15;            // [m], of the carriage at constant speed
-    double reversal_time = 0.02;     // t_r [s]
-    // [joint]
-    double slider_length = 0.04;   // L_k [m]
-    double way_width = 0.02;       // w_a [m], along Y
-    double way_depth = 0.03;       // w_b [m], along Z
-    double thickness_y = follows;  // l_a [m]: way_width
-    double thickness_z = follows;  // l_b [m]: way_depth
-    double clearance_y = 1e-4;     // c_a [m], per side
-    double clearance_z = 1e-4;     // c_b [m], per side
-    double slider_height = 0.02;   // 2b [m], of the planar block between its walls
-    // [way]
-    double way_offset_y = 0;  // u_l [m]
-    double way_offset_z = 0;
-    double way_roll = 0;  // A_l [rad]
-    double way_yaw = 0;
-    double way_pitch = 0;
-    // [contact]
-    double slider_young_modulus = 2.07e11;  // E1 [Pa]
-    double way_young_modulus = 2.07e11;     // E2 [Pa]
-    double slider_poisson_ratio = 0.29;     // ν1
-    double way_poisson_ratio = 0.29;        // ν2
-    double edge_radius = 5e-4;              // R_e [m]
-    double apex_radius = 5e-4;              // R_p [m]
-    double point_stiffness = follows;       // K [N/mⁿ]: 4/3 E* √R_p
-    double hertz_exponent = 1.5;            // n
-    double eta = 0.01;                      // η, C = ηK numerically
-    double chi_line = 0;                    // [s/m]
-    double chi_surface = 0;                 // [s/m]
-    double restitution = 1;                 // e in (0, 1]; used by Damping::restitution alone
+#define SLIDEWAY_MEMBER(member, key, preset, unit, rule, group, meaning) double member = preset;
+    SLIDEWAY_INPUTS(SLIDEWAY_MEMBER)
+#undef SLIDEWAY_MEMBER
     // What a contact law has of its own, under the keys that its LawInfo names; 0 where a law has fewer.
     double law_a = 0, law_b = 0, law_c = 0, law_d = 0;
-    // [friction]
-    double friction_static = 0.15;       // μs
-    double friction_kinetic = 0.10;      // μd
-    double friction_stick_speed = 1e-3;  // Vs [m/s]
-    double friction_slip_speed = 1e-2;   // Vd [m/s]
-    // [initial]
-    double y = 0, z = 0;                  // [m] from the X axis of the inertial frame
-    double vy = 0, vz = 0;                // [m/s]
-    double roll = 0, yaw = 0, pitch = 0;  // φ ϑ ψ [rad]
-    double wx = 0, wy = 0, wz = 0;        // ω in the slider's frame [rad/s]
-    double x = 0, vx = 0;                 // [m], [m/s], of a slider that is free along the way
+};
+
+inline constexpr Key input_keys[] = {
+#define SLIDEWAY_KEY(member, key, preset, unit, rule, group, meaning) \
+    {key, &Inputs::member, unit, Rule::rule, KeyGroup::group, meaning, preset},
+    SLIDEWAY_INPUTS(SLIDEWAY_KEY)
+#undef SLIDEWAY_KEY
 };
 
 }  // namespace slideway

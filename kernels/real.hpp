@@ -88,8 +88,6 @@ SLIDEWAY_FN double negated(double x) { return -x; }
 SLIDEWAY_FN double fma(double a, double b, double c) {
 #if defined(__CUDA_ARCH__)
     return ::fma(a, b, c);
-#elif defined(SLIDEWAY_NO_FMA)
-    return a * b + c;
 #else
     return __builtin_fma(a, b, c);
 #endif
@@ -156,9 +154,6 @@ template <class Arch> SLIDEWAY_FN Batch<Arch> negated(Batch<Arch> x) {
 }
 
 // xsimd 8.1 has no AVX-512 fma: it becomes multiply and add, which is slower and gives other bits.
-#if defined(SLIDEWAY_NO_FMA)
-#define SLIDEWAY_FUSED(name)
-#else
 #if defined(__AVX512F__)
 #define SLIDEWAY_FUSED_512(name) \
     if constexpr (lanes<Batch<Arch>> == 8) return _mm512_##name##_pd(a, b, c);
@@ -171,9 +166,7 @@ template <class Arch> SLIDEWAY_FN Batch<Arch> negated(Batch<Arch> x) {
     if constexpr (lanes<Batch<Arch>> == 4) return _mm256_##name##_pd(a, b, c); \
     if constexpr (lanes<Batch<Arch>> == 2) return _mm_##name##_pd(a, b, c);
 #else
-#define SLIDEWAY_FUSED(name) \
-    static_assert(lanes<Batch<Arch>> == 0, "build with -mfma, or define SLIDEWAY_NO_FMA and have other bits");
-#endif
+#define SLIDEWAY_FUSED(name) static_assert(lanes<Batch<Arch>> == 0, "packs need fused multiply-add: build with -mfma");
 #endif
 template <class Arch> SLIDEWAY_FN Batch<Arch> fma(Batch<Arch> a, Batch<Arch> b, Batch<Arch> c) {
     SLIDEWAY_FUSED(fmadd)

@@ -23,7 +23,8 @@ int main(int argc, char** argv) {
     words.option("--method", only_method, "only methods whose name contains this");
     words.option("--budget", budget, "seconds for one method at one tolerance (8, or 1 if quick)");
     if (auto const code = words.parse(argc, argv)) return *code;
-    if (!slideway::is_supported(slideway::Isa::scalar)) {
+    if (!slideway::is_supported(slideway::Isa::scalar) ||
+        slideway::compiled_isa(slideway::Isa::scalar) != slideway::Isa::scalar) {
         fmt::print(stderr, "work_precision: this machine has no AVX2 and FMA, which the peers are built for\n");
         return 1;
     }

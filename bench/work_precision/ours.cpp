@@ -5,21 +5,11 @@
 #include "bench/relief_valve_orbit.hpp"
 #include "bench/work_precision/method.hpp"
 #include "bench/work_precision/models_kernel.hpp"
-#include "host/backend/backend.hpp"
+#include "host/backend/by_isa.hpp"
 
 namespace slideway {
-namespace scalar {
-LorenzMembersRun integrate_lorenz_members;
-ValveMembersRun integrate_valve_members;
-}  // namespace scalar
-namespace avx2 {
-LorenzMembersRun integrate_lorenz_members;
-ValveMembersRun integrate_valve_members;
-}  // namespace avx2
-namespace avx512 {
-LorenzMembersRun integrate_lorenz_members;
-ValveMembersRun integrate_valve_members;
-}  // namespace avx512
+SLIDEWAY_BY_ISA(LorenzMembersRun, integrate_lorenz_members)
+SLIDEWAY_BY_ISA(ValveMembersRun, integrate_valve_members)
 }  // namespace slideway
 
 namespace slideway::bench {
@@ -35,21 +25,6 @@ constexpr Choice choices[] = {
     {::slideway::Method::automatic}, {::slideway::Method::dopri5},       {::slideway::Method::bs32},
     {::slideway::Method::ros34pw2},  {::slideway::Method::dopri5, true},
 };
-
-struct ModelRuns {
-    Isa isa;
-    LorenzMembersRun* lorenz;
-    ValveMembersRun* valve;
-};
-
-// The peers need AVX2 and FMA, and so does the benchmark.
-constexpr ModelRuns model_runs[] = {
-    {Isa::scalar, scalar::integrate_lorenz_members, scalar::integrate_valve_members},
-    {Isa::avx2, avx2::integrate_lorenz_members, avx2::integrate_valve_members},
-    {Isa::avx512, avx512::integrate_lorenz_members, avx512::integrate_valve_members},
-};
-
-ModelRuns const& runs_of(Isa isa) { return *std::ranges::find(model_runs, isa, &ModelRuns::isa); }
 
 bool past_deadline(void const* deadline) { return Clock::now() > *static_cast<Clock::time_point const*>(deadline); }
 
@@ -82,10 +57,10 @@ void run_members(Isa isa, SliderCrankEnsemble const& ensemble, Workplace& work) 
     find_instance(isa, ensemble.parts).run(block);
 }
 void run_members(Isa isa, LorenzEnsemble const& ensemble, Workplace& work) {
-    runs_of(isa).lorenz(ensemble.members.data(), work.block);
+    integrate_lorenz_members_by_isa(isa)(ensemble.members.data(), work.block);
 }
 void run_members(Isa isa, ValveEnsemble const& ensemble, Workplace& work) {
-    runs_of(isa).valve(ensemble.members.data(), work.block);
+    integrate_valve_members_by_isa(isa)(ensemble.members.data(), work.block);
 }
 
 template <class Model> struct Shape;

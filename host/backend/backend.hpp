@@ -16,7 +16,7 @@
 
 namespace slideway {
 
-/// A card that cannot be used, or a call of its runtime that failed.  `what()` is the whole line to print.  Exit code 4.
+/// A card or processor that cannot be used, or a call of a card's runtime that failed.  `what()` is the whole line to print.  Exit code 4.
 class DeviceError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
@@ -72,20 +72,25 @@ public:
     virtual std::string objection() const = 0;
 };
 
-/// scalar is one member at a time with fused multiply-add; sse2 runs on every x86-64 machine and has no FMA, so its
-/// bits differ from the others', which all agree.
-enum class Isa { scalar, sse2, avx2, avx512 };
+/// scalar is one member at a time, the reference whose bits all others meet, and runs on every machine: scalar_libm is how it was compiled
+/// for those of x86-64 without AVX2 and FMA, where the C library has to multiply and add with one rounding.
+enum class Isa { scalar, scalar_libm, avx2, avx512, neon };
 
 std::string_view name_of(Isa isa);
 int lanes_of(Isa isa);
-bool is_supported(Isa isa);  // by this machine
-Isa best_isa();              // the widest that this machine supports
+bool is_built(Isa isa);      // this program has kernels for it
+bool is_supported(Isa isa);  // and they run on this machine
+Isa best_isa();              // the widest that is supported
 std::span<Isa const> all_isas();
+std::span<Isa const> built_isas();
+/// scalar_libm for scalar where this machine needs it, otherwise the same.
+Isa compiled_isa(Isa isa);
 std::string flags_of(Isa isa);  // compiler flags the unit was built with
 
-/// @throws std::out_of_range never: every combination of parts exists for every ISA.
+/// @param isa built.  Every combination of parts exists for every instruction set.
 KernelInstance find_instance(Isa isa, Parts const& parts);
 
+/// @throws DeviceError if the instruction set is not supported
 std::shared_ptr<Backend const> cpu_backend(Isa isa);
 
 /// Processes of this machine share its cards in turn.

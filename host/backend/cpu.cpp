@@ -1,7 +1,11 @@
+#include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "host/backend/backend.hpp"
+#include "host/backend/built_isas.hpp"
 #include "host/backend/instances.hpp"
+#include "host/backend/processor.hpp"
 
 namespace slideway {
 
@@ -10,17 +14,30 @@ namespace {
 struct IsaInfo {
     std::string_view name;
     int lanes;
-    char const* flags;
 };
 
 constexpr std::array isa_table = {
-    IsaInfo{"scalar", 1, SLIDEWAY_FLAGS_scalar},
-    IsaInfo{"sse2", 2, SLIDEWAY_FLAGS_sse2},
-    IsaInfo{"avx2", 4, SLIDEWAY_FLAGS_avx2},
-    IsaInfo{"avx512", 8, SLIDEWAY_FLAGS_avx512},
+    IsaInfo{"scalar", 1}, IsaInfo{"scalar_libm", 1}, IsaInfo{"avx2", 4}, IsaInfo{"avx512", 8}, IsaInfo{"neon", 2},
+};
+constexpr std::array known_isas = {Isa::scalar, Isa::scalar_libm, Isa::avx2, Isa::avx512, Isa::neon};
+
+struct BuiltIsa {
+    Isa isa;
+    char const* flags;
 };
 
+// In the order of the tables of instances.
+#define SLIDEWAY_BUILT_ISA(isa) BuiltIsa{Isa::isa, SLIDEWAY_FLAGS_##isa},
+constexpr BuiltIsa built_table[] = {SLIDEWAY_FOR_EACH_ISA(SLIDEWAY_BUILT_ISA)};
+#undef SLIDEWAY_BUILT_ISA
+
 IsaInfo const& info(Isa isa) { return isa_table[static_cast<std::size_t>(isa)]; }
+
+std::size_t place_of(Isa isa) {
+    return static_cast<std::size_t>(std::ranges::find(built_table, isa, &BuiltIsa::isa) - std::begin(built_table));
+}
+
+bool runs_here(Isa isa) { return is_built(isa) && processor_has(isa); }
 
 }  // namespace
 
@@ -28,37 +45,39 @@ std::string_view name_of(Isa isa) { return info(isa).name; }
 
 int lanes_of(Isa isa) { return info(isa).lanes; }
 
-std::string flags_of(Isa isa) { return info(isa).flags; }
+bool is_built(Isa isa) { return place_of(isa) < std::size(built_table); }
 
-bool is_supported(Isa isa) {
-    switch (isa) {
-        case Isa::sse2:
-            return true;
-        case Isa::scalar:
-        case Isa::avx2:
-            return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-        case Isa::avx512:
-            return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                   __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512bw") &&
-                   __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("fma");
-    }
-    return false;
+std::string flags_of(Isa isa) { return is_built(isa) ? built_table[place_of(compiled_isa(isa))].flags : ""; }
+
+Isa compiled_isa(Isa isa) {
+    bool const replaced = isa == Isa::scalar && !runs_here(isa) && runs_here(Isa::scalar_libm);
+    return replaced ? Isa::scalar_libm : isa;
 }
+
+bool is_supported(Isa isa) { return runs_here(compiled_isa(isa)); }
 
 Isa best_isa() {
-    for (Isa const isa : {Isa::avx512, Isa::avx2}) {
-        if (is_supported(isa)) return isa;
+    Isa best = Isa::scalar;
+    for (Isa const isa : built_isas()) {
+        if (lanes_of(isa) > lanes_of(best) && is_supported(isa)) best = isa;
     }
-    return Isa::sse2;
+    return best;
 }
 
-std::span<Isa const> all_isas() {
-    static constexpr std::array isas = {Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx512};
+std::span<Isa const> all_isas() { return known_isas; }
+
+std::span<Isa const> built_isas() {
+    static constexpr auto isas = [] {
+        std::array<Isa, std::size(built_table)> all{};
+        std::ranges::transform(built_table, all.begin(), &BuiltIsa::isa);
+        return all;
+    }();
     return isas;
 }
 
 KernelInstance find_instance(Isa isa, Parts const& parts) {
-    auto const place = static_cast<int>(isa), mechanism = static_cast<int>(parts.mechanism);
+    auto const place = place_of(compiled_isa(isa));
+    auto const mechanism = static_cast<int>(parts.mechanism);
     int const friction = parts.friction ? 1 : 0;
     if (!info(parts.mechanism).spatial) {
         return planar_tables[place]

@@ -10,7 +10,9 @@ double seconds_per_member_step(Isa isa) {
     switch (isa) {
         case Isa::scalar:
             return 1.2e-6;
-        case Isa::sse2:
+        case Isa::scalar_libm:
+            return 5e-6;
+        case Isa::neon:
             return 0.9e-6;
         case Isa::avx2:
             return 0.7e-6;
@@ -22,11 +24,13 @@ double seconds_per_member_step(Isa isa) {
 
 class CpuBackend final : public Backend {
 public:
-    explicit CpuBackend(Isa isa) : isa_(isa) {}
+    explicit CpuBackend(Isa isa) : isa_(compiled_isa(isa)) {}
 
     std::string_view name() const override { return "cpu"; }
-    std::string isa() const override { return std::string(name_of(isa_)); }
+    // What results tell: both ways to compile scalar give the same.
+    std::string isa() const override { return std::string(name_of(isa_ == Isa::scalar_libm ? Isa::scalar : isa_)); }
     std::string machine() const override {
+        if (isa_ == Isa::scalar_libm) return "scalar, the C library's fused multiply-add: slow";
         return std::string(name_of(isa_)) + ", " + std::to_string(lanes_of(isa_)) + " lanes";
     }
     std::string flags() const override { return flags_of(isa_); }
@@ -61,6 +65,13 @@ private:
 
 }  // namespace
 
-std::shared_ptr<Backend const> cpu_backend(Isa isa) { return std::make_shared<CpuBackend>(isa); }
+std::shared_ptr<Backend const> cpu_backend(Isa isa) {
+    if (!is_supported(isa)) {
+        throw DeviceError(std::string(name_of(isa)) +
+                          ": this machine has no processor for the kernels of this program; " +
+                          "build it with -DSLIDEWAY_ISAS=all");
+    }
+    return std::make_shared<CpuBackend>(isa);
+}
 
 }  // namespace slideway

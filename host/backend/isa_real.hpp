@@ -10,7 +10,7 @@ using IsaReal = Batch<xsimd::avx512dq>;
 #elif SLIDEWAY_LANES == 4
 using IsaReal = Batch<xsimd::fma3<xsimd::avx2>>;
 #elif SLIDEWAY_LANES == 2
-using IsaReal = Batch<xsimd::sse2>;
+using IsaReal = Batch<xsimd::neon64>;
 #else
 using IsaReal = double;
 #endif

@@ -22,12 +22,18 @@ struct Words {
     bool quiet = false, resume = false;
 };
 
+std::string isa_help() {
+    std::string text = "Instruction set: auto (the widest)";
+    for (Isa const isa : built_isas())
+        text += fmt::format("{}{}", isa == built_isas().back() ? " or " : ", ", name_of(isa));
+    return text;
+}
+
 void add_scene_options(CLI::App& command, Words& words) {
     command.add_option("SCENE", words.scene, "Scene file (TOML)")->type_name("");
     command.add_option("--set", words.overrides, "Override keys of the scene, as in contact.law=conservative")
         ->type_name("KEY=VALUE");
-    command.add_option("--isa", words.isa, "Instruction set: auto (the widest), scalar, sse2, avx2 or avx512")
-        ->type_name("ISA");
+    command.add_option("--isa", words.isa, isa_help())->type_name("ISA");
 }
 
 void add_backend(CLI::App& command, Words& words) {

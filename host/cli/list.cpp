@@ -81,6 +81,13 @@ std::string card_text() {
     }
 }
 
+std::string state_of(Isa isa) {
+    if (!is_built(isa)) return "not in this build";
+    if (!is_supported(isa)) return "not on this machine";
+    std::string const state = isa == best_isa() ? "what auto means on this machine" : "supported";
+    return compiled_isa(isa) == Isa::scalar_libm ? state + "; the C library's fused multiply-add: slow" : state;
+}
+
 }  // namespace
 
 int list(ListArguments const&) {
@@ -140,9 +147,7 @@ int list(ListArguments const&) {
     fmt::print("\ninstruction sets (--isa)\n");
     for (Isa const isa : all_isas()) {
         fmt::print("  {:<30} {} lane{}, {}\n", name_of(isa), lanes_of(isa), lanes_of(isa) == 1 ? "" : "s",
-                   !is_supported(isa)  ? "not on this machine"
-                   : isa == best_isa() ? "what auto means on this machine"
-                                       : "supported");
+                   state_of(isa));
     }
     return exit_code::done;
 }

@@ -120,14 +120,16 @@ std::pair<std::string, std::string> parse_override(std::string_view text) {
 
 Isa parse_isa(std::string_view text) {
     if (text == "auto") return best_isa();
-    std::string known = "auto", supported;
+    std::string known = "auto", built, supported;
     for (Isa const isa : all_isas()) {
         known += fmt::format(", {}", name_of(isa));
+        if (is_built(isa)) built += fmt::format("{}{}", built.empty() ? "" : ", ", name_of(isa));
         if (is_supported(isa)) supported += fmt::format("{}{}", supported.empty() ? "" : ", ", name_of(isa));
     }
     for (Isa const isa : all_isas()) {
         if (name_of(isa) != text) continue;
         if (is_supported(isa)) return isa;
+        if (!is_built(isa)) throw SceneError(fmt::format("--isa {}: is not in this build, which has {}", text, built));
         throw SceneError(fmt::format("--isa {}: this machine does not have it; it has {}", text, supported));
     }
     throw SceneError(fmt::format("--isa {}: no such instruction set; use one of {}", text, known));

@@ -184,7 +184,7 @@ std::shared_ptr<Backend const> backend_beside(std::string const& leader, std::sh
     }
     throw SceneError(fmt::format(
         "slideway: rank 0 computes with {} and this machine has but {}, whose results have other bits; start ranks on "
-        "machines that are alike, or add --backend cpu --isa sse2",
+        "machines that are alike, or add --backend cpu",
         leader, own->isa()));
 }
 

@@ -18,7 +18,7 @@ constexpr std::string_view title_line =
     "# What the shards beside this file belong to; slideway run --resume continues it.";
 constexpr std::string_view program_mark = "# program: ", arithmetic_mark = "# arithmetic: ",
                            members_mark = "# members: ", table_mark = "# table: ";
-constexpr std::string_view fused = "fused", unfused = "unfused", contracted = "contracted";
+constexpr std::string_view fused = "fused", contracted = "contracted";
 
 /// Keys of a resolved scene with their values; a value of several lines is one.
 std::map<std::string, std::string> scene_values(std::string const& scene) {
@@ -66,16 +66,12 @@ std::string_view content_of_table(std::string_view value) {
 }
 
 std::string named_arithmetic(std::string const& arithmetic) {
-    if (arithmetic == contracted) return arithmetic + " (a build with SLIDEWAY_CUDA_FMAD)";
-    return arithmetic == unfused ? arithmetic + " (--isa sse2)" : arithmetic;
+    return arithmetic == contracted ? arithmetic + " (a build with SLIDEWAY_CUDA_FMAD)" : arithmetic;
 }
 
 }  // namespace
 
-std::string arithmetic_of(std::string_view isa) {
-    if (isa.ends_with("-fmad")) return std::string(contracted);
-    return std::string(isa == "sse2" ? unfused : fused);
-}
+std::string arithmetic_of(std::string_view isa) { return std::string(isa.ends_with("-fmad") ? contracted : fused); }
 
 std::string RunIdentity::difference(RunIdentity const& earlier) const {
     if (program != earlier.program) return fmt::format("the program was {}, is {}", earlier.program, program);
@@ -159,7 +155,7 @@ RunIdentity parse_identity(std::string const& text, std::string const& path) {
     require(next_line() == title_line);
     identity.program = marked(next_line(), program_mark);
     identity.arithmetic = marked(next_line(), arithmetic_mark);
-    require(identity.arithmetic == fused || identity.arithmetic == unfused);
+    require(identity.arithmetic == fused || identity.arithmetic == contracted);
     auto const members = MemberSet::parse(marked(next_line(), members_mark));
     std::string_view line = next_line();
     if (line.starts_with(table_mark)) {

@@ -20,9 +20,9 @@ struct RunIdentity {
     std::string difference(RunIdentity const& earlier) const;
 };
 
-/// "fused" where a multiplication and an addition that the kernels name are rounded once, "unfused" where twice, "contracted" where the
-/// compiler joined others too; by the name of an instruction set.  Only SSE2 ("sse2") has no such instruction, and only a build that asks
-/// for it contracts those of cards ("sm_90-fmad"): all others agree, processors and cards.
+/// "fused" where a multiplication and an addition that the kernels name are rounded once, "contracted" where the compiler joined others
+/// too; by the name of an instruction set.  Only a build that asks for it contracts those of cards ("sm_90-fmad"): all others agree,
+/// processors and cards.
 std::string arithmetic_of(std::string_view isa);
 
 /// The path of the file of study.table in a resolved scene, quoted as it is there; "" without one.

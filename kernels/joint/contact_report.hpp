@@ -1,36 +1,11 @@
 #pragma once
 
+#include "kernels/joint/contact_memory.hpp"
+#include "kernels/joint/contact_totals.hpp"
 #include "kernels/laws/face.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
-
-inline constexpr int face_count = 4;  // Y+, Y−, Z+, Z−
-
-/// v0 of restitution: per pair that may touch the δ' of its last touch [m/s], at least `least_impact_speed`.
-template <class Real, int quads> struct ImpactSpeeds { Quad<Real> speeds[quads]; };
-inline constexpr double least_impact_speed = 1e-4;
-
-/// Of the apex–face pairs.
-template <class Real> struct ImpactMemory : ImpactSpeeds<Real, face_count> {};
-
-template <class Real, int quads> SLIDEWAY_FN void start_memory(ImpactSpeeds<Real, quads>& memory) {
-    Real const least(least_impact_speed);
-    for (auto& face : memory.speeds) face = {least, least, least, least};
-}
-
-/// The contacts that a step takes as given, so that a law which switches is smooth within it: 1 where a pair is held to touch.
-/// Without `holding` a pair touches where δ > 0.
-template <class Real> struct HeldContacts {
-    Real holding;
-    Quad<Real> touching[face_count];
-};
-
-template <class Real> SLIDEWAY_FN void start_memory(HeldContacts<Real>& memory) {
-    Real const zero(0.0);
-    memory.holding = zero;
-    for (auto& face : memory.touching) face = {zero, zero, zero, zero};
-}
 
 /// Apex numbers P1…P8 (from 0) of a face's a, b, c, d.  Source: Qian et al. 2020, Table 2: top {1,4,8,5}, bottom {2,3,7,6},
 /// front {1,2,6,5}, back {4,3,7,8}.
@@ -41,24 +16,16 @@ SLIDEWAY_FN constexpr int face_apex(int face, int index) {
 }
 
 /// All that the joint knows of one state, for observers and probes.
-template <class Real> struct ContactReport {
+template <class Real> struct ContactReport : ContactTotals<Real> {
     Quad<Real> penetration[face_count];   // [m]
-    Quad<Real> rate[face_count];          // [m/s]; filled where steps end at touches
+    Quad<Real> rate[face_count];          // [m/s]; filled where steps end at events of the contacts
     Quad<Real> normal_force[face_count];  // [N]
-    Real surfaces, lines, points;         // how many
-    Real potential;                       // U of the contacts [J]
-    Real friction_power;                  // Σ μ F V [W]
-    Real damping_power;                   // Σ (F − F_elastic) δ' [W]
-    Real elastic_power;                   // Σ F_elastic δ' [W], what the springs take up: U' unless a mode switches
 
     SLIDEWAY_FN void clear() {
         Real const zero(0.0);
         for (auto& force : normal_force) force = {zero, zero, zero, zero};
-        surfaces = lines = points = potential = friction_power = damping_power = elastic_power = zero;
+        this->clear_totals();
     }
-
-    SLIDEWAY_FN void set_penetrations(int face, Quad<Real> const& depth) { penetration[face] = depth; }
-    SLIDEWAY_FN void set_rates(int face, Quad<Real> const& r) { rate[face] = r; }
 
     /// A face of every lane: `face` where is_plus holds, the one opposite elsewhere.
     SLIDEWAY_FN void add_face(int face, Mask<Real> is_plus, FaceMotion<Real> const& m, FaceForces<Real> const& f) {
@@ -69,17 +36,18 @@ template <class Real> struct ContactReport {
                 plus.c + select(is_plus, f.normal.c, zero), plus.d + select(is_plus, f.normal.d, zero)};
         minus = {minus.a + select(is_plus, zero, f.normal.a), minus.b + select(is_plus, zero, f.normal.b),
                  minus.c + select(is_plus, zero, f.normal.c), minus.d + select(is_plus, zero, f.normal.d)};
-        potential = potential + f.potential;
-        Real const front = fma(f.normal.a - f.elastic.a, m.rate.a, (f.normal.b - f.elastic.b) * m.rate.b);
-        Real const rear = fma(f.normal.c - f.elastic.c, m.rate.c, (f.normal.d - f.elastic.d) * m.rate.d);
-        damping_power = damping_power + (front + rear);
-        elastic_power = elastic_power + (fma(f.elastic.a, m.rate.a, f.elastic.b * m.rate.b) +
-                                         fma(f.elastic.c, m.rate.c, f.elastic.d * m.rate.d));
+        this->potential = this->potential + f.potential;
+        auto const& apex = m.apex;
+        Real const front = fma(f.normal.a - f.elastic.a, apex.a.rate, (f.normal.b - f.elastic.b) * apex.b.rate);
+        Real const rear = fma(f.normal.c - f.elastic.c, apex.c.rate, (f.normal.d - f.elastic.d) * apex.d.rate);
+        this->damping_power = this->damping_power + (front + rear);
+        this->elastic_power = this->elastic_power + (fma(f.elastic.a, apex.a.rate, f.elastic.b * apex.b.rate) +
+                                         fma(f.elastic.c, apex.c.rate, f.elastic.d * apex.d.rate));
         auto modes = face_modes<Real>(m.touching);
-        surfaces = surfaces + count<Real>(modes.surface);
-        lines =
-            lines + ((count<Real>(modes.ab) + count<Real>(modes.bc)) + (count<Real>(modes.cd) + count<Real>(modes.da)));
-        points = points + ((count<Real>(modes.point.a) + count<Real>(modes.point.b)) +
+        this->surfaces = this->surfaces + count<Real>(modes.surface);
+        this->lines = this->lines + ((count<Real>(modes.line.a) + count<Real>(modes.line.b)) +
+                         (count<Real>(modes.line.c) + count<Real>(modes.line.d)));
+        this->points = this->points + ((count<Real>(modes.point.a) + count<Real>(modes.point.b)) +
                            (count<Real>(modes.point.c) + count<Real>(modes.point.d)));
     }
 

@@ -1,12 +1,9 @@
 #pragma once
 
-#include "kernels/joint/apices.hpp"
+#include "kernels/joint/face_pair.hpp"
 #include "kernels/joint/joint.hpp"
 #include "kernels/joint/way.hpp"
-#include "kernels/laws/conservative_stiffness.hpp"
-#include "kernels/laws/face_stiffness.hpp"
-#include "kernels/laws/friction_stiffness.hpp"
-#include "kernels/laws/paper_stiffness.hpp"
+#include "kernels/laws/friction.hpp"
 #include "kernels/math/vec3.hpp"
 #include "kernels/real.hpp"
 
@@ -45,45 +42,32 @@ template <class Real> struct JointStiffness {
 /// T = μ'(V) t tᵀ + μ/V (1 − t tᵀ) in the face's plane.  K is unsymmetric through the friction that normal forces bring along.
 /// Left out, because it is not stiff: the turning of g and B with the pose, the change of slip with the pose.
 /// Arms and vectors are in the slider's frame, where n is an axis: g has no component about it.
-template <class Law, class Friction, class Damping> struct JointLinearisation {
+template <class Real, class Laws> class JointLinearisation {
+public:
+    SLIDEWAY_FN JointLinearisation(JointFrame<Real> const& frame, ContactMemory<Real> const& memory,
+                                   JointParameters<Real> const& p, Conditions<Laws> const& block,
+                                   JointStiffness<Real>& out)
+        : frame_(frame), memory_(memory), p_(p), block_(block), out_(out) {}
+
     /// @return how many apex–face pairs are in contact.
-    template <class Real, class Memory>
-    SLIDEWAY_FN static Real stiffness(JointFrame<Real> const& frame, Memory const& memory,
-                                      JointParameters<Real> const& p, JointStiffness<Real>& out) {
-        auto const& g = p.geometry;
-        auto const& motion = frame.motion;
+    SLIDEWAY_FN Real fill() {
+        auto const& motion = frame_.motion;
         auto const& v = motion.velocity;
         // 0, or NaN in a lane whose pose or motion is: else it would depend on its neighbours' contacts what such a lane gets.
         auto const& place = motion.axes.x;
         Real const whole = ((motion.y + motion.z) + (place.x + place.y)) +
-                           (((v.x + v.y) + (v.z + frame.spin.x)) + (frame.spin.y + frame.spin.z));
-        out.fill(whole - whole);
+                           (((v.x + v.y) + (v.z + frame_.spin.x)) + (frame_.spin.y + frame_.spin.z));
+        out_.fill(whole - whole);
         Real touching(0.0);
-        Vec3<Real> const& ny = motion.axes.y;
-        auto const my = cross(motion.spin, ny);
-        add_faces<Axis::y>(penetrations(g.clearance_y, g.half_width, g.half_depth, g.half_length,
-                                        motion.axes.y_shortfall, ny.z, ny.x, motion.y, motion.z),
-                           penetration_rates(g.half_width, g.half_depth, g.half_length, ny.y, ny.z, my.y, my.z, my.x,
-                                             motion.y, motion.z, v.y, v.z),
-                           {p.contact.surface_stiffness_y, p.contact.across_y_face, p.contact.along}, frame, memory, p,
-                           out, touching);
-        Vec3<Real> const& nz = motion.axes.z;
-        auto const mz = cross(motion.spin, nz);
-        add_faces<Axis::z>(penetrations(g.clearance_z, g.half_depth, g.half_width, g.half_length,
-                                        motion.axes.z_shortfall, nz.y, nz.x, motion.z, motion.y),
-                           penetration_rates(g.half_depth, g.half_width, g.half_length, nz.z, nz.y, mz.z, mz.y, mz.x,
-                                             motion.z, motion.y, v.z, v.y),
-                           {p.contact.surface_stiffness_z, p.contact.across_z_face, p.contact.along}, frame, memory, p,
-                           out, touching);
+        add_faces<Axis::y>(cross(motion.spin, motion.axes.y), touching);
+        add_faces<Axis::z>(cross(motion.spin, motion.axes.z), touching);
         return touching;
     }
 
 private:
-    enum class Axis { y, z };
-
     /// A face in the frame x = sliding, y = its normal, z = across, for both axes.  For the Z faces that frame is left-handed:
     /// their levers are −ρ, which gives torques and slips their signs back.
-    template <class Real> struct Face {
+    struct Face {
         Real side;
         Vec3<Real> lever, lever_along, lever_across;  // ρ = lever ± along ± across [m]
         Vec3<Real> velocity, spin;
@@ -91,119 +75,104 @@ private:
     };
 
     /// A generalized force: B_iᵀ f.
-    template <class Real> struct Generalized {
+    struct Generalized {
         Translation<Real> push;
         Vec3<Real> turn;
     };
 
     /// A multiple of g, or a sum of the g of one face: level · (−s n) on the translations, turning about x and z.
-    template <class Real> struct Gradient { Real level, x, z; };
+    struct Gradient { Real level, x, z; };
 
-    template <Axis axis, class Real> SLIDEWAY_FN static Vec3<Real> local(Vec3<Real> const& v) {
-        if constexpr (axis == Axis::y) return v;
-        return {v.x, v.z, v.y};
-    }
-    template <Axis axis, class Real> SLIDEWAY_FN static Vec3<Real> local_lever(Vec3<Real> const& v) {
-        if constexpr (axis == Axis::y) return v;
-        return {negated(v.x), negated(v.z), negated(v.y)};
-    }
-
-    template <Axis axis, class Real, class Memory>
-    SLIDEWAY_FN static void add_faces(FacePair<Real> const& depths, FacePair<Real> const& rates,
-                                      FaceContact<Real> const& contact, JointFrame<Real> const& frame,
-                                      Memory const& memory, JointParameters<Real> const& p,
-                                      JointStiffness<Real>& out, Real& touching) {
+    /// @param m ω × n
+    template <Axis axis> SLIDEWAY_FN void add_faces(Vec3<Real> const& m, Real& touching) {
+        using Faces = FacePair<axis>;
+        auto const& motion = frame_.motion;
+        auto const depths = Faces::depths(motion, p_.geometry);
+        auto const rates = Faces::rates(Faces::arranged(m), Faces::arranged(motion.velocity), motion, p_.geometry);
         Real const zero(0.0);
         for (int i = 0; i < 2; ++i) {
             Real const side(i == 0 ? 1.0 : -1.0);
-            FaceMotion<Real> m;
-            m.depth = apices(depths, side);
-            m.touching = {m.depth.a > zero, m.depth.b > zero, m.depth.c > zero, m.depth.d > zero};
-            if (none((m.touching.a | m.touching.b) | (m.touching.c | m.touching.d))) continue;
-            m.rate = apices(rates, side);
-            m.impact_speed = {zero, zero, zero, zero};
-            if constexpr (Damping::has_memory) m.impact_speed = memory.speeds[(axis == Axis::y ? 0 : 2) + i];
-            touching = touching + ((count<Real>(m.touching.a) + count<Real>(m.touching.b)) +
-                                   (count<Real>(m.touching.c) + count<Real>(m.touching.d)));
-            auto const f = LawStiffness<Law>::template face<Damping>(m, contact, p.contact);
-            add_face<axis>(f, side, frame, p, out);
+            auto const depth = depths.on(side), rate = rates.on(side);
+            FaceMotion<Real> face;
+            face.touching = {depth.a > zero, depth.b > zero, depth.c > zero, depth.d > zero};
+            if (!any_of(face.touching)) continue;
+            Quad<Real> v0{zero, zero, zero, zero};
+            if (block_.remembers) v0 = memory_.impact_speed[Faces::first_face + i];
+            face.apex = {{depth.a, rate.a, v0.a}, {depth.b, rate.b, v0.b}, {depth.c, rate.c, v0.c}, {depth.d, rate.d, v0.d}};
+            touching = touching + ((count<Real>(face.touching.a) + count<Real>(face.touching.b)) +
+                                   (count<Real>(face.touching.c) + count<Real>(face.touching.d)));
+            add_face<axis>(block_.law.stiffness(face, Faces::contact(p_.contact), p_.contact), side);
         }
     }
 
     /// Not inlined: the code would multiply.
-    template <Axis axis, class Real>
-    SLIDEWAY_NOINLINE static void add_face(FaceStiffness<Real> const& f, Real side, JointFrame<Real> const& frame,
-                                           JointParameters<Real> const& p, JointStiffness<Real>& out) {
-        auto const face = face_of<axis>(side, frame, p.geometry);
+    template <Axis axis> SLIDEWAY_NOINLINE void add_face(FaceStiffness<Real> const& f, Real side) {
+        auto const face = face_of<axis>(side);
         auto const front = face.lever + face.lever_along, rear = face.lever - face.lever_along;
         Quad<Vec3<Real>> const lever{front + face.lever_across, front - face.lever_across, rear - face.lever_across,
                                      rear + face.lever_across};
-        Quad<Generalized<Real>> force;  // B_iᵀ e_i
-        if constexpr (Friction::enabled) {
-            add_friction<axis>(face, lever, f.normal, p.friction, force, out.by_rate);
+        Quad<Generalized> force;  // B_iᵀ e_i
+        if (block_.friction) {
+            force = add_friction<axis>(face, lever, f.normal);
         } else {
             force = {bare_force(face, lever.a), bare_force(face, lever.b), bare_force(face, lever.c),
                      bare_force(face, lever.d)};
         }
-        Quad<Gradient<Real>> const g{gradient(side, lever.a), gradient(side, lever.b), gradient(side, lever.c),
-                                     gradient(side, lever.d)};
-        add_product<axis>(face, force, coupled(f.by_depth, g), out.by_place);
-        add_product<axis>(face, force, DampingStiffness<Damping>::couples ? coupled(f.by_rate, g) : own(f.by_rate, g),
-                          out.by_rate);
+        Quad<Gradient> const g{gradient(side, lever.a), gradient(side, lever.b), gradient(side, lever.c),
+                               gradient(side, lever.d)};
+        add_product<axis>(face, force, coupled(f.by_depth, g), out_.by_place);
+        add_product<axis>(face, force, block_.law.couples() ? coupled(f.by_rate, g) : own(f.by_rate, g), out_.by_rate);
     }
 
-    template <Axis axis, class Real>
-    SLIDEWAY_FN static Face<Real> face_of(Real side, JointFrame<Real> const& frame, JointGeometry<Real> const& g) {
-        auto const& m = frame.motion;
+    template <Axis axis> SLIDEWAY_FN Face face_of(Real side) const {
+        auto const& g = p_.geometry;
+        auto const& m = frame_.motion;
         // The way's axes in the slider's frame.
         Vec3<Real> const x{m.axes.x.x, m.axes.y.x, m.axes.z.x};
         Vec3<Real> const y{m.axes.x.y, m.axes.y.y, m.axes.z.y};
         Vec3<Real> const z{m.axes.x.z, m.axes.y.z, m.axes.z.z};
-        Face<Real> face;
+        Face face;
         face.side = side;
-        face.lever_along = local_lever<axis>(g.half_length * x);
-        face.velocity = local<axis>(frame.velocity);
-        face.spin = local<axis>(frame.spin);
-        face.x = frame.x;
+        face.lever_along = FacePair<axis>::arranged_axial(g.half_length * x);
+        face.velocity = FacePair<axis>::arranged(frame_.velocity);
+        face.spin = FacePair<axis>::arranged(frame_.spin);
+        face.x = frame_.x;
         if constexpr (axis == Axis::y) {
-            face.lever = local_lever<axis>(fma(fms(side, g.half_width, m.y), y, negated(m.z) * z));
-            face.lever_across = local_lever<axis>(g.half_depth * z);
-            face.normal = frame.y_normal;
-            face.z = frame.z;
+            face.lever = FacePair<axis>::arranged_axial(fma(fms(side, g.half_width, m.y), y, negated(m.z) * z));
+            face.lever_across = FacePair<axis>::arranged_axial(g.half_depth * z);
+            face.normal = frame_.y_normal;
+            face.z = frame_.z;
         } else {
-            face.lever = local_lever<axis>(fma(fms(side, g.half_depth, m.z), z, negated(m.y) * y));
-            face.lever_across = local_lever<axis>(g.half_width * y);
-            face.normal = frame.z_normal;
-            face.z = frame.y;
+            face.lever = FacePair<axis>::arranged_axial(fma(fms(side, g.half_depth, m.z), z, negated(m.y) * y));
+            face.lever_across = FacePair<axis>::arranged_axial(g.half_width * y);
+            face.normal = frame_.z_normal;
+            face.z = frame_.y;
         }
         return face;
     }
 
-    template <class Real> SLIDEWAY_FN static Gradient<Real> gradient(Real side, Vec3<Real> const& lever) {
+    SLIDEWAY_FN static Gradient gradient(Real side, Vec3<Real> const& lever) {
         return {Real(1.0), side * lever.z, negated(side) * lever.x};
     }
 
-    template <class Real>
-    SLIDEWAY_FN static Generalized<Real> bare_force(Face<Real> const& face, Vec3<Real> const& lever) {
+    SLIDEWAY_FN static Generalized bare_force(Face const& face, Vec3<Real> const& lever) {
         Real const& s = face.side;
         return {{s * face.normal.y, s * face.normal.z}, {negated(s) * lever.z, Real(0.0), s * lever.x}};
     }
 
     /// B_iᵀ e_i with e = (x, s, z).
-    template <class Real>
-    SLIDEWAY_FN static Generalized<Real> force_of(Face<Real> const& face, Vec3<Real> const& lever, Real x, Real z) {
+    SLIDEWAY_FN static Generalized force_of(Face const& face, Vec3<Real> const& lever, Real x, Real z) {
         return {{fma(face.side, face.normal.y, fma(face.x.y, x, face.z.y * z)),
                  fma(face.side, face.normal.z, fma(face.x.z, x, face.z.z * z))},
                 cross(lever, {x, face.side, z})};
     }
 
     /// Σ_j slopes_ij g_j of the four apices i.
-    template <class Real>
-    SLIDEWAY_FN static Quad<Gradient<Real>> coupled(Quad<ApexSlopes<Real>> const& slopes,
-                                                    Quad<Gradient<Real>> const& g) {
-        auto const row = [](ApexSlopes<Real> const& r, Gradient<Real> const& own, Gradient<Real> const& across,
-                            Gradient<Real> const& along, Gradient<Real> const& opposite) {
-            return Gradient<Real>{
+    SLIDEWAY_FN static Quad<Gradient> coupled(Quad<ApexSlopes<Real>> const& slopes,
+                                                    Quad<Gradient> const& g) {
+        auto const row = [](ApexSlopes<Real> const& r, Gradient const& own, Gradient const& across,
+                            Gradient const& along, Gradient const& opposite) {
+            return Gradient{
                 (r.own + r.across) + (r.along + r.opposite),
                 fma(r.own, own.x, fma(r.across, across.x, fma(r.along, along.x, r.opposite * opposite.x))),
                 fma(r.own, own.z, fma(r.across, across.z, fma(r.along, along.z, r.opposite * opposite.z)))};
@@ -213,18 +182,17 @@ private:
     }
 
     /// The same where each force depends on its own apex alone.
-    template <class Real>
-    SLIDEWAY_FN static Quad<Gradient<Real>> own(Quad<ApexSlopes<Real>> const& slopes, Quad<Gradient<Real>> const& g) {
-        auto const row = [](Real const& slope, Gradient<Real> const& own) {
-            return Gradient<Real>{slope, slope * own.x, slope * own.z};
+    SLIDEWAY_FN static Quad<Gradient> own(Quad<ApexSlopes<Real>> const& slopes, Quad<Gradient> const& g) {
+        auto const row = [](Real const& slope, Gradient const& own) {
+            return Gradient{slope, slope * own.x, slope * own.z};
         };
         return {row(slopes.a.own, g.a), row(slopes.b.own, g.b), row(slopes.c.own, g.c), row(slopes.d.own, g.d)};
     }
 
     /// matrix += Σ_i force_i rows_iᵀ.
-    template <Axis axis, class Real>
-    SLIDEWAY_FN static void add_product(Face<Real> const& face, Quad<Generalized<Real>> const& force,
-                                        Quad<Gradient<Real>> const& rows, Real (*matrix)[5]) {
+    template <Axis axis>
+    SLIDEWAY_FN void add_product(Face const& face, Quad<Generalized> const& force,
+                                 Quad<Gradient> const& rows, Real (*matrix)[5]) const {
         Real const normal_y = negated(face.side) * face.normal.y, normal_z = negated(face.side) * face.normal.z;
         auto const add_row = [&](int i, Real const& a, Real const& b, Real const& c, Real const& d) {
             auto& row = matrix[i];
@@ -239,7 +207,7 @@ private:
         add_row(0, f.a.push.y, f.b.push.y, f.c.push.y, f.d.push.y);
         add_row(1, f.a.push.z, f.b.push.z, f.c.push.z, f.d.push.z);
         add_row(place<axis>(0), f.a.turn.x, f.b.turn.x, f.c.turn.x, f.d.turn.x);
-        if constexpr (Friction::enabled) {
+        if (block_.friction) {
             add_row(place<axis>(1), f.a.turn.y, f.b.turn.y, f.c.turn.y, f.d.turn.y);
         }
         add_row(place<axis>(2), f.a.turn.z, f.b.turn.z, f.c.turn.z, f.d.turn.z);
@@ -251,20 +219,13 @@ private:
         return direction == 1 ? 4 : 3;
     }
 
-    /// With friction: all of B_iᵀ e_i, and −Σ F Bᵀ T B into the damping.
-    template <Axis axis, class Real>
-    SLIDEWAY_FN static void add_friction(Face<Real> const& face, Quad<Vec3<Real>> const& levers,
-                                         Quad<Real> const& normal, FrictionParameters<Real> const& friction,
-                                         Quad<Generalized<Real>>& force, Real (*damping)[5]) {
-        Real const zero(0.0);
-        // Σ F T; Σ F T C and Σ F Cᵀ T C with the columns (0, ρy), (ρz, −ρx), (−ρy, 0) of C, the slips that turning brings.
-        Real xx = zero, xz = zero, zz = zero;
-        Real p1 = zero, p2 = zero, p3 = zero, q1 = zero, q2 = zero;
-        Real turn_xx = zero, turn_yy = zero, turn_zz = zero, turn_xy = zero, turn_yz = zero, turn_xz = zero;
-        auto const add = [&](Vec3<Real> const& lever, Real const& load) {
-            auto const v = face.velocity + cross(face.spin, lever);
-            auto const slopes = StickSlipStiffness::apex(v.x, v.z, friction);
-            Real const a = load * slopes.xx, b = load * slopes.xz, c = load * slopes.zz;
+    /// Σ F T; Σ F T C and Σ F Cᵀ T C with the columns (0, ρy), (ρz, −ρx), (−ρy, 0) of C, the slips that turning brings.
+    struct SlipDamping {
+        Real xx, xz, zz;
+        Real p1, p2, p3, q1, q2;
+        Real turn_xx, turn_yy, turn_zz, turn_xy, turn_yz, turn_xz;
+
+        SLIDEWAY_FN void add(Vec3<Real> const& lever, Real a, Real b, Real c) {
             xx = xx + a;
             xz = xz + b;
             zz = zz + c;
@@ -281,35 +242,58 @@ private:
             turn_xy = fma(lever.y, bend_z, turn_xy);
             turn_yz = fnma(lever.y, bend_x, turn_yz);
             turn_yy = fma(lever.z, bend_x, fnma(lever.x, bend_z, turn_yy));
+        }
+    };
+
+    /// With friction: all of B_iᵀ e_i, and −Σ F Bᵀ T B into the damping.
+    template <Axis axis>
+    SLIDEWAY_FN Quad<Generalized> add_friction(Face const& face, Quad<Vec3<Real>> const& levers, Quad<Real> const& normal) {
+        Real const zero(0.0);
+        SlipDamping slip{zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
+        auto const add = [&](Vec3<Real> const& lever, Real const& load) {
+            auto const v = face.velocity + cross(face.spin, lever);
+            auto const slopes = StickSlipStiffness::apex(v.x, v.z, p_.friction);
+            slip.add(lever, load * slopes.xx, load * slopes.xz, load * slopes.zz);
             return force_of(face, lever, slopes.push_x, slopes.push_z);
         };
-        force = {add(levers.a, normal.a), add(levers.b, normal.b), add(levers.c, normal.c), add(levers.d, normal.d)};
+        Quad<Generalized> const force{add(levers.a, normal.a), add(levers.b, normal.b), add(levers.c, normal.c),
+                                      add(levers.d, normal.d)};
+        subtract<axis>(face, slip);
+        return force;
+    }
 
-        auto const subtract = [&](int i, int j, Real const& value) {
-            damping[i][j] = damping[i][j] - value;
-            if (i != j) damping[j][i] = damping[j][i] - value;
+    template <Axis axis> SLIDEWAY_FN void subtract(Face const& face, SlipDamping const& slip) {
+        auto const take = [&](int i, int j, Real const& value) {
+            out_.by_rate[i][j] = out_.by_rate[i][j] - value;
+            if (i != j) out_.by_rate[j][i] = out_.by_rate[j][i] - value;
         };
         constexpr int x = place<axis>(0), y = place<axis>(1), z = place<axis>(2);
-        subtract(x, x, turn_xx);
-        subtract(x, y, turn_xy);
-        subtract(x, z, turn_xz);
-        subtract(y, y, turn_yy);
-        subtract(y, z, turn_yz);
-        subtract(z, z, turn_zz);
+        take(x, x, slip.turn_xx);
+        take(x, y, slip.turn_xy);
+        take(x, z, slip.turn_xz);
+        take(y, y, slip.turn_yy);
+        take(y, z, slip.turn_yz);
+        take(z, z, slip.turn_zz);
         auto const& tx = face.x;
         auto const& tz = face.z;
-        subtract(0, x, fma(tx.y, p2, tz.y * p3));
-        subtract(1, x, fma(tx.z, p2, tz.z * p3));
-        subtract(0, y, fma(tx.y, q1, tz.y * q2));
-        subtract(1, y, fma(tx.z, q1, tz.z * q2));
-        subtract(0, z, negated(fma(tx.y, p1, tz.y * p2)));
-        subtract(1, z, negated(fma(tx.z, p1, tz.z * p2)));
-        Real const x_y = fma(xx, tx.y, xz * tz.y), z_y = fma(xz, tx.y, zz * tz.y);
-        Real const x_z = fma(xx, tx.z, xz * tz.z), z_z = fma(xz, tx.z, zz * tz.z);
-        subtract(0, 0, fma(tx.y, x_y, tz.y * z_y));
-        subtract(0, 1, fma(tx.z, x_y, tz.z * z_y));
-        subtract(1, 1, fma(tx.z, x_z, tz.z * z_z));
+        take(0, x, fma(tx.y, slip.p2, tz.y * slip.p3));
+        take(1, x, fma(tx.z, slip.p2, tz.z * slip.p3));
+        take(0, y, fma(tx.y, slip.q1, tz.y * slip.q2));
+        take(1, y, fma(tx.z, slip.q1, tz.z * slip.q2));
+        take(0, z, negated(fma(tx.y, slip.p1, tz.y * slip.p2)));
+        take(1, z, negated(fma(tx.z, slip.p1, tz.z * slip.p2)));
+        Real const x_y = fma(slip.xx, tx.y, slip.xz * tz.y), z_y = fma(slip.xz, tx.y, slip.zz * tz.y);
+        Real const x_z = fma(slip.xx, tx.z, slip.xz * tz.z), z_z = fma(slip.xz, tx.z, slip.zz * tz.z);
+        take(0, 0, fma(tx.y, x_y, tz.y * z_y));
+        take(0, 1, fma(tx.z, x_y, tz.z * z_y));
+        take(1, 1, fma(tx.z, x_z, tz.z * z_z));
     }
+
+    JointFrame<Real> const& frame_;
+    ContactMemory<Real> const& memory_;
+    JointParameters<Real> const& p_;
+    Conditions<Laws> const& block_;
+    JointStiffness<Real>& out_;
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -20,19 +20,6 @@ template <class Real> struct JointMotion {
     Vec3<Real> spin;      // A_lᵀ ω_I [rad/s]
 };
 
-/// The way lies on the X axis of the inertial frame: nothing to turn.
-struct AlignedWay {
-    template <class Real>
-    SLIDEWAY_FN static JointMotion<Real> motion(Axes<Real> const& slider, Vec3<Real> const& position,
-                                                Vec3<Real> const& velocity, Vec3<Real> const& spin,
-                                                WayParameters<Real> const&) {
-        return {slider, position.y, position.z, velocity, spin};
-    }
-    template <class Real> SLIDEWAY_FN static Vec3<Real> to_inertial(Vec3<Real> const& v, WayParameters<Real> const&) {
-        return v;
-    }
-};
-
 /// Tolerance of the way: an offset and an attitude A_l.  p = A_lᵀ (u − u_l), p' = A_lᵀ u' (model.md 1).
 struct MisalignedWay {
     template <class Real> SLIDEWAY_FN static Vec3<Real> to_way(Vec3<Real> const& v, WayParameters<Real> const& way) {
@@ -68,5 +55,21 @@ private:
         return select(main > Real(0.0), upright, main - Real(1.0));
     }
 };
+
+/// What the joint sees of a slider.  A way that lies on the X axis of the inertial frame leaves nothing to turn.
+/// @param misaligned of the whole block
+template <class Real>
+SLIDEWAY_FN JointMotion<Real> joint_motion(bool misaligned, Axes<Real> const& slider, Vec3<Real> const& position,
+                                           Vec3<Real> const& velocity, Vec3<Real> const& spin,
+                                           WayParameters<Real> const& way) {
+    if (misaligned) return MisalignedWay::motion(slider, position, velocity, spin, way);
+    return {slider, position.y, position.z, velocity, spin};
+}
+
+/// A vector of the way's frame in the inertial one.
+template <class Real>
+SLIDEWAY_FN Vec3<Real> to_inertial(bool misaligned, Vec3<Real> const& v, WayParameters<Real> const& way) {
+    return misaligned ? MisalignedWay::to_inertial(v, way) : v;
+}
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -38,7 +38,8 @@ public:
         // What is observed for the status alone is not written.
         Selection const for_status =
             is_always_audited(block.settings.method) ? MemberState<Model, Real>::Observer::audit_quantities : 0;
-        pack_.needs = ReportNeeds::of<Model, Real>(block.quantities | for_status, block.settings.locate_modes);
+        pack_.needs = ReportNeeds::of<Model, Real>(model, block.quantities | for_status, block.settings.locate_modes);
+        start_memory(pack_.state.contacts.memory);
     }
 
     SLIDEWAY_HD void run() {
@@ -102,7 +103,7 @@ private:
         c.rejections = c.stiffness = c.rate_squared = 0;
         // A model without linearisation is left to the explicit pair.
         c.stiff = Model::has_linearisation && block_.settings.method == Method::ros34pw2 ? 1 : 0;
-        start_memory(c.memory);
+        start_memory(r.contacts.memory);
         if constexpr (Model::events > 0) c.resets = {-1.0, 0.0};
         roster_[seat].kind = Kind::fresh;
     }
@@ -119,7 +120,7 @@ private:
             }
             shadow.distance = plan.d0;
             shadow.growth = 0;
-            start_memory(shadow.memory);
+            start_memory(shadow.contacts.memory);
         }
     }
 
@@ -140,6 +141,7 @@ private:
                 Record const& r = records_[chosen[i < members ? i : 0]];
                 load_lane(pack_.state.constants, i, r.constants);
                 load_lane(pack_.state.course, i, r.course);
+                if (pack_.needs.watch()) load_lane(pack_.state.contacts, i, r.contacts);
                 if (pack_.needs.quantities) load_lane(pack_.state.observation, i, r.observation);
                 pack_.with_accelerations([&](auto& a) { load_lane(a, i, r.accelerations); });
                 if constexpr (Model::has_shadows) {
@@ -161,6 +163,7 @@ private:
             auto const& c = pack_.state.course;
             if constexpr (width > 1) {
                 store_lane(c, i, records_[seat].course);
+                if (pack_.needs.watch()) store_lane(pack_.state.contacts, i, records_[seat].contacts);
                 if (pack_.needs.quantities) {
                     store_lane(pack_.state.observation, i, records_[seat].observation);
                 }
@@ -207,18 +210,17 @@ private:
         auto faults = pack_.evaluate(c.t, c.y, pack_.end_rates, pack_.needs.ends, pack_.end_report);
         pack_.count_evaluations(pack_.busy, 1);
         auto const whole = is_finite(c.y, pack_.end_rates);
-        if (pack_.needs.quantities) pack_.state.observation.observer.start(pack_.busy, pack_.end_report, c.y);
+        if (pack_.needs.quantities) pack_.state.observation.observer.start(pack_.busy, pack_.end_report, c.y, pack_.needs.switches);
         pack_.with_accelerations([&](auto& a) { a.start(pack_.busy, pack_.end_report); });
         pack_.begin_next(pack_.busy, pack_.end_rates);
-        if constexpr (Model::has_memory || Model::can_hold) {
-            if (pack_.needs.watch) {
-                c.watch.begin(pack_.busy, pack_.end_report.contact, c.memory);
-                if constexpr (Model::can_hold) {
-                    // Rates are reported only once contacts are held, and the first step is searched too.
-                    pack_.evaluate(c.t, c.y, pack_.end_rates, true, pack_.end_report);
-                    pack_.count_evaluations(pack_.busy, 1);
-                    c.watch.keep(pack_.busy, pack_.end_report.contact);
-                }
+        if constexpr (Model::has_contacts) {
+            auto& [memory, watch] = pack_.state.contacts;
+            if (pack_.needs.watch()) watch.begin(pack_.busy, pack_.end_report.contact, memory, pack_.needs.watching);
+            if (pack_.needs.watching == Watching::modes) {
+                // Rates are reported only once contacts are held, and the first step is searched too.
+                pack_.evaluate(c.t, c.y, pack_.end_rates, true, pack_.end_report);
+                pack_.count_evaluations(pack_.busy, 1);
+                watch.keep(pack_.busy, pack_.end_report.contact);
             }
         }
         auto broken = pack_.busy & !whole;
@@ -255,7 +257,7 @@ private:
         auto creeping = touching;
         if (any(touching)) {
             typename Model::template Linearisation<Real> matrix;
-            pack_.model.linearise(c.t, c.y, pack_.state.constants.parameters, c.memory, matrix);
+            pack_.model.linearise(c.t, c.y, pack_.state.constants.parameters, pack_.state.contacts.memory, matrix);
             rate_squared = select(touching, matrix.rate_squared(), rate_squared);
             c.jacobians = c.jacobians + count<Real>(touching);
             Real const little = Real(Stiffness::creep_below * Stiffness::creep_below) *

@@ -68,9 +68,14 @@ template <class Model, class Real> struct MemberState {
         Real stiffness;     // explicit: looks that found the member stiff; stiff: calm steps in a row
         Real rate_squared;  // Ω² [1/s²] of its stiffest contacts, of late
         [[no_unique_address]] std::conditional_t<Model::has_shadows, ShadowCourse<Real>, NoShadowCourse> shadowed;
+        [[no_unique_address]] std::conditional_t<(Model::events > 0), ResetHistory<Real>, NoResets> resets;
+    };
+
+    /// What is remembered of the contacts, and where steps end because of them.  Moves only where steps do: elsewhere it stays as it
+    /// starts.
+    struct Contacts {
         [[no_unique_address]] typename Model::template Memory<Real> memory;
         [[no_unique_address]] typename Model::template Watch<Real> watch;
-        [[no_unique_address]] std::conditional_t<(Model::events > 0), ResetHistory<Real>, NoResets> resets;
     };
 
     /// Present where quantities are asked for.
@@ -87,12 +92,12 @@ template <class Model, class Real> struct MemberState {
         Real y[Model::size], rates[Model::size];
         Real distance;  // from the member, after the last stop; dimensionless
         Real growth;    // ln of it since the last record
-        [[no_unique_address]] typename Model::template Memory<Real> memory;
-        [[no_unique_address]] typename Model::template Watch<Real> watch;
+        Contacts contacts;
     };
 
     Constants constants;
     Course course;
+    [[no_unique_address]] Contacts contacts;
     Observation observation;
     [[no_unique_address]] Accelerations accelerations;
     [[no_unique_address]] std::conditional_t<Model::has_shadows, Shadow[most_shadows], NoShadows> shadows;

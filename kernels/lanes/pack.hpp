@@ -4,6 +4,7 @@
 #include "kernels/lanes/member_state.hpp"
 #include "kernels/mechanisms/faults.hpp"
 #include "kernels/real.hpp"
+#include "kernels/steppers/contact_watch.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -13,10 +14,14 @@ struct ReportNeeds {
     bool stages = false;         // at every stage, for integrals
     bool accelerations = false;  // their record is at work
     bool audit = false;          // the audit's integrals meet the tolerance too
-    bool watch = false;          // steps end at touches or where the contacts change
-    bool ends = false;           // at the accepted steps
+    bool switches = false;       // the law does: the audit keeps books of it
+    Watching watching = Watching::nothing;
+    bool ends = false;  // at the accepted steps
 
-    template <class Model, class Real> SLIDEWAY_HD static ReportNeeds of(Selection quantities, bool locate_modes) {
+    SLIDEWAY_HD bool watch() const { return watching != Watching::nothing; }
+
+    template <class Model, class Real>
+    SLIDEWAY_HD static ReportNeeds of(Model const& model, Selection quantities, bool locate_modes) {
         using Observer = typename Model::template Observer<Real>;
         ReportNeeds needs;
         needs.quantities = quantities != 0;
@@ -27,15 +32,19 @@ struct ReportNeeds {
             needs.stages = needs.stages || Accelerations::needs_stages(quantities);
         }
         needs.audit = Observer::audits(quantities);
-        needs.watch = Model::has_memory || (Model::can_hold && locate_modes);
-        needs.ends = needs.stages || Observer::needs_reports(quantities) || needs.watch;
+        if constexpr (Model::has_contacts) {
+            needs.watching = model.watching(locate_modes, Model::has_shadows);
+            needs.switches = model.switches();
+        }
+        needs.ends = needs.stages || Observer::needs_reports(quantities) || needs.watch();
         return needs;
     }
 
     /// Nobody observes a shadow.
     SLIDEWAY_HD ReportNeeds of_shadows() const {
         ReportNeeds needs;
-        needs.watch = needs.ends = watch;
+        needs.watching = watching;
+        needs.ends = watch();
         return needs;
     }
 };
@@ -70,7 +79,7 @@ template <class Model, class Real> struct Pack {
     Real scratch[size];
 
     SLIDEWAY_FN Faults<Real> evaluate(Real t, Real const* at, Real* rates, bool report_wanted, Report& report) const {
-        return evaluate(t, at, state.course.memory, rates, report_wanted, report);
+        return evaluate(t, at, state.contacts.memory, rates, report_wanted, report);
     }
 
     SLIDEWAY_FN Faults<Real> evaluate(Real t, Real const* at, typename Model::template Memory<Real> const& memory,

@@ -48,7 +48,7 @@ public:
         for (int s = 0; s < plan_.count; ++s) {
             auto& shadow = pack.state.shadows[s];
             auto& end = ends_[s];
-            exchange(pack.state.course, shadow);
+            exchange(pack, shadow);
             stepper.attempt(pack);
             if constexpr (Stepper::adaptive) {
                 squared_norm_ = larger_norm(squared_norm(), squared_norm_);
@@ -56,9 +56,9 @@ public:
                 finite_ = finite_ & is_finite(pack.end, pack.end_rates);
             }
             faults_ = faults_.or_else(pack.faults);
-            exchange(pack.state.course, shadow);
+            exchange(pack, shadow);
             for (int i = 0; i < size; ++i) end.y[i] = pack.end[i], end.rates[i] = pack.end_rates[i];
-            if (pack.needs.watch) end.report = pack.end_report;
+            if (pack.needs.watch()) end.report = pack.end_report;
             pack.count_evaluations(pack.busy, Stepper::evaluations);
         }
         pack.needs = needs;
@@ -72,11 +72,11 @@ public:
     /// Least fraction of the step at which a shadow has an event that ends it.
     SLIDEWAY_HD Real earliest(Pack<Model, Real> const& pack, Mask<Real> candidates, Real located_depth) const {
         Real fraction(1.0);
-        if constexpr (Model::has_memory || Model::can_hold) {
+        if constexpr (Model::has_contacts) {
             for (int s = 0; s < plan_.count; ++s) {
-                auto const& shadow = pack.state.shadows[s];
-                fraction = min(fraction, shadow.watch.earliest(candidates, ends_[s].report.contact, pack.step,
-                                                               located_depth, shadow.memory));
+                auto const& watch = pack.state.shadows[s].contacts.watch;
+                fraction = min(fraction, watch.earliest(candidates, ends_[s].report.contact, pack.step, located_depth,
+                                                        pack.needs.watching));
             }
         }
         return fraction;
@@ -91,9 +91,11 @@ public:
                 shadow.y[i] = select(accepted, end.y[i], shadow.y[i]);
                 shadow.rates[i] = select(accepted, end.rates[i], shadow.rates[i]);
             }
-            if constexpr (Model::has_memory || Model::can_hold) {
-                if (!pack.needs.watch) continue;
-                auto const touched = shadow.watch.update(accepted, end.report.contact, shadow.memory, shadow.y);
+            if constexpr (Model::has_contacts) {
+                if (!pack.needs.watch()) continue;
+                auto& [memory, watch] = shadow.contacts;
+                auto const touched =
+                    watch.update(accepted, end.report.contact, memory, shadow.y, pack.needs.watching);
                 if (any(touched)) evaluate(pack, shadow, touched);
             }
         }
@@ -102,10 +104,18 @@ public:
     /// At a stop: how the offsets have grown since the last one, and the shadows put back to d0 in the directions they went.  One is
     /// left alone within its bounds; several are made orthogonal, so that the j-th shows the j-th largest rate (Benettin et al. 1980).
     SLIDEWAY_NOINLINE void rescale(Pack<Model, Real>& pack, Mask<Real> at) {
+        // Impact speeds differ between member and shadow as the states do, and are rescaled with them.
+        bool const speeds = pack.needs.watch() && pack.needs.watching != Watching::modes;
+        speeds ? rescale_numbers<size + Memory::speeds>(pack, at) : rescale_numbers<size>(pack, at);
+    }
+
+private:
+    /// @tparam width numbers of an offset: the state's, and the impact speeds
+    template <int width> SLIDEWAY_HD void rescale_numbers(Pack<Model, Real>& pack, Mask<Real> at) {
         Real w[most_shadows][width], length[most_shadows];
         auto& counts = pack.state.course.shadowed;
         for (int s = 0; s < plan_.count; ++s) {
-            read_offset(pack, pack.state.shadows[s], w[s]);
+            read_offset<width>(pack, pack.state.shadows[s], w[s]);
             auto const large = inner_product<size>(w[s], w[s]) > Real(largest_distance * largest_distance);
             counts.grown = counts.grown + count<Real>(at & large);
         }
@@ -118,41 +128,41 @@ public:
             shadow.distance = found.distance;
             counts.lost = counts.lost + count<Real>(at & found.lost);
             if (none(found.moved)) continue;
-            write_offset(pack, found.moved, w[s], d0, shadow);
+            write_offset<width>(pack, found.moved, w[s], d0, shadow);
             refresh(pack, shadow, found.moved);
         }
     }
 
-private:
     struct End {
         Real y[size], rates[size];
         typename Model::template Report<Real> report;
     };
     using Memory = typename Model::template Memory<Real>;
-    /// Impact speeds differ between member and shadow as the states do, and are rescaled with them.
-    static constexpr int remembered = Model::has_memory ? static_cast<int>(sizeof(Memory) / sizeof(Real)) : 0;
-    static constexpr int width = size + remembered;
 
+    /// The impact speeds come first in it.
     SLIDEWAY_HD static Real* numbers(Memory& memory) { return reinterpret_cast<Real*>(&memory); }
     SLIDEWAY_HD static Real const* numbers(Memory const& memory) { return reinterpret_cast<Real const*>(&memory); }
 
-    SLIDEWAY_HD static void read_offset(Pack<Model, Real> const& pack, Shadow const& shadow, Real* w) {
+    template <int width> SLIDEWAY_HD static void read_offset(Pack<Model, Real> const& pack, Shadow const& shadow, Real* w) {
         auto const& s = pack.state;
         for (int i = 0; i < size; ++i) w[i] = (shadow.y[i] - s.course.y[i]) / s.constants.scale[i];
-        for (int i = 0; i < remembered; ++i) w[size + i] = numbers(shadow.memory)[i] - numbers(s.course.memory)[i];
+        for (int i = size; i < width; ++i) {
+            w[i] = numbers(shadow.contacts.memory)[i - size] - numbers(s.contacts.memory)[i - size];
+        }
     }
 
+    template <int width>
     SLIDEWAY_HD static void write_offset(Pack<Model, Real> const& pack, Mask<Real> in, Real const* w, Real length,
                                          Shadow& shadow) {
         auto const& s = pack.state;
         for (int i = 0; i < size; ++i) {
             shadow.y[i] = select(in, fma(length * s.constants.scale[i], w[i], s.course.y[i]), shadow.y[i]);
         }
-        if constexpr (remembered > 0) {
-            for (int i = 0; i < remembered; ++i) {
-                Real& number = numbers(shadow.memory)[i];
-                Real const own = numbers(s.course.memory)[i];
-                number = select(in, Model::remembered(fma(length, w[size + i], own)), number);
+        if constexpr (width > size) {
+            for (int i = size; i < width; ++i) {
+                Real& number = numbers(shadow.contacts.memory)[i - size];
+                Real const own = numbers(s.contacts.memory)[i - size];
+                number = select(in, Model::remembered(fma(length, w[i], own)), number);
             }
         }
     }
@@ -160,14 +170,13 @@ private:
     /// All that follows from a state that was put somewhere.
     SLIDEWAY_HD Faults<Real> refresh(Pack<Model, Real>& pack, Shadow& shadow, Mask<Real> in) {
         auto faults = evaluate(pack, shadow, in);
-        if constexpr (Model::has_memory || Model::can_hold) {
-            if (pack.needs.watch) shadow.watch.begin(in, report_.contact, shadow.memory);
-        }
-        if constexpr (Model::can_hold) {
-            // Other contacts are held now, and another derivative.
-            if (pack.needs.watch) {
+        if constexpr (Model::has_contacts) {
+            auto& [memory, watch] = shadow.contacts;
+            if (pack.needs.watch()) watch.begin(in, report_.contact, memory, pack.needs.watching);
+            if (pack.needs.watching == Watching::modes) {
+                // Other contacts are held now, and another derivative.
                 faults = evaluate(pack, shadow, in);
-                shadow.watch.keep(in, report_.contact);
+                watch.keep(in, report_.contact);
             }
         }
         return faults;
@@ -176,16 +185,17 @@ private:
     SLIDEWAY_HD Faults<Real> evaluate(Pack<Model, Real>& pack, Shadow& shadow, Mask<Real> in) {
         Real rates[size];
         auto const faults =
-            pack.evaluate(pack.state.course.t, shadow.y, shadow.memory, rates, pack.needs.watch, report_);
+            pack.evaluate(pack.state.course.t, shadow.y, shadow.contacts.memory, rates, pack.needs.watch(), report_);
         pack.count_evaluations(in, 1);
         for (int i = 0; i < size; ++i) shadow.rates[i] = select(in, rates[i], shadow.rates[i]);
         return faults.within(in);
     }
 
     /// Puts the shadow in its member's place, or back.
-    template <class Course> SLIDEWAY_HD static void exchange(Course& c, Shadow& shadow) {
+    SLIDEWAY_HD static void exchange(Pack<Model, Real>& pack, Shadow& shadow) {
+        auto& c = pack.state.course;
         for (int i = 0; i < size; ++i) swap(c.y[i], shadow.y[i]), swap(c.rates[i], shadow.rates[i]);
-        swap(c.memory, shadow.memory);
+        if (pack.needs.watch()) swap(pack.state.contacts.memory, shadow.contacts.memory);
     }
     template <class T> SLIDEWAY_HD static void swap(T& a, T& b) {
         T const former = a;

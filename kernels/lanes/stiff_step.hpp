@@ -20,7 +20,7 @@ public:
     SLIDEWAY_HD void attempt(Pack<Model, Real>& pack) {
         constexpr Ros34pw2Tableau w{};
         auto& c = pack.state.course;
-        pack.model.linearise(c.t, c.y, pack.state.constants.parameters, c.memory, matrix_);
+        pack.model.linearise(c.t, c.y, pack.state.constants.parameters, pack.state.contacts.memory, matrix_);
         c.jacobians = c.jacobians + count<Real>(pack.busy);
         hg_ = pack.step * Real(w.gamma);
         matrix_.factor(hg_);

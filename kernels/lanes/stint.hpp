@@ -126,14 +126,17 @@ private:
             wish = step * Control::factor(squared_norm, accepted, c.rejections > Real(0.5), c.error_memory);
             // A step that was shortened to land says little of what the next may be.
             wish = select(accepted & lands_, max(wish, c.h), wish);
-            if constexpr (Model::has_memory || Model::can_hold) {
-                if (pack_.needs.watch) {
+            if constexpr (Model::has_contacts) {
+                if (pack_.needs.watch()) {
                     // A touch must end its step: it sets the impact speed of what follows, or the law that holds.
                     auto const early = accepted & (step > resolution * Real(64.0));
                     using Watch = typename Model::template Watch<Real>;
-                    constexpr double tolerance = Model::has_shadows ? Shadows<Model, Real>::located : Watch::tolerance;
+                    auto const watching = pack_.needs.watching;
+                    double tolerance = Watch::tolerance(watching);
+                    if constexpr (Model::has_shadows) tolerance = Shadows<Model, Real>::located;
                     Real const located = Real(tolerance) * Model::touch_scale(pack_.state.constants.parameters);
-                    Real fraction = c.watch.earliest(early, pack_.end_report.contact, step, located, c.memory);
+                    Real fraction =
+                        pack_.state.contacts.watch.earliest(early, pack_.end_report.contact, step, located, watching);
                     if constexpr (Model::has_shadows)
                         fraction = min(fraction, shadows_.earliest(pack_, early, located));
                     cut = fraction < Real(1.0);
@@ -198,16 +201,18 @@ private:
         if (results_.samples() > 0) results_.take_samples(pack_, stepper_, accepted, t_end);
         if constexpr (Model::events > 0) search_.reset(pack_);
         if (pack_.needs.quantities) {
-            pack_.state.observation.observer.accept(accepted, pack_.step, pack_.integral, pack_.end_report, pack_.end);
+            pack_.state.observation.observer.accept(accepted, pack_.step, pack_.integral, pack_.end_report, pack_.end,
+                                                    pack_.needs.switches);
             pack_.with_accelerations([&](auto& a) { a.accept(accepted, pack_.step, pack_.end_report); });
         }
         for (int i = 0; i < size; ++i) c.y[i] = select(accepted, pack_.end[i], c.y[i]);
         c.t = select(accepted, t_end, c.t);
         if constexpr (Stepper::stiff) c.stiff_steps = c.stiff_steps + count<Real>(accepted);
         pack_.begin_next(accepted, pack_.end_rates);
-        if constexpr (Model::has_memory || Model::can_hold) {
-            if (pack_.needs.watch) {
-                auto const touched = c.watch.update(accepted, pack_.end_report.contact, c.memory, c.y);
+        if constexpr (Model::has_contacts) {
+            if (pack_.needs.watch()) {
+                auto& [memory, watch] = pack_.state.contacts;
+                auto const touched = watch.update(accepted, pack_.end_report.contact, memory, c.y, pack_.needs.watching);
                 if (any(touched)) restart(touched);
             }
         }
@@ -256,7 +261,7 @@ private:
         auto const& c = pack_.state.course;
         pack_.evaluate(c.t, c.y, pack_.end_rates, true, pack_.end_report);
         pack_.count_evaluations(touched, 1);
-        if (pack_.needs.quantities) pack_.state.observation.observer.resume(touched, pack_.end_report);
+        if (pack_.needs.quantities) pack_.state.observation.observer.resume(touched, pack_.end_report, pack_.needs.switches);
         pack_.begin_next(touched, pack_.end_rates);
     }
 

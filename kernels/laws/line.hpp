@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/laws/face.hpp"
+#include "kernels/laws/point.hpp"
 #include "kernels/math/lambert_w.hpp"
 #include "kernels/math/logarithm.hpp"
 #include "kernels/real.hpp"
@@ -64,6 +65,20 @@ SLIDEWAY_FN Quad<LineLoad<Real>> line_loads(Quad<Mask<Real>> const& line, Quad<R
             detail::line_load(line.b, approach.b, approach.b * w.b.denominator * inverse.b, along),
             detail::line_load(line.c, approach.c, approach.c * w.c.denominator * inverse.c, across),
             detail::line_load(line.d, approach.d, approach.d * w.d.denominator * inverse.d, along)};
+}
+
+/// Load of a line contact and its stiffness.  δ = x w with w = −W₋₁ = 1 − ln(x R/l²) gives dδ/dx = w − 1, hence
+/// dP/dδ = π E* l/(w − 1).  Source: Qian et al. 2020 (9)–(14), as in line_load.
+/// @param approach δ [m], 0 < δ ≤ l²/R; NaN beyond.  At its end w = 1 and the stiffness is infinite: w − 1 is held at 1e-6.
+template <class Real> SLIDEWAY_FN ElasticSlope<Real> line_slope(Real approach, LineContact<Real> const& line) {
+    Real const u = approach * line.radius_rate;
+    Real const scale = select(u <= Real(1.0), line.scale, Real(not_a_number));
+    Real const inside = min(max(u, Real(1e-32)), Real(1.0));
+    auto const w = minus_lambert_wm1_exp(negated(log_positive(inside)));
+    // 1/w and 1/(w − 1) by one division.
+    Real const excess = max(w.numerator - w.denominator, Real(1e-6) * w.denominator);
+    Real const common = scale * w.denominator / (w.numerator * excess);
+    return {approach * common * excess, common * w.numerator};
 }
 
 }  // namespace slideway::inline SLIDEWAY_ISA

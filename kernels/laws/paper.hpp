@@ -2,6 +2,7 @@
 
 #include "kernels/laws/contact.hpp"
 #include "kernels/laws/face.hpp"
+#include "kernels/laws/law_info.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -9,25 +10,47 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// (model.md 8).  Source: Qian et al. 2020, 3.2.2–3.2.4; the sharing between apices is ours (the paper does not say where the
 /// force acts): a surface's kδ_i/4 and a line's P/2 are the shares that make each mode by itself conservative.
 struct PaperLaw {
-    static constexpr bool switches = true;  // between modes, which makes energy
+    static constexpr LawInfo info{
+        .name = "paper",
+        .words = "one mode per face: surface, lines or points (makes energy where it switches)",
+        .switches = true,
+        .groups = contact_groups};
 
-    /// Not inlined: a mechanism calls it for four faces in several variants, and the code would multiply.
+    /// Not inlined: the joint calls it for four faces, and the code would multiply.
     /// @tparam Full also the elastic forces and the potential; without, they are zero.
     template <class Damping, bool Full = true, class Real>
     SLIDEWAY_NOINLINE static FaceForces<Real> forces(FaceMotion<Real> const& m, FaceContact<Real> const& face,
                                                      ContactParameters<Real> const& contact) {
         auto modes = face_modes<Real>(m.touching);
         Real const zero(0.0);
-        FaceForces<Real> f{{zero, zero, zero, zero}, {zero, zero, zero, zero}, zero, mask_of<Real>(false)};
+        auto f = no_forces<Real>();
         if (any(modes.surface)) add_surface<Damping>(modes.surface, m, face, contact, f);
-        if (any((modes.ab | modes.bc) | (modes.cd | modes.da))) add_lines<Damping>(modes, m, face, contact, f);
-        add_point<Damping>(modes.point.a, m.depth.a, m.rate.a, m.impact_speed.a, contact, f.normal.a, f.elastic.a, f);
-        add_point<Damping>(modes.point.b, m.depth.b, m.rate.b, m.impact_speed.b, contact, f.normal.b, f.elastic.b, f);
-        add_point<Damping>(modes.point.c, m.depth.c, m.rate.c, m.impact_speed.c, contact, f.normal.c, f.elastic.c, f);
-        add_point<Damping>(modes.point.d, m.depth.d, m.rate.d, m.impact_speed.d, contact, f.normal.d, f.elastic.d, f);
+        if (any_of(modes.line)) add_lines<Damping>(modes.line, m, face, contact, f);
+        add_point<Damping, 0>(modes.point, m, contact, f);
+        add_point<Damping, 1>(modes.point, m, contact, f);
+        add_point<Damping, 2>(modes.point, m, contact, f);
+        add_point<Damping, 3>(modes.point, m, contact, f);
         // Made anew, so that the sums above live in registers and not in the caller's memory.
         if constexpr (Full) return {f.normal, f.elastic, f.potential, f.outside};
         return {f.normal, {zero, zero, zero, zero}, zero, f.outside};
+    }
+
+    /// Derivatives of the forces inside a mode; the jumps between modes have none.
+    template <class Damping, class Real>
+    SLIDEWAY_NOINLINE static FaceStiffness<Real> stiffness(FaceMotion<Real> const& m, FaceContact<Real> const& face,
+                                                           ContactParameters<Real> const& contact) {
+        auto const modes = face_modes<Real>(m.touching);
+        auto f = FaceStiffness<Real>::none();
+        if (any(modes.surface)) add_surface_slopes<Damping>(modes.surface, m, face, contact, f);
+        add_line_slopes<Damping, 0>(modes.line, m, face.across, contact, f);
+        add_line_slopes<Damping, 1>(modes.line, m, face.along, contact, f);
+        add_line_slopes<Damping, 2>(modes.line, m, face.across, contact, f);
+        add_line_slopes<Damping, 3>(modes.line, m, face.along, contact, f);
+        add_point_slopes<Damping, 0>(modes.point, m, contact, f);
+        add_point_slopes<Damping, 1>(modes.point, m, contact, f);
+        add_point_slopes<Damping, 2>(modes.point, m, contact, f);
+        add_point_slopes<Damping, 3>(modes.point, m, contact, f);
+        return f;
     }
 
 private:
@@ -37,69 +60,140 @@ private:
                                         ContactParameters<Real> const& contact, FaceForces<Real>& f) {
         Real const zero(0.0);
         Real const share = Real(0.25) * face.surface_stiffness;
-        Real const v0 = max(max(m.impact_speed.a, m.impact_speed.b), max(m.impact_speed.c, m.impact_speed.d));
-        Real const factor = Damping::surface_factor(Real(0.25) * sum(m.rate), v0, contact.damping);
-        Quad<Real> elastic{share * m.depth.a, share * m.depth.b, share * m.depth.c, share * m.depth.d};
+        Real const factor = Damping::surface_factor(mean_rate(m), impact_speed(m), contact.damping);
+        auto const& apex = m.apex;
+        Quad<Real> elastic{share * apex.a.depth, share * apex.b.depth, share * apex.c.depth, share * apex.d.depth};
         f.elastic = {select(surface, elastic.a, zero), select(surface, elastic.b, zero),
                      select(surface, elastic.c, zero), select(surface, elastic.d, zero)};
         f.normal = {f.elastic.a * factor, f.elastic.b * factor, f.elastic.c * factor, f.elastic.d * factor};
-        Real const stored =
-            fma(elastic.a, m.depth.a, elastic.b * m.depth.b) + fma(elastic.c, m.depth.c, elastic.d * m.depth.d);
+        Real const stored = fma(elastic.a, apex.a.depth, elastic.b * apex.b.depth) +
+                            fma(elastic.c, apex.c.depth, elastic.d * apex.d.depth);
         f.potential = select(surface, Real(0.5) * stored, zero);
     }
 
-    /// P(δ̄), δ̄ the mean of both apices, P/2 at each.
+    /// F_i = kδ_i/4 · factor(mean rate): ∂F_i/∂δ_i = k/4 · factor, and all four rates change all four forces.
     template <class Damping, class Real>
-    SLIDEWAY_FN static void add_lines(FaceModes<Real> const& modes, FaceMotion<Real> const& m,
-                                      FaceContact<Real> const& face, ContactParameters<Real> const& contact,
-                                      FaceForces<Real>& f) {
-        Real const half(0.5), dead(1e-6);
-        auto const& d = m.depth;
-        Quad<Real> approach{select(modes.ab, half * (d.a + d.b), dead), select(modes.bc, half * (d.b + d.c), dead),
-                            select(modes.cd, half * (d.c + d.d), dead), select(modes.da, half * (d.d + d.a), dead)};
-        auto lines = line_loads<Real>({modes.ab, modes.bc, modes.cd, modes.da}, approach, face.across, face.along);
-        add_line<Damping>(modes.ab, lines.a, m.rate.a, m.rate.b, m.impact_speed.a, m.impact_speed.b, contact,
-                          f.normal.a, f.normal.b, f.elastic.a, f.elastic.b, f);
-        add_line<Damping>(modes.bc, lines.b, m.rate.b, m.rate.c, m.impact_speed.b, m.impact_speed.c, contact,
-                          f.normal.b, f.normal.c, f.elastic.b, f.elastic.c, f);
-        add_line<Damping>(modes.cd, lines.c, m.rate.c, m.rate.d, m.impact_speed.c, m.impact_speed.d, contact,
-                          f.normal.c, f.normal.d, f.elastic.c, f.elastic.d, f);
-        add_line<Damping>(modes.da, lines.d, m.rate.d, m.rate.a, m.impact_speed.d, m.impact_speed.a, contact,
-                          f.normal.d, f.normal.a, f.elastic.d, f.elastic.a, f);
+    SLIDEWAY_FN static void add_surface_slopes(Mask<Real> surface, FaceMotion<Real> const& m,
+                                               FaceContact<Real> const& face, ContactParameters<Real> const& contact,
+                                               FaceStiffness<Real>& f) {
+        Real const zero(0.0), quarter(0.25);
+        auto const damping = Damping::surface_slopes(mean_rate(m), impact_speed(m), contact.damping);
+        Real const share = select(surface, quarter * face.surface_stiffness, zero);
+        Real const stiffness = share * damping.factor;
+        auto const add = [&](Real depth, Real& normal, ApexSlopes<Real>& by_depth, ApexSlopes<Real>& by_rate) {
+            normal = stiffness * depth;
+            by_depth.own = stiffness;
+            if constexpr (Damping::couples) {
+                by_rate.own = by_rate.across = by_rate.along = by_rate.opposite =
+                    quarter * share * depth * damping.by_rate;
+            }
+        };
+        add(m.apex.a.depth, f.normal.a, f.by_depth.a, f.by_rate.a);
+        add(m.apex.b.depth, f.normal.b, f.by_depth.b, f.by_rate.b);
+        add(m.apex.c.depth, f.normal.c, f.by_depth.c, f.by_rate.c);
+        add(m.apex.d.depth, f.normal.d, f.by_depth.d, f.by_rate.d);
     }
 
+    /// δ̄ of a line: the mean of both its apices, and the same of their rates.
+    template <int edge, class Real>
+    SLIDEWAY_FN static Real line_approach(Quad<Mask<Real>> const& line, FaceMotion<Real> const& m) {
+        Real const mean = Real(0.5) * (at<edge>(m.apex).depth + at<edge + 1>(m.apex).depth);
+        return select(at<edge>(line), mean, Real(1e-6));
+    }
+    template <int edge, class Real> SLIDEWAY_FN static Real line_rate(FaceMotion<Real> const& m) {
+        return Real(0.5) * (at<edge>(m.apex).rate + at<edge + 1>(m.apex).rate);
+    }
+
+    /// P(δ̄), P/2 at each apex.
     template <class Damping, class Real>
-    SLIDEWAY_FN static void add_line(Mask<Real> mode, LineLoad<Real> const& line, Real const& rate_i,
-                                     Real const& rate_j, Real const& v0_i, Real const& v0_j,
-                                     ContactParameters<Real> const& contact, Real& normal_i, Real& normal_j,
-                                     Real& elastic_i, Real& elastic_j, FaceForces<Real>& f) {
+    SLIDEWAY_FN static void add_lines(Quad<Mask<Real>> const& line, FaceMotion<Real> const& m,
+                                      FaceContact<Real> const& face, ContactParameters<Real> const& contact,
+                                      FaceForces<Real>& f) {
+        Quad<Real> approach{line_approach<0>(line, m), line_approach<1>(line, m), line_approach<2>(line, m),
+                            line_approach<3>(line, m)};
+        auto loads = line_loads<Real>(line, approach, face.across, face.along);
+        add_line<Damping, 0>(line, loads, m, contact, f);
+        add_line<Damping, 1>(line, loads, m, contact, f);
+        add_line<Damping, 2>(line, loads, m, contact, f);
+        add_line<Damping, 3>(line, loads, m, contact, f);
+    }
+
+    template <class Damping, int edge, class Real>
+    SLIDEWAY_FN static void add_line(Quad<Mask<Real>> const& line, Quad<LineLoad<Real>> const& loads,
+                                     FaceMotion<Real> const& m, ContactParameters<Real> const& contact,
+                                     FaceForces<Real>& f) {
+        auto const mode = at<edge>(line);
         if (none(mode)) return;
-        Real const zero(0.0), half(0.5);
-        f.outside = f.outside | (mode & line.outside);
-        Real const elastic = select(mode, half * line.load, zero);
-        Real const factor = Damping::line_factor(half * (rate_i + rate_j), max(v0_i, v0_j), contact.damping);
-        Real const normal = elastic * factor;
-        normal_i = normal_i + normal;
-        normal_j = normal_j + normal;
-        elastic_i = elastic_i + elastic;
-        elastic_j = elastic_j + elastic;
-        f.potential = f.potential + select(mode, line.potential, zero);
+        Real const zero(0.0);
+        auto const& load = at<edge>(loads);
+        f.outside = f.outside | (mode & load.outside);
+        Real const elastic = select(mode, Real(0.5) * load.load, zero);
+        Real const normal =
+            elastic * Damping::line_factor(line_rate<edge>(m), edge_impact_speed<edge>(m), contact.damping);
+        at<edge>(f.normal) = at<edge>(f.normal) + normal;
+        at<edge + 1>(f.normal) = at<edge + 1>(f.normal) + normal;
+        at<edge>(f.elastic) = at<edge>(f.elastic) + elastic;
+        at<edge + 1>(f.elastic) = at<edge + 1>(f.elastic) + elastic;
+        f.potential = f.potential + select(mode, load.potential, zero);
+    }
+
+    /// F_i = F_j = P(δ̄)/2 · factor(δ̄'): all four derivatives are equal, P'/4 · factor.
+    template <class Damping, int edge, class Real>
+    SLIDEWAY_FN static void add_line_slopes(Quad<Mask<Real>> const& line, FaceMotion<Real> const& m,
+                                            LineContact<Real> const& of_edge, ContactParameters<Real> const& contact,
+                                            FaceStiffness<Real>& f) {
+        auto const mode = at<edge>(line);
+        if (none(mode)) return;
+        Real const zero(0.0), half(0.5), quarter(0.25);
+        auto const elastic = line_slope(line_approach<edge>(line, m), of_edge);
+        auto const damping = Damping::line_slopes(line_rate<edge>(m), edge_impact_speed<edge>(m), contact.damping);
+        Real const load = select(mode, elastic.load, zero);
+        Real const normal = half * load * damping.factor;
+        Real const slope = select(mode, quarter * elastic.slope * damping.factor, zero);
+        auto const add = [&](Real& force, ApexSlopes<Real>& by_depth, ApexSlopes<Real>& by_rate) {
+            force = force + normal;
+            by_depth.own = by_depth.own + slope;
+            partner<edge>(by_depth) = slope;
+            if constexpr (Damping::couples) {
+                Real const viscosity = quarter * load * damping.by_rate;
+                by_rate.own = by_rate.own + viscosity;
+                partner<edge>(by_rate) = partner<edge>(by_rate) + viscosity;
+            }
+        };
+        add(at<edge>(f.normal), at<edge>(f.by_depth), at<edge>(f.by_rate));
+        add(at<edge + 1>(f.normal), at<edge + 1>(f.by_depth), at<edge + 1>(f.by_rate));
     }
 
     /// K δⁿ + C δ δ'; U = K δⁿ⁺¹/(n + 1).
-    template <class Damping, class Real>
-    SLIDEWAY_FN static void add_point(Mask<Real> point, Real const& depth, Real const& rate, Real const& v0,
-                                      ContactParameters<Real> const& contact, Real& normal, Real& elastic,
-                                      FaceForces<Real>& f) {
+    template <class Damping, int i, class Real>
+    SLIDEWAY_FN static void add_point(Quad<Mask<Real>> const& points, FaceMotion<Real> const& m,
+                                      ContactParameters<Real> const& contact, FaceForces<Real>& f) {
+        auto const point = at<i>(points);
         if (none(point)) return;
         Real const zero(0.0);
         // A held contact may part by a hair before its step ends.
-        Real const d = max(select(point, depth, Real(1e-6)), zero);
-        Real const load = point_load(d, contact.point);
-        Real const damped = Damping::point_force(load, d, rate, v0, contact.point, contact.damping);
-        normal = normal + select(point, damped, zero);
-        elastic = elastic + select(point, load, zero);
-        f.potential = f.potential + select(point, load * d * contact.point.potential_share, zero);
+        auto apex = at<i>(m.apex);
+        apex.depth = max(select(point, apex.depth, Real(1e-6)), zero);
+        Real const load = point_load(apex.depth, contact.point);
+        Real const damped = Damping::point_force(load, apex, contact.point, contact.damping);
+        at<i>(f.normal) = at<i>(f.normal) + select(point, damped, zero);
+        at<i>(f.elastic) = at<i>(f.elastic) + select(point, load, zero);
+        f.potential = f.potential + select(point, load * apex.depth * contact.point.potential_share, zero);
+    }
+
+    template <class Damping, int i, class Real>
+    SLIDEWAY_FN static void add_point_slopes(Quad<Mask<Real>> const& points, FaceMotion<Real> const& m,
+                                             ContactParameters<Real> const& contact, FaceStiffness<Real>& f) {
+        auto const point = at<i>(points);
+        if (none(point)) return;
+        Real const zero(0.0);
+        auto apex = at<i>(m.apex);
+        apex.depth = select(point, apex.depth, Real(1e-6));
+        auto const damped =
+            Damping::point_slopes(point_slope(apex.depth, contact.point), apex, contact.point, contact.damping);
+        at<i>(f.normal) = at<i>(f.normal) + select(point, damped.force, zero);
+        at<i>(f.by_depth).own = at<i>(f.by_depth).own + select(point, damped.by_depth, zero);
+        at<i>(f.by_rate).own = at<i>(f.by_rate).own + select(point, damped.by_rate, zero);
     }
 };
 

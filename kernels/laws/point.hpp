@@ -22,4 +22,17 @@ template <class Real> SLIDEWAY_FN Real point_load(Real depth, PointContact<Real>
     return point.stiffness * raised;
 }
 
+/// Elastic force of a contact [N] and its derivative by the penetration [N/m].
+template <class Real> struct ElasticSlope { Real load, slope; };
+
+/// K δⁿ and n K δⁿ⁻¹ for δ > 0 [m]; as in point_load, the general power runs only where a lane's exponent is not 3/2.
+template <class Real> SLIDEWAY_FN ElasticSlope<Real> point_slope(Real depth, PointContact<Real> const& point) {
+    Real const hertz = sqrt(depth);
+    auto const general = point.exponent != Real(1.5);
+    Real const raised =
+        any(general) ? select(general, power(depth, point.exponent - Real(1.0)), hertz) : hertz;  // δⁿ⁻¹
+    Real const stiffness = point.stiffness * raised;
+    return {stiffness * depth, point.exponent * stiffness};
+}
+
 }  // namespace slideway::inline SLIDEWAY_ISA

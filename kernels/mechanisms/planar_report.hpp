@@ -1,70 +1,71 @@
 #pragma once
 
+#include "kernels/joint/contact_totals.hpp"
 #include "kernels/laws/face.hpp"
-#include "kernels/math/vec3.hpp"
+#include "kernels/mechanisms/mechanism_report.hpp"
 #include "kernels/observers/quantities.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// What touches of the planar slider.  Corners as (s3 along X, s1 along Y): a (+,+), b (+,−), c (−,−), d (−,+).
-template <class Real> struct PlanarContact {
-    Quad<Real> penetration[1];     // [m]
-    Quad<Real> rate[1];            // [m/s]
-    Quad<Real> normal_force[1];    // [N]
-    Real surfaces, lines, points;  // a wall that both its corners touch, none, other touching corners
-    Real potential;                // U of the contacts [J]
-    Real friction_power;           // Σ μ F V [W]
-    Real damping_power;            // Σ (F − F_elastic) δ' [W]
+/// What touches of the planar slider.  Corners as (s3 along X, s1 along Y): a (+,+), b (+,−), c (−,−), d (−,+).  Of the totals a wall
+/// that both its corners touch is a surface, other touching corners are points.
+template <class Real> struct PlanarContact : ContactTotals<Real> {
+    Quad<Real> penetration[1];   // [m]
+    Quad<Real> rate[1];          // [m/s]
+    Quad<Real> normal_force[1];  // [N]
 
     /// Sum of all normal forces [N].
     SLIDEWAY_FN Real total_force() const { return sum(normal_force[0]); }
+    /// Nothing switches.
+    SLIDEWAY_FN Real pattern() const { return Real(0.0); }
+
+    /// Without forces.
+    SLIDEWAY_FN void start(Quad<Real> const& depth, Quad<Real> const& rate_of) {
+        Real const zero(0.0);
+        penetration[0] = depth;
+        rate[0] = rate_of;
+        normal_force[0] = {zero, zero, zero, zero};
+        this->clear_totals();
+    }
+
+    /// @param potential_share 1/(n + 1)
+    SLIDEWAY_FN void tell(Quad<Real> const& force, Quad<Real> const& elastic, Real potential_share) {
+        Real const zero(0.0);
+        auto const& depth = penetration[0];
+        auto const& v = rate[0];
+        normal_force[0] = force;
+        Real const stored = fma(elastic.a, max(depth.a, zero), elastic.b * max(depth.b, zero)) +
+                            fma(elastic.c, max(depth.c, zero), elastic.d * max(depth.d, zero));
+        this->potential = potential_share * stored;
+        this->damping_power = fma(force.a - elastic.a, v.a, (force.b - elastic.b) * v.b) +
+                              fma(force.c - elastic.c, v.c, (force.d - elastic.d) * v.d);
+        this->elastic_power = fma(elastic.a, v.a, elastic.b * v.b) + fma(elastic.c, v.c, elastic.d * v.d);
+        auto const a = depth.a > zero, b = depth.b > zero, c = depth.c > zero, d = depth.d > zero;
+        auto const upper = a & d, lower = b & c;
+        this->surfaces = count<Real>(upper) + count<Real>(lower);
+        this->points =
+            (count<Real>(a & !upper) + count<Real>(d & !upper)) + (count<Real>(b & !lower) + count<Real>(c & !lower));
+    }
 };
 
 /// All that a state of the planar slider-crank tells beside its derivative.
-template <class Real> struct PlanarReport {
+template <class Real> struct PlanarReport : MechanismReport<Real> {
     static constexpr int apices = 0;  // corners, of which no quantity tells one by one
-
     PlanarContact<Real> contact;
-    Real x, y, vx, vy;  // slider's centre
-    Vec3<Real> acceleration;
-    Real top, front;      // sensors that it has not
-    Real crank_power;     // of the drive [W]
-    Real crank_torque;    // of the drive [N m]
-    Real drive_torque;    // the same: the crank's weight is in the equations
-    Real energy;          // kinetic, of gravity and of the contacts [J]
-    Real position_error;  // distance of the slider's centre from the ideal mechanism's at this crank angle [m]
-    Real rod_spin;        // |θ2'| [rad/s]
+    Real y, vy;  // slider's centre
 
     /// The pitch is the only angle that is not 0 [rad].
     SLIDEWAY_FN static Real tilt(Real const* state, int axis) { return axis == 2 ? state[2] : Real(0.0); }
 
     /// Value of an entry of `series_table` beyond the state.
     SLIDEWAY_FN Real series_value(int entry) const {
-        switch (static_cast<Series>(entry)) {
-            case Series::x:
-                return x;
-            case Series::y:
-                return y;
-            case Series::vx:
-                return vx;
-            case Series::vy:
-                return vy;
-            case Series::normal_force:
-                return contact.total_force();
-            case Series::crank_torque:
-                return drive_torque;
-            case Series::surfaces:
-                return contact.surfaces;
-            case Series::points:
-                return contact.points;
-            case Series::ax:
-                return acceleration.x;
-            case Series::ay:
-                return acceleration.y;
-            default:
-                return Real(not_a_number);
-        }
+        auto const series = static_cast<Series>(entry);
+        return series == Series::y ? y : series == Series::vy ? vy : this->common_series(series, contact);
+    }
+
+    SLIDEWAY_FN static Real distance_error(Real d, Real ya, Real y, Real rod_length) {
+        return MechanismReport<Real>::error_of(d, ya, y, Real(0.0), rod_length);
     }
 };
 

@@ -47,20 +47,10 @@ struct SliderBase {
     }
 };
 
-/// The carriage's way passes through (0, offset_y, offset_z), and its period is to and fro.
-struct CarriageBase : SliderBase {
-    SLIDEWAY_HD static SliderParameters<double> parameters(Inputs const& in) {
-        auto p = slider_parameters(in);
-        p.joint.way.offset.x = 0;
-        p.rate_scale = max(3.14159265358979323846 * p.stroke_rate, 1.0);
-        return p;
-    }
-};
-
 /// A slider free along the way too.  The way passes through (0, offset_y, offset_z); speeds are counted by the fall through the clearance,
 /// √(g c).
 struct FreeSliderBase : SliderBase {
-    static constexpr int size = info(Mechanism::free_slider).states;
+    static constexpr int size = 12;
     template <class Real> using Linearisation = FreeSliderLinearisation<Real>;
 
     template <class Real> SLIDEWAY_FN static void scales(SliderParameters<Real> const& p, Real* scale) {

@@ -1,96 +1,138 @@
 #pragma once
 
-#include "kernels/mechanisms/faults.hpp"
-#include "kernels/mechanisms/slider_base.hpp"
-#include "kernels/mechanisms/slider_contact.hpp"
-#include "kernels/mechanisms/slider_turning.hpp"
+#include "kernels/math/trigonometry.hpp"
+#include "kernels/mechanisms/mechanism_info.hpp"
+#include "kernels/mechanisms/spatial_slider.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// The spatial slider-crank with clearance in its translational joint.  State: y z vy vz φ ϑ ψ ωx ωy ωz (SI, model.md 1); the
-/// crank turns at constant speed, x follows from the rod.  Source: Qian et al. 2020, section 4; equations as in model.md 6.
-/// What a scene does not need is not in its instance: law, friction, pose of the way and damping are template arguments.
-template <class Law, class Friction, class Way, class Damping>
-struct SliderCrank : SliderBase, SliderContact<SliderCrank<Law, Friction, Way, Damping>, Law, Friction, Way, Damping> {
-    using SliderCrankContact = SliderContact<SliderCrank, Law, Friction, Way, Damping>;
-    using typename SliderCrankContact::Contact;
-    template <class Real> using Memory = typename SliderCrankContact::template Memory<Real>;
+/// A crank pin A that turns at constant speed.
+template <class Real> struct CrankPin {
+    Real x, y, vx, vy;
 
-    /// Time derivative of the state.
-    /// @param t time [s]; @param s the state, `size` values; @param rates their derivatives, NaN where a fault is set.
-    /// @param report filled if Full; the derivative has the same bits without.
-    template <bool Full, class Real>
-    SLIDEWAY_NOINLINE static Faults<Real> derivative(Real t, Real const* s, SliderParameters<Real> const& p,
-                                                     Memory<Real> const& memory, Real* rates,
-                                                     SliderReport<Real>* report) {
-        Real const y = s[0], z = s[1], vy = s[2], vz = s[3];
-        Real const zero(0.0), one(1.0);
-        Faults<Real> faults;
-
-        // Crank pin A and its motion.
+    SLIDEWAY_FN CrankPin(Real t, SliderParameters<Real> const& p) {
         auto crank = sincos(fma(p.crank_speed, t, p.start_angle));
-        Real const ax = p.crank_length * crank.cos, ay = p.crank_length * crank.sin;
-        Real const vax = negated(p.crank_speed) * ay, vay = p.crank_speed * ax;
-        Real const minus_speed_squared = negated(p.crank_speed * p.crank_speed);
-        Real const aax = minus_speed_squared * ax, aay = minus_speed_squared * ay;
-
-        // Rod: D² + (y − y_A)² + z² = L² gives x and its rates.
-        Real const dy = y - ay;
-        Real const reach = fnma(z, z, fnma(dy, dy, p.rod_length * p.rod_length));
-        faults.geometry = reach <= zero;  // NaN has another cause
-        Real const d = sqrt(reach);
-        Real const inverse_d = d * (one / reach);  // root and division side by side
-        Real const ky = negated(dy) * inverse_d, kz = negated(z) * inverse_d;
-        Real const dvy = vy - vay;
-        Real const dd = fma(ky, dvy, kz * vz);
-        Real const gamma = negated(fma(dvy, dvy, fma(vz, vz, dd * dd))) * inverse_d;
-        Real const x = ax + d, vx = vax + dd;
-
-        auto turning = SliderTurning<Real>::of(s);
-
-        // The joint, in way coordinates.
-        auto const& way = p.joint.way;
-        auto motion = Way::motion(turning.axes, Vec3<Real>{x, y, z}, Vec3<Real>{vx, vy, vz}, turning.spin, way);
-        auto wrench = Contact::template wrench<Full>(motion, memory, p.joint, Full ? &report->contact : nullptr,
-                                                     faults.contact_domain);
-        auto contact_force = Way::to_inertial(wrench.force, way);
-
-        // m a_B + m_AB a_A − F = λ(B − A), the X row eliminated: a symmetric 2×2 system with determinant m²(1 + κy² + κz²).
-        Vec3<Real> force{fma(p.weighing_mass, p.gravity_x, contact_force.x),
-                         fma(p.weighing_mass, p.gravity_y, contact_force.y), contact_force.z};
-        // a_Bx = aAx − κy aAy + γ + κy y'' + κz z''
-        Real const bias = fnma(ky, aay, aax) + gamma;
-        Real const pull = fnma(p.m_ab, aax, fnma(p.mass, bias, force.x));
-        Real const fy = fma(ky, pull, fnma(p.m_ab, aay, force.y));
-        Real const fz = fma(kz, pull, force.z);
-        Real const ky2 = fma(ky, ky, one), kz2 = fma(kz, kz, one), kyz = ky * kz;
-        Real const scale = one / (p.mass * fma(kz, kz, ky2));
-        Real const ay_b = fms(kz2, fy, kyz * fz) * scale;
-        Real const az_b = fms(ky2, fz, kyz * fy) * scale;
-
-        rates[0] = vy;
-        rates[1] = vz;
-        rates[2] = ay_b;
-        rates[3] = az_b;
-        turning.put_rates(wrench.torque, motion.axes, p.inertia, p.inverse_inertia, rates);
-
-        if constexpr (Full) {
-            PointMotion<Real> pin{{ax, ay, zero}, {vax, vay, zero}, {aax, aay, zero}};
-            PointMotion<Real> end{{x, y, z}, {vx, vy, vz}, {fma(ky, ay_b, fma(kz, az_b, bias)), ay_b, az_b}};
-            report->fill(pin, end, d, turning, contact_force, p);
-        }
-        return faults;
+        x = p.crank_length * crank.cos;
+        y = p.crank_length * crank.sin;
+        vx = negated(p.crank_speed) * y;
+        vy = p.crank_speed * x;
     }
+};
 
-    /// Of the slider's centre [m]; where the rod does not reach, as far as it is.
-    template <class Real>
-    SLIDEWAY_FN static Vec3<Real> position(Real t, Real const* s, SliderParameters<Real> const& p) {
+/// What a crank and a rod prescribe of the slider: x follows from D² + (y − y_A)² + z² = L².  The crank turns at constant speed.
+/// Source: Qian et al. 2020, section 4; equations as in model.md 6.
+struct CrankAndRod {
+    using Base = SliderBase;
+    static constexpr MechanismInfo info = [] {
+        auto info = spatial_slider_info();
+        info.name = "slider_crank";
+        info.meaning = "spatial slider-crank at constant crank speed, its slider with clearance on a rectangular way";
+        info.series = selections::spatial_series;
+        info.quantities = selections::all_quantities;
+        info.keys |= groups_of(KeyGroup::crank, KeyGroup::links, KeyGroup::rod_centre);
+        info.drive = DriveKind::crank;
+        info.on_cards = true;
+        return info;
+    }();
+
+    template <class Real> class At {
+    public:
+        Real x, vx;
+
+        SLIDEWAY_FN At(Real t, Real const* s, SliderParameters<Real> const& p, Faults<Real>& faults) : pin_(t, p) {
+            Real const y = s[0], z = s[1], vz = s[3];
+            Real const one(1.0);
+            Real const dy = y - pin_.y;
+            Real const reach = fnma(z, z, fnma(dy, dy, p.rod_length * p.rod_length));
+            faults.geometry = reach <= Real(0.0);  // NaN has another cause
+            d_ = sqrt(reach);
+            Real const inverse_d = d_ * (one / reach);  // root and division side by side
+            ky_ = negated(dy) * inverse_d;
+            kz_ = negated(z) * inverse_d;
+            Real const dvy = s[2] - pin_.vy;
+            Real const dd = fma(ky_, dvy, kz_ * vz);
+            Real const gamma = negated(fma(dvy, dvy, fma(vz, vz, dd * dd))) * inverse_d;
+            x = pin_.x + d_;
+            vx = pin_.vx + dd;
+            // a_Bx = aAx − κy aAy + γ + κy y'' + κz z''
+            Real const minus_speed_squared = negated(p.crank_speed * p.crank_speed);
+            aax_ = minus_speed_squared * pin_.x;
+            aay_ = minus_speed_squared * pin_.y;
+            bias_ = fnma(ky_, aay_, aax_) + gamma;
+        }
+
+        /// m a_B + m_AB a_A − F = λ(B − A), the X row eliminated: a symmetric 2×2 system with determinant m²(1 + κy² + κz²).
+        SLIDEWAY_FN Vec3<Real> accelerations(Vec3<Real> const& contact_force, SliderParameters<Real> const& p) const {
+            Real const one(1.0);
+            Vec3<Real> force{fma(p.weighing_mass, p.gravity_x, contact_force.x),
+                             fma(p.weighing_mass, p.gravity_y, contact_force.y), contact_force.z};
+            Real const pull = fnma(p.m_ab, aax_, fnma(p.mass, bias_, force.x));
+            Real const fy = fma(ky_, pull, fnma(p.m_ab, aay_, force.y));
+            Real const fz = fma(kz_, pull, force.z);
+            Real const ky2 = fma(ky_, ky_, one), kz2 = fma(kz_, kz_, one), kyz = ky_ * kz_;
+            Real const scale = one / (p.mass * fma(kz_, kz_, ky2));
+            Real const ay = fms(kz2, fy, kyz * fz) * scale;
+            Real const az = fms(ky2, fz, kyz * fy) * scale;
+            return {fma(ky_, ay, fma(kz_, az, bias_)), ay, az};
+        }
+
+        SLIDEWAY_FN void put_rates(Vec3<Real> const&, Real*) const {}
+
+        SLIDEWAY_FN void tell(PointMotion<Real> const& centre, SliderTurning<Real> const& turning,
+                              Vec3<Real> const& contact_force, SliderParameters<Real> const& p,
+                              SliderReport<Real>& report) const {
+            Real const zero(0.0);
+            PointMotion<Real> pin{{pin_.x, pin_.y, zero}, {pin_.vx, pin_.vy, zero}, {aax_, aay_, zero}};
+            report.fill_crank(pin, centre, d_, turning, contact_force, p);
+        }
+
+    private:
+        CrankPin<Real> pin_;
+        Real d_, ky_, kz_;  // x − x_A [m], and κ = ∂x/∂(y, z)
+        Real aax_, aay_, bias_;
+    };
+
+    template <class Real> class Constraint {
+    public:
+        Real x, vx;
+
+        SLIDEWAY_FN Constraint(Real t, Real const* s, SliderParameters<Real> const& p) {
+            CrankPin<Real> pin(t, p);
+            Real const dy = s[0] - pin.y;
+            Real const d = sqrt(fnma(s[1], s[1], fnma(dy, dy, p.rod_length * p.rod_length)));
+            Real const inverse_d = Real(1.0) / d;
+            ky_ = negated(dy) * inverse_d;
+            kz_ = negated(s[1]) * inverse_d;
+            x = pin.x + d;
+            vx = pin.vx + fma(ky_, s[2] - pin.vy, kz_ * s[3]);
+        }
+
+        SLIDEWAY_FN void masses(SliderParameters<Real> const& p, SliderLinearisation<Real>& out) const {
+            Real const one(1.0);
+            out.mass_y = p.mass * fma(ky_, ky_, one);
+            out.mass_z = p.mass * fma(kz_, kz_, one);
+            out.mass_yz = p.mass * ky_ * kz_;
+        }
+
+        /// A force (f_x, f_y, f_z) gives f_y + κy f_x and f_z + κz f_x.
+        SLIDEWAY_FN Translation<Real> project(Vec3<Real> const& force) const {
+            return {fma(ky_, force.x, force.y), fma(kz_, force.x, force.z)};
+        }
+
+    private:
+        Real ky_, kz_;
+    };
+
+    /// Where the rod does not reach, as far as it is.
+    template <class Real> SLIDEWAY_FN static Real along(Real t, Real const* s, SliderParameters<Real> const& p) {
         auto const crank = sincos(fma(p.crank_speed, t, p.start_angle));
         Real const dy = fnma(p.crank_length, crank.sin, s[0]);
         Real const reach = fnma(s[1], s[1], fnma(dy, dy, p.rod_length * p.rod_length));
-        return {fma(p.crank_length, crank.cos, sqrt(max(reach, Real(0.0)))), s[0], s[1]};
+        return fma(p.crank_length, crank.cos, sqrt(max(reach, Real(0.0))));
     }
 };
+
+using SliderCrank = SpatialSlider<CrankAndRod>;
 
 }  // namespace slideway::inline SLIDEWAY_ISA

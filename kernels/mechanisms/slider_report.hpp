@@ -2,6 +2,7 @@
 
 #include "kernels/joint/contact_report.hpp"
 #include "kernels/math/vec3.hpp"
+#include "kernels/mechanisms/mechanism_report.hpp"
 #include "kernels/mechanisms/slider_parameters.hpp"
 #include "kernels/mechanisms/slider_turning.hpp"
 #include "kernels/observers/quantities.hpp"
@@ -9,73 +10,33 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Motion of a point: of an end of the rod, or of the slider's centre.
-template <class Real> struct PointMotion { Vec3<Real> position, velocity, acceleration; };
-
-/// All that a state of a mechanism with one slider in a clearance joint tells beside its derivative.  Without a crank its numbers are 0.
-template <class Real> struct SliderReport {
+/// All that a state of a mechanism with one slider in a clearance joint tells beside its derivative.
+template <class Real> struct SliderReport : MechanismReport<Real> {
     static constexpr int apices = 8;
     ContactReport<Real> contact;
-    Real x, vx;               // slider's centre along the way
-    Real crank_power;         // of the drive: F_A · v_A, or F_x vx of the carriage [W]
-    Real crank_torque;        // (A × F_A)_z [N m]
-    Real drive_torque;        // the crank's own weight included [N m]
-    Real energy;              // E of model.md 8, contact potential included [J]
-    Real position_error;      // distance of the slider's centre from the ideal mechanism's [m]
-    Real rod_spin;            // rod's angular velocity, magnitude [rad/s]
-    Real rod_spin_z;          // its component about Z
-    Vec3<Real> acceleration;  // of the slider's centre [m/s²]
-    Real top, front;  // what sensors 10 mm above the way's Y+ and Z+ faces feel along the slider's Y and Z [m/s²]
+    Real rod_spin_z;  // the rod's angular velocity about Z [rad/s]
 
     /// Roll, yaw and pitch [rad].
     SLIDEWAY_FN static Real tilt(Real const* state, int axis) { return state[4 + axis]; }
 
     /// Value of an entry of `series_table` beyond the state.
     SLIDEWAY_FN Real series_value(int entry) const {
-        switch (static_cast<Series>(entry)) {
-            case Series::x:
-                return x;
-            case Series::vx:
-                return vx;
-            case Series::normal_force:
-                return contact.total_force();
-            case Series::crank_torque:
-                return drive_torque;
-            case Series::rod_angular_velocity:
-                return rod_spin_z;
-            case Series::surfaces:
-                return contact.surfaces;
-            case Series::lines:
-                return contact.lines;
-            case Series::points:
-                return contact.points;
-            case Series::ax:
-                return acceleration.x;
-            case Series::ay:
-                return acceleration.y;
-            case Series::az:
-                return acceleration.z;
-            case Series::acceleration_top:
-                return top;
-            case Series::acceleration_front:
-                return front;
-            default:
-                return Real(not_a_number);
-        }
+        auto const series = static_cast<Series>(entry);
+        return series == Series::rod_angular_velocity ? rod_spin_z : this->common_series(series, contact);
     }
 
     /// What the slider alone tells.  @param u motion of its centre.
     SLIDEWAY_FN void fill_slider(PointMotion<Real> const& u, SliderTurning<Real> const& turning,
                                  SliderParameters<Real> const& p) {
-        x = u.position.x;
-        vx = u.velocity.x;
-        acceleration = u.acceleration;
+        this->x = u.position.x;
+        this->vx = u.velocity.x;
+        this->acceleration = u.acceleration;
         // a + ω' × ρ + ω × (ω × ρ) along the sensor's own axis e, ρ = h e: e·a − h (|ω|² − ω_e²).
         Real const mount(0.01);
         auto const& w = turning.omega;
         Real const about_y = fma(w.x, w.x, w.z * w.z), about_z = fma(w.x, w.x, w.y * w.y);
-        top = fnma(p.joint.geometry.half_width + mount, about_y, dot(turning.axes.y, u.acceleration));
-        front = fnma(p.joint.geometry.half_depth + mount, about_z, dot(turning.axes.z, u.acceleration));
+        this->top = fnma(p.joint.geometry.half_width + mount, about_y, dot(turning.axes.y, u.acceleration));
+        this->front = fnma(p.joint.geometry.half_depth + mount, about_z, dot(turning.axes.z, u.acceleration));
     }
 
     /// Of a slider without crank and rod.  @param drive force of the drive along X [N].
@@ -87,15 +48,16 @@ template <class Real> struct SliderReport {
         Vec3<Real> gravity{p.gravity_x, p.gravity_y, zero};
         Vec3<Real> momentum{p.inertia.x * w.x, p.inertia.y * w.y, p.inertia.z * w.z};
         Real const kinetic = half * fma(p.slider_mass, dot(u.velocity, u.velocity), dot(w, momentum));
-        energy = fnma(p.slider_mass, dot(gravity, u.position), kinetic) + contact.potential;
-        crank_power = drive * u.velocity.x;
-        crank_torque = drive_torque = rod_spin = rod_spin_z = zero;
-        position_error = sqrt(fma(u.position.y, u.position.y, u.position.z * u.position.z));
+        this->energy = fnma(p.slider_mass, dot(gravity, u.position), kinetic) + contact.potential;
+        this->crank_power = drive * u.velocity.x;
+        this->crank_torque = this->drive_torque = this->rod_spin = rod_spin_z = zero;
+        this->position_error = sqrt(fma(u.position.y, u.position.y, u.position.z * u.position.z));
     }
 
-    SLIDEWAY_FN void fill(PointMotion<Real> const& a, PointMotion<Real> const& b, Real d,
-                          SliderTurning<Real> const& turning, Vec3<Real> const& contact_force,
-                          SliderParameters<Real> const& p) {
+    /// Of a slider on a rod.  @param a, b motion of the crank pin and of the slider's centre  @param d their distance along X [m]
+    SLIDEWAY_FN void fill_crank(PointMotion<Real> const& a, PointMotion<Real> const& b, Real d,
+                                SliderTurning<Real> const& turning, Vec3<Real> const& contact_force,
+                                SliderParameters<Real> const& p) {
         Real const zero(0.0), half(0.5), one(1.0);
         fill_slider(b, turning, p);
         auto const& omega = turning.omega;
@@ -106,12 +68,12 @@ template <class Real> struct SliderReport {
         auto rod_end = p.mass * b.acceleration + p.m_ab * a.acceleration - contact_force;
         auto pin_force =
             p.m_aa * a.acceleration + p.m_ab * b.acceleration + rod_end - (p.slider_mass + p.rod_mass) * gravity;
-        crank_power = dot(pin_force, a.velocity);
-        crank_torque = fms(a.position.x, pin_force.y, a.position.y * pin_force.x);
+        this->crank_power = dot(pin_force, a.velocity);
+        this->crank_torque = fms(a.position.x, pin_force.y, a.position.y * pin_force.x);
         // m_c g (r/2) cos(θ + β) = −(m_c r/2)(g_y cos θ − g_x sin θ)
         Real const inverse_r = one / p.crank_length;
         Real const lever = fms(p.gravity_y, a.position.x, p.gravity_x * a.position.y) * inverse_r;
-        drive_torque = fnma(p.crank_moment, lever, crank_torque);
+        this->drive_torque = fnma(p.crank_moment, lever, this->crank_torque);
 
         // E = ½M|u'|² + ½m_r|(1−f_r)v_A + f_r v_B|² + ½(J/L²)|v_B−v_A|² + ½ωᵀIω − M g⃗·u − m_r g⃗·((1−f_r)A + f_r B) + U.
         auto const center = p.rod_mass_center;
@@ -123,19 +85,15 @@ template <class Real> struct SliderReport {
             half * (p.slider_mass * dot(b.velocity, b.velocity) + p.rod_mass * dot(rod_velocity, rod_velocity) +
                     p.rod_spin_mass * dot(relative, relative) + dot(omega, momentum));
         Real const height = p.slider_mass * dot(gravity, b.position) + p.rod_mass * dot(gravity, rod_position);
-        energy = kinetic - height + contact.potential;
+        this->energy = kinetic - height + contact.potential;
 
-        // x − x_ideal = (D² − D0²)/(D + D0) with D0² = L² − y_A²: no difference of lengths.
-        Real const y = b.position.y, z = b.position.z, ya = a.position.y;
-        Real const ideal = sqrt(max(fnma(ya, ya, p.rod_length * p.rod_length), zero));
-        Real const shift = fnma(z, z, y * (ya + ya - y)) / (d + ideal);
-        position_error = sqrt(fma(shift, shift, fma(y, y, z * z)));
+        this->position_error = this->error_of(d, a.position.y, b.position.y, b.position.z, p.rod_length);
 
         // No spin about the rod's own axis: ω = e × (v_B − v_A)/L, e the rod's direction.
         Real const inverse_l = one / p.rod_length;
         auto along = b.position - a.position;
         auto rod_turning = inverse_l * inverse_l * cross(along, relative);
-        rod_spin = sqrt(dot(rod_turning, rod_turning));
+        this->rod_spin = sqrt(dot(rod_turning, rod_turning));
         rod_spin_z = rod_turning.z;
     }
 };

@@ -19,10 +19,11 @@ public:
     template <class Report> SLIDEWAY_FN static void integrands(Report const&, Real*) {}
     SLIDEWAY_FN Real integral(int) const { return Real(0.0); }
 
-    template <class Report> SLIDEWAY_FN void start(Mask<Real> fresh, Report const&, Real const*) {
+    template <class Report> SLIDEWAY_FN void start(Mask<Real> fresh, Report const&, Real const*, bool) {
         count_ = select(fresh, Real(0.0), count_);
     }
-    template <class Report> SLIDEWAY_FN void accept(Mask<Real>, Real, Real const*, Report const&, Real const*) {}
+    template <class Report>
+    SLIDEWAY_FN void accept(Mask<Real>, Real, Real const*, Report const&, Real const*, bool) {}
 
     /// An event in the lanes of the mask.
     SLIDEWAY_HD void event(Mask<Real> at, int, Real, Real const* state) {

@@ -13,13 +13,13 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// The scalar quantities of a pack of mechanisms with one slider.  Only the energy audit has a say in the steps:
 /// its integrals meet the tolerance too.  Integrals run over the stages with the stepper's own weights, so they have its order; peaks, mode times and onsets go by
 /// the accepted steps.
-/// @tparam conserving of the law: it makes no energy.  @tparam Report_ SliderReport or PlanarReport
-template <class Real, bool conserving = true, template <class> class Report_ = SliderReport> class SliderObserver {
+/// @tparam Report_ SliderReport or PlanarReport
+template <class Real, template <class> class Report_ = SliderReport> class SliderObserver {
 public:
     using Report = Report_<Real>;
-    /// Integrands: crank, friction and damping power, total force, torque², error², rod spin², |crank power|, the apices' forces; of
-    /// a law that switches also the springs' power.
-    static constexpr int integrals = 8 + Report::apices + (conserving ? 0 : 1);
+    /// Integrands: crank, friction and damping power, total force, torque², error², rod spin², |crank power|, the apices' forces, and
+    /// the springs' power, of which a law that switches keeps books.
+    static constexpr int integrals = 8 + Report::apices + 1;
     static constexpr int columns = quantity_columns;  // of a member's row
     /// The first of them are the energy audit's.
     static constexpr int audit_integrals = 3;
@@ -54,11 +54,12 @@ public:
         if constexpr (Report::apices > 0) {
             for (int apex = 0; apex < Report::apices; ++apex) values[8 + apex] = r.contact.apex_force(apex);
         }
-        if constexpr (!conserving) values[integrals - 1] = r.contact.elastic_power;
+        values[integrals - 1] = r.contact.elastic_power;
     }
 
     /// Begins the members in the lanes of the mask.
-    SLIDEWAY_FN void start(Mask<Real> fresh, Report const& r, Real const* state) {
+    /// @param switches of the law: it makes energy.  The same in all calls.
+    SLIDEWAY_FN void start(Mask<Real> fresh, Report const& r, Real const* state, bool switches) {
         Real const zero(0.0);
         for (auto* value : {&force_, &torque_, &error_, &spin_, &roll_, &yaw_, &pitch_, &onsets_, &largest_potential_,
                             &made_, &astray_, &exchanged_}) {
@@ -68,19 +69,20 @@ public:
         for (auto& value : apex_) value = select(fresh, zero, value);
         for (auto& value : mode_time_) value = select(fresh, zero, value);
         start_energy_ = select(fresh, r.energy, start_energy_);
-        resume(fresh, r);
+        resume(fresh, r, switches);
         mode_ = select(fresh, mode_class(r), mode_);
         take_peaks(fresh, r, state);
     }
 
     /// One accepted step of the lanes in the mask.  @param integral Σ b_s · integrand of the step's stages.
-    SLIDEWAY_FN void accept(Mask<Real> accepted, Real h, Real const* integral, Report const& r, Real const* state) {
+    SLIDEWAY_FN void accept(Mask<Real> accepted, Real h, Real const* integral, Report const& r, Real const* state,
+                            bool switches) {
         Real const zero(0.0), half(0.5);
         for (int i = 0; i < integrals; ++i) {
             integral_[i] = select(accepted, fma(h, integral[i], integral_[i]), integral_[i]);
         }
-        audit_step(accepted, h, integral, r);
-        resume(accepted, r);
+        audit_step(accepted, h, integral, r, switches);
+        resume(accepted, r, switches);
         Real const mode = mode_class(r);
         // A step between two modes is shared by halves; contact ends such steps within a small part of an impact.
         Real const share = select(accepted, half * h, zero);
@@ -95,10 +97,10 @@ public:
     }
 
     /// What the next step starts from, in the lanes of the mask; again where the law changes there without a step.
-    SLIDEWAY_FN void resume(Mask<Real> in, Report const& r) {
+    SLIDEWAY_FN void resume(Mask<Real> in, Report const& r, bool switches) {
         energy_ = select(in, r.energy, energy_);
         potential_ = select(in, r.contact.potential, potential_);
-        if constexpr (!conserving) pattern_ = select(in, r.contact.pattern(), pattern_);
+        if (switches) pattern_ = select(in, r.contact.pattern(), pattern_);
     }
 
     /// Integral of an integrand up to the last accepted step.
@@ -154,11 +156,11 @@ private:
     /// did for what they hold: E − U must follow from the powers, whatever U does.  Where the apices that touch stay the same no
     /// switch is made; nor at the border to free flight, where U is 0 on both sides: a step that leaps into the way or out of it has
     /// no such excuse.
-    SLIDEWAY_FN void audit_step(Mask<Real> accepted, Real h, Real const* integral, Report const& r) {
+    SLIDEWAY_FN void audit_step(Mask<Real> accepted, Real h, Real const* integral, Report const& r, bool switches) {
         Real const zero(0.0);
         Real made = fnma(h, integral[0] - integral[1] - integral[2], r.energy - energy_);
         Real exchanged = r.contact.potential - potential_;
-        if constexpr (!conserving) {
+        if (switches) {
             Real const taken_up = h * integral[integrals - 1];
             Real const pattern = r.contact.pattern();
             auto const may_switch = (pattern != pattern_) & (pattern != zero) & (pattern_ != zero);

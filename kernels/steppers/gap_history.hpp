@@ -1,6 +1,7 @@
 #pragma once
 
-#include "kernels/joint/contact_report.hpp"
+#include "kernels/joint/contact_memory.hpp"
+#include "kernels/laws/face.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/cubic_roots.hpp"
 

@@ -39,7 +39,7 @@ def run(
         program: path of the program; left out: SLIDEWAY_PROGRAM, else the PATH.
         threads: left out: all that this process may use.
         backend: "auto", "cpu" or "cuda".
-        isa: "auto", "scalar", "sse2", "avx2" or "avx512".
+        isa: "auto", or one of the instruction sets that ``slideway list`` names.
         progress: pass on what the program says of its progress, to stderr; warnings are passed on in any case.
         set: dotted keys and their values, in place of those of the scene: ``{"joint.clearance": "0.2 mm"}``.
         resume: go on with what an earlier run has left beside `output`.

@@ -89,7 +89,7 @@ TEST_F(Choice, OfAutoIsTheProcessorWhereTheCardLacksTheMemory) {
 TEST_F(Choice, OfTheUserIsTaken) {
     EXPECT_EQ(said({"--backend", "cuda", "--set", members(1)}), "backend cuda (simulated GPU, sm_90)");
     EXPECT_EQ(said({"--backend", "cpu", "--set", members(enough_)}), processor_);
-    EXPECT_EQ(said({"--isa", "sse2", "--set", members(enough_)}), "backend cpu (sse2, 2 lanes): as --isa says");
+    EXPECT_EQ(said({"--isa", "scalar", "--set", members(enough_)}), "backend cpu (scalar, 1 lanes): as --isa says");
 }
 
 TEST_F(Choice, WithoutACardIsTheProcessor) {

@@ -2,36 +2,15 @@
 
 #include <algorithm>
 
+#include "host/backend/by_isa.hpp"
+
 namespace slideway {
 
-namespace scalar {
-extern testing::ModelKernels const model_kernels;
-}
-namespace sse2 {
-extern testing::ModelKernels const model_kernels;
-}
-namespace avx2 {
-extern testing::ModelKernels const model_kernels;
-}
-namespace avx512 {
-extern testing::ModelKernels const model_kernels;
-}
+SLIDEWAY_BY_ISA(testing::ModelKernels const, model_kernels)
 
 namespace testing {
 
-ModelKernels const& model_kernels(Isa isa) {
-    switch (isa) {
-        case Isa::sse2:
-            return sse2::model_kernels;
-        case Isa::avx2:
-            return avx2::model_kernels;
-        case Isa::avx512:
-            return avx512::model_kernels;
-        case Isa::scalar:
-            break;
-    }
-    return scalar::model_kernels;
-}
+ModelKernels const& model_kernels(Isa isa) { return *model_kernels_by_isa(isa); }
 
 namespace {
 

@@ -7,45 +7,20 @@
 #include <string>
 #include <vector>
 
-#include "host/backend/backend.hpp"
+#include "host/backend/by_isa.hpp"
 #include "tests/parity/fixed_step_functions.hpp"
 
 namespace slideway {
 
-namespace scalar {
-extern FixedStepKernel const fixed_step_kernel;
-}
-namespace sse2 {
-extern FixedStepKernel const fixed_step_kernel;
-}
-namespace avx2 {
-extern FixedStepKernel const fixed_step_kernel;
-}
-namespace avx512 {
-extern FixedStepKernel const fixed_step_kernel;
-}
+SLIDEWAY_BY_ISA(FixedStepKernel const, fixed_step_kernel)
 
 namespace {
 
 constexpr int groups = 4;
 
-FixedStepKernel const* kernel_of(Isa isa) {
-    switch (isa) {
-        case Isa::scalar:
-            return &scalar::fixed_step_kernel;
-        case Isa::sse2:
-            return &sse2::fixed_step_kernel;
-        case Isa::avx2:
-            return &avx2::fixed_step_kernel;
-        case Isa::avx512:
-            return &avx512::fixed_step_kernel;
-    }
-    return nullptr;
-}
-
 std::vector<double> run(Isa isa, bool valve, std::vector<double> const& values, int group = 0) {
     std::vector<double> states(3 * values.size());
-    kernel_of(isa)->run({valve, values.data(), values.size(), 2000, states.data()}, group);
+    fixed_step_kernel_by_isa(isa)->run({valve, values.data(), values.size(), 2000, states.data()}, group);
     return states;
 }
 
@@ -68,9 +43,7 @@ protected:
     }
 };
 
-class FixedStepParityWithFma : public FixedStepParity {};
-
-TEST_P(FixedStepParityWithFma, GivesTheBitsOfScalarInEveryGroup) {
+TEST_P(FixedStepParity, GivesTheBitsOfScalarInEveryGroup) {
     // Not a multiple of any pack: the last group is padded.
     for (auto const& [valve, values] :
          {std::pair{false, spread(131, 0.5, 28)}, std::pair{true, spread(131, 0.2, 10)}}) {
@@ -83,7 +56,7 @@ TEST_P(FixedStepParityWithFma, GivesTheBitsOfScalarInEveryGroup) {
     }
 }
 
-TEST_P(FixedStepParityWithFma, ValveEventsAndResetsHaveTheBitsOfScalar) {
+TEST_P(FixedStepParity, ValveEventsAndResetsHaveTheBitsOfScalar) {
     // In flight, at impacts fast and slow, below and above the opening pressure, on the seat, at rest; side by side in a pack.
     double const equilibrium = 6;  // x √(x + 10) = 24
     double const states[][3] = {{0.5, 1, 8},   {0, -2, 7},   {-1e-17, -1e-7, 7},   {0, -1e-7, 10.5}, {0, 0, 9},
@@ -96,7 +69,7 @@ TEST_P(FixedStepParityWithFma, ValveEventsAndResetsHaveTheBitsOfScalar) {
     auto const evaluate = [&](Isa isa) {
         auto after = start;
         std::vector<double> events(4 * 72), at_rest(72);
-        kernel_of(isa)->valve({inflows.data(), after.data(), events.data(), at_rest.data(), 72});
+        fixed_step_kernel_by_isa(isa)->valve({inflows.data(), after.data(), events.data(), at_rest.data(), 72});
         return std::vector{after, events, at_rest};
     };
     auto const want = evaluate(Isa::scalar), got = evaluate(GetParam());
@@ -134,10 +107,7 @@ TEST_P(FixedStepParity, ADivergingNeighbourChangesNothing) {
 
 std::string isa_name(::testing::TestParamInfo<Isa> const& info) { return std::string(name_of(info.param)); }
 
-INSTANTIATE_TEST_SUITE_P(Isas, FixedStepParityWithFma, ::testing::Values(Isa::scalar, Isa::avx2, Isa::avx512),
-                         isa_name);
-INSTANTIATE_TEST_SUITE_P(Isas, FixedStepParity, ::testing::Values(Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx512),
-                         isa_name);
+INSTANTIATE_TEST_SUITE_P(Isas, FixedStepParity, ::testing::ValuesIn(built_isas()), isa_name);
 
 }  // namespace
 }  // namespace slideway

@@ -1,4 +1,4 @@
-// The linearised slider-crank: every instruction set with FMA gives the bits of the scalar build, whatever the neighbours.
+// The linearised slider-crank: every instruction set gives the bits of the scalar build, whatever the neighbours.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,28 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "host/backend/backend.hpp"
+#include "host/backend/by_isa.hpp"
 #include "tests/oracle/random_states.hpp"
 #include "tests/parity/linearisation_table.hpp"
 
 namespace slideway {
 
-namespace scalar { TableLineariser linearise_table; }
-namespace sse2 { TableLineariser linearise_table; }
-namespace avx2 { TableLineariser linearise_table; }
-namespace avx512 { TableLineariser linearise_table; }
+SLIDEWAY_BY_ISA(TableLineariser, linearise_table)
 
 namespace {
-
-TableLineariser* lineariser_of(Isa isa) {
-    switch (isa) {
-        case Isa::scalar: return &scalar::linearise_table;
-        case Isa::sse2: return &sse2::linearise_table;
-        case Isa::avx2: return &avx2::linearise_table;
-        case Isa::avx512: return &avx512::linearise_table;
-    }
-    return nullptr;
-}
 
 /// States in every mode of contact, free ones and one out of the rod's reach among them.
 std::vector<LinearisationRow> rows() {
@@ -47,7 +34,7 @@ std::vector<LinearisationRow> rows() {
 
 std::vector<double> linearised(Isa isa, Law law, std::vector<LinearisationRow> const& table) {
     std::vector<double> result(table.size() * linearisation_values);
-    lineariser_of(isa)(law, table.data(), table.size(), result.data());
+    linearise_table_by_isa(isa)(law, table.data(), table.size(), result.data());
     return result;
 }
 
@@ -61,9 +48,7 @@ protected:
     }
 };
 
-class LinearisationParityWithFma : public LinearisationParity {};
-
-TEST_P(LinearisationParityWithFma, GivesTheBitsOfScalar) {
+TEST_P(LinearisationParity, GivesTheBitsOfScalar) {
     auto const table = rows();
     for (Law const law : {Law::paper, Law::conservative}) {
         auto const want = linearised(Isa::scalar, law, table), got = linearised(GetParam(), law, table);
@@ -92,9 +77,7 @@ TEST_P(LinearisationParity, NeighboursChangeNoBit) {
 
 std::string isa_name(::testing::TestParamInfo<Isa> const& info) { return std::string(name_of(info.param)); }
 
-INSTANTIATE_TEST_SUITE_P(Isas, LinearisationParityWithFma, ::testing::Values(Isa::avx2, Isa::avx512), isa_name);
-INSTANTIATE_TEST_SUITE_P(Isas, LinearisationParity, ::testing::Values(Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx512),
-                         isa_name);
+INSTANTIATE_TEST_SUITE_P(Isas, LinearisationParity, ::testing::ValuesIn(built_isas()), isa_name);
 
 }  // namespace
 }  // namespace slideway

@@ -1,4 +1,4 @@
-// The elementary functions: every instruction set with FMA gives the bits of the scalar build, whatever the neighbours.
+// The elementary functions: every instruction set gives the bits of the scalar build, whatever the neighbours.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,15 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "host/backend/backend.hpp"
+#include "host/backend/by_isa.hpp"
 #include "tests/parity/math_functions.hpp"
 
 namespace slideway {
 
-namespace scalar { MathEvaluator evaluate_math; }
-namespace sse2 { MathEvaluator evaluate_math; }
-namespace avx2 { MathEvaluator evaluate_math; }
-namespace avx512 { MathEvaluator evaluate_math; }
+SLIDEWAY_BY_ISA(MathEvaluator, evaluate_math)
 
 namespace {
 
@@ -70,19 +67,9 @@ Arguments arguments_of(MathFunction function) {
     return a;
 }
 
-MathEvaluator* evaluator_of(Isa isa) {
-    switch (isa) {
-        case Isa::scalar: return &scalar::evaluate_math;
-        case Isa::sse2: return &sse2::evaluate_math;
-        case Isa::avx2: return &avx2::evaluate_math;
-        case Isa::avx512: return &avx512::evaluate_math;
-    }
-    return nullptr;
-}
-
 std::vector<double> evaluate(Isa isa, MathFunction function, Arguments const& a) {
     std::vector<double> result(a.x.size());
-    evaluator_of(isa)(function, a.x.data(), a.y.data(), result.data(), a.x.size());
+    evaluate_math_by_isa(isa)(function, a.x.data(), a.y.data(), result.data(), a.x.size());
     return result;
 }
 
@@ -108,9 +95,7 @@ protected:
     }
 };
 
-class MathParityWithFma : public MathParity {};
-
-TEST_P(MathParityWithFma, GivesTheBitsOfScalar) {
+TEST_P(MathParity, GivesTheBitsOfScalar) {
     for (int f = 0; f < math_function_count; ++f) {
         auto const function = static_cast<MathFunction>(f);
         auto const a = arguments_of(function);
@@ -144,8 +129,7 @@ TEST_P(MathParity, NeighboursChangeNoBit) {
 
 std::string isa_name(::testing::TestParamInfo<Isa> const& info) { return std::string(name_of(info.param)); }
 
-INSTANTIATE_TEST_SUITE_P(Isas, MathParityWithFma, ::testing::Values(Isa::avx2, Isa::avx512), isa_name);
-INSTANTIATE_TEST_SUITE_P(Isas, MathParity, ::testing::Values(Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx512), isa_name);
+INSTANTIATE_TEST_SUITE_P(Isas, MathParity, ::testing::ValuesIn(built_isas()), isa_name);
 
 }  // namespace
 }  // namespace slideway

@@ -7,38 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "host/backend/backend.hpp"
+#include "host/backend/by_isa.hpp"
 #include "tests/parity/twin_functions.hpp"
 
 namespace slideway {
 
-namespace scalar {
-extern TwinKernel const twin_kernel;
-}
-namespace sse2 {
-extern TwinKernel const twin_kernel;
-}
-namespace avx2 {
-extern TwinKernel const twin_kernel;
-}
-namespace avx512 {
-extern TwinKernel const twin_kernel;
-}
+SLIDEWAY_BY_ISA(TwinKernel const, twin_kernel)
 
 namespace {
-
-TwinKernel const& kernel_of(Isa isa) {
-    switch (isa) {
-        case Isa::sse2:
-            return sse2::twin_kernel;
-        case Isa::avx2:
-            return avx2::twin_kernel;
-        case Isa::avx512:
-            return avx512::twin_kernel;
-        default:
-            return scalar::twin_kernel;
-    }
-}
 
 bool same_bits(std::vector<double> const& a, std::vector<double> const& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
@@ -49,7 +25,7 @@ protected:
     void SetUp() override {
         if (!is_supported(GetParam())) GTEST_SKIP() << "this machine has no " << name_of(GetParam());
     }
-    TwinKernel const& kernel() const { return kernel_of(GetParam()); }
+    TwinKernel const& kernel() const { return *twin_kernel_by_isa(GetParam()); }
 };
 
 TEST_P(TwinParity, EveryOperationIsThatOfItsHalves) {
@@ -136,16 +112,13 @@ TEST_P(TwinParity, IdleLanesOfEitherHalfChangeNothing) {
     for (std::size_t const members : {1u, 5u, 8u, 9u, 17u}) expect_same(valves_of(kernel(), true, members), want);
 }
 
-class TwinParityWithFma : public TwinParity {};
-
-TEST_P(TwinParityWithFma, ValvesAreThoseOfScalar) {
-    expect_same(valves_of(kernel(), true), valves_of(scalar::twin_kernel, false));
+TEST_P(TwinParity, ValvesAreThoseOfScalar) {
+    expect_same(valves_of(kernel(), true), valves_of(*twin_kernel_by_isa(Isa::scalar), false));
 }
 
 std::string isa_name(::testing::TestParamInfo<Isa> const& info) { return std::string(name_of(info.param)); }
 
-INSTANTIATE_TEST_SUITE_P(Isas, TwinParity, ::testing::Values(Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx512), isa_name);
-INSTANTIATE_TEST_SUITE_P(Isas, TwinParityWithFma, ::testing::Values(Isa::avx2, Isa::avx512), isa_name);
+INSTANTIATE_TEST_SUITE_P(Isas, TwinParity, ::testing::ValuesIn(built_isas()), isa_name);
 
 }  // namespace
 }  // namespace slideway

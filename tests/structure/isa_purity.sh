@@ -9,8 +9,8 @@ set -euo pipefail
 export LC_ALL=C
 
 # Pattern of the xsimd architecture of an instruction set; those that contain a wider one's belong to that one.
-declare -A arch=([scalar]='' [sse2]='xsimd::sse2' [avx2]='xsimd::fma3<xsimd::avx2' [avx512]='xsimd::avx512')
-declare -A wider=([scalar]='' [sse2]='xsimd::(avx|fma|sse[34]|ssse)' [avx2]='xsimd::avx512' [avx512]='')
+declare -A arch=([scalar]='' [scalar_libm]='' [avx2]='xsimd::fma3<xsimd::avx2' [avx512]='xsimd::avx512' [neon]='xsimd::neon64')
+declare -A wider=([scalar]='' [scalar_libm]='' [avx2]='xsimd::avx512' [avx512]='' [neon]='')
 
 # May be merged: data, not instructions.
 #   DW.ref.…                      pointer to the exception personality routine, made by the compiler
@@ -22,13 +22,25 @@ objects=0
 bad=0
 while read -r library object; do
     [[ -n $library ]] || continue
-    isa=${library#slideway_kernels_}
-    isa=${isa%%_*}
-    if [[ ! -v arch[$isa] ]]; then
-        echo "isa_purity: no rule for the instruction set '$isa' of $library" >&2
+    isa=''
+    for known in "${!arch[@]}"; do
+        if [[ $library == "slideway_kernels_${known}_"* ]] && ((${#known} > ${#isa})); then isa=$known; fi
+    done
+    if [[ -z $isa ]]; then
+        echo "isa_purity: no rule for the instruction set of $library" >&2
         exit 1
     fi
     symbols=$(nm -C --defined-only "$object")
+    # It runs where there is neither AVX nor FMA: none of their instructions (v…), nor what came with them.
+    if [[ $isa == scalar_libm ]]; then
+        later=$(objdump -d --no-show-raw-insn "$object" | awk -F'\t' '$2 ~ /^(v[a-z]|popcnt|[tl]zcnt|andn |pext|pdep|movbe)/ {
+            print "  " $2; if (++count == 3) exit }')
+        if [[ -n $later ]]; then
+            echo "$object: not of every processor:"
+            echo "$later"
+            bad=$((bad + 1))
+        fi
+    fi
     # A unit whose kernels are not in its namespace would make the check below pass for the wrong reason.
     if ! grep -q "slideway::$isa::" <<<"$symbols"; then
         echo "$object: nothing in slideway::$isa::"

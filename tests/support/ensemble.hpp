@@ -66,10 +66,10 @@ inline EnsembleResult run(Isa isa, RunOptions const& options, std::vector<Inputs
     return r;
 }
 
-/// The instruction sets with FMA that this machine has: those that must agree bit for bit.
-inline std::vector<Isa> fma_isas() {
+/// The instruction sets of this build that this machine has.
+inline std::vector<Isa> supported_isas() {
     std::vector<Isa> found;
-    for (Isa const isa : {Isa::scalar, Isa::avx2, Isa::avx512}) {
+    for (Isa const isa : built_isas()) {
         if (is_supported(isa)) found.push_back(isa);
     }
     return found;

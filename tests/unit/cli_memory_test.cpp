@@ -22,7 +22,8 @@ protected:
     /// The most memory that a run of two threads has at once [B].
     double peak_of(std::string const& text, std::vector<std::string> options = {}) const {
         write("s.toml", text);
-        options.insert(options.begin(), {"run", "s.toml", "--quiet", "--isa", "sse2", "--threads", "2", "-o", "r.nc"});
+        options.insert(options.begin(),
+                       {"run", "s.toml", "--quiet", "--isa", "scalar", "--threads", "2", "-o", "r.nc"});
         pid_t const child = start(std::move(options));
         int status = 0;
         rusage usage{};
@@ -39,7 +40,7 @@ TEST_F(Needs, OfMemoryAreMoreThanWhatARunTakesButNotThrice) {
     double const program = peak_of(scene("design = \"mc\"\nmembers = 10"));
     for (std::string const design : {"design = \"mc\"\nmembers = 400000", "design = \"saltelli\"\nbase = 131072"}) {
         double const taken = peak_of(scene(design)) - program;
-        auto const told = static_cast<double>(predict(scene_of(scene(design)), *cpu_backend(Isa::sse2), 2).memory());
+        auto const told = static_cast<double>(predict(scene_of(scene(design)), *cpu_backend(Isa::scalar), 2).memory());
         EXPECT_LT(taken, told) << design;
         EXPECT_LT(told, 3 * taken) << design;
     }
@@ -58,7 +59,7 @@ TEST_F(Needs, OfTheDiskHoldWhatSmallBlocksTake) {
     EXPECT_EQ(count, 40u);
     std::filesystem::remove_all(path("r.nc.shards"));
     peak_of(text);
-    Prediction const told = predict(scene_of(text), *cpu_backend(Isa::sse2), 2, 10);
+    Prediction const told = predict(scene_of(text), *cpu_backend(Isa::scalar), 2, 10);
     EXPECT_LT(shards, told.shard_bytes);
     EXPECT_LT(told.shard_bytes, 2 * shards);
     std::uintmax_t const result = std::filesystem::file_size(path("r.nc"));

@@ -111,7 +111,7 @@ TEST_P(OrbitsOverInstructions, HaveTheBitsOfTheScalarRun) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Studies, OrbitsOverInstructions,
-                         ::testing::Combine(::testing::ValuesIn(studies), ::testing::Values(Isa::avx2, Isa::avx512)),
+                         ::testing::Combine(::testing::ValuesIn(studies), ::testing::ValuesIn(built_isas())),
                          [](auto const& info) {
                              return fmt::format("{}_{}", std::get<0>(info.param).name,
                                                 name_of(std::get<1>(info.param)));

@@ -1,6 +1,8 @@
 // Runs that are divided among the jobs of an array, and the file that is made of their shards.
 #include "cli_resumed.hpp"
 
+#include "host/backend/backend.hpp"
+
 namespace slideway::testing {
 namespace {
 
@@ -44,10 +46,22 @@ TEST_F(Parts, LeaveEachOtherAlone) {
 }
 
 TEST_F(Parts, OfAnotherArithmeticAreRefused) {
-    EXPECT_EQ(run_scene({"--quiet", "--shard", "1/2", "--isa", "sse2"}).code, 0);
-    expect_refusal(2, "(the arithmetic was unfused (--isa sse2), is fused)",
-                   {"run", "s.toml", "--quiet", "--shard", "2/2", "--isa", "scalar"});
-    EXPECT_EQ(run_scene({"--quiet", "--shard", "2/2", "--isa", "sse2"}).code, 0);
+    EXPECT_EQ(run_scene({"--quiet", "--shard", "1/2"}).code, 0);
+    let_shards_be_contracted();
+    expect_refusal(2, "(the arithmetic was contracted (a build with SLIDEWAY_CUDA_FMAD), is fused)",
+                   {"run", "s.toml", "--quiet", "--shard", "2/2"});
+}
+
+TEST_F(Parts, MayHaveInstructionSetsOfTheirOwn) {
+    ASSERT_EQ(run_scene({"--quiet", "-o", "whole.nc"}).code, 0);
+    std::size_t part = 0;
+    std::string const count = std::to_string(built_isas().size());
+    for (Isa const isa : built_isas()) {
+        std::string const name(name_of(is_supported(isa) ? isa : Isa::scalar));
+        EXPECT_EQ(run_scene({"--quiet", "--shard", std::to_string(++part) + "/" + count, "--isa", name}).code, 0);
+    }
+    EXPECT_EQ(run({"merge", "s.nc.shards", "-o", "s.nc"}).code, 0);
+    EXPECT_EQ(hash_of("s.nc"), hash_of("whole.nc"));
 }
 
 TEST_F(Parts, MayBeMoreThanTheMembers) {

@@ -37,7 +37,7 @@ TEST_P(GoldenTable, IsMetInEveryColumn) {
 INSTANTIATE_TEST_SUITE_P(Probe, GoldenTable,
                          ::testing::Combine(::testing::Values("rhs_paper.csv", "rhs_conservative.csv",
                                                               "rhs_parameters.csv"),
-                                            ::testing::Values(Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx512)),
+                                            ::testing::ValuesIn(built_isas())),
                          [](auto const& info) {
                              std::string const& name = std::get<0>(info.param);
                              return name.substr(4, name.size() - 8) + "_" +

@@ -1,6 +1,7 @@
 // The same bits however a run is shared out: ranks, threads, blocks, jobs of an array, resumed or not.
 #include "cli_shards.hpp"
 
+#include "host/backend/backend.hpp"
 #include "tests/support/failing_calls.hpp"
 
 namespace slideway::testing {
@@ -137,8 +138,9 @@ TEST_F(SharedRun, GoesOnAfterOneRankWasKilled) {
 TEST_F(SharedRun, HasTheArithmeticOfRankZeroAtEveryRank) {
     // Machines that are not alike, as one launcher starts them.
     std::string const program = "'" SLIDEWAY_BINARY "' run s.toml --quiet --threads 1 --block-members 4 -o ";
-    for (char const* const leader : {"sse2", "scalar"}) {
-        std::string const other = std::string(leader) == "sse2" ? "scalar" : "sse2";
+    std::string const widest(name_of(best_isa()));
+    for (std::string const& leader : {widest, std::string("scalar")}) {
+        std::string const other = leader == widest ? "scalar" : widest;
         expect_done(program + "alone.nc --isa " + leader);
         expect_done(mpirun(1) + program + "o.nc --isa " + leader + " : -n 2 " + program + "o.nc --isa " + other);
         expect_result(hash_of("alone.nc"));

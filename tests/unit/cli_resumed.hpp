@@ -44,6 +44,13 @@ protected:
         EXPECT_EQ(shards_in("s.nc.shards"), 8u);
         EXPECT_FALSE(exists("s.nc"));
     }
+    /// As those of a card are whose compiler joined multiplications and additions.
+    void let_shards_be_contracted() const {
+        std::string text = file_text(path("s.nc.shards/run.toml"));
+        auto const at = text.find("arithmetic: fused");
+        ASSERT_NE(at, std::string::npos);
+        std::ofstream(path("s.nc.shards/run.toml"), std::ios::binary) << text.replace(at, 17, "arithmetic: contracted");
+    }
     /// Without those of members 16 to 23 and 40 to 47.
     void make_unfinished() const {
         make_shards();

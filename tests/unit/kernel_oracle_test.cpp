@@ -24,7 +24,7 @@ TEST_P(KernelsAgainstOracle, AgreeOnThousandsOfStates) {
     EXPECT_GT(compared, 3500);
 }
 
-INSTANTIATE_TEST_SUITE_P(Isas, KernelsAgainstOracle, ::testing::Values(Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx512),
+INSTANTIATE_TEST_SUITE_P(Isas, KernelsAgainstOracle, ::testing::ValuesIn(built_isas()),
                          [](auto const& p) { return std::string(name_of(p.param)); });
 
 }  // namespace

@@ -166,7 +166,7 @@ TEST_P(Lanes, OfNobodyDoNothing) {
     EXPECT_EQ(r.lane_steps_executed, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Isas, Lanes, ::testing::Values(Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx512),
+INSTANTIATE_TEST_SUITE_P(Isas, Lanes, ::testing::ValuesIn(built_isas()),
                          [](auto const& info) { return std::string(name_of(info.param)); });
 
 }  // namespace

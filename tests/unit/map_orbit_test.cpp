@@ -138,7 +138,7 @@ TEST_P(Maps, OfNobodyDoNothing) {
     EXPECT_EQ(still.states, (std::vector<double>{0.5, 0.25})) << "without stops there are no steps";
 }
 
-INSTANTIATE_TEST_SUITE_P(Isas, Maps, ::testing::Values(Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx512),
+INSTANTIATE_TEST_SUITE_P(Isas, Maps, ::testing::ValuesIn(built_isas()),
                          [](auto const& info) { return std::string(name_of(info.param)); });
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace {
 using testing::compare_probe;
 using testing::Comparison;
 
-auto const isas = ::testing::Values(Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx512);
+auto const isas = ::testing::ValuesIn(built_isas());
 
 class SlidersAgainstOracle : public ::testing::TestWithParam<std::tuple<Mechanism, Isa>> {};
 

@@ -118,9 +118,9 @@ TEST(RunIdentity, TellsOfAnotherArithmetic) {
     for (char const* const isa : {"scalar", "avx2", "avx512"}) EXPECT_EQ(arithmetic_of(isa), "fused") << isa;
     RunIdentity const before = identity_of();
     RunIdentity other = before;
-    other.arithmetic = arithmetic_of("sse2");
-    EXPECT_EQ(other.difference(before), "the arithmetic was fused, is unfused (--isa sse2)");
-    EXPECT_EQ(before.difference(other), "the arithmetic was unfused (--isa sse2), is fused");
+    other.arithmetic = arithmetic_of("sm_90-fmad");
+    EXPECT_EQ(other.difference(before), "the arithmetic was fused, is contracted (a build with SLIDEWAY_CUDA_FMAD)");
+    EXPECT_EQ(before.difference(other), "the arithmetic was contracted (a build with SLIDEWAY_CUDA_FMAD), is fused");
     EXPECT_EQ(parse_identity(identity_text(other), "run.toml").difference(other), "");
 }
 

@@ -44,7 +44,7 @@ TEST_P(GoldenTrajectories, AreMetAtTightTolerance) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Isas, GoldenTrajectories, ::testing::Values(Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx512),
+INSTANTIATE_TEST_SUITE_P(Isas, GoldenTrajectories, ::testing::ValuesIn(built_isas()),
                          [](auto const& p) { return std::string(name_of(p.param)); });
 
 }  // namespace

@@ -1,23 +1,39 @@
-// What moves a slider along the way that has no crank.
 #pragma once
 
 #include "kernels/math/trigonometry.hpp"
-#include "kernels/mechanisms/slider_base.hpp"
+#include "kernels/mechanisms/drive.hpp"
+#include "kernels/mechanisms/mechanism_info.hpp"
+#include "kernels/mechanisms/spatial_slider.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Position, velocity and acceleration along the way's nominal direction.
-template <class Real> struct AlongWay { Real x, vx, ax; };
+/// Its period is to and fro.
+struct CarriageBase : DrivenBase {
+    SLIDEWAY_HD static SliderParameters<double> parameters(Inputs const& in) {
+        auto p = DrivenBase::parameters(in);
+        p.rate_scale = max(3.14159265358979323846 * p.stroke_rate, 1.0);
+        return p;
+    }
+};
 
 /// The rig of the paper's experiment (Qian et al. 2020, section 2; model.md 7): from x = 0 at +v for T_s = stroke/v, turned round by
 /// v cos(π τ/t_r) within t_r, back likewise, and so on.  Position, velocity and acceleration are continuous after the start.
-struct CarriageDrive : CarriageBase {
+struct CarriageDrive : DrivenGuide<CarriageDrive> {
+    using Base = CarriageBase;
     static constexpr bool is_free = false;
+    static constexpr MechanismInfo info = [] {
+        auto info = spatial_slider_info();
+        info.name = "carriage";
+        info.meaning = "slider moved to and fro along the way at constant speed, as in the paper's experiment";
+        info.keys |= groups_of(KeyGroup::carriage);
+        info.drive = DriveKind::carriage;
+        return info;
+    }();
 
     /// @param t time [s], at least 0.
     template <class Real>
-    SLIDEWAY_FN static AlongWay<Real> along(Real t, Real const*, SliderParameters<Real> const& p) {
+    SLIDEWAY_FN static AlongWay<Real> motion(Real t, Real const*, SliderParameters<Real> const& p) {
         Real const zero(0.0), half(0.5);
         // Half periods done; whether the last bit of t counts as the end of one or the start of the next makes no difference.
         Real const strokes = round_even(fma(t, p.stroke_rate, negated(half)));
@@ -34,14 +50,6 @@ struct CarriageDrive : CarriageBase {
     }
 };
 
-/// Nothing: x and vx join the state, behind the ten.
-struct NoDrive : FreeSliderBase {
-    static constexpr bool is_free = true;
-
-    /// Without the acceleration, which the forces give.
-    template <class Real> SLIDEWAY_FN static AlongWay<Real> along(Real, Real const* s, SliderParameters<Real> const&) {
-        return {s[10], s[11], Real(0.0)};
-    }
-};
+using Carriage = SpatialSlider<CarriageDrive>;
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "kernels/inputs.hpp"
+#include "kernels/laws/law_info.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// What holds for all members of a block: the equations branch on it once for all lanes, and never select by it per lane.
+/// @tparam Laws how the contact law is called: `OneLaw`, `AnyLaw` or `LawFunctions`
+template <class Laws> struct Conditions {
+    Laws law;
+    bool friction = false;
+    bool misaligned_way = false;
+    bool switches = false;   // LawInfo::switches
+    bool remembers = false;  // impact speeds: Damping::restitution
+    bool free_crank = false;
+
+    constexpr Conditions(Laws const& of_law, bool law_switches, Parts const& parts)
+        : law(of_law),
+          friction(parts.friction),
+          misaligned_way(parts.misaligned_way),
+          switches(law_switches),
+          remembers(parts.damping == Damping::restitution),
+          free_crank(parts.free_crank) {}
+
+    /// Whether a step may hold its contacts.
+    SLIDEWAY_FN bool can_hold() const { return switches && !remembers; }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

@@ -1,0 +1,33 @@
+// What a contact law is, for those who choose, check and describe it.  Plain data outside the ISA namespace: every unit may share it.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "kernels/inputs.hpp"
+
+namespace slideway {
+
+/// Stands in the law's own header, as `Law::info`.
+struct LawInfo {
+    std::string_view name;   // contact.law
+    std::string_view words;  // one line: what it does
+    bool switches;           // between modes, where its potential jumps: it makes energy, and steps may end there
+    KeyGroups groups;        // of the keys of contacts, those that count for it
+    std::span<Key const> keys = {};  // its own, on Inputs::law_a … law_d
+
+    /// Which kinds of damping it has: η and a coefficient of restitution on points, χ on edges; `point` stands for what is its own.
+    constexpr bool has(Damping damping) const {
+        switch (damping) {
+            case Damping::point:
+                return true;
+            case Damping::rate:
+                return has_group(groups, KeyGroup::edges);
+            case Damping::restitution:
+                return has_group(groups, KeyGroup::point_damping);
+        }
+        return false;
+    }
+};
+
+}  // namespace slideway

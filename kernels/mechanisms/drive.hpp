@@ -1,0 +1,86 @@
+#pragma once
+
+#include "kernels/mechanisms/faults.hpp"
+#include "kernels/mechanisms/slider_base.hpp"
+#include "kernels/mechanisms/slider_linearisation.hpp"
+#include "kernels/mechanisms/slider_report.hpp"
+#include "kernels/mechanisms/slider_turning.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Position, velocity and acceleration along the way's nominal direction.
+template <class Real> struct AlongWay { Real x, vx, ax; };
+
+/// What guides a slider without crank and rod: M u'' = F_c + M g⃗, of which x'' is given where a drive moves it (model.md 7).
+/// @tparam Drive has `motion(t, state, parameters)`, an AlongWay, and `is_free`: nothing drives it, x and vx are numbers 10 and 11 of the
+/// state and the forces give its acceleration.
+template <class Drive> struct DrivenGuide {
+    template <class Real> class At {
+    public:
+        Real x, vx;
+
+        SLIDEWAY_FN At(Real t, Real const* s, SliderParameters<Real> const& p, Faults<Real>&) {
+            auto along = Drive::motion(t, s, p);
+            x = along.x;
+            vx = along.vx;
+            ax_ = along.ax;
+        }
+
+        SLIDEWAY_FN Vec3<Real> accelerations(Vec3<Real> const& force, SliderParameters<Real> const& p) const {
+            Real const lightness = Real(1.0) / p.slider_mass;
+            return {Drive::is_free ? fma(force.x, lightness, p.gravity_x) : ax_, fma(force.y, lightness, p.gravity_y),
+                    force.z * lightness};
+        }
+
+        SLIDEWAY_FN void put_rates([[maybe_unused]] Vec3<Real> const& acceleration, [[maybe_unused]] Real* rates) const {
+            if constexpr (Drive::is_free) {
+                rates[10] = vx;
+                rates[11] = acceleration.x;
+            }
+        }
+
+        SLIDEWAY_FN void tell(PointMotion<Real> const& centre, SliderTurning<Real> const& turning,
+                              Vec3<Real> const& force, SliderParameters<Real> const& p,
+                              SliderReport<Real>& report) const {
+            // M x'' − F_cx − M g_x
+            Real const drive =
+                Drive::is_free ? Real(0.0) : fms(p.slider_mass, centre.acceleration.x - p.gravity_x, force.x);
+            report.fill_guided(centre, turning, drive, p);
+        }
+
+    private:
+        Real ax_;
+    };
+
+    /// Along X the slider is driven, or no contact is stiff.
+    template <class Real> struct Constraint {
+        Real x, vx;
+
+        SLIDEWAY_FN Constraint(Real t, Real const* s, SliderParameters<Real> const& p) {
+            auto const along = Drive::motion(t, s, p);
+            x = along.x;
+            vx = along.vx;
+        }
+        SLIDEWAY_FN void masses(SliderParameters<Real> const& p, SliderLinearisation<Real>& out) const {
+            out.mass_y = out.mass_z = p.slider_mass;
+            out.mass_yz = Real(0.0);
+        }
+        SLIDEWAY_FN Translation<Real> project(Vec3<Real> const& force) const { return {force.y, force.z}; }
+    };
+
+    template <class Real> SLIDEWAY_FN static Real along(Real t, Real const* s, SliderParameters<Real> const& p) {
+        return Drive::motion(t, s, p).x;
+    }
+};
+
+/// The way of a mechanism without a rod passes through (0, offset_y, offset_z).
+struct DrivenBase : SliderBase {
+    SLIDEWAY_HD static SliderParameters<double> parameters(Inputs const& in) {
+        auto p = slider_parameters(in);
+        p.joint.way.offset.x = 0;
+        return p;
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

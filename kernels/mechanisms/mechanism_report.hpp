@@ -1,0 +1,66 @@
+#pragma once
+
+#include "kernels/math/vec3.hpp"
+#include "kernels/observers/quantities.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Motion of a point: of an end of the rod, or of the slider's centre.
+template <class Real> struct PointMotion { Vec3<Real> position, velocity, acceleration; };
+
+/// What every mechanism tells of a state beside its derivative and its contacts.  What it does not have is 0.
+template <class Real> struct MechanismReport {
+    Real x, vx;               // slider's centre along the way [m], [m/s]
+    Vec3<Real> acceleration;  // of the slider's centre [m/s²]
+    Real top, front;          // what sensors 10 mm above the way's Y+ and Z+ faces feel along the slider's Y and Z [m/s²]
+    Real crank_power;         // of the drive: F_A · v_A, or F_x vx of a slider that is driven along the way [W]
+    Real crank_torque;        // (A × F_A)_z [N m]
+    Real drive_torque;        // the crank's own weight included [N m]
+    Real energy;              // E of model.md 8, contact potential included [J]
+    Real position_error;      // distance of the slider's centre from the ideal mechanism's [m]
+    Real rod_spin;            // rod's angular velocity, magnitude [rad/s]
+
+    /// Value of an entry of `series_table` that all mechanisms may have; NaN of another.  @param contact of the report
+    template <class Contact> SLIDEWAY_FN Real common_series(Series series, Contact const& contact) const {
+        switch (series) {
+            case Series::x:
+                return x;
+            case Series::vx:
+                return vx;
+            case Series::normal_force:
+                return contact.total_force();
+            case Series::crank_torque:
+                return drive_torque;
+            case Series::surfaces:
+                return contact.surfaces;
+            case Series::lines:
+                return contact.lines;
+            case Series::points:
+                return contact.points;
+            case Series::ax:
+                return acceleration.x;
+            case Series::ay:
+                return acceleration.y;
+            case Series::az:
+                return acceleration.z;
+            case Series::acceleration_top:
+                return top;
+            case Series::acceleration_front:
+                return front;
+            default:
+                return Real(not_a_number);
+        }
+    }
+
+protected:
+    /// Distance from the ideal mechanism's slider, whose x is √(L² − y_A²) beyond the pin: x − x_ideal = (D² − D0²)/(D + D0), no
+    /// difference of lengths.  @param d x − x_A, @param ya height of the pin, @param y, z place of the slider's centre [m]
+    SLIDEWAY_FN static Real error_of(Real d, Real ya, Real y, Real z, Real rod_length) {
+        Real const ideal = sqrt(max(fnma(ya, ya, rod_length * rod_length), Real(0.0)));
+        Real const shift = fnma(z, z, y * (ya + ya - y)) / (d + ideal);
+        return sqrt(fma(shift, shift, fma(y, y, z * z)));
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

@@ -1,0 +1,119 @@
+#pragma once
+
+#include "kernels/joint/apex.hpp"
+#include "kernels/joint/joint.hpp"
+#include "kernels/joint/joint_gaps.hpp"
+#include "kernels/mechanisms/faults.hpp"
+#include "kernels/mechanisms/slider_base.hpp"
+#include "kernels/mechanisms/slider_linearisation.hpp"
+#include "kernels/mechanisms/slider_turning.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// A slider in its clearance joint: M u'' = F of what guides it along the way, and I ω' = A_kᵀ τ − ω × I ω (model.md 6, 7).  State: y z vy
+/// vz φ ϑ ψ ωx ωy ωz, and x vx where nothing prescribes them.  Compiled once for all laws, with and without friction and a misaligned way:
+/// those are the Conditions's.
+/// @tparam Guide what moves the slider along the way.  It has `Base` (SliderBase, or what extends it), `info`, and
+///  - `At<Real>`, made of (t, state, parameters, faults): position and velocity along the way `x`, `vx`; `accelerations(force, p)`, of the
+///    slider's centre, `put_rates(acceleration, rates)` of what the state has beyond ten numbers, and `tell(…)` of the report;
+///  - `Constraint<Real>`, made of (t, state, parameters): `x`, `vx`, `masses(p, out)` of (vy, vz), and `project(force)`, what a force does to
+///    vy and vz.
+///  - `along(t, state, parameters)`: x alone, for a pose.
+template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
+    using Guide = Guide_;
+    using typename Guide_::Base;
+
+    /// Time derivative of the state.
+    /// @param t time [s]; @param s the state, `size` values; @param rates their derivatives, NaN where a fault is set.
+    /// @param report filled if Full; the derivative has the same bits without.
+    template <bool Full, class Real, class Laws>
+    SLIDEWAY_NOINLINE static Faults<Real> derivative(Real t, Real const* s, SliderParameters<Real> const& p,
+                                                     ContactMemory<Real> const& memory, Conditions<Laws> const& block,
+                                                     Real* rates, SliderReport<Real>* report) {
+        auto faults = Faults<Real>::none();
+        typename Guide::template At<Real> guide(t, s, p, faults);
+        auto turning = SliderTurning<Real>::of(s);
+        auto const& way = p.joint.way;
+        Vec3<Real> position{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
+        auto motion = joint_motion(block.misaligned_way, turning.axes, position, velocity, turning.spin, way);
+        Joint<Real, Laws, Full> joint(motion, memory, p.joint, block, Full ? &report->contact : nullptr);
+        auto wrench = joint.wrench(faults.contact_domain);
+        auto force = to_inertial(block.misaligned_way, wrench.force, way);
+        auto acceleration = guide.accelerations(force, p);
+        rates[0] = velocity.y;
+        rates[1] = velocity.z;
+        rates[2] = acceleration.y;
+        rates[3] = acceleration.z;
+        turning.put_rates(wrench.torque, motion.axes, p.inertia, p.inverse_inertia, rates);
+        guide.put_rates(acceleration, rates);
+        if constexpr (Full) guide.tell({position, velocity, acceleration}, turning, force, p, *report);
+        return faults;
+    }
+
+    /// Linearises it about one state; the same arguments as the derivative.  NaN where that has a fault.
+    template <class Real, class Laws>
+    SLIDEWAY_NOINLINE static void linearise(Real t, Real const* s, SliderParameters<Real> const& p,
+                                            ContactMemory<Real> const& memory, Conditions<Laws> const& block,
+                                            SliderLinearisation<Real>& out) {
+        typename Guide::template Constraint<Real> const guide(t, s, p);
+        guide.masses(p, out);
+        out.inertia = p.inertia;
+        auto turning = SliderTurning<Real>::of(s);
+        out.roll = turning.angles.roll;
+        out.yaw = turning.angles.yaw;
+        auto const& slider = turning.axes;
+        auto const& way = p.joint.way;
+        Vec3<Real> const velocity{guide.vx, s[2], s[3]};
+        JointFrame<Real> frame;
+        frame.motion = joint_motion(block.misaligned_way, slider, Vec3<Real>{guide.x, s[0], s[1]}, velocity, turning.spin, way);
+        frame.velocity = {dot(slider.x, velocity), dot(slider.y, velocity), dot(slider.z, velocity)};
+        frame.spin = turning.omega;
+        frame.x = guide.project(slider.x);
+        frame.y = guide.project(slider.y);
+        frame.z = guide.project(slider.z);
+        Real const zero(0.0);
+        auto const normal = [&](Vec3<Real> const& axis) {
+            return guide.project(to_inertial(block.misaligned_way, Vec3<Real>{zero, axis.y, axis.z}, way));
+        };
+        frame.y_normal = normal(frame.motion.axes.y);
+        frame.z_normal = normal(frame.motion.axes.z);
+        JointLinearisation<Real, Laws> joint(frame, memory, p.joint, block, out.joint);
+        out.touching = joint.fill();
+    }
+
+    /// Which apices touch, as a number: members of one pattern have the same work to do.
+    template <class Real>
+    SLIDEWAY_NOINLINE static Real contact_pattern(Real t, Real const* s, SliderParameters<Real> const& p, bool misaligned) {
+        return slideway::contact_pattern(pose(t, s, p, misaligned), p.joint.geometry);
+    }
+
+    /// Mean speed, in units of c ω, at which the fastest of the apices that come into contact in a step has approached its face; 0 where
+    /// none does.
+    template <class Real>
+    SLIDEWAY_NOINLINE static Real approach_speed(Real t, Real const* s, Real step, Real const* end,
+                                                 SliderParameters<Real> const& p, bool misaligned) {
+        Real const way =
+            longest_approach(pose(t, s, p, misaligned), pose(t + step, end, p, misaligned), p.joint.geometry);
+        return way / (step * max(p.length_scale_y, p.length_scale_z) * p.rate_scale);
+    }
+
+    /// Gap of an apex to the face on its side: its penetration negated [m].
+    template <class Real, class Laws>
+    SLIDEWAY_NOINLINE static Real gap(Real t, Real const* s, SliderParameters<Real> const& p,
+                                      Conditions<Laws> const& block, Apex apex) {
+        return negated(penetration(pose(t, s, p, block.misaligned_way), p.joint.geometry, apex));
+    }
+
+private:
+    /// Where the slider is in its joint; without its motion.
+    template <class Real>
+    SLIDEWAY_FN static JointMotion<Real> pose(Real t, Real const* s, SliderParameters<Real> const& p, bool misaligned) {
+        Real const zero(0.0);
+        Vec3<Real> const still{zero, zero, zero};
+        return joint_motion(misaligned, axes(attitude(s[4], s[5], s[6])), Vec3<Real>{Guide::along(t, s, p), s[0], s[1]},
+                            still, still, p.joint.way);
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "kernels/conditions.hpp"
+#include "kernels/mechanisms/faults.hpp"
+#include "kernels/models/slider_lanes.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// What lanes ask of the conditions of a block.
+/// @tparam Derived has `block`, its Conditions, and `neighbours`, whether members have some beside them
+template <class Laws> struct ConditionsOfBlock {
+    Conditions<Laws> block;
+
+    SLIDEWAY_HD bool switches() const { return block.switches; }
+    /// At which events of the contacts steps end.  @param neighbours members have some beside them
+    SLIDEWAY_HD Watching watching(bool locate_modes, bool neighbours) const {
+        if (block.remembers) return neighbours && block.switches ? Watching::touches_and_parts : Watching::touches;
+        return block.can_hold() && locate_modes ? Watching::modes : Watching::nothing;
+    }
+};
+
+/// A mechanism as the lanes integrate it, whose equations are known when the lanes are compiled: every call names its function.
+/// @tparam Base of the mechanism's row in mechanisms/list.hpp  @tparam Laws OneLaw or AnyLaw
+template <class Mechanism, class Base, class Laws> struct MechanismModel : Mechanism, LanesOf<Base>, ConditionsOfBlock<Laws> {
+    template <class Real> using Parameters = typename Mechanism::template Parameters<Real>;
+    template <class Real> using Memory = typename LanesOf<Base>::template Memory<Real>;
+    template <class Real> using Report = typename Mechanism::template Report<Real>;
+
+    explicit constexpr MechanismModel(Conditions<Laws> const& conditions) : ConditionsOfBlock<Laws>{conditions} {}
+
+    template <bool Full, class Real>
+    SLIDEWAY_FN Faults<Real> derivative(Real t, Real const* state, Parameters<Real> const& p, Memory<Real> const& memory,
+                                        Real* rates, Report<Real>* report) const {
+        return Mechanism::template derivative<Full>(t, state, p, memory, this->block, rates, report);
+    }
+    template <class Real, class Linearisation>
+    SLIDEWAY_FN void linearise(Real t, Real const* state, Parameters<Real> const& p, Memory<Real> const& memory,
+                               Linearisation& out) const {
+        Mechanism::linearise(t, state, p, memory, this->block, out);
+    }
+    template <class Real> SLIDEWAY_FN Real contact_pattern(Real t, Real const* state, Parameters<Real> const& p) const {
+        return Mechanism::contact_pattern(t, state, p, this->block.misaligned_way);
+    }
+    template <class Real>
+    SLIDEWAY_FN Real gap(Real t, Real const* state, Parameters<Real> const& p, bool z_faces, int apex) const {
+        return Mechanism::gap(t, state, p, this->block, {z_faces, apex});
+    }
+    template <class Real>
+    SLIDEWAY_FN Real approach_speed(Real t, Real const* state, Real step, Real const* end, Parameters<Real> const& p) const {
+        return Mechanism::approach_speed(t, state, step, end, p, this->block.misaligned_way);
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

@@ -1,0 +1,78 @@
+#pragma once
+
+#include "kernels/joint/apex.hpp"
+#include "kernels/mechanisms/faults.hpp"
+#include "kernels/models/mechanism_model.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// The equations of a mechanism behind pointers.  A call costs what a call costs; the derivative is a function of its own in any case.
+template <class Real, class Base> struct MechanismFunctions {
+    using Block = Conditions<LawFunctions<Real>>;
+    using Parameters = typename Base::template Parameters<Real>;
+    using Memory = typename LanesOf<Base>::template Memory<Real>;
+    using Report = typename Base::template Report<Real>;
+    using Derivative = Faults<Real>(Real, Real const*, Parameters const&, Memory const&, Block const&, Real*, Report*);
+
+    typename Base::template Parameters<double> (*parameters)(Inputs const&) = nullptr;
+    Derivative* lean = nullptr;
+    Derivative* full = nullptr;
+    Real (*gap)(Real, Real const*, Parameters const&, Block const&, Apex) = nullptr;
+    // Of mechanisms with a linearisation and contact patterns.
+    void (*linearise)(Real, Real const*, Parameters const&, Memory const&, Block const&, SliderLinearisation<Real>&) = nullptr;
+    Real (*contact_pattern)(Real, Real const*, Parameters const&, bool) = nullptr;
+    Real (*approach_speed)(Real, Real const*, Real, Real const*, Parameters const&, bool) = nullptr;
+
+    template <class Mechanism> static constexpr MechanismFunctions of() {
+        static_assert(Mechanism::size == Base::size);
+        using Laws = LawFunctions<Real>;
+        MechanismFunctions functions;
+        functions.parameters = &Mechanism::parameters;
+        functions.lean = &Mechanism::template derivative<false, Real, Laws>;
+        functions.full = &Mechanism::template derivative<true, Real, Laws>;
+        functions.gap = &Mechanism::template gap<Real, Laws>;
+        if constexpr (LanesOf<Base>::has_linearisation) {
+            functions.linearise = &Mechanism::template linearise<Real, Laws>;
+            functions.contact_pattern = &Mechanism::template contact_pattern<Real>;
+            functions.approach_speed = &Mechanism::template approach_speed<Real>;
+        }
+        return functions;
+    }
+};
+
+/// A mechanism whose equations are looked up: the lanes are compiled once for all mechanisms of a base.
+template <class Real, class Base> struct MechanismTable : Base, LanesOf<Base>, ConditionsOfBlock<LawFunctions<Real>> {
+    using Functions = MechanismFunctions<Real, Base>;
+    template <class Number> using Parameters = typename Base::template Parameters<Number>;
+    template <class Number> using Memory = typename LanesOf<Base>::template Memory<Number>;
+    template <class Number> using Report = typename Base::template Report<Number>;
+
+    Functions functions;
+
+    constexpr MechanismTable(Functions const& of_mechanism, Conditions<LawFunctions<Real>> const& conditions)
+        : ConditionsOfBlock<LawFunctions<Real>>{conditions}, functions(of_mechanism) {}
+
+    Parameters<double> parameters(Inputs const& inputs) const { return functions.parameters(inputs); }
+    template <bool Full>
+    Faults<Real> derivative(Real t, Real const* state, Parameters<Real> const& p, Memory<Real> const& memory,
+                            Real* rates, Report<Real>* report) const {
+        return (Full ? functions.full : functions.lean)(t, state, p, memory, this->block, rates, report);
+    }
+    template <class Linearisation>
+    void linearise(Real t, Real const* state, Parameters<Real> const& p, Memory<Real> const& memory,
+                   Linearisation& out) const {
+        functions.linearise(t, state, p, memory, this->block, out);
+    }
+    Real contact_pattern(Real t, Real const* state, Parameters<Real> const& p) const {
+        return functions.contact_pattern(t, state, p, this->block.misaligned_way);
+    }
+    Real gap(Real t, Real const* state, Parameters<Real> const& p, bool z_faces, int apex) const {
+        return functions.gap(t, state, p, this->block, {z_faces, apex});
+    }
+    Real approach_speed(Real t, Real const* state, Real step, Real const* end, Parameters<Real> const& p) const {
+        return functions.approach_speed(t, state, step, end, p, this->block.misaligned_way);
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA
