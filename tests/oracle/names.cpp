@@ -28,19 +28,6 @@ constexpr NamedMechanism mechanisms[] = {
 #undef SLIDEWAY_NAME
 };
 
-bool is_spatial(Mechanism mechanism) {
-    switch (mechanism) {
-        case Mechanism::slider_crank:
-        case Mechanism::carriage:
-        case Mechanism::scotch_yoke:
-        case Mechanism::free_slider:
-            return true;
-        case Mechanism::planar_slider_crank:
-            return false;
-    }
-    throw std::invalid_argument("oracle: no such mechanism");
-}
-
 }  // namespace
 
 std::vector<Law> const& every_law() {
@@ -56,10 +43,24 @@ std::vector<Mechanism> const& spatial_mechanisms() {
     static std::vector<Mechanism> const list = [] {
         std::vector<Mechanism> all;
         for (auto const& row : mechanisms)
-            if (is_spatial(row.mechanism)) all.push_back(row.mechanism);
+            if (states_of(row.mechanism) >= 10) all.push_back(row.mechanism);
         return all;
     }();
     return list;
+}
+
+int states_of(Mechanism mechanism) {
+    switch (mechanism) {
+        case Mechanism::slider_crank:
+        case Mechanism::carriage:
+        case Mechanism::scotch_yoke:
+            return 10;
+        case Mechanism::free_slider:
+            return 12;  // x and vx too
+        case Mechanism::planar_slider_crank:
+            return 6;
+    }
+    throw std::invalid_argument("oracle: no such mechanism");
 }
 
 std::string name_of(Law law) {

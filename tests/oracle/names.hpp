@@ -12,6 +12,9 @@ std::vector<slideway::Law> const& every_law();
 /// Those that `evaluate` knows: eight apices on a way with four faces.
 std::vector<slideway::Mechanism> const& spatial_mechanisms();
 
+/// How many numbers the mechanism's state has.
+int states_of(slideway::Mechanism mechanism);
+
 /// @throws std::invalid_argument for a name or a value that is in no list
 std::string name_of(slideway::Law law);
 std::string name_of(slideway::Mechanism mechanism);
