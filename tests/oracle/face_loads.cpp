@@ -31,6 +31,17 @@ void FaceLoads::detect() {
     }
 }
 
+void FaceLoads::load() {
+    switch (parts_.law) {
+        case Law::paper:
+            return load_by_paper();
+        case Law::conservative:
+            return load_by_conservative();
+        case Law::kelvin_voigt:
+            return load_by_kelvin_voigt();
+    }
+}
+
 void FaceLoads::load_by_paper() {
     if (surface_) {
         Real depth = 0, rate = 0;
@@ -80,6 +91,17 @@ void FaceLoads::load_by_conservative() {
         Real const force = damped(elastic, rate, in_.chi_surface, corner_list());
         for (int p : face_.corners) add(p, elastic * slope(p), force * slope(p));
         potential_ += surface_stiffness_ * mean * mean / 2;
+    }
+}
+
+void FaceLoads::load_by_kelvin_voigt() {
+    // Four apices of the stiffness that follows are the surface.
+    Real const stiffness = std::isnan(in_.law_a) ? surface_stiffness_ / 4 : Real(in_.law_a), damping = in_.law_b;
+    for (int p : face_.corners) {
+        if (!touches(p)) continue;
+        Real const depth = at(p).depth, elastic = stiffness * depth;
+        add(p, elastic, std::max(elastic + damping * at(p).rate, Real(0)));
+        potential_ += stiffness * depth * depth / 2;
     }
 }
 

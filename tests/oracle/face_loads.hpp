@@ -1,4 +1,4 @@
-// What the contacts of one face of the way carry, by either combination of the laws.
+// What the contacts of one face of the way carry, by any of the laws.
 #pragma once
 
 #include <array>
@@ -16,9 +16,8 @@ public:
 
     /// Lists the contacts as section 4 counts them.
     void detect();
-    /// After detect(): the listed contacts alone, or each apex, line and surface that touches.
-    void load_by_paper();
-    void load_by_conservative();
+    /// After detect(): by the law of the parts.
+    void load();
 
     [[nodiscard]] int surfaces() const { return surface_ ? 1 : 0; }
     [[nodiscard]] int lines() const { return static_cast<int>(lines_.size()); }
@@ -26,6 +25,9 @@ public:
     [[nodiscard]] Real potential() const { return potential_; }
 
 private:
+    void load_by_paper();         // the listed contacts alone
+    void load_by_conservative();  // each apex, line and surface that touches
+    void load_by_kelvin_voigt();  // each apex that touches
     [[nodiscard]] Pair& at(int p) const { return pairs_[p - 1]; }
     [[nodiscard]] bool touches(int p) const { return at(p).depth > 0; }
     [[nodiscard]] Real length(Edge const& edge) const {

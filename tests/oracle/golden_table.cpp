@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "names.hpp"
+
 namespace golden {
 namespace {
 
@@ -73,6 +75,28 @@ std::map<std::string, double Inputs::*> const& keys() {
         {"friction.stick_speed", &Inputs::friction_stick_speed},
         {"friction.slip_speed", &Inputs::friction_slip_speed}};
     return table;
+}
+
+double number_or(Table const& table, std::size_t row, std::string const& column, double otherwise) {
+    return table.has(column) ? table.number(row, column) : otherwise;
+}
+
+void read_law(Table const& table, std::size_t row, Case& result) {
+    Inputs& in = result.inputs;
+    result.parts.law = oracle::law_named(table.text(row, "contact.law"));
+    switch (result.parts.law) {
+        case slideway::Law::paper:
+        case slideway::Law::conservative: {
+            bool const dissipates = in.chi_line != 0 || in.chi_surface != 0;
+            result.parts.damping = dissipates ? slideway::Damping::rate : slideway::Damping::point;
+            return;
+        }
+        case slideway::Law::kelvin_voigt:
+            result.parts.damping = slideway::Damping::point;
+            in.law_a = number_or(table, row, "contact.apex_stiffness", slideway::follows);
+            in.law_b = number_or(table, row, "contact.apex_damping", 0);
+            return;
+    }
 }
 
 std::vector<std::string> const state_names = {"y", "z", "vy", "vz", "roll", "yaw", "pitch", "wx", "wy", "wz"};
@@ -162,10 +186,8 @@ Case case_of(Table const& table, std::size_t row) {
             result.inputs.clearance_y = result.inputs.clearance_z = table.number(row, column);
     }
     result.inputs = oracle::completed(result.inputs);
-    result.parts.law = table.text(row, "contact.law") == "paper" ? slideway::Law::paper : slideway::Law::conservative;
+    read_law(table, row, result);
     result.parts.friction = true;
-    bool const dissipates = result.inputs.chi_line != 0 || result.inputs.chi_surface != 0;
-    result.parts.damping = dissipates ? slideway::Damping::rate : slideway::Damping::point;
     result.parts.misaligned_way = table.has("way.roll");
     if (table.has("t")) result.t = table.number(row, "t");
     for (std::size_t i = 0; i < state_names.size(); ++i)

@@ -41,7 +41,8 @@ struct Case {
     double t = 0;
     oracle::State state{};
 };
-/// Columns are dotted scene keys; what is not a column has its default, friction is on.
+/// Columns are dotted scene keys; what is not a column has its default, friction is on.  A law's own keys are read
+/// where the row has that law.
 Case case_of(Table const& table, std::size_t row);
 
 /// The computed columns of rhs_*.csv, in their order: derivatives, powers, penetrations, forces, mode, energies.

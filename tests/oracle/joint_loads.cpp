@@ -14,10 +14,7 @@ JointLoads joint_loads(Inputs const& in, Parts const& parts, SliderMotion const&
     for (int f = 0; f < face_count; ++f) {
         FaceLoads face(in, parts, faces_of_way[f], loads.pairs[faces_of_way[f].axis]);
         face.detect();
-        if (parts.law == Law::paper)
-            face.load_by_paper();
-        else
-            face.load_by_conservative();
+        face.load();
         loads.surfaces += face.surfaces();
         loads.lines += face.lines();
         loads.points += face.points();

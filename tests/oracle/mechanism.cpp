@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <stdexcept>
 
 #include "linear_solve.hpp"
 #include "poses.hpp"
@@ -40,8 +41,27 @@ Kinematics kinematics_of(Inputs const& in, Real t, State const& state) {
     return k;
 }
 
+namespace {
+
+/// x where the way's offset and pose are those of the inputs.
+Real station_of_way(Inputs const& in, Mechanism mechanism) {
+    switch (mechanism) {
+        case Mechanism::slider_crank:
+            return in.rod_length;
+        case Mechanism::carriage:
+        case Mechanism::scotch_yoke:
+        case Mechanism::free_slider:
+            return 0;
+        case Mechanism::planar_slider_crank:
+            break;
+    }
+    throw std::invalid_argument("oracle: the planar mechanism has an oracle of its own");
+}
+
+}  // namespace
+
 Matrix4 pose_of_way(Inputs const& in, Parts const& parts) {
-    Real const station = parts.mechanism == Mechanism::slider_crank ? Real(in.rod_length) : 0;
+    Real const station = station_of_way(in, parts.mechanism);
     if (!parts.misaligned_way) return translation(Vector3(station, 0, 0));
     return pose_of(Vector3(station, in.way_offset_y, in.way_offset_z), in.way_roll, in.way_yaw, in.way_pitch);
 }

@@ -27,7 +27,7 @@ struct Kinematics {
 Kinematics kinematics_of(Inputs const& in, Real t, State const& state);
 
 /// The way where the parts have it: misaligned, or along X.  It turns about x = L where there is a rod, else about
-/// x = 0, where a carriage starts.
+/// x = 0.  @throws std::invalid_argument for a mechanism that is not spatial
 Matrix4 pose_of_way(Inputs const& in, Parts const& parts);
 
 struct Motion {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "joint_loads.hpp"
 #include "laws.hpp"
@@ -20,10 +21,34 @@ Vector array_of(Vector3 const& v) {
     return {static_cast<double>(v.x()), static_cast<double>(v.y()), static_cast<double>(v.z())};
 }
 
-SliderMotion slider_without_crank(Parts const& parts, CarriageMotion const& carriage, State const& state) {
-    bool const driven = parts.mechanism == Mechanism::carriage;
-    Real const x = driven ? carriage.x : Real(state[10]), vx = driven ? carriage.vx : Real(state[11]);
-    return slider_motion(Vector3(x, state[0], state[1]), Vector3(vx, state[2], state[3]), state);
+/// Where the mechanism has the slider, and what moves it.
+struct Placed {
+    bool reached = true;  // by the rod; nothing else holds where it is not
+    Kinematics crank;     // of a slider-crank
+    AlongTheWay drive;    // of a carriage or a scotch yoke
+    SliderMotion slider;
+};
+
+Placed placed(Inputs const& in, Parts const& parts, Real t, State const& state) {
+    auto const along = [&state](AlongTheWay const& drive) {
+        Vector3 const centre(drive.x, state[0], state[1]), velocity(drive.vx, state[2], state[3]);
+        return Placed{true, {}, drive, slider_motion(centre, velocity, state)};
+    };
+    switch (parts.mechanism) {
+        case Mechanism::slider_crank: {
+            Kinematics const crank = kinematics_of(in, t, state);
+            return {crank.reached, crank, {}, crank.slider};
+        }
+        case Mechanism::carriage:
+            return along(carriage_motion(in, t));
+        case Mechanism::scotch_yoke:
+            return along(scotch_yoke_motion(in, t));
+        case Mechanism::free_slider:
+            return along({state[10], state[11], 0});
+        case Mechanism::planar_slider_crank:
+            break;
+    }
+    throw std::invalid_argument("oracle: the planar mechanism has an oracle of its own");
 }
 
 void report_crank(Inputs const& in, Kinematics const& k, Motion const& motion, Vector3 const& gravity, Result& result) {
@@ -80,21 +105,12 @@ Inputs completed(Inputs in) {
 }
 
 Result evaluate(Inputs const& in, Parts const& parts, double t, State const& state, Pairs const* impact_speeds) {
-    Kinematics crank;
-    CarriageMotion carriage;
-    SliderMotion slider;
-    if (parts.mechanism == Mechanism::slider_crank) {
-        crank = kinematics_of(in, t, state);
-        if (!crank.reached) {
-            Result nothing;
-            nothing.geometry = true;
-            nothing.derivative.fill(std::numeric_limits<double>::quiet_NaN());
-            return nothing;
-        }
-        slider = crank.slider;
-    } else {
-        carriage = carriage_motion(in, t);
-        slider = slider_without_crank(parts, carriage, state);
+    auto const [reached, crank, drive, slider] = placed(in, parts, t, state);
+    if (!reached) {
+        Result nothing;
+        nothing.geometry = true;
+        nothing.derivative.fill(std::numeric_limits<double>::quiet_NaN());
+        return nothing;
     }
     JointLoads const joint = joint_loads(in, parts, slider, impact_speeds);
 
@@ -103,21 +119,30 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
     Vector3 acceleration = joint.force / in.slider_mass + gravity;
     Real energy = slider_energy(in, slider, gravity) + joint.potential;
     Result result;
-    if (parts.mechanism == Mechanism::slider_crank) {
-        Motion const motion = solve_motion(in, crank, gravity, joint.force);
-        acceleration = motion.slider_acceleration;
-        energy += rod_energy(in, crank, gravity);
-        report_crank(in, crank, motion, gravity, result);
-    } else if (parts.mechanism == Mechanism::carriage) {
-        // The drive gives what the joint and the weight leave of M x''.
-        Real const drive = in.slider_mass * (carriage.ax - acceleration.x());
-        acceleration.x() = carriage.ax;
-        result.power_crank = static_cast<double>(drive * carriage.vx);
-        result.ideal_x = static_cast<double>(carriage.x);
-    } else {
-        result.derivative[10] = state[11];
-        result.derivative[11] = static_cast<double>(acceleration.x());
-        result.ideal_x = std::numeric_limits<double>::quiet_NaN();
+    switch (parts.mechanism) {
+        case Mechanism::slider_crank: {
+            Motion const motion = solve_motion(in, crank, gravity, joint.force);
+            acceleration = motion.slider_acceleration;
+            energy += rod_energy(in, crank, gravity);
+            report_crank(in, crank, motion, gravity, result);
+            break;
+        }
+        case Mechanism::carriage:
+        case Mechanism::scotch_yoke: {
+            // The drive gives what the joint and the weight leave of M x''.
+            Real const force = in.slider_mass * (drive.ax - acceleration.x());
+            acceleration.x() = drive.ax;
+            result.power_crank = static_cast<double>(force * drive.vx);
+            result.ideal_x = static_cast<double>(drive.x);
+            break;
+        }
+        case Mechanism::free_slider:
+            result.derivative[10] = state[11];
+            result.derivative[11] = static_cast<double>(acceleration.x());
+            result.ideal_x = std::numeric_limits<double>::quiet_NaN();
+            break;
+        case Mechanism::planar_slider_crank:  // has no place here, see placed()
+            break;
     }
     result.energy = static_cast<double>(energy);
 
@@ -149,37 +174,12 @@ Result evaluate(Inputs const& in, Parts const& parts, double t, State const& sta
 Pairs penetrations(Inputs const& in, Parts const& parts, double t, State const& state) {
     Pairs depths;
     depths.fill(std::numeric_limits<double>::quiet_NaN());
-    SliderMotion slider;
-    if (parts.mechanism == Mechanism::slider_crank) {
-        Kinematics const crank = kinematics_of(in, t, state);
-        if (!crank.reached) return depths;
-        slider = crank.slider;
-    } else {
-        slider = slider_without_crank(parts, carriage_motion(in, t), state);
-    }
-    PairTable const pairs = pairs_of(in, slider, pose_of_way(in, parts), nullptr);
+    Placed const now = placed(in, parts, t, state);
+    if (!now.reached) return depths;
+    PairTable const pairs = pairs_of(in, now.slider, pose_of_way(in, parts), nullptr);
     for (int axis : {1, 2})
         for (int i = 0; i < 8; ++i) depths[(axis - 1) * 8 + i] = static_cast<double>(pairs[axis][i].depth);
     return depths;
-}
-
-CarriageMotion carriage_motion(Inputs const& in, long double t) {
-    Real const speed = in.carriage_speed, reversal = in.reversal_time;
-    Real const straight = in.stroke / speed;
-    // There and back are alike: x(t + half) = stroke - x(t).
-    Real const half = straight + reversal;
-    Real const halves = std::floor(t / half);
-    bool const back = std::fmod(halves, 2) != 0;
-    Real const since = t - halves * half;
-    CarriageMotion way_out;
-    if (since <= straight) {
-        way_out = {speed * since, speed, 0};
-    } else {
-        Real const rate = pi / reversal, angle = rate * (since - straight);
-        way_out = {in.stroke + speed / rate * std::sin(angle), speed * std::cos(angle),
-                   -speed * rate * std::sin(angle)};
-    }
-    return back ? CarriageMotion{in.stroke - way_out.x, -way_out.vx, -way_out.ax} : way_out;
 }
 
 double friction_coefficient(Inputs const& inputs, double speed) {

@@ -10,7 +10,7 @@
 namespace oracle {
 
 /// y z [m], vy vz [m/s], roll yaw pitch [rad], ω in the slider's frame [rad/s]; of a free slider also x [m], vx [m/s],
-/// which nobody reads where a crank or a carriage prescribes them.
+/// which nobody reads where a mechanism prescribes them.
 using State = std::array<double, 12>;
 /// One value per apex-face pair: Y faces P1..P8, then Z faces P1..P8.
 using Pairs = std::array<double, 16>;
@@ -26,7 +26,7 @@ struct Result {
     bool contact_domain = false;  // a line beyond δ̄ ≤ l²/R_e: its load, and what follows from it, is NaN
 
     State derivative{};
-    double power_crank = 0;                          // F_A · v_A, or F_x vx of the carriage's drive [W]
+    double power_crank = 0;                          // F_A · v_A, or F_x vx of a driven slider [W]
     double power_friction = 0;                       // loss, -Σ F_t · v_t [W]
     double power_damping = 0;                        // loss, Σ (F - F_elastic) δ' [W]
     std::array<double, 8> pen_y{}, pen_z{};          // δ [m], > 0 in contact
@@ -54,20 +54,24 @@ struct Result {
 /// Fills the inputs that follow from others (section 2): a slider of 40 x 20 x 30 mm, crank and rod of their sections.
 slideway::Inputs completed(slideway::Inputs inputs);
 
-/// Everything at one instant, of the mechanism that the parts name: one of the three spatial ones.  @param impact_speeds v0 [m/s] per pair for Damping::restitution, its start value 1e-4
-/// where null.  Parts rule: no friction, no way pose, no χ where they say so, whatever the inputs hold.
+/// Everything at one instant, of the mechanism that the parts name, a spatial one.  Parts rule: no friction, no way pose,
+/// no χ where they say so, whatever the inputs hold.
+/// @param impact_speeds v0 [m/s] per pair for Damping::restitution, its start value 1e-4 where null
+/// @throws std::invalid_argument for a mechanism that is not spatial
 Result evaluate(slideway::Inputs const& completed, slideway::Parts const& parts, double t, State const& state,
                 Pairs const* impact_speeds = nullptr);
 
 /// The sixteen δ [m] alone; NaN where the rod does not reach.
 Pairs penetrations(slideway::Inputs const& completed, slideway::Parts const& parts, double t, State const& state);
 
-/// A carriage at constant speed whose direction is reversed along half a cosine (model.md 7).
-struct CarriageMotion {
+/// How a mechanism prescribes the slider's motion along the way.
+struct AlongTheWay {
     long double x = 0, vx = 0, ax = 0;  // [m], [m/s], [m/s²]
 };
-/// @param t >= 0 [s]
-CarriageMotion carriage_motion(slideway::Inputs const& inputs, long double t);
+/// A carriage at constant speed whose direction is reversed along half a cosine (model.md 7).  @param t >= 0 [s]
+AlongTheWay carriage_motion(slideway::Inputs const& inputs, long double t);
+/// The pin of a crank in a slot across the way: x = r cos θ, θ = θ0 + ωt (model.md 12).  @param t [s]
+AlongTheWay scotch_yoke_motion(slideway::Inputs const& inputs, long double t);
 
 // Pieces of the laws, for tests of their own.
 double friction_coefficient(slideway::Inputs const& inputs, double speed);

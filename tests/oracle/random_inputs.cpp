@@ -36,11 +36,26 @@ void misalign(Dice& dice, Inputs& in) {
 Parts parts_number(int i, Mechanism mechanism) {
     Parts parts;
     parts.mechanism = mechanism;
-    parts.law = i % 2 == 0 ? Law::paper : Law::conservative;
+    parts.law = std::array{Law::paper, Law::conservative}[i % 2];
     parts.friction = i / 2 % 2 != 0;
     parts.misaligned_way = i / 4 % 2 != 0;
     parts.damping = std::array{Damping::point, Damping::rate, Damping::restitution}[i / 8 % 3];
     return parts;
+}
+
+void set_law(Dice& dice, Law law, Parts& parts, Inputs& in) {
+    parts.law = law;
+    switch (law) {
+        case Law::paper:
+        case Law::conservative:
+            in.law_a = in.law_b = 0;
+            return;
+        case Law::kelvin_voigt:
+            parts.damping = Damping::point;
+            in.law_a = dice.chance(0.4) ? slideway::follows : dice.scale(1e5, 1e10);
+            in.law_b = dice.chance(0.3) ? 0 : dice.scale(1, 1e4);
+            return;
+    }
 }
 
 void vary_mechanism(Dice& dice, Inputs& in) {

@@ -27,11 +27,14 @@ private:
     std::mt19937_64 bits_;
 };
 
-/// Of a spatial mechanism: 2 laws x friction x way pose x 3 dampings.
+/// Of a spatial mechanism: the 2 laws of model.md 4 x friction x way pose x 3 dampings.
 slideway::Parts parts_number(int i, slideway::Mechanism mechanism);
 
 void vary_mechanism(Dice& dice, slideway::Inputs& in);
 void vary_contact(Dice& dice, slideway::Inputs& in);
+
+/// Gives the case a law, the numbers that the law has of its own, and of the dampings one that it takes.
+void set_law(Dice& dice, slideway::Law law, slideway::Parts& parts, slideway::Inputs& in);
 
 /// Every parameter half of the time; else the paper's values but for those that a part brings along.  Completed.
 slideway::Inputs any_inputs(Dice& dice, slideway::Parts const& parts);

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "linear_solve.hpp"
@@ -15,6 +16,7 @@ using detail::any_inputs;
 using detail::Dice;
 using detail::parts_number;
 using slideway::Inputs;
+using slideway::Law;
 using slideway::Mechanism;
 using slideway::Parts;
 
@@ -205,25 +207,48 @@ void slow_to_friction(Dice& dice, Case& c) {
 
 /// What a slider-crank does not have.
 void set_along_the_way(Dice& dice, Case& c) {
-    if (c.parts.mechanism == Mechanism::slider_crank) return;
     Inputs& in = c.inputs;
-    if (dice.chance(0.5)) in.point_stiffness = dice.scale(1e6, 1e11);
-    if (c.parts.mechanism == Mechanism::carriage) {
-        in.carriage_speed = dice.scale(1e-3, 1);
-        in.stroke = in.carriage_speed * dice.uniform(0.1, 2);
-        in.reversal_time = dice.scale(1e-3, 0.3);
-    } else {
-        c.state[10] = dice.uniform(-0.2, 0.3);
-        c.state[11] = dice.chance(0.1) ? 0 : dice.signed_scale(1e-4, 3);
+    auto const vary_stiffness = [&] {
+        if (dice.chance(0.5)) in.point_stiffness = dice.scale(1e6, 1e11);
+    };
+    switch (c.parts.mechanism) {
+        case Mechanism::slider_crank:
+            return;
+        case Mechanism::carriage:
+            vary_stiffness();
+            in.carriage_speed = dice.scale(1e-3, 1);
+            in.stroke = in.carriage_speed * dice.uniform(0.1, 2);
+            in.reversal_time = dice.scale(1e-3, 0.3);
+            return;
+        case Mechanism::scotch_yoke:
+            vary_stiffness();
+            return;
+        case Mechanism::free_slider:
+            vary_stiffness();
+            c.state[10] = dice.uniform(-0.2, 0.3);
+            c.state[11] = dice.chance(0.1) ? 0 : dice.signed_scale(1e-4, 3);
+            return;
+        case Mechanism::planar_slider_crank:
+            break;
     }
+    throw std::invalid_argument("oracle: the planar mechanism has cases of its own");
 }
 
 /// @return t [s]: of a carriage somewhere on its first periods, as often turning round as under way.
 double any_time(Dice& dice, Case const& c) {
-    if (c.parts.mechanism != Mechanism::carriage) return dice.uniform(0, 2);
-    double const straight = c.inputs.stroke / c.inputs.carriage_speed, half = straight + c.inputs.reversal_time;
-    double const since = dice.chance(0.5) ? dice.uniform(0, straight) : dice.uniform(straight, half);
-    return dice.below(6) * half + since;
+    switch (c.parts.mechanism) {
+        case Mechanism::carriage: {
+            double const straight = c.inputs.stroke / c.inputs.carriage_speed, half = straight + c.inputs.reversal_time;
+            double const since = dice.chance(0.5) ? dice.uniform(0, straight) : dice.uniform(straight, half);
+            return dice.below(6) * half + since;
+        }
+        case Mechanism::slider_crank:
+        case Mechanism::scotch_yoke:
+        case Mechanism::free_slider:
+        case Mechanism::planar_slider_crank:
+            break;
+    }
+    return dice.uniform(0, 2);
 }
 
 Case make_case(Dice& dice, int number, Mechanism mechanism) {
@@ -260,6 +285,13 @@ std::vector<Case> make_cases(std::uint64_t seed, int count, Mechanism mechanism)
     std::vector<Case> cases;
     cases.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) cases.push_back(make_case(dice, i, mechanism));
+    return cases;
+}
+
+std::vector<Case> make_cases(std::uint64_t seed, int count, Mechanism mechanism, Law law) {
+    std::vector<Case> cases = make_cases(seed, count, mechanism);
+    Dice dice(~seed);
+    for (Case& c : cases) detail::set_law(dice, law, c.parts, c.inputs);
     return cases;
 }
 

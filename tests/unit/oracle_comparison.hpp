@@ -13,6 +13,7 @@
 
 #include "host/backend/backend.hpp"
 #include "kernels/block.hpp"
+#include "tests/oracle/names.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/random_states.hpp"
 
@@ -64,7 +65,7 @@ inline void compare(std::string const& what, oracle::Case const& c, oracle::Resu
     double const load = load_of(r);
     compare.group("position rates", r.derivative.data(), d, 2);
     compare.group("accelerations", r.derivative.data() + 2, d + 2, 2, load / c.inputs.slider_mass);
-    if (info(c.parts.mechanism).states == 12) {
+    if (oracle::states_of(c.parts.mechanism) > 10) {
         compare.value("velocity along the way", r.derivative[10], d[10]);
         compare.value("acceleration along the way", r.derivative[11], d[11],
                       load / c.inputs.slider_mass + c.inputs.gravity);

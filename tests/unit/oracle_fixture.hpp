@@ -41,6 +41,18 @@ inline double margin(Result const& r) {
     return least;
 }
 
+/// Roll and pitch that leave one apex of the bottom face in contact, 1 µm deep, at rest: P3 (-,-,+).
+inline Case on_one_apex() {
+    Case c;
+    c.inputs = completed({});
+    c.state[4] = 1e-3, c.state[6] = 1e-3;
+    Pairs const level = penetrations(c.inputs, c.parts, 0, c.state);
+    double const lowest = std::max({level[1], level[2], level[5], level[6]});
+    // Going up deepens the pairs of the way's bottom by n_y, the Y component of the slider's Y axis.
+    c.state[0] = (1e-6 - lowest) / (std::cos(1e-3) * std::cos(1e-3));
+    return c;
+}
+
 /// (f(h) - f(-h))/2h without its h² error.
 inline double slope(std::function<double(double)> const& f, double h) {
     auto const central = [&](double step) { return (f(step) - f(-step)) / (2 * step); };

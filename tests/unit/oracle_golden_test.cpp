@@ -42,7 +42,30 @@ TEST_P(GoldenRows, AreMetByTheOracle) {
 
 INSTANTIATE_TEST_SUITE_P(Oracle, GoldenRows,
                          testing::Values(std::tuple{"rhs_paper.csv", 300}, std::tuple{"rhs_conservative.csv", 300},
-                                         std::tuple{"rhs_parameters.csv", 400}));
+                                         std::tuple{"rhs_parameters.csv", 400}, std::tuple{"rhs_kelvin_voigt.csv", 240},
+                                         std::tuple{"rhs_kelvin_voigt_parameters.csv", 80}));
+
+TEST(GoldenCase, HasTheNumbersOfItsLawAndNoOthers) {
+    using slideway::Law;
+    golden::Table table({"contact.law", "contact.apex_stiffness", "contact.apex_damping", "joint.clearance"});
+    for (char const* law : {"kelvin_voigt", "paper", "conservative"}) table.add({law, "3e6", "40", "2e-4"});
+    table.add({"hooke", "3e6", "40", "2e-4"});
+    golden::Case const own = golden::case_of(table, 0);
+    EXPECT_EQ(own.parts.law, Law::kelvin_voigt);
+    EXPECT_EQ(own.inputs.law_a, 3e6);
+    EXPECT_EQ(own.inputs.law_b, 40);
+    for (std::size_t row : {1, 2}) {
+        golden::Case const other = golden::case_of(table, row);
+        EXPECT_EQ(other.parts.law, row == 1 ? Law::paper : Law::conservative);
+        EXPECT_EQ(other.inputs.law_a, 0);
+        EXPECT_EQ(other.inputs.law_b, 0);
+    }
+    EXPECT_THROW(golden::case_of(table, 3), std::invalid_argument);
+    golden::Table bare({"contact.law"});
+    bare.add({"kelvin_voigt"});
+    EXPECT_TRUE(std::isnan(golden::case_of(bare, 0).inputs.law_a));
+    EXPECT_EQ(golden::case_of(bare, 0).inputs.law_b, 0);
+}
 
 TEST(GoldenMeasure, SeesADigitANanAndAMissingRow) {
     golden::Table const reference = golden_table("rhs_paper.csv");

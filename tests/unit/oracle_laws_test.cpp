@@ -126,21 +126,9 @@ TEST(Oracle, IsolatedImpactReturnsTheRestitution) {
     }
 }
 
-/// Roll and pitch that leave one apex of the bottom face in contact, 1 µm deep, going in at the speed given.
-Case one_point(double speed) {
-    Case c;
-    c.inputs = oracle::completed({});
-    c.state[4] = 1e-3, c.state[6] = 1e-3;
-    Pairs const level = oracle::penetrations(c.inputs, c.parts, 0, c.state);
-    double const lowest = std::max({level[1], level[2], level[5], level[6]});
-    // Going up deepens the pairs of the way's bottom by n_y, the Y component of the slider's Y axis.
-    c.state[0] = (1e-6 - lowest) / (std::cos(1e-3) * std::cos(1e-3));
-    c.state[2] = speed;
-    return c;
-}
-
 TEST(Oracle, PointDampingFollowsItsKind) {
-    Case c = one_point(0.02);
+    Case c = oracle::testing::on_one_apex();
+    c.state[2] = 0.02;
     Result const bare = [&] {
         Case still = c;
         still.inputs.eta = 0;

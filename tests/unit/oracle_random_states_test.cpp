@@ -5,10 +5,12 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <set>
 #include <tuple>
 #include <vector>
 
+#include "tests/oracle/names.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/random_states.hpp"
 #include "tests/unit/oracle_fixture.hpp"
@@ -74,8 +76,8 @@ TEST(RandomStates, CoverDepthsSlidingSpeedsAndParts) {
                              : slips[i] < 3 * c.inputs.friction_slip_speed ? 3
                                                                            : 4);
         }
-        parts.insert((c.parts.law == Law::paper) + 2 * static_cast<int>(c.parts.damping) + 6 * c.parts.friction +
-                     12 * c.parts.misaligned_way);
+        parts.insert(24 * static_cast<int>(c.parts.law) + 6 * c.parts.friction + 12 * c.parts.misaligned_way +
+                     static_cast<int>(c.parts.damping));
         for (double rate : r.derivative) EXPECT_TRUE(std::isfinite(rate));
         EXPECT_FALSE(r.geometry || r.contact_domain);
     }
@@ -84,18 +86,20 @@ TEST(RandomStates, CoverDepthsSlidingSpeedsAndParts) {
     EXPECT_EQ(parts.size(), 24u);
 }
 
-/// How many values each number of Inputs takes, its start of a run aside; a case carries its own state.
-std::vector<std::size_t> values_of_inputs(std::vector<Mechanism> const& mechanisms) {
-    constexpr int numbers = sizeof(Inputs) / sizeof(double), initial = 12;
-    std::array<std::set<double>, numbers> seen;
-    for (Mechanism const mechanism : mechanisms) {
-        for (Case const& c : oracle::make_cases(seed, 500, mechanism)) {
-            auto const values = std::bit_cast<std::array<double, numbers>>(c.inputs);
+/// How many values each number of Inputs takes.
+std::vector<std::size_t> values_of_inputs() {
+    constexpr int numbers = sizeof(Inputs) / sizeof(double);
+    std::array<std::set<std::uint64_t>, numbers> seen;  // bits, for one of them is NaN
+    auto const see = [&seen](std::vector<Case> const& cases) {
+        for (Case const& c : cases) {
+            auto const values = std::bit_cast<std::array<std::uint64_t, numbers>>(c.inputs);
             for (int i = 0; i < numbers; ++i) seen[i].insert(values[i]);
         }
-    }
+    };
+    for (Mechanism const mechanism : oracle::spatial_mechanisms()) see(oracle::make_cases(seed, 500, mechanism));
+    for (Law const law : oracle::every_law()) see(oracle::make_cases(seed, 500, Mechanism::slider_crank, law));
     std::vector<std::size_t> counts;
-    for (int i = 0; i < numbers - initial; ++i) counts.push_back(seen[i].size());
+    for (auto const& values : seen) counts.push_back(values.size());
     return counts;
 }
 
@@ -104,10 +108,44 @@ TEST(RandomStates, VaryEveryParameter) {
     auto const place_of = [&where](double const& member) {
         return static_cast<std::size_t>(&member - reinterpret_cast<double const*>(&where));
     };
-    auto const counts = values_of_inputs({Mechanism::slider_crank, Mechanism::carriage, Mechanism::free_slider});
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-        if (i == place_of(where.slider_height)) continue;  // of the planar block alone
-        EXPECT_GT(counts[i], 50u) << "number " << i << " of Inputs";
+    std::set<std::size_t> other = {place_of(where.slider_height),                  // of the planar block alone
+                                   place_of(where.law_c), place_of(where.law_d)};  // no law has as many
+    // The start of a run: a case carries its own state.
+    for (double const* start : {&where.y, &where.z, &where.vy, &where.vz, &where.roll, &where.yaw, &where.pitch,
+                                &where.wx, &where.wy, &where.wz, &where.x, &where.vx})
+        other.insert(place_of(*start));
+    auto const counts = values_of_inputs();
+    for (std::size_t i = 0; i < counts.size(); ++i)
+        EXPECT_TRUE(other.contains(i) || counts[i] > 50) << "number " << i << " of Inputs";
+}
+
+TEST(RandomStates, GiveALawTheSameStatesAndNumbersOfItsOwn) {
+    auto const published = oracle::make_cases(seed, 480);
+    for (Law const law : oracle::every_law()) {
+        auto const cases = oracle::make_cases(seed, 480, Mechanism::slider_crank, law);
+        ASSERT_EQ(cases.size(), published.size());
+        int following = 0, given = 0, undamped = 0, damped = 0;
+        for (std::size_t i = 0; i < cases.size(); ++i) {
+            auto const& [in, parts, t, state, speeds] = cases[i];
+            EXPECT_EQ(parts.law, law);
+            EXPECT_EQ(state, published[i].state);
+            EXPECT_EQ(t, published[i].t);
+            EXPECT_EQ(parts.friction, published[i].parts.friction);
+            EXPECT_EQ(parts.misaligned_way, published[i].parts.misaligned_way);
+            following += std::isnan(in.law_a), given += in.law_a >= 1e5 && in.law_a <= 1e10;
+            undamped += in.law_b == 0, damped += in.law_b >= 1 && in.law_b <= 1e4;
+            if (law == Law::kelvin_voigt) {
+                EXPECT_EQ(parts.damping, slideway::Damping::point);
+            } else {
+                EXPECT_EQ(parts.damping, published[i].parts.damping);
+                EXPECT_EQ(in.law_a, 0);
+                EXPECT_EQ(in.law_b, 0);
+            }
+        }
+        if (law != Law::kelvin_voigt) continue;
+        EXPECT_EQ(following + given, 480);
+        EXPECT_EQ(undamped + damped, 480);
+        for (int const count : {following, given, undamped, damped}) EXPECT_GT(count, 100);
     }
 }
 

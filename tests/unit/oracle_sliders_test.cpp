@@ -1,9 +1,10 @@
-// The oracle's carriage and free slider: prescribed motion, statics, free fall, and what sensors feel.
+// The oracle's sliders without a rod, driven and free: prescribed motion, statics, free fall, and what sensors feel.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
+#include "tests/oracle/names.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/random_states.hpp"
 #include "tests/unit/oracle_fixture.hpp"
@@ -67,10 +68,20 @@ TEST(CarriageMotion, IsContinuousInPlaceSpeedAndAcceleration) {
     }
 }
 
-TEST(OracleCarriage, MovesAcrossTheWayLikeAFreeSliderWithItsPlaceAndSpeed) {
+struct Driven {
+    Mechanism mechanism;
+    oracle::AlongTheWay (*motion)(Inputs const&, long double);
+};
+
+class DrivenSlider : public ::testing::TestWithParam<Driven> {};
+
+TEST_P(DrivenSlider, MovesAcrossTheWayLikeAFreeSliderWithItsPlaceAndSpeed) {
     int touching = 0;
-    for (Case const& c : oracle::make_cases(seed, 600, Mechanism::carriage)) {
-        auto const motion = oracle::carriage_motion(c.inputs, c.t);
+    auto cases = oracle::make_cases(seed, 600, GetParam().mechanism);
+    for (Case const& c : oracle::make_cases(seed + 1, 300, GetParam().mechanism, slideway::Law::kelvin_voigt))
+        cases.push_back(c);
+    for (Case const& c : cases) {
+        auto const motion = GetParam().motion(c.inputs, c.t);
         Case loose = c;
         loose.parts.mechanism = Mechanism::free_slider;
         loose.state[10] = static_cast<double>(motion.x), loose.state[11] = static_cast<double>(motion.vx);
@@ -86,10 +97,16 @@ TEST(OracleCarriage, MovesAcrossTheWayLikeAFreeSliderWithItsPlaceAndSpeed) {
         double const drive = c.inputs.slider_mass * (static_cast<double>(motion.ax) - other.derivative[11]);
         EXPECT_NEAR(driven.power_crank, drive * other.vx, slack * std::abs(other.vx));
         EXPECT_EQ(driven.acceleration[0], static_cast<double>(motion.ax));
-        EXPECT_EQ(driven.power_friction >= 0, true);
+        EXPECT_GE(driven.power_friction, 0);
+        EXPECT_EQ(driven.ideal_x, driven.x);
     }
-    EXPECT_GT(touching, 300);
+    EXPECT_GT(touching, 400);
 }
+
+INSTANTIATE_TEST_SUITE_P(Oracle, DrivenSlider,
+                         ::testing::Values(Driven{Mechanism::carriage, oracle::carriage_motion},
+                                           Driven{Mechanism::scotch_yoke, oracle::scotch_yoke_motion}),
+                         [](auto const& p) { return oracle::name_of(p.param.mechanism); });
 
 TEST(OracleCarriage, IsDrivenAgainstFrictionAndSlope) {
     Inputs in = oracle::completed({});
