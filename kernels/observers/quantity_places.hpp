@@ -16,7 +16,8 @@ template <class Function> SLIDEWAY_FN void for_each_quantity(Function const& fun
     }(std::make_integer_sequence<int, quantity_count>{});
 }
 
-/// Where a keeper has its quantities: peaks in one array, integrals in another, the audited ones first.
+/// Where a keeper has its quantities: peaks in one array, integrals in another, the audited ones first.  All of it is for constants: device
+/// code has no table.
 /// @tparam apices of the mechanism's report: as many columns has a quantity of the apices
 template <Keeper keeper, int apices> struct QuantityPlaces {
     static constexpr QuantityInfo const& info(Quantity q) { return quantity_table[static_cast<int>(q)]; }

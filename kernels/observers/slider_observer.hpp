@@ -57,9 +57,10 @@ public:
     SLIDEWAY_FN static void integrands(Report const& r, Real* values) {
         for_each_quantity([&]<Quantity q>(Named<q>) {
             if constexpr (Places::integrates(q)) {
-                for (int i = 0; i < Places::columns(q); ++i) {
+                constexpr bool squared = Places::info(q).statistic == Statistic::root_mean_square;
+                constexpr int width = Places::columns(q);
+                for (int i = 0; i < width; ++i) {
                     Real const x = value<q>(r, AtStage{}, i);
-                    bool const squared = Places::info(q).statistic == Statistic::root_mean_square;
                     values[Places::template integral_of<q> + i] = squared ? x * x : x;
                 }
             }
@@ -131,8 +132,8 @@ public:
         for_each_quantity([&]<Quantity q>(Named<q>) {
             if constexpr (Places::keeps(q)) {
                 if (!selects(selected, q)) return;
-                constexpr int first = quantity_column(q);
-                for (int i = 0; i < Places::columns(q); ++i) row[first + i] = result<q>(index, i, mean);
+                constexpr int first = quantity_column(q), width = Places::columns(q);
+                for (int i = 0; i < width; ++i) row[first + i] = result<q>(index, i, mean);
             }
         });
     }
@@ -142,7 +143,7 @@ private:
 
     /// A quantity of one lane.  @param mean 1/t, of the time integrated.
     template <Quantity q> SLIDEWAY_HD double result(int index, int column, double mean) const {
-        constexpr auto const& info = Places::info(q);
+        constexpr QuantityInfo info = Places::info(q);
         if constexpr (info.statistic == Statistic::peak) {
             return lane(peak_[Places::template peak_of<q> + column], index);
         } else if constexpr (info.integrates()) {
@@ -195,7 +196,8 @@ private:
         raise(largest_potential_, r.contact.potential);
         for_each_quantity([&]<Quantity q>(Named<q>) {
             if constexpr (Places::is_peak(q)) {
-                for (int i = 0; i < Places::columns(q); ++i) {
+                constexpr int width = Places::columns(q);
+                for (int i = 0; i < width; ++i) {
                     raise(peak_[Places::template peak_of<q> + i], abs(value<q>(r, state, i)));
                 }
             }
