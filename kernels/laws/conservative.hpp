@@ -16,12 +16,9 @@ struct ConservativeLaw {
                                   .switches = false,
                                   .groups = contact_groups};
 
-    /// Not inlined: the joint calls it for four faces, and the code would multiply.
-    /// @tparam Full also the elastic forces and the potential; without, they are zero.
-    template <class Damping, bool Full = true, class Real>
-    SLIDEWAY_NOINLINE static FaceForces<Real> forces(FaceMotion<Real> const& motion, FaceContact<Real> const& face,
+    template <class Damping, class Real>
+    SLIDEWAY_FN static FaceForces<Real> forces(FaceMotion<Real> const& motion, FaceContact<Real> const& face,
                                                      ContactParameters<Real> const& contact) {
-        Real const zero(0.0);
         auto f = no_forces<Real>();
         auto m = with_safe_depths(motion);
         add_point<Damping, 0>(m, contact, f);
@@ -32,16 +29,14 @@ struct ConservativeLaw {
         if (any_of(edge)) add_edges<Damping>(edge, m, face, contact, f);
         Mask<Real> const surface = edge.a & edge.c;
         if (any(surface)) add_surface<Damping>(surface, m, face, contact, f);
-        // Made anew, so that the sums above live in registers and not in the caller's memory.
-        if constexpr (Full) return {f.normal, f.elastic, f.potential, f.outside};
-        return {f.normal, {zero, zero, zero, zero}, zero, f.outside};
+        return f;
     }
 
     /// The Hessian of U times the damping factors, and what the factors add.  A line or surface of mean penetration h has
     /// F_i = P(h) f(h') h_i, where h_i = ∂h/∂δ_i and h' = Σ h_i δ_i', so that
     /// ∂F_i/∂δ_j = P' f h_i h_j + P f h_ij + P ∂f/∂h' h_i Σ_k h_jk δ_k' and ∂F_i/∂δ'_j = P ∂f/∂h' h_i h_j.
     template <class Damping, class Real>
-    SLIDEWAY_NOINLINE static FaceStiffness<Real> stiffness(FaceMotion<Real> const& motion, FaceContact<Real> const& face,
+    SLIDEWAY_FN static FaceStiffness<Real> stiffness(FaceMotion<Real> const& motion, FaceContact<Real> const& face,
                                                            ContactParameters<Real> const& contact) {
         auto f = FaceStiffness<Real>::none();
         auto const m = with_safe_depths(motion);

@@ -16,13 +16,10 @@ struct PaperLaw {
         .switches = true,
         .groups = contact_groups};
 
-    /// Not inlined: the joint calls it for four faces, and the code would multiply.
-    /// @tparam Full also the elastic forces and the potential; without, they are zero.
-    template <class Damping, bool Full = true, class Real>
-    SLIDEWAY_NOINLINE static FaceForces<Real> forces(FaceMotion<Real> const& m, FaceContact<Real> const& face,
+    template <class Damping, class Real>
+    SLIDEWAY_FN static FaceForces<Real> forces(FaceMotion<Real> const& m, FaceContact<Real> const& face,
                                                      ContactParameters<Real> const& contact) {
         auto modes = face_modes<Real>(m.touching);
-        Real const zero(0.0);
         auto f = no_forces<Real>();
         if (any(modes.surface)) add_surface<Damping>(modes.surface, m, face, contact, f);
         if (any_of(modes.line)) add_lines<Damping>(modes.line, m, face, contact, f);
@@ -30,14 +27,12 @@ struct PaperLaw {
         add_point<Damping, 1>(modes.point, m, contact, f);
         add_point<Damping, 2>(modes.point, m, contact, f);
         add_point<Damping, 3>(modes.point, m, contact, f);
-        // Made anew, so that the sums above live in registers and not in the caller's memory.
-        if constexpr (Full) return {f.normal, f.elastic, f.potential, f.outside};
-        return {f.normal, {zero, zero, zero, zero}, zero, f.outside};
+        return f;
     }
 
     /// Derivatives of the forces inside a mode; the jumps between modes have none.
     template <class Damping, class Real>
-    SLIDEWAY_NOINLINE static FaceStiffness<Real> stiffness(FaceMotion<Real> const& m, FaceContact<Real> const& face,
+    SLIDEWAY_FN static FaceStiffness<Real> stiffness(FaceMotion<Real> const& m, FaceContact<Real> const& face,
                                                            ContactParameters<Real> const& contact) {
         auto const modes = face_modes<Real>(m.touching);
         auto f = FaceStiffness<Real>::none();

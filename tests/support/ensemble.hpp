@@ -24,7 +24,7 @@ struct EnsembleResult {
 };
 
 inline constexpr Selection all_quantities = (Selection(1) << quantity_count) - 1;
-inline constexpr Selection state_selection = info(Mechanism::slider_crank).always;
+inline constexpr Selection state_selection = selections::ten_states;
 
 struct RunOptions {
     Parts parts;
