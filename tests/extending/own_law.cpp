@@ -23,9 +23,9 @@ struct HuntCrossley {
                                   .groups = groups_of(KeyGroup::elastic, KeyGroup::hertz),
                                   .keys = keys};
 
-    template <class Damping, bool Full = true, class Real>
-    SLIDEWAY_NOINLINE static FaceForces<Real> forces(FaceMotion<Real> const& m, FaceContact<Real> const&,
-                                                     ContactParameters<Real> const& contact) {
+    template <class Damping, class Real>
+    SLIDEWAY_FN static FaceForces<Real> forces(FaceMotion<Real> const& m, FaceContact<Real> const&,
+                                               ContactParameters<Real> const& contact) {
         auto f = no_forces<Real>();
         Real const zero(0.0), slope = Real(1.5) * contact.of_law.a;
         auto const add = [&](Mask<Real> touching, ApexMotion<Real> const& apex, Real& normal, Real& elastic) {
@@ -43,8 +43,8 @@ struct HuntCrossley {
 
     /// ∂F/∂δ and ∂F/∂δ' of its own apex, where it pushes: what the stiff method steps by.
     template <class Damping, class Real>
-    SLIDEWAY_NOINLINE static FaceStiffness<Real> stiffness(FaceMotion<Real> const& m, FaceContact<Real> const&,
-                                                           ContactParameters<Real> const& contact) {
+    SLIDEWAY_FN static FaceStiffness<Real> stiffness(FaceMotion<Real> const& m, FaceContact<Real> const&,
+                                                     ContactParameters<Real> const& contact) {
         auto f = FaceStiffness<Real>::none();
         Real const zero(0.0), one(1.0), slope = Real(1.5) * contact.of_law.a;
         auto const add = [&](Mask<Real> touching, ApexMotion<Real> const& apex, Real& normal, Real& by_depth, Real& by_rate) {
