@@ -22,8 +22,8 @@ struct KelvinVoigt {
                                   .keys = keys,
                                   .face_stiffness = &face_stiffness};
 
-    template <class Damping, bool Full = true, class Real>
-    SLIDEWAY_NOINLINE static FaceForces<Real> forces(FaceMotion<Real> const& m, FaceContact<Real> const& face,
+    template <class Damping, class Real>
+    SLIDEWAY_FN static FaceForces<Real> forces(FaceMotion<Real> const& m, FaceContact<Real> const& face,
                                                      ContactParameters<Real> const& contact) {
         auto f = no_forces<Real>();
         Real const zero(0.0), k = stiffness_of(face, contact);
@@ -42,7 +42,7 @@ struct KelvinVoigt {
 
     /// ∂F/∂δ = k and ∂F/∂δ' = c of its own apex, where it pushes.
     template <class Damping, class Real>
-    SLIDEWAY_NOINLINE static FaceStiffness<Real> stiffness(FaceMotion<Real> const& m, FaceContact<Real> const& face,
+    SLIDEWAY_FN static FaceStiffness<Real> stiffness(FaceMotion<Real> const& m, FaceContact<Real> const& face,
                                                            ContactParameters<Real> const& contact) {
         auto f = FaceStiffness<Real>::none();
         Real const zero(0.0), k = stiffness_of(face, contact), c = contact.of_law.b;

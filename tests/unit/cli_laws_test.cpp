@@ -59,15 +59,17 @@ TEST_P(LawInStudies, Runs) {
         for (double const status : file.values("status")) EXPECT_EQ(status, static_cast<double>(Status::finished));
         EXPECT_EQ(file.computed_hash(), hash_of(std::string(study) + "_" + std::string(name_of(best_isa())) + ".nc"));
         EXPECT_EQ(file.attribute("mechanism_meaning"), info(GetParam().mechanism).meaning);
-        if (info(GetParam().mechanism).spatial) EXPECT_EQ(file.attribute("contact_law_meaning"), law.words);
+        if (info(GetParam().mechanism).spatial) {
+            EXPECT_EQ(file.attribute("contact_law_meaning"), law.words);
+        }
         ++runs;
     }
     EXPECT_GE(runs, 3);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LawInStudies, ::testing::ValuesIn(mechanisms_and_laws()), [](auto const& p) {
-    bool const spatial = info(p.param.mechanism).spatial;
-    return std::string(info(p.param.mechanism).name) + (spatial ? "_" + std::string(info(p.param.law).name) : "");
+    MechanismInfo const& mechanism = slideway::info(p.param.mechanism);
+    return mechanism.name + (mechanism.spatial ? "_" + std::string(slideway::info(p.param.law).name) : "");
 });
 
 }  // namespace

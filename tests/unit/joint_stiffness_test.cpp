@@ -24,9 +24,9 @@ using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
 /// Contacts without force: what is left of the derivative is not the joint's.
 struct Forceless {
-    template <bool Full, class Real>
-    static FaceForces<Real> forces(FaceMotion<Real> const&, FaceContact<Real> const&, ContactParameters<Real> const&) {
-        return no_forces<Real>();
+    template <class Real>
+    static FaceNormals<Real> normals(FaceMotion<Real> const&, FaceContact<Real> const&, ContactParameters<Real> const&) {
+        return {{Real(0.0), Real(0.0), Real(0.0), Real(0.0)}, mask_of<Real>(false)};
     }
 };
 

@@ -204,8 +204,9 @@ TEST(SceneLaws, ResolveToThemselves) {
                 double const before = key.get(scene.inputs), after = key.get(again.inputs);
                 EXPECT_TRUE(before == after || (std::isnan(before) && std::isnan(after))) << law.name << ": " << key.name;
                 std::string const line = fmt::format("\n{} = ", key.name.substr(key.name.find('.') + 1));
-                if (key.group == KeyGroup::law)
+                if (key.group == KeyGroup::law) {
                     EXPECT_EQ(contains(resolved, line), counts_for(key, scene.parts) && !std::isnan(before)) << key.name;
+                }
             }
         }
     }
