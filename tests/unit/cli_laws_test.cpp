@@ -18,7 +18,7 @@ constexpr std::tuple<char const*, char const*> studies[] = {
     {"ensemble", "duration = \"20 ms\"\nsamples = 5\nquantities = [\"energy_residual\", \"mode_time\"]"},
     {"lyapunov", "Ttr = \"5 ms\"\nduration = \"20 ms\"\ndt = \"0.5 ms\"\nexponents = 2"},
     {"poincare", "Ttr = \"5 ms\"\nduration = \"30 ms\"\nsection = { on = \"pitch\", value = 0 }"},
-    {"sweep", "parameter = \"joint.clearance\"\nvalues = [\"0.2 mm\", \"0.1 mm\"]\ntransient_revolutions = 0\nrevolutions = 1\n"
+    {"sweep", "parameter = \"joint.clearance\"\nvalues = [\"0.2 mm\", \"0.1 mm\"]\ntransient_revolutions = 0\nrevolutions = 2\n"
               "exponents = 1\nrescalings_per_revolution = 20"},
     {"tolerance", "duration = \"20 ms\"\nquantities = [\"peak_normal_force\"]"},
 };
