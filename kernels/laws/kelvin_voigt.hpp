@@ -12,11 +12,15 @@ struct KelvinVoigt {
     static constexpr Key keys[] = {
         {"contact.apex_stiffness", &Inputs::law_a, "N/m", Rule::positive, KeyGroup::law, "stiffness of an apex", follows},
         {"contact.apex_damping", &Inputs::law_b, "N s/m", Rule::not_negative, KeyGroup::law, "damping of an apex", 0}};
+    static constexpr double face_stiffness(Inputs const& in, double surface) {
+        return in.law_a == in.law_a ? 4 * in.law_a : surface;
+    }
     static constexpr LawInfo info{.name = "kelvin_voigt",
                                   .words = "a linear spring and damper at each apex, no modes",
                                   .switches = false,
                                   .groups = groups_of(KeyGroup::elastic),
-                                  .keys = keys};
+                                  .keys = keys,
+                                  .face_stiffness = &face_stiffness};
 
     template <class Damping, class Real>
     SLIDEWAY_FN static FaceForces<Real> forces(FaceMotion<Real> const& m, FaceContact<Real> const& face,

@@ -22,6 +22,7 @@ constexpr std::array layers = {
     Layer{"kernels/lane_copy.hpp", 2},
     Layer{"kernels/math", 2},
     Layer{"kernels/laws", 3},
+    Layer{"kernels/conditions.hpp", 4},
     Layer{"kernels/joint", 4},
     Layer{"kernels/mechanisms", 5},
     Layer{"kernels/observers", 6},
@@ -42,12 +43,17 @@ constexpr std::array layers = {
 };
 
 // Plain data without code of any instruction set: every layer may share it, the host included.
-constexpr std::array<std::string_view, 7> plain_data = {
+constexpr std::array<std::string_view, 12> plain_data = {
+    "kernels/key.hpp",
     "kernels/inputs.hpp",
     "kernels/status.hpp",
     "kernels/methods.hpp",
     "kernels/block.hpp",
     "kernels/grid_task.hpp",
+    "kernels/joint/apex.hpp",
+    "kernels/laws/law_info.hpp",
+    "kernels/laws/list.hpp",
+    "kernels/mechanisms/list.hpp",
     "kernels/mechanisms/mechanism_info.hpp",
     "kernels/observers/quantities.hpp",
 };
@@ -58,6 +64,10 @@ constexpr std::array<std::string_view, 6> programs_of_cards = {
     "kernels/grid_thread.hpp", "kernels/integrate.hpp",       "kernels/laws/conservative.hpp",
     "kernels/laws/paper.hpp",  "kernels/models/shadowed.hpp", "kernels/models/slider_crank_choice.hpp",
 };
+
+// All laws and all mechanisms, made at configuration; who may name them all: the unit that collects what each says of itself.
+constexpr std::array<std::string_view, 2> collections = {"kernels/all_laws.hpp", "kernels/all_mechanisms.hpp"};
+constexpr std::string_view collector = "host/scene/descriptors.cpp";
 
 bool is_plain_data(std::string_view path) { return std::ranges::find(plain_data, path) != plain_data.end(); }
 
@@ -80,6 +90,10 @@ std::optional<std::string> include_violation(std::string const& from, std::strin
     if (!user) return from + " is in no layer; give it a rank in tests/structure/layers.cpp";
     if (user->name == "kernels/real.hpp") return from + " includes " + to + "; it stands below everything";
     if (is_plain_data(to)) return std::nullopt;
+    if (std::ranges::find(collections, to) != collections.end()) {
+        if (from == collector || from == kernels_of_cards) return std::nullopt;
+        return from + " includes " + to + "; a unit that uses one law or mechanism includes no other";
+    }
     Layer const* const used = layer_of(to);
     if (!used) return from + " includes " + to + ", which is in no layer (includes are written from the root)";
     if (used->rank > user->rank) return from + " includes upward: " + to;

@@ -79,6 +79,12 @@ TEST(LayerRules, PhysicsIsKnownToTheBackendAlone) {
     EXPECT_EQ(include_violations(including("host/study/ensemble.cpp", "kernels/integrate.hpp")).size(), 1u);
 }
 
+TEST(LayerRules, OneUnitNamesEveryLawAndMechanism) {
+    EXPECT_TRUE(include_violations(including("host/scene/descriptors.cpp", "kernels/all_laws.hpp")).empty());
+    EXPECT_EQ(include_violations(including("host/scene/keys.cpp", "kernels/all_laws.hpp")).size(), 1u);
+    EXPECT_EQ(include_violations(including("kernels/joint/joint.hpp", "kernels/all_mechanisms.hpp")).size(), 1u);
+}
+
 TEST(LayerRules, UnknownPlacesAreFound) {
     EXPECT_EQ(include_violations({"kernels/extras/thing.hpp", ""}).size(), 1u);
     EXPECT_EQ(include_violations(including("host/cli/run.cpp", "run.hpp")).size(), 1u);
