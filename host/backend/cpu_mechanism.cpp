@@ -19,7 +19,7 @@ Table table_of(Parts const& parts) {
     return {functions, {law.with[static_cast<int>(parts.damping)], law.switches, parts}};
 }
 
-bool has(Parts const& parts) { return law_table(parts.law).with[static_cast<int>(parts.damping)].lean_forces != nullptr; }
+bool has(Parts const& parts) { return law_table(parts.law).with[static_cast<int>(parts.damping)].normals != nullptr; }
 void run(Block& block, Parts const& parts) { run_lanes<Base>(block, table_of(parts)); }
 void run_shadowed(Block& block, Parts const& parts) {
     if constexpr (SLIDEWAY_MECHANISM::info.has_exponents) run_shadowed_lanes<Base>(block, table_of(parts));

@@ -140,7 +140,9 @@ private:
                 Record const& r = records_[chosen[i < members ? i : 0]];
                 load_lane(pack_.state.constants, i, r.constants);
                 load_lane(pack_.state.course, i, r.course);
-                if (pack_.needs.watch()) load_lane(pack_.state.contacts, i, r.contacts);
+                if constexpr (Model::has_contacts) {
+                    if (pack_.needs.watch()) load_lane(pack_.state.contacts, i, r.contacts);
+                }
                 if (pack_.needs.quantities) load_lane(pack_.state.observation, i, r.observation);
                 pack_.with_accelerations([&](auto& a) { load_lane(a, i, r.accelerations); });
                 if constexpr (Model::has_shadows) {
@@ -162,7 +164,9 @@ private:
             auto const& c = pack_.state.course;
             if constexpr (width > 1) {
                 store_lane(c, i, records_[seat].course);
-                if (pack_.needs.watch()) store_lane(pack_.state.contacts, i, records_[seat].contacts);
+                if constexpr (Model::has_contacts) {
+                    if (pack_.needs.watch()) store_lane(pack_.state.contacts, i, records_[seat].contacts);
+                }
                 if (pack_.needs.quantities) {
                     store_lane(pack_.state.observation, i, records_[seat].observation);
                 }

@@ -18,6 +18,7 @@ struct Layer {
 
 // A file may include its own layer and those of the same or a lower rank.
 constexpr std::array layers = {
+    Layer{"kernels/simd", 0},
     Layer{"kernels/real.hpp", 1},
     Layer{"kernels/lane_copy.hpp", 2},
     Layer{"kernels/math", 2},
@@ -79,7 +80,13 @@ Layer const* layer_of(std::string_view path) {
     return nullptr;
 }
 
-bool knows_backends(std::string_view path) { return path == "kernels/real.hpp" || path.starts_with("host/backend/"); }
+bool knows_backends(std::string_view path) {
+    return path == "kernels/real.hpp" || path.starts_with("kernels/simd/") || path.starts_with("host/backend/");
+}
+
+bool knows_instructions(std::string_view path) {
+    return path == "kernels/simd/x86.hpp" || path == "kernels/simd/neon.hpp";
+}
 
 std::optional<std::string> include_violation(std::string const& from, std::string const& to) {
     if (is_plain_data(from)) {
@@ -88,7 +95,8 @@ std::optional<std::string> include_violation(std::string const& from, std::strin
     }
     Layer const* const user = layer_of(from);
     if (!user) return from + " is in no layer; give it a rank in tests/structure/layers.cpp";
-    if (user->name == "kernels/real.hpp") return from + " includes " + to + "; it stands below everything";
+    if (user->rank <= 1 && !to.starts_with("kernels/simd/"))
+        return from + " includes " + to + "; it stands below everything";
     if (is_plain_data(to)) return std::nullopt;
     if (std::ranges::find(collections, to) != collections.end()) {
         if (from == collector || from == kernels_of_cards) return std::nullopt;
@@ -157,12 +165,15 @@ Violations circle_violations(std::vector<SourceFile> const& files) {
 
 Violations backend_violations(SourceFile const& file) {
     Violations out;
+    static Pattern const intrinsic(
+        R"(\b_mm\d*_\w+|\w*intrin\.h\b|\barm_neon\.h\b|\b__m(128|256|512)\w*|__AVX\w*|__SSE\w*|__FMA\w*|\bv\w+q_[fu]64\b)");
+    if (!knows_instructions(file.path)) find_in_code(file, intrinsic, "only kernels/simd knows instructions", out);
     if (knows_backends(file.path)) return out;
-    static Pattern const instruction_set(
-        R"(\b_mm\d*_\w+|\bxsimd\b|\w*intrin\.h\b|\b__m(128|256|512)\w*|__AVX\w*|__SSE\w*)");
+    static Pattern const instruction_set(R"(\bxsimd\b|__x86_64__|__aarch64__)");
     static Pattern const cuda(R"(__CUDA\w*|\b__(host|device|global)__)");
-    find_in_code(file, instruction_set, "only kernels/real.hpp and host/backend know instruction sets", out);
-    find_in_code(file, cuda, "only kernels/real.hpp and host/backend know CUDA", out);
+    find_in_code(file, instruction_set, "only kernels/real.hpp, kernels/simd and host/backend know instruction sets",
+                 out);
+    find_in_code(file, cuda, "only kernels/real.hpp, kernels/simd and host/backend know CUDA", out);
     return out;
 }
 
