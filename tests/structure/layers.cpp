@@ -62,8 +62,9 @@ constexpr std::array<std::string_view, 12> plain_data = {
 // The kernels on cards, and what they may be made of: whole programs, and which equations these are to hold.
 constexpr std::string_view kernels_of_cards = "host/backend/cuda.cu";
 constexpr std::array<std::string_view, 6> programs_of_cards = {
-    "kernels/grid_thread.hpp", "kernels/integrate.hpp",       "kernels/laws/conservative.hpp",
-    "kernels/laws/paper.hpp",  "kernels/models/shadowed.hpp", "kernels/models/slider_crank_choice.hpp",
+    "kernels/grid_thread.hpp",      "kernels/integrate.hpp",
+    "kernels/mechanisms/slider_crank.hpp", "kernels/models/every_law.hpp",
+    "kernels/models/mechanism_model.hpp",  "kernels/models/shadowed.hpp",
 };
 
 // All laws and all mechanisms, made at configuration; who may name them all: the unit that collects what each says of itself.
@@ -207,7 +208,7 @@ Violations card_violations(SourceFile const& file) {
     }
     if (!kernels) return out;
     static Pattern const computed(computation), definition(R"(^\w.*\) (const )?\{|^(struct|class|union|enum)\b)"),
-        launched(R"(\b__global__ void\b|^CudaKernels SLIDEWAY_KERNELS\(\))");
+        launched(R"(\b__global__ void\b|^CudaKernels cuda_kernels\(\))");
     find_in_code(file, computed, "kernels on cards call the processor's programs and compute nothing", out);
     for (std::string const& line : lines_of(code_only(file.text))) {
         if (definition.match_in(line) && !launched.match_in(line)) {
