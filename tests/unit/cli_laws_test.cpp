@@ -66,8 +66,9 @@ TEST_P(LawInStudies, Runs) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LawInStudies, ::testing::ValuesIn(mechanisms_and_laws()), [](auto const& p) {
-    bool const spatial = info(p.param.mechanism).spatial;
-    return std::string(info(p.param.mechanism).name) + (spatial ? "_" + std::string(info(p.param.law).name) : "");
+    bool const spatial = slideway::info(p.param.mechanism).spatial;
+    return std::string(slideway::info(p.param.mechanism).name) +
+           (spatial ? "_" + std::string(slideway::info(p.param.law).name) : "");
 });
 
 }  // namespace

@@ -24,9 +24,10 @@ using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
 /// Contacts without force: what is left of the derivative is not the joint's.
 struct Forceless {
-    template <bool Full, class Real>
-    static FaceForces<Real> forces(FaceMotion<Real> const&, FaceContact<Real> const&, ContactParameters<Real> const&) {
-        return no_forces<Real>();
+    template <class Real>
+    static FaceNormals<Real> normals(FaceMotion<Real> const&, FaceContact<Real> const&, ContactParameters<Real> const&) {
+        auto const f = no_forces<Real>();
+        return {f.normal, f.outside};
     }
 };
 
