@@ -1,4 +1,4 @@
-# SLIDEWAY_NVCC_LACKS: why nvcc is of no use, empty where it is.  SLIDEWAY_HAS_CUDA: whether kernels for cards are built.
+# SLIDEWAY_NVCC_LACKS: why nvcc is of no use, empty where it is.  SLIDEWAY_HAS_CUDA: whether the module for cards is built.
 # CMAKE_CUDA_ARCHITECTURES, or CUDAARCHS of the environment, says for which; without them for the card of this machine, or else for sm_80 (A100)
 # and sm_90 (H100).
 set(SLIDEWAY_HAS_CUDA OFF)
@@ -15,9 +15,10 @@ else()
     endif()
 endif()
 if(NOT SLIDEWAY_CUDA MATCHES "^(AUTO|ON|OFF|TRUE|FALSE|YES|NO|1|0)$")
-    message(FATAL_ERROR "SLIDEWAY_CUDA is ${SLIDEWAY_CUDA}; use AUTO, ON or OFF")
+    message(FATAL_ERROR "SLIDEWAY_CUDA is ${SLIDEWAY_CUDA}; use ON or OFF")
 endif()
-if(NOT SLIDEWAY_CUDA AND NOT SLIDEWAY_CUDA STREQUAL "AUTO")
+# AUTO: of a build folder from when it was the default.
+if(NOT SLIDEWAY_CUDA OR SLIDEWAY_CUDA STREQUAL "AUTO")
     return()
 endif()
 
@@ -45,7 +46,7 @@ list(TRANSFORM cards REPLACE "-.*" "")
 list(TRANSFORM cards PREPEND "sm_")
 list(JOIN cards ", " SLIDEWAY_CUDA_TARGETS)
 
-# An nvcc that does not know the host compiler, or a card, is no reason to leave AUTO without the processor.
+# Whether it knows the host compiler, and the cards.
 if(NOT SLIDEWAY_NVCC_LACKS)
     list(JOIN cards "," codes)
     list(GET cards 0 first)
@@ -59,11 +60,7 @@ if(NOT SLIDEWAY_NVCC_LACKS)
     endif()
 endif()
 if(SLIDEWAY_NVCC_LACKS)
-    if(NOT SLIDEWAY_CUDA STREQUAL "AUTO")
-        message(FATAL_ERROR "SLIDEWAY_CUDA is ${SLIDEWAY_CUDA}, but ${SLIDEWAY_NVCC_LACKS}")
-    endif()
-    message(STATUS "No kernels for cards: ${SLIDEWAY_NVCC_LACKS}")
-    return()
+    message(FATAL_ERROR "SLIDEWAY_CUDA is ${SLIDEWAY_CUDA}, but ${SLIDEWAY_NVCC_LACKS}")
 endif()
 
 set(CMAKE_CUDA_COMPILER ${SLIDEWAY_NVCC})

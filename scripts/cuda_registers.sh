@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # Writes bench/results/cuda_registers.md: registers, stack and spills of the kernels on cards, from what ptxas -v said when a build
-# compiled them.  Usage: scripts/cuda_registers.sh [BUILD], a build for sm_80 and sm_90 (-DCMAKE_CUDA_ARCHITECTURES="80;90").
+# compiled them.  Usage: scripts/cuda_registers.sh [BUILD], a build of the target slideway_cuda_module for sm_80 and sm_90, as the
+# preset cuda makes it.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-build=${1:-$root/build/release}
+build=${1:-$root/build/cuda}
 list=$build/host/backend/ptxas_reports.txt
 [[ -r $list ]] || {
-    echo "cuda_registers.sh: no $list; build with nvcc first" >&2
+    echo "cuda_registers.sh: no $list; build the preset cuda first" >&2
     exit 2
 }
 rows=$(mktemp)
@@ -16,7 +17,7 @@ while read -r report; do cat "$report"; done <"$list" | c++filt | awk -f "$root/
 nvcc=$(sed -n 's/^SLIDEWAY_NVCC:[A-Z]*=//p' "$build/CMakeCache.txt")
 changed=
 git -C "$root" diff --quiet HEAD -- cmake host kernels || changed=" and changes since"
-flags=$(grep -m 1 "SLIDEWAY_KERNELS=" "$build/compile_commands.json" | tr " " "\n" | grep -E "^(-O|--fmad|--expt|-std)" | sort -u | tr "\n" " ")
+flags=$(grep -m 1 "SLIDEWAY_ISA=cuda " "$build/compile_commands.json" | tr " " "\n" | grep -E "^(-O|--fmad|--expt|-std)" | sort -u | tr "\n" " ")
 
 {
     cat <<EOF
@@ -32,6 +33,8 @@ Assembled, not run. Bytes per thread; of spills, what all instructions of a func
 runs. A kernel's stack frame is the deepest chain of calls, with the lane program, the shadows and what is spilled; no other function
 has a frame, for ptxas shares out the registers between caller and callee. Where functions are called through pointers, or a unit has
 too many of them, it follows the calling convention instead and saves half of the registers (the test \`CudaRegisters.AreAsKnown\`).
+One kernel integrates members and one members with shadows; each has all laws and dampings, friction and misaligned ways. 0 where
+nothing is spilled, – where there is no such function.
 
 EOF
     awk -F'\t' '
@@ -40,9 +43,9 @@ EOF
             return stores[key] + loads[key] == 0 ? "0" : stores[key] " / " loads[key]
         }
         function keep(key) {  # the larger of several functions of one name
-            if (!(key in stores) || stores[key] + loads[key] < $7 + $8) {
-                stores[key] = $7
-                loads[key] = $8
+            if (!(key in stores) || stores[key] + loads[key] < $5 + $6) {
+                stores[key] = $5
+                loads[key] = $6
             }
         }
         function learn(list, name) {  # in the order of their first mention
@@ -51,104 +54,62 @@ EOF
                 names[list, ++size[list]] = name
             }
         }
-        function heading(text, firsts, lasts, i, line, targets) {
-            line = "| " firsts
-            for (i = 1; i <= size["target"]; i++) {
-                targets = lasts
-                gsub(/@/, names["target", i], targets)
-                line = line " | " targets
-            }
+        function heading(text, first, line, i) {
+            line = "| " first
+            for (i = 1; i <= size["target"]; i++) line = line " | " names["target", i] " members | " names["target", i] " shadowed"
             print text "\n\n" line " |"
             gsub(/[^|]+/, "---", line)
             print line "|"
         }
-        BEGIN { steppers = split("RungeKutta4 BogackiShampine DormandPrince StiffStep", stepper, " ") }
-        {
-            learn("target", $1)
-            parts = $5
-            sub(/^NoFriction/, "none", parts)
-            sub(/^StickSlipFriction/, "stick-slip", parts)
-            sub(/ AlignedWay/, " | aligned", parts)
-            sub(/ MisalignedWay/, " | misaligned", parts)
-            sub(/ Point/, " | point ", parts)
-            sub(/ Rate/, " | rate ", parts)
-            sub(/ Restitution/, " | restitution ", parts)
-            sub(/ Damping/, "", parts)
-            instance = ($2 ~ /paper/ ? "paper" : "conservative") " | " parts
-        }
-        $4 == "kernel" {
-            learn("kernel", $2 " | " $3)
-            registers[$1, $2 " | " $3] = $9
-            frame[$1, $2 " | " $3] = $6
-            keep($1 SUBSEP $2 " | " $3)
-            next
-        }
-        $4 ~ /derivative$|^linearisation$/ {
-            learn("instance", instance)
-            keep($1 SUBSEP $4 SUBSEP instance)
-            if ($4 == "lean derivative") {
-                count[$1]++
-                if ($7 > 0) spilling[$1]++
-            }
-            next
-        }
-        $4 ~ /^LaneProgram::work/ {
-            sub(/.* /, "", $4)
-            keep($1 SUBSEP $4 SUBSEP $2 " | " $3)
-            next
-        }
-        $7 + $8 > 0 {
-            sub(/ .*/, "", $4)
-            learn("other", $4)
-            keep($1 SUBSEP $4)
-        }
-        END {
+        function row(label, name, line, i) {
+            line = "| " label
             for (i = 1; i <= size["target"]; i++) {
-                t = names["target", i]
-                printf "On %s %d of %d lean derivatives (%d instances in two kernels) store spills.\n", t, spilling[t], count[t], count[t] / 2
+                line = line " | " cell(names["target", i] SUBSEP "members" SUBSEP name) " | " \
+                    cell(names["target", i] SUBSEP "shadowed" SUBSEP name)
             }
-            heading("\n## Kernels\n\nRegisters, stack frame, spills of the kernel itself.", "unit | kernel",
-                    "@ registers | frame | spills")
-            for (i = 1; i <= size["kernel"]; i++) {
-                name = names["kernel", i]
-                line = "| " name
-                for (j = 1; j <= size["target"]; j++) {
-                    t = names["target", j]
-                    line = line " | " registers[t, name] " | " frame[t, name] " | " cell(t SUBSEP name)
-                }
-                print line " |"
+            print line " |"
+        }
+        function kernel_row(label, numbers, line, i) {
+            line = "| " label
+            for (i = 1; i <= size["target"]; i++) {
+                line = line " | " numbers[names["target", i], "members"] " | " numbers[names["target", i], "shadowed"]
             }
+            print line " |"
+        }
+        { learn("target", $1) }
+        $3 == "kernel" {
+            registers[$1, $2] = $7
+            frame[$1, $2] = $4
+        }
+        $3 !~ /^(lean|full|linearis)|^LaneProgram::work|^kernel$/ {
+            sub(/ .*/, "", $3)
+            if ($5 + $6 > 0) learn("other", $3)
+        }
+        { keep($1 SUBSEP $2 SUBSEP $3) }
+        END {
+            heading("## Kernels", "")
+            kernel_row("registers", registers)
+            kernel_row("stack frame", frame)
+            row("spills of the kernel itself", "kernel")
             heading("\n## Equations\n\nThe hot path is the lean derivative, which the explicit methods evaluate three (bs32) to six " \
                     "(dopri5) times a step. The full one also fills the report: at the ends of steps or stages, for quantities and " \
-                    "events. The linearisation is the stiff method\x27s. Of the two kernels the one that spills more.",
-                    "law | friction | way | damping", "@ lean | full | linearisation")
-            for (i = 1; i <= size["instance"]; i++) {
-                name = names["instance", i]
-                line = "| " name
-                for (j = 1; j <= size["target"]; j++) {
-                    t = names["target", j]
-                    line = line " | " cell(t SUBSEP "lean derivative" SUBSEP name) " | " cell(t SUBSEP "full derivative" SUBSEP name) \
-                        " | " cell(t SUBSEP "linearisation" SUBSEP name)
-                }
-                print line " |"
-            }
-            heading("\n## Stints\n\n`LaneProgram::work` of each method: step control, stages, samples and events.",
-                    "unit | kernel", "@ rk4 | bs32 | dopri5 | ros34pw2")
-            for (i = 1; i <= size["kernel"]; i++) {
-                name = names["kernel", i]
-                line = "| " name
-                for (j = 1; j <= size["target"]; j++) {
-                    t = names["target", j]
-                    for (k = 1; k <= steppers; k++) line = line " | " cell(t SUBSEP stepper[k] SUBSEP name)
-                }
-                print line " |"
-            }
-            heading("\n## Whatever else spills\n\nThe largest of several functions of one name.", "function", "@")
-            for (i = 1; i <= size["other"]; i++) {
-                name = names["other", i]
-                line = "| `" name "`"
-                for (j = 1; j <= size["target"]; j++) line = line " | " cell(names["target", j] SUBSEP name)
-                print line " |"
-            }
+                    "events. The linearisation is the stiff method\x27s. Of the faces of two axes, and of all laws and dampings, " \
+                    "those that spill most.", "function")
+            row("lean derivative", "lean derivative")
+            row("its faces", "lean faces")
+            row("its laws", "lean law")
+            row("full derivative", "full derivative")
+            row("its faces", "full faces")
+            row("its laws", "full law")
+            row("linearisation", "linearisation")
+            row("its faces", "linearised faces")
+            row("its laws", "linearised law")
+            heading("\n## Stints\n\n`LaneProgram::work` of each method: step control, stages, samples and events.", "method")
+            row("rk4", "LaneProgram::work RungeKutta4")
+            row("bs32", "LaneProgram::work BogackiShampine")
+            row("dopri5", "LaneProgram::work DormandPrince")
+            row("ros34pw2", "LaneProgram::work StiffStep")
+            heading("\n## Whatever else spills\n\nThe largest of several functions of one name.", "function")
+            for (i = 1; i <= size["other"]; i++) row("`" names["other", i] "`", names["other", i])
         }' "$rows"
 } >"$root/bench/results/cuda_registers.md"

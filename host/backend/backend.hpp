@@ -22,7 +22,7 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// There is no card, or no code for one.
+/// There is no card, or no module with code for one.
 class NoDevice : public DeviceError {
 public:
     using DeviceError::DeviceError;
@@ -101,7 +101,8 @@ struct CardShare {
 };
 
 /// A card of this machine.  Nothing happens on it before it is asked for bounds or a kernel.
-/// @throws NoDevice; DeviceError if there is one that cannot be used
+/// @throws NoDevice, also without the module that has the kernels for cards (cuda_module.hpp); DeviceError if there is a card, or a
+/// module, that cannot be used
 std::shared_ptr<Backend const> cuda_backend(CardShare const& share = {});
 
 }  // namespace slideway

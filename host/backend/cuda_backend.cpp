@@ -9,20 +9,16 @@
 
 #include <fmt/format.h>
 
+#include "host/backend/cuda_backend.hpp"
 #include "host/backend/cuda_kernels.hpp"
 #include "host/backend/cuda_stream.hpp"
 
 namespace slideway {
 namespace {
 
-/// The kernel that holds the equations of a scene's parts.
-void const* kernel_of(Parts const& parts, bool shadows) {
-    auto const of_law = [&](CudaKernels const& steady, CudaKernels const& impacts) {
-        CudaKernels const& kernels = parts.damping == Damping::restitution ? impacts : steady;
-        return shadows ? kernels.shadowed : kernels.members;
-    };
-    return parts.law == Law::paper ? of_law(paper_kernels(), paper_impact_kernels())
-                                   : of_law(conservative_kernels(), conservative_impact_kernels());
+void const* kernel_for(bool shadows) {
+    CudaKernels const kernels = cuda_kernels();
+    return shadows ? kernels.shadowed : kernels.members;
 }
 
 class CudaBackend final : public Backend, public std::enable_shared_from_this<CudaBackend> {
@@ -39,7 +35,7 @@ public:
 
     BlockBounds bounds(BlockDemand const& demand) const override {
         card_.bind();
-        void const* const kernel = kernel_of(demand.parts, demand.shadows);
+        void const* const kernel = kernel_for(demand.shadows);
         BlockBounds bounds;
         bounds.lanes = 32;
         bounds.shared = true;
@@ -65,7 +61,7 @@ public:
 
     BlockKernel kernel(Parts const& parts, bool shadows) const override {
         card_.bind();
-        void const* const kernel = kernel_of(parts, shadows);
+        void const* const kernel = kernel_for(shadows);
         stack_of(kernel);  // that it is there
         return [card = shared_from_this(), kernel, parts, most = resident_threads(kernel)](Block& block) {
             card->run(kernel, parts, most, block);
@@ -151,7 +147,7 @@ private:
 
 }  // namespace
 
-std::shared_ptr<Backend const> cuda_backend(CardShare const& share) {
+std::shared_ptr<Backend const> open_card(CardShare const& share) {
     return std::make_shared<CudaBackend>(find_card(share));
 }
 

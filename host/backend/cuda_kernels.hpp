@@ -11,10 +11,7 @@ struct CudaKernels {
     void const* shadowed = nullptr;  // members with shadows
 };
 
-// One for each list of slider-cranks: a law, and the dampings that leave the same memory.
-CudaKernels paper_kernels();                // point and rate
-CudaKernels paper_impact_kernels();         // restitution
-CudaKernels conservative_kernels();         // point and rate
-CudaKernels conservative_impact_kernels();  // restitution
+/// Of the slider-crank, for all laws.
+CudaKernels cuda_kernels();
 
 }  // namespace slideway

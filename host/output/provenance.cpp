@@ -12,7 +12,7 @@
 
 #include <fmt/chrono.h>
 
-#include "host/output/commit.hpp"
+#include "host/backend/commit.hpp"
 #include "host/scene/error.hpp"
 #include "host/scene/fnv1a.hpp"
 

@@ -72,7 +72,7 @@ private:
     struct Sides { Mask<Real> plus, minus; };
 
     /// Both faces normal to one of the slider's axes.
-    template <Axis axis> SLIDEWAY_FN void add_faces(Mask<Real>& outside, Wrench<Real>& w) {
+    template <Axis axis> SLIDEWAY_CARD_CALL void add_faces(Mask<Real>& outside, Wrench<Real>& w) {
         using Faces = FacePair<axis>;
         auto depths = Faces::depths(motion_, p_.geometry);
         bool const holding = block_.can_hold() && any(memory_.holding > Real(0.5));

@@ -55,7 +55,7 @@ template <class Real> struct SliderReport : MechanismReport<Real> {
     }
 
     /// Of a slider on a rod.  @param a, b motion of the crank pin and of the slider's centre  @param d their distance along X [m]
-    SLIDEWAY_FN void fill_crank(PointMotion<Real> const& a, PointMotion<Real> const& b, Real d,
+    SLIDEWAY_CARD_CALL void fill_crank(PointMotion<Real> const& a, PointMotion<Real> const& b, Real d,
                                 SliderTurning<Real> const& turning, Vec3<Real> const& contact_force,
                                 SliderParameters<Real> const& p) {
         Real const zero(0.0), half(0.5), one(1.0);

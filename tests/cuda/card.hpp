@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <memory>
 
 #include "host/backend/backend.hpp"
@@ -10,14 +11,21 @@
 
 namespace slideway::testing {
 
+#if defined(SLIDEWAY_SIMULATED_MODULE)
+inline constexpr char const* simulated_module = SLIDEWAY_SIMULATED_MODULE;
+#else
+inline constexpr char const* simulated_module = nullptr;
+#endif
+
 /// Tests of a card are skipped where there is none; a simulated one there always is.
 class Card : public ::testing::Test {
 protected:
     void SetUp() override {
+        if (simulated_module != nullptr) setenv("SLIDEWAY_CUDA_MODULE", simulated_module, 1);
         try {
             card_ = cuda_backend();
         } catch (NoDevice const& error) {
-            if (SLIDEWAY_CARD_IS_SIMULATED) FAIL() << error.what();
+            if (simulated_module != nullptr) FAIL() << error.what();
             GTEST_SKIP() << error.what();
         }
     }

@@ -26,7 +26,7 @@ protected:
     /// The lines that it prints.  It must neither crash nor leak, and end in time.
     /// @param settings of the simulated runtime, without SIMULATED_CUDA_: "FAIL=cudaMalloc:1 DELAY=100"
     std::vector<std::string> run(std::string const& settings, std::string const& arguments, int seconds = 60) {
-        std::string environment = "SIMULATED_CUDA_LEAKS=1 ";
+        std::string environment = "SLIDEWAY_CUDA_MODULE='" SLIDEWAY_SIMULATED_MODULE "' SIMULATED_CUDA_LEAKS=1 ";
         std::istringstream words(settings);
         for (std::string word; words >> word;) environment += "SIMULATED_CUDA_" + word + " ";
         auto const outcome = run_shell(folder_, environment + "timeout -k 5 " + std::to_string(seconds) +

@@ -1,26 +1,31 @@
-// The program linked with a simulated card, run as a user does.
+// The program with the module of a simulated card, run as a user does.
 #pragma once
 
 #include <cstdlib>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tests/unit/cli_results.hpp"
 
 namespace slideway::testing {
 
-/// A setting of the simulated card while it lives: Setting("FAIL", "cudaMalloc:1").
-class Setting {
+/// A variable of the environment while it lives.
+class Variable {
 public:
-    Setting(std::string const& name, std::string const& value) : name_("SIMULATED_CUDA_" + name) {
-        setenv(name_.c_str(), value.c_str(), 1);
-    }
-    Setting(Setting const&) = delete;
-    ~Setting() { unsetenv(name_.c_str()); }
+    Variable(std::string name, std::string const& value) : name_(std::move(name)) { setenv(name_.c_str(), value.c_str(), 1); }
+    Variable(Variable const&) = delete;
+    ~Variable() { unsetenv(name_.c_str()); }
 
 private:
     std::string name_;
+};
+
+/// A setting of the simulated card while it lives: Setting("FAIL", "cudaMalloc:1").
+class Setting : Variable {
+public:
+    Setting(std::string const& name, std::string const& value) : Variable("SIMULATED_CUDA_" + name, value) {}
 };
 
 class SimulatedRun : public ProgramWithResults {
@@ -42,6 +47,7 @@ protected:
     }
 
 private:
+    Variable const module_{"SLIDEWAY_CUDA_MODULE", SLIDEWAY_SIMULATED_MODULE};
     // Whatever a run leaves behind on the card is a line on stderr.
     Setting const leaks_{"LEAKS", "1"};
 };

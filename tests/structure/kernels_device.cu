@@ -1,6 +1,8 @@
 // Compiled, never run here: every header of kernels/ and of the tests' models as device code, and what of them host/backend/cuda.cu
-// does not hold, with Real = double.  Each thread has a block of members of its own; one probes a table.
+// does not hold, with Real = double: the equations of every mechanism, with every law.  Each thread has a block of members of its own;
+// one probes a table.
 #include "all_kernels.hpp"
+#include "kernels/all_mechanisms.hpp"
 
 namespace slideway {
 
@@ -24,8 +26,12 @@ template <class Map> __global__ void map_orbits(MapBlockOf<typename Map::Inputs>
 template __global__ void map_orbits<Henon>(MapBlockOf<Henon::Inputs>*, int);
 template __global__ void map_orbits<Logistic>(MapBlockOf<Logistic::Inputs>*, int);
 
-template <class Model> __global__ void probe_table(ProbeTable table) { probe<Model, double>(table); }
-template __global__ void probe_table<SliderCrankModel<PaperLaw, StickSlipFriction, MisalignedWay, RestitutionDamping>>(
-    ProbeTable);
+template <class Mechanism, class Base> __global__ void probe_table(ProbeTable table, Parts parts) {
+    using Model = MechanismModel<Mechanism, Base, EveryLaw>;
+    probe<Model, double>(table, Model(conditions_with_every_law(parts)));
+}
+#define SLIDEWAY_PROBED(name, Type, Base) template __global__ void probe_table<Type, Base>(ProbeTable, Parts);
+SLIDEWAY_MECHANISMS(SLIDEWAY_PROBED)
+#undef SLIDEWAY_PROBED
 
 }  // namespace slideway

@@ -18,6 +18,7 @@ struct Layer {
 
 // A file may include its own layer and those of the same or a lower rank.
 constexpr std::array layers = {
+    Layer{"kernels/simd", 0},
     Layer{"kernels/real.hpp", 1},
     Layer{"kernels/lane_copy.hpp", 2},
     Layer{"kernels/math", 2},
@@ -61,8 +62,9 @@ constexpr std::array<std::string_view, 12> plain_data = {
 // The kernels on cards, and what they may be made of: whole programs, and which equations these are to hold.
 constexpr std::string_view kernels_of_cards = "host/backend/cuda.cu";
 constexpr std::array<std::string_view, 6> programs_of_cards = {
-    "kernels/grid_thread.hpp", "kernels/integrate.hpp",       "kernels/laws/conservative.hpp",
-    "kernels/laws/paper.hpp",  "kernels/models/shadowed.hpp", "kernels/models/slider_crank_choice.hpp",
+    "kernels/grid_thread.hpp",      "kernels/integrate.hpp",
+    "kernels/mechanisms/slider_crank.hpp", "kernels/models/every_law.hpp",
+    "kernels/models/mechanism_model.hpp",  "kernels/models/shadowed.hpp",
 };
 
 // All laws and all mechanisms, made at configuration; who may name them all: the unit that collects what each says of itself.
@@ -79,7 +81,13 @@ Layer const* layer_of(std::string_view path) {
     return nullptr;
 }
 
-bool knows_backends(std::string_view path) { return path == "kernels/real.hpp" || path.starts_with("host/backend/"); }
+bool knows_backends(std::string_view path) {
+    return path == "kernels/real.hpp" || path.starts_with("kernels/simd/") || path.starts_with("host/backend/");
+}
+
+bool knows_instructions(std::string_view path) {
+    return path == "kernels/simd/x86.hpp" || path == "kernels/simd/neon.hpp";
+}
 
 std::optional<std::string> include_violation(std::string const& from, std::string const& to) {
     if (is_plain_data(from)) {
@@ -88,7 +96,8 @@ std::optional<std::string> include_violation(std::string const& from, std::strin
     }
     Layer const* const user = layer_of(from);
     if (!user) return from + " is in no layer; give it a rank in tests/structure/layers.cpp";
-    if (user->name == "kernels/real.hpp") return from + " includes " + to + "; it stands below everything";
+    if (user->rank <= 1 && !to.starts_with("kernels/simd/"))
+        return from + " includes " + to + "; it stands below everything";
     if (is_plain_data(to)) return std::nullopt;
     if (std::ranges::find(collections, to) != collections.end()) {
         if (from == collector || from == kernels_of_cards) return std::nullopt;
@@ -157,12 +166,15 @@ Violations circle_violations(std::vector<SourceFile> const& files) {
 
 Violations backend_violations(SourceFile const& file) {
     Violations out;
+    static Pattern const intrinsic(
+        R"(\b_mm\d*_\w+|\w*intrin\.h\b|\barm_neon\.h\b|\b__m(128|256|512)\w*|__AVX\w*|__SSE\w*|__FMA\w*|\bv\w+q_[fu]64\b)");
+    if (!knows_instructions(file.path)) find_in_code(file, intrinsic, "only kernels/simd knows instructions", out);
     if (knows_backends(file.path)) return out;
-    static Pattern const instruction_set(
-        R"(\b_mm\d*_\w+|\bxsimd\b|\w*intrin\.h\b|\b__m(128|256|512)\w*|__AVX\w*|__SSE\w*)");
+    static Pattern const instruction_set(R"(\bxsimd\b|__x86_64__|__aarch64__)");
     static Pattern const cuda(R"(__CUDA\w*|\b__(host|device|global)__)");
-    find_in_code(file, instruction_set, "only kernels/real.hpp and host/backend know instruction sets", out);
-    find_in_code(file, cuda, "only kernels/real.hpp and host/backend know CUDA", out);
+    find_in_code(file, instruction_set, "only kernels/real.hpp, kernels/simd and host/backend know instruction sets",
+                 out);
+    find_in_code(file, cuda, "only kernels/real.hpp, kernels/simd and host/backend know CUDA", out);
     return out;
 }
 
@@ -196,7 +208,7 @@ Violations card_violations(SourceFile const& file) {
     }
     if (!kernels) return out;
     static Pattern const computed(computation), definition(R"(^\w.*\) (const )?\{|^(struct|class|union|enum)\b)"),
-        launched(R"(\b__global__ void\b|^CudaKernels SLIDEWAY_KERNELS\(\))");
+        launched(R"(\b__global__ void\b|^CudaKernels cuda_kernels\(\))");
     find_in_code(file, computed, "kernels on cards call the processor's programs and compute nothing", out);
     for (std::string const& line : lines_of(code_only(file.text))) {
         if (definition.match_in(line) && !launched.match_in(line)) {

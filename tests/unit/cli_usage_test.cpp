@@ -138,14 +138,26 @@ TEST_F(Usage, OfOptionsOfRun) {
     EXPECT_FALSE(std::filesystem::exists(path("s.nc")));
 }
 
-TEST_F(Usage, OfAnInstructionSetThatThisMachineLacks) {
+TEST_F(Usage, OfAnInstructionSetThatThisMachineOrBuildLacks) {
+    std::string const list = run({"list"}).out;
+    int lacking = 0;
     for (Isa const isa : all_isas()) {
         std::string const name(name_of(isa));
-        if (is_supported(isa))
+        auto const row = list.find("\n  " + name + ' ');
+        ASSERT_NE(row, std::string::npos) << name;
+        std::string const told = list.substr(row + 1, list.find('\n', row + 1) - row - 1);
+        EXPECT_EQ(told.ends_with(", not in this build"), !is_built(isa)) << told;
+        if (is_supported(isa)) {
             EXPECT_EQ(run({"probe", "s.toml", "--isa", name}).code, 0);
-        else
-            expect_refusal(2, "--isa " + name, {"probe", "s.toml", "--isa", name});
+            continue;
+        }
+        char const* const why =
+            is_built(isa) ? ": this machine does not have it" : ": is not in this build, which has ";
+        for (char const* const command : {"probe", "run"})
+            expect_refusal(2, "--isa " + name + why, {command, "s.toml", "--isa", name});
+        ++lacking;
     }
+    EXPECT_GT(lacking, 0) << "no build is for two kinds of processors";
 }
 
 TEST_F(Usage, OfScenes) {

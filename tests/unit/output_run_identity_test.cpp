@@ -50,6 +50,18 @@ TEST(RunIdentity, HasATextThatReadsBack) {
     EXPECT_EQ(back.difference(identity), "");
 }
 
+// sm_90-fmad: of a build with SLIDEWAY_CUDA_FMAD.
+TEST(RunIdentity, OfAnyArithmeticReadsBack) {
+    for (auto const& [isa, arithmetic] : {std::pair{"avx2", "fused"}, std::pair{"sm_90", "fused"}, std::pair{"sm_90-fmad", "contracted"}}) {
+        RunIdentity identity = identity_of();
+        identity.arithmetic = arithmetic_of(isa);
+        EXPECT_EQ(identity.arithmetic, arithmetic);
+        RunIdentity const back = parse_identity(identity_text(identity), "run.toml");
+        EXPECT_EQ(back.arithmetic, arithmetic);
+        EXPECT_EQ(back.difference(identity), "");
+    }
+}
+
 TEST(RunIdentity, HasATextThatIsTheSceneItself) {
     RunIdentity const identity = identity_of();
     EXPECT_EQ(resolved_toml(testing::scene_of(identity_text(identity))), identity.scene);

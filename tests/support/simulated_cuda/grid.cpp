@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/backend/backend.hpp"
+#include "host/backend/processor.hpp"
 #include "tests/support/grid_cranks/grid_cranks.hpp"
 #include "tests/support/simulated_cuda/simulation.hpp"
 
@@ -47,7 +47,7 @@ void check_task(GridTask const& task, int device) {
 
 void run_grid(GridTask task, bool shadowed, std::uint64_t threads) {
     task.block.stop = nullptr;  // a card can ask nobody
-    if (!is_supported(Isa::scalar)) misuse("this machine has no fused multiply-add");
+    if (!processor_has(Isa::scalar)) misuse("this machine has no fused multiply-add");
     std::atomic<std::uint64_t> next = 0;
     std::vector<std::thread> workers;
     for (std::uint64_t i = 0; i < std::min(threads, most_threads); ++i) {

@@ -91,19 +91,21 @@ cudaError_t state_of(Kernel const* kernel) {
     return kernel->unit->chosen() == nullptr ? cudaErrorNoKernelImageForDevice : cudaSuccess;
 }
 
-/// Ends the program if the scene's parts are not those that the kernel was compiled for.
+/// Ends the program if the scene's parts are not among those that the kernel was compiled for.
 void check_instance(std::string const& kernel, Parts const& parts) {
-    constexpr char const* laws[] = {"PaperLaw", "ConservativeLaw"};
-    constexpr char const* dampings[] = {"PointDamping", "RateDamping", "RestitutionDamping"};
-    for (char const* const part : {laws[static_cast<int>(parts.law)], dampings[static_cast<int>(parts.damping)]}) {
-        if (kernel.find(part) == kernel.npos) misuse("a scene with " + std::string(part) + " was given to " + kernel);
+#define SLIDEWAY_NAME(name, Type) #Type,
+    constexpr char const* laws[] = {SLIDEWAY_LAWS(SLIDEWAY_NAME)};
+#undef SLIDEWAY_NAME
+    char const* const law = laws[static_cast<int>(parts.law)];
+    if (kernel.find(law) == kernel.npos) misuse("a scene with " + std::string(law) + " was given to " + kernel);
+    if (parts.mechanism != Mechanism::slider_crank || kernel.find("CrankAndRod") == kernel.npos) {
+        misuse("a scene of another mechanism was given to " + kernel);
     }
 }
 
 bool is_shadowed(std::string const& kernel) {
-    if (kernel.find("integrate_shadowed<") != kernel.npos) return true;
     if (kernel.find("integrate_members<") == kernel.npos) misuse("no simulation of " + kernel);
-    return false;
+    return kernel.find("Shadowed<") != kernel.npos;
 }
 
 void run(GridTask const& task, bool shadowed, std::uint64_t threads, int device) {

@@ -1,4 +1,4 @@
-// A CUDA runtime without a card: a program linked with this library in place of libcudart runs the host's side of a CUDA backend for
+// A CUDA runtime without a card: the module for cards, linked with this in place of libcudart, runs the host's side of a CUDA backend for
 // true, and threads of the processor take the part of the card.  It is stricter than a card: a misuse that a card lets pass, or takes
 // time to punish, ends the program with a line.  What the environment says:
 //

@@ -1,5 +1,5 @@
-# Writes HEADER with the commit of SOURCE: its short name, "-dirty" if tracked files differ from it, "unknown" without
-# git or outside a repository.
+# Writes HEADER with VERSION, COMPILER and the commit of SOURCE: its short name, "-dirty" if tracked files differ from it, "unknown"
+# without git or outside a repository.
 cmake_policy(VERSION 3.25)
 set(commit unknown)
 find_program(git git)
@@ -15,4 +15,12 @@ if(git)
         endif()
     endif()
 endif()
-file(CONFIGURE OUTPUT ${HEADER} CONTENT "#pragma once\n#define SLIDEWAY_COMMIT \"@commit@\"\n" @ONLY)
+file(CONFIGURE OUTPUT ${HEADER} @ONLY CONTENT
+"// Made by cmake/commit.cmake.
+#pragma once
+
+#define SLIDEWAY_VERSION \"@VERSION@\"
+#define SLIDEWAY_COMMIT \"@commit@\"
+#define SLIDEWAY_COMPILER \"@COMPILER@\"
+#define SLIDEWAY_BUILD \"slideway \" SLIDEWAY_VERSION \", commit \" SLIDEWAY_COMMIT \", \" SLIDEWAY_COMPILER
+")
