@@ -4,11 +4,12 @@
 #include <type_traits>
 
 #include "bench/counted_real.hpp"
+#include "kernels/all_laws.hpp"
 #include "kernels/integrate.hpp"
 #include "kernels/lane_copy.hpp"
-#include "kernels/laws/conservative.hpp"
-#include "kernels/laws/paper.hpp"
-#include "kernels/models/slider_crank_model.hpp"
+#include "kernels/laws/one_law.hpp"
+#include "kernels/mechanisms/slider_crank.hpp"
+#include "kernels/models/mechanism_model.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 namespace {
@@ -20,12 +21,15 @@ template <template <class> class Record> Record<Counted> counting(Record<double>
     return copy;
 }
 
+template <class Law, class Damping>
+using CrankOf = MechanismModel<SliderCrank, SliderBase, OneLaw<Law, Damping>>;
+
 template <class Crank> struct CountedCrank : Crank {
-    template <class Real> using Memory = typename Crank::template Memory<Real>;
+    using Crank::Crank;
 
     template <bool Full>
-    static Faults<double> derivative(double t, double const* s, SliderParameters<double> const& p,
-                                     Memory<double> const& memory, double* rates, SliderReport<double>* report) {
+    Faults<double> derivative(double t, double const* s, SliderParameters<double> const& p,
+                              ContactMemory<double> const& memory, double* rates, SliderReport<double>* report) const {
         Counted state[Crank::size], unused[Crank::size];
         for (int i = 0; i < Crank::size; ++i) state[i] = Counted(s[i]);
         SliderReport<Counted>* const none = nullptr;
@@ -33,8 +37,8 @@ template <class Crank> struct CountedCrank : Crank {
         return Crank::template derivative<Full>(t, s, p, memory, rates, report);
     }
 
-    static void linearise(double t, double const* s, SliderParameters<double> const& p,
-                          Memory<double> const& memory, SliderLinearisation<double>& out) {
+    void linearise(double t, double const* s, SliderParameters<double> const& p, ContactMemory<double> const& memory,
+                   SliderLinearisation<double>& out) const {
         Counted state[Crank::size];
         for (int i = 0; i < Crank::size; ++i) state[i] = Counted(s[i]);
         SliderLinearisation<Counted> unused;
@@ -43,12 +47,16 @@ template <class Crank> struct CountedCrank : Crank {
     }
 };
 
-template <class Law, class Damping> void run(Block& block) {
-    integrate<CountedCrank<SliderCrankModel<Law, StickSlipFriction, AlignedWay, Damping>>, double>(block);
+template <class Law, class Damping> void run(Parts const& parts, Block& block) {
+    using Crank = CountedCrank<CrankOf<Law, Damping>>;
+    integrate<Crank, double>(block, Crank({{}, Law::info.switches, parts}));
 }
 
-template <class Law> void run(Damping damping, Block& block) {
-    damping == Damping::rate ? run<Law, RateDamping>(block) : run<Law, PointDamping>(block);
+template <class Law> void run_law(Parts const& parts, Block& block) {
+    if constexpr (Law::info.has(Damping::rate)) {
+        if (parts.damping == Damping::rate) return run<Law, RateDamping>(parts, block);
+    }
+    run<Law, PointDamping>(parts, block);
 }
 
 }  // namespace
@@ -58,7 +66,15 @@ namespace slideway {
 
 unsigned long long counted_flops(Law law, Damping damping, Block& block) {
     auto const before = Counted::operations;
-    law == Law::paper ? run<PaperLaw>(damping, block) : run<ConservativeLaw>(damping, block);
+    Parts const parts{law, damping, true, false};
+    switch (law) {
+#define SLIDEWAY_RUN(name, Type) \
+    case Law::name:              \
+        run_law<Type>(parts, block); \
+        break;
+        SLIDEWAY_LAWS(SLIDEWAY_RUN)
+#undef SLIDEWAY_RUN
+    }
     return Counted::operations - before;
 }
 

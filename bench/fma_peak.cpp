@@ -11,10 +11,15 @@ using Real = IsaReal;
 
 /// Ends the compiler's knowledge of a value, which stays in its register.
 void forget(Real& x) {
-#if SLIDEWAY_LANES > 1
-    asm volatile("" : "+x"(x.data));
+#if defined(__aarch64__)
+#define SLIDEWAY_REGISTER "+w"
 #else
-    asm volatile("" : "+x"(x));
+#define SLIDEWAY_REGISTER "+x"
+#endif
+#if SLIDEWAY_LANES > 1
+    asm volatile("" : SLIDEWAY_REGISTER(x.data));
+#else
+    asm volatile("" : SLIDEWAY_REGISTER(x));
 #endif
 }
 

@@ -4,6 +4,7 @@
 #include "host/backend/isa_real.hpp"
 #include "kernels/lane_copy.hpp"
 #include "kernels/laws/conservative.hpp"
+#include "kernels/laws/one_law.hpp"
 #include "kernels/laws/paper.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"
 #if defined(SLIDEWAY_COUNTED)
@@ -19,15 +20,17 @@ using Real = Counted;
 using Real = IsaReal;
 #endif
 
-template <class Model> struct Pack {
-    typename Model::template Parameters<Real> parameters;
-    typename Model::template Memory<Real> memory;
+using Model = SliderCrank;
+
+struct Pack {
+    SliderParameters<Real> parameters;
+    ContactMemory<Real> memory;
     Real time, state[Model::size], rates[Model::size];
-    typename Model::template Report<Real> report;
+    SliderReport<Real> report;
 };
 
-template <class Model> void load(void* to, Inputs const* members, double const* times, std::size_t count) {
-    auto* const packs = static_cast<Pack<Model>*>(to);
+void load(void* to, Inputs const* members, double const* times, std::size_t count) {
+    auto* const packs = static_cast<Pack*>(to);
     for (std::size_t member = 0; member < count; ++member) {
         auto& pack = packs[member / lanes<Real>];
         int const index = static_cast<int>(member % lanes<Real>);
@@ -40,22 +43,23 @@ template <class Model> void load(void* to, Inputs const* members, double const* 
     }
 }
 
-template <class Model, bool full> void evaluate(void* at, std::size_t count, int in_a_row, int passes) {
-    auto* const packs = static_cast<Pack<Model>*>(at);
+/// As the lanes call it: the law behind a pointer, friction and way by conditions.
+template <class Law, bool full> void evaluate(void* at, std::size_t count, int in_a_row, int passes) {
+    using Laws = LawFunctions<Real>;
+    Conditions<Laws> const block(Laws::template of<Law, PointDamping>(), Law::info.switches, {.friction = true});
+    auto* const packs = static_cast<Pack*>(at);
     for (int pass = 0; pass < passes; ++pass) {
         for (std::size_t i = 0; i < count / lanes<Real>; ++i) {
             auto& pack = packs[i];
             for (int time = 0; time < in_a_row; ++time) {
-                Model::template derivative<full>(pack.time, pack.state, pack.parameters, pack.memory, pack.rates,
-                                                 &pack.report);
+                Model::derivative<full>(pack.time, pack.state, pack.parameters, pack.memory, block, pack.rates, &pack.report);
             }
         }
     }
 }
 
 template <class Law> RhsKernel kernel() {
-    using Model = SliderCrank<Law, StickSlipFriction, AlignedWay, PointDamping>;
-    return {lanes<Real>, sizeof(Pack<Model>), &load<Model>, {&evaluate<Model, false>, &evaluate<Model, true>}};
+    return {lanes<Real>, sizeof(Pack), &load, {&evaluate<Law, false>, &evaluate<Law, true>}};
 }
 
 }  // namespace

@@ -6,19 +6,21 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// Integrates a block of members of a model with one pack of lanes.  What a model states is static, but its equations may be members:
-/// a model can look them up (kernels/models/slider_table.hpp).
+/// a model can look them up (kernels/models/mechanism_table.hpp).
 ///
 /// A `Model` states, for `Real` a number or a pack of them:
 ///  - `Inputs` (plain numbers of one member), `size` (of the state), `parameters(inputs)` and `initial_state(inputs, state)`, in double;
-///  - `Parameters<Real>`, `Report<Real>` (what a state tells beside its derivative), `Memory<Real>` (what events leave behind) and
-///    `Watch<Real>` (what finds them), which hold Reals only, and `Observer<Real>` (quantities on the way), also `Accelerations<Real>` where those may be asked for;
+///  - `Parameters<Real>`, `Report<Real>` (what a state tells beside its derivative), `Memory<Real>` (what contacts leave behind) and
+///    `Watch<Real>` (what finds their events), which hold Reals only, and `Observer<Real>` (quantities on the way), also
+///    `Accelerations<Real>` where those may be asked for;
 ///  - `derivative<Full>(t, state, parameters, memory, rates, report)`, which fills the report if Full and returns `Faults`;
-///  - `series`: how many columns a sample may have, the state first, or where `state_of_series(series)` says; `has_memory` or `can_hold`: the report then has a `contact`, and the
-///    watch `begin`, `earliest`, `update` and `keep` (kernels/steppers/touch.hpp), `touch_scale(parameters)` being its length;
+///  - `series`: how many columns a sample may have, the state first, or where `state_of_series(series)` says;
+///  - `has_contacts`: the report then has a `contact`, the model `switches()` and `watching(locate_modes, neighbours)`, and the watch
+///    `begin`, `earliest`, `update` and `keep` (kernels/steppers/contact_watch.hpp), `touch_scale(parameters)` being its length;
 ///  - `scales(parameters, scale)`: sizes of the state's components that the absolute tolerance is meant against;
 ///  - `has_linearisation`: then `Linearisation<Real>` and `linearise(…)` serve the stiff method;
 ///  - `has_shadows`: then members have shadows beside them (kernels/lanes/shadows.hpp; kernels/models/shadowed.hpp makes such a model of
-///    another), with a memory also `remembered(number)`, a number of it as it may be carried on;
+///    another), with contacts also `remembered(speed)`, an impact speed as it may be carried on;
 ///  - `has_crossings`: then `gap(…)`, beside the components of the state, may serve as a section (kernels/lanes/crossing_search.hpp);
 ///  - `has_patterns`: then `contact_pattern(…)` says which lanes have like work to do, and with a linearisation `squared_speed(…)`,
 ///    `approach_speed(…)` and `energy_scale(…)` what is a creep and what an impact;

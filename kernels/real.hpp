@@ -1,6 +1,6 @@
-// The vocabulary of the kernels, and the only file that knows the backends.  Physics is written once for a type
+// The vocabulary of the kernels; with kernels/simd, all that knows the backends.  Physics is written once for a type
 // `Real`, which is `double` (one member, on the host or inside a CUDA thread) or `xsimd::batch<double, Arch>` (one
-// member per lane).  Every operation here gives the same bits for both on hardware with fused multiply-add.
+// member per lane).  Every operation here gives the same bits for both, on every machine.
 //
 // All kernel code lives in `slideway::SLIDEWAY_ISA`, an inline namespace named by the unit that compiles it.  Units
 // built for different instruction sets so never share an inline function: the linker cannot hand AVX-512 code to a
@@ -10,30 +10,12 @@
 #include <cmath>
 #include <cstdint>
 
-#if !defined(__CUDACC__) && !defined(SLIDEWAY_NO_SIMD)
-#define SLIDEWAY_SIMD 1
-#include <immintrin.h>
+#include "kernels/simd/instructions.hpp"
+
+#if defined(SLIDEWAY_SIMD)
 #include <bit>
 #include <type_traits>
 #include <xsimd/xsimd.hpp>
-#endif
-
-#ifndef SLIDEWAY_ISA
-#define SLIDEWAY_ISA portable
-#endif
-
-// SLIDEWAY_FN is inlined; SLIDEWAY_NOINLINE is a function of its own; SLIDEWAY_CARD_CALL is inlined on processors and called on cards, whose
-// assembler shares out the registers better between several functions than within a long one (docs/gpu.md).
-#if defined(__CUDACC__)
-#define SLIDEWAY_HD __host__ __device__
-#define SLIDEWAY_FN __host__ __device__ inline
-#define SLIDEWAY_NOINLINE __host__ __device__ __noinline__
-#define SLIDEWAY_CARD_CALL __host__ __device__ __noinline__
-#else
-#define SLIDEWAY_HD
-#define SLIDEWAY_FN inline __attribute__((always_inline))
-#define SLIDEWAY_NOINLINE __attribute__((noinline))
-#define SLIDEWAY_CARD_CALL SLIDEWAY_FN
 #endif
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -131,12 +113,11 @@ namespace detail {
 template <class Arch> struct Traits<xsimd::batch<double, Arch>> {
     using Mask = xsimd::batch_bool<double, Arch>;
     static constexpr int lanes = static_cast<int>(xsimd::batch<double, Arch>::size);
-    // xsimd's constructor builds the AVX-512 mask bit by bit, in a function that g++ tends not to inline.
-    SLIDEWAY_FN static Mask mask_of(bool value) {
-        if constexpr (lanes == 8) return static_cast<typename Mask::register_type>(value ? 0xff : 0);
-        return Mask(value);
-    }
+    SLIDEWAY_FN static Mask mask_of(bool value) { return Instructions<lanes>::mask_of(value); }
 };
+
+/// Of packs.
+template <class Arch> using Own = Instructions<Traits<xsimd::batch<double, Arch>>::lanes>;
 
 }  // namespace detail
 
@@ -147,8 +128,8 @@ template <class Arch> SLIDEWAY_FN BatchMask<Arch> negation(BatchMask<Arch> m) { 
 template <class Arch> SLIDEWAY_FN Batch<Arch> select(BatchMask<Arch> m, Batch<Arch> yes, Batch<Arch> no) {
     return xsimd::select(m, yes, no);
 }
-template <class Arch> SLIDEWAY_FN Batch<Arch> min(Batch<Arch> a, Batch<Arch> b) { return xsimd::min(a, b); }
-template <class Arch> SLIDEWAY_FN Batch<Arch> max(Batch<Arch> a, Batch<Arch> b) { return xsimd::max(a, b); }
+template <class Arch> SLIDEWAY_FN Batch<Arch> min(Batch<Arch> a, Batch<Arch> b) { return detail::Own<Arch>::min(a, b); }
+template <class Arch> SLIDEWAY_FN Batch<Arch> max(Batch<Arch> a, Batch<Arch> b) { return detail::Own<Arch>::max(a, b); }
 template <class Arch> SLIDEWAY_FN Batch<Arch> abs(Batch<Arch> x) { return xsimd::abs(x); }
 template <class Arch> SLIDEWAY_FN Batch<Arch> sqrt(Batch<Arch> x) { return xsimd::sqrt(x); }
 
@@ -157,35 +138,15 @@ template <class Arch> SLIDEWAY_FN Batch<Arch> negated(Batch<Arch> x) {
     return xsimd::bitwise_cast<Batch<Arch>>(xsimd::bitwise_cast<Bits>(x) ^ Bits(0x8000000000000000u));
 }
 
-// xsimd 8.1 has no AVX-512 fma: it becomes multiply and add, which is slower and gives other bits.
-#if defined(__AVX512F__)
-#define SLIDEWAY_FUSED_512(name) \
-    if constexpr (lanes<Batch<Arch>> == 8) return _mm512_##name##_pd(a, b, c);
-#else
-#define SLIDEWAY_FUSED_512(name)
-#endif
-#if defined(__FMA__)
-#define SLIDEWAY_FUSED(name)                                                   \
-    SLIDEWAY_FUSED_512(name)                                                   \
-    if constexpr (lanes<Batch<Arch>> == 4) return _mm256_##name##_pd(a, b, c); \
-    if constexpr (lanes<Batch<Arch>> == 2) return _mm_##name##_pd(a, b, c);
-#else
-#define SLIDEWAY_FUSED(name) static_assert(lanes<Batch<Arch>> == 0, "packs need fused multiply-add: build with -mfma");
-#endif
 template <class Arch> SLIDEWAY_FN Batch<Arch> fma(Batch<Arch> a, Batch<Arch> b, Batch<Arch> c) {
-    SLIDEWAY_FUSED(fmadd)
-    return a * b + c;
+    return detail::Own<Arch>::fma(a, b, c);
 }
 template <class Arch> SLIDEWAY_FN Batch<Arch> fnma(Batch<Arch> a, Batch<Arch> b, Batch<Arch> c) {
-    SLIDEWAY_FUSED(fnmadd)
-    return c - a * b;
+    return detail::Own<Arch>::fnma(a, b, c);
 }
 template <class Arch> SLIDEWAY_FN Batch<Arch> fms(Batch<Arch> a, Batch<Arch> b, Batch<Arch> c) {
-    SLIDEWAY_FUSED(fmsub)
-    return a * b - c;
+    return detail::Own<Arch>::fms(a, b, c);
 }
-#undef SLIDEWAY_FUSED
-#undef SLIDEWAY_FUSED_512
 
 template <class Arch> SLIDEWAY_FN void split_exponent(Batch<Arch> x, Batch<Arch>& mantissa, Batch<Arch>& exponent) {
     using Bits = xsimd::batch<std::uint64_t, Arch>;
@@ -214,17 +175,7 @@ template <class Arch> SLIDEWAY_FN void set_lane(Batch<Arch>& x, int index, doubl
 }
 
 /// Bit i is the truth value of lane i.
-template <class Arch> SLIDEWAY_FN unsigned mask_bits(BatchMask<Arch> m) {
-    constexpr int width = lanes<Batch<Arch>>;
-    static_assert(width == 2 || width == 4 || width == 8);
-#if defined(__AVX512F__)
-    if constexpr (width == 8) return static_cast<unsigned>(static_cast<__mmask8>(m));
-#endif
-#if defined(__AVX__)
-    if constexpr (width == 4) return static_cast<unsigned>(_mm256_movemask_pd(m));
-#endif
-    if constexpr (width == 2) return static_cast<unsigned>(_mm_movemask_pd(m));
-}
+template <class Arch> SLIDEWAY_FN unsigned mask_bits(BatchMask<Arch> m) { return detail::Own<Arch>::mask_bits(m); }
 
 #endif  // SLIDEWAY_SIMD
 

@@ -10,7 +10,7 @@
 namespace slideway::bench {
 namespace {
 
-/// The standard mechanism; the conservative law with damping in lines and surfaces, without which nothing comes to rest.
+/// The standard mechanism; a law that keeps energy with damping in lines and surfaces, without which nothing comes to rest.
 struct Setting {
     Law law;
     std::size_t members;
@@ -21,7 +21,7 @@ struct Setting {
     template <class Change> Point point(double value, Change change) const {
         Point p{value, {law, damping, true, false}, testing::scattered_starts(members, clearance, crank_speed)};
         for (auto& in : p.members) {
-            in.chi_line = in.chi_surface = law == Law::conservative ? 10 : 0;
+            in.chi_line = in.chi_surface = info(law).switches ? 0 : 10;
             if (lying) {
                 in.y = -clearance;
                 in.roll = in.pitch = 0;
@@ -71,6 +71,18 @@ Axis of_steps(char const* name, char const* title, std::vector<double> const& va
 
 }  // namespace
 
+std::vector<Law> swept_laws() {
+    std::vector<Law> found;
+    for (bool const switches : {false, true}) {
+        for (std::size_t i = 0; i < laws().size(); ++i) {
+            LawInfo const& law = laws()[i];
+            bool const has_all = law.has(Damping::rate) && law.has(Damping::restitution);
+            if (has_all && law.switches == switches) found.push_back(static_cast<Law>(i));
+        }
+    }
+    return found;
+}
+
 std::vector<Axis> axes(Law law, bool quick) {
     Setting const standard{law, quick ? 8u : 16u};
     auto lying = standard;
@@ -119,7 +131,7 @@ std::vector<Axis> axes(Law law, bool quick) {
 
 double linear_limit(std::vector<Inputs> const& members) {
     double rate = 0;
-    for (auto const& in : members) rate = std::max(rate, stiffest_rate(Mechanism::slider_crank, in));
+    for (auto const& in : members) rate = std::max(rate, stiffest_rate({}, in));
     return 2 * std::numbers::sqrt2 / rate;
 }
 

@@ -23,6 +23,9 @@ struct Axis {
     std::vector<Point> points;
 };
 
+/// The laws that have every kind of damping, for the axes sweep them; those that keep energy first.
+std::vector<Law> swept_laws();
+
 /// @param quick fewer points and members.
 std::vector<Axis> axes(Law law, bool quick);
 

@@ -58,7 +58,7 @@ Outcome measure(Point const& point, Method method, double fixed_step) {
 
 double largest_usable_step(Point const& point, Outcome const& reference) {
     double const limit = linear_limit(point.members);
-    bool const conserving = point.parts.law == Law::conservative;
+    bool const conserving = !info(point.parts.law).switches;
     auto const usable = [&](double step) {
         auto const outcome = measure(point, Method::rk4, step);
         return outcome.all_finished() &&

@@ -24,8 +24,7 @@ struct Outcome {
 Outcome measure(Point const& point, Method method, double fixed_step);
 
 /// The largest fixed step of rk4, within an eighth of an octave, with which all members finish and the residual is what it should be:
-/// under the conservative law at most a hundredth at the 95th percentile; under the paper's, which makes energy whatever the step, a
-/// median at most 0.2 above that of `reference`.  Searched from 1/256 to 8 linear limits; NaN if there is none.
+/// under a law that keeps energy at most a hundredth at the 95th percentile; under one that makes it whatever the step, a median at most 0.2 above that of `reference`.  Searched from 1/256 to 8 linear limits; NaN if there is none.
 double largest_usable_step(Point const& point, Outcome const& reference);
 
 }  // namespace slideway::bench

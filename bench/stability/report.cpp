@@ -8,11 +8,10 @@
 
 #include "bench/machine.hpp"
 #include "host/backend/backend.hpp"
+#include "host/scene/descriptors.hpp"
 
 namespace slideway::bench {
 namespace {
-
-char const* name_of(Law law) { return law == Law::paper ? "paper" : "conservative"; }
 
 std::string provenance() {
     return machine_and_build() +
@@ -75,7 +74,7 @@ void write_csv(std::filesystem::path const& file, std::vector<Row> const& rows) 
         auto const or_nothing = [](bool given, double value) {
             return given ? fmt::format("{:.3e}", value) : std::string();
         };
-        out.print("{},{},{:g},{},{},{},{:.3e},{},{}", name_of(row.law), row.axis->name, row.point->value,
+        out.print("{},{},{:g},{},{},{},{:.3e},{},{}", info(row.law).name, row.axis->name, row.point->value,
                   slideway::name_of(row.method), or_nothing(!fixed, row.point->tolerance), or_nothing(fixed, row.step),
                   row.limit, or_nothing(row.largest_step != 0, row.largest_step), o.members);
         for (int const count : o.ended) out.print(",{}", count);
@@ -97,8 +96,8 @@ void write_markdown(std::filesystem::path const& file, std::vector<Row> const& r
         "Largest usable step of rk4: all members finish, and the 95th percentile is at most 0.01 (conservative) or the "
         "median at most 0.2 above that of auto (paper).\n",
         end_time);
-    for (Law const law : {Law::conservative, Law::paper}) {
-        out.print("\n## Law: {}\n", name_of(law));
+    for (Law const law : swept_laws()) {
+        out.print("\n## Law: {}\n", info(law).name);
         std::vector<Row const*> of_axis;
         auto const flush = [&] {
             if (!of_axis.empty()) write_axis(out, of_axis);

@@ -6,6 +6,7 @@
 #include "bench/work_precision/method.hpp"
 #include "bench/work_precision/models_kernel.hpp"
 #include "host/backend/by_isa.hpp"
+#include "host/scene/descriptors.hpp"
 
 namespace slideway {
 SLIDEWAY_BY_ISA(LorenzMembersRun, integrate_lorenz_members)
@@ -122,13 +123,13 @@ template <class Ensemble> Outcome run_block(Isa isa, Choice const& choice, Ensem
     return outcome;
 }
 
-/// Models without a linearisation have explicit methods alone, and for them `auto` is their pair; only the law of the paper has
-/// modes to locate.
+/// Models without a linearisation have explicit methods alone, and for them `auto` is their pair; only a law that
+/// switches has modes to locate.
 bool serves(Choice const& choice, Problem const& problem) {
     using enum ::slideway::Method;
     auto const* const cranks = std::get_if<SliderCrankEnsemble>(&problem.ensemble);
     if (cranks == nullptr) return !choice.locate_modes && (choice.method == dopri5 || choice.method == bs32);
-    return !choice.locate_modes || cranks->parts.law == Law::paper;
+    return !choice.locate_modes || info(cranks->parts.law).switches;
 }
 
 }  // namespace

@@ -51,14 +51,14 @@ auto oracle_rates(Inputs const& inputs, Parts const& parts) {
 }
 
 auto kernel_rates(Inputs const& inputs, Parts const& parts) {
-    return [&inputs, probe = find_instance(Isa::scalar, parts).probe](CrankState const& y, CrankState& slope, Real t) {
+    return [&inputs, instance = find_instance(Isa::scalar, parts)](CrankState const& y, CrankState& slope, Real t) {
         Inputs in = inputs;
         double* const state[state_size] = {&in.y,   &in.z,     &in.vy, &in.vz, &in.roll,
                                            &in.yaw, &in.pitch, &in.wx, &in.wy, &in.wz};
         for (int i = 0; i < state_size; ++i) *state[i] = static_cast<double>(y[i]);
         double const time = static_cast<double>(t);
         ProbeResult result;
-        probe({&in, &time, 1, &result});
+        instance.probe({&in, &time, 1, &result});
         for (int i = 0; i < state_size; ++i) slope[i] = result.derivative[i];
     };
 }

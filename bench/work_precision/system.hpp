@@ -5,18 +5,20 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <stdexcept>
 
 #include "bench/work_precision/method.hpp"
 #include "kernels/laws/conservative.hpp"
+#include "kernels/laws/one_law.hpp"
 #include "kernels/laws/paper.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// One member of a slider-crank ensemble.
+/// One member of a slider-crank ensemble, with friction, on a way that lies straight.
 template <class Law, class Damping> class SliderCrankSystem {
 public:
-    using Model = SliderCrank<Law, StickSlipFriction, AlignedWay, Damping>;
+    using Model = SliderCrank;
     static constexpr int size = Model::size;
     static constexpr int audits = 3;  // W, D_f, D_d
 
@@ -29,23 +31,23 @@ public:
 
     void rates(double t, double const* x, double* dxdt) const {
         ++evaluations;
-        Model::template derivative<false>(t, x, p_, memory_, dxdt, &report_);
+        Model::template derivative<false>(t, x, p_, memory_, block_, dxdt, &report_);
     }
     /// The derivative and behind it the powers of the audit.
     void audited_rates(double t, double const* x, double* dxdt) const {
         ++evaluations;
-        Model::template derivative<true>(t, x, p_, memory_, dxdt, &report_);
+        Model::template derivative<true>(t, x, p_, memory_, block_, dxdt, &report_);
         store_powers(dxdt + size);
     }
     void powers(double t, double const* x, double* power) const {
         double unused[size];
         ++evaluations;
-        Model::template derivative<true>(t, x, p_, memory_, unused, &report_);
+        Model::template derivative<true>(t, x, p_, memory_, block_, unused, &report_);
         store_powers(power);
     }
     double energy(double t, double const* x) const {
         double unused[size];
-        Model::template derivative<true>(t, x, p_, memory_, unused, &report_);
+        Model::template derivative<true>(t, x, p_, memory_, block_, unused, &report_);
         return report_.energy;
     }
 
@@ -61,7 +63,8 @@ private:
     }
 
     SliderParameters<double> p_;
-    typename Model::template Memory<double> memory_{};
+    Conditions<OneLaw<Law, Damping>> block_{{}, Law::info.switches, {.friction = true}};
+    ContactMemory<double> memory_;
     mutable SliderReport<double> report_;
 };
 
@@ -92,9 +95,13 @@ template <class Use> auto with_systems(bench::Ensemble const& ensemble, Use cons
     struct Visitor {
         Use const& use;
         auto operator()(bench::SliderCrankEnsemble const& e) const {
-            bool const paper = e.parts.law == Law::paper;
-            return paper ? use.template operator()<SliderCrankSystem<PaperLaw, PointDamping>>(e.members)
-                         : use.template operator()<SliderCrankSystem<ConservativeLaw, RateDamping>>(e.members);
+            if (e.parts == Parts{Law::paper, Damping::point, true}) {
+                return use.template operator()<SliderCrankSystem<PaperLaw, PointDamping>>(e.members);
+            }
+            if (e.parts == Parts{Law::conservative, Damping::rate, true}) {
+                return use.template operator()<SliderCrankSystem<ConservativeLaw, RateDamping>>(e.members);
+            }
+            throw std::logic_error("the peers have no equations of these parts");
         }
         auto operator()(bench::LorenzEnsemble const& e) const {
             return use.template operator()<LorenzSystem>(e.members);

@@ -87,7 +87,8 @@ std::span<Isa const> built_isas();
 Isa compiled_isa(Isa isa);
 std::string flags_of(Isa isa);  // compiler flags the unit was built with
 
-/// @param isa built.  Every combination of parts exists for every instruction set.
+/// @param isa built.  Every combination of parts exists for every instruction set, but for dampings that a law does not have.
+/// @throws std::invalid_argument for one of these
 KernelInstance find_instance(Isa isa, Parts const& parts);
 
 /// @throws DeviceError if the instruction set is not supported

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <stdexcept>
 
 #include "host/backend/backend.hpp"
 #include "host/backend/built_isas.hpp"
@@ -14,7 +15,7 @@ namespace slideway {
 #define SLIDEWAY_KERNELS_OF(isa)                                                                        \
     namespace isa {                                                                                     \
     SLIDEWAY_MECHANISMS(SLIDEWAY_DECLARED)                                                              \
-    constexpr MechanismKernels const* kernels[] = {SLIDEWAY_MECHANISMS(SLIDEWAY_ADDRESS)}; \
+    constexpr MechanismKernels const* kernels[] = {SLIDEWAY_MECHANISMS(SLIDEWAY_ADDRESS)};              \
     }
 SLIDEWAY_FOR_EACH_ISA(SLIDEWAY_KERNELS_OF)
 #undef SLIDEWAY_DECLARED
@@ -88,8 +89,9 @@ std::span<Isa const> built_isas() {
 }
 
 KernelInstance find_instance(Isa isa, Parts const& parts) {
-    auto const& built = built_table[place_of(compiled_isa(isa))];
-    return {built.kernels[static_cast<int>(parts.mechanism)], parts};
+    auto const* const kernels = built_table[place_of(compiled_isa(isa))].kernels[static_cast<int>(parts.mechanism)];
+    if (!kernels->has(parts)) throw std::invalid_argument("find_instance: the law of these parts has no such damping");
+    return {kernels, parts};
 }
 
 }  // namespace slideway

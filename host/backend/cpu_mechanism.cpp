@@ -13,12 +13,13 @@ using Table = IsaTable<Base>;
 
 constexpr auto functions = MechanismFunctions<IsaReal, Base>::of<SLIDEWAY_MECHANISM>();
 
-/// @param parts of a law that has their damping
+/// @param parts that it has
 Table table_of(Parts const& parts) {
     auto const& law = law_table(parts.law);
     return {functions, {law.with[static_cast<int>(parts.damping)], law.switches, parts}};
 }
 
+bool has(Parts const& parts) { return law_table(parts.law).with[static_cast<int>(parts.damping)].normals != nullptr; }
 void run(Block& block, Parts const& parts) { run_lanes<Base>(block, table_of(parts)); }
 void run_shadowed(Block& block, Parts const& parts) {
     if constexpr (SLIDEWAY_MECHANISM::info.has_exponents) run_shadowed_lanes<Base>(block, table_of(parts));
@@ -28,6 +29,6 @@ void probe(ProbeTable const& states, Parts const& parts) { probe_states<Base>(st
 }  // namespace
 
 extern constinit MechanismKernels const SLIDEWAY_TABLE = {
-    &run, SLIDEWAY_MECHANISM::info.has_exponents ? &run_shadowed : nullptr, &probe};
+    &has, &run, SLIDEWAY_MECHANISM::info.has_exponents ? &run_shadowed : nullptr, &probe};
 
 }  // namespace slideway::inline SLIDEWAY_ISA

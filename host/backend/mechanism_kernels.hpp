@@ -6,6 +6,7 @@ namespace slideway {
 
 /// The machine code of a mechanism, of one instruction set, for all that a scene may choose.
 struct MechanismKernels {
+    bool (*has)(Parts const&) = nullptr;  // the law of the parts has their damping
     void (*run)(Block&, Parts const&) = nullptr;
     void (*run_shadowed)(Block&, Parts const&) = nullptr;  // members with shadows; none of a mechanism that has no exponents
     void (*probe)(ProbeTable const&, Parts const&) = nullptr;

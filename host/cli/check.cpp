@@ -11,10 +11,15 @@
 namespace slideway::cli {
 namespace {
 
-std::string_view damping_text(Damping damping) {
-    switch (damping) {
+/// What damps the contacts; a mechanism with corners has the point law's.
+std::string damping_text(Parts const& parts) {
+    LawInfo const& law = info(parts.law);
+    switch (parts.damping) {
         case Damping::point:
-            return "damping of point contacts";
+            if (!info(parts.mechanism).spatial || has_group(law.groups, KeyGroup::point_damping)) {
+                return "damping of point contacts";
+            }
+            return fmt::format("damping of the {} law", law.name);
         case Damping::rate:
             return "damping of point, line and surface contacts";
         case Damping::restitution:
@@ -36,9 +41,14 @@ void print_parts(Scene const& scene) {
         sort(true, scene.parts.free_crank ? "free crank" : "driven crank");
         sort(true, "contact of corners");
     }
-    sort(true, damping_text(scene.parts.damping));
-    if (mechanism.spatial && scene.parts.damping != Damping::rate) sort(false, "damping of line and surface contacts");
-    if (scene.parts.damping != Damping::restitution) sort(false, "restitution");
+    sort(true, damping_text(scene.parts));
+    // Which the scene might have had.
+    auto const sort_out = [&](Damping damping, std::string_view name) {
+        bool const may = mechanism.spatial ? info(scene.parts.law).has(damping) : damping == Damping::restitution;
+        if (may && scene.parts.damping != damping) sort(false, name);
+    };
+    sort_out(Damping::rate, "damping of line and surface contacts");
+    sort_out(Damping::restitution, "restitution");
     sort(scene.parts.friction, "friction");
     if (mechanism.spatial) sort(scene.parts.misaligned_way, "pose of a misaligned way");
     sort(!scene.sample_times.empty(), "time series");

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <iterator>
 #include <string>
 
@@ -43,11 +44,53 @@ void print_mechanisms() {
     }
 }
 
+/// " (paper, conservative)": the laws that know a key of contacts, where not all do.
+std::string laws_text(Key const& key) {
+    std::string names;
+    bool all = true;
+    for (std::size_t i = 0; i < laws().size(); ++i) {
+        Parts parts;
+        parts.law = static_cast<Law>(i);
+        if (!counts_for(key, parts) && counts_for(key, parts.mechanism))
+            all = false;
+        else
+            names += fmt::format("{}{}", names.empty() ? "" : ", ", laws()[i].name);
+    }
+    return all ? std::string() : fmt::format(" (contact.law {})", names);
+}
+
+std::string preset_text(Key const& key) {
+    if (key.member == &Inputs::restitution) return "none";
+    return std::isnan(key.preset) ? "follows from others" : fmt::format("{:.10g}", key.preset);
+}
+
 void print_keys(std::span<Key const> table) {
     for (Key const& key : table) {
-        fmt::print("  {:<30} {:<8} {}{}\n", key.name, key.unit, key.meaning, owners_text([&](MechanismInfo const& one) {
+        fmt::print("  {:<30} {:<8} {}; default {}{}{}\n", key.name, key.unit, key.meaning, preset_text(key),
+                   owners_text([&](MechanismInfo const& one) {
                        return counts_for(key, static_cast<Mechanism>(&one - mechanisms().data()));
-                   }));
+                   }),
+                   laws_text(key));
+    }
+}
+
+/// Of `Damping`.
+constexpr std::string_view damping_names[] = {"point", "rate", "restitution"};
+static_assert(std::size(damping_names) == damping_count);
+
+/// Their words, and below these their dampings and what they have of their own.
+void print_laws() {
+    for (LawInfo const& law : laws()) {
+        fmt::print("  {:<30} {}\n", law.name, law.words);
+        std::string dampings;
+        for (int i = 0; i < damping_count; ++i) {
+            bool const has = law.has(static_cast<Damping>(i)) && has_group(law.groups, KeyGroup::point_damping);
+            if (has) dampings += fmt::format("{}{}", dampings.empty() ? "" : ", ", damping_names[i]);
+        }
+        fmt::print("  {:<30} damping: {}\n", "", dampings.empty() ? "its own alone" : dampings);
+        for (Key const& key : law.keys) {
+            fmt::print("  {:<30} {} [{}]: {}; default {}\n", "", key.name, key.unit, key.meaning, preset_text(key));
+        }
     }
 }
 
@@ -93,7 +136,7 @@ std::string state_of(Isa isa) {
 int list(ListArguments const&) {
     print_mechanisms();
     fmt::print("\ncontact laws (contact.law){}\n", owners_text([](MechanismInfo const& one) { return one.spatial; }));
-    for (LawInfo const& law : laws()) fmt::print("  {:<30} {}\n", law.name, law.words);
+    print_laws();
     fmt::print(
         "\ndamping\n"
         "  point                          contact.eta: point contacts alone\n"

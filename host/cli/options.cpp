@@ -119,7 +119,10 @@ std::pair<std::string, std::string> parse_override(std::string_view text) {
 }
 
 Isa parse_isa(std::string_view text) {
-    if (text == "auto") return best_isa();
+    if (text == "auto") {
+        cpu_backend(best_isa());  // or it says that no kernels of this program run here
+        return best_isa();
+    }
     std::string known = "auto", built, supported;
     for (Isa const isa : all_isas()) {
         known += fmt::format(", {}", name_of(isa));

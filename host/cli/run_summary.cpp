@@ -116,9 +116,10 @@ void print_failures(RunArguments const& arguments, Scene const& scene, EndedMemb
     }
 }
 
-/// The paper's law makes energy where its modes switch (model.md 8); a reader of results has to know how much.
+/// A law makes energy where its modes switch (model.md 8); a reader of results has to know how much.
 void print_energy_made(Scene const& scene, EndedMembers const& ended, std::vector<QuantitySummary> const& quantities) {
-    if (!info(scene.parts.mechanism).spatial || !info(scene.parts.law).switches) return;
+    LawInfo const& law = info(scene.parts.law);
+    if (!info(scene.parts.mechanism).spatial || !law.switches) return;
     auto const mean_of = [&](std::string_view label) -> QuantitySummary const* {
         for (QuantitySummary const& quantity : quantities) {
             if (quantity.label == label && quantity.values.count > 0) return &quantity;
@@ -132,8 +133,8 @@ void print_energy_made(Scene const& scene, EndedMembers const& ended, std::vecto
     Method const method = scene.integrator.method;
     bool const doubtful = is_always_audited(method) || ended.count(Status::unstable) > 0;
     std::string const cause =
-        doubtful ? fmt::format("The paper law's mode switching and the errors of {} together", name_of(method))
-                 : "Mode switching of the paper law";
+        doubtful ? fmt::format("The {} law's mode switching and the errors of {} together", law.name, name_of(method))
+                 : fmt::format("Mode switching of the {} law", law.name);
     fmt::print("\n{} made {:.3g} J of energy per member on average", cause, made);
     QuantitySummary const* const work = mean_of("crank_work");
     if (work != nullptr && work->values.mean != 0) {

@@ -24,6 +24,9 @@ std::string build_of(std::string const& commit, std::string const& program);
 struct Provenance {
     std::string title;
     std::string scene;  // resolved, as TOML
+    std::string mechanism;      // what it is, in words
+    std::string law;            // the same of the contact law; empty of a mechanism that has no choice of them
+    bool law_switches = false;  // LawInfo::switches
     std::uint64_t seed = 0;
     std::string backend;  // "cpu", "cuda"
     std::string isa;      // "avx512", "sm_90"

@@ -38,6 +38,11 @@ void put_provenance(NetcdfFile& file, Provenance const& provenance) {
     attribute("seed", fmt::format("{}", provenance.seed));  // CF-1.8 has no 64-bit integers
     attribute("created", creation_time());
     attribute("scene", provenance.scene);
+    // For readers that know no mechanism or law by its name.
+    attribute("mechanism_meaning", provenance.mechanism);
+    if (provenance.law.empty()) return;
+    attribute("contact_law_meaning", provenance.law);
+    file.put_number(NetcdfFile::global, "contact_law_switches", provenance.law_switches ? 1 : 0);
 }
 
 void put_status_flags(NetcdfFile& file, int variable) {

@@ -22,14 +22,15 @@ constexpr MechanismInfo mechanism_infos[] = {
 };
 
 // Names stand twice, in the lists and in the headers.
-#define SLIDEWAY_CHECK(row, Type)                                                                      \
-    static_assert(Type::info.name == #row, "a law's info bears another name than its row"); \
-    static_assert(Type::info.keys.size() <= 4, "a law has four numbers of its own at most");
+#define SLIDEWAY_CHECK(row, Type)                                                                  \
+    static_assert(Type::info.name == #row, "the info of law " #row " bears another name"); \
+    static_assert(Type::info.keys.size() <= 4, "law " #row " has more than four numbers of its own");
 SLIDEWAY_LAWS(SLIDEWAY_CHECK)
 #undef SLIDEWAY_CHECK
-#define SLIDEWAY_CHECK(row, Type, Base)                                                                     \
-    static_assert(std::string_view(Type::info.name) == #row, "a mechanism's info bears another name"); \
-    static_assert(Type::info.states == Type::size && Type::size <= most_states, "a mechanism's state has another size");
+#define SLIDEWAY_CHECK(row, Type, Base)                                                                             \
+    static_assert(std::string_view(Type::info.name) == #row, "the info of mechanism " #row " bears another name"); \
+    static_assert(Type::info.states == Type::size && Type::size <= most_states,                                     \
+                  "the state of mechanism " #row " has another size");
 SLIDEWAY_MECHANISMS(SLIDEWAY_CHECK)
 #undef SLIDEWAY_CHECK
 

@@ -76,6 +76,11 @@ void require_part(Parts& parts, Key const& key) {
     if (key.name == "contact.restitution") parts.damping = Damping::restitution;
 }
 
+Inputs with_presets(Inputs inputs, Law law) {
+    for (Key const& key : info(law).keys) key.set(inputs, key.preset);
+    return inputs;
+}
+
 Inputs complete_inputs(Inputs given) {
     Inputs& in = given;
     fill(in.crank_mass, steel_density * crank_section * in.crank_length);

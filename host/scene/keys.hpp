@@ -26,7 +26,11 @@ Key const* find_key(std::string_view dotted_name);
 
 /// Puts in the kernel part that `key` needs if it is to differ from its default or between members: the way's pose
 /// for way.*, the rates for contact.chi_*, restitution for contact.restitution, friction for friction.*.
+/// @param key that counts for the parts
 void require_part(Parts& parts, Key const& key);
+
+/// The inputs with what a law has of its own as it is when nobody gives it.
+Inputs with_presets(Inputs inputs, Law law);
 
 /// Fills what was left to follow from other inputs (masses, inertias, thicknesses, point stiffness; model.md 2).
 Inputs complete_inputs(Inputs given);

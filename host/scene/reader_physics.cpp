@@ -36,7 +36,6 @@ void check_rivals(std::vector<GivenKey> const& given) {
 }
 
 void check_restitution(Node const& root) {
-    if (root.find_path("contact.restitution") == nullptr) return;
     for (std::string_view const name : {"contact.eta", "contact.chi_line", "contact.chi_surface"}) {
         if (Node const* const node = root.find_path(name)) {
             refuse(*node, {"contact.restitution replaces it", "remove one of the two"});
@@ -67,7 +66,7 @@ void read_mechanism(Node const& root, Parts& parts) {
     refuse_given("way");
 }
 
-/// Modes are what the paper's law switches between; the other parts have none, or no steps that could end there.
+/// Modes are what a law switches between; the other parts have none, or no steps that could end there.
 void check_located_modes(Node const& node, Scene const& scene) {
     if (!info(scene.parts.mechanism).spatial) {
         refuse(node, {fmt::format("nothing switches in a {}", info(scene.parts.mechanism).name), "remove it"});
@@ -110,7 +109,9 @@ void warn_of_idle_keys(Node const& table, Scene& scene) {
         if (has_effect(node.key, scene.integrator.method, info(scene.parts.mechanism))) continue;
         // Said to be off where it cannot be on, it is as it was asked for.
         if (node.key == "locate_modes") continue;
-        bool const of_method = !has_effect(node.key, scene.integrator.method, info(Mechanism::slider_crank));
+        bool const of_method = std::ranges::none_of(mechanisms(), [&](MechanismInfo const& one) {
+            return has_effect(node.key, scene.integrator.method, one);
+        });
         scene.warnings.push_back(
             of_method ? fmt::format("{} has no effect with method {}", node.name, name_of(scene.integrator.method))
                       : fmt::format("{} has no effect on a {}", node.name, info(scene.parts.mechanism).name));
@@ -133,21 +134,27 @@ std::vector<GivenKey> given_keys(Node const& root) {
 
 void read_physics(Node const& root, Scene& scene) {
     read_mechanism(root, scene.parts);
-    if (Node const* const law = root.find_path("contact.law")) {
-        scene.parts.law = static_cast<Law>(read_choice(*law, "contact law", law_names()));
-    }
-    for (Key const& key : info(scene.parts.law).keys) key.set(scene.inputs, key.preset);
+    Node const* const law = root.find_path("contact.law");
+    if (law != nullptr) scene.parts.law = static_cast<Law>(read_choice(*law, "contact law", law_names()));
+    scene.inputs = with_presets(scene.inputs, scene.parts.law);
     auto const given = given_keys(root);
+    bool restitution = false;
     for (auto const& [key, node] : given) {
         if (!counts_for(*key, scene.parts)) {
-            refuse(*node, {fmt::format("contact.law \"{}\" does not know it", info(scene.parts.law).name), "remove it"});
+            // An option may choose another law than the file, which has the keys of its own.
+            bool const of_another = law != nullptr && law->order > 0 && node->order == 0;
+            if (!of_another) refuse_strange(*node, scene.parts.law);
+            scene.warnings.push_back(fmt::format("{}: {} has no effect, for contact.law \"{}\" does not know it",
+                                                 node->where, node->name, info(scene.parts.law).name));
+            continue;
         }
         key->set(scene.inputs, read_number(*node, *key));
+        restitution = restitution || key->member == &Inputs::restitution;
     }
     check_rivals(given);
-    check_restitution(root);
+    if (restitution) check_restitution(root);
 
-    if (root.find_path("contact.restitution") != nullptr) {
+    if (restitution) {
         scene.parts.damping = Damping::restitution;
     } else if (scene.inputs.chi_line != 0 || scene.inputs.chi_surface != 0) {
         scene.parts.damping = Damping::rate;

@@ -63,6 +63,7 @@ std::string key_advice(std::string_view name) {
 void check_counts(Node const& root, Node const& node, Key const& key, Scene const& scene) {
     std::string_view const name = key.name;
     if (!counts_for(key, scene.parts.mechanism)) refuse_meaningless(node.where, name, scene.parts.mechanism);
+    if (!counts_for(key, scene.parts)) refuse_strange(node, scene.parts.law);
     if (name.starts_with("friction.") && !scene.parts.friction) {
         refuse(node, {"friction is off", "add a [friction] table"});
     }

@@ -90,9 +90,25 @@ EnsemblePlan ensemble_plan(Scene const& scene, MemberSet const& members, Backend
     return plan;
 }
 
+Provenance provenance_of(Scene const& scene) {
+    MechanismInfo const& mechanism = info(scene.parts.mechanism);
+    LawInfo const& law = info(scene.parts.law);
+    Provenance result;
+    result.title = scene.title;
+    result.seed = scene.seed;
+    result.mechanism = mechanism.meaning;
+    if (mechanism.spatial) result.law = law.words, result.law_switches = law.switches;
+    return result;
+}
+
 Provenance provenance(Scene const& scene, Backend const& backend, int threads) {
-    return {scene.title,   resolved_toml(scene), scene.seed, std::string(backend.name()),
-            backend.isa(), backend.flags(),      threads};
+    Provenance result = provenance_of(scene);
+    result.scene = resolved_toml(scene);
+    result.backend = backend.name();
+    result.isa = backend.isa();
+    result.flags = backend.flags();
+    result.threads = threads;
+    return result;
 }
 
 RunIdentity run_identity(Scene const& scene, MemberSet const& members, Backend const& backend) {

@@ -19,6 +19,8 @@ BlockDemand block_demand(Scene const& scene, Backend const& backend, int threads
 /// @param threads that the user allows  @param block_members 0: as many as suit the run.
 EnsemblePlan ensemble_plan(Scene const& scene, MemberSet const& members, Backend const& backend, int threads,
                            std::size_t block_members = 0);
+/// What the scene alone says, but for its text.
+Provenance provenance_of(Scene const& scene);
 Provenance provenance(Scene const& scene, Backend const& backend, int threads);
 RunIdentity run_identity(Scene const& scene, MemberSet const& members, Backend const& backend);
 

@@ -75,7 +75,7 @@ StepRange steps_of_member(Scene const& scene) {
         return {steps, steps};
     }
     double const least = end / scene.integrator.max_step + stops;
-    return {least, least + end * stiffest_rate(scene.parts.mechanism, complete_inputs(scene.inputs)) *
+    return {least, least + end * stiffest_rate(scene.parts, complete_inputs(scene.inputs)) *
                                contact_steps(scene.integrator)};
 }
 
@@ -107,8 +107,8 @@ std::uint64_t most_shards(Scene const& scene, MemberSet const& members, Ensemble
 
 }  // namespace
 
-double stiffest_rate(Mechanism mechanism, Inputs const& in) {
-    if (!info(mechanism).spatial) {
+double stiffest_rate(Parts const& parts, Inputs const& in) {
+    if (!info(parts.mechanism).spatial) {
         double const n = in.hertz_exponent, speed = std::abs(in.crank_speed) * in.crank_length;
         double const depth = std::pow((n + 1) * in.slider_mass * speed * speed / (4 * in.point_stiffness), 1 / (n + 1));
         double const stiffness = 2 * n * in.point_stiffness * std::pow(depth, n - 1), arm = in.slider_length / 2;
@@ -116,8 +116,10 @@ double stiffest_rate(Mechanism mechanism, Inputs const& in) {
     }
     double const e1 = in.slider_young_modulus, e2 = in.way_young_modulus;
     double const series = 2 * e1 * e2 / (e1 + e2);
+    auto* const of_law = info(parts.law).face_stiffness;
     auto const face = [&](double width, double thickness, double rocking_inertia) {
-        double const stiffness = series * in.slider_length * width / thickness;
+        double const surface = series * in.slider_length * width / thickness;
+        double const stiffness = of_law != nullptr ? of_law(in, surface) : surface;
         auto const turning = [&](double length, double inertia) { return stiffness * length * length / (4 * inertia); };
         return std::max({stiffness / in.slider_mass, turning(in.slider_length, rocking_inertia),
                          turning(width, in.slider_inertia_x)});

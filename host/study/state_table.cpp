@@ -117,6 +117,12 @@ Law law(std::string_view text, CsvReader const& lines) {
     lines.fail(fmt::format("column contact.law: '{}' is no law; use one of {}", text, fmt::join(known, ", ")));
 }
 
+/// The scene is of another law: what that one has of its own is none of this one's, and its damping may be none.
+void choose_law(Parts& parts, Inputs& inputs) {
+    inputs = with_presets(inputs, parts.law);
+    if (!info(parts.law).has(parts.damping)) parts.damping = Damping::point;
+}
+
 /// A part with its parameter at zero does what the code without it does.
 bool needs_part(Key const& key, double value) {
     return value != 0 || !(key.name.starts_with("way.") || key.name.starts_with("contact.chi_"));
@@ -132,6 +138,12 @@ void add_row(StateTable& table, std::vector<Column> const& columns, Scene const&
     StateNumbers state{};
     double time = 0;
     std::vector<std::string> texts;
+    // The keys that count are those of the row's law, wherever its column stands.
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (columns[i].kind != Column::Kind::law) continue;
+        parts.law = law(cells[i], lines);
+        if (parts.law != scene.parts.law) choose_law(parts, inputs);
+    }
     for (std::size_t i = 0; i < cells.size(); ++i) {
         Column const& column = columns[i];
         switch (column.kind) {
@@ -144,11 +156,14 @@ void add_row(StateTable& table, std::vector<Column> const& columns, Scene const&
                 state[column.state] = number(cells[i], column, lines);
                 break;
             case Column::Kind::law:
-                parts.law = law(cells[i], lines);
                 texts.emplace_back(cells[i]);
                 break;
             case Column::Kind::key: {
                 double const value = number(cells[i], column, lines);
+                if (!counts_for(*column.key, parts)) {
+                    lines.fail(fmt::format("column {}: contact.law \"{}\" does not know it; remove it", column.name,
+                                           info(parts.law).name));
+                }
                 column.key->set(inputs, value);
                 if (needs_part(*column.key, value)) require_part(parts, *column.key);
                 texts.push_back(fmt::format("{:.17g}", value));

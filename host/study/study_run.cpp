@@ -198,7 +198,7 @@ std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, std::ve
 Provenance shard_origin(ShardFolder const& folder, std::vector<Shard> const& shards, Scene const& scene) {
     if (shards.empty()) throw FileError(folder.path() + ": holds no finished members");
     std::vector<std::byte> const bytes = folder.read(shards.front());
-    Provenance origin;
+    Provenance origin = provenance_of(scene);
     if (scene.stores_members()) {
         NetcdfFile const file = NetcdfFile::open_in_memory(shards.front().name, bytes);
         auto const text = [&](char const* name) { return file.text(NetcdfFile::global, name); };
@@ -208,13 +208,15 @@ Provenance shard_origin(ShardFolder const& folder, std::vector<Shard> const& sha
         double threads = 1;
         if (file.number(NetcdfFile::global, "threads", threads)) origin.threads = static_cast<int>(threads);
     } else {
-        origin = parse_statistics(bytes, shards.front().name).origin;
+        Provenance const of_shard = parse_statistics(bytes, shards.front().name).origin;
+        origin.backend = of_shard.backend;
+        origin.isa = of_shard.isa;
+        origin.flags = of_shard.flags;
+        origin.threads = of_shard.threads;
     }
-    origin.title = scene.title;
     RunIdentity const& identity = folder.identity();
     // The copy of the table goes with the folder.
     origin.scene = identity.table.empty() ? identity.scene : with_table(identity.scene, identity.table);
-    origin.seed = scene.seed;
     return origin;
 }
 

@@ -108,7 +108,7 @@ private:
             FaceMotion<Real> face;
             set_motion<axis>(face, depths.on(side), rates.on(side), is_plus);
             set_touching<axis>(face, seen, holding, is_plus);
-            auto f = block_.law.template forces<Full>(face, contact, p_.contact);
+            auto f = loads(face, contact);
             outside = outside | f.outside;
             push.add(side, f.normal);
             if constexpr (Full) report_->add_face(Faces::first_face, is_plus, face, f);
@@ -121,6 +121,15 @@ private:
             if (none(both)) break;
         }
         add_push<axis>(push, n, w);
+    }
+
+    /// What the law says of a face.
+    SLIDEWAY_FN auto loads(FaceMotion<Real> const& face, FaceContact<Real> const& contact) const {
+        if constexpr (Full) {
+            return block_.law.forces(face, contact, p_.contact);
+        } else {
+            return block_.law.normals(face, contact, p_.contact);
+        }
     }
 
     template <Axis axis> SLIDEWAY_FN Sides sides(ApexNumbers<Real> const& depths, bool holding) const {
@@ -139,9 +148,12 @@ private:
         constexpr int first = FacePair<axis>::first_face;
         auto const& plus = memory_.impact_speed[first];
         auto const& minus = memory_.impact_speed[first + 1];
-        Real const zero(0.0);
-        face.apex = {{depth.a, rate.a, zero}, {depth.b, rate.b, zero}, {depth.c, rate.c, zero}, {depth.d, rate.d, zero}};
-        if (!block_.remembers) return;
+        auto const set = [](ApexMotion<Real>& apex, Real const& d, Real const& v) { apex.depth = d, apex.rate = v; };
+        set(face.apex.a, depth.a, rate.a);
+        set(face.apex.b, depth.b, rate.b);
+        set(face.apex.c, depth.c, rate.c);
+        set(face.apex.d, depth.d, rate.d);
+        if (!block_.remembers) return;  // and nobody asks
         face.apex.a.impact_speed = select(is_plus, plus.a, minus.a);
         face.apex.b.impact_speed = select(is_plus, plus.b, minus.b);
         face.apex.c.impact_speed = select(is_plus, plus.c, minus.c);

@@ -12,20 +12,24 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// there, so that a section has the accuracy of the steps themselves, and the orbit does not know of it.
 template <class Stepper, class Model, class Real> class CrossingSearch {
 public:
-    /// @param accepted lanes with an accepted step, which the pack still holds.
-    SLIDEWAY_HD static void run(Pack<Model, Real>& pack, Results<Model>& results, Mask<Real> accepted) {
+    /// @param accepted lanes with an accepted step.
+    SLIDEWAY_HD static void run(Pack<Model, Real>& pack, Results<Model>& results, Attempt<Model, Real> const& whole,
+                                Mask<Real> accepted) {
         auto const& c = pack.state.course;
-        Surface const surface{pack, results.crossings()};
-        auto const recorded = accepted & (c.t + pack.step > pack.state.constants.first_stop);
+        Surface const surface{pack, results.crossings(), whole.step};
+        auto const recorded = accepted & (c.t + whole.step > pack.state.constants.first_stop);
         if (none(recorded)) return;
-        Real const v0 = surface.value(c.t, c.y), v1 = surface.value(c.t + pack.step, pack.end);
+        Span span;
+        span.v0 = surface.value(c.t, c.y);
+        span.v1 = surface.value(c.t + whole.step, whole.end);
         // Derivatives at the ends of a stiff step belong to fast motions that the method damps.
-        Real const chord = v1 - v0;
-        Real const s0 = Stepper::stiff ? chord : pack.step * surface.slope(c.t, c.y, c.rates, v0);
-        Real const s1 =
-            Stepper::stiff ? chord : pack.step * surface.slope(c.t + pack.step, pack.end, pack.end_rates, v1);
-        auto const candidates = recorded & may_cross(v0, s0, v1, s1);
-        if (any(candidates)) record(pack, results, candidates, surface, v0, s0, v1, s1);
+        Real const chord = span.v1 - span.v0;
+        span.s0 = Stepper::stiff ? chord : whole.step * surface.slope(c.t, c.y, c.rates, span.v0);
+        span.s1 = Stepper::stiff
+                      ? chord
+                      : whole.step * surface.slope(c.t + whole.step, whole.end, whole.end_rates, span.v1);
+        auto const candidates = recorded & may_cross(span.v0, span.s0, span.v1, span.s1);
+        if (any(candidates)) record(pack, results, candidates, surface, span);
     }
 
 private:
@@ -35,6 +39,7 @@ private:
     struct Surface {
         Pack<Model, Real> const& pack;
         CrossingPlan const& plan;
+        Real const& whole;  // the step that is searched
 
         SLIDEWAY_HD Real value(Real t, Real const* state) const {
             if (plan.on == CrossingPlan::On::state) return state[plan.index] - Real(plan.level);
@@ -44,71 +49,58 @@ private:
 
         /// Time derivative where the value is known; of a gap by a difference over a thousandth of the step, along the motion.
         SLIDEWAY_HD Real slope(Real t, Real const* state, Real const* rates, Real value_here) const {
+            return slope(t, state, rates, value_here, whole);
+        }
+        SLIDEWAY_HD Real slope(Real t, Real const* state, Real const* rates, Real value_here, Real step) const {
             if (plan.on == CrossingPlan::On::state) return rates[plan.index];
-            Real const ahead = Real(1e-3) * pack.step;
+            Real const ahead = Real(1e-3) * step;
             Real moved[size];
             for (int i = 0; i < size; ++i) moved[i] = fma(ahead, rates[i], state[i]);
-            auto const steps = pack.step > Real(0.0);
+            auto const steps = step > Real(0.0);
             return select(steps, (value(t + ahead, moved) - value_here) / select(steps, ahead, Real(1.0)), Real(0.0));
         }
     };
 
-    /// What of the stint's attempt another attempt overwrites, as it asks for no reports.
-    struct Attempt {
-        SLIDEWAY_HD explicit Attempt(Pack<Model, Real> const& pack)
-            : needs(pack.needs), busy(pack.busy), step(pack.step), faults(pack.faults) {
-            for (int i = 0; i < size; ++i) end[i] = pack.end[i], end_rates[i] = pack.end_rates[i];
-        }
-        SLIDEWAY_HD void restore(Pack<Model, Real>& pack) const {
-            pack.needs = needs;
-            pack.busy = busy;
-            pack.step = step;
-            pack.faults = faults;
-            for (int i = 0; i < size; ++i) pack.end[i] = end[i], pack.end_rates[i] = end_rates[i];
-        }
-
-        ReportNeeds needs;
-        Mask<Real> busy;
-        Real step;
-        Faults<Real> faults;
-        Real end[size], end_rates[size];
-    };
+    /// The surface's values at the ends of the step, and their slopes per step.
+    struct Span { Real v0, s0, v1, s1; };
 
     SLIDEWAY_NOINLINE static void record(Pack<Model, Real>& pack, Results<Model>& results, Mask<Real> candidates,
-                                         Surface const& surface, Real v0, Real s0, Real v1, Real s1) {
-        auto const zeros = cubic_zeros(candidates, v0, s0, v1, s1, direction_of(surface.plan));
+                                         Surface const& surface, Span const& span) {
+        auto const zeros = cubic_zeros(candidates, span.v0, span.s0, span.v1, span.s1, direction_of(surface.plan));
         if (none(zeros.any)) return;
-        // The attempt is the stint's; another stepper makes its own.
-        Attempt const attempt(pack);
-        pack.needs = {};
-        auto const starts_below = v0 < Real(0.0), ends_below = v1 < Real(0.0);
+        auto const starts_below = span.v0 < Real(0.0), ends_below = span.v1 < Real(0.0);
         auto sides = mask_of<Real>(false);  // of those that are looked for
         if (surface.plan.direction != CrossingPlan::Direction::falling) sides = sides | (starts_below & !ends_below);
         if (surface.plan.direction != CrossingPlan::Direction::rising) sides = sides | ((!starts_below) & ends_below);
         Real const found = present(zeros.at[0]) + present(zeros.at[1]) + present(zeros.at[2]);
-        auto const single = sides & (found == Real(1.0));
+        Mask<Real> const single = sides & (found == Real(1.0));
+        // The members' attempt stays as it is: another stepper makes its own.
+        Attempt<Model, Real> attempt;
         for (auto const& zero : zeros.at) {
-            auto at = candidates & (zero.theta <= Real(1.0));
+            Mask<Real> at = candidates & (zero.theta <= Real(1.0));
             if (none(at)) continue;
-            place(pack, surface, attempt.step, at, single, zero, v0, v1);
-            Real const t = pack.state.course.t + pack.step;
+            place(pack, surface, attempt, {at, single}, zero, span);
+            Real const t = pack.state.course.t + attempt.step;
             at = at & (t >= pack.state.constants.first_stop);
-            results.take_crossing(pack, at, t, pack.end);
+            results.take_crossing(pack, at, t, attempt.end);
         }
-        attempt.restore(pack);
     }
 
-    /// Ends a step at the crossing: the pack's `step` and `end` are then those of the section.  Newton's method from the cubic's zero,
+    /// Lanes whose crossing is wanted, and those of them whose step's ends bracket it.
+    struct Wanted { Mask<Real> at, bracketed; };
+
+    /// Ends a step at the crossing: the attempt's `step` and `end` are then those of the section.  Newton's method from the cubic's zero,
     /// within its monotone stretch; where the step's ends lie on two sides and the cubic has one zero, they bracket it, and a false
     /// position (Illinois: an end that stays counts half) ends what Newton has not, or what has no slope to go by.
-    SLIDEWAY_HD static void place(Pack<Model, Real>& pack, Surface const& surface, Real whole, Mask<Real> at,
-                                  Mask<Real> bracketed, CubicZero<Real> const& zero, Real v0, Real v1) {
+    SLIDEWAY_HD static void place(Pack<Model, Real>& pack, Surface const& surface, Attempt<Model, Real>& attempt,
+                                  Wanted const& lanes_of, CubicZero<Real> const& zero, Span const& span) {
+        auto const &at = lanes_of.at, &bracketed = lanes_of.bracketed;
         Real theta = select(at, zero.theta, Real(0.0));
         Real low = select(bracketed, Real(0.0), zero.low), high = select(bracketed, Real(1.0), zero.high);
-        Real of_low = v0, of_high = v1;
+        Real of_low = span.v0, of_high = span.v1;
         auto wanted = at;
         for (int i = 0; i < 60 && any(wanted); ++i) {
-            Real const here = value_after(pack, surface, whole, theta, wanted);
+            Real const here = value_after(pack, surface, attempt, theta, wanted);
             auto const below = here < Real(0.0), low_below = of_low < Real(0.0);
             auto const as_low = (below & low_below) | ((!below) & (!low_below));
             auto const is_low = wanted & bracketed & as_low, is_high = wanted & bracketed & !as_low;
@@ -118,8 +110,9 @@ private:
             high = select(is_high, theta, high);
             Real next = low - of_low * ((high - low) / (of_high - of_low));
             if (!Stepper::stiff && i < corrections) {
-                Real const t = pack.state.course.t + pack.step;
-                Real const slope = whole * surface.slope(t, pack.end, pack.end_rates, here);
+                Real const t = pack.state.course.t + attempt.step;
+                Real const slope =
+                    surface.whole * surface.slope(t, attempt.end, attempt.end_rates, here, attempt.step);
                 Real const moved = theta - here / slope;
                 // A grazing zero has no slope to go by, and a NaN goes nowhere.
                 auto const inside = (moved > low) & (moved < high);
@@ -130,19 +123,20 @@ private:
             wanted = wanted & (next > low) & (next < high) & !(next == theta) & !(here == Real(0.0));
             theta = select(wanted, next, theta);
         }
-        value_after(pack, surface, whole, theta, at);
+        value_after(pack, surface, attempt, theta, at);
     }
 
     /// The surface's value after a step of a fraction of the whole one.
     /// @param at lanes that need it: what it costs must not depend on what others need.
-    SLIDEWAY_NOINLINE static Real value_after(Pack<Model, Real>& pack, Surface const& surface, Real whole, Real theta,
-                                              Mask<Real> at) {
-        pack.busy = at;
-        pack.step = select(at, whole * theta, Real(0.0));
+    SLIDEWAY_NOINLINE static Real value_after(Pack<Model, Real>& pack, Surface const& surface,
+                                              Attempt<Model, Real>& attempt, Real theta, Mask<Real> at) {
+        attempt.step = select(at, surface.whole * theta, Real(0.0));
+        auto from = pack.start();
+        from.needs = {};
         Stepper stepper;
-        stepper.attempt(pack);
-        pack.count_evaluations(at, Stepper::evaluations);
-        return surface.value(pack.state.course.t + pack.step, pack.end);
+        stepper.attempt(pack, from, attempt);
+        pack.template count_attempt<Stepper>(at);
+        return surface.value(pack.state.course.t + attempt.step, attempt.end);
     }
 
     SLIDEWAY_FN static Real present(CubicZero<Real> const& zero) { return count<Real>(zero.theta <= Real(1.0)); }

@@ -20,29 +20,30 @@ public:
 
     /// Finds the events; `fraction()` then tells where the steps end.  @param accepted lanes with an accepted step.
     template <class Stepper>
-    SLIDEWAY_HD void run(Pack<Model, Real>& pack, Stepper const& stepper, Mask<Real> accepted) {
+    SLIDEWAY_HD void run(Pack<Model, Real>& pack, Stepper const& stepper, Attempt<Model, Real> const& attempt,
+                         Mask<Real> accepted) {
         ended_ = mask_of<Real>(false);
         fraction_ = Real(1.0);
-        auto const start = at_start(pack), end = at_end(pack);
+        auto const start = at_start(pack), end = at_end(pack, attempt);
         auto candidates = mask_of<Real>(false);
-        for (int event = 0; event < events; ++event) candidates = candidates | may_cross(pack.step, start, end, event);
+        for (int event = 0; event < events; ++event) candidates = candidates | may_cross(attempt.step, start, end, event);
         candidates = candidates & accepted;
-        if (any(candidates)) search(pack, stepper, candidates, Each{});
+        if (any(candidates)) search(pack, Step<Stepper>{stepper, attempt}, candidates, Each{});
     }
 
-    /// Puts lanes whose step an event ended into the state after its reset: the pack's `end` and `end_rates` hold it.  Before that they
-    /// are those of the whole step, which the stepper's dense output wants.
-    SLIDEWAY_HD void reset(Pack<Model, Real>& pack) {
-        if (any(ended_)) place_resets(pack);
+    /// Puts lanes whose step an event ended into the state after its reset: the attempt's `end` and `end_rates` hold it.  Before that
+    /// they are those of the whole step, which the stepper's dense output wants.
+    SLIDEWAY_HD void reset(Pack<Model, Real>& pack, Attempt<Model, Real>& attempt) {
+        if (any(ended_)) place_resets(pack, attempt);
     }
 
     /// Lanes whose resets pile up: bounces that come to an end in finite time after infinitely many of them, or an event that its own
     /// reset brings about again.  A model that knows better leaves that state by its reset (ReliefValve::reset); without, time
     /// stands still, or creeps by rounding errors.  To be asked once a step, at its end.
-    SLIDEWAY_HD Mask<Real> piled_up(Pack<Model, Real>& pack) const {
+    SLIDEWAY_HD Mask<Real> piled_up(Pack<Model, Real>& pack, Real step) const {
         if (none(ended_)) return ended_;
         auto& c = pack.state.course;
-        auto const at_once = c.t - c.resets.time <= Real(at_once_within) * pack.step;
+        auto const at_once = c.t - c.resets.time <= Real(at_once_within) * step;
         c.resets.in_row = select(ended_, select(at_once, c.resets.in_row + Real(1.0), Real(0.0)), c.resets.in_row);
         c.resets.time = select(ended_, c.t, c.resets.time);
         return ended_ & (c.resets.in_row >= Real(most_at_once));
@@ -59,6 +60,12 @@ private:
         1e-6;  // of a step: ten times what a double zero of the cubic may be off by
     using Each = std::make_integer_sequence<int, events>;
 
+    /// The step that is searched.
+    template <class Stepper> struct Step {
+        Stepper const& stepper;
+        Attempt<Model, Real> const& attempt;
+    };
+
     /// The event functions at one instant, and their time derivatives.
     struct Values {
         Real value[events], slope[events];
@@ -73,8 +80,8 @@ private:
         auto const& c = pack.state.course;
         return values(pack, c.t, c.y, c.rates);
     }
-    SLIDEWAY_FN static Values at_end(Pack<Model, Real> const& pack) {
-        return values(pack, pack.state.course.t + pack.step, pack.end, pack.end_rates);
+    SLIDEWAY_FN static Values at_end(Pack<Model, Real> const& pack, Attempt<Model, Real> const& attempt) {
+        return values(pack, pack.state.course.t + attempt.step, attempt.end, attempt.end_rates);
     }
     SLIDEWAY_FN static Mask<Real> may_cross(Real step, Values const& start, Values const& end, int event) {
         return slideway::may_cross(start.value[event], step * start.slope[event], end.value[event],
@@ -82,37 +89,38 @@ private:
     }
 
     template <class Stepper, int... event>
-    SLIDEWAY_NOINLINE void search(Pack<Model, Real>& pack, Stepper const& stepper, Mask<Real> accepted,
+    SLIDEWAY_NOINLINE void search(Pack<Model, Real>& pack, Step<Stepper> const& step, Mask<Real> accepted,
                                   std::integer_sequence<int, event...>) {
-        auto const start = at_start(pack), end = at_end(pack);
-        bool const found = (find<event>(pack, stepper, accepted, start, end) | ...);
-        while (found && apply_earliest(pack, stepper, accepted)) {}
+        auto const start = at_start(pack), end = at_end(pack, step.attempt);
+        bool const found = (find<event>(pack, step, accepted, start, end) | ...);
+        while (found && apply_earliest(pack, step, accepted)) {}
     }
 
     /// Times of one event in the step.  @return whether any lane has it.
     template <int event, class Stepper>
-    SLIDEWAY_HD bool find(Pack<Model, Real> const& pack, Stepper const& stepper, Mask<Real> accepted,
+    SLIDEWAY_HD bool find(Pack<Model, Real> const& pack, Step<Stepper> const& step, Mask<Real> accepted,
                           Values const& start, Values const& end) {
         for (auto& theta : zeros_[event]) theta = Real(absent);
-        auto const candidates = accepted & may_cross(pack.step, start, end, event);
+        Real const& h = step.attempt.step;
+        auto const candidates = accepted & may_cross(h, start, end, event);
         if (none(candidates)) return false;
-        auto const zeros = cubic_zeros(candidates, start.value[event], pack.step * start.slope[event], end.value[event],
-                                       pack.step * end.slope[event], info_of(event).direction);
+        auto const zeros = cubic_zeros(candidates, start.value[event], h * start.slope[event], end.value[event],
+                                       h * end.slope[event], info_of(event).direction);
         if (none(zeros.any)) return false;
-        for (int i = 0; i < 3; ++i) zeros_[event][i] = placed<event>(pack, stepper, zeros.at[i]);
+        for (int i = 0; i < 3; ++i) zeros_[event][i] = placed<event>(pack, step, zeros.at[i]);
         return true;
     }
 
     /// A zero of the cubic moved to that of the dense output: three Newton steps with the cubic's slope leave the rounding.
     template <int event, class Stepper>
-    SLIDEWAY_FN static Real placed(Pack<Model, Real> const& pack, Stepper const& stepper, CubicZero<Real> const& zero) {
+    SLIDEWAY_FN static Real placed(Pack<Model, Real> const& pack, Step<Stepper> const& step, CubicZero<Real> const& zero) {
         auto const present = zero.theta <= Real(1.0);
         if (none(present)) return zero.theta;
         Real theta = select(present, zero.theta, Real(0.5));
         for (int i = 0; i < 3; ++i) {
             Real state[size];
-            dense_state(pack, stepper, theta, state);  // the compiler drops what the event does not depend on
-            auto const here = values(pack, fma(pack.step, theta, pack.state.course.t), state, pack.end_rates);
+            dense_state(pack, step, theta, state);  // the compiler drops what the event does not depend on
+            auto const here = values(pack, fma(step.attempt.step, theta, pack.state.course.t), state, step.attempt.end_rates);
             Real const moved = theta - here.value[event] / zero.slope;
             // A grazing zero has no slope to go by, and a NaN stays where the cubic has it.
             auto const inside = (moved >= zero.low) & (moved <= zero.high);
@@ -122,18 +130,19 @@ private:
     }
 
     template <class Stepper>
-    SLIDEWAY_FN static void dense_state(Pack<Model, Real> const& pack, Stepper const& stepper, Real theta,
+    SLIDEWAY_FN static void dense_state(Pack<Model, Real> const& pack, Step<Stepper> const& step, Real theta,
                                         Real* state) {
-        for (int i = 0; i < size; ++i) state[i] = stepper.dense(pack, i, theta);
+        auto const from = pack.start();
+        for (int i = 0; i < size; ++i) state[i] = step.stepper.dense(from, step.attempt, i, theta);
     }
 
-    SLIDEWAY_NOINLINE void place_resets(Pack<Model, Real>& pack) {
-        Real const t = fma(pack.step, fraction_, pack.state.course.t);
-        for (int i = 0; i < size; ++i) pack.end[i] = select(ended_, reset_[i], pack.end[i]);
+    SLIDEWAY_NOINLINE void place_resets(Pack<Model, Real>& pack, Attempt<Model, Real>& attempt) {
+        Real const t = fma(attempt.step, fraction_, pack.state.course.t);
+        for (int i = 0; i < size; ++i) attempt.end[i] = select(ended_, reset_[i], attempt.end[i]);
         Real rates[size];
-        pack.evaluate(t, pack.end, rates, pack.needs.ends, pack.end_report);
+        pack.evaluate(t, attempt.end, pack.state.contacts.memory, rates, pack.needs.ends, attempt.report);
         pack.count_evaluations(ended_, 1);
-        for (int i = 0; i < size; ++i) pack.end_rates[i] = select(ended_, rates[i], pack.end_rates[i]);
+        for (int i = 0; i < size; ++i) attempt.end_rates[i] = select(ended_, rates[i], attempt.end_rates[i]);
     }
 
     /// An entry of the model's table.  Of a copy, because device code cannot index a constant of the host.
@@ -144,7 +153,7 @@ private:
 
     /// @return whether any lane had an event left.
     template <class Stepper>
-    SLIDEWAY_HD bool apply_earliest(Pack<Model, Real>& pack, Stepper const& stepper, Mask<Real> accepted) {
+    SLIDEWAY_HD bool apply_earliest(Pack<Model, Real>& pack, Step<Stepper> const& step, Mask<Real> accepted) {
         Real first = Real(absent), which = Real(-1.0);
         // Of simultaneous events those come first that let the step go on: none of them is lost to a reset.
         for (bool const resets : {false, true}) {
@@ -160,9 +169,9 @@ private:
         auto const due = accepted & !ended_ & (first <= Real(1.0));
         if (none(due)) return false;
         Real const theta = select(due, first, Real(1.0));
-        Real const t = fma(pack.step, theta, pack.state.course.t);
+        Real const t = fma(step.attempt.step, theta, pack.state.course.t);
         Real state[size];
-        dense_state(pack, stepper, theta, state);
+        dense_state(pack, step, theta, state);
         for (int event = 0; event < events; ++event) {
             auto const here = due & (which == Real(static_cast<double>(event)));
             if (none(here)) continue;

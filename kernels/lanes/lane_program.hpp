@@ -140,7 +140,9 @@ private:
                 Record const& r = records_[chosen[i < members ? i : 0]];
                 load_lane(pack_.state.constants, i, r.constants);
                 load_lane(pack_.state.course, i, r.course);
-                if (pack_.needs.watch()) load_lane(pack_.state.contacts, i, r.contacts);
+                if constexpr (Model::has_contacts) {
+                    if (pack_.needs.watch()) load_lane(pack_.state.contacts, i, r.contacts);
+                }
                 if (pack_.needs.quantities) load_lane(pack_.state.observation, i, r.observation);
                 pack_.with_accelerations([&](auto& a) { load_lane(a, i, r.accelerations); });
                 if constexpr (Model::has_shadows) {
@@ -162,7 +164,9 @@ private:
             auto const& c = pack_.state.course;
             if constexpr (width > 1) {
                 store_lane(c, i, records_[seat].course);
-                if (pack_.needs.watch()) store_lane(pack_.state.contacts, i, records_[seat].contacts);
+                if constexpr (Model::has_contacts) {
+                    if (pack_.needs.watch()) store_lane(pack_.state.contacts, i, records_[seat].contacts);
+                }
                 if (pack_.needs.quantities) {
                     store_lane(pack_.state.observation, i, records_[seat].observation);
                 }
@@ -206,31 +210,33 @@ private:
     /// A function of its own, or its shadows would lie on a card's stack beside those of every stint.
     SLIDEWAY_NOINLINE void start() {
         auto& c = pack_.state.course;
-        auto faults = pack_.evaluate(c.t, c.y, pack_.end_rates, pack_.needs.ends, pack_.end_report);
+        auto& contacts = pack_.state.contacts;
+        Real rates[size];
+        typename Model::template Report<Real> report;
+        auto faults = pack_.evaluate(c.t, c.y, contacts.memory, rates, pack_.needs.ends, report);
         pack_.count_evaluations(pack_.busy, 1);
-        auto const whole = is_finite(c.y, pack_.end_rates);
-        if (pack_.needs.quantities) pack_.state.observation.observer.start(pack_.busy, pack_.end_report, c.y, pack_.needs.switches);
-        pack_.with_accelerations([&](auto& a) { a.start(pack_.busy, pack_.end_report); });
-        pack_.begin_next(pack_.busy, pack_.end_rates);
+        auto const whole = is_finite(c.y, rates);
+        if (pack_.needs.quantities) pack_.state.observation.observer.start(pack_.busy, report, c.y, pack_.needs.switches);
+        pack_.with_accelerations([&](auto& a) { a.start(pack_.busy, report); });
+        pack_.begin_next(pack_.busy, rates, report);
         if constexpr (Model::has_contacts) {
-            auto& [memory, watch] = pack_.state.contacts;
-            if (pack_.needs.watch()) watch.begin(pack_.busy, pack_.end_report.contact, memory, pack_.needs.watching);
+            if (pack_.needs.watch()) contacts.watch.begin(pack_.busy, report.contact, contacts.memory, pack_.needs.watching);
             if (pack_.needs.watching == Watching::modes) {
                 // Rates are reported only once contacts are held, and the first step is searched too.
-                pack_.evaluate(c.t, c.y, pack_.end_rates, true, pack_.end_report);
+                pack_.evaluate(c.t, c.y, contacts.memory, rates, true, report);
                 pack_.count_evaluations(pack_.busy, 1);
-                watch.keep(pack_.busy, pack_.end_report.contact);
+                contacts.watch.keep(pack_.busy, report.contact);
             }
         }
-        auto broken = pack_.busy & !whole;
+        Mask<Real> broken = pack_.busy & !whole;
         if constexpr (Model::has_shadows) {
             Shadows<Model, Real> shadows(block_.shadows);
             broken = broken | shadows.start(pack_, pack_.busy & whole);
             faults = faults.or_else(shadows.faults());
         }
-        auto const failed = broken | (pack_.busy & (faults.geometry | faults.contact_domain));
+        Mask<Real> const failed = broken | (pack_.busy & (faults.geometry | faults.contact_domain));
         if (none(failed)) return;
-        results_.retire(pack_, failed, mask_of<Real>(false), faults, broken, failed);
+        results_.retire(pack_, {failed, mask_of<Real>(false), failed, broken}, faults);
         pack_.busy = pack_.busy & !failed;
     }
 

@@ -92,7 +92,7 @@ template <class Model, class Real> struct MemberState {
         Real y[Model::size], rates[Model::size];
         Real distance;  // from the member, after the last stop; dimensionless
         Real growth;    // ln of it since the last record
-        Contacts contacts;
+        [[no_unique_address]] Contacts contacts;
     };
 
     Constants constants;

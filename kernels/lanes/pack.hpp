@@ -1,60 +1,13 @@
 #pragma once
 
 #include "kernels/block.hpp"
+#include "kernels/lanes/attempt.hpp"
 #include "kernels/lanes/member_state.hpp"
+#include "kernels/lanes/report_needs.hpp"
 #include "kernels/mechanisms/faults.hpp"
 #include "kernels/real.hpp"
-#include "kernels/steppers/contact_watch.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
-
-/// Which of a model's reports a block needs.
-struct ReportNeeds {
-    bool quantities = false;     // the observer is at work
-    bool stages = false;         // at every stage, for integrals
-    bool accelerations = false;  // their record is at work
-    bool audit = false;          // the audit's integrals meet the tolerance too
-    bool switches = false;       // the law does: the audit keeps books of it
-    Watching watching = Watching::nothing;
-    bool ends = false;  // at the accepted steps
-
-    SLIDEWAY_HD bool watch() const { return watching != Watching::nothing; }
-
-    template <class Model, class Real>
-    SLIDEWAY_HD static ReportNeeds of(Model const& model, Selection quantities, bool locate_modes) {
-        using Observer = typename Model::template Observer<Real>;
-        ReportNeeds needs;
-        needs.quantities = quantities != 0;
-        needs.stages = Observer::needs_stages(quantities);
-        if constexpr (has_accelerations<Model>) {
-            using Accelerations = typename Model::template Accelerations<Real>;
-            needs.accelerations = (quantities & Accelerations::quantities) != 0;
-            needs.stages = needs.stages || Accelerations::needs_stages(quantities);
-        }
-        needs.audit = Observer::audits(quantities);
-        if constexpr (Model::has_contacts) {
-            needs.watching = model.watching(locate_modes, Model::has_shadows);
-            needs.switches = model.switches();
-        }
-        needs.ends = needs.stages || Observer::needs_reports(quantities) || needs.watch();
-        return needs;
-    }
-
-    /// Nobody observes a shadow.
-    SLIDEWAY_HD ReportNeeds of_shadows() const {
-        ReportNeeds needs;
-        needs.watching = watching;
-        needs.ends = watch();
-        return needs;
-    }
-};
-
-/// Lanes whose numbers are all finite.
-template <int size, class Real> SLIDEWAY_HD Mask<Real> is_finite(Real const (&a)[size], Real const (&b)[size]) {
-    Real sum(0.0);
-    for (int i = 0; i < size; ++i) sum = fma(a[i], Real(0.0), fma(b[i], Real(0.0), sum));
-    return sum == Real(0.0);
-}
 
 /// The lanes at work: their members' states, and the step that they attempt.
 template <class Model, class Real> struct Pack {
@@ -71,17 +24,13 @@ template <class Model, class Real> struct Pack {
     MemberState<Model, Real> state;
     Mask<Real> busy;  // lanes with a member at work
 
-    // The attempt, from (t, y) to (t + step, end).
-    Real step;
-    Real end[size], end_rates[size];
-    Report end_report;  // if needs.ends
-    Faults<Real> faults;
-    Real integral[room(Observer::integrals)];           // Σ b_s · integrand of the stages, if needs.stages
+    // Of the members' own attempt, if needs.stages.
+    Real integral[room(Observer::integrals)];           // Σ b_s · integrand of the stages
     Real audit_error[room(Observer::audit_integrals)];  // Σ e_s · integrand
-    Real scratch[size];
 
-    SLIDEWAY_FN Faults<Real> evaluate(Real t, Real const* at, Real* rates, bool report_wanted, Report& report) const {
-        return evaluate(t, at, state.contacts.memory, rates, report_wanted, report);
+    /// Where the members' next step starts.
+    SLIDEWAY_FN StepStart<Model, Real> start() const {
+        return {state.course.t, state.course.y, state.course.rates, state.contacts.memory, needs};
     }
 
     SLIDEWAY_FN Faults<Real> evaluate(Real t, Real const* at, typename Model::template Memory<Real> const& memory,
@@ -103,35 +52,40 @@ template <class Model, class Real> struct Pack {
         }
     }
 
-    /// Begins the integrals over the step with the stage at its start.
+    /// Begins the integrals over a step with the stage at its start.
     SLIDEWAY_HD void begin_integrals(double b, double e) {
-        if (!needs.stages) return;
         for (int i = 0; i < Observer::integrals; ++i) integral[i] = Real(b) * state.observation.integrand[i];
         with_accelerations([&](auto& record) { record.begin_step(b); });
         for (int i = 0; i < Observer::audit_integrals; ++i) audit_error[i] = Real(e) * state.observation.integrand[i];
     }
 
-    /// Adds the stage whose report is at hand.
-    SLIDEWAY_HD void add_integrands(double b, double e) {
-        if (!needs.stages || (b == 0 && e == 0)) return;
+    /// Adds a stage.
+    SLIDEWAY_HD void add_integrands(double b, double e, Report const& report) {
+        if (b == 0 && e == 0) return;
         Real values[room(Observer::integrals)];
-        Observer::integrands(end_report, values);
+        Observer::integrands(report, values);
         for (int i = 0; i < Observer::integrals; ++i) integral[i] = fma(Real(b), values[i], integral[i]);
-        with_accelerations([&](auto& record) { record.add_stage(b, end_report); });
+        with_accelerations([&](auto& record) { record.add_stage(b, report); });
         for (int i = 0; i < Observer::audit_integrals; ++i) audit_error[i] = fma(Real(e), values[i], audit_error[i]);
     }
 
     /// What the next step starts from, in the lanes of the mask.
-    SLIDEWAY_HD void begin_next(Mask<Real> in, Real const* rates) {
+    SLIDEWAY_HD void begin_next(Mask<Real> in, Real const* rates, Report const& report) {
         auto& c = state.course;
         for (int i = 0; i < size; ++i) c.rates[i] = select(in, rates[i], c.rates[i]);
         if (!needs.stages) return;
         Real values[room(Observer::integrals)];
-        Observer::integrands(end_report, values);
+        Observer::integrands(report, values);
         for (int i = 0; i < Observer::integrals; ++i) {
             state.observation.integrand[i] = select(in, values[i], state.observation.integrand[i]);
         }
-        with_accelerations([&](auto& record) { record.begin_next(in, end_report); });
+        with_accelerations([&](auto& record) { record.begin_next(in, report); });
+    }
+
+    /// Counts what an attempt costs in the lanes of the mask.
+    template <class Stepper> SLIDEWAY_HD void count_attempt(Mask<Real> in) {
+        count_evaluations(in, Stepper::evaluations);
+        if constexpr (Stepper::jacobians > 0) state.course.jacobians = state.course.jacobians + count<Real>(in);
     }
 
     /// Counts evaluations of the right-hand side in the lanes of the mask.

@@ -94,7 +94,8 @@ public:
 
     /// Series values at the sample times inside the accepted steps, from the stepper's dense output.
     template <class Stepper, class Real>
-    SLIDEWAY_HD void take_samples(Pack<Model, Real>& pack, Stepper const& stepper, Mask<Real> accepted, Real t_end) {
+    SLIDEWAY_HD void take_samples(Pack<Model, Real>& pack, Stepper const& stepper, Attempt<Model, Real> const& attempt,
+                                  Mask<Real> accepted, Real t_end) {
         auto& c = pack.state.course;
         for (;;) {
             Real at = c.t;
@@ -109,28 +110,36 @@ public:
             }
             auto const due = due_lanes > Real(0.5);
             if (none(due)) return;
-            Real const theta = select(accepted, (at - c.t) / select(accepted, pack.step, Real(1.0)), Real(0.0));
-            for (int i = 0; i < Model::size; ++i) pack.scratch[i] = stepper.dense(pack, i, theta);
+            auto const from = pack.start();
+            Real const theta = select(accepted, (at - c.t) / select(accepted, attempt.step, Real(1.0)), Real(0.0));
+            Real state[Model::size];
+            for (int i = 0; i < Model::size; ++i) state[i] = stepper.dense(from, attempt, i, theta);
             typename Model::template Report<Real> report;
             if (sampler_.beyond_state()) {
                 Real rates[Model::size];
-                pack.evaluate(at, pack.scratch, rates, true, report);
+                pack.evaluate(at, state, from.memory, rates, true, report);
                 pack.count_evaluations(due, 1);
             }
             for (int i = 0; i < lanes<Real>; ++i) {
                 if (!holds(due, i)) continue;
-                sampler_.write(i, number(c.member, i), number(c.sample, i), pack.scratch, report);
+                sampler_.write(i, number(c.member, i), number(c.sample, i), state, report);
             }
             c.sample = c.sample + due_lanes;
         }
     }
 
-    /// Hands over the results of the members in `ended`.
-    /// @param finished those that reached their end; where the audit ran it says whether the method was in its stable range.
-    /// @param stuck those whose step cannot shrink further, for what `faults` and `divergent` say; the others have spent their steps.
+    /// How members have ended.
+    template <class Real> struct Ends {
+        Mask<Real> ended;
+        Mask<Real> finished;   // reached their end; where the audit ran it says whether the method was in its stable range
+        Mask<Real> stuck;      // their step cannot shrink further, for what the faults say; the others have spent their steps
+        Mask<Real> divergent;  // of those that are stuck: their error is beyond all bounds
+    };
+
+    /// Hands over the results of members that have ended.  @param faults of those that are stuck
     template <class Real>
-    SLIDEWAY_HD void retire(Pack<Model, Real> const& pack, Mask<Real> ended, Mask<Real> finished,
-                            Faults<Real> const& faults, Mask<Real> divergent, Mask<Real> stuck) {
+    SLIDEWAY_HD void retire(Pack<Model, Real> const& pack, Ends<Real> const& ends, Faults<Real> const& faults) {
+        auto const& [ended, finished, stuck, divergent] = ends;
         auto const& c = pack.state.course;
         auto unstable = mask_of<Real>(false);
         if constexpr (Pack<Model, Real>::Observer::audit_integrals > 0) {

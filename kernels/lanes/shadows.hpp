@@ -37,31 +37,27 @@ public:
         return broken;
     }
 
-    /// All attempt the step that the pack holds.  @param squared_norm of the error of who is in the pack's course
+    /// All attempt a step.  @param squared_norm of the error of an attempt from a start
     template <class Stepper, class Norm>
-    SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, Stepper& stepper, Norm const& squared_norm) {
+    SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, Stepper& stepper, Real step, Norm const& squared_norm) {
         squared_norm_ = Real(0.0);
         faults_ = Faults<Real>::none();
         finite_ = mask_of<Real>(true);
-        ReportNeeds const needs = pack.needs;
-        pack.needs = needs.of_shadows();
         for (int s = 0; s < plan_.count; ++s) {
-            auto& shadow = pack.state.shadows[s];
+            auto const& shadow = pack.state.shadows[s];
+            StepStart<Model, Real> const from{pack.state.course.t, shadow.y, shadow.rates, shadow.contacts.memory,
+                                              pack.needs.of_shadows()};
             auto& end = ends_[s];
-            exchange(pack, shadow);
-            stepper.attempt(pack);
+            end.step = step;
+            stepper.attempt(pack, from, end);
             if constexpr (Stepper::adaptive) {
-                squared_norm_ = larger_norm(squared_norm(), squared_norm_);
+                squared_norm_ = larger_norm(squared_norm(from, end), squared_norm_);
             } else {
-                finite_ = finite_ & is_finite(pack.end, pack.end_rates);
+                finite_ = finite_ & is_finite(end.end, end.end_rates);
             }
-            faults_ = faults_.or_else(pack.faults);
-            exchange(pack, shadow);
-            for (int i = 0; i < size; ++i) end.y[i] = pack.end[i], end.rates[i] = pack.end_rates[i];
-            if (pack.needs.watch()) end.report = pack.end_report;
-            pack.count_evaluations(pack.busy, Stepper::evaluations);
+            faults_ = faults_.or_else(end.faults);
+            pack.template count_attempt<Stepper>(pack.busy);
         }
-        pack.needs = needs;
     }
 
     /// Largest of the shadows' squared errors; NaN where any is.
@@ -75,7 +71,7 @@ public:
         if constexpr (Model::has_contacts) {
             for (int s = 0; s < plan_.count; ++s) {
                 auto const& watch = pack.state.shadows[s].contacts.watch;
-                fraction = min(fraction, watch.earliest(candidates, ends_[s].report.contact, pack.step, located_depth,
+                fraction = min(fraction, watch.earliest(candidates, ends_[s].report.contact, ends_[s].step, located_depth,
                                                         pack.needs.watching));
             }
         }
@@ -88,8 +84,8 @@ public:
             auto& shadow = pack.state.shadows[s];
             auto const& end = ends_[s];
             for (int i = 0; i < size; ++i) {
-                shadow.y[i] = select(accepted, end.y[i], shadow.y[i]);
-                shadow.rates[i] = select(accepted, end.rates[i], shadow.rates[i]);
+                shadow.y[i] = select(accepted, end.end[i], shadow.y[i]);
+                shadow.rates[i] = select(accepted, end.end_rates[i], shadow.rates[i]);
             }
             if constexpr (Model::has_contacts) {
                 if (!pack.needs.watch()) continue;
@@ -133,10 +129,6 @@ private:
         }
     }
 
-    struct End {
-        Real y[size], rates[size];
-        typename Model::template Report<Real> report;
-    };
     using Memory = typename Model::template Memory<Real>;
 
     /// The impact speeds come first in it.
@@ -191,20 +183,8 @@ private:
         return faults.within(in);
     }
 
-    /// Puts the shadow in its member's place, or back.
-    SLIDEWAY_HD static void exchange(Pack<Model, Real>& pack, Shadow& shadow) {
-        auto& c = pack.state.course;
-        for (int i = 0; i < size; ++i) swap(c.y[i], shadow.y[i]), swap(c.rates[i], shadow.rates[i]);
-        if (pack.needs.watch()) swap(pack.state.contacts.memory, shadow.contacts.memory);
-    }
-    template <class T> SLIDEWAY_HD static void swap(T& a, T& b) {
-        T const former = a;
-        a = b;
-        b = former;
-    }
-
     ShadowPlan const plan_;
-    End ends_[most_shadows];
+    Attempt<Model, Real> ends_[most_shadows];
     typename Model::template Report<Real> report_;
     Real squared_norm_;
     Faults<Real> faults_;

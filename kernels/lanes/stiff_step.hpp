@@ -14,36 +14,36 @@ public:
     static constexpr bool adaptive = true;
     static constexpr bool stiff = true;
     static constexpr int evaluations = Ros34pw2Tableau::stages;  // per attempt, the end's included
+    static constexpr int jacobians = 1;
     /// Largest sum of the relative residuals of the linear solves; without pivoting a bad matrix shows here.
     static constexpr double largest_residual = 1e-8;
 
-    SLIDEWAY_HD void attempt(Pack<Model, Real>& pack) {
+    SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
         constexpr Ros34pw2Tableau w{};
-        auto& c = pack.state.course;
-        pack.model.linearise(c.t, c.y, pack.state.constants.parameters, pack.state.contacts.memory, matrix_);
-        c.jacobians = c.jacobians + count<Real>(pack.busy);
-        hg_ = pack.step * Real(w.gamma);
+        pack.model.linearise(from.t, from.y, pack.state.constants.parameters, from.memory, matrix_);
+        hg_ = to.step * Real(w.gamma);
         matrix_.factor(hg_);
         residual_ = Real(0.0);
-        pack.faults = Faults<Real>::none();
-        pack.begin_integrals(w.b[0], w.e[0]);
-        for (int i = 0; i < size; ++i) right_[i] = hg_ * c.rates[i];
+        to.faults = Faults<Real>::none();
+        if (from.needs.stages) pack.begin_integrals(w.b[0], w.e[0]);
+        for (int i = 0; i < size; ++i) right_[i] = hg_ * from.rates[i];
         solve(0);
-        stage<1>(pack);
-        stage<2>(pack);
-        stage<3>(pack);
+        stage<1>(pack, from, to);
+        stage<2>(pack, from, to);
+        stage<3>(pack, from, to);
         for (int i = 0; i < size; ++i) {
-            pack.end[i] = combined(c.y[i], w.m, i);
+            to.end[i] = combined(from.y[i], w.m, i);
             error_[i] = combined(Real(0.0), w.error, i);
         }
-        auto const faults = pack.evaluate(c.t + pack.step, pack.end, pack.end_rates, pack.needs.ends, pack.end_report);
-        pack.faults = pack.faults.or_else(faults);
+        auto const faults =
+            pack.evaluate(from.t + to.step, to.end, from.memory, to.end_rates, from.needs.ends, to.report);
+        to.faults = to.faults.or_else(faults);
         // The estimate does not know the derivative at the end, from which the next step starts: an infinite one is no solution.
-        for (int i = 0; i < size; ++i) residual_ = fma(pack.end_rates[i], Real(0.0), residual_);
+        for (int i = 0; i < size; ++i) residual_ = fma(to.end_rates[i], Real(0.0), residual_);
     }
 
     /// Error estimate of one component; NaN where the linear equations were not solved or the end has no derivative.
-    SLIDEWAY_HD Real error(Pack<Model, Real> const&, int i) const {
+    SLIDEWAY_HD Real error(Attempt<Model, Real> const&, int i) const {
         auto const solved = residual_ <= Real(largest_residual);
         return select(solved, error_[i], Real(follows));
     }
@@ -58,16 +58,15 @@ public:
     }
 
     /// One component of that, where it is the smaller one: the matrix may be near a singular one.
-    SLIDEWAY_HD Real lasting_error(Pack<Model, Real> const& pack, int i) const {
-        Real const whole = error(pack, i);
+    SLIDEWAY_HD Real lasting_error(Attempt<Model, Real> const& to, int i) const {
+        Real const whole = error(to, i);
         return select(abs(lasting_error_[i]) < abs(whole), lasting_error_[i], whole);
     }
 
     /// One component inside the step: the straight line, for the derivatives at its ends belong to fast motions that the method
     /// damps.  Steps end where samples are wanted.
-    SLIDEWAY_HD Real dense(Pack<Model, Real> const& pack, int i, Real theta) const {
-        auto const& y = pack.state.course.y;
-        return fma(theta, pack.end[i] - y[i], y[i]);
+    SLIDEWAY_HD Real dense(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to, int i, Real theta) const {
+        return fma(theta, to.end[i] - from.y[i], from.y[i]);
     }
 
     /// Ω² [1/s²] of the stiffest motions and the number of touching pairs, at the start of the step.
@@ -77,18 +76,18 @@ public:
 private:
     static constexpr int size = Model::size;
 
-    template <int s> SLIDEWAY_HD void stage(Pack<Model, Real>& pack) {
+    template <int s>
+    SLIDEWAY_HD void stage(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
         constexpr Ros34pw2Tableau w{};
-        auto const& c = pack.state.course;
         for (int i = 0; i < size; ++i) {
-            Real sum = c.y[i];
+            Real sum = from.y[i];
             for (int j = 0; j < s; ++j) sum = fma(Real(w.a[s][j]), u_[j][i], sum);
-            pack.scratch[i] = sum;
+            at_[i] = sum;
         }
-        Real const t = fma(pack.step, Real(w.node[s]), c.t);
-        auto const faults = pack.evaluate(t, pack.scratch, right_, pack.needs.stages, pack.end_report);
-        pack.faults = pack.faults.or_else(faults);
-        pack.add_integrands(w.b[s], w.e[s]);
+        Real const t = fma(to.step, Real(w.node[s]), from.t);
+        auto const faults = pack.evaluate(t, at_, from.memory, right_, from.needs.stages, to.report);
+        to.faults = to.faults.or_else(faults);
+        if (from.needs.stages) pack.add_integrands(w.b[s], w.e[s], to.report);
         for (int i = 0; i < size; ++i) {
             Real sum = hg_ * right_[i];
             for (int j = 0; j < s; ++j) sum = fma(Real(w.gamma * w.c[s][j]), u_[j][i], sum);
@@ -111,6 +110,7 @@ private:
 
     typename Model::template Linearisation<Real> matrix_;
     Real u_[4][size], right_[size], error_[size], lasting_error_[size];
+    Real at_[size];  // where a stage evaluates the derivative
     Real hg_, residual_;
 };
 

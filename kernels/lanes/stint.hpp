@@ -35,15 +35,15 @@ public:
         for (int i = 0; i < attempts && any(pack_.busy); ++i) {
             // Where nothing is decided between stints, a lane that falls free ends the stint and is filled at once.
             if (!Model::has_patterns && held_lanes(pack_.busy) < members_at_start) break;
-            begin();
+            auto const landing = begin();
             // Before the member: what the stepper knows of the step is then the member's.
             if constexpr (Model::has_shadows) {
-                shadows_.attempt(pack_, stepper_, [&] {
-                    if constexpr (Stepper::adaptive) return squared_error_norm();
+                shadows_.attempt(pack_, stepper_, attempt_.step, [&](auto const& from, auto const& attempt) {
+                    if constexpr (Stepper::adaptive) return squared_error_norm(from, attempt);
                 });
             }
-            stepper_.attempt(pack_);
-            settle();
+            stepper_.attempt(pack_, pack_.start(), attempt_);
+            settle(landing);
         }
         pack_.busy = members & (pack_.busy | left_);
     }
@@ -55,167 +55,200 @@ private:
     static constexpr double time_resolution = Model::has_shadows ? 1e-19 : 8 * 2.220446049250313e-16;
     static constexpr bool impacts_end_it = Stepper::stiff && Model::has_patterns;
     using Control = StepControl<Stepper::order>;
+    using Start = StepStart<Model, Real>;
+    using Tried = Attempt<Model, Real>;
+
+    /// A known time at which the step ends at the latest, and the lanes where it ends there.
+    struct Landing {
+        Real time;
+        Mask<Real> lands;
+    };
+
+    /// What one of those who may shorten a step says of it.
+    struct Allowance {
+        Mask<Real> accepted;
+        Real next;  // the step to try next [s]
+    };
+
+    /// What all of them come to.
+    struct Verdict {
+        Mask<Real> accepted;
+        Mask<Real> rejected;
+        Mask<Real> cut;        // rejected because an event must end the step
+        Mask<Real> divergent;  // the error is beyond all bounds
+        Mask<Real> impact;     // rejected because the stiff method would swallow an impact
+        Real next;
+    };
 
     /// Chooses the step.
-    SLIDEWAY_HD void begin() {
+    SLIDEWAY_HD Landing begin() {
         auto& c = pack_.state.course;
-        target_ = pack_.state.constants.end;
-        if (results_.stops() > 0) target_ = min(target_, results_.next_stop(pack_.state));
+        Real time = pack_.state.constants.end;
+        if (results_.stops() > 0) time = min(time, results_.next_stop(pack_.state));
         if constexpr (Stepper::stiff) {
-            if (results_.samples() > 0) target_ = results_.next_sample_times(c.sample, c.t, target_);
+            if (results_.samples() > 0) time = results_.next_sample_times(c.sample, c.t, time);
         }
-        Real const remaining = target_ - c.t;
+        Real const remaining = time - c.t;
         Real const h = Stepper::adaptive ? c.h : Real(settings_.fixed_step);
         // A last step a hair short of the end would leave a crumb below the resolution of time.
-        lands_ = remaining <= h * Real(1.000001);
-        pack_.step = select(pack_.busy, select(lands_, remaining, h), Real(0.0));
-        pack_.count_evaluations(pack_.busy, Stepper::evaluations);
+        auto const lands = remaining <= h * Real(1.000001);
+        attempt_.step = select(pack_.busy, select(lands, remaining, h), Real(0.0));
+        pack_.template count_attempt<Stepper>(pack_.busy);
         results_.count_attempt(width, held_lanes(pack_.busy));
+        return {time, lands};
     }
 
     /// Squared errors of the components, each against its tolerance, over the number of states; the integrals of the audit, where it
     /// runs, come on top.  NaN where any is NaN.
     /// Of the stiff method's errors what lasts meets the tolerance, the whole with its ringing `stiff_tolerance` at least.
-    SLIDEWAY_HD Real squared_error_norm() {
+    SLIDEWAY_HD Real squared_error_norm(Start const& from, Tried const& to) {
         Real const rtol(settings_.rtol), atol(settings_.atol);
         auto const& s = pack_.state;
         SquaredRatios<Real> sum;
         if constexpr (Stepper::stiff) stepper_.filter_error(Real(max_step_));
         for (int i = 0; i < size; ++i) {
-            Real const amount = max(abs(s.course.y[i]), abs(pack_.end[i])), scale = s.constants.scale[i];
+            Real const amount = max(abs(from.y[i]), abs(to.end[i])), scale = s.constants.scale[i];
             Real const tolerance = fma(rtol, amount, atol * scale);
             if constexpr (Stepper::stiff) {
                 Real const least(settings_.stiff_tolerance);
-                sum.add(stepper_.lasting_error(pack_, i), tolerance);
-                sum.add(stepper_.error(pack_, i), fma(max(rtol, least), amount, max(atol, least) * scale));
+                sum.add(stepper_.lasting_error(to, i), tolerance);
+                sum.add(stepper_.error(to, i), fma(max(rtol, least), amount, max(atol, least) * scale));
             } else {
-                sum.add(stepper_.error(pack_, i), tolerance);
+                sum.add(stepper_.error(to, i), tolerance);
             }
         }
         // The damping power has a kink where a contact begins, which the states hardly feel: the audit controls its own error.
         constexpr int audit_integrals = Pack<Model, Real>::Observer::audit_integrals;
         if constexpr (audit_integrals > 0) {
-            if (!pack_.needs.audit) return sum.total() * Real(1.0 / size);
+            if (!from.needs.audit) return sum.total() * Real(1.0 / size);
             Real const energy = atol * Model::energy_scale(s.constants.parameters);
             for (int i = 0; i < audit_integrals; ++i) {
-                sum.add(pack_.step * pack_.audit_error[i], fma(rtol, abs(s.observation.observer.integral(i)), energy));
+                sum.add(to.step * pack_.audit_error[i], fma(rtol, abs(s.observation.observer.integral(i)), energy));
             }
         }
         return sum.total() * Real(1.0 / size);
     }
 
     /// Accepts or rejects per lane.
-    SLIDEWAY_HD void settle() {
+    SLIDEWAY_HD void settle(Landing const& landing) {
         auto& c = pack_.state.course;
         auto const busy = pack_.busy;
-        Real const step = pack_.step;
-        Real const resolution = Real(time_resolution) * pack_.state.constants.end;
-        Mask<Real> accepted, cut = mask_of<Real>(false);
-        Real wish = step;
-        auto divergent = mask_of<Real>(false);
-        if constexpr (Stepper::adaptive) {
-            Real squared_norm = squared_error_norm();
-            if constexpr (Model::has_shadows) {
-                squared_norm = larger_norm(squared_norm, shadows_.squared_norm());
-            }
-            accepted = busy & (squared_norm <= Real(1.0));
-            divergent = !(squared_norm < Real(1e300));
-            // Whether what is beyond all bounds came out infinite or NaN may be the neighbours' doing.
-            squared_norm = select(divergent, Real(not_a_number), squared_norm);
-            Real const former_memory = c.error_memory;
-            wish = step * Control::factor(squared_norm, accepted, c.rejections > Real(0.5), c.error_memory);
-            // A step that was shortened to land says little of what the next may be.
-            wish = select(accepted & lands_, max(wish, c.h), wish);
-            if constexpr (Model::has_contacts) {
-                if (pack_.needs.watch()) {
-                    // A touch must end its step: it sets the impact speed of what follows, or the law that holds.
-                    auto const early = accepted & (step > resolution * Real(64.0));
-                    using Watch = typename Model::template Watch<Real>;
-                    auto const watching = pack_.needs.watching;
-                    double tolerance = Watch::tolerance(watching);
-                    if constexpr (Model::has_shadows) tolerance = Shadows<Model, Real>::located;
-                    Real const located = Real(tolerance) * Model::touch_scale(pack_.state.constants.parameters);
-                    Real fraction =
-                        pack_.state.contacts.watch.earliest(early, pack_.end_report.contact, step, located, watching);
-                    if constexpr (Model::has_shadows)
-                        fraction = min(fraction, shadows_.earliest(pack_, early, located));
-                    cut = fraction < Real(1.0);
-                    c.error_memory = select(cut, former_memory, c.error_memory);
-                    accepted = accepted & !cut;
-                    wish = select(cut, max(step * fraction, resolution * Real(32.0)), wish);
-                    if constexpr (Model::has_shadows) {
-                        // Events of member and shadow are next to each other: after the second nothing would be left of the step.
-                        Real& uncut = c.shadowed.uncut;
-                        wish = select(accepted, max(wish, uncut), wish);
-                        uncut = select(accepted, Real(0.0), select(cut, max(uncut, step), uncut));
-                    }
-                }
-            }
-        } else {
-            accepted = busy & is_finite(pack_.end, pack_.end_rates);
-            if constexpr (Model::has_shadows) accepted = accepted & shadows_.finite();
-            divergent = busy & !accepted;
-        }
-        auto impact = mask_of<Real>(false);
-        if constexpr (impacts_end_it) {
-            impact = find_impacts(accepted);
-            accepted = accepted & !impact;
-        }
-        auto const rejected = busy & !accepted;
-        c.accepted = c.accepted + count<Real>(accepted);
-        c.rejected = c.rejected + count<Real>(rejected);
-        c.rejections = select(busy, count<Real>(rejected & !cut), c.rejections);
-        auto const still = rejected & (wish <= resolution);
-        auto stuck = Stepper::adaptive ? still : rejected;
-        if constexpr (Model::has_shadows) pack_.faults = pack_.faults.or_else(shadows_.faults());
+        auto const verdict = judge(landing);
+        c.accepted = c.accepted + count<Real>(verdict.accepted);
+        c.rejected = c.rejected + count<Real>(verdict.rejected);
+        c.rejections = select(busy, count<Real>(verdict.rejected & !verdict.cut), c.rejections);
+        Mask<Real> const still = verdict.rejected & (verdict.next <= resolution());
+        Mask<Real> stuck = Stepper::adaptive ? still : verdict.rejected;
+        if constexpr (Model::has_shadows) attempt_.faults = attempt_.faults.or_else(shadows_.faults());
 
         auto finished = mask_of<Real>(false);
-        if (any(accepted)) {
-            finished = advance(accepted);
-            if constexpr (Model::events > 0) stuck = stuck | search_.piled_up(pack_);
+        if (any(verdict.accepted)) {
+            finished = advance(verdict.accepted, landing);
+            if constexpr (Model::events > 0) stuck = stuck | search_.piled_up(pack_, attempt_.step);
         }
-        c.h = select(busy, min(wish, Real(max_step_)), c.h);
+        c.h = select(busy, min(verdict.next, Real(max_step_)), c.h);
         auto const spent =
             busy & !finished & (c.accepted + c.rejected >= Real(static_cast<double>(settings_.max_steps)));
-        auto const ended = finished | stuck | spent;
+        Mask<Real> const ended = finished | stuck | spent, divergent = stuck & verdict.divergent;
         if (any(ended)) {
-            results_.retire(pack_, ended, finished, pack_.faults.within(stuck), stuck & divergent, stuck);
+            results_.retire(pack_, {ended, finished, stuck, divergent}, attempt_.faults.within(stuck));
             pack_.busy = pack_.busy & !ended;
         }
-        if constexpr (Stepper::stiff) watch_stiffness(accepted, impact);
+        if constexpr (Stepper::stiff) watch_stiffness(verdict.accepted, verdict.impact);
+    }
+
+    /// Least step [s] that still moves time.
+    SLIDEWAY_HD Real resolution() const { return Real(time_resolution) * pack_.state.constants.end; }
+
+    /// Folds what all who may shorten the step allow: its error first, then the events of what it may still be.
+    SLIDEWAY_HD Verdict judge(Landing const& landing) {
+        Verdict verdict;
+        verdict.cut = verdict.impact = verdict.divergent = mask_of<Real>(false);
+        Real const former_memory = pack_.state.course.error_memory;
+        auto allowed = Stepper::adaptive ? allowed_by_error(landing, verdict.divergent) : allowed_if_finite(verdict.divergent);
+        if constexpr (Model::has_contacts && Stepper::adaptive) {
+            if (pack_.needs.watch()) {
+                auto const by_contacts = allowed_by_contacts(allowed);
+                verdict.cut = allowed.accepted & !by_contacts.accepted;
+                // A step that an event cuts short says nothing of its error.
+                pack_.state.course.error_memory = select(verdict.cut, former_memory, pack_.state.course.error_memory);
+                allowed = by_contacts;
+            }
+        }
+        if constexpr (impacts_end_it) verdict.impact = find_impacts(allowed.accepted);
+        verdict.accepted = allowed.accepted & !verdict.impact;
+        verdict.rejected = pack_.busy & !verdict.accepted;
+        verdict.next = allowed.next;
+        return verdict;
+    }
+
+    SLIDEWAY_HD Allowance allowed_by_error(Landing const& landing, Mask<Real>& divergent) {
+        auto& c = pack_.state.course;
+        Real squared_norm(0.0);
+        if constexpr (Stepper::adaptive) squared_norm = squared_error_norm(pack_.start(), attempt_);
+        if constexpr (Model::has_shadows) squared_norm = larger_norm(squared_norm, shadows_.squared_norm());
+        Mask<Real> const accepted = pack_.busy & (squared_norm <= Real(1.0));
+        divergent = !(squared_norm < Real(1e300));
+        // Whether what is beyond all bounds came out infinite or NaN may be the neighbours' doing.
+        squared_norm = select(divergent, Real(not_a_number), squared_norm);
+        Real const next =
+            attempt_.step * Control::factor(squared_norm, accepted, c.rejections > Real(0.5), c.error_memory);
+        // A step that was shortened to land says little of what the next may be.
+        return {accepted, select(accepted & landing.lands, max(next, c.h), next)};
+    }
+
+    SLIDEWAY_HD Allowance allowed_if_finite(Mask<Real>& divergent) {
+        Mask<Real> accepted = pack_.busy & is_finite(attempt_.end, attempt_.end_rates);
+        if constexpr (Model::has_shadows) accepted = accepted & shadows_.finite();
+        divergent = pack_.busy & !accepted;
+        return {accepted, attempt_.step};
+    }
+
+    /// A touch, or a change of mode, must end its step: it sets the impact speed of what follows, or the law that holds.
+    SLIDEWAY_HD Allowance allowed_by_contacts(Allowance const& before) {
+        Real const step = attempt_.step;
+        auto const early = before.accepted & (step > resolution() * Real(64.0));
+        auto const watching = pack_.needs.watching;
+        double tolerance = Model::template Watch<Real>::tolerance(watching);
+        if constexpr (Model::has_shadows) tolerance = Shadows<Model, Real>::located;
+        Real const located = Real(tolerance) * Model::touch_scale(pack_.state.constants.parameters);
+        Real fraction = pack_.state.contacts.watch.earliest(early, attempt_.report.contact, step, located, watching);
+        if constexpr (Model::has_shadows) fraction = min(fraction, shadows_.earliest(pack_, early, located));
+        auto const cut = fraction < Real(1.0);
+        Allowance allowed{Mask<Real>(before.accepted & !cut),
+                          select(cut, max(step * fraction, resolution() * Real(32.0)), before.next)};
+        if constexpr (Model::has_shadows) {
+            // Events of member and shadow are next to each other: after the second nothing would be left of the step.
+            Real& uncut = pack_.state.course.shadowed.uncut;
+            allowed.next = select(allowed.accepted, max(allowed.next, uncut), allowed.next);
+            uncut = select(allowed.accepted, Real(0.0), select(cut, max(uncut, step), uncut));
+        }
+        return allowed;
     }
 
     /// Moves the accepted lanes to the end of their step.  @return those that reached the end time.
-    SLIDEWAY_HD Mask<Real> advance(Mask<Real> accepted) {
+    SLIDEWAY_HD Mask<Real> advance(Mask<Real> accepted, Landing const& landing) {
         auto& c = pack_.state.course;
-        auto landed = accepted & lands_;
-        Real t_end = select(landed, target_, time_after_step(accepted, landed));
+        auto landed = accepted & landing.lands;
+        Real t_end = select(landed, landing.time, time_after_step(accepted, landed));
         if constexpr (Model::events > 0) {
-            search_.run(pack_, stepper_, accepted);
-            t_end = select(search_.ended(), fma(pack_.step, search_.fraction(), c.t), t_end);
+            search_.run(pack_, stepper_, attempt_, accepted);
+            t_end = select(search_.ended(), fma(attempt_.step, search_.fraction(), c.t), t_end);
             landed = landed & !search_.ended();
         }
         if constexpr (Model::has_crossings && !Model::has_shadows) {
-            if (results_.crossings().room > 0) CrossingSearch<Stepper, Model, Real>::run(pack_, results_, accepted);
-        }
-        if (results_.samples() > 0) results_.take_samples(pack_, stepper_, accepted, t_end);
-        if constexpr (Model::events > 0) search_.reset(pack_);
-        if (pack_.needs.quantities) {
-            pack_.state.observation.observer.accept(accepted, pack_.step, pack_.integral, pack_.end_report, pack_.end,
-                                                    pack_.needs.switches);
-            pack_.with_accelerations([&](auto& a) { a.accept(accepted, pack_.step, pack_.end_report); });
-        }
-        for (int i = 0; i < size; ++i) c.y[i] = select(accepted, pack_.end[i], c.y[i]);
-        c.t = select(accepted, t_end, c.t);
-        if constexpr (Stepper::stiff) c.stiff_steps = c.stiff_steps + count<Real>(accepted);
-        pack_.begin_next(accepted, pack_.end_rates);
-        if constexpr (Model::has_contacts) {
-            if (pack_.needs.watch()) {
-                auto& [memory, watch] = pack_.state.contacts;
-                auto const touched = watch.update(accepted, pack_.end_report.contact, memory, c.y, pack_.needs.watching);
-                if (any(touched)) restart(touched);
+            if (results_.crossings().room > 0) {
+                CrossingSearch<Stepper, Model, Real>::run(pack_, results_, attempt_, accepted);
             }
         }
+        if (results_.samples() > 0) results_.take_samples(pack_, stepper_, attempt_, accepted, t_end);
+        if constexpr (Model::events > 0) search_.reset(pack_, attempt_);
+        observe(accepted);
+        for (int i = 0; i < size; ++i) c.y[i] = select(accepted, attempt_.end[i], c.y[i]);
+        c.t = select(accepted, t_end, c.t);
+        if constexpr (Stepper::stiff) c.stiff_steps = c.stiff_steps + count<Real>(accepted);
+        pack_.begin_next(accepted, attempt_.end_rates, attempt_.report);
+        remember_contacts(accepted);
         if constexpr (Model::has_shadows) shadows_.advance(pack_, accepted);
         if (results_.stops() > 0) stop(landed);
         auto finished = landed & (c.t >= pack_.state.constants.end);
@@ -229,13 +262,31 @@ private:
         return finished;
     }
 
+    SLIDEWAY_HD void observe(Mask<Real> accepted) {
+        if (!pack_.needs.quantities) return;
+        pack_.state.observation.observer.accept(accepted, attempt_.step, pack_.integral, attempt_.report, attempt_.end,
+                                                pack_.needs.switches);
+        pack_.with_accelerations([&](auto& a) { a.accept(accepted, attempt_.step, attempt_.report); });
+    }
+
+    /// What an accepted step leaves of its contacts.
+    SLIDEWAY_HD void remember_contacts([[maybe_unused]] Mask<Real> accepted) {
+        if constexpr (Model::has_contacts) {
+            if (!pack_.needs.watch()) return;
+            auto& [memory, watch] = pack_.state.contacts;
+            auto const touched =
+                watch.update(accepted, attempt_.report.contact, memory, pack_.state.course.y, pack_.needs.watching);
+            if (any(touched)) restart(touched);
+        }
+    }
+
     SLIDEWAY_HD Real time_after_step(Mask<Real> accepted, Mask<Real> landed) {
         auto& c = pack_.state.course;
         if constexpr (!Model::has_shadows) {
-            return c.t + pack_.step;
+            return c.t + attempt_.step;
         } else {
             // The sum and what it rounds off (Knuth's two-sum); a landing starts a new count.
-            Real const step = pack_.step + c.shadowed.fine_time, sum = c.t + step;
+            Real const step = attempt_.step + c.shadowed.fine_time, sum = c.t + step;
             Real const of_step = sum - c.t;
             Real const rest = (c.t - (sum - of_step)) + (step - of_step);
             c.shadowed.fine_time = select(accepted, select(landed, Real(0.0), rest), c.shadowed.fine_time);
@@ -259,10 +310,12 @@ private:
     /// New impact speeds or other contacts change the derivative at the same state.
     SLIDEWAY_HD void restart(Mask<Real> touched) {
         auto const& c = pack_.state.course;
-        pack_.evaluate(c.t, c.y, pack_.end_rates, true, pack_.end_report);
+        pack_.evaluate(c.t, c.y, pack_.state.contacts.memory, attempt_.end_rates, true, attempt_.report);
         pack_.count_evaluations(touched, 1);
-        if (pack_.needs.quantities) pack_.state.observation.observer.resume(touched, pack_.end_report, pack_.needs.switches);
-        pack_.begin_next(touched, pack_.end_rates);
+        if (pack_.needs.quantities) {
+            pack_.state.observation.observer.resume(touched, attempt_.report, pack_.needs.switches);
+        }
+        pack_.begin_next(touched, attempt_.end_rates, attempt_.report);
     }
 
     /// Lanes whose step brought an apex into contact at speed.  The stiff method would swallow the impact's energy without a
@@ -273,11 +326,11 @@ private:
         if (settings_.method != Method::automatic) return mask_of<Real>(false);
         // At either end: a slider lifted from rest meets the other face within one long step.
         Real const squared_speed = max(Model::squared_speed(s.course.y, s.constants.scale),
-                                       Model::squared_speed(pack_.end, s.constants.scale));
+                                       Model::squared_speed(attempt_.end, s.constants.scale));
         auto const moves = squared_speed > Real(Stiffness::creep_below * Stiffness::creep_below);
         if (none(accepted & moves)) return mask_of<Real>(false);
         auto const& p = s.constants.parameters;
-        Real const speed = pack_.model.approach_speed(s.course.t, s.course.y, pack_.step, pack_.end, p);
+        Real const speed = pack_.model.approach_speed(s.course.t, s.course.y, attempt_.step, attempt_.end, p);
         return accepted & moves & (speed > Real(Stiffness::impact_above));
     }
 
@@ -285,7 +338,7 @@ private:
     SLIDEWAY_HD void watch_stiffness(Mask<Real> accepted, Mask<Real> impact) {
         auto& c = pack_.state.course;
         Real const rate = sqrt(max(stepper_.rate_squared(), Real(0.0)));
-        auto const calm = pack_.step * rate < Real(Stiffness::calm_below);
+        auto const calm = attempt_.step * rate < Real(Stiffness::calm_below);
         c.stiffness = select(accepted, select(calm, c.stiffness + Real(1.0), Real(0.0)), c.stiffness);
         auto const free = stepper_.touching() < Real(0.5);
         auto const leaving = pack_.busy & (free | impact | (c.stiffness >= Real(Stiffness::calm_steps)));
@@ -304,9 +357,9 @@ private:
     Stepper stepper_;
     [[no_unique_address]] std::conditional_t<(Model::events > 0), EventSearch<Model, Real>, NoSearch> search_;
     [[no_unique_address]] std::conditional_t<Model::has_shadows, Shadows<Model, Real>, NoShadowSteps> shadows_;
+    Attempt<Model, Real> attempt_;  // the members' own
     double max_step_;
-    Real target_;
-    Mask<Real> lands_, left_;
+    Mask<Real> left_;
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -40,7 +40,7 @@ template <class Real> struct FaceModes {
 template <class Real> struct ApexMotion {
     Real depth;         // δ [m], > 0 in contact
     Real rate;          // δ' [m/s]
-    Real impact_speed;  // v0 [m/s]; read by RestitutionDamping alone
+    Real impact_speed;  // v0 [m/s]; read by RestitutionDamping alone, and only then there
 };
 
 /// What a face's law works on.

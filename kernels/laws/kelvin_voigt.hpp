@@ -12,14 +12,18 @@ struct KelvinVoigt {
     static constexpr Key keys[] = {
         {"contact.apex_stiffness", &Inputs::law_a, "N/m", Rule::positive, KeyGroup::law, "stiffness of an apex", follows},
         {"contact.apex_damping", &Inputs::law_b, "N s/m", Rule::not_negative, KeyGroup::law, "damping of an apex", 0}};
+    static constexpr double face_stiffness(Inputs const& in, double surface) {
+        return in.law_a == in.law_a ? 4 * in.law_a : surface;
+    }
     static constexpr LawInfo info{.name = "kelvin_voigt",
                                   .words = "a linear spring and damper at each apex, no modes",
                                   .switches = false,
                                   .groups = groups_of(KeyGroup::elastic),
-                                  .keys = keys};
+                                  .keys = keys,
+                                  .face_stiffness = &face_stiffness};
 
-    template <class Damping, bool Full = true, class Real>
-    SLIDEWAY_NOINLINE static FaceForces<Real> forces(FaceMotion<Real> const& m, FaceContact<Real> const& face,
+    template <class Damping, class Real>
+    SLIDEWAY_FN static FaceForces<Real> forces(FaceMotion<Real> const& m, FaceContact<Real> const& face,
                                                      ContactParameters<Real> const& contact) {
         auto f = no_forces<Real>();
         Real const zero(0.0), k = stiffness_of(face, contact);
@@ -38,7 +42,7 @@ struct KelvinVoigt {
 
     /// ∂F/∂δ = k and ∂F/∂δ' = c of its own apex, where it pushes.
     template <class Damping, class Real>
-    SLIDEWAY_NOINLINE static FaceStiffness<Real> stiffness(FaceMotion<Real> const& m, FaceContact<Real> const& face,
+    SLIDEWAY_FN static FaceStiffness<Real> stiffness(FaceMotion<Real> const& m, FaceContact<Real> const& face,
                                                            ContactParameters<Real> const& contact) {
         auto f = FaceStiffness<Real>::none();
         Real const zero(0.0), k = stiffness_of(face, contact), c = contact.of_law.b;

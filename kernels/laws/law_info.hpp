@@ -15,6 +15,8 @@ struct LawInfo {
     bool switches;           // between modes, where its potential jumps: it makes energy, and steps may end there
     KeyGroups groups;        // of the keys of contacts, those that count for it
     std::span<Key const> keys = {};  // its own, on Inputs::law_a … law_d
+    /// Stiffness of a face [N/m] of which all apices are in contact, for predictions.  @param surface that of its surface, E_s A/l; none: it is that
+    double (*face_stiffness)(Inputs const&, double surface) = nullptr;
 
     /// Which kinds of damping it has: η and a coefficient of restitution on points, χ on edges; `point` stands for what is its own.
     constexpr bool has(Damping damping) const {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/laws/contact.hpp"
 #include "kernels/laws/law_info.hpp"
+#include "kernels/laws/one_law.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {

@@ -1,3 +1,4 @@
+// How the joint calls a contact law: a law and its damping known by name, one of several by a choice, or behind pointers.
 #pragma once
 
 #include "kernels/laws/contact.hpp"
@@ -6,16 +7,31 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// A law and its damping, known when the equations are compiled: every call names its function.
+/// What the derivative alone needs of a law.
+template <class Real> struct FaceNormals {
+    Quad<Real> normal;   // F [N], damping included, >= 0
+    Mask<Real> outside;  // as of FaceForces
+};
+
+/// A law and its damping, known when the equations are compiled: every call names its function.  Functions of their own: the joint calls
+/// them for four faces, and the code would multiply.
 template <class Law, class Damping> struct OneLaw {
-    template <bool Full, class Real>
-    SLIDEWAY_FN static FaceForces<Real> forces(FaceMotion<Real> const& m, FaceContact<Real> const& face,
-                                               ContactParameters<Real> const& contact) {
-        return Law::template forces<Damping, Full>(m, face, contact);
+    template <class Real>
+    SLIDEWAY_NOINLINE static FaceNormals<Real> normals(FaceMotion<Real> const& m, FaceContact<Real> const& face,
+                                                       ContactParameters<Real> const& contact) {
+        auto f = Law::template forces<Damping>(m, face, contact);
+        return {f.normal, f.outside};
     }
     template <class Real>
-    SLIDEWAY_FN static FaceStiffness<Real> stiffness(FaceMotion<Real> const& m, FaceContact<Real> const& face,
+    SLIDEWAY_NOINLINE static FaceForces<Real> forces(FaceMotion<Real> const& m, FaceContact<Real> const& face,
                                                      ContactParameters<Real> const& contact) {
+        auto f = Law::template forces<Damping>(m, face, contact);
+        // Made anew, so that the sums above live in registers and not in the caller's memory.
+        return {f.normal, f.elastic, f.potential, f.outside};
+    }
+    template <class Real>
+    SLIDEWAY_NOINLINE static FaceStiffness<Real> stiffness(FaceMotion<Real> const& m, FaceContact<Real> const& face,
+                                                           ContactParameters<Real> const& contact) {
         return Law::template stiffness<Damping>(m, face, contact);
     }
     SLIDEWAY_FN static bool couples() { return Damping::couples; }
@@ -28,17 +44,24 @@ template <class... Laws> struct AnyLaw {
     Law law = Law::paper;
     Damping damping = Damping::point;
 
-    template <bool Full, class Real>
+    template <class Real>
+    SLIDEWAY_FN FaceNormals<Real> normals(FaceMotion<Real> const& m, FaceContact<Real> const& face,
+                                          ContactParameters<Real> const& contact) const {
+        FaceNormals<Real> f;
+        visit([&]<class One>(One) { f = One::normals(m, face, contact); });
+        return f;
+    }
+    template <class Real>
     SLIDEWAY_FN FaceForces<Real> forces(FaceMotion<Real> const& m, FaceContact<Real> const& face,
                                         ContactParameters<Real> const& contact) const {
-        auto f = no_forces<Real>();
-        visit([&]<class One>(One) { f = One::template forces<Full>(m, face, contact); });
+        FaceForces<Real> f;
+        visit([&]<class One>(One) { f = One::forces(m, face, contact); });
         return f;
     }
     template <class Real>
     SLIDEWAY_FN FaceStiffness<Real> stiffness(FaceMotion<Real> const& m, FaceContact<Real> const& face,
                                               ContactParameters<Real> const& contact) const {
-        auto f = FaceStiffness<Real>::none();
+        FaceStiffness<Real> f;
         visit([&]<class One>(One) { f = One::stiffness(m, face, contact); });
         return f;
     }
@@ -63,6 +86,23 @@ private:
             if (damping == Damping::restitution) return function(OneLaw<Candidate, RestitutionDamping>{});
         }
         function(OneLaw<Candidate, PointDamping>{});
+    }
+};
+
+/// A law with its damping behind pointers: a mechanism is compiled once for all laws, and a law once for all mechanisms.
+template <class Real> struct LawFunctions {
+    template <class Result>
+    using Of = Result(FaceMotion<Real> const&, FaceContact<Real> const&, ContactParameters<Real> const&);
+    Of<FaceNormals<Real>>* normals = nullptr;
+    Of<FaceForces<Real>>* forces = nullptr;
+    Of<FaceStiffness<Real>>* stiffness = nullptr;
+    bool rates_couple = false;
+
+    SLIDEWAY_FN bool couples() const { return rates_couple; }
+
+    template <class Law, class Damping> static constexpr LawFunctions of() {
+        using One = OneLaw<Law, Damping>;
+        return {&One::template normals<Real>, &One::template forces<Real>, &One::template stiffness<Real>, Damping::couples};
     }
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/joint/apex.hpp"
+#include "kernels/laws/one_law.hpp"
 #include "kernels/mechanisms/faults.hpp"
 #include "kernels/models/mechanism_model.hpp"
 #include "kernels/real.hpp"

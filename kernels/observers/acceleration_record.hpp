@@ -14,11 +14,11 @@ struct NoAccelerations {};
 template <class Real> class AccelerationRecord {
 public:
     static constexpr Selection quantities =
-        selection_of(Quantity::peak_acceleration) | selection_of(Quantity::rms_acceleration) |
-        selection_of(Quantity::peak_channel_acceleration) | selection_of(Quantity::acceleration_area);
+        quantities_where([](QuantityInfo const& info) { return info.keeper == Keeper::accelerations; });
     /// Whether the integrals are asked for.
     SLIDEWAY_HD static constexpr bool needs_stages(Selection q) {
-        return selects(q, Quantity::rms_acceleration) || selects(q, Quantity::acceleration_area);
+        constexpr Selection integrating = quantities & quantities_where([](QuantityInfo const& info) { return info.integrates(); });
+        return (q & integrating) != 0;
     }
 
     /// Begins the members in the lanes of the mask.

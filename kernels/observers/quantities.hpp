@@ -5,99 +5,121 @@
 
 namespace slideway {
 
+/// What a quantity is of the value that `SliderObserver::value` gives it.
+enum class Statistic {
+    peak,              // largest magnitude at the accepted steps
+    mean,              // over time
+    root_mean_square,  // over time
+    integral,          // over time
+    audited_integral,  // likewise, and its error meets the tolerance as the states' do: the energy audit's
+    of_audit,          // follows from the energy audit; no value of its own
+    counted,           // by code of its own at the accepted steps
+};
+
+/// Who keeps a quantity: SliderObserver, or AccelerationRecord, which members that ask for none of its quantities do not carry along.
+enum class Keeper { mechanism, accelerations };
+
+// row(name, statistic, keeper, unit, columns, dimension, long name): one value (or `columns` values along `dimension`) per member at the
+// end of its run.
+// clang-format off
+#define SLIDEWAY_QUANTITIES(row) \
+    row(peak_normal_force, peak, mechanism, "N", 1, nullptr, "largest sum of the normal forces at the accepted steps") \
+    row(mean_normal_force, mean, mechanism, "N", 1, nullptr, "time mean of the sum of the normal forces") \
+    row(peak_apex_force, peak, mechanism, "N", 8, "apex", "largest normal force of the apex, both of its faces summed") \
+    row(mean_apex_force, mean, mechanism, "N", 8, "apex", "time mean of the normal force of the apex, both of its faces summed") \
+    row(mode_time, counted, mechanism, "s", 4, "mode_class", "time spent in the mode class") \
+    row(contact_onsets, counted, mechanism, "1", 1, nullptr, "changes from free flight to contact") \
+    row(energy_residual, of_audit, mechanism, "J", 1, nullptr, "energy residual E(t)-E(0)-W+D_f+D_d: energy that the contact law made") \
+    row(energy_change, counted, mechanism, "J", 1, nullptr, "mechanical energy E(t)-E(0)") \
+    row(crank_work, audited_integral, mechanism, "J", 1, nullptr, "work W of the drive: of the crank, or of what moves the carriage") \
+    row(friction_loss, audited_integral, mechanism, "J", 1, nullptr, "friction loss D_f") \
+    row(damping_loss, audited_integral, mechanism, "J", 1, nullptr, "contact damping loss D_d") \
+    row(peak_crank_torque, peak, mechanism, "N m", 1, nullptr, "largest magnitude of the drive torque, crank weight included") \
+    row(rms_crank_torque, root_mean_square, mechanism, "N m", 1, nullptr, "root mean square of the drive torque, crank weight included") \
+    row(peak_position_error, peak, mechanism, "m", 1, nullptr, "largest distance of the slider's centre from the ideal mechanism's") \
+    row(rms_position_error, root_mean_square, mechanism, "m", 1, nullptr, "root mean square distance from the ideal mechanism's slider") \
+    row(peak_rod_angular_velocity, peak, mechanism, "rad s-1", 1, nullptr, "largest magnitude of the rod's angular velocity") \
+    row(rms_rod_angular_velocity, root_mean_square, mechanism, "rad s-1", 1, nullptr, "root mean square of the rod's angular velocity") \
+    row(peak_tilt, peak, mechanism, "rad", 3, "axis", "largest magnitude of roll, yaw and pitch") \
+    row(peak_acceleration, peak, accelerations, "m s-2", 3, "direction", "largest magnitude of the acceleration of the slider's centre") \
+    row(rms_acceleration, root_mean_square, accelerations, "m s-2", 3, "direction", "root mean square of the acceleration of the slider's centre") \
+    row(peak_channel_acceleration, peak, accelerations, "m s-2", 2, "channel", "largest magnitude of a sensor's acceleration") \
+    row(acceleration_area, integral, accelerations, "m s-1", 2, "channel", "integral over time of the magnitude of a sensor's acceleration")
+// clang-format on
+
 enum class Quantity : int {
-    peak_normal_force,
-    mean_normal_force,
-    peak_apex_force,
-    mean_apex_force,
-    mode_time,
-    contact_onsets,
-    energy_residual,
-    energy_change,
-    crank_work,
-    friction_loss,
-    damping_loss,
-    peak_crank_torque,
-    rms_crank_torque,
-    peak_position_error,
-    rms_position_error,
-    peak_rod_angular_velocity,
-    rms_rod_angular_velocity,
-    peak_tilt,
-    peak_acceleration,
-    rms_acceleration,
-    peak_channel_acceleration,
-    acceleration_area,
+#define SLIDEWAY_NAME(name, statistic, keeper, unit, columns, dimension, long_name) name,
+    SLIDEWAY_QUANTITIES(SLIDEWAY_NAME)
+#undef SLIDEWAY_NAME
     count
 };
 
-/// One value (or `columns` values along `dimension`) per member at the end of its run.
 struct QuantityInfo {
     char const* name;
+    Statistic statistic;
+    Keeper keeper;
     char const* unit;
     int columns;
     char const* dimension;  // nullptr for a scalar; else apex, mode_class, axis, direction or channel
     char const* long_name;
+
+    /// Whether it is the integral of a value over the stages of the steps, or made of one.
+    constexpr bool integrates() const {
+        return statistic == Statistic::mean || statistic == Statistic::root_mean_square ||
+               statistic == Statistic::integral || is_audited();
+    }
+    constexpr bool is_audited() const { return statistic == Statistic::audited_integral; }
+    /// Whether it brings the energy audit along.
+    constexpr bool audits() const { return is_audited() || statistic == Statistic::of_audit; }
 };
 
 inline constexpr QuantityInfo quantity_table[] = {
-    {"peak_normal_force", "N", 1, nullptr, "largest sum of the normal forces at the accepted steps"},
-    {"mean_normal_force", "N", 1, nullptr, "time mean of the sum of the normal forces"},
-    {"peak_apex_force", "N", 8, "apex", "largest normal force of the apex, both of its faces summed"},
-    {"mean_apex_force", "N", 8, "apex", "time mean of the normal force of the apex, both of its faces summed"},
-    {"mode_time", "s", 4, "mode_class", "time spent in the mode class"},
-    {"contact_onsets", "1", 1, nullptr, "changes from free flight to contact"},
-    {"energy_residual", "J", 1, nullptr, "energy residual E(t)-E(0)-W+D_f+D_d: energy that the contact law made"},
-    {"energy_change", "J", 1, nullptr, "mechanical energy E(t)-E(0)"},
-    {"crank_work", "J", 1, nullptr, "work W of the drive: of the crank, or of what moves the carriage"},
-    {"friction_loss", "J", 1, nullptr, "friction loss D_f"},
-    {"damping_loss", "J", 1, nullptr, "contact damping loss D_d"},
-    {"peak_crank_torque", "N m", 1, nullptr, "largest magnitude of the drive torque, crank weight included"},
-    {"rms_crank_torque", "N m", 1, nullptr, "root mean square of the drive torque, crank weight included"},
-    {"peak_position_error", "m", 1, nullptr, "largest distance of the slider's centre from the ideal mechanism's"},
-    {"rms_position_error", "m", 1, nullptr, "root mean square distance from the ideal mechanism's slider"},
-    {"peak_rod_angular_velocity", "rad s-1", 1, nullptr, "largest magnitude of the rod's angular velocity"},
-    {"rms_rod_angular_velocity", "rad s-1", 1, nullptr, "root mean square of the rod's angular velocity"},
-    {"peak_tilt", "rad", 3, "axis", "largest magnitude of roll, yaw and pitch"},
-    {"peak_acceleration", "m s-2", 3, "direction", "largest magnitude of the acceleration of the slider's centre"},
-    {"rms_acceleration", "m s-2", 3, "direction", "root mean square of the acceleration of the slider's centre"},
-    {"peak_channel_acceleration", "m s-2", 2, "channel", "largest magnitude of a sensor's acceleration"},
-    {"acceleration_area", "m s-1", 2, "channel", "integral over time of the magnitude of a sensor's acceleration"},
+#define SLIDEWAY_ROW(name, statistic, keeper, unit, columns, dimension, long_name) \
+    {#name, Statistic::statistic, Keeper::keeper, unit, columns, dimension, long_name},
+    SLIDEWAY_QUANTITIES(SLIDEWAY_ROW)
+#undef SLIDEWAY_ROW
 };
 inline constexpr int quantity_count = static_cast<int>(Quantity::count);
-static_assert(sizeof(quantity_table) / sizeof(quantity_table[0]) == quantity_count);
 
 /// Mode classes of `mode_time`: the hardest contact of the configuration decides.
 inline constexpr char const* mode_class_names[] = {"free", "point", "line", "surface"};
 
-/// Values at the sample times.  Which of them are a mechanism's state: mechanisms/mechanism_info.hpp.
+// Values at the sample times: row(name, unit, long name).  Which of them are a mechanism's state: mechanisms/mechanism_info.hpp; the others
+// are in its report (`series_value`).
+// clang-format off
+#define SLIDEWAY_SERIES(row) \
+    row(y, "m", "vertical position of the slider's centre") \
+    row(z, "m", "lateral position of the slider's centre") \
+    row(vy, "m s-1", "vertical velocity of the slider's centre") \
+    row(vz, "m s-1", "lateral velocity of the slider's centre") \
+    row(roll, "rad", "roll of the slider about X") \
+    row(yaw, "rad", "yaw of the slider about Y") \
+    row(pitch, "rad", "pitch of the slider about Z") \
+    row(wx, "rad s-1", "angular velocity of the slider about its X axis") \
+    row(wy, "rad s-1", "angular velocity of the slider about its Y axis") \
+    row(wz, "rad s-1", "angular velocity of the slider about its Z axis") \
+    row(x, "m", "position of the slider's centre along the slide way") \
+    row(vx, "m s-1", "velocity of the slider's centre along the slide way") \
+    row(normal_force, "N", "sum of the normal forces") \
+    row(crank_torque, "N m", "drive torque, crank weight included") \
+    row(rod_angular_velocity, "rad s-1", "rod's angular velocity about Z") \
+    row(surfaces, "1", "surface contacts") \
+    row(lines, "1", "line contacts") \
+    row(points, "1", "point contacts") \
+    row(ax, "m s-2", "acceleration of the slider's centre along X") \
+    row(ay, "m s-2", "acceleration of the slider's centre along Y") \
+    row(az, "m s-2", "acceleration of the slider's centre along Z") \
+    row(acceleration_top, "m s-2", "acceleration along the slider's Y axis of a sensor 10 mm above the way's top face") \
+    row(acceleration_front, "m s-2", "acceleration along the slider's Z axis of a sensor 10 mm before its front face") \
+    row(crank_angle, "rad", "angle of the crank") \
+    row(crank_angular_velocity, "rad s-1", "angular velocity of the crank") \
+    row(rod_angle, "rad", "angle of the rod")
+// clang-format on
+
 enum class Series : int {
-    y,
-    z,
-    vy,
-    vz,
-    roll,
-    yaw,
-    pitch,
-    wx,
-    wy,
-    wz,
-    x,
-    vx,
-    normal_force,
-    crank_torque,
-    rod_angular_velocity,
-    surfaces,
-    lines,
-    points,
-    ax,
-    ay,
-    az,
-    acceleration_top,
-    acceleration_front,
-    crank_angle,
-    crank_angular_velocity,
-    rod_angle,
+#define SLIDEWAY_NAME(name, unit, long_name) name,
+    SLIDEWAY_SERIES(SLIDEWAY_NAME)
+#undef SLIDEWAY_NAME
     count
 };
 
@@ -108,42 +130,28 @@ struct SeriesInfo {
 };
 
 inline constexpr SeriesInfo series_table[] = {
-    {"y", "m", "vertical position of the slider's centre"},
-    {"z", "m", "lateral position of the slider's centre"},
-    {"vy", "m s-1", "vertical velocity of the slider's centre"},
-    {"vz", "m s-1", "lateral velocity of the slider's centre"},
-    {"roll", "rad", "roll of the slider about X"},
-    {"yaw", "rad", "yaw of the slider about Y"},
-    {"pitch", "rad", "pitch of the slider about Z"},
-    {"wx", "rad s-1", "angular velocity of the slider about its X axis"},
-    {"wy", "rad s-1", "angular velocity of the slider about its Y axis"},
-    {"wz", "rad s-1", "angular velocity of the slider about its Z axis"},
-    {"x", "m", "position of the slider's centre along the slide way"},
-    {"vx", "m s-1", "velocity of the slider's centre along the slide way"},
-    {"normal_force", "N", "sum of the normal forces"},
-    {"crank_torque", "N m", "drive torque, crank weight included"},
-    {"rod_angular_velocity", "rad s-1", "rod's angular velocity about Z"},
-    {"surfaces", "1", "surface contacts"},
-    {"lines", "1", "line contacts"},
-    {"points", "1", "point contacts"},
-    {"ax", "m s-2", "acceleration of the slider's centre along X"},
-    {"ay", "m s-2", "acceleration of the slider's centre along Y"},
-    {"az", "m s-2", "acceleration of the slider's centre along Z"},
-    {"acceleration_top", "m s-2", "acceleration along the slider's Y axis of a sensor 10 mm above the way's top face"},
-    {"acceleration_front", "m s-2", "acceleration along the slider's Z axis of a sensor 10 mm before its front face"},
-    {"crank_angle", "rad", "angle of the crank"},
-    {"crank_angular_velocity", "rad s-1", "angular velocity of the crank"},
-    {"rod_angle", "rad", "angle of the rod"},
+#define SLIDEWAY_ROW(name, unit, long_name) {#name, unit, long_name},
+    SLIDEWAY_SERIES(SLIDEWAY_ROW)
+#undef SLIDEWAY_ROW
 };
 inline constexpr int series_count = static_cast<int>(Series::count);
-static_assert(sizeof(series_table) / sizeof(series_table[0]) == series_count);
 
 /// A set of quantities or series: bit i for entry i of the table.
 using Selection = std::uint32_t;
+static_assert(quantity_count < 32 && series_count < 32, "a Selection has no bit for it");
 constexpr bool selects(Selection set, Quantity q) { return (set >> static_cast<int>(q)) & 1u; }
 constexpr Selection selection_of(Quantity q) { return Selection{1} << static_cast<int>(q); }
 constexpr Selection selection_of(Series s) { return Selection{1} << static_cast<int>(s); }
 constexpr bool selects(Selection set, Series s) { return (set >> static_cast<int>(s)) & 1u; }
+
+/// The quantities whose row in the table is as the function asks.
+template <class Function> constexpr Selection quantities_where(Function const& is_so) {
+    Selection set = 0;
+    for (int i = 0; i < quantity_count; ++i) {
+        if (is_so(quantity_table[i])) set |= selection_of(static_cast<Quantity>(i));
+    }
+    return set;
+}
 
 /// First column of a quantity in a member's row of all quantities, which is `quantity_columns` wide.
 constexpr int quantity_column(Quantity q) {

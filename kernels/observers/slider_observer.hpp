@@ -1,72 +1,83 @@
 #pragma once
 
-#include <initializer_list>
-
 #include "kernels/block.hpp"
 #include "kernels/mechanisms/slider_report.hpp"
 #include "kernels/observers/energy_audit.hpp"
 #include "kernels/observers/quantities.hpp"
+#include "kernels/observers/quantity_places.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// The scalar quantities of a pack of mechanisms with one slider.  Only the energy audit has a say in the steps:
-/// its integrals meet the tolerance too.  Integrals run over the stages with the stepper's own weights, so they have its order; peaks, mode times and onsets go by
-/// the accepted steps.
+/// The scalar quantities of a pack of mechanisms with one slider: those of the table whose keeper is `mechanism`.  Only the energy
+/// audit has a say in the steps: its integrals meet the tolerance too.  Integrals run over the stages with the stepper's own weights, so
+/// they have its order; peaks, mode times and onsets go by the accepted steps.
 /// @tparam Report_ SliderReport or PlanarReport
 template <class Real, template <class> class Report_ = SliderReport> class SliderObserver {
 public:
     using Report = Report_<Real>;
-    /// Integrands: crank, friction and damping power, total force, torque², error², rod spin², |crank power|, the apices' forces, and
-    /// the springs' power, of which a law that switches keeps books.
-    static constexpr int integrals = 8 + Report::apices + 1;
+    using Places = QuantityPlaces<Keeper::mechanism, Report::apices>;
     static constexpr int columns = quantity_columns;  // of a member's row
+    /// Integrands: those of the quantities, then |crank power| and the springs' power, of which a law that switches keeps books.
+    static constexpr int integrals = Places::integrals + 2;
     /// The first of them are the energy audit's.
-    static constexpr int audit_integrals = 3;
+    static constexpr int audit_integrals = Places::audit_integrals;
+
+    /// What a quantity is the peak, mean or integral of: a line each.
+    /// @param state at the accepted steps; AtStage for integrals, which have the report alone
+    template <Quantity q, class State>
+    SLIDEWAY_FN static Real value(Report const& r, [[maybe_unused]] State const& state, [[maybe_unused]] int column) {
+        using enum Quantity;
+        if constexpr (q == peak_normal_force || q == mean_normal_force) return r.contact.total_force();
+        else if constexpr (q == peak_apex_force || q == mean_apex_force) return r.contact.apex_force(column);
+        else if constexpr (q == crank_work) return r.crank_power;
+        else if constexpr (q == friction_loss) return r.contact.friction_power;
+        else if constexpr (q == damping_loss) return r.contact.damping_power;
+        else if constexpr (q == peak_crank_torque || q == rms_crank_torque) return r.drive_torque;
+        else if constexpr (q == peak_position_error || q == rms_position_error) return r.position_error;
+        else if constexpr (q == peak_rod_angular_velocity || q == rms_rod_angular_velocity) return r.rod_spin;
+        else if constexpr (q == peak_tilt) return Report::tilt(state, column);
+        else static_assert(q == Quantity::count, "SliderObserver::value has no line for a quantity of the table");
+    }
+    struct AtStage {};
 
     SLIDEWAY_HD static constexpr bool needs_stages(Selection q) {
-        for (auto const i :
-             {Quantity::mean_normal_force, Quantity::mean_apex_force, Quantity::energy_residual, Quantity::crank_work,
-              Quantity::friction_loss, Quantity::damping_loss, Quantity::rms_crank_torque, Quantity::rms_position_error,
-              Quantity::rms_rod_angular_velocity}) {
-            if (selects(q, i)) return true;
-        }
-        return false;
+        constexpr Selection integrating = quantities_where([](QuantityInfo const& info) {
+            return info.keeper == Keeper::mechanism && (info.integrates() || info.audits());
+        });
+        return (q & integrating) != 0;
     }
     /// The quantities of the energy audit; any of them brings the whole of it along.
-    static constexpr Selection audit_quantities =
-        selection_of(Quantity::energy_residual) | selection_of(Quantity::crank_work) |
-        selection_of(Quantity::friction_loss) | selection_of(Quantity::damping_loss);
+    static constexpr Selection audit_quantities = quantities_where([](QuantityInfo const& info) { return info.audits(); });
     /// Whether the audit's integrals are asked for and must meet the tolerance themselves.
     SLIDEWAY_HD static constexpr bool audits(Selection q) { return (q & audit_quantities) != 0; }
     /// Whether a report is needed at the accepted steps.
     SLIDEWAY_HD static constexpr bool needs_reports(Selection q) { return q != 0; }
 
     SLIDEWAY_FN static void integrands(Report const& r, Real* values) {
-        values[0] = r.crank_power;
-        values[1] = r.contact.friction_power;
-        values[2] = r.contact.damping_power;
-        values[3] = r.contact.total_force();
-        values[4] = r.drive_torque * r.drive_torque;
-        values[5] = r.position_error * r.position_error;
-        values[6] = r.rod_spin * r.rod_spin;
-        values[7] = abs(r.crank_power);
-        if constexpr (Report::apices > 0) {
-            for (int apex = 0; apex < Report::apices; ++apex) values[8 + apex] = r.contact.apex_force(apex);
-        }
-        values[integrals - 1] = r.contact.elastic_power;
+        for_each_quantity([&]<Quantity q>(Named<q>) {
+            if constexpr (Places::integrates(q)) {
+                constexpr bool squared = Places::info(q).statistic == Statistic::root_mean_square;
+                constexpr int width = Places::columns(q);
+                for (int i = 0; i < width; ++i) {
+                    Real const x = value<q>(r, AtStage{}, i);
+                    values[Places::template integral_of<q> + i] = squared ? x * x : x;
+                }
+            }
+        });
+        values[turnover] = abs(r.crank_power);
+        values[springs] = r.contact.elastic_power;
     }
 
     /// Begins the members in the lanes of the mask.
     /// @param switches of the law: it makes energy.  The same in all calls.
     SLIDEWAY_FN void start(Mask<Real> fresh, Report const& r, Real const* state, bool switches) {
         Real const zero(0.0);
-        for (auto* value : {&force_, &torque_, &error_, &spin_, &roll_, &yaw_, &pitch_, &onsets_, &largest_potential_,
-                            &made_, &astray_, &exchanged_}) {
+        for (auto* value : {&onsets_, &largest_potential_, &made_, &astray_, &exchanged_}) {
             *value = select(fresh, zero, *value);
         }
         for (auto& value : integral_) value = select(fresh, zero, value);
-        for (auto& value : apex_) value = select(fresh, zero, value);
+        for (auto& value : peak_) value = select(fresh, zero, value);
         for (auto& value : mode_time_) value = select(fresh, zero, value);
         start_energy_ = select(fresh, r.energy, start_energy_);
         resume(fresh, r, switches);
@@ -108,43 +119,51 @@ public:
 
     /// The energy audit up to the last accepted step, where it ran.
     SLIDEWAY_FN EnergyAudit<Real> audit() const {
-        return {energy_ - start_energy_, integral_[0], integral_[1], integral_[2], integral_[7],
-                largest_potential_,      made_,        astray_,      exchanged_};
+        Real const crank_work = integral_[Places::template integral_of<Quantity::crank_work>];
+        Real const friction_loss = integral_[Places::template integral_of<Quantity::friction_loss>];
+        Real const damping_loss = integral_[Places::template integral_of<Quantity::damping_loss>];
+        return {energy_ - start_energy_, crank_work, friction_loss, damping_loss, integral_[turnover],
+                largest_potential_,      made_,      astray_,       exchanged_};
     }
 
     /// Writes the selected quantities of one lane.  @param time [s] the member was integrated.
     SLIDEWAY_HD void finish(int index, double time, Selection selected, double* row) const {
-        auto const put = [&](Quantity q, int column, double value) {
-            if (selects(selected, q)) row[quantity_column(q) + column] = value;
-        };
         double const mean = time > 0 ? 1 / time : 0;
-        auto const total = [&](int i) { return lane(integral_[i], index); };
-        auto const energies = audit();
-        put(Quantity::peak_normal_force, 0, lane(force_, index));
-        put(Quantity::mean_normal_force, 0, total(3) * mean);
-        for (int apex = 0; apex < Report::apices; ++apex) {
-            put(Quantity::peak_apex_force, apex, lane(apex_[apex], index));
-            put(Quantity::mean_apex_force, apex, total(8 + apex) * mean);
-        }
-        for (int i = 0; i < 4; ++i) put(Quantity::mode_time, i, lane(mode_time_[i], index));
-        put(Quantity::contact_onsets, 0, lane(onsets_, index));
-        put(Quantity::energy_residual, 0, lane(energies.residual(), index));
-        put(Quantity::energy_change, 0, lane(energies.change, index));
-        put(Quantity::crank_work, 0, lane(energies.crank_work, index));
-        put(Quantity::friction_loss, 0, lane(energies.friction_loss, index));
-        put(Quantity::damping_loss, 0, lane(energies.damping_loss, index));
-        put(Quantity::peak_crank_torque, 0, lane(torque_, index));
-        put(Quantity::rms_crank_torque, 0, sqrt(total(4) * mean));
-        put(Quantity::peak_position_error, 0, lane(error_, index));
-        put(Quantity::rms_position_error, 0, sqrt(total(5) * mean));
-        put(Quantity::peak_rod_angular_velocity, 0, lane(spin_, index));
-        put(Quantity::rms_rod_angular_velocity, 0, sqrt(total(6) * mean));
-        put(Quantity::peak_tilt, 0, lane(roll_, index));
-        put(Quantity::peak_tilt, 1, lane(yaw_, index));
-        put(Quantity::peak_tilt, 2, lane(pitch_, index));
+        for_each_quantity([&]<Quantity q>(Named<q>) {
+            if constexpr (Places::keeps(q)) {
+                if (!selects(selected, q)) return;
+                constexpr int first = quantity_column(q), width = Places::columns(q);
+                for (int i = 0; i < width; ++i) row[first + i] = result<q>(index, i, mean);
+            }
+        });
     }
 
 private:
+    static constexpr int turnover = Places::integrals, springs = Places::integrals + 1;
+
+    /// A quantity of one lane.  @param mean 1/t, of the time integrated.
+    template <Quantity q> SLIDEWAY_HD double result(int index, int column, double mean) const {
+        constexpr QuantityInfo info = Places::info(q);
+        if constexpr (info.statistic == Statistic::peak) {
+            return lane(peak_[Places::template peak_of<q> + column], index);
+        } else if constexpr (info.integrates()) {
+            double const total = lane(integral_[Places::template integral_of<q> + column], index);
+            if constexpr (info.statistic == Statistic::mean) return total * mean;
+            else if constexpr (info.statistic == Statistic::root_mean_square) return sqrt(total * mean);
+            else return total;
+        } else {
+            return lane(counted<q>(column), index);
+        }
+    }
+    template <Quantity q> SLIDEWAY_FN Real counted([[maybe_unused]] int column) const {
+        using enum Quantity;
+        if constexpr (q == mode_time) return mode_time_[column];
+        else if constexpr (q == contact_onsets) return onsets_;
+        else if constexpr (q == energy_change) return audit().change;
+        else if constexpr (q == energy_residual) return audit().residual();
+        else static_assert(q == Quantity::count, "SliderObserver::counted has no line for a quantity of the table");
+    }
+
     /// 0 free, 1 point, 2 line, 3 surface: the hardest contact of the configuration.
     SLIDEWAY_FN static Real mode_class(Report const& r) {
         Real const zero(0.0);
@@ -161,7 +180,7 @@ private:
         Real made = fnma(h, integral[0] - integral[1] - integral[2], r.energy - energy_);
         Real exchanged = r.contact.potential - potential_;
         if (switches) {
-            Real const taken_up = h * integral[integrals - 1];
+            Real const taken_up = h * integral[springs];
             Real const pattern = r.contact.pattern();
             auto const may_switch = (pattern != pattern_) & (pattern != zero) & (pattern_ != zero);
             made = made - select(may_switch, exchanged - taken_up, zero);
@@ -172,25 +191,22 @@ private:
         exchanged_ = select(accepted, exchanged_ + abs(exchanged), exchanged_);
     }
 
-    SLIDEWAY_FN void take_peaks(Mask<Real> lanes_taken, Report const& r, Real const* state) {
-        auto const raise = [&](Real& peak, Real value) { peak = select(lanes_taken, max(value, peak), peak); };
-        raise(force_, r.contact.total_force());
+    SLIDEWAY_FN void take_peaks(Mask<Real> taken, Report const& r, Real const* state) {
+        auto const raise = [&](Real& peak, Real value) { peak = select(taken, max(value, peak), peak); };
         raise(largest_potential_, r.contact.potential);
-        if constexpr (Report::apices > 0) {
-            for (int apex = 0; apex < Report::apices; ++apex) raise(apex_[apex], r.contact.apex_force(apex));
-        }
-        raise(torque_, abs(r.drive_torque));
-        raise(error_, r.position_error);
-        raise(spin_, r.rod_spin);
-        raise(roll_, abs(Report::tilt(state, 0)));
-        raise(yaw_, abs(Report::tilt(state, 1)));
-        raise(pitch_, abs(Report::tilt(state, 2)));
+        for_each_quantity([&]<Quantity q>(Named<q>) {
+            if constexpr (Places::is_peak(q)) {
+                constexpr int width = Places::columns(q);
+                for (int i = 0; i < width; ++i) {
+                    raise(peak_[Places::template peak_of<q> + i], abs(value<q>(r, state, i)));
+                }
+            }
+        });
     }
 
     Real integral_[integrals];
-    Real apex_[Report::apices > 0 ? Report::apices : 1];
+    Real peak_[Places::peaks];
     Real mode_time_[4];
-    Real force_, torque_, error_, spin_, roll_, yaw_, pitch_;
     Real onsets_, mode_, start_energy_, largest_potential_;
     Real energy_, potential_, pattern_;  // where the next step starts
     Real made_, astray_, exchanged_;

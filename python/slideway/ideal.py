@@ -74,8 +74,16 @@ def _carriage(mechanism: Mapping[str, Any], time: np.ndarray) -> tuple[np.ndarra
     return x, sign * speed * np.cos(angle), -sign * speed * np.pi / turn * np.sin(angle)
 
 
+def _scotch_yoke(mechanism: Mapping[str, Any], time: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """x = r cos θ, θ = θ0 + ωt."""
+    r, speed = float(mechanism["crank_length"]), float(mechanism["crank_speed"])
+    angle = float(mechanism.get("start_angle", 0.0)) + speed * time
+    return r * np.cos(angle), -r * speed * np.sin(angle), -r * speed**2 * np.cos(angle)
+
+
 _motions: dict[str, Callable[[Mapping[str, Any], np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]] = {
     "slider_crank": _slider_crank,
     "planar_slider_crank": _slider_crank,
     "carriage": _carriage,
+    "scotch_yoke": _scotch_yoke,
 }

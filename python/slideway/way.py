@@ -52,12 +52,12 @@ def frame(resolved: Mapping[str, Any]) -> tuple[Array, Array]:
     """
     offset_y, offset_z, roll, yaw, pitch = (float(resolved.get("way", {}).get(key, 0.0)) for key in _keys)
     mechanism = resolved["mechanism"]
-    reach = float(mechanism["rod_length"]) if mechanism["kind"] == "slider_crank" else 0.0
+    reach = float(mechanism.get("rod_length", 0.0))
     return np.array([reach, offset_y, offset_z]), rotation(roll, yaw, pitch)
 
 
 def along(resolved: Mapping[str, Any], time: Array, y: Array, z: Array, crank: Array | None = None) -> Array | None:
-    """x [m] that follows from the mechanism: of a rod that reaches from the crank pin, or of a carriage's motion.
+    """x [m] that follows from the mechanism: of a rod that reaches from the crank pin, or of the motion that drives it.
 
     Args:
         time [s]; y, z: of the slider's centre, inertial [m]; crank: angle [rad], of constant speed where it is left out.
@@ -66,7 +66,7 @@ def along(resolved: Mapping[str, Any], time: Array, y: Array, z: Array, crank: A
         None of a slider that nothing holds along the way.
     """
     mechanism = resolved["mechanism"]
-    if not str(mechanism["kind"]).endswith("slider_crank"):
+    if "rod_length" not in mechanism:
         return ideal(resolved, "x", time)
     angle = mechanism.get("start_angle", 0.0) + mechanism["crank_speed"] * time if crank is None else crank
     return rod_reach(mechanism["crank_length"], mechanism["rod_length"], angle, y, z)

@@ -53,7 +53,7 @@ private:
     static constexpr int size = Model::size;
     using Parameters = typename Model::template Parameters<Real>;
     template <int n> using Indices = std::make_integer_sequence<int, n>;
-    static_assert(!Model::has_memory, "equal steps locate nothing that a model could remember");
+    static_assert(!Model::has_contacts, "equal steps locate nothing that a model could remember");
 
     SLIDEWAY_HD static void load(FixedStepBlock<Model> const& block, std::size_t first, Parameters* p,
                                  Real (*y)[size]) {

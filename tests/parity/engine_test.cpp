@@ -24,6 +24,10 @@ PartsCase const parts_cases[] = {
     {"conservative_point_way", {Law::conservative, Damping::point, true, true}},
     {"paper_restitution", {Law::paper, Damping::restitution, false, false}},
     {"conservative_restitution_way", {Law::conservative, Damping::restitution, true, true}},
+    {"kelvin_voigt_friction", {Law::kelvin_voigt, Damping::point, true, false}},
+    {"scotch_yoke_kelvin_voigt_way", {Law::kelvin_voigt, Damping::point, true, true, Mechanism::scotch_yoke}},
+    {"scotch_yoke_paper_friction", {Law::paper, Damping::point, true, false, Mechanism::scotch_yoke}},
+    {"free_slider_kelvin_voigt", {Law::kelvin_voigt, Damping::point, false, false, Mechanism::free_slider}},
     {"carriage_paper_friction", {Law::paper, Damping::point, true, false, Mechanism::carriage}},
     {"carriage_conservative_restitution_way",
      {Law::conservative, Damping::restitution, true, true, Mechanism::carriage}},
@@ -134,6 +138,17 @@ TEST_P(EngineParity, ABadNeighbourChangesNothing) {
                                    o.sample_times.size(), "bad neighbour at " + std::to_string(position));
             }
         }
+    }
+}
+
+TEST(EngineParityCases, HaveEveryLawAndMechanism) {
+    for (std::size_t law = 0; law < laws().size(); ++law) {
+        EXPECT_TRUE(std::ranges::any_of(parts_cases, [&](auto const& c) { return static_cast<std::size_t>(c.parts.law) == law; }))
+            << laws()[law].name;
+    }
+    for (std::size_t i = 0; i < mechanisms().size(); ++i) {
+        EXPECT_TRUE(std::ranges::any_of(parts_cases, [&](auto const& c) { return static_cast<std::size_t>(c.parts.mechanism) == i; }))
+            << mechanisms()[i].name;
     }
 }
 

@@ -3,34 +3,32 @@
 
 #include "host/backend/isa_real.hpp"
 #include "kernels/lane_copy.hpp"
-#include "kernels/mechanisms/slider_crank_linearisation.hpp"
+#include "kernels/mechanisms/slider_crank.hpp"
+#include "tests/support/every_law.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
-namespace {
 
-using Real = IsaReal;
-
-template <class Model> void linearise_all(LinearisationRow const* rows, std::size_t count, double* result) {
+void linearise_table(Parts const& parts, LinearisationRow const* rows, std::size_t count, double* result) {
+    using Real = IsaReal;
     constexpr int width = lanes<Real>;
+    auto const block = testing::conditions_of<Real>(parts);
     SliderParameters<Real> p;
-    typename Model::template Memory<Real> memory;
+    ContactMemory<Real> memory;
     start_memory(memory);
-    if constexpr (Model::has_memory) {
-        for (auto& face : memory.speeds) face.a = face.b = face.c = face.d = Real(0.01);
-    }
+    for (auto& face : memory.impact_speed) face.a = face.b = face.c = face.d = Real(0.01);
     SliderLinearisation<Real> at;
     for (std::size_t first = 0; first < count; first += width) {
         Real t, hg, state[state_size], u[state_size];
         for (int i = 0; i < width; ++i) {
             auto const& row = rows[first + static_cast<std::size_t>(i)];
-            load_lane(p, i, Model::parameters(row.inputs));
+            load_lane(p, i, SliderCrank::parameters(row.inputs));
             double start[state_size];
-            Model::initial_state(row.inputs, start);
+            SliderCrank::initial_state(row.inputs, start);
             for (int j = 0; j < state_size; ++j) set_lane(state[j], i, start[j]);
             set_lane(t, i, row.time);
             set_lane(hg, i, row.hg);
         }
-        linearise<Model>(t, state, p, memory, at);
+        SliderCrank::linearise(t, state, p, memory, block, at);
         at.factor(hg);
         at.solve(state, u);
         Real values[linearisation_values];
@@ -48,16 +46,6 @@ template <class Model> void linearise_all(LinearisationRow const* rows, std::siz
             double* const to = result + (first + static_cast<std::size_t>(i)) * linearisation_values;
             for (int j = 0; j < linearisation_values; ++j) to[j] = lane(values[j], i);
         }
-    }
-}
-
-}  // namespace
-
-void linearise_table(Law law, LinearisationRow const* rows, std::size_t count, double* result) {
-    if (law == Law::paper) {
-        linearise_all<SliderCrank<PaperLaw, StickSlipFriction, MisalignedWay, RestitutionDamping>>(rows, count, result);
-    } else {
-        linearise_all<SliderCrank<ConservativeLaw, StickSlipFriction, MisalignedWay, RateDamping>>(rows, count, result);
     }
 }
 

@@ -17,7 +17,7 @@ struct LinearisationRow {
 inline constexpr int linearisation_values = 25 + 25 + 1 + 1 + 10 + 1;
 
 /// result[row · linearisation_values + i]; rows is a multiple of 8.  Each instruction set's namespace has one,
-/// `linearise_table`, for each of the laws; with friction, a misaligned way and restitution or rate damping.
-using TableLineariser = void(Law law, LinearisationRow const* rows, std::size_t count, double* result);
+/// `linearise_table`, for parts of any law.
+using TableLineariser = void(Parts const& parts, LinearisationRow const* rows, std::size_t count, double* result);
 
 }  // namespace slideway

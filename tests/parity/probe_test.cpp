@@ -88,6 +88,8 @@ TEST_P(ProbeParity, NeitherNeighboursNorIsaChangeABit) {
 INSTANTIATE_TEST_SUITE_P(Golden, ProbeParity,
                          ::testing::Values(ProbeCase{"paper_point", "rhs_paper.csv", Law::paper, Damping::point},
                                            ProbeCase{"paper_rate", "rhs_paper.csv", Law::paper, Damping::rate},
+                                           ProbeCase{"kelvin_voigt", "rhs_kelvin_voigt.csv", Law::kelvin_voigt,
+                                                     Damping::point},
                                            ProbeCase{"conservative_rate", "rhs_conservative.csv", Law::conservative,
                                                      Damping::rate},
                                            ProbeCase{"conservative_restitution", "rhs_conservative.csv",

@@ -33,8 +33,8 @@ while read -r library object; do
     symbols=$(nm -C --defined-only "$object")
     # It runs where there is neither AVX nor FMA: none of their instructions (v…), nor what came with them.
     if [[ $isa == scalar_libm ]]; then
-        later=$(objdump -d --no-show-raw-insn "$object" | awk -F'\t' '$2 ~ /^(v[a-z]|popcnt|[tl]zcnt|andn |pext|pdep|movbe)/ {
-            print "  " $2; if (++count == 3) exit }')
+        later=$(objdump -d --no-show-raw-insn "$object" | awk -F'\t' '
+            $2 ~ /^(v[a-z]|popcnt|[tl]zcnt|andn |pext|pdep|movbe)/ && ++count <= 3 { print "  " $2 }')
         if [[ -n $later ]]; then
             echo "$object: not of every processor:"
             echo "$later"

@@ -18,10 +18,12 @@ struct Layer {
 
 // A file may include its own layer and those of the same or a lower rank.
 constexpr std::array layers = {
+    Layer{"kernels/simd", 0},
     Layer{"kernels/real.hpp", 1},
     Layer{"kernels/lane_copy.hpp", 2},
     Layer{"kernels/math", 2},
     Layer{"kernels/laws", 3},
+    Layer{"kernels/conditions.hpp", 4},
     Layer{"kernels/joint", 4},
     Layer{"kernels/mechanisms", 5},
     Layer{"kernels/observers", 6},
@@ -42,12 +44,17 @@ constexpr std::array layers = {
 };
 
 // Plain data without code of any instruction set: every layer may share it, the host included.
-constexpr std::array<std::string_view, 7> plain_data = {
+constexpr std::array<std::string_view, 12> plain_data = {
+    "kernels/key.hpp",
     "kernels/inputs.hpp",
     "kernels/status.hpp",
     "kernels/methods.hpp",
     "kernels/block.hpp",
     "kernels/grid_task.hpp",
+    "kernels/joint/apex.hpp",
+    "kernels/laws/law_info.hpp",
+    "kernels/laws/list.hpp",
+    "kernels/mechanisms/list.hpp",
     "kernels/mechanisms/mechanism_info.hpp",
     "kernels/observers/quantities.hpp",
 };
@@ -60,6 +67,10 @@ constexpr std::array<std::string_view, 6> programs_of_cards = {
     "kernels/models/mechanism_model.hpp",  "kernels/models/shadowed.hpp",
 };
 
+// All laws and all mechanisms, made at configuration; who may name them all: the unit that collects what each says of itself.
+constexpr std::array<std::string_view, 2> collections = {"kernels/all_laws.hpp", "kernels/all_mechanisms.hpp"};
+constexpr std::string_view collector = "host/scene/descriptors.cpp";
+
 bool is_plain_data(std::string_view path) { return std::ranges::find(plain_data, path) != plain_data.end(); }
 
 Layer const* layer_of(std::string_view path) {
@@ -70,7 +81,13 @@ Layer const* layer_of(std::string_view path) {
     return nullptr;
 }
 
-bool knows_backends(std::string_view path) { return path == "kernels/real.hpp" || path.starts_with("host/backend/"); }
+bool knows_backends(std::string_view path) {
+    return path == "kernels/real.hpp" || path.starts_with("kernels/simd/") || path.starts_with("host/backend/");
+}
+
+bool knows_instructions(std::string_view path) {
+    return path == "kernels/simd/x86.hpp" || path == "kernels/simd/neon.hpp";
+}
 
 std::optional<std::string> include_violation(std::string const& from, std::string const& to) {
     if (is_plain_data(from)) {
@@ -79,8 +96,13 @@ std::optional<std::string> include_violation(std::string const& from, std::strin
     }
     Layer const* const user = layer_of(from);
     if (!user) return from + " is in no layer; give it a rank in tests/structure/layers.cpp";
-    if (user->name == "kernels/real.hpp") return from + " includes " + to + "; it stands below everything";
+    if (user->rank <= 1 && !to.starts_with("kernels/simd/"))
+        return from + " includes " + to + "; it stands below everything";
     if (is_plain_data(to)) return std::nullopt;
+    if (std::ranges::find(collections, to) != collections.end()) {
+        if (from == collector || from == kernels_of_cards) return std::nullopt;
+        return from + " includes " + to + "; a unit that uses one law or mechanism includes no other";
+    }
     Layer const* const used = layer_of(to);
     if (!used) return from + " includes " + to + ", which is in no layer (includes are written from the root)";
     if (used->rank > user->rank) return from + " includes upward: " + to;
@@ -144,12 +166,15 @@ Violations circle_violations(std::vector<SourceFile> const& files) {
 
 Violations backend_violations(SourceFile const& file) {
     Violations out;
+    static Pattern const intrinsic(
+        R"(\b_mm\d*_\w+|\w*intrin\.h\b|\barm_neon\.h\b|\b__m(128|256|512)\w*|__AVX\w*|__SSE\w*|__FMA\w*|\bv\w+q_[fu]64\b)");
+    if (!knows_instructions(file.path)) find_in_code(file, intrinsic, "only kernels/simd knows instructions", out);
     if (knows_backends(file.path)) return out;
-    static Pattern const instruction_set(
-        R"(\b_mm\d*_\w+|\bxsimd\b|\w*intrin\.h\b|\b__m(128|256|512)\w*|__AVX\w*|__SSE\w*)");
+    static Pattern const instruction_set(R"(\bxsimd\b|__x86_64__|__aarch64__)");
     static Pattern const cuda(R"(__CUDA\w*|\b__(host|device|global)__)");
-    find_in_code(file, instruction_set, "only kernels/real.hpp and host/backend know instruction sets", out);
-    find_in_code(file, cuda, "only kernels/real.hpp and host/backend know CUDA", out);
+    find_in_code(file, instruction_set, "only kernels/real.hpp, kernels/simd and host/backend know instruction sets",
+                 out);
+    find_in_code(file, cuda, "only kernels/real.hpp, kernels/simd and host/backend know CUDA", out);
     return out;
 }
 

@@ -17,7 +17,7 @@ Violations include_violations(SourceFile const& file);
 /// Folders that include each other in a circle (folders of the same rank may include one another, but one way only).
 Violations circle_violations(std::vector<SourceFile> const& files);
 
-/// Instruction sets and CUDA macros named outside kernels/real.hpp and host/backend.
+/// Instruction sets and CUDA macros named outside kernels/real.hpp, kernels/simd and host/backend, and instructions outside kernels/simd.
 Violations backend_violations(SourceFile const& file);
 
 /// Physics beside the kernels: files for nvcc other than host/backend/cuda.cu, and what that file or those that launch it compute, define

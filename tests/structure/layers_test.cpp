@@ -65,6 +65,8 @@ TEST(LayerRules, UpwardIncludeIsFound) {
 
 TEST(LayerRules, VocabularyIncludesNothingOfOurs) {
     EXPECT_EQ(include_violations(including("kernels/real.hpp", "kernels/status.hpp")).size(), 1u);
+    EXPECT_EQ(include_violations(including("kernels/simd/x86.hpp", "kernels/real.hpp")).size(), 1u);
+    EXPECT_TRUE(include_violations(including("kernels/real.hpp", "kernels/simd/instructions.hpp")).empty());
 }
 
 TEST(LayerRules, PlainDataIsForEveryoneAndIncludesPlainDataOnly) {
@@ -77,6 +79,12 @@ TEST(LayerRules, PlainDataIsForEveryoneAndIncludesPlainDataOnly) {
 TEST(LayerRules, PhysicsIsKnownToTheBackendAlone) {
     EXPECT_TRUE(include_violations(including("host/backend/cpu.cpp", "kernels/integrate.hpp")).empty());
     EXPECT_EQ(include_violations(including("host/study/ensemble.cpp", "kernels/integrate.hpp")).size(), 1u);
+}
+
+TEST(LayerRules, OneUnitNamesEveryLawAndMechanism) {
+    EXPECT_TRUE(include_violations(including("host/scene/descriptors.cpp", "kernels/all_laws.hpp")).empty());
+    EXPECT_EQ(include_violations(including("host/scene/keys.cpp", "kernels/all_laws.hpp")).size(), 1u);
+    EXPECT_EQ(include_violations(including("kernels/joint/joint.hpp", "kernels/all_mechanisms.hpp")).size(), 1u);
 }
 
 TEST(LayerRules, UnknownPlacesAreFound) {
@@ -102,7 +110,11 @@ TEST(LayerRules, InstructionSetsAndCudaAreFoundInCodeOnly) {
     EXPECT_EQ(backend_violations({"kernels/laws/line.hpp", "#ifdef __CUDA_ARCH__\n"}).size(), 1u);
     EXPECT_TRUE(backend_violations({"kernels/laws/line.hpp", "// as xsimd does; __CUDACC__\n"}).empty());
     EXPECT_TRUE(backend_violations({"host/cli/list.cpp", "print(\"xsimd\");\n"}).empty());
-    EXPECT_TRUE(backend_violations({"kernels/real.hpp", "_mm_fmadd_pd(a, b, c);\n"}).empty());
+    EXPECT_TRUE(backend_violations({"kernels/real.hpp", "xsimd::batch<double> x;\n"}).empty());
+    EXPECT_EQ(backend_violations({"kernels/real.hpp", "_mm_fmadd_pd(a, b, c);\n"}).size(), 1u);
+    EXPECT_EQ(backend_violations({"kernels/real.hpp", "vfmaq_f64(a, b, c);\n"}).size(), 1u);
+    EXPECT_TRUE(backend_violations({"kernels/simd/x86.hpp", "_mm256_fmadd_pd(a, b, c);\n"}).empty());
+    EXPECT_TRUE(backend_violations({"kernels/simd/neon.hpp", "vfmaq_f64(a, b, c);\n"}).empty());
 }
 
 TEST(LayerRules, PhysicsOnCardsIsFound) {

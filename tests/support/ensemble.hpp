@@ -24,7 +24,31 @@ struct EnsembleResult {
 };
 
 inline constexpr Selection all_quantities = (Selection(1) << quantity_count) - 1;
-inline constexpr Selection state_selection = info(Mechanism::slider_crank).always;
+inline constexpr Selection state_selection = selections::ten_states;
+
+inline std::vector<Law> every_law() {
+    std::vector<Law> all;
+    for (std::size_t i = 0; i < laws().size(); ++i) all.push_back(static_cast<Law>(i));
+    return all;
+}
+
+/// The inputs with what a law has of its own; those of its numbers that are 0 where nobody gives them are `strength`.
+inline Inputs with_own(Inputs inputs, Law law, double strength) {
+    inputs = with_presets(inputs, law);
+    for (Key const& key : info(law).keys) {
+        if (key.preset == 0) key.set(inputs, strength);
+    }
+    return inputs;
+}
+
+/// Every kind of damping that a law has.
+inline std::vector<Damping> dampings_of(LawInfo const& law) {
+    std::vector<Damping> all;
+    for (Damping const damping : {Damping::point, Damping::rate, Damping::restitution}) {
+        if (law.has(damping)) all.push_back(damping);
+    }
+    return all;
+}
 
 struct RunOptions {
     Parts parts;
@@ -76,8 +100,8 @@ inline std::vector<Isa> supported_isas() {
 }
 
 /// The start of golden/trajectories.csv (model.md 11): z = 0.1 c, roll 1e-4, yaw 2e-4, pitch −1e-4, at rest.
-inline Inputs golden_start(double clearance, double crank_speed) {
-    Inputs in;
+inline Inputs golden_start(double clearance, double crank_speed, Law law = Law::paper) {
+    Inputs in = with_presets({}, law);
     in.clearance_y = in.clearance_z = clearance;
     in.crank_speed = crank_speed;
     in.z = 0.1 * clearance;
@@ -89,10 +113,10 @@ inline Inputs golden_start(double clearance, double crank_speed) {
 
 /// Members that start without contact at scattered poses, by a fixed rule without random numbers.
 inline std::vector<Inputs> scattered_starts(std::size_t count, double clearance = 1e-4,
-                                            double crank_speed = 3.141592653589793) {
+                                            double crank_speed = 3.141592653589793, Law law = Law::paper) {
     std::vector<Inputs> members;
     for (std::size_t i = 0; i < count; ++i) {
-        auto in = golden_start(clearance, crank_speed);
+        auto in = golden_start(clearance, crank_speed, law);
         // Multiples of irrational numbers spread evenly over (-1, 1).
         auto const spread = [&](double irrational) {
             double const x = static_cast<double>(i + 1) * irrational;

@@ -10,8 +10,8 @@ namespace slideway::testing {
 /// Every combination of parts.
 inline std::vector<Parts> all_parts() {
     std::vector<Parts> all;
-    for (Law const law : {Law::paper, Law::conservative}) {
-        for (Damping const damping : {Damping::point, Damping::rate, Damping::restitution}) {
+    for (Law const law : every_law()) {
+        for (Damping const damping : dampings_of(info(law))) {
             for (bool const friction : {false, true}) {
                 for (bool const misaligned : {false, true}) all.push_back({law, damping, friction, misaligned});
             }
@@ -22,7 +22,7 @@ inline std::vector<Parts> all_parts() {
 
 inline std::string name_of(Parts const& parts) {
     constexpr char const* dampings[] = {"point", "rate", "restitution"};
-    return std::string(parts.law == Law::paper ? "paper_" : "conservative_") +
+    return std::string(info(parts.law).name) + "_" +
            dampings[static_cast<int>(parts.damping)] + (parts.friction ? "_friction" : "") +
            (parts.misaligned_way ? "_way" : "");
 }
@@ -34,6 +34,7 @@ inline std::vector<Inputs> varied_members(std::size_t count, Parts const& parts)
         auto& in = members[i];
         double const x = static_cast<double>(i) / static_cast<double>(count);
         in.crank_speed *= 1 + x;
+        in = with_own(in, parts.law, 40 * x);
         in.hertz_exponent = i % 3 == 0 ? 1.4 : 1.5;  // both power paths inside one pack
         if (parts.damping == Damping::rate) in.chi_line = in.chi_surface = 10 * x;
         if (parts.damping == Damping::restitution) in.restitution = 0.3 + 0.6 * x;

@@ -142,7 +142,9 @@ TEST(BlockImage, BringsBackWhatARunLeaves) {
     for (auto const& [name, plan] : plans()) {
         SCOPED_TRACE(name);
         auto const instance = find_instance(Isa::scalar, plan.parts);
-        auto const run = plan.shadows.count > 0 ? instance.run_shadowed : instance.run;
+        auto const run = [&, shadowed = plan.shadows.count > 0](Block& block) {
+            shadowed ? instance.run_shadowed(block) : instance.run(block);
+        };
         OwnedBlock here(plan), there(plan);
         run(here.block);
         ImageSize const size = image_size(there.block);

@@ -48,11 +48,49 @@ TEST_F(Usage, CheckShowsThePartsOfEachMechanism) {
     };
     EXPECT_EQ(parts("kind = \"carriage\""),
               "parts in     carriage mechanism; paper law; damping of point contacts\n"
-              "parts out    conservative law; damping of line and surface contacts; restitution; friction; pose of a "
+              "parts out    conservative law; kelvin_voigt law; damping of line and surface contacts; restitution; friction; pose of a "
               "misaligned way; time series");
     EXPECT_EQ(parts("kind = \"planar_slider_crank\"\ncrank = \"free\"\n[contact]\nrestitution = 0.5"),
               "parts in     planar_slider_crank mechanism; free crank; contact of corners; restitution\n"
               "parts out    friction; time series");
+}
+
+TEST_F(Usage, CheckShowsThePartsOfEachLaw) {
+    for (LawInfo const& law : laws()) {
+        write("l.toml", fmt::format("schema = 1\n[contact]\nlaw = \"{}\"\n[study]\nduration = \"1 ms\"\n", law.name));
+        std::string const out = run({"check", "l.toml"}).out;
+        auto const from = out.find("parts in");
+        std::string const in = out.substr(from, out.find('\n', from) - from);
+        auto const after = out.find("parts out");
+        std::string const left = out.substr(after, out.find('\n', after) - after);
+        EXPECT_EQ(in, fmt::format("parts in     slider_crank mechanism; {} law; {}", law.name,
+                                  law.has(Damping::restitution) ? std::string("damping of point contacts")
+                                                                : fmt::format("damping of the {} law", law.name)));
+        for (LawInfo const& other : laws()) {
+            EXPECT_EQ(left.find(fmt::format(" {} law;", other.name)) != left.npos, other.name != law.name) << left;
+        }
+        EXPECT_EQ(left.find("restitution") != left.npos, law.has(Damping::restitution)) << left;
+        EXPECT_EQ(left.find("line and surface") != left.npos, law.has(Damping::rate)) << left;
+        for (Key const& key : law.keys) EXPECT_NE(out.find(key.name.substr(8)), out.npos) << key.name;
+    }
+}
+
+TEST_F(Usage, ListShowsWhatEachLawHas) {
+    std::string const list = run({"list"}).out;
+    for (LawInfo const& law : laws()) {
+        EXPECT_NE(list.find(fmt::format("\n  {:<30} {}\n", law.name, law.words)), list.npos) << law.name;
+        for (Key const& key : law.keys) EXPECT_NE(list.find(fmt::format("{} [{}]: {}", key.name, key.unit, key.meaning)), list.npos);
+    }
+    for (char const* const lines : {
+             "one mode per face: surface, lines or points (makes energy where it switches)\n"
+             "                                 damping: point, rate, restitution\n  conservative ",
+             "no modes\n"
+             "                                 damping: its own alone\n"
+             "                                 contact.apex_stiffness [N/m]: stiffness of an apex; default follows from others\n"
+             "                                 contact.apex_damping [N s/m]: damping of an apex; default 0\n",
+         }) {
+        EXPECT_NE(list.find(lines), list.npos) << lines;
+    }
 }
 
 TEST_F(Usage, ListShowsWhatEachMechanismHas) {
@@ -63,8 +101,16 @@ TEST_F(Usage, ListShowsWhatEachMechanismHas) {
              "  peak_crank_torque              N m      largest magnitude of the drive torque, crank weight included "
              "(slider_crank, planar_slider_crank)\n",
              "  crank_angle                    rad      angle of the crank (planar_slider_crank)\n",
-             "  mechanism.stroke               m        way of the carriage at constant speed (carriage)\n",
-             "  mechanism.gravity              m/s2     gravity\n",
+             "  mechanism.stroke               m        way of the carriage at constant speed; default 0.15 (carriage)\n",
+             "  mechanism.gravity              m/s2     gravity; default 9.81\n",
+             "  mechanism.slider_mass          kg       mass of the slider; default follows from others\n",
+             "  mechanism.crank_length         m        crank length; default 0.05 (slider_crank, scotch_yoke, "
+             "planar_slider_crank)\n",
+             "  contact.eta                    1        damping ratio of point contacts; default 0.01 (contact.law paper, "
+             "conservative)\n",
+             "  contact.slider_young_modulus   Pa       modulus of the slider; default 2.07e+11\n",
+             "  contact.apex_damping           N s/m    damping of an apex; default 0 (slider_crank, carriage, scotch_yoke, "
+             "free_slider) (contact.law kelvin_voigt)\n",
          }) {
         EXPECT_NE(list.find(line), std::string::npos) << line;
     }
@@ -92,14 +138,26 @@ TEST_F(Usage, OfOptionsOfRun) {
     EXPECT_FALSE(std::filesystem::exists(path("s.nc")));
 }
 
-TEST_F(Usage, OfAnInstructionSetThatThisMachineLacks) {
+TEST_F(Usage, OfAnInstructionSetThatThisMachineOrBuildLacks) {
+    std::string const list = run({"list"}).out;
+    int lacking = 0;
     for (Isa const isa : all_isas()) {
         std::string const name(name_of(isa));
-        if (is_supported(isa))
+        auto const row = list.find("\n  " + name + ' ');
+        ASSERT_NE(row, std::string::npos) << name;
+        std::string const told = list.substr(row + 1, list.find('\n', row + 1) - row - 1);
+        EXPECT_EQ(told.ends_with(", not in this build"), !is_built(isa)) << told;
+        if (is_supported(isa)) {
             EXPECT_EQ(run({"probe", "s.toml", "--isa", name}).code, 0);
-        else
-            expect_refusal(2, "--isa " + name, {"probe", "s.toml", "--isa", name});
+            continue;
+        }
+        char const* const why =
+            is_built(isa) ? ": this machine does not have it" : ": is not in this build, which has ";
+        for (char const* const command : {"probe", "run"})
+            expect_refusal(2, "--isa " + name + why, {command, "s.toml", "--isa", name});
+        ++lacking;
     }
+    EXPECT_GT(lacking, 0) << "no build is for two kinds of processors";
 }
 
 TEST_F(Usage, OfScenes) {

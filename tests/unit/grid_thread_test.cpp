@@ -33,7 +33,7 @@ bool has_shadows(BlockPlan const& plan) { return plan.shadows.count > 0; }
 /// The processor's program, which integrates the block alone.
 void run_alone(OwnedBlock& owned) {
     auto const instance = find_instance(Isa::scalar, owned.plan().parts);
-    (has_shadows(owned.plan()) ? instance.run_shadowed : instance.run)(owned.block);
+    has_shadows(owned.plan()) ? instance.run_shadowed(owned.block) : instance.run(owned.block);
 }
 
 GridState run_grid(OwnedBlock& owned, int threads) {

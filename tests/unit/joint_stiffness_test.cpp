@@ -6,17 +6,15 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <memory>
 #include <numeric>
 #include <string>
 
-#include "kernels/laws/conservative.hpp"
-#include "kernels/laws/paper.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"
-#include "kernels/mechanisms/slider_crank_linearisation.hpp"
 #include "tests/oracle/golden_table.hpp"
+#include "tests/oracle/names.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/random_states.hpp"
+#include "tests/support/every_law.hpp"
 
 namespace slideway {
 namespace {
@@ -26,90 +24,52 @@ using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
 /// Contacts without force: what is left of the derivative is not the joint's.
 struct Forceless {
-    static constexpr bool switches = false;
-    template <class Damping, bool Full = true, class Real>
+    template <bool Full, class Real>
     static FaceForces<Real> forces(FaceMotion<Real> const&, FaceContact<Real> const&, ContactParameters<Real> const&) {
-        return {{0, 0, 0, 0}, {0, 0, 0, 0}, 0, false};
+        return no_forces<Real>();
     }
 };
 
-/// What the test asks of a model.  There are 24: all but this interface is compiled once for all of them.
+/// The slider-crank of a case, with and without its contacts' forces.
 class Contacts {
 public:
-    virtual ~Contacts() = default;
-    [[nodiscard]] virtual SliderLinearisation<double> linearised() const = 0;
-    virtual void rates(oracle::State const& state, double (&rates)[10]) const = 0;
-    virtual void rates_without_force(oracle::State const& state, double (&rates)[10]) const = 0;
-};
-
-template <class Law, class Friction, class Way, class Damping> class ContactsOf : public Contacts {
-public:
-    using Model = SliderCrank<Law, Friction, Way, Damping>;
-    using Free = SliderCrank<Forceless, NoFriction, Way, PointDamping>;  // without forces, the others differ in nothing
-
-    ContactsOf(oracle::Case const& c, SliderParameters<double> const& p) : c_(c), p_(p) {
+    Contacts(oracle::Case const& c, SliderParameters<double> const& p)
+        : c_(c), p_(p), block_(testing::conditions_of<double>(c.parts)), forceless_({}, block_.switches, c.parts) {
         start_memory(memory_);
-        if constexpr (Model::has_memory) {
-            for (int face = 0; face < face_count; ++face) {
-                auto const speed = [&](int k) {
-                    return c.impact_speeds[static_cast<std::size_t>((face < 2 ? 0 : 8) + face_apex(face, k))];
-                };
-                memory_.speeds[face] = {speed(0), speed(1), speed(2), speed(3)};
-            }
+        for (int face = 0; face < face_count; ++face) {
+            auto const speed = [&](int k) {
+                return c.impact_speeds[static_cast<std::size_t>((face < 2 ? 0 : 8) + face_apex(face, k))];
+            };
+            memory_.impact_speed[face] = {speed(0), speed(1), speed(2), speed(3)};
         }
+        forceless_.friction = false;  // without forces there is none
     }
 
-    [[nodiscard]] SliderLinearisation<double> linearised() const override {
+    [[nodiscard]] SliderLinearisation<double> linearised() const {
         SliderLinearisation<double> at;
-        linearise<Model>(c_.t, c_.state.data(), p_, memory_, at);
+        SliderCrank::linearise(c_.t, c_.state.data(), p_, memory_, block_, at);
         return at;
     }
-    void rates(oracle::State const& state, double (&rates)[10]) const override {
-        Model::template derivative<false, double>(c_.t, state.data(), p_, memory_, rates, nullptr);
+    void rates(oracle::State const& state, double (&rates)[10]) const {
+        SliderCrank::derivative<false, double>(c_.t, state.data(), p_, memory_, block_, rates, nullptr);
     }
-    void rates_without_force(oracle::State const& state, double (&rates)[10]) const override {
-        Free::template derivative<false, double>(c_.t, state.data(), p_, {}, rates, nullptr);
+    void rates_without_force(oracle::State const& state, double (&rates)[10]) const {
+        SliderCrank::derivative<false, double>(c_.t, state.data(), p_, memory_, forceless_, rates, nullptr);
     }
 
 private:
     oracle::Case const& c_;
     SliderParameters<double> const& p_;
-    typename Model::template Memory<double> memory_;
+    Conditions<LawFunctions<double>> block_;
+    Conditions<Forceless> forceless_;
+    ContactMemory<double> memory_;
 };
-
-using ContactsPointer = std::unique_ptr<Contacts>;
-
-template <class Law, class Friction, class Way>
-ContactsPointer by_damping(oracle::Case const& c, SliderParameters<double> const& p) {
-    switch (c.parts.damping) {
-        case Damping::point:
-            return std::make_unique<ContactsOf<Law, Friction, Way, PointDamping>>(c, p);
-        case Damping::rate:
-            return std::make_unique<ContactsOf<Law, Friction, Way, RateDamping>>(c, p);
-        case Damping::restitution:
-            break;
-    }
-    return std::make_unique<ContactsOf<Law, Friction, Way, RestitutionDamping>>(c, p);
-}
-template <class Law, class Friction>
-ContactsPointer by_way(oracle::Case const& c, SliderParameters<double> const& p) {
-    if (c.parts.misaligned_way) return by_damping<Law, Friction, MisalignedWay>(c, p);
-    return by_damping<Law, Friction, AlignedWay>(c, p);
-}
-template <class Law> ContactsPointer by_friction(oracle::Case const& c, SliderParameters<double> const& p) {
-    if (c.parts.friction) return by_way<Law, StickSlipFriction>(c, p);
-    return by_way<Law, NoFriction>(c, p);
-}
-ContactsPointer contacts_of(oracle::Case const& c, SliderParameters<double> const& p) {
-    if (c.parts.law == Law::paper) return by_friction<PaperLaw>(c, p);
-    return by_friction<ConservativeLaw>(c, p);
-}
 
 /// One case: the state, its model and what the differences need.
 class Linearised {
 public:
     explicit Linearised(oracle::Case const& c)
-        : c_(c), p_(slider_parameters(c.inputs)), contacts_(contacts_of(c, p_)), at_(contacts_->linearised()) {
+        : c_(c), p_(slider_parameters(c.inputs)), contacts_(c, p_), at_(contacts_.linearised()) {
         mass_.setZero();
         mass_(0, 0) = at_.mass_y, mass_(1, 1) = at_.mass_z, mass_(0, 1) = mass_(1, 0) = at_.mass_yz;
         mass_(2, 2) = at_.inertia.x, mass_(3, 3) = at_.inertia.y, mass_(4, 4) = at_.inertia.z;
@@ -122,8 +82,8 @@ public:
     /// M (ν'(state) − ν' without contact forces): the generalized force of the contacts.
     [[nodiscard]] Vector5 contact_force(oracle::State const& state) const {
         double with[10], without[10];
-        contacts_->rates(state, with);
-        contacts_->rates_without_force(state, without);
+        contacts_.rates(state, with);
+        contacts_.rates_without_force(state, without);
         Vector5 a;
         for (int i : {0, 1, 2, 3, 4}) a(i) = with[place(i)] - without[place(i)];
         // The forces see the pose's own κ; it hardly changes over a difference.
@@ -158,7 +118,7 @@ private:
 
     oracle::Case const& c_;
     SliderParameters<double> p_;
-    ContactsPointer contacts_;
+    Contacts contacts_;
     SliderLinearisation<double> at_;
     Matrix5 mass_;
 };
@@ -216,9 +176,19 @@ TEST(JointStiffness, IsTheDerivativeOfTheContactForces) {
     EXPECT_GT(compared, 1500);
 }
 
+TEST(JointStiffness, IsTheDerivativeOfTheContactForcesOfEveryLaw) {
+    for (Law const law : oracle::every_law()) {
+        int compared = 0;
+        auto const cases = oracle::make_cases(12, 800, Mechanism::slider_crank, law);
+        for (std::size_t i = 0; i < cases.size(); ++i)
+            compare(cases[i], oracle::name_of(law) + ", case " + std::to_string(i), compared);
+        EXPECT_GT(compared, 500) << oracle::name_of(law);
+    }
+}
+
 TEST(JointStiffness, IsTheDerivativeOfTheContactForcesOnTheGoldenStates) {
     int compared = 0;
-    for (auto const* name : {"rhs_paper.csv", "rhs_conservative.csv", "rhs_parameters.csv"}) {
+    for (auto const* name : {"rhs_paper.csv", "rhs_conservative.csv", "rhs_parameters.csv", "rhs_kelvin_voigt.csv", "rhs_kelvin_voigt_parameters.csv"}) {
         auto const table = golden::Table::read(std::filesystem::path(SLIDEWAY_TEST_DATA) / "golden" / name);
         for (std::size_t row = 0; row < table.rows(); ++row) {
             auto const g = golden::case_of(table, row);

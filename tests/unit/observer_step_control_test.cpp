@@ -5,14 +5,13 @@
 #include <limits>
 
 #include "host/scene/keys.hpp"
-#include "kernels/laws/paper.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"
 #include "kernels/steppers/step_control.hpp"
 
 namespace slideway {
 namespace {
 
-using Model = SliderCrank<PaperLaw, NoFriction, AlignedWay, PointDamping>;
+using Model = SliderCrank;
 
 /// 0.9 e^(−0.17) m^0.04 with e the error and m the last accepted one: Gustafsson's control with β = 0.04 for order 5.
 double wished(double error, double last) { return 0.9 * std::pow(error, -0.17) * std::pow(last, 0.04); }

@@ -41,19 +41,19 @@ Report with_energy(double energy) {
     return r;
 }
 
-/// The observer with room for its results.
-template <class Observer> class WatchedBy {
+/// The observer with room for its results.  @tparam switches of the law
+template <bool switches> class WatchedUnder {
 public:
-    WatchedBy() { row_.fill(unwritten); }
+    WatchedUnder() { row_.fill(unwritten); }
 
-    void start(Report const& r, State const& state = {}) { observer_.start(true, r, state.data()); }
+    void start(Report const& r, State const& state = {}) { observer_.start(true, r, state.data(), switches); }
     /// One step of length h whose integrands all have the given stage means.
     void step(double h, Report const& r, State const& state = {}, std::vector<double> means = {},
               bool accepted = true) {
         means.resize(Observer::integrals, 0.0);
-        observer_.accept(accepted, h, means.data(), r, state.data());
+        observer_.accept(accepted, h, means.data(), r, state.data(), switches);
     }
-    void resume(Report const& r) { observer_.resume(true, r); }
+    void resume(Report const& r) { observer_.resume(true, r, switches); }
     void finish(double time, Selection selected = everything) { observer_.finish(0, time, selected, row_.data()); }
     double operator()(Quantity q, int column = 0) const {
         return row_[static_cast<std::size_t>(quantity_column(q) + column)];
@@ -68,7 +68,7 @@ private:
     std::array<double, quantity_columns> row_{};
 };
 
-using Watched = WatchedBy<Observer>;
+using Watched = WatchedUnder<false>;
 
 /// Integrands, in their order, of a report whose numbers all differ.
 Report busy() {
@@ -119,22 +119,23 @@ TEST(Observer, PeaksAreTheLargestOfStartAndAcceptedSteps) {
     }
 }
 
+/// Where an integral stands; those of the audit come first, in the table's order.
+template <Quantity q> constexpr int place = Observer::Places::integral_of<q>;
+static_assert(place<Quantity::crank_work> == 0 && place<Quantity::friction_loss> == 1 && place<Quantity::damping_loss> == 2);
+
 TEST(Observer, IntegrandsAreThoseOfTheTable) {
     double values[Observer::integrals];
     Observer::integrands(busy(), values);
-    EXPECT_EQ(values[0], 2);
-    EXPECT_EQ(values[1], 3);
-    EXPECT_EQ(values[2], 5);
-    EXPECT_EQ(values[3], 4444 + 6 * 4);
-    EXPECT_EQ(values[4], 49);
-    EXPECT_EQ(values[5], 121);
-    EXPECT_EQ(values[6], 169);
-    EXPECT_EQ(values[7], 2);
-    for (int apex = 0; apex < 8; ++apex) EXPECT_EQ(values[8 + apex], apex_forces[apex]) << apex;
-    using Switching = SliderObserver<double, false>;
-    double more[Switching::integrals];
-    Switching::integrands(busy(), more);
-    EXPECT_EQ(more[Switching::integrals - 1], 19) << "the springs' power";
+    EXPECT_EQ(values[place<Quantity::crank_work>], 2);
+    EXPECT_EQ(values[place<Quantity::friction_loss>], 3);
+    EXPECT_EQ(values[place<Quantity::damping_loss>], 5);
+    EXPECT_EQ(values[place<Quantity::mean_normal_force>], 4444 + 6 * 4);
+    EXPECT_EQ(values[place<Quantity::rms_crank_torque>], 49);
+    EXPECT_EQ(values[place<Quantity::rms_position_error>], 121);
+    EXPECT_EQ(values[place<Quantity::rms_rod_angular_velocity>], 169);
+    EXPECT_EQ(values[Observer::integrals - 2], 2) << "the magnitude of the crank's power";
+    for (int apex = 0; apex < 8; ++apex) EXPECT_EQ(values[place<Quantity::mean_apex_force> + apex], apex_forces[apex]) << apex;
+    EXPECT_EQ(values[Observer::integrals - 1], 19) << "the springs' power";
 }
 
 TEST(AccelerationRecord, HoldsPeaksMeanSquaresAndAreas) {
@@ -189,12 +190,13 @@ TEST(Observer, MeansAndSumsAreIntegralsOfTheSteps) {
     EXPECT_EQ(watched(Quantity::damping_loss), 21);
     EXPECT_EQ(watched(Quantity::energy_change), 2.5);
     EXPECT_EQ(watched(Quantity::energy_residual), 2.5 - 7 + 14 + 21);
-    EXPECT_EQ(watched(Quantity::mean_normal_force), 28 / 4.0);
-    EXPECT_EQ(watched(Quantity::rms_crank_torque), std::sqrt(35 / 4.0));
-    EXPECT_EQ(watched(Quantity::rms_position_error), std::sqrt(42 / 4.0));
-    EXPECT_EQ(watched(Quantity::rms_rod_angular_velocity), std::sqrt(49 / 4.0));
+    auto const mean = [](int at) { return 7 * (at + 1) / 4.0; };
+    EXPECT_EQ(watched(Quantity::mean_normal_force), mean(place<Quantity::mean_normal_force>));
+    EXPECT_EQ(watched(Quantity::rms_crank_torque), std::sqrt(mean(place<Quantity::rms_crank_torque>)));
+    EXPECT_EQ(watched(Quantity::rms_position_error), std::sqrt(mean(place<Quantity::rms_position_error>)));
+    EXPECT_EQ(watched(Quantity::rms_rod_angular_velocity), std::sqrt(mean(place<Quantity::rms_rod_angular_velocity>)));
     for (int apex = 0; apex < 8; ++apex)
-        EXPECT_EQ(watched(Quantity::mean_apex_force, apex), 7 * (9 + apex) / 4.0) << apex;
+        EXPECT_EQ(watched(Quantity::mean_apex_force, apex), mean(place<Quantity::mean_apex_force> + apex)) << apex;
 }
 
 /// E and U at the end of a step, and the first of the apices that touch.
@@ -209,14 +211,14 @@ Report with_contact(double energy, double potential, int apices) {
 
 /// Means of a step whose springs took up `taken_up` and which lost `loss` to friction.
 std::vector<double> audit_means(double taken_up, double loss) {
-    std::vector<double> means(SliderObserver<double, false>::integrals, 0.0);
-    means[1] = loss;
-    means[static_cast<std::size_t>(SliderObserver<double, false>::integrals - 1)] = taken_up;
+    std::vector<double> means(Observer::integrals, 0.0);
+    means[place<Quantity::friction_loss>] = loss;
+    means[Observer::integrals - 1] = taken_up;
     return means;
 }
 
 TEST(Observer, OfAConservingLawBlamesTheMethodForTheResidual) {
-    WatchedBy<SliderObserver<double>> watched;
+    Watched watched;
     watched.start(with_contact(10, 1, 1));
     watched.step(2, with_contact(13, 5, 3), {}, audit_means(0, 0.5));  // + 4
     watched.step(2, with_contact(11, 2, 3), {}, audit_means(0, 0.5));  // − 1
@@ -229,7 +231,7 @@ TEST(Observer, OfAConservingLawBlamesTheMethodForTheResidual) {
 }
 
 TEST(Observer, OfASwitchingLawLeavesToTheLawWhatItMadeByASwitch) {
-    using Switching = WatchedBy<SliderObserver<double, false>>;
+    using Switching = WatchedUnder<true>;
     // Springs that took up 3 hold 7 after a switch: the law made 4, and the method the rest of E's 4.5.
     Switching switching;
     switching.start(with_contact(10, 1, 1));
@@ -248,7 +250,7 @@ TEST(Observer, OfASwitchingLawLeavesToTheLawWhatItMadeByASwitch) {
 }
 
 TEST(Observer, ResumesWhereTheLawChangedWithoutAStep) {
-    WatchedBy<SliderObserver<double, false>> watched;
+    WatchedUnder<true> watched;
     watched.start(with_contact(10, 1, 2));
     watched.resume(with_contact(12, 3, 2));  // located, it makes 2
     watched.step(1, with_contact(12, 3, 2));

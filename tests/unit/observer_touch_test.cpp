@@ -4,13 +4,17 @@
 #include <cmath>
 #include <vector>
 
-#include "kernels/steppers/mode_locator.hpp"
-#include "kernels/steppers/touch.hpp"
+#include "kernels/joint/contact_report.hpp"
+#include "kernels/steppers/contact_watch.hpp"
 
 namespace slideway {
 namespace {
 
+using Watch = ContactWatch<double>;
+using Memory = ContactMemory<double>;
+
 constexpr double clearance = 1e-4;
+constexpr double touch_tolerance = Watch::tolerance(Watching::touches), mode_tolerance = Watch::tolerance(Watching::modes);
 
 /// The sixteen apex–face pairs, one after the other.
 struct Pair {
@@ -39,100 +43,101 @@ ContactReport<double> apart() {
     return r;
 }
 
-ImpactMemory<double> memory_of(double speed) {
-    ImpactMemory<double> memory;
-    for (auto& face : memory.speeds) face = {speed, speed, speed, speed};
+Memory memory_of(double speed) {
+    Memory memory;
+    start_memory(memory);
+    for (auto& face : memory.impact_speed) face = {speed, speed, speed, speed};
     return memory;
 }
 
-TEST(TouchLocator, FindsWhereAnyPairMeetsItsFace) {
+TEST(Touches, FindsWhereAnyPairMeetsItsFace) {
     // δ(t) = −g + v t + b t²/2 is a parabola, which the cubic through both ends renders exactly.
     double const step = 2e-3, gap = 3e-5, v = 0.02, b = 10;
     double const touch = (std::sqrt(v * v + 2 * b * gap) - v) / b;
     for (auto const& p : pairs()) {
-        TouchLocator<double> touches;
+        Watch touches;
         auto start = apart(), end = apart();
         depth(start, p) = -gap, rate(start, p) = v;
         depth(end, p) = -gap + v * step + 0.5 * b * step * step, rate(end, p) = v + b * step;
         touches.keep(true, start);
-        EXPECT_NEAR(touches.earliest(true, end, step, clearance * touches.tolerance, memory_of(0.05)), touch / step,
+        EXPECT_NEAR(touches.earliest(true, end, step, clearance * touch_tolerance, Watching::touches), touch / step,
                     1e-6)
             << p.face;
-        EXPECT_EQ(touches.earliest(false, end, step, clearance * touches.tolerance, memory_of(0.05)), 1.0)
+        EXPECT_EQ(touches.earliest(false, end, step, clearance * touch_tolerance, Watching::touches), 1.0)
             << "a rejected lane is not searched";
     }
 }
 
-TEST(TouchLocator, TakesTheFirstOfSeveral) {
+TEST(Touches, TakesTheFirstOfSeveral) {
     auto const all = pairs();
     for (std::size_t i = 0; i < all.size(); ++i) {
-        TouchLocator<double> touches;
+        Watch touches;
         auto start = apart(), end = apart();
         // Straight lines: pair i meets its face at a quarter of the step, its neighbour in the list half way.
         auto const& other = all[(i + 1) % all.size()];
         depth(start, all[i]) = -1e-5, depth(end, all[i]) = 3e-5, rate(start, all[i]) = rate(end, all[i]) = 4e-5;
         depth(start, other) = -1e-5, depth(end, other) = 1e-5, rate(start, other) = rate(end, other) = 2e-5;
         touches.keep(true, start);
-        EXPECT_NEAR(touches.earliest(true, end, 1.0, clearance * touches.tolerance, memory_of(0.05)), 0.25, 1e-6);
+        EXPECT_NEAR(touches.earliest(true, end, 1.0, clearance * touch_tolerance, Watching::touches), 0.25, 1e-6);
     }
 }
 
-TEST(TouchLocator, LeavesAStepThatEndsAtItsTouch) {
-    TouchLocator<double> touches;
+TEST(Touches, LeavesAStepThatEndsAtItsTouch) {
+    Watch touches;
     auto end = apart();
     touches.keep(true, apart());
     auto const p = pairs()[5];
     rate(end, p) = 0.1;
-    depth(end, p) = 0.9 * TouchLocator<double>::tolerance * clearance;
-    EXPECT_EQ(touches.earliest(true, end, 1e-3, clearance * touches.tolerance, memory_of(0.05)), 1.0);
-    depth(end, p) = 1.1 * TouchLocator<double>::tolerance * clearance;
-    EXPECT_LT(touches.earliest(true, end, 1e-3, clearance * touches.tolerance, memory_of(0.05)), 1.0);
+    depth(end, p) = 0.9 * touch_tolerance * clearance;
+    EXPECT_EQ(touches.earliest(true, end, 1e-3, clearance * touch_tolerance, Watching::touches), 1.0);
+    depth(end, p) = 1.1 * touch_tolerance * clearance;
+    EXPECT_LT(touches.earliest(true, end, 1e-3, clearance * touch_tolerance, Watching::touches), 1.0);
 }
 
-TEST(TouchLocator, SetsTheSpeedOfThePairThatTouched) {
+TEST(Touches, SetsTheSpeedOfThePairThatTouched) {
     for (auto const& touching : pairs()) {
-        TouchLocator<double> touches;
+        Watch touches;
         touches.keep(true, apart());
         auto end = apart();
         for (auto const& p : pairs()) rate(end, p) = 0.7;  // rates of pairs that do not touch are nobody's speed
         depth(end, touching) = 1e-13;
         rate(end, touching) = 0.3;
         auto memory = memory_of(0.05);
-        EXPECT_FALSE(touches.update(false, end, memory, nullptr)) << "a rejected step touches nothing";
-        for (auto const& p : pairs()) EXPECT_EQ(memory.speeds[p.face].*p.apex, 0.05);
-        EXPECT_TRUE(touches.update(true, end, memory, nullptr));
+        EXPECT_FALSE(touches.update(false, end, memory, nullptr, Watching::touches)) << "a rejected step touches nothing";
+        for (auto const& p : pairs()) EXPECT_EQ(memory.impact_speed[p.face].*p.apex, 0.05);
+        EXPECT_TRUE(touches.update(true, end, memory, nullptr, Watching::touches));
         for (auto const& p : pairs()) {
             bool const same = p.face == touching.face && p.apex == touching.apex;
-            EXPECT_EQ(memory.speeds[p.face].*p.apex, same ? 0.3 : 0.05);
+            EXPECT_EQ(memory.impact_speed[p.face].*p.apex, same ? 0.3 : 0.05);
         }
         rate(end, touching) = 0.9;
-        EXPECT_FALSE(touches.update(true, end, memory, nullptr)) << "what touches already does not touch again";
-        EXPECT_EQ(memory.speeds[touching.face].*touching.apex, 0.3);
+        EXPECT_FALSE(touches.update(true, end, memory, nullptr, Watching::touches)) << "what touches already does not touch again";
+        EXPECT_EQ(memory.impact_speed[touching.face].*touching.apex, 0.3);
     }
 }
 
-TEST(TouchLocator, NeverRemembersLessThanTheLeastSpeed) {
-    TouchLocator<double> touches;
+TEST(Touches, NeverRemembersLessThanTheLeastSpeed) {
+    Watch touches;
     touches.keep(true, apart());
     auto end = apart();
     for (auto const& p : pairs()) depth(end, p) = 1e-13, rate(end, p) = 1e-9;
     auto memory = memory_of(0.05);
-    EXPECT_TRUE(touches.update(true, end, memory, nullptr));
-    for (auto const& p : pairs()) EXPECT_EQ(memory.speeds[p.face].*p.apex, least_impact_speed);
+    EXPECT_TRUE(touches.update(true, end, memory, nullptr, Watching::touches));
+    for (auto const& p : pairs()) EXPECT_EQ(memory.impact_speed[p.face].*p.apex, least_impact_speed);
     EXPECT_EQ(least_impact_speed, 1e-4);
 }
 
-TEST(TouchLocator, KeepsTheGapsOfTheLastAcceptedStep) {
-    TouchLocator<double> touches;
+TEST(Touches, KeepsTheGapsOfTheLastAcceptedStep) {
+    Watch touches;
     auto inside = apart();
     auto const p = pairs()[9];
     depth(inside, p) = 1e-9;
     touches.keep(true, inside);
     touches.keep(false, apart());
     auto memory = memory_of(0.05);
-    EXPECT_FALSE(touches.update(true, inside, memory, nullptr)) << "a lane that was not taken keeps its old gaps";
+    EXPECT_FALSE(touches.update(true, inside, memory, nullptr, Watching::touches)) << "a lane that was not taken keeps its old gaps";
     touches.keep(true, apart());
-    EXPECT_TRUE(touches.update(true, inside, memory, nullptr));
+    EXPECT_TRUE(touches.update(true, inside, memory, nullptr, Watching::touches));
 }
 
 /// The ends of a step of length 1 in which the depth of `p` follows scale (θ − a)(θ − b), an arch or a valley.
@@ -144,21 +149,21 @@ struct Arc {
     }
 };
 
-double earliest_touch(Arc const& arc) {
-    TouchLocator<double> touches;
+double earliest_touch(Arc const& arc, Watching watching = Watching::touches) {
+    Watch touches;
     touches.keep(true, arc.start);
-    return touches.earliest(true, arc.end, 1.0, clearance * touches.tolerance, memory_of(0.05));
+    return touches.earliest(true, arc.end, 1.0, clearance * touch_tolerance, watching);
 }
 
 double earliest_change(Arc const& arc) {
-    ModeLocator<double> modes;
-    HeldContacts<double> held;
+    Watch modes;
+    Memory held;
     start_memory(held);
-    modes.begin(true, arc.start, held);
-    return modes.earliest(true, arc.end, 1.0, clearance * modes.tolerance, held);
+    modes.begin(true, arc.start, held, Watching::modes);
+    return modes.earliest(true, arc.end, 1.0, clearance * mode_tolerance, Watching::modes);
 }
 
-TEST(Locators, FindAPairThatMeetsAndLeavesItsFaceInOneStep) {
+TEST(ContactWatch, FindAPairThatMeetsAndLeavesItsFaceInOneStep) {
     for (auto const& p : pairs()) {
         // Down to the smallest arch that rises above what counts as located.
         for (double const width : {0.8, 0.3, 1e-2, 1e-3}) {
@@ -172,18 +177,19 @@ TEST(Locators, FindAPairThatMeetsAndLeavesItsFaceInOneStep) {
     }
 }
 
-TEST(Locators, FindAPairThatPartsAndTouchesAgainInOneStep) {
+TEST(ContactWatch, FindAPairThatPartsAndTouchesAgainInOneStep) {
     for (auto const& p : pairs()) {
         Arc const arc(p, clearance, 0.3, 0.8);
         EXPECT_NEAR(earliest_touch(arc), 0.3, 1e-6) << "the touch after it has a step of its own";
         EXPECT_NEAR(earliest_change(arc), 0.3, 1e-6);
         Arc const parts(p, clearance, 0.3, 1.8);
         EXPECT_EQ(earliest_touch(parts), 1.0) << "a parting alone is no touch";
+        EXPECT_NEAR(earliest_touch(parts, Watching::touches_and_parts), 0.3, 1e-6);
         EXPECT_NEAR(earliest_change(parts), 0.3, 1e-6);
     }
 }
 
-TEST(Locators, PlaceAChangeWithinTheirTolerance) {
+TEST(ContactWatch, PlaceAChangeWithinTheirTolerance) {
     for (double const scale : {-1.0, 1.0}) {
         for (double const a : {1e-6, 1e-3, 0.1, 0.37, 0.9}) {
             for (double const width : {0.03, 0.7, 20.0}) {
@@ -191,18 +197,18 @@ TEST(Locators, PlaceAChangeWithinTheirTolerance) {
                 // Past the zero, by less than what counts as located.
                 double const change = earliest_change(arc), past = (change - a) * (a + width - change);
                 EXPECT_GT(past, 0) << scale << ' ' << a << ' ' << width;
-                EXPECT_LT(past, ModeLocator<double>::tolerance) << scale << ' ' << a << ' ' << width;
+                EXPECT_LT(past, mode_tolerance) << scale << ' ' << a << ' ' << width;
             }
         }
     }
 }
 
-TEST(Locators, LeaveAStepThatStartsOrEndsAtAChange) {
+TEST(ContactWatch, LeaveAStepThatStartsOrEndsAtAChange) {
     for (auto const& p : pairs()) {
         for (double const hair : {1e-6, 0.5, 0.9}) {
             // Just turned over, and on its way: into the face, or away from it.
             Arc into(p, clearance, 0, -3.0), away(p, -clearance, 0, -3.0);
-            depth(into.start, p) = hair * ModeLocator<double>::tolerance * clearance;
+            depth(into.start, p) = hair * mode_tolerance * clearance;
             depth(away.start, p) = -depth(into.start, p);
             for (Arc const& arc : {into, away}) {
                 EXPECT_EQ(earliest_touch(arc), 1.0) << p.face << ' ' << hair;
@@ -212,7 +218,7 @@ TEST(Locators, LeaveAStepThatStartsOrEndsAtAChange) {
         // The end within the tolerance of the change.
         for (double const left : {1e-3, 0.4, 0.9}) {
             Arc ends(p, -clearance, 1.0, 4.0);
-            depth(ends.end, p) = left * ModeLocator<double>::tolerance * clearance;
+            depth(ends.end, p) = left * mode_tolerance * clearance;
             EXPECT_EQ(earliest_touch(ends), 1.0) << left;
             EXPECT_EQ(earliest_change(ends), 1.0) << left;
         }

@@ -24,6 +24,7 @@ struct Case {
 
 Case const cases[] = {
     {Mechanism::carriage, {"y", "z", "vy", "vz", "roll", "yaw", "pitch", "wx", "wy", "wz"}},
+    {Mechanism::scotch_yoke, {"y", "z", "vy", "vz", "roll", "yaw", "pitch", "wx", "wy", "wz"}},
     {Mechanism::free_slider, {"y", "z", "vy", "vz", "roll", "yaw", "pitch", "wx", "wy", "wz", "x", "vx"}},
     {Mechanism::planar_slider_crank,
      {"crank_angle", "rod_angle", "pitch", "crank_angular_velocity", "rod_angular_velocity", "wz"}},
@@ -113,6 +114,8 @@ TEST_P(MechanismsFile, HoldsEachMembersStates) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Mechanisms, MechanismsFile, ::testing::ValuesIn(cases), name_of_case);
+
+TEST(MechanismsFiles, AreOfEveryMechanism) { EXPECT_EQ(std::size(cases), mechanisms().size()); }
 
 TEST(MechanismsBlocks, TakeTheRoomOfTheirStates) {
     BlockRequest small, large;

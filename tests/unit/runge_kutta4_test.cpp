@@ -98,7 +98,7 @@ struct Driven {
         double lambda = 0, start = 1;
     };
     static constexpr int size = 1;
-    static constexpr bool has_memory = false;
+    static constexpr bool has_contacts = false;
     template <class Real> struct Parameters { Real lambda; };
     template <class Real> struct Report {};
     template <class Real> using Memory = NoMemory<Real>;

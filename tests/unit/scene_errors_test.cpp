@@ -9,6 +9,7 @@ namespace {
 
 using testing::contains;
 using testing::error_of;
+using testing::parts_with;
 
 /// The error of one line in a table, which is line 3 of the scene.
 std::string error_in(std::string_view table, std::string_view line) {
@@ -89,7 +90,7 @@ TEST(SceneErrors, UnknownNamesComeWithASuggestion) {
 
 TEST(SceneErrors, UnknownMechanismsAndStudies) {
     std::string known;
-    for (MechanismInfo const& mechanism : mechanism_table) {
+    for (MechanismInfo const& mechanism : mechanisms()) {
         known += (known.empty() ? "" : ", ") + std::string(mechanism.name);
     }
     EXPECT_TRUE(contains(known, "slider_crank, carriage, "));
@@ -134,11 +135,10 @@ TEST(SceneErrors, NanAnywhere) {
     for (Key const& key : keys()) {
         auto const dot = key.name.find('.');
         std::string const line = std::string(key.name.substr(dot + 1)) + " = nan";
-        // Under the first mechanism that has it.
-        int kind = 0;
-        while (!key.counts_for(static_cast<Mechanism>(kind))) ++kind;
-        std::string const error = error_of(fmt::format("schema = 1\n[{}]\n{}", key.name.substr(0, dot), line),
-                                           {{"mechanism.kind", mechanism_table[kind].name}});
+        Parts const parts = parts_with(key);
+        Overrides options{{"mechanism.kind", info(parts.mechanism).name}};
+        if (info(parts.mechanism).spatial) options.push_back({"contact.law", std::string(info(parts.law).name)});
+        std::string const error = error_of(fmt::format("schema = 1\n[{}]\n{}", key.name.substr(0, dot), line), options);
         EXPECT_EQ(error,
                   "scene.toml:3: " + std::string(key.name) + " is nan (not a finite number); use a finite number");
     }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -251,6 +252,43 @@ TEST(SceneFiles, TheFreeSliderFallsFree) {
     EXPECT_TRUE(scene.warnings.empty());
 }
 
+TEST(SceneFiles, TheScotchYokeIsTheStandardSceneWithoutARod) {
+    Scene const scene = read_scene(path_of("scotch_yoke.toml")), crank = read_scene(path_of("slider_crank_0.1mm.toml"));
+    EXPECT_EQ(scene.parts, (Parts{Law::kelvin_voigt, Damping::point, true, false, Mechanism::scotch_yoke}));
+    for (char const* const key : {"mechanism.crank_length", "mechanism.crank_speed", "joint.clearance_y", "joint.clearance_z",
+                                  "friction.static", "initial.z", "initial.roll", "initial.yaw", "initial.pitch"}) {
+        EXPECT_EQ(find_key(key)->get(scene.inputs), find_key(key)->get(crank.inputs)) << key;
+    }
+    EXPECT_TRUE(std::isnan(find_key("contact.apex_stiffness")->get(scene.inputs)));
+    EXPECT_EQ(find_key("contact.apex_damping")->get(scene.inputs), 2000);
+    EXPECT_EQ(scene.integrator.end_time, crank.integrator.end_time);
+    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_LT(deepest(complete_inputs(scene.inputs)), 0);
+}
+
+TEST(SceneFiles, EveryMechanismHasOne) {
+    std::set<Mechanism> found;
+    for (auto const& entry : std::filesystem::directory_iterator(SLIDEWAY_SCENES)) {
+        if (entry.path().extension() == ".toml") found.insert(read_scene(entry.path().string()).parts.mechanism);
+    }
+    EXPECT_EQ(found.size(), mechanisms().size());
+}
+
+TEST(SceneFiles, RunUnderEveryLaw) {
+    for (auto const& entry : std::filesystem::directory_iterator(SLIDEWAY_SCENES)) {
+        if (entry.path().extension() != ".toml") continue;
+        std::string const path = entry.path().string();
+        if (!info(read_scene(path).parts.mechanism).spatial) continue;
+        for (LawInfo const& law : laws()) {
+            Scene const scene = read_scene(path, {{"contact.law", std::string(law.name)}});
+            EXPECT_EQ(info(scene.parts.law).name, law.name) << path;
+            EXPECT_TRUE(law.has(scene.parts.damping)) << path << " " << law.name;
+            for (std::uint64_t i = 0; i < std::min<std::uint64_t>(scene.members, 3); ++i)
+                EXPECT_EQ(defect(member_inputs(scene, i), scene.parts), std::nullopt) << path << " " << law.name;
+        }
+    }
+}
+
 TEST(SceneFiles, ThePlanarMechanismIsTheBenchmarks) {
     Scene const scene = read_scene(path_of("planar_flores.toml"));
     Inputs const& in = scene.inputs;
@@ -281,7 +319,7 @@ TEST(SceneFiles, ResolveToThemselves) {
         EXPECT_EQ(resolved_toml(testing::scene_of(resolved)), resolved) << entry.path();
         ++files;
     }
-    EXPECT_GE(files, 19);
+    EXPECT_GE(files, 20);
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "host/scene/scene.hpp"
 
@@ -25,6 +27,33 @@ inline std::string error_of(std::string_view text, Overrides const& overrides = 
 }
 
 inline bool contains(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
+
+/// Every mechanism, those with eight apices under every law.
+inline std::vector<Parts> mechanisms_and_laws() {
+    std::vector<Parts> all;
+    for (std::size_t i = 0; i < mechanisms().size(); ++i) {
+        Parts parts;
+        parts.mechanism = static_cast<Mechanism>(i);
+        all.push_back(parts);
+        for (std::size_t law = 1; mechanisms()[i].spatial && law < laws().size(); ++law) {
+            parts.law = static_cast<Law>(law);
+            all.push_back(parts);
+        }
+    }
+    return all;
+}
+
+inline std::string name_of(Key const& key, Parts const& parts) {
+    return std::string(key.name) + " of " + info(parts.mechanism).name + ", " + std::string(info(parts.law).name);
+}
+
+/// The first of them for which a key counts.  @throws std::logic_error if it counts for none
+inline Parts parts_with(Key const& key) {
+    for (Parts const& parts : mechanisms_and_laws()) {
+        if (counts_for(key, parts)) return parts;
+    }
+    throw std::logic_error(std::string(key.name) + " counts for no mechanism and law");
+}
 
 inline std::string read_text(std::string const& path) {
     std::ifstream file(path, std::ios::binary);

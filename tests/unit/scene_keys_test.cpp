@@ -9,6 +9,7 @@
 
 #include "host/scene/keys.hpp"
 #include "host/scene/suggest.hpp"
+#include "tests/unit/scene_fixture.hpp"
 
 namespace slideway {
 namespace {
@@ -171,20 +172,33 @@ TEST(Keys, RulesHoldAtTheirLimits) {
 TEST(Keys, EveryKeyThatCountsRefusesNanAndInfinity) {
     int compared = 0;
     for (Key const& key : keys()) {
-        for (int i = 0; i < 4; ++i) {
-            Parts parts;
-            parts.mechanism = static_cast<Mechanism>(i);
-            bool const counts = key.counts_for(parts.mechanism);
-            Inputs in;
+        for (Parts const& parts : testing::mechanisms_and_laws()) {
+            std::string const what = testing::name_of(key, parts);
+            bool const counts = counts_for(key, parts);
+            Inputs in = with_presets({}, parts.law);
             key.set(in, std::numeric_limits<double>::infinity());
-            EXPECT_EQ(defect(in, parts).has_value(), counts) << key.name << ' ' << i;
-            bool const may_follow = std::isnan(key.get(Inputs{}));
+            EXPECT_EQ(defect(in, parts).has_value(), counts) << what;
+            bool const may_follow = std::isnan(key.preset);
             key.set(in, std::numeric_limits<double>::quiet_NaN());
-            EXPECT_EQ(defect(in, parts).has_value(), counts && !may_follow) << key.name << ' ' << i;
+            EXPECT_EQ(defect(in, parts).has_value(), counts && !may_follow) << what;
             compared += counts ? 1 : 0;
         }
     }
-    EXPECT_GT(compared, 100);
+    EXPECT_GT(compared, 500);
+}
+
+TEST(Keys, EachCountsForAMechanismAndALaw) {
+    for (auto const table : {keys(), twin_keys()}) {
+        for (Key const& key : table) EXPECT_NO_THROW(testing::parts_with(key)) << key.name;
+    }
+    // What a law or a mechanism claims to have, a key is in.
+    KeyGroups used = groups_of(KeyGroup::law);
+    for (Key const& key : input_keys) used |= groups_of(key.group);
+    for (LawInfo const& law : laws()) {
+        EXPECT_EQ(law.groups & ~(used & contact_groups), 0u) << law.name;
+        EXPECT_EQ(has_group(law.groups, KeyGroup::law), false) << law.name << ": its own keys count for it anyway";
+    }
+    for (MechanismInfo const& mechanism : mechanisms()) EXPECT_EQ(mechanism.keys & ~used, 0u) << mechanism.name;
 }
 
 TEST(Keys, HugeSizesWhoseMassesOverflowAreRefused) {

@@ -20,11 +20,12 @@ std::string with_kind(std::string const& kind, std::string const& lines = "") {
     return fmt::format("schema = 1\n[mechanism]\nkind = \"{}\"\n{}\n", kind, lines);
 }
 
-constexpr char const* kinds[] = {"slider_crank", "carriage", "free_slider", "planar_slider_crank"};
+constexpr char const* kinds[] = {"slider_crank", "carriage", "scotch_yoke", "free_slider", "planar_slider_crank"};
 
 TEST(SceneMechanisms, HaveTheirNames) {
-    for (int i = 0; i < 4; ++i) {
-        EXPECT_EQ(static_cast<int>(scene_of(with_kind(kinds[i], "[study]\nduration = 1")).parts.mechanism), i);
+    ASSERT_EQ(std::size(kinds), mechanisms().size());
+    for (std::size_t i = 0; i < std::size(kinds); ++i) {
+        EXPECT_EQ(static_cast<std::size_t>(scene_of(with_kind(kinds[i], "[study]\nduration = 1")).parts.mechanism), i);
     }
     EXPECT_FALSE(scene_of(with_kind("planar_slider_crank")).parts.free_crank);
     EXPECT_FALSE(scene_of(with_kind("planar_slider_crank", "crank = \"driven\"")).parts.free_crank);
@@ -39,6 +40,9 @@ TEST(SceneMechanisms, ReadTheirOwnKeys) {
     EXPECT_DOUBLE_EQ(carriage.inputs.carriage_speed, 0.093);
     EXPECT_DOUBLE_EQ(carriage.inputs.stroke, 0.1);
     EXPECT_DOUBLE_EQ(carriage.inputs.reversal_time, 0.03);
+    Scene const yoke = scene_of(with_kind("scotch_yoke", "crank_length = \"30 mm\"\nstart_angle = \"90 deg\""));
+    EXPECT_DOUBLE_EQ(yoke.inputs.crank_length, 0.03);
+    EXPECT_DOUBLE_EQ(yoke.inputs.start_angle, std::asin(1.0));
     Scene const free = scene_of(with_kind("free_slider", "[initial]\nx = \"1 cm\"\nvx = \"2 m/s\""));
     EXPECT_EQ(free.inputs.x, 0.01);
     EXPECT_EQ(free.inputs.vx, 2);
@@ -53,14 +57,17 @@ TEST(SceneMechanisms, ReadTheirOwnKeys) {
 struct Foreign {
     char const* table;
     char const* key;
-    char const* kinds;  // for which it counts, by their initials
+    char const* kinds;  // for which it counts, by their letters
 };
 
+/// Its initial; y of a scotch_yoke.
+char letter_of(std::string_view kind) { return kind == "scotch_yoke" ? 'y' : kind[0]; }
+
 constexpr Foreign keys_of_some[] = {
-    {"mechanism", "crank_length", "sp"},
+    {"mechanism", "crank_length", "syp"},
     {"mechanism", "rod_length", "sp"},
-    {"mechanism", "crank_speed", "sp"},
-    {"mechanism", "start_angle", "sp"},
+    {"mechanism", "crank_speed", "syp"},
+    {"mechanism", "start_angle", "syp"},
     {"mechanism", "crank_mass", "sp"},
     {"mechanism", "rod_mass", "sp"},
     {"mechanism", "rod_inertia", "sp"},
@@ -69,29 +76,29 @@ constexpr Foreign keys_of_some[] = {
     {"mechanism", "carriage_speed", "c"},
     {"mechanism", "stroke", "c"},
     {"mechanism", "reversal_time", "c"},
-    {"mechanism", "slider_inertia_x", "scf"},
-    {"mechanism", "slider_inertia_z", "scfp"},
-    {"mechanism", "gravity", "scfp"},
+    {"mechanism", "slider_inertia_x", "scyf"},
+    {"mechanism", "slider_inertia_z", "scyfp"},
+    {"mechanism", "gravity", "scyfp"},
     {"joint", "slider_height", "p"},
-    {"joint", "way_width", "scf"},
-    {"joint", "thickness_z", "scf"},
-    {"joint", "clearance_z", "scf"},
-    {"joint", "clearance_y", "scfp"},
-    {"joint", "clearance", "scfp"},
-    {"joint", "slider_length", "scfp"},
-    {"way", "offset_y", "scf"},
-    {"contact", "edge_radius", "scf"},
-    {"contact", "chi_line", "scf"},
-    {"contact", "apex_radius", "scfp"},
-    {"contact", "young_modulus", "scfp"},
-    {"contact", "point_stiffness", "scfp"},
-    {"friction", "static", "scfp"},
+    {"joint", "way_width", "scyf"},
+    {"joint", "thickness_z", "scyf"},
+    {"joint", "clearance_z", "scyf"},
+    {"joint", "clearance_y", "scyfp"},
+    {"joint", "clearance", "scyfp"},
+    {"joint", "slider_length", "scyfp"},
+    {"way", "offset_y", "scyf"},
+    {"contact", "edge_radius", "scyf"},
+    {"contact", "chi_line", "scyf"},
+    {"contact", "apex_radius", "scyfp"},
+    {"contact", "young_modulus", "scyfp"},
+    {"contact", "point_stiffness", "scyfp"},
+    {"friction", "static", "scyfp"},
     {"initial", "x", "f"},
     {"initial", "vx", "f"},
-    {"initial", "z", "scf"},
-    {"initial", "roll", "scf"},
-    {"initial", "wz", "scfp"},
-    {"initial", "pitch", "scfp"},
+    {"initial", "z", "scyf"},
+    {"initial", "roll", "scyf"},
+    {"initial", "wz", "scyfp"},
+    {"initial", "pitch", "scyfp"},
 };
 
 /// A value that every key of the list may have.
@@ -102,7 +109,7 @@ template <class Given> void for_every_kind_and_key(Given given) {
     for (char const* const kind : kinds) {
         for (Foreign const& key : keys_of_some) {
             std::string const name = fmt::format("{}.{}", key.table, key.key);
-            bool const counts = std::string_view(key.kinds).find(kind[0]) != std::string_view::npos;
+            bool const counts = std::string_view(key.kinds).find(letter_of(kind)) != std::string_view::npos;
             given(std::string(kind), key,
                   counts ? std::string() : fmt::format("{} has no meaning for kind = \"{}\"; remove it", name, kind));
         }
@@ -175,7 +182,7 @@ TEST(SceneMechanisms, ThePlanarOneHasNoLawAndNoWay) {
     EXPECT_EQ(planar("[contact]\nlaw = \"paper\""),
               "scene.toml:5: contact.law has no meaning for kind = \"planar_slider_crank\"; remove it");
     EXPECT_EQ(planar("[way]"), "scene.toml:4: way has no meaning for kind = \"planar_slider_crank\"; remove it");
-    for (char const* const kind : {"slider_crank", "carriage", "free_slider"}) {
+    for (char const* const kind : {"slider_crank", "carriage", "scotch_yoke", "free_slider"}) {
         EXPECT_EQ(error_of(with_kind(kind, "crank = \"free\"")),
                   fmt::format("scene.toml:4: mechanism.crank has no meaning for kind = \"{}\"; remove it", kind));
     }
@@ -197,7 +204,7 @@ TEST(SceneMechanisms, ThePlanarOneHasNoStiffMethod) {
     auto const warnings = scene_of(with_kind("planar_slider_crank", "[integrator]\nstiff_max_step = 1e-3")).warnings;
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_EQ(warnings[0], "integrator.stiff_max_step has no effect on a planar_slider_crank");
-    for (char const* const kind : {"carriage", "free_slider"}) {
+    for (char const* const kind : {"carriage", "scotch_yoke", "free_slider"}) {
         EXPECT_EQ(error_of(with_kind(kind, "[integrator]\nmethod = \"ros34pw2\"")), "");
     }
     // Nothing switches under the law that is not there: neighbours need no located modes.
@@ -214,6 +221,8 @@ TEST(SceneMechanisms, HaveTheirQuantitiesAndSeries) {
     };
     EXPECT_EQ(asked("carriage", "crank_torque"),
               "scene.toml:7: crank_torque is no quantity of a carriage; see `slideway list`");
+    EXPECT_EQ(asked("scotch_yoke", "rod_angular_velocity"),
+              "scene.toml:7: rod_angular_velocity is no quantity of a scotch_yoke; see `slideway list`");
     EXPECT_EQ(asked("free_slider", "crank_work"),
               "scene.toml:7: crank_work is no quantity of a free_slider; see `slideway list`");
     EXPECT_EQ(asked("planar_slider_crank", "mean_apex_force"),
@@ -222,6 +231,7 @@ TEST(SceneMechanisms, HaveTheirQuantitiesAndSeries) {
     EXPECT_NE(asked("slider_crank", "crank_angle"), "");
     for (char const* const name : {"crank_work", "x", "acceleration_top", "peak_channel_acceleration"}) {
         EXPECT_EQ(asked("carriage", name), "") << name;
+        EXPECT_EQ(asked("scotch_yoke", name), "") << name;
     }
     for (char const* const name : {"crank_torque", "rod_angle", "y", "peak_normal_force"}) {
         EXPECT_EQ(asked("planar_slider_crank", name), "") << name;
@@ -254,6 +264,7 @@ TEST(SceneMechanisms, StoreTheirStatesInEveryTimeSeries) {
     Selection const ten = 0x3ff;
     EXPECT_EQ(series_of("slider_crank"), ten);
     EXPECT_EQ(series_of("carriage"), ten);
+    EXPECT_EQ(series_of("scotch_yoke"), ten);
     EXPECT_EQ(series_of("carriage", "\"x\""), ten | selection_of(Series::x));
     EXPECT_EQ(series_of("free_slider"), ten | set({Series::x, Series::vx}));
     EXPECT_EQ(series_of("planar_slider_crank"),
@@ -283,6 +294,7 @@ TEST(SceneMechanisms, ResolveToThemselves) {
         contains(resolved_toml(scene_of(with_kind("planar_slider_crank", "crank = \"free\""))), "crank = \"free\"\n"));
     EXPECT_FALSE(contains(resolved_toml(scene_of(with_kind("planar_slider_crank"))), "law = "));
     EXPECT_FALSE(contains(resolved_toml(scene_of(with_kind("carriage"))), "rod_length"));
+    EXPECT_FALSE(contains(resolved_toml(scene_of(with_kind("scotch_yoke"))), "rod_length"));
 }
 
 }  // namespace

@@ -1,6 +1,4 @@
 // The linear systems of an implicit step: eliminated to five equations, against all ten.
-#include "kernels/mechanisms/slider_crank_linearisation.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -11,13 +9,15 @@
 #include <random>
 #include <string>
 
+#include "kernels/mechanisms/slider_crank.hpp"
 #include "tests/oracle/linear_solve.hpp"
 #include "tests/oracle/random_states.hpp"
+#include "tests/support/every_law.hpp"
 
 namespace slideway {
 namespace {
 
-using Model = SliderCrank<ConservativeLaw, StickSlipFriction, MisalignedWay, RateDamping>;
+constexpr Parts parts{Law::conservative, Damping::rate, true, true};
 using Linearisation = SliderLinearisation<double>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 using Matrix10 = Eigen::Matrix<double, 10, 10>;
@@ -26,11 +26,15 @@ using Vector10 = Eigen::Matrix<double, 10, 1>;
 // Where y z φ ϑ ψ and vy vz ωx ωy ωz lie in the state.
 constexpr int position_at[5] = {0, 1, 4, 5, 6}, velocity_at[5] = {2, 3, 7, 8, 9};
 
-Linearisation linearised(oracle::Case const& c) {
-    Model::Memory<double> memory{};
+Linearisation linearised(double t, double const* state, SliderParameters<double> const& p, Parts const& of) {
+    ContactMemory<double> memory;
+    start_memory(memory);
     Linearisation at;
-    linearise<Model, double>(c.t, c.state.data(), Model::parameters(c.inputs), memory, at);
+    SliderCrank::linearise(t, state, p, memory, testing::conditions_of<double>(of), at);
     return at;
+}
+Linearisation linearised(oracle::Case const& c, Parts const& of = parts) {
+    return linearised(c.t, c.state.data(), SliderCrank::parameters(c.inputs), of);
 }
 
 template <class Matrix> Matrix inverse(Matrix const& m) {
@@ -141,12 +145,10 @@ TEST(SliderLinearisation, ResidualTellsAWrongAnswer) {
 
 TEST(SliderLinearisation, RateSquaredIsTheSumOfTheSquaredFrequenciesAndTheSquaredDecay) {
     // Without friction −K is symmetric; where no term of the trace is negative it is the sum of the eigenvalues.
-    using Smooth = SliderCrank<ConservativeLaw, NoFriction, MisalignedWay, PointDamping>;
+    Parts const smooth{Law::conservative, Damping::point, false, true};
     int compared = 0;
     for (auto const& c : oracle::make_cases(33, 800)) {
-        Smooth::Memory<double> memory{};
-        Linearisation at;
-        linearise<Smooth, double>(c.t, c.state.data(), Smooth::parameters(c.inputs), memory, at);
+        auto const at = linearised(c, smooth);
         if (std::isnan(at.rate_squared()) || at.touching == 0) continue;
         Matrix5 const k = -matrix(at.joint.by_place);
         EXPECT_LE((k - k.transpose()).cwiseAbs().maxCoeff(), 1e-9 * k.cwiseAbs().maxCoeff());
@@ -170,17 +172,15 @@ TEST(SliderLinearisation, CountsTheTouchingPairs) {
 }
 
 TEST(SliderLinearisation, IsNothingInFreeFlightAndNanOutOfReach) {
-    auto const p = Model::parameters(oracle::completed({}));
-    Model::Memory<double> memory{};
-    Linearisation at;
+    auto const p = SliderCrank::parameters(oracle::completed({}));
     double state[10] = {};
-    linearise<Model, double>(0.0, state, p, memory, at);
+    auto at = linearised(0.0, state, p, parts);
     EXPECT_EQ(at.touching, 0);
     EXPECT_EQ(at.rate_squared(), 0);
     EXPECT_EQ(matrix(at.joint.by_place), Matrix5::Zero());
     EXPECT_EQ(matrix(at.joint.by_rate), Matrix5::Zero());
     state[0] = 1;
-    linearise<Model, double>(0.0, state, p, memory, at);
+    at = linearised(0.0, state, p, parts);
     EXPECT_TRUE(std::isnan(at.rate_squared()));
 }
 

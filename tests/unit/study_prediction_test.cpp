@@ -28,19 +28,31 @@ TEST(Prediction, RangeHoldsWhatRingingContactCosts) {
 }
 
 TEST(StiffestRate, OfThePlanarBlockIsThatOfTwoCornersInAnImpact) {
+    Parts planar;
+    planar.mechanism = Mechanism::planar_slider_crank;
     Inputs in;
     in.hertz_exponent = 1, in.point_stiffness = 2e6, in.slider_mass = 0.5, in.slider_inertia_z = 1e-3;
     in.slider_length = 0.04;
     in = complete_inputs(in);
     // Linear springs 2 K: as a whole √(4e6/0.5), rocking √(4e6 0.02²/1e-3) = √1.6e6, whatever the speed.
-    EXPECT_DOUBLE_EQ(stiffest_rate(Mechanism::planar_slider_crank, in), std::sqrt(8e6));
+    EXPECT_DOUBLE_EQ(stiffest_rate(planar, in), std::sqrt(8e6));
     in.slider_length = 0.2;  // √(4e6 0.1²/1e-3) = √4e7
-    EXPECT_DOUBLE_EQ(stiffest_rate(Mechanism::planar_slider_crank, in), std::sqrt(4e7));
+    EXPECT_DOUBLE_EQ(stiffest_rate(planar, in), std::sqrt(4e7));
     // 2 K δ^{n+1}/(n+1) = M v²/2 gives δ ∝ v^{2/(n+1)}: with n = 2 the stiffness grows as v^{2/3}.
     in.hertz_exponent = 2;
-    double const before = stiffest_rate(Mechanism::planar_slider_crank, in);
+    double const before = stiffest_rate(planar, in);
     in.crank_speed *= 8;
-    EXPECT_NEAR(stiffest_rate(Mechanism::planar_slider_crank, in) / before, 2, 1e-12);
+    EXPECT_NEAR(stiffest_rate(planar, in) / before, 2, 1e-12);
+}
+
+TEST(StiffestRate, OfKelvinVoigtIsThatOfItsApices) {
+    Parts parts;
+    parts.law = Law::kelvin_voigt;
+    Inputs in = complete_inputs(with_presets({}, parts.law));
+    EXPECT_EQ(stiffest_rate(parts, in), stiffest_rate({}, in));  // four apices of a quarter of the surface's stiffness
+    in.slider_mass = 1e-3, in.slider_inertia_x = in.slider_inertia_y = in.slider_inertia_z = 1;
+    in.law_a = 2.5e5;  // √(4 2.5e5/1e-3)
+    EXPECT_DOUBLE_EQ(stiffest_rate(parts, in), std::sqrt(1e9));
 }
 
 TEST(Prediction, FixedStepsAreExact) {

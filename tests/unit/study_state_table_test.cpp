@@ -69,6 +69,48 @@ TEST(StateTable, TakesTheSceneWhereTheTableIsSilent) {
     EXPECT_NEAR(in.rod_inertia, in.rod_mass * 0.3 * 0.3 / 12, 1e-18);
 }
 
+Scene of_law(Law law) {
+    Scene scene;
+    scene.parts.law = law;
+    scene.inputs = with_presets({}, law);
+    return scene;
+}
+
+TEST(StateTable, TakesWhatALawHasOfItsOwnWhereverItsColumnStands) {
+    std::string const row = ",0,1,2,3,4,5,6,7,8,9,10";
+    auto const table = [&](std::string const& header, std::string const& cells, Scene const& scene = {}) {
+        return read(header + "," + states + "\n" + cells + row + "\n", scene);
+    };
+    for (auto const& [header, cells] : {std::pair{"contact.law,contact.apex_damping", "kelvin_voigt,40"},
+                                        {"contact.apex_damping,contact.law", "40,kelvin_voigt"}}) {
+        StateTable const read_table = table(header, cells);
+        EXPECT_EQ(read_table.parts[0].law, Law::kelvin_voigt);
+        EXPECT_TRUE(std::isnan(read_table.inputs[0].law_a)) << "its preset";
+        EXPECT_EQ(read_table.inputs[0].law_b, 40);
+    }
+    // The scene's own numbers count for rows of its law, and presets for the others.
+    Scene scene = of_law(Law::kelvin_voigt);
+    scene.inputs.law_a = 5e6;
+    EXPECT_EQ(table("contact.law", "kelvin_voigt", scene).inputs[0].law_a, 5e6);
+    EXPECT_EQ(table("contact.law", "paper", scene).parts[0].law, Law::paper);
+    // A damping that the row's law lacks stays behind.
+    Scene restituting;
+    restituting.parts.damping = Damping::restitution;
+    EXPECT_EQ(table("contact.law", "kelvin_voigt", restituting).parts[0].damping, Damping::point);
+    EXPECT_EQ(table("contact.law", "conservative", restituting).parts[0].damping, Damping::restitution);
+}
+
+TEST(StateTable, RefusesKeysThatTheRowsLawDoesNotKnow) {
+    EXPECT_EQ(error_of(with_column("contact.chi_line", "3"), of_law(Law::kelvin_voigt)),
+              "states.csv:2: column contact.chi_line: contact.law \"kelvin_voigt\" does not know it; remove it");
+    EXPECT_EQ(error_of(with_column("contact.chi_line", "0"), of_law(Law::kelvin_voigt)),
+              "states.csv:2: column contact.chi_line: contact.law \"kelvin_voigt\" does not know it; remove it");
+    EXPECT_EQ(error_of(with_column("contact.apex_damping", "0")),
+              "states.csv:2: column contact.apex_damping: contact.law \"paper\" does not know it; remove it");
+    EXPECT_EQ(error_of(with_column("contact.apex_stiffness", "-1"), of_law(Law::kelvin_voigt)),
+              "states.csv:2: contact.apex_stiffness is -1 N/m (the stiffness of an apex must be positive); use a value > 0");
+}
+
 TEST(StateTable, PicksThePartsThatARowNeeds) {
     auto const parts = [](std::string const& name, std::string const& value) {
         return read(with_column(name, value)).parts[0];

@@ -71,7 +71,7 @@ TEST_P(Extremes, EndWithAStatus) {
             options.settings.max_step = 1e-4;
             for (int i = 0; i <= 20; ++i) options.sample_times.push_back(i * 1e-3);
             options.series = testing::state_selection;
-            auto in = testing::golden_start(1e-4, 3.141592653589793);
+            auto in = testing::golden_start(1e-4, 3.141592653589793, GetParam());
             extreme.change(in);
             auto const start = std::chrono::steady_clock::now();
             auto const r = testing::run(isa, options, {in});
@@ -98,15 +98,15 @@ TEST_P(Extremes, StopAtTheStepLimit) {
     options.parts = {GetParam(), Damping::point, true, false};
     options.settings.end_time = 1.0;
     options.settings.max_steps = 1000;
-    auto const r = testing::run(best_isa(), options, testing::scattered_starts(20));
+    auto const r = testing::run(best_isa(), options, testing::scattered_starts(20, 1e-4, 3.141592653589793, GetParam()));
     for (auto const& record : r.records) {
         EXPECT_EQ(record.status, Status::max_steps);
         EXPECT_EQ(record.steps_accepted + record.steps_rejected, 1000u);
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, Extremes, ::testing::Values(Law::paper, Law::conservative),
-                         [](auto const& p) { return std::string(p.param == Law::paper ? "paper" : "conservative"); });
+INSTANTIATE_TEST_SUITE_P(Laws, Extremes, ::testing::ValuesIn(testing::every_law()),
+                         [](auto const& p) { return std::string(info(p.param).name); });
 
 }  // namespace
 }  // namespace slideway

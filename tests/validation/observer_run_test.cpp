@@ -178,7 +178,8 @@ TEST(Faults, OfAContactAreNotSeenByLanesWithoutIt) {
     lying.roll = lying.yaw = 0;
     lying.pitch = 1e-4;
     lying.y = -1e-4;  // two apices of the bottom face inside: a line
-    for (Law const law : {Law::paper, Law::conservative}) {
+    for (Law const law : testing::every_law()) {
+        flying = with_presets(flying, law), lying = with_presets(lying, law);
         auto o = options_of(1e-6, 1e-4);
         o.parts.law = law;
         o.series = Selection(1) << static_cast<int>(Series::lines);

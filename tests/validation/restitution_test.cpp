@@ -47,7 +47,8 @@ TEST(Restitution, IsolatedImpactsReturnTheCoefficient) {
 }
 
 TEST(Restitution, DoesSoInEveryMechanism) {
-    for (auto const mechanism : {Mechanism::carriage, Mechanism::free_slider, Mechanism::planar_slider_crank}) {
+    for (MechanismInfo const& one : mechanisms()) {
+        auto const mechanism = static_cast<Mechanism>(&one - mechanisms().data());
         for (double const e : {0.2, 0.4, 0.6, 0.8, 0.95}) {
             for (double const speed : {1e-3, 0.03, 1.0}) {
                 for (double const exponent : {1.0, 1.3, 1.5}) {

@@ -60,13 +60,13 @@ TEST(FixedStep, IsStableUpToTheLinearLimit) {
 
 TEST(FixedStep, IsJudgedWhateverIsAskedFor) {
     // The same steps and the same verdict with no quantity, with the audit and with one that is none of the audit's.
-    for (Law const law : {Law::paper, Law::conservative}) {
+    for (Law const law : testing::every_law()) {
         testing::RunOptions o;
-        o.parts = {law, Damping::rate, true, false};
+        o.parts = {law, info(law).has(Damping::rate) ? Damping::rate : Damping::point, true, false};
         o.settings.method = Method::rk4;
         o.settings.fixed_step = 1.8e-5;
         o.settings.end_time = 0.05;
-        auto const members = testing::scattered_starts(11);
+        auto const members = testing::scattered_starts(11, 1e-4, std::numbers::pi, law);
         o.quantities = audit;
         auto const expected = testing::run(best_isa(), o, members);
         for (Selection const quantities : {Selection{0}, selection_of(Quantity::peak_tilt)}) {
@@ -97,12 +97,12 @@ protected:
     std::array<int, status_count> run(double fraction, double crank_speed = std::numbers::pi,
                                       double end_time = 0.1) const {
         testing::RunOptions o;
-        o.parts = {GetParam(), Damping::rate, true, false};
+        o.parts = {GetParam(), info(GetParam()).has(Damping::rate) ? Damping::rate : Damping::point, true, false};
         o.settings.method = Method::rk4;
         o.settings.fixed_step = fraction * 2 * std::numbers::sqrt2 / Rocking().rate;
         o.settings.end_time = end_time;
         o.quantities = 0;
-        return count_ends(testing::run(best_isa(), o, testing::scattered_starts(members, 1e-4, crank_speed)));
+        return count_ends(testing::run(best_isa(), o, testing::scattered_starts(members, 1e-4, crank_speed, GetParam())));
     }
     static constexpr int members = 16;
 };
@@ -120,8 +120,8 @@ TEST_P(FixedStepInImpacts, BeyondTheLimitIsToldWhereFrictionBurnsMost) {
     EXPECT_EQ(count_of(run(2, 47, 2 * std::numbers::pi / 47), Status::finished), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, FixedStepInImpacts, ::testing::Values(Law::paper, Law::conservative),
-                         [](auto const& p) { return std::string(p.param == Law::paper ? "paper" : "conservative"); });
+INSTANTIATE_TEST_SUITE_P(Laws, FixedStepInImpacts, ::testing::ValuesIn(testing::every_law()),
+                         [](auto const& p) { return std::string(info(p.param).name); });
 
 TEST(StiffMethodAlone, IsFlaggedWhereAnImpactCostItEnergy) {
     testing::RunOptions o;
@@ -185,7 +185,7 @@ TEST(ThePapersLaw, IsNotTheMethodsFault) {
 }
 
 TEST(AdaptiveMethods, AreNeverAccused) {
-    for (Law const law : {Law::paper, Law::conservative}) {
+    for (Law const law : testing::every_law()) {
         for (Method const method : {Method::automatic, Method::dopri5, Method::bs32}) {
             for (double const tolerance : {1e-3, 1e-6}) {
                 for (auto const& [clearance, speed] :
@@ -196,7 +196,7 @@ TEST(AdaptiveMethods, AreNeverAccused) {
                     o.settings.rtol = o.settings.atol = tolerance;
                     o.settings.end_time = 0.02;
                     o.quantities = audit;
-                    auto const r = testing::run(best_isa(), o, testing::scattered_starts(16, clearance, speed));
+                    auto const r = testing::run(best_isa(), o, testing::scattered_starts(16, clearance, speed, law));
                     // Where a coarse tolerance meets the hardest impacts, a member or two do make a fifth of what contact turns over.
                     bool const coarse = method == Method::dopri5 && tolerance == 1e-3 && speed == 500;
                     EXPECT_GE(count_of(count_ends(r), Status::finished), coarse ? 14 : 16)
@@ -211,10 +211,10 @@ TEST(Scenes, AreNeverAccused) {
     for (auto const& entry : std::filesystem::directory_iterator(SLIDEWAY_SCENES)) {
         if (entry.path().extension() != ".toml") continue;
         bool const spatial = info(read_scene(entry.path().string()).parts.mechanism).spatial;
-        for (std::string const law : {"paper", "conservative"}) {
+        for (LawInfo const& law : laws()) {
             for (std::string const method : {"auto", "dopri5"}) {
                 Overrides overrides{{"integrator.method", method}};
-                if (spatial) overrides.emplace_back("contact.law", law);  // a plane has no faces
+                if (spatial) overrides.emplace_back("contact.law", law.name);  // a plane has no faces
                 Scene const scene = read_scene(entry.path().string(), overrides);
                 testing::RunOptions o;
                 o.parts = scene.parts;
@@ -227,7 +227,7 @@ TEST(Scenes, AreNeverAccused) {
                 }
                 auto const ended = count_ends(testing::run(best_isa(), o, members));
                 EXPECT_EQ(count_of(ended, Status::finished), static_cast<int>(members.size()))
-                    << entry.path() << " " << law << " " << method;
+                    << entry.path() << " " << law.name << " " << method;
             }
         }
     }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/oracle/golden_table.hpp"
+#include "tests/oracle/names.hpp"
 #include "tests/support/ensemble.hpp"
 
 namespace slideway {
@@ -22,7 +23,7 @@ TEST_P(GoldenTrajectories, AreMetAtTightTolerance) {
         in.chi_line = table.number(row, "contact.chi_line");
         in.chi_surface = table.number(row, "contact.chi_surface");
         testing::RunOptions options;
-        options.parts.law = table.text(row, "contact.law") == "paper" ? Law::paper : Law::conservative;
+        options.parts.law = oracle::law_named(table.text(row, "contact.law"));
         options.parts.damping = in.chi_line > 0 ? Damping::rate : Damping::point;
         options.parts.friction = true;
         options.settings.rtol = options.settings.atol = 1e-12;

@@ -116,11 +116,14 @@ def verdict(result: xr.Dataset, every: list[Column]) -> Verdict:
         return Verdict(
             "none", "No energy audit", [f"The scene did not ask for it; add {wanted} to study.quantities to have it."]
         )
-    scene = slideway.scene(result)
-    planar = scene["mechanism"]["kind"] == "planar_slider_crank"
-    if not planar and scene["contact"]["law"] == "paper":
-        return _of_paper(terms)
-    return _of_conserving(terms, "The contact law of corners" if planar else "The conservative law")
+    law = slideway.scene(result).get("contact", {}).get("law")
+    name = "The contact law of corners" if law is None else f"The {law} law"
+    return _of_switching(terms, name) if _switches(result, law) else _of_conserving(terms, name)
+
+
+def _switches(result: xr.Dataset, law: str | None) -> bool:
+    """Whether the contact law switches between modes of contact, as the program says; older files have one law that does."""
+    return bool(result.attrs.get("contact_law_switches", law == "paper"))
 
 
 def _share(terms: Balance) -> float:
@@ -172,11 +175,11 @@ def _of_conserving(terms: Balance, law: str) -> Verdict:
     return Verdict("bad", f"The method made or lost up to {percent(share)}", [*found, much])
 
 
-def _of_paper(terms: Balance) -> Verdict:
+def _of_switching(terms: Balance, law: str) -> Verdict:
     share = _share(terms)
     found = f"The residual is {_amount(terms)}."
     why = (
-        "The paper's law switches between surface, line and point contact, and the force jumps where it does. "
+        f"{law} switches between surface, line and point contact, and the force jumps where it does. "
         "Each mode by itself keeps energy, the jumps do not."
     )
     if share <= CLEAN:

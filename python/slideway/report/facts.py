@@ -21,12 +21,11 @@ STUDIES = {
     "sweep": "sweep: sections and exponents as one key changes",
     "tolerance": "tolerance: how quantities scatter with what varies",
 }
-MECHANISMS = {
-    "slider_crank": "slider-crank, spatial",
-    "carriage": "carriage moved to and fro",
-    "free_slider": "free slider that nothing drives",
-    "planar_slider_crank": "slider-crank, planar, a block between two walls",
-}
+# Keys of [contact] that several laws have; what else stands there is the law's own.
+CONTACT = {
+    "law", "slider_young_modulus", "way_young_modulus", "slider_poisson_ratio", "way_poisson_ratio", "edge_radius", "apex_radius",
+    "point_stiffness", "hertz_exponent", "eta", "chi_line", "chi_surface", "restitution",
+}  # fmt: skip
 
 
 def of_scene(result: xr.Dataset, members: int) -> Facts:
@@ -36,9 +35,9 @@ def of_scene(result: xr.Dataset, members: int) -> Facts:
     kind = str(mechanism.get("kind", ""))
     facts = [
         ("study", STUDIES.get(str(study.get("kind")), str(study.get("kind")))),
-        ("mechanism", MECHANISMS.get(kind, kind) + _speed(mechanism)),
+        ("mechanism", str(result.attrs.get("mechanism_meaning", kind)) + _speed(mechanism)),
         ("clearance per side", _clearance(joint)),
-        ("contact law", _law(scene)),
+        ("contact law", _law(result, scene.get("contact", {}))),
         ("friction", _friction(scene.get("friction", {}))),
         ("members", counted(members, "member") + _design(study)),
         ("time", _time(study)),
@@ -75,10 +74,10 @@ def of_run(result: xr.Dataset) -> Facts:
 
 
 def _speed(mechanism: dict[str, Any]) -> str:
-    if "crank_speed" in mechanism and str(mechanism.get("kind")).endswith("slider_crank"):
+    if "crank_speed" in mechanism:
         speed = float(mechanism["crank_speed"])
         return f", crank at {number(speed)} rad/s ({number(speed * 60 / (2 * np.pi))} rpm)"
-    if "carriage_speed" in mechanism and mechanism.get("kind") == "carriage":
+    if "carriage_speed" in mechanism:
         return f", {number(mechanism['carriage_speed'] * 100)} cm/s"
     return ""
 
@@ -90,17 +89,17 @@ def _clearance(joint: dict[str, Any]) -> str:
     return f"{number(gaps[0])} mm" if gaps else ""
 
 
-def _law(scene: dict[str, Any]) -> str:
-    contact = scene.get("contact", {})
-    if scene.get("mechanism", {}).get("kind") == "planar_slider_crank":
-        law = "point law at each corner"
-    else:
-        words = {"paper": "paper: one mode per face, switching", "conservative": "conservative: one potential, no switching"}
-        law = words.get(contact.get("law"), str(contact.get("law", "")))
+def _law(result: xr.Dataset, contact: dict[str, Any]) -> str:
+    words = [str(contact.get("law", "point law at each corner"))]
+    if "law" in contact and "contact_law_meaning" in result.attrs:
+        words[0] += f": {result.attrs['contact_law_meaning']}"
+    words += [f"{key} {number(value)}" for key, value in contact.items() if key not in CONTACT]
     if "restitution" in contact:
-        return f"{law}; restitution {number(contact['restitution'])}"
-    damping = ", ".join(f"{key} {number(contact[key])}" for key in ("eta", "chi_line", "chi_surface") if contact.get(key))
-    return f"{law}; damping {damping or 'none'}"
+        words.append(f"restitution {number(contact['restitution'])}")
+    elif "eta" in contact:
+        damping = ", ".join(f"{key} {number(contact[key])}" for key in ("eta", "chi_line", "chi_surface") if contact.get(key))
+        words.append(f"damping {damping or 'none'}")
+    return "; ".join(words)
 
 
 def _friction(friction: dict[str, Any]) -> str:

@@ -136,7 +136,7 @@ def _joint(scene: dict[str, Any]) -> Joint:
 def _crank(scene: dict[str, Any], time: Array, stored: Array | None) -> tuple[Array | None, tuple[float, float] | None]:
     """Crank angle [rad] and lengths of crank and rod [m]: stored, or of constant speed (model.md section 6)."""
     mechanism = scene["mechanism"]
-    if not str(mechanism["kind"]).endswith("slider_crank"):
+    if "rod_length" not in mechanism:
         return None, None
     links = (float(mechanism["crank_length"]), float(mechanism["rod_length"]))
     if stored is not None:

@@ -60,7 +60,9 @@ def test_what_was_run_is_there(page_of: Pages, result_of: Results) -> None:
             assert str(result.attrs[name]) in text
         for line in result.attrs["scene"].splitlines():
             assert " ".join(line.split()) in text
-    assert "paper: one mode per face, switching" in text
+        for name in ("mechanism_meaning", "contact_law_meaning"):
+            assert str(result.attrs[name]) in text
+    assert "paper: one mode per face" in text
     assert "unif: low −40 µm, high 40 µm" in text
 
 

@@ -1,17 +1,17 @@
-// What a thread of a grid does with one list of slider-cranks: the bodies of the kernels in host/backend/cuda.cu.  Compiled once per list
-// (CMakeLists.txt here).
+// What a thread of a grid does: the bodies of the kernels in host/backend/cuda.cu.
 #include "kernels/grid_thread.hpp"
 #include "kernels/integrate.hpp"
-#include "kernels/laws/conservative.hpp"
-#include "kernels/laws/paper.hpp"
+#include "kernels/mechanisms/slider_crank.hpp"
+#include "kernels/models/mechanism_model.hpp"
 #include "kernels/models/shadowed.hpp"
-#include "kernels/models/slider_crank_choice.hpp"
+#include "tests/support/every_law.hpp"
+#include "tests/support/grid_cranks/grid_cranks.hpp"
 
 namespace slideway::testing {
 
-void SLIDEWAY_THREAD(GridTask const& task, bool shadowed) {
-    using Cranks = SLIDEWAY_CRANKS_OF<SLIDEWAY_LAW>;
-    auto const cranks = chosen_of<Cranks>(task.parts);
+void run_grid_thread(GridTask const& task, bool shadowed) {
+    using Cranks = MechanismModel<SliderCrank, SliderBase, EveryLaw::Any>;
+    Cranks const cranks(chosen_conditions_of(task.parts));
     if (shadowed) {
         run_thread(task, [&](Block& block) { integrate<Shadowed<Cranks>, double>(block, Shadowed<Cranks>{cranks}); });
     } else {

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "kernels/lanes/report_needs.hpp"
+#include "kernels/mechanisms/faults.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Where a step starts: a member, or a shadow of it.
+template <class Model, class Real> struct StepStart {
+    Real const& t;  // [s]
+    Real const* y;
+    Real const* rates;
+    typename Model::template Memory<Real> const& memory;
+    ReportNeeds needs;
+};
+
+/// What a step that was tried comes to.
+template <class Model, class Real> struct Attempt {
+    Real step;  // [s]
+    Real end[Model::size], end_rates[Model::size];
+    typename Model::template Report<Real> report;  // at the end, if needs.ends
+    Faults<Real> faults;
+};
+
+/// Lanes whose numbers are all finite.
+template <int size, class Real> SLIDEWAY_HD Mask<Real> is_finite(Real const (&a)[size], Real const (&b)[size]) {
+    Real sum(0.0);
+    for (int i = 0; i < size; ++i) sum = fma(a[i], Real(0.0), fma(b[i], Real(0.0), sum));
+    return sum == Real(0.0);
+}
+
+}  // namespace slideway::inline SLIDEWAY_ISA

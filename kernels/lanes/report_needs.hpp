@@ -1,0 +1,51 @@
+#pragma once
+
+#include "kernels/block.hpp"
+#include "kernels/lanes/member_state.hpp"
+#include "kernels/real.hpp"
+#include "kernels/steppers/contact_watch.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Which of a model's reports a block needs.
+struct ReportNeeds {
+    bool quantities = false;     // the observer is at work
+    bool stages = false;         // at every stage, for integrals
+    bool accelerations = false;  // their record is at work
+    bool audit = false;          // the audit's integrals meet the tolerance too
+    bool switches = false;       // the law does: the audit keeps books of it
+    Watching watching = Watching::nothing;
+    bool ends = false;  // at the accepted steps
+
+    SLIDEWAY_HD bool watch() const { return watching != Watching::nothing; }
+
+    template <class Model, class Real>
+    SLIDEWAY_HD static ReportNeeds of(Model const& model, Selection quantities, bool locate_modes) {
+        using Observer = typename Model::template Observer<Real>;
+        ReportNeeds needs;
+        needs.quantities = quantities != 0;
+        needs.stages = Observer::needs_stages(quantities);
+        if constexpr (has_accelerations<Model>) {
+            using Accelerations = typename Model::template Accelerations<Real>;
+            needs.accelerations = (quantities & Accelerations::quantities) != 0;
+            needs.stages = needs.stages || Accelerations::needs_stages(quantities);
+        }
+        needs.audit = Observer::audits(quantities);
+        if constexpr (Model::has_contacts) {
+            needs.watching = model.watching(locate_modes, Model::has_shadows);
+            needs.switches = model.switches();
+        }
+        needs.ends = needs.stages || Observer::needs_reports(quantities) || needs.watch();
+        return needs;
+    }
+
+    /// Nobody observes a shadow.
+    SLIDEWAY_HD ReportNeeds of_shadows() const {
+        ReportNeeds needs;
+        needs.watching = watching;
+        needs.ends = watch();
+        return needs;
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

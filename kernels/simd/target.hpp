@@ -1,0 +1,24 @@
+// What a unit is compiled for: the namespace of its kernels, how their functions are declared, and whether packs exist.
+#pragma once
+
+#if !defined(__CUDACC__) && !defined(SLIDEWAY_NO_SIMD)
+#define SLIDEWAY_SIMD 1
+#endif
+
+#ifndef SLIDEWAY_ISA
+#define SLIDEWAY_ISA portable
+#endif
+
+// SLIDEWAY_FN is inlined; SLIDEWAY_NOINLINE is a function of its own; SLIDEWAY_CARD_CALL is inlined on processors and called on cards, whose
+// assembler shares out the registers better between several functions than within a long one (docs/gpu.md).
+#if defined(__CUDACC__)
+#define SLIDEWAY_HD __host__ __device__
+#define SLIDEWAY_FN __host__ __device__ inline
+#define SLIDEWAY_NOINLINE __host__ __device__ __noinline__
+#define SLIDEWAY_CARD_CALL __host__ __device__ __noinline__
+#else
+#define SLIDEWAY_HD
+#define SLIDEWAY_FN inline __attribute__((always_inline))
+#define SLIDEWAY_NOINLINE __attribute__((noinline))
+#define SLIDEWAY_CARD_CALL SLIDEWAY_FN
+#endif

@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# example.sh CXX ROOT WORK NAME: what docs/extending.md shows of an example is the file here; built outside the tree by the commands of
+# the page, it prints what the page says.
+set -euo pipefail
+cxx=$1 root=$2 work=$3/$4 name=$4
+page=$root/docs/extending.md
+
+# The fenced block of the page that is named "<language> <name>".
+block() { awk -v fence='```'"$1" '/^```/ { on = !on && $0 == fence; next } on' "$page"; }
+
+rm -rf "$work"
+mkdir -p "$work"
+cd "$work"
+for file in "cpp $name.cpp" "diff $name.patch"; do
+    path=$root/tests/extending/${file#* }
+    [ -e "$path" ] || continue
+    diff -u "$path" <(block "$file") || { echo "docs/extending.md shows another ${file#* } than tests/extending has"; exit 1; }
+    cp "$path" .
+done
+block "sh $name" > commands
+[ -s commands ] || { echo "docs/extending.md says no commands for $name"; exit 1; }
+g++() { "$cxx" "$@"; }
+export SLIDEWAY=$root
+. ./commands | tee printed
+diff -u <(block "text $name") printed || { echo "docs/extending.md shows other output"; exit 1; }

@@ -1,0 +1,30 @@
+# cmake -P isa_choice.cmake: what SLIDEWAY_ISAS means on each processor.  With -DCHOICE=… only that choice, on x86-64.
+cmake_minimum_required(VERSION 3.25)
+include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/isa_choice.cmake)
+
+set(avx2 "flags : fpu sse2 avx avx2 fma popcnt")
+set(avx512 "${avx2} avx512f avx512dq avx512cd avx512bw avx512vl")
+
+function(expect processor choice features want)
+    slideway_chosen_isas("${choice}" ${processor} "${features}" got)
+    if(NOT got STREQUAL want)
+        message(SEND_ERROR "${choice} on ${processor} (${features}): ${got}, not ${want}")
+    endif()
+endfunction()
+
+if(DEFINED CHOICE)
+    slideway_chosen_isas("${CHOICE}" x86_64 "" got)
+    return()
+endif()
+expect(x86_64 all "" "scalar;scalar_libm;avx2;avx512")
+expect(aarch64 all "" "scalar;neon")
+expect(riscv64 all "" "scalar")
+# scalar is the reference of all others; the order is that of the widths.
+expect(x86_64 avx512 "" "scalar;avx512")
+expect(x86_64 "avx512;avx2" "" "scalar;avx2;avx512")
+expect(x86_64 scalar_libm "" "scalar;scalar_libm")
+expect(x86_64 native "${avx512}" "scalar;avx512")
+expect(x86_64 native "${avx2}" "scalar;avx2")
+expect(x86_64 native "flags : fpu sse2 avx" "scalar;scalar_libm")
+expect(x86_64 native "flags : fpu sse2 avx avx2 avx512f" "scalar;scalar_libm")
+expect(aarch64 native "" "scalar;neon")

@@ -1,0 +1,42 @@
+// Which combinations of parts there are kernels for.
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/varied_blocks.hpp"
+
+namespace slideway {
+namespace {
+
+TEST(Instances, AreThereForEveryDampingThatALawHas) {
+    for (Isa const isa : testing::supported_isas()) {
+        int refused = 0;
+        for (std::size_t i = 0; i < mechanisms().size(); ++i) {
+            if (!mechanisms()[i].spatial) continue;
+            for (Law const law : testing::every_law()) {
+                for (Damping const damping : {Damping::point, Damping::rate, Damping::restitution}) {
+                    Parts const parts{law, damping, true, false, static_cast<Mechanism>(i)};
+                    SCOPED_TRACE(testing::name_of(parts));
+                    if (info(law).has(damping)) {
+                        EXPECT_NE(find_instance(isa, parts).kernels, nullptr);
+                    } else {
+                        EXPECT_THROW(find_instance(isa, parts), std::invalid_argument);
+                        ++refused;
+                    }
+                }
+            }
+        }
+        EXPECT_GT(refused, 0);
+    }
+}
+
+TEST(Instances, OfCornersKnowEveryDampingOfPoints) {
+    for (Damping const damping : {Damping::point, Damping::restitution}) {
+        Parts const parts{.damping = damping, .mechanism = Mechanism::planar_slider_crank};
+        EXPECT_NE(find_instance(best_isa(), parts).kernels, nullptr);
+    }
+}
+
+}  // namespace
+}  // namespace slideway
