@@ -18,7 +18,7 @@ constexpr std::tuple<char const*, char const*> studies[] = {
     {"ensemble", "duration = \"20 ms\"\nsamples = 5\nquantities = [\"energy_residual\", \"mode_time\"]"},
     {"lyapunov", "Ttr = \"5 ms\"\nduration = \"20 ms\"\ndt = \"0.5 ms\"\nexponents = 2"},
     {"poincare", "Ttr = \"5 ms\"\nduration = \"30 ms\"\nsection = { on = \"pitch\", value = 0 }"},
-    {"sweep", "parameter = \"joint.clearance\"\nvalues = [\"0.2 mm\", \"0.1 mm\"]\ntransient_revolutions = 0\nrevolutions = 1\n"
+    {"sweep", "parameter = \"joint.clearance\"\nvalues = [\"0.2 mm\", \"0.1 mm\"]\ntransient_revolutions = 0\nrevolutions = 2\n"
               "exponents = 1\nrescalings_per_revolution = 20"},
     {"tolerance", "duration = \"20 ms\"\nquantities = [\"peak_normal_force\"]"},
 };
@@ -59,15 +59,17 @@ TEST_P(LawInStudies, Runs) {
         for (double const status : file.values("status")) EXPECT_EQ(status, static_cast<double>(Status::finished));
         EXPECT_EQ(file.computed_hash(), hash_of(std::string(study) + "_" + std::string(name_of(best_isa())) + ".nc"));
         EXPECT_EQ(file.attribute("mechanism_meaning"), info(GetParam().mechanism).meaning);
-        if (info(GetParam().mechanism).spatial) EXPECT_EQ(file.attribute("contact_law_meaning"), law.words);
+        if (info(GetParam().mechanism).spatial) {
+            EXPECT_EQ(file.attribute("contact_law_meaning"), law.words);
+        }
         ++runs;
     }
     EXPECT_GE(runs, 3);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LawInStudies, ::testing::ValuesIn(mechanisms_and_laws()), [](auto const& p) {
-    bool const spatial = info(p.param.mechanism).spatial;
-    return std::string(info(p.param.mechanism).name) + (spatial ? "_" + std::string(info(p.param.law).name) : "");
+    MechanismInfo const& mechanism = slideway::info(p.param.mechanism);
+    return mechanism.name + (mechanism.spatial ? "_" + std::string(slideway::info(p.param.law).name) : "");
 });
 
 }  // namespace

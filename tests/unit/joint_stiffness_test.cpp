@@ -24,9 +24,9 @@ using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
 /// Contacts without force: what is left of the derivative is not the joint's.
 struct Forceless {
-    template <bool Full, class Real>
-    static FaceForces<Real> forces(FaceMotion<Real> const&, FaceContact<Real> const&, ContactParameters<Real> const&) {
-        return no_forces<Real>();
+    template <class Real>
+    static FaceNormals<Real> normals(FaceMotion<Real> const&, FaceContact<Real> const&, ContactParameters<Real> const&) {
+        return {{Real(0.0), Real(0.0), Real(0.0), Real(0.0)}, mask_of<Real>(false)};
     }
 };
 
@@ -132,7 +132,10 @@ Matrix5 in_lengths(Matrix5 m, double lever) {
 constexpr double rate_step = 1e-7;  // [m/s]
 constexpr double rounding = 2e-15;  // of a generalized force, against the normal loads and 1 N
 
-void compare(oracle::Case const& c, std::string const& what, int& compared) {
+/// Both sides of a difference are as far apart as a twentieth of what is measured.
+bool is_bent(double bend, double slope, double noise) { return bend > 0.05 * slope + 4 * noise; }
+
+void compare(oracle::Case const& c, std::string const& what, int& compared, int& bent) {
     oracle::Result const r = oracle::evaluate(c.inputs, c.parts, c.t, c.state, &c.impact_speeds);
     if (r.geometry || r.contact_domain) return;
     double nearest = 1;
@@ -144,13 +147,18 @@ void compare(oracle::Case const& c, std::string const& what, int& compared) {
     double const lever = 0.5 * c.inputs.slider_length;
     double const step = 1e-3 * nearest;  // crosses no contact's border
     Matrix5 const k = at.by_place(), d = at.by_rate();
-    Matrix5 k_difference, d_difference;
+    Matrix5 k_difference, d_difference, k_bend, d_bend;
+    Vector5 const here = at.contact_force(c.state);
     for (int j = 0; j < 5; ++j) {
         double const unit = j < 2 ? 1 : 1 / lever;
         double const h = step * unit;
-        k_difference.col(j) = (at.contact_force(at.moved(j, h)) - at.contact_force(at.moved(j, -h))) / (2 * h);
+        Vector5 const up = at.contact_force(at.moved(j, h)), down = at.contact_force(at.moved(j, -h));
+        k_difference.col(j) = (up - down) / (2 * h);
+        k_bend.col(j) = (up - 2 * here + down) / h;
         double const dv = rate_step * unit;
-        d_difference.col(j) = (at.contact_force(at.pushed(j, dv)) - at.contact_force(at.pushed(j, -dv))) / (2 * dv);
+        Vector5 const faster = at.contact_force(at.pushed(j, dv)), slower = at.contact_force(at.pushed(j, -dv));
+        d_difference.col(j) = (faster - slower) / (2 * dv);
+        d_bend.col(j) = (faster - 2 * here + slower) / dv;
     }
     double load = 0;
     for (auto const* forces : {&r.fn_y, &r.fn_z}) load = std::accumulate(forces->begin(), forces->end(), load);
@@ -162,6 +170,11 @@ void compare(oracle::Case const& c, std::string const& what, int& compared) {
     double const turning = (load + largest(d) * speed) / lever;
     // A penetration is good to about 1e-18 m.
     double const noise = 1e-18 / step * largest(k) + rounding * (load + 1) / step;
+    // Where a contact begins or ceases to pull within a difference, the two sides of it differ by a part of what they are.
+    if (is_bent(largest(k_bend), largest(k), noise) || is_bent(largest(d_bend), largest(d), rounding * (load + 1) / rate_step)) {
+        ++bent;
+        return;
+    }
     EXPECT_LE(largest(k - k_difference), 2e-5 * largest(k) + 4 * turning + noise) << what;
     EXPECT_LE(largest(d - d_difference), 1e-5 * largest(d) + rounding * (load + 1) / rate_step) << what;
     ++compared;
@@ -170,34 +183,37 @@ void compare(oracle::Case const& c, std::string const& what, int& compared) {
 // The differences hold what the structure leaves out, the turning of normals, arms and slips with the pose.  It grows with the
 // loads, not with the stiffness: at rest it is 1e-7 of it.  By rates nothing is left out.
 TEST(JointStiffness, IsTheDerivativeOfTheContactForces) {
-    int compared = 0;
+    int compared = 0, bent = 0;
     auto const cases = oracle::make_cases(11, 2400);
-    for (std::size_t i = 0; i < cases.size(); ++i) compare(cases[i], "case " + std::to_string(i), compared);
+    for (std::size_t i = 0; i < cases.size(); ++i) compare(cases[i], "case " + std::to_string(i), compared, bent);
     EXPECT_GT(compared, 1500);
+    EXPECT_EQ(bent, 0);
 }
 
 TEST(JointStiffness, IsTheDerivativeOfTheContactForcesOfEveryLaw) {
     for (Law const law : oracle::every_law()) {
-        int compared = 0;
-        auto const cases = oracle::make_cases(12, 800, Mechanism::slider_crank, law);
+        int compared = 0, bent = 0;
+        auto const cases = oracle::make_cases(11, 2400, Mechanism::slider_crank, law);
         for (std::size_t i = 0; i < cases.size(); ++i)
-            compare(cases[i], oracle::name_of(law) + ", case " + std::to_string(i), compared);
-        EXPECT_GT(compared, 500) << oracle::name_of(law);
+            compare(cases[i], oracle::name_of(law) + ", case " + std::to_string(i), compared, bent);
+        EXPECT_GT(compared, 1500) << oracle::name_of(law);
+        EXPECT_LT(bent, 10) << oracle::name_of(law);
     }
 }
 
 TEST(JointStiffness, IsTheDerivativeOfTheContactForcesOnTheGoldenStates) {
-    int compared = 0;
+    int compared = 0, bent = 0;
     for (auto const* name : {"rhs_paper.csv", "rhs_conservative.csv", "rhs_parameters.csv", "rhs_kelvin_voigt.csv", "rhs_kelvin_voigt_parameters.csv"}) {
         auto const table = golden::Table::read(std::filesystem::path(SLIDEWAY_TEST_DATA) / "golden" / name);
         for (std::size_t row = 0; row < table.rows(); ++row) {
             auto const g = golden::case_of(table, row);
             oracle::Case c{g.inputs, g.parts, g.t, g.state, {}};
             c.impact_speeds.fill(least_impact_speed);
-            compare(c, std::string(name) + " row " + std::to_string(row), compared);
+            compare(c, std::string(name) + " row " + std::to_string(row), compared, bent);
         }
     }
     EXPECT_GT(compared, 50);
+    EXPECT_EQ(bent, 0);
 }
 
 }  // namespace

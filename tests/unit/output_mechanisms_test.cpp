@@ -23,6 +23,7 @@ struct Case {
 };
 
 Case const cases[] = {
+    {Mechanism::slider_crank, {"y", "z", "vy", "vz", "roll", "yaw", "pitch", "wx", "wy", "wz"}},
     {Mechanism::carriage, {"y", "z", "vy", "vz", "roll", "yaw", "pitch", "wx", "wy", "wz"}},
     {Mechanism::scotch_yoke, {"y", "z", "vy", "vz", "roll", "yaw", "pitch", "wx", "wy", "wz"}},
     {Mechanism::free_slider, {"y", "z", "vy", "vz", "roll", "yaw", "pitch", "wx", "wy", "wz", "x", "vx"}},

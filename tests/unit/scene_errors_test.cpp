@@ -77,7 +77,7 @@ TEST(SceneErrors, UnknownNamesComeWithASuggestion) {
               "scene.toml:3: contact.law is \"conservativ\" (there is no such contact law); "
               "did you mean \"conservative\"?");
     EXPECT_EQ(error_in("contact", "law = \"x\""),
-              "scene.toml:3: contact.law is \"x\" (there is no such contact law); use one of paper, conservative");
+              "scene.toml:3: contact.law is \"x\" (there is no such contact law); use one of paper, conservative, kelvin_voigt");
     EXPECT_EQ(error_in("integrator", "method = \"rk5\""),
               "scene.toml:3: integrator.method is \"rk5\" (there is no such method); did you mean \"rk4\"?");
     EXPECT_EQ(error_in("integrator", "method = \"euler\""),

@@ -106,7 +106,7 @@ TEST_P(Extremes, StopAtTheStepLimit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, Extremes, ::testing::ValuesIn(testing::every_law()),
-                         [](auto const& p) { return std::string(info(p.param).name); });
+                         [](auto const& p) { return std::string(slideway::info(p.param).name); });
 
 }  // namespace
 }  // namespace slideway

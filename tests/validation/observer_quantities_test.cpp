@@ -274,7 +274,7 @@ TEST_P(SampledRun, WorkAndLossesAreIntegralsOfTheOraclesPowers) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, SampledRun, ::testing::ValuesIn(testing::every_law()),
-                         [](auto const& p) { return std::string(info(p.param).name); });
+                         [](auto const& p) { return std::string(slideway::info(p.param).name); });
 
 }  // namespace
 }  // namespace slideway

@@ -121,7 +121,7 @@ TEST_P(FixedStepInImpacts, BeyondTheLimitIsToldWhereFrictionBurnsMost) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, FixedStepInImpacts, ::testing::ValuesIn(testing::every_law()),
-                         [](auto const& p) { return std::string(info(p.param).name); });
+                         [](auto const& p) { return std::string(slideway::info(p.param).name); });
 
 TEST(StiffMethodAlone, IsFlaggedWhereAnImpactCostItEnergy) {
     testing::RunOptions o;
