@@ -24,7 +24,7 @@ struct KelvinVoigt {
 
     template <class Damping, class Real>
     SLIDEWAY_FN static FaceForces<Real> forces(FaceMotion<Real> const& m, FaceContact<Real> const& face,
-                                                     ContactParameters<Real> const& contact) {
+                                               ContactParameters<Real> const& contact) {
         auto f = no_forces<Real>();
         Real const zero(0.0), k = stiffness_of(face, contact);
         auto const add = [&](Mask<Real> touching, ApexMotion<Real> const& apex, Real& normal, Real& elastic) {
@@ -43,7 +43,7 @@ struct KelvinVoigt {
     /// ∂F/∂δ = k and ∂F/∂δ' = c of its own apex, where it pushes.
     template <class Damping, class Real>
     SLIDEWAY_FN static FaceStiffness<Real> stiffness(FaceMotion<Real> const& m, FaceContact<Real> const& face,
-                                                           ContactParameters<Real> const& contact) {
+                                                     ContactParameters<Real> const& contact) {
         auto f = FaceStiffness<Real>::none();
         Real const zero(0.0), k = stiffness_of(face, contact), c = contact.of_law.b;
         auto const add = [&](Mask<Real> touching, ApexMotion<Real> const& apex, Real& normal, Real& by_depth, Real& by_rate) {

@@ -63,31 +63,27 @@ TEST_P(ConservingLaw, KeepsTheEnergyOfAFreeStart) {
     EXPECT_GE(onsets, 5) << "the members must have met the way";
 }
 
-/// Falling starts of the default mechanism; @return medians of the residual at tolerances of 1e-4, 1e-6, 1e-8 and 1e-10
-std::vector<double> expect_falling_residual(Law law, std::vector<Inputs> const& members, bool friction) {
+/// Falling starts of the default mechanism over 0.3 s.  @param bound [J] at a tolerance of 1, to which the residual is proportional
+/// @return medians of the residual at tolerances of 1e-4, 1e-6, 1e-8 and 1e-10
+std::vector<double> expect_falling_residual(Law law, std::vector<Inputs> const& members, bool friction, double bound) {
     std::vector<double> medians;
-    struct {
-        double tolerance, bound;
-    } const steps[] = {{1e-4, 1e-4}, {1e-6, 1e-6}, {1e-8, 1e-8}, {1e-10, 1e-10}};
-    for (auto const& step : steps) {
-        auto o = options(law, step.tolerance, 0.3);
+    for (double const tolerance : {1e-4, 1e-6, 1e-8, 1e-10}) {
+        auto o = options(law, tolerance, 0.3);
         o.parts.friction = friction;
         auto const r = testing::run(best_isa(), o, members);
         double const residual = worst(r, Quantity::energy_residual);
-        ::testing::Test::RecordProperty("residual_at_" + std::to_string(step.tolerance), std::to_string(residual));
-        EXPECT_LT(residual, step.bound) << step.tolerance;
+        ::testing::Test::RecordProperty("residual_at_" + std::to_string(tolerance), std::to_string(residual));
+        EXPECT_LT(residual, bound * tolerance) << tolerance;
         double const last = medians.empty() ? INFINITY : medians.back();
         medians.push_back(middle(r, Quantity::energy_residual));
-        EXPECT_LT(medians.back(), last / 10) << step.tolerance;
+        EXPECT_LT(medians.back(), last / 10) << tolerance;
     }
     return medians;
 }
 
 TEST_P(ConservingLaw, ResidualFallsWithTheTolerance) {
     // Friction, damping and the crank on; 0.3 s of the defaults: 2e-8 J at 1e-6, 1e-11 J at 1e-10 (model.md 8).
-    auto members = testing::scattered_starts(8, 1e-4, 3.141592653589793, GetParam());
-    for (auto& in : members) in = testing::with_own(in, GetParam(), 40);
-    expect_falling_residual(GetParam(), members, true);
+    expect_falling_residual(GetParam(), testing::scattered_starts(8, 1e-4, 3.141592653589793, GetParam()), true, 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, ConservingLaw, ::testing::ValuesIn([] {
@@ -102,21 +98,21 @@ TEST(KelvinVoigt, KeepsEnergyWithoutDampingAsTheConservativeLawDoes) {
     auto const residuals = [](Law law) {
         auto members = testing::scattered_starts(8, 1e-4, 3.141592653589793, law);
         for (auto& in : members) in.eta = 0;
-        return expect_falling_residual(law, members, false);
+        return expect_falling_residual(law, members, false, 10);
     };
     auto const kelvin_voigt = residuals(Law::kelvin_voigt), conservative = residuals(Law::conservative);
     for (std::size_t i = 0; i < kelvin_voigt.size(); ++i) EXPECT_LT(kelvin_voigt[i], 10 * conservative[i]) << i;
 }
 
 TEST(Laws, MakeEnergyIfTheySaySo) {
-    // Nothing rubs or damps, the crank is at rest: what changes the energy is the law.
+    // Nothing rubs or damps, the crank is at rest: what changes the energy in the first impacts is the law.
     for (Law const law : testing::every_law()) {
         auto members = testing::scattered_starts(16, 1e-4, 0.0, law);
         for (auto& in : members) in.eta = 0;
-        auto o = options(law, 1e-9, 0.1);
+        auto o = options(law, 1e-9, 0.02);
         o.parts.friction = false;
         double const made = worst(testing::run(best_isa(), o, members), Quantity::energy_change);
-        EXPECT_EQ(made > 1e-5, info(law).switches) << info(law).name << ": " << made;
+        EXPECT_EQ(made > 1e-6, info(law).switches) << info(law).name << ": " << made;
         EXPECT_EQ(made < 1e-8, !info(law).switches) << info(law).name << ": " << made;
     }
 }

@@ -104,15 +104,21 @@ protected:
         o.quantities = 0;
         return count_ends(testing::run(best_isa(), o, testing::scattered_starts(members, 1e-4, crank_speed, GetParam())));
     }
+    static bool has_points() { return has_group(info(GetParam()).groups, KeyGroup::hertz); }
     static constexpr int members = 16;
 };
 
-TEST_P(FixedStepInImpacts, OfHalfTheLimitFinishes) { EXPECT_EQ(count_of(run(0.5), Status::finished), members); }
+TEST_P(FixedStepInImpacts, WellBelowTheLimitFinishes) {
+    // Apices softer than the surface meet the way slowly; those of a law without points do so at the limit's own rate.
+    EXPECT_EQ(count_of(run(has_points() ? 0.5 : 0.1), Status::finished), members);
+}
 
 TEST_P(FixedStepInImpacts, BeyondTheLimitIsToldFromAResult) {
     auto const twice = run(2), thrice = run(3), tenfold = run(10);
-    EXPECT_EQ(count_of(twice, Status::unstable), members) << "all reach the end, and none is believed";
-    for (auto const& ended : {thrice, tenfold}) EXPECT_EQ(count_of(ended, Status::finished), 0);
+    if (has_points()) {
+        EXPECT_EQ(count_of(twice, Status::unstable), members) << "all reach the end, and none is believed";
+    }
+    for (auto const& ended : {twice, thrice, tenfold}) EXPECT_EQ(count_of(ended, Status::finished), 0);
 }
 
 TEST_P(FixedStepInImpacts, BeyondTheLimitIsToldWhereFrictionBurnsMost) {
