@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What there is to check on a machine with a card that CUDA knows: builds the kernels for cards, runs the tests labelled cuda, compares
+# What there is to check on a machine with a card that CUDA knows: builds the module for cards, runs the tests labelled cuda, compares
 # results with the processor's, watches both with compute-sanitizer, and measures.
 # Usage: scripts/cuda_check.sh [arguments of bench_cuda], e.g. --rounds 5.  Result: bench/results/cuda_<card>.md.
 #
@@ -94,6 +94,23 @@ for law in paper conservative; do
         --set study.revolutions=1
     same "tolerance_$law" tolerance_0.1mm.toml "${set_law[@]}" --set study.base=8 --set 'study.duration=20 ms'
 done
+# The scenes have keys that this law does not know.
+cat >"$results/kelvin_voigt.toml" <<'END'
+schema = 1
+[contact]
+law = "kelvin_voigt"
+apex_damping = 40
+[friction]
+[study]
+members = 512
+duration = "20 ms"
+samples = 5
+quantities = ["energy_residual", "peak_normal_force"]
+[study.vary]
+"initial.y" = { dist = "unif", low = "-0.09 mm", high = "0.09 mm" }
+"initial.vy" = { dist = "unif", low = -0.05, high = 0.05 }
+END
+same kelvin_voigt "../$results/kelvin_voigt.toml"
 same restitution ensemble_starts.toml --set contact.restitution=0.8 --set study.members=512 --set 'study.duration=20 ms'
 
 sanitizer=$(PATH=$PATH:${CUDA_HOME:-/usr/local/cuda}/bin command -v compute-sanitizer || true)

@@ -13,13 +13,14 @@ function match_of(text, pattern) { return match(text, pattern) ? substr(text, RS
 function function_of(name, plain, fullness, stepper) {
     gsub(/\([A-Za-z]+\)/, "", name)  # (Axis)0
     plain = without_templates(name)
-    fullness = name ~ /::derivative<true|, true>::add_faces<|::forces<[A-Za-z]+, true/ ? "full" : "lean"
+    fullness = name ~ /::derivative<true|, true>::add_faces</ ? "full" : "lean"
     if (plain == "SpatialSlider::derivative") return fullness " derivative"
     if (plain == "Joint::add_faces") return fullness " faces"
-    if (plain ~ /::forces$/) return fullness " law"
+    if (plain ~ /Law::normals$/) return "lean law"
+    if (plain ~ /Law::forces$/) return "full law"
     if (plain == "SpatialSlider::linearise") return "linearisation"
     if (plain == "JointLinearisation::add_face") return "linearised faces"
-    if (plain ~ /::stiffness$/) return "linearised law"
+    if (plain ~ /Law::stiffness$/) return "linearised law"
     # The stepper is the first argument, or the first of an explicit one's.
     stepper = match_of(name, "(::work<|CrossingSearch<)(ExplicitStep<)?[A-Za-z0-9]+")
     sub(/.*</, "", stepper)

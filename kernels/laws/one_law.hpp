@@ -44,24 +44,26 @@ template <class... Laws> struct AnyLaw {
     Law law = Law::paper;
     Damping damping = Damping::point;
 
+    // One place to call the laws from, and a result that every path sets: otherwise the assembler keeps it in memory.
     template <class Real>
-    SLIDEWAY_FN FaceNormals<Real> normals(FaceMotion<Real> const& m, FaceContact<Real> const& face,
-                                          ContactParameters<Real> const& contact) const {
-        FaceNormals<Real> f;
+    SLIDEWAY_CARD_CALL FaceNormals<Real> normals(FaceMotion<Real> const& m, FaceContact<Real> const& face,
+                                                 ContactParameters<Real> const& contact) const {
+        auto const nothing = no_forces<Real>();
+        FaceNormals<Real> f{nothing.normal, nothing.outside};
         visit([&]<class One>(One) { f = One::normals(m, face, contact); });
         return f;
     }
     template <class Real>
-    SLIDEWAY_FN FaceForces<Real> forces(FaceMotion<Real> const& m, FaceContact<Real> const& face,
-                                        ContactParameters<Real> const& contact) const {
-        FaceForces<Real> f;
+    SLIDEWAY_CARD_CALL FaceForces<Real> forces(FaceMotion<Real> const& m, FaceContact<Real> const& face,
+                                               ContactParameters<Real> const& contact) const {
+        auto f = no_forces<Real>();
         visit([&]<class One>(One) { f = One::forces(m, face, contact); });
         return f;
     }
     template <class Real>
-    SLIDEWAY_FN FaceStiffness<Real> stiffness(FaceMotion<Real> const& m, FaceContact<Real> const& face,
-                                              ContactParameters<Real> const& contact) const {
-        FaceStiffness<Real> f;
+    SLIDEWAY_CARD_CALL FaceStiffness<Real> stiffness(FaceMotion<Real> const& m, FaceContact<Real> const& face,
+                                                     ContactParameters<Real> const& contact) const {
+        auto f = FaceStiffness<Real>::none();
         visit([&]<class One>(One) { f = One::stiffness(m, face, contact); });
         return f;
     }

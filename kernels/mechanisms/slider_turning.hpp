@@ -27,7 +27,7 @@ template <class Real> struct SliderTurning {
     }
 
     /// Derivatives of φ ϑ ψ ωx ωy ωz.  @param torque τ about the slider's centre [N m] and its axes, both in the frame of the joint.
-    SLIDEWAY_FN void put_rates(Vec3<Real> const& torque, Axes<Real> const& of_joint, Vec3<Real> const& inertia,
+    SLIDEWAY_CARD_CALL void put_rates(Vec3<Real> const& torque, Axes<Real> const& of_joint, Vec3<Real> const& inertia,
                                Vec3<Real> const& inverse_inertia, Real* rates) const {
         Vec3<Real> along{dot(of_joint.x, torque), dot(of_joint.y, torque), dot(of_joint.z, torque)};
         Vec3<Real> momentum{inertia.x * omega.x, inertia.y * omega.y, inertia.z * omega.z};

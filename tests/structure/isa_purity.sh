@@ -46,12 +46,12 @@ while read -r library object; do
         echo "$object: nothing in slideway::$isa::"
         bad=$((bad + 1))
     fi
-    shared=$(awk -v own="slideway::$isa::" -v arch="${arch[$isa]}" -v wider="${wider[$isa]}" -v allowed="$allowed" '
+    shared=$(awk -v own="slideway::(testing::)?$isa::" -v arch="${arch[$isa]}" -v wider="${wider[$isa]}" -v allowed="$allowed" '
         $2 !~ /^[WVu]$/ { next }
         {
             name = $0
             sub(/^[^ ]* [^ ] /, "", name)
-            if (index(name, own) || name ~ allowed) next
+            if (name ~ own || name ~ allowed) next
             if (arch != "" && name ~ arch && (wider == "" || name !~ wider)) next
             print "  " name
         }' <<<"$symbols")
