@@ -7,11 +7,12 @@
 
 #include "host/scene/keys.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"
+#include "kernels/models/every_law.hpp"
 #include "kernels/models/mechanism_model.hpp"
 #include "kernels/models/mechanism_table.hpp"
 #include "tests/oracle/names.hpp"
 #include "tests/oracle/random_states.hpp"
-#include "tests/support/every_law.hpp"
+#include "tests/support/compiled_laws.hpp"
 #include "tests/support/varied_blocks.hpp"
 
 namespace slideway {
@@ -97,7 +98,7 @@ template <class Law_, class Damping_> void add_choices(Law law, Damping damping,
             Parts const parts{law, damping, friction, misaligned};
             Conditions<OneLaw<Law_, Damping_>> const named({}, Law_::info.switches, parts);
             Table const table(Table::Functions::of<SliderCrank>(), testing::conditions_of<double>(parts));
-            all.push_back({parts, answers_of_all(crank(named)), answers_of_all(crank(testing::chosen_conditions_of(parts))),
+            all.push_back({parts, answers_of_all(crank(named)), answers_of_all(crank(conditions_with_every_law(parts))),
                            answers_of_all(table)});
         }
     }

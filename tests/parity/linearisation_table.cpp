@@ -4,7 +4,7 @@
 #include "host/backend/isa_real.hpp"
 #include "kernels/lane_copy.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"
-#include "tests/support/every_law.hpp"
+#include "tests/support/compiled_laws.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 

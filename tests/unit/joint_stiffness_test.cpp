@@ -14,7 +14,7 @@
 #include "tests/oracle/names.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/random_states.hpp"
-#include "tests/support/every_law.hpp"
+#include "tests/support/compiled_laws.hpp"
 
 namespace slideway {
 namespace {

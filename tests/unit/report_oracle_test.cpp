@@ -8,11 +8,6 @@
 #include <string>
 #include <tuple>
 
-#include "kernels/conditions.hpp"
-#include "kernels/laws/conservative.hpp"
-#include "kernels/laws/kelvin_voigt.hpp"
-#include "kernels/laws/law_table.hpp"
-#include "kernels/laws/paper.hpp"
 #include "kernels/mechanisms/carriage.hpp"
 #include "kernels/mechanisms/free_slider.hpp"
 #include "kernels/mechanisms/planar_slider_crank.hpp"
@@ -22,6 +17,7 @@
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/planar.hpp"
 #include "tests/oracle/random_states.hpp"
+#include "tests/support/compiled_laws.hpp"
 #include "tests/unit/oracle_comparison.hpp"
 
 namespace slideway {
@@ -30,18 +26,6 @@ namespace {
 using testing::compare;
 using testing::Comparison;
 using testing::load_of;
-
-using Laws = LawFunctions<double>;
-
-Conditions<Laws> conditions_of(Parts const& parts) {
-    static constexpr LawTable<double> tables[] = {
-#define SLIDEWAY_ROW(name, Type) LawTable<double>::of<Type>(),
-        SLIDEWAY_LAWS(SLIDEWAY_ROW)
-#undef SLIDEWAY_ROW
-    };
-    auto const& table = tables[static_cast<int>(parts.law)];
-    return {table.with[static_cast<int>(parts.damping)], table.switches, parts};
-}
 
 template <class Model> SliderReport<double> report_of_model(oracle::Case const& c, double* rates) {
     ContactMemory<double> memory;
@@ -53,7 +37,7 @@ template <class Model> SliderReport<double> report_of_model(oracle::Case const& 
         memory.impact_speed[face] = {speed(0), speed(1), speed(2), speed(3)};
     }
     SliderReport<double> report;
-    Model::template derivative<true>(c.t, c.state.data(), Model::parameters(c.inputs), memory, conditions_of(c.parts),
+    Model::template derivative<true>(c.t, c.state.data(), Model::parameters(c.inputs), memory, testing::conditions_of<double>(c.parts),
                                      rates, &report);
     return report;
 }
@@ -144,7 +128,7 @@ PlanarReport<double> planar_report_of(oracle::PlanarCase const& c, double* rates
     PlanarSliderCrank::initial_state(c.inputs, state);
     PlanarReport<double> report;
     PlanarSliderCrank::derivative<true>(0.0, state, PlanarSliderCrank::parameters(c.inputs), memory,
-                                        conditions_of(c.parts), rates, &report);
+                                        testing::conditions_of<double>(c.parts), rates, &report);
     return report;
 }
 

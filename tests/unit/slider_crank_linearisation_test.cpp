@@ -12,7 +12,7 @@
 #include "kernels/mechanisms/slider_crank.hpp"
 #include "tests/oracle/linear_solve.hpp"
 #include "tests/oracle/random_states.hpp"
-#include "tests/support/every_law.hpp"
+#include "tests/support/compiled_laws.hpp"
 
 namespace slideway {
 namespace {

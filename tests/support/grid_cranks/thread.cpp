@@ -2,16 +2,16 @@
 #include "kernels/grid_thread.hpp"
 #include "kernels/integrate.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"
+#include "kernels/models/every_law.hpp"
 #include "kernels/models/mechanism_model.hpp"
 #include "kernels/models/shadowed.hpp"
-#include "tests/support/every_law.hpp"
 #include "tests/support/grid_cranks/grid_cranks.hpp"
 
 namespace slideway::testing {
 
 void run_grid_thread(GridTask const& task, bool shadowed) {
-    using Cranks = MechanismModel<SliderCrank, SliderBase, EveryLaw::Any>;
-    Cranks const cranks(chosen_conditions_of(task.parts));
+    using Cranks = MechanismModel<SliderCrank, SliderBase, EveryLaw>;
+    Cranks const cranks(conditions_with_every_law(task.parts));
     if (shadowed) {
         run_thread(task, [&](Block& block) { integrate<Shadowed<Cranks>, double>(block, Shadowed<Cranks>{cranks}); });
     } else {
