@@ -71,7 +71,8 @@ TEST_F(Choice, OfAutoIsNoCardThatIsSlowOrEndsItsKernels) {
         EXPECT_EQ(said(many), processor_ + ": simulated GPU, sm_120 is not made for double precision");
     }
     Setting const unknown("ARCH", "100");
-    EXPECT_EQ(said(many), processor_ + ": cuda: simulated GPU is of sm_100, and this build has kernels for sm_90");
+    std::string const refused = processor_ + ": cuda: simulated GPU is of sm_100, and this build has kernels for sm_";
+    EXPECT_EQ(said(many).substr(0, refused.size()), refused);
     EXPECT_EQ(run_scene("s.toml", "s.nc", {}).code, 4);
 }
 
