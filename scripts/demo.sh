@@ -9,7 +9,8 @@ build=build/release
 scene=scenes/tolerance_0.1mm.toml
 
 bash scripts/setup.sh
-cmake --preset release --log-level=WARNING
+# For this machine alone: scripts/test.sh adds the other instruction sets.
+cmake --preset release --log-level=WARNING -DSLIDEWAY_ISAS=native
 cmake --build "$build" --parallel "$(nproc)" --target slideway
 
 slideway=$build/bin/slideway

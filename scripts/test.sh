@@ -37,6 +37,13 @@ else
 fi
 [[ $asked == --cuda ]] && cuda=ON
 options+=("-DSLIDEWAY_CUDA=$cuda")
+isas=all
+# Two cores would compile and test them for minutes.
+if [[ ${CI:-false} == true ]] && ((jobs < 4)); then
+    isas=native
+    echo "test.sh: less than four cores: instruction sets but scalar and the widest are left to scripts/test.sh without CI=true"
+fi
+options+=("-DSLIDEWAY_ISAS=$isas")
 
 SECONDS=0
 cmake --preset release --log-level=WARNING "${options[@]}" || stop "the configuration failed, no test ran"
