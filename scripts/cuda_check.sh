@@ -37,7 +37,7 @@ has_card || stop "no card was found, nothing was checked" 4
 step "set-up and build, preset cuda"
 bash scripts/setup.sh || stop "the set-up failed"
 cmake --preset cuda --log-level=WARNING || stop "the configuration failed"
-cmake --build "$build" --parallel "$(nproc)" || stop "the build failed"
+cmake --build "$build" --parallel "$(nproc)" --target all bench_cuda || stop "the build failed"
 rm -rf "$results"
 mkdir -p "$results"
 

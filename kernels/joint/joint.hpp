@@ -112,13 +112,14 @@ private:
             outside = outside | f.outside;
             push.add(side, f.normal);
             if constexpr (Full) report_->add_face(Faces::first_face, is_plus, face, f);
-            if (block_.friction) {
-                add_friction<axis>({n, fms(side, Faces::half_main(p_.geometry), Faces::main(motion_)),
-                                    negated(Faces::across(motion_)), p_.geometry.half_length,
-                                    Faces::half_across(p_.geometry), v, spin},
-                                   f.normal, push);
-            }
-            if (none(both)) break;
+            auto const friction = friction_of<axis>({n, fms(side, Faces::half_main(p_.geometry), Faces::main(motion_)),
+                                                     negated(Faces::across(motion_)), p_.geometry.half_length,
+                                                     Faces::half_across(p_.geometry), v, spin},
+                                                    f.normal);
+            push.force = push.force + friction.force;
+            push.torque = push.torque + friction.torque;
+            if constexpr (Full) report_->friction_power = report_->friction_power + friction.power;
+            if (none(both)) [[likely]] break;
         }
         add_push<axis>(push, n, w);
     }
@@ -153,7 +154,7 @@ private:
         set(face.apex.b, depth.b, rate.b);
         set(face.apex.c, depth.c, rate.c);
         set(face.apex.d, depth.d, rate.d);
-        if (!block_.remembers) return;  // and nobody asks
+        if (!block_.remembers) [[likely]] return;  // and nobody asks
         face.apex.a.impact_speed = select(is_plus, plus.a, minus.a);
         face.apex.b.impact_speed = select(is_plus, plus.b, minus.b);
         face.apex.c.impact_speed = select(is_plus, plus.c, minus.c);
@@ -163,7 +164,7 @@ private:
     template <Axis axis>
     SLIDEWAY_FN void set_touching(FaceMotion<Real>& face, Mask<Real> seen, bool holding, Mask<Real> is_plus) const {
         auto const& apex = face.apex;
-        if (!holding) {
+        if (!holding) [[likely]] {
             Real const zero(0.0);
             face.touching = {Mask<Real>(seen & (apex.a.depth > zero)), Mask<Real>(seen & (apex.b.depth > zero)),
                              Mask<Real>(seen & (apex.c.depth > zero)), Mask<Real>(seen & (apex.d.depth > zero))};
@@ -180,12 +181,12 @@ private:
             Mask<Real>(seen & (select(is_plus, plus.d, minus.d) > half))};
     }
 
+    /// Nothing where the scene has none.
     template <Axis axis>
-    SLIDEWAY_FN void add_friction(SlidingFace<Real> const& sliding, Quad<Real> const& normal, Push& push) const {
-        auto friction = StickSlipFriction::load(sliding, normal, p_.friction);
-        push.force = push.force + friction.force;
-        push.torque = push.torque + friction.torque;
-        if constexpr (Full) report_->friction_power = report_->friction_power + friction.power;
+    SLIDEWAY_FN FrictionLoad<Real> friction_of(SlidingFace<Real> const& sliding, Quad<Real> const& normal) const {
+        if (block_.friction) [[likely]] return StickSlipFriction::load(sliding, normal, p_.friction);
+        Real const zero(0.0);
+        return {{zero, zero, zero}, {zero, zero, zero}, zero};
     }
 
     template <Axis axis> SLIDEWAY_FN void add_push(Push const& push, Vec3<Real> const& n, Wrench<Real>& w) const {

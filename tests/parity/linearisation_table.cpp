@@ -1,17 +1,19 @@
 // Compiled once per instruction set.
 #include "tests/parity/linearisation_table.hpp"
 
+#include "host/backend/cpu_laws.hpp"
 #include "host/backend/isa_real.hpp"
+#include "kernels/conditions.hpp"
 #include "kernels/lane_copy.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"
-#include "tests/support/compiled_laws.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
 void linearise_table(Parts const& parts, LinearisationRow const* rows, std::size_t count, double* result) {
     using Real = IsaReal;
     constexpr int width = lanes<Real>;
-    auto const block = testing::conditions_of<Real>(parts);
+    auto const& law = law_table(parts.law);  // as it ships
+    Conditions<LawFunctions<Real>> const block(law.with[static_cast<int>(parts.damping)], law.switches, parts);
     SliderParameters<Real> p;
     ContactMemory<Real> memory;
     start_memory(memory);
