@@ -4,13 +4,14 @@
 # Builds first if SLIDEWAY_PROGRAM does not name a built program.  Stop it with Ctrl-C and start it again: it goes on where it was.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-mkdir -p "${1:-$root/build/reproduction}"
-output=$(realpath "${1:-$root/build/reproduction}")
+study=${SLIDEWAY_STUDY:-reproduction}  # or evidence, by scripts/evidence.sh
+mkdir -p "${1:-$root/build/$study}"
+output=$(realpath "${1:-$root/build/$study}")
 shift $(($# > 0))
 cd "$root"
 
 stop() {
-    echo "reproduce.sh: $1" >&2
+    echo "$study: $1" >&2
     exit 1
 }
 
@@ -28,6 +29,6 @@ environment=$(bash scripts/python_environment.sh) || stop "no Python environment
 
 SECONDS=0
 code=0
-PYTHONPATH=$root/scripts PYTHONDONTWRITEBYTECODE=1 "$environment/bin/python" -m reproduction "$output" "$@" || code=$?
+PYTHONPATH=$root/scripts PYTHONDONTWRITEBYTECODE=1 "$environment/bin/python" -m "$study" "$output" "$@" || code=$?
 echo "time         $SECONDS s"
 exit "$code"

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Sets up, builds and runs all tests but those labelled slow.  Exit code 0 only when everything passed.
-# Usage: scripts/test.sh [--cuda].  The module with the kernels for cards, and its tests, are built where a card is found (with CI=true not
-# even there) or with --cuda; without a card for sm_90, on a simulated one.
+# Usage: scripts/test.sh [--cuda] [--all-isas].  The module with the kernels for cards, and its tests, are built where a card is found (with
+# CI=true not even there) or with --cuda; without a card for sm_90, on a simulated one.  With less than four cores the instruction sets are
+# scalar and the widest of this machine, all of them with --all-isas: before a release.
 # The last line is `N passed, N failed`, with `, N skipped` when tests were skipped.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -26,27 +27,30 @@ stop() {
     exit 1
 }
 
-asked=${1:-}
-[[ $# == 0 || $* == --cuda ]] || stop "cannot make sense of: $*; use --cuda or nothing, no test ran"
+cuda=OFF all_isas=false
+((jobs < 4)) || all_isas=true
+for word in "$@"; do
+    case $word in
+        --cuda) cuda=ON ;;
+        --all-isas) all_isas=true ;;
+        *) stop "cannot make sense of: $word; use --cuda, --all-isas or nothing, no test ran" ;;
+    esac
+done
 bash scripts/setup.sh tests || stop "the set-up failed, no test ran"
 
-options=()
-cuda=OFF
 if nvidia-smi -L >/dev/null 2>&1; then
     [[ ${CI:-false} == true ]] || cuda=ON
 else
     # Without a card one of its kinds says as much about the kernels as two, in half the time.
     export CUDAARCHS=90-real
 fi
-[[ $asked == --cuda ]] && cuda=ON
-options+=("-DSLIDEWAY_CUDA=$cuda")
 isas=all
 # Two cores would compile and test them for minutes.
-if [[ ${CI:-false} == true ]] && ((jobs < 4)); then
+if [[ $all_isas == false ]]; then
     isas=native
-    echo "test.sh: less than four cores: instruction sets but scalar and the widest are left to scripts/test.sh without CI=true"
+    echo "test.sh: less than four cores: instruction sets but scalar and the widest are left to scripts/test.sh --all-isas"
 fi
-options+=("-DSLIDEWAY_ISAS=$isas")
+options=("-DSLIDEWAY_CUDA=$cuda" "-DSLIDEWAY_ISAS=$isas")
 
 SECONDS=0
 cmake --preset release --log-level=WARNING "${options[@]}" || stop "the configuration failed, no test ran"

@@ -19,7 +19,7 @@ struct Words {
     std::vector<std::string> overrides;
     std::string max_failures, max_hours, member, members, threads, shard, block_members;
     std::string variable, column, spacing, skip_time, skip_samples, max_points, delay, dimension, theiler, fit;
-    bool quiet = false, resume = false;
+    bool quiet = false, resume = false, verify = false;
 };
 
 std::string isa_help() {
@@ -87,6 +87,7 @@ std::optional<int> threads(Words const& words) {
 RunArguments run_arguments(Words const& words) {
     RunArguments run;
     run.scene = scene_arguments(words);
+    if (words.verify) run.scene.overrides.emplace_back("study.verify", "16");
     run.output = words.output;
     run.threads = threads(words);
     run.quiet = words.quiet;
@@ -181,6 +182,7 @@ Arguments parse_arguments(int argc, char const* const* argv) {
     run->add_option("--block-members", words.block_members,
                     "Members that a thread takes at once (default: by their cost); a crash loses those under way")
         ->type_name("N");
+    run->add_flag("--verify", words.verify, "Run 16 members again to check the study, whatever it costs (study.verify = 16)");
     run->add_flag("--quiet", words.quiet, "No progress on stderr");
 
     CLI::App* const check =

@@ -7,6 +7,7 @@
 #include "host/output/result_reader.hpp"
 #include "host/study/result_summary.hpp"
 #include "host/study/study_run.hpp"
+#include "host/study/verification.hpp"
 
 namespace slideway::cli {
 
@@ -50,6 +51,7 @@ int info(InfoArguments const& arguments) {
         print_quantities(quantities);
     print_exponents(results);
     print_sections(results);
+    if (auto const summary = verification_summary(results)) fmt::print("\n{}\n", *summary);
     fmt::print("\nscene\n{}\n", results.attribute("scene"));
     if (intact) return exit_code::done;
     throw FileError(

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "host/study/orbit_summary.hpp"
+#include "host/study/verification.hpp"
 
 namespace slideway::cli {
 namespace {
@@ -90,8 +91,12 @@ void print_exponents(ResultReader const& results) {
                    number(e.values.sd), number(e.low), number(e.values.median), number(e.high), number(e.values.max));
     }
     ExponentSummary const& largest = exponents.front();
-    fmt::print("  largest: {} members above zero, {} below, {} undecided by their own 95 % intervals\n",
-               largest.positive, largest.negative, largest.undecided);
+    if (refutes_sign(results)) {
+        fmt::print("  largest: NOT RESOLVED: tighter tolerances do not confirm its sign (see below)\n");
+    } else {
+        fmt::print("  largest: {} members above zero, {} below, {} undecided by their own 95 % intervals\n",
+                   largest.positive, largest.negative, largest.undecided);
+    }
     fmt::print("  its second half alone: {}\n", text(largest.late));
     print_history(exponent_history(results));
     if (results.has("kaplan_yorke_dimension")) {

@@ -11,6 +11,7 @@
 #include "host/output/run_identity.hpp"
 #include "host/scene/drive_period.hpp"
 #include "host/study/orbit_schedule.hpp"
+#include "host/study/verification.hpp"
 
 namespace slideway::cli {
 namespace {
@@ -148,6 +149,14 @@ void print_energy_made(Scene const& scene, EndedMembers const& ended, std::vecto
     fmt::print(".\n");
 }
 
+/// Whether the numbers above are the integration's: to stdout beside them, and where they are, to stderr.
+void print_verification(ResultReader const& results) {
+    auto const summary = verification_summary(results);
+    if (!summary) return;
+    fmt::print("\n{}\n", *summary);
+    if (summary->starts_with("NOT")) fmt::print(stderr, "warning: {}\n", summary->substr(0, summary->find('\n')));
+}
+
 double sum_of(ResultReader const& results, std::string const& variable) {
     double sum = 0;
     for (double const value : results.values(variable)) {
@@ -197,6 +206,7 @@ void print_results(RunArguments const& arguments, Scene const& scene, ResultRead
     }
     print_exponents(results);
     print_sections(results);
+    print_verification(results);
     print_energy_made(scene, ended, quantities);
     print_instability(scene, ended);
     print_spent(scene, ended);

@@ -16,6 +16,13 @@ template <class T> std::vector<double> read_as(NetcdfFile const& file, NetcdfFil
     return {values.begin(), values.end()};
 }
 
+/// As text, also a number.
+std::string text_of(NetcdfFile const& file, std::string const& attribute) {
+    double number = 0;
+    if (file.number(NetcdfFile::global, attribute, number)) return fmt::format("{}", number);
+    return file.text(NetcdfFile::global, attribute);
+}
+
 }  // namespace
 
 ResultView::ResultView(NetcdfFile const& file) : file_(&file), variables_(file.variables()) {
@@ -35,10 +42,11 @@ NetcdfFile::Variable const& ResultView::find(std::string const& variable) const 
     return *found;
 }
 
-std::string ResultView::attribute(std::string const& name) const {
-    double number = 0;
-    if (file_->number(NetcdfFile::global, name, number)) return fmt::format("{}", number);
-    return file_->text(NetcdfFile::global, name);
+std::string ResultView::attribute(std::string const& name) const { return text_of(*file_, name); }
+
+std::string ResultView::group_attribute(std::string const& group, std::string const& name) const {
+    if (!file_->has_group(group)) return {};
+    return text_of(file_->group(group), name);
 }
 
 bool ResultView::has(std::string const& variable) const {

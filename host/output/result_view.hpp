@@ -19,6 +19,7 @@ public:
     /// Whether the members are there, or what they come to together (`store` is "statistics").
     bool stores_members() const { return attribute("store") != "statistics"; }
     std::string attribute(std::string const& name) const;  // as text, also numbers; "" when there is none
+    std::string group_attribute(std::string const& group, std::string const& name) const;  // "" when there is none
     bool has(std::string const& variable) const;
     std::vector<std::string> variable_names() const;
     std::string unit(std::string const& variable) const;

@@ -16,6 +16,7 @@
 namespace slideway {
 namespace {
 
+constexpr std::uint64_t most_verified = 1'000'000;
 constexpr std::uint64_t most_samples = 1'000'000;  // of one member: they stay in memory while it runs
 
 struct EndTime {
@@ -99,6 +100,10 @@ void read_quantities(Node const& list, Scene& scene) {
                                ? selects(has.quantities, static_cast<Quantity>(index))
                                : selects(has.series, static_cast<Series>(index - quantity_count));
         if (!known) refuse_foreign_quantity(node, names[index], scene.parts.mechanism);
+        if (index == std::size_t{static_cast<int>(Quantity::switching_energy)} && info(scene.parts.law).switches &&
+            !scene.integrator.locate_modes) {
+            refuse(node, {"it is known where steps end at the switches, and here they leap over them", "set integrator.locate_modes = true"});
+        }
         if (index < std::size_t{quantity_count}) {
             scene.quantities |= Selection{1} << index;
             continue;
@@ -198,6 +203,9 @@ void read_study(Node const& root, Scene& scene) {
     }
     if (Node const* const node = root.find_path("study.seed")) {
         scene.seed = read_count(*node, "seed", 0, std::numeric_limits<std::int64_t>::max());
+    }
+    if (Node const* const node = root.find_path("study.verify")) {
+        scene.verify = read_count(*node, "number of members that run again", 0, most_verified);
     }
     read_design(root, scene);
     if (scene.study == StudyKind::sweep) read_sweep(root, scene);

@@ -123,6 +123,7 @@ std::string study_table(Scene const& scene) {
         text += span_line(chaos.transient, "transient_revolutions", "Ttr");
         text += span_line(chaos.span, "revolutions", "duration");
     }
+    if (scene.verify) text += fmt::format("verify = {}\n", *scene.verify);
     if (!scene.stores_members()) text += fmt::format("store = \"{}\"\n", name_of(scene.store));
     if (scene.study == StudyKind::sweep) text += sweep_text(chaos);
     if (scene.study == StudyKind::poincare || scene.study == StudyKind::sweep)

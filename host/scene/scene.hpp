@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,6 +34,8 @@ struct Scene {
     Design design;                           // how members are spread over them
     std::shared_ptr<Sampler const> sampler;  // of the design, by prepare_sampler; none: made for each draw
     std::vector<Limit> limits;               // [study.limits]
+    /// Members that run again to check the others, whatever it costs; none: what a tenth of the study's work allows.
+    std::optional<std::uint64_t> verify;
     std::vector<std::string> warnings;       // one line each: what was given and has no effect
 
     bool stores_members() const { return store == Store::members; }

@@ -29,6 +29,9 @@ inline constexpr StudyKey study_keys[] = {
     {"study.kind", "", study_sets::all, "which study"},
     {"study.members", "1", study_sets::all, "members; sweep: starts per column"},
     {"study.seed", "1", study_sets::all, "seed of what [study.vary] draws"},
+    {"study.verify", "1", study_sets::all,
+     "members that run again with a hundredth of the tolerance and by another method, to check what the study says, 0 for none; as many "
+     "as a tenth of the study's work allows, at most 16"},
     {"study.revolutions", "1", study_sets::all,
      "how many are recorded, of the crank, or of a carriage there and back; ensemble and tolerance 1, lyapunov 10, "
      "poincare 150, sweep 50"},

@@ -14,6 +14,7 @@
 #include "host/study/prediction.hpp"
 #include "host/study/statistics_groups.hpp"
 #include "host/study/statistics_report.hpp"
+#include "host/study/verification.hpp"
 
 namespace slideway {
 namespace {
@@ -151,8 +152,11 @@ bool StudyRun::merge(StopRequest const& stop, std::optional<ToleranceReport>& re
         ReportSettings settings;
         settings.threads = options_.threads;
         settings.pause = pause;
+        auto const check = [&](NetcdfFile& file) {
+            write_verification(file, verify(ResultView(file), scene_, *options_.backend, {scene_.verify, options_.threads, &stop}));
+        };
         merge_study(scene_, folder, folder.listed(), provenance(scene_, *options_.backend, options_.threads),
-                    options_.output, report, settings);
+                    options_.output, report, settings, check);
     } catch (Interrupted const&) {
         return false;
     }
@@ -168,7 +172,8 @@ bool asks_for_report(Scene const& scene) {
 
 std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, std::vector<Shard> const& shards,
                           Provenance const& provenance, std::string const& output,
-                          std::optional<ToleranceReport>& report, ReportSettings const& settings) {
+                          std::optional<ToleranceReport>& report, ReportSettings const& settings,
+                          std::function<void(NetcdfFile&)> const& verify) {
     MemberSet const& members = folder.identity().members;
     std::uint64_t const left = members.without(members_of(shards)).count();
     std::string const completeness =
@@ -177,20 +182,21 @@ std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, std::ve
         auto const conclude = [&](NetcdfFile& file, BlockStatistics const& statistics) {
             report = statistics_report(statistics, left, scene, output);
             write_statistics(file, *report);
+            if (verify && left == 0) verify(file);
         };
         merge_statistics(folder, shards,
                          {statistics_plan(scene), members, provenance, completeness, conclude, settings.pause}, output);
         return left;
     }
-    std::function<void(NetcdfFile&)> conclude;
-    if (asks_for_report(scene)) {
-        conclude = [&](NetcdfFile& file) {
+    auto const conclude = [&](NetcdfFile& file) {
+        if (asks_for_report(scene)) {
             report = tolerance_report(ResultView(file), scene, settings);
             write_statistics(file, *report);
-        };
-    }
+        }
+        if (verify && left == 0) verify(file);
+    };
     merge_shards(folder, shards,
-                 {result_layout(scene, members), provenance, completeness, std::move(conclude), settings.pause},
+                 {result_layout(scene, members), provenance, completeness, conclude, settings.pause},
                  output);
     return left;
 }

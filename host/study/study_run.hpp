@@ -89,10 +89,12 @@ private:
 bool asks_for_report(Scene const& scene);
 
 /// A result file of the shards in a folder; members without one have status not_run.  The shards stay.
-/// @param report where that of a scene that `asks_for_report` goes  @return how many members have none.  @throws FileError
+/// @param report where that of a scene that `asks_for_report` goes  @param verify checks a complete result before it is closed
+/// @return how many members have none.  @throws FileError
 std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, std::vector<Shard> const& shards,
                           Provenance const& provenance, std::string const& output,
-                          std::optional<ToleranceReport>& report, ReportSettings const& settings = {});
+                          std::optional<ToleranceReport>& report, ReportSettings const& settings = {},
+                          std::function<void(NetcdfFile&)> const& verify = {});
 
 /// The scene of the run that left a folder, its table of members from the copy there.  @throws SceneError, also if the copy is gone;
 /// FileError if it holds something else than what was run

@@ -29,7 +29,8 @@ struct PlanarBase {
                                                Series::ay});
         info.always = states | selections::of({Series::y, Series::vy});
         info.quantities =
-            selections::all_quantities & ~selections::apex_quantities & ~selections::sensor_quantities;
+            selections::all_quantities & ~selections::apex_quantities & ~selections::sensor_quantities &
+            ~selection_of(Quantity::switching_energy);
         info.keys = groups_of(KeyGroup::slider, KeyGroup::planar, KeyGroup::crank, KeyGroup::links, KeyGroup::elastic,
                               KeyGroup::hertz, KeyGroup::point_damping);
         info.drive = DriveKind::crank;

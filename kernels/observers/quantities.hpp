@@ -30,6 +30,7 @@ enum class Keeper { mechanism, accelerations };
     row(mode_time, counted, mechanism, "s", 4, "mode_class", "time spent in the mode class") \
     row(contact_onsets, counted, mechanism, "1", 1, nullptr, "changes from free flight to contact") \
     row(energy_residual, of_audit, mechanism, "J", 1, nullptr, "energy residual E(t)-E(0)-W+D_f+D_d: energy that the contact law made") \
+    row(switching_energy, counted, mechanism, "J", 1, nullptr, "sum of the jumps of the contact potential where modes switch, at located switches") \
     row(energy_change, counted, mechanism, "J", 1, nullptr, "mechanical energy E(t)-E(0)") \
     row(crank_work, audited_integral, mechanism, "J", 1, nullptr, "work W of the drive: of the crank, or of what moves the carriage") \
     row(friction_loss, audited_integral, mechanism, "J", 1, nullptr, "friction loss D_f") \

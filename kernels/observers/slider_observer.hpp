@@ -73,7 +73,7 @@ public:
     /// @param switches of the law: it makes energy.  The same in all calls.
     SLIDEWAY_FN void start(Mask<Real> fresh, Report const& r, Real const* state, bool switches) {
         Real const zero(0.0);
-        for (auto* value : {&onsets_, &largest_potential_, &made_, &astray_, &exchanged_}) {
+        for (auto* value : {&onsets_, &largest_potential_, &made_, &astray_, &exchanged_, &switched_}) {
             *value = select(fresh, zero, *value);
         }
         for (auto& value : integral_) value = select(fresh, zero, value);
@@ -107,11 +107,17 @@ public:
         take_peaks(accepted, r, state);
     }
 
-    /// What the next step starts from, in the lanes of the mask; again where the law changes there without a step.
+    /// What the next step starts from, in the lanes of the mask.
     SLIDEWAY_FN void resume(Mask<Real> in, Report const& r, bool switches) {
         energy_ = select(in, r.energy, energy_);
         potential_ = select(in, r.contact.potential, potential_);
         if (switches) pattern_ = select(in, r.contact.pattern(), pattern_);
+    }
+
+    /// The same where the law has changed at the same state: what its potential jumps by is energy that nobody supplied (model.md 8).
+    SLIDEWAY_FN void switch_over(Mask<Real> in, Report const& r, bool switches) {
+        switched_ = select(in, switched_ + (r.contact.potential - potential_), switched_);
+        resume(in, r, switches);
     }
 
     /// Integral of an integrand up to the last accepted step.
@@ -159,6 +165,7 @@ private:
         using enum Quantity;
         if constexpr (q == mode_time) return mode_time_[column];
         else if constexpr (q == contact_onsets) return onsets_;
+        else if constexpr (q == switching_energy) return switched_;
         else if constexpr (q == energy_change) return audit().change;
         else if constexpr (q == energy_residual) return audit().residual();
         else static_assert(q == Quantity::count, "SliderObserver::counted has no line for a quantity of the table");
@@ -210,6 +217,7 @@ private:
     Real onsets_, mode_, start_energy_, largest_potential_;
     Real energy_, potential_, pattern_;  // where the next step starts
     Real made_, astray_, exchanged_;
+    Real switched_;
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -60,7 +60,7 @@ private:
 };
 
 template <class Real> struct TableBallObserver : EventRecorder<Real, 0, 0> {
-    template <class Report> SLIDEWAY_FN void resume(Mask<Real>, Report const&, bool) {}
+    template <class Report> SLIDEWAY_FN void switch_over(Mask<Real>, Report const&, bool) {}
 };
 
 /// Its impacts are found as touches of the joint are, not as events: shadows know these alone.

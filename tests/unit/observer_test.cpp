@@ -53,7 +53,7 @@ public:
         means.resize(Observer::integrals, 0.0);
         observer_.accept(accepted, h, means.data(), r, state.data(), switches);
     }
-    void resume(Report const& r) { observer_.resume(true, r, switches); }
+    void resume(Report const& r) { observer_.switch_over(true, r, switches); }
     void finish(double time, Selection selected = everything) { observer_.finish(0, time, selected, row_.data()); }
     double operator()(Quantity q, int column = 0) const {
         return row_[static_cast<std::size_t>(quantity_column(q) + column)];

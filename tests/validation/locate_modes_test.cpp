@@ -72,6 +72,25 @@ TEST(LocatedModes, LetTheErrorFallAsTheOrderOfTheMethodSays) {
     EXPECT_GT(order, 4.5);
 }
 
+TEST(LocatedModes, MakeWhatThePotentialJumpsBy) {
+    // The residual ε of the audit is Σ jumps of U at the switches (model.md 8), and nothing else: no friction, no way's pose can add to it.
+    testing::RunOptions o;
+    o.parts.friction = true;
+    o.settings.rtol = o.settings.atol = 1e-9;
+    o.settings.end_time = 0.05;
+    o.settings.locate_modes = true;
+    o.quantities = selection_of(Quantity::energy_residual) | selection_of(Quantity::switching_energy);
+    auto const result = testing::run(best_isa(), o, testing::scattered_starts(128));
+    double made = 0, apart = 0;
+    for (std::size_t m = 0; m < result.records.size(); ++m) {
+        double const residual = result.value(m, Quantity::energy_residual), jumps = result.value(m, Quantity::switching_energy);
+        made += std::abs(residual);
+        apart += std::abs(residual - jumps);
+    }
+    EXPECT_GT(made, 128 * 1e-4);
+    EXPECT_LT(apart, 0.01 * made);
+}
+
 TEST(LocatedModes, AreTheSameOnEveryInstructionSet) {
     auto const scalar = run_switching(1e-8, true, testing::supported_isas().front());
     for (Isa const isa : testing::supported_isas()) EXPECT_EQ(run_switching(1e-8, true, isa).states, scalar.states);

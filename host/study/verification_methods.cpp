@@ -1,0 +1,99 @@
+// How the members of a study are run again to check it.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "host/scene/descriptors.hpp"
+#include "host/study/verification.hpp"
+
+namespace slideway {
+namespace {
+
+constexpr double tightening = 0.01;
+/// Tolerances below are beyond what doubles resolve.
+constexpr double least_tolerance = 1e-13;
+/// How much smaller a fixed step is, and of neighbours how much farther they start.
+constexpr double fewer_steps = 0.25, farther = 10;
+
+void tighten(IntegratorSettings& settings) {
+    settings.rtol = std::max(least_tolerance, tightening * settings.rtol);
+    settings.atol = std::max(least_tolerance, tightening * settings.atol);
+    settings.stiff_tolerance = std::max(settings.rtol, tightening * settings.stiff_tolerance);
+}
+
+/// Who is least like the study's own.
+Method other_method(Method method, MechanismInfo const& mechanism) {
+    switch (method) {
+        case Method::automatic:
+        case Method::bs32:
+            return Method::dopri5;
+        case Method::dopri5:
+            return mechanism.spatial ? Method::automatic : Method::bs32;
+        default:
+            return Method::automatic;
+    }
+}
+
+/// Right-hand sides of a member beside those at the study's own settings, as found for settled and rattling sliders (docs/integrators.md).
+double cost_of(Method study, Method check) {
+    if (study == check) return study == Method::dopri5 ? 2.5 : 4;
+    if (study == Method::dopri5) return 0.2;  // in lasting contact, where it is needed most
+    return check == Method::dopri5 ? 10 : 4;
+}
+
+}  // namespace
+
+Scene without_series(Scene scene) {
+    scene.sample_times.clear();
+    scene.series = 0;
+    scene.chaos.history = 0;
+    return scene;
+}
+
+std::string words_of(IntegratorSettings const& settings) {
+    if (settings.method == Method::rk4) return fmt::format("rk4 with steps of {:.3g} s", settings.fixed_step);
+    return fmt::format("{} at rtol {:.0e}", name_of(settings.method), settings.rtol);
+}
+
+std::vector<CheckMethod> check_methods(Scene const& scene) {
+    Method const own = scene.integrator.method;
+    Scene const bare = without_series(scene);
+    std::vector<CheckMethod> methods;
+    auto const add = [&](Scene check, double cost, std::string_view beside = "") {
+        methods.push_back({words_of(check.integrator) + std::string(beside), std::move(check), cost});
+    };
+
+    Scene tight = bare;
+    if (own == Method::rk4) {
+        tight.integrator.fixed_step *= fewer_steps;
+        tight.integrator.max_steps = static_cast<std::uint64_t>(static_cast<double>(scene.integrator.max_steps) / fewer_steps);
+    } else {
+        tighten(tight.integrator);
+    }
+    add(tight, cost_of(own, own));
+
+    Scene other = bare;
+    other.integrator.method = other_method(own, info(scene.parts.mechanism));
+    if (own == Method::rk4) {
+        IntegratorSettings const usual;
+        other.integrator.rtol = usual.rtol;
+        other.integrator.atol = usual.atol;
+        other.integrator.max_steps = std::max(other.integrator.max_steps, usual.max_steps);
+    }
+    tighten(other.integrator);
+    add(other, cost_of(own, other.integrator.method));
+
+    if (scene.chaos.exponents > 0 && !runs_to_end(scene.study)) {
+        Scene wide = bare;
+        wide.chaos.d0 = std::min(1e-2, farther * scene.chaos.d0);
+        double const factor = wide.chaos.d0 / scene.chaos.d0;
+        wide.chaos.d0_lower *= factor;
+        wide.chaos.d0_upper *= factor;
+        add(wide, 1, fmt::format(", d0 = {:.0e}", wide.chaos.d0));
+    }
+    // The cheap one first: it may be all that there is room for.
+    std::stable_sort(methods.begin(), methods.end(), [](CheckMethod const& a, CheckMethod const& b) { return a.cost < b.cost; });
+    return methods;
+}
+
+}  // namespace slideway

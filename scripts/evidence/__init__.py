@@ -1,0 +1,1 @@
+"""What the findings rest on: experiments, their numbers, and whether these are resolved."""

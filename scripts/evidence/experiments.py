@@ -1,0 +1,358 @@
+"""Each experiment: the runs that it needs, and the table that they come to."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import slideway
+import xarray as xr
+from reproduction.plan import starts
+from reproduction.runs import Laboratory, Run
+from reproduction.sections import Table
+from slideway.intervals import student_t
+
+LAWS: dict[str, dict[str, Any]] = {
+    "published": {"contact.law": "paper"},
+    "published, n = 1.4": {"contact.law": "paper", "contact.hertz_exponent": 1.4},
+    "published, n = 1.3": {"contact.law": "paper", "contact.hertz_exponent": 1.3},
+    "published, radii 5 mm": {"contact.law": "paper", "contact.apex_radius": "5 mm", "contact.edge_radius": "5 mm"},
+    "published, η = 0.001": {"contact.law": "paper", "contact.eta": 0.001},
+    "published, η = 0.1": {"contact.law": "paper", "contact.eta": 0.1},
+    "published, χ = 10 s/m": {"contact.law": "paper", "contact.chi_line": 10, "contact.chi_surface": 10},
+    "published, χ = 100 s/m": {"contact.law": "paper", "contact.chi_line": 100, "contact.chi_surface": 100},
+    "published, χ = 1000 s/m": {"contact.law": "paper", "contact.chi_line": 1000, "contact.chi_surface": 1000},
+    "published, E/10": {"contact.law": "paper", "contact.young_modulus": 2.07e10},
+    "published, no friction": {"contact.law": "paper", "friction.enabled": False},
+    "published, 2π rad/s": {"contact.law": "paper", "mechanism.crank_speed": "6.283185307179586 rad/s"},
+    "published, switches leapt": {"contact.law": "paper", "integrator.locate_modes": False},
+    "conservative": {"contact.law": "conservative"},
+    "conservative, χ = 10 s/m": {"contact.law": "conservative", "contact.chi_line": 10, "contact.chi_surface": 10},
+    "springs at the apices": {"contact.law": "kelvin_voigt"},
+    "springs and dampers at the apices": {"contact.law": "kelvin_voigt", "contact.apex_damping": 100},
+}
+"""Variants of the slider-crank, by what the tables call them: overrides of the standard scene (0.1 mm, π rad/s, n = 1.5, η = 0.01, radii 0.5 mm)."""
+
+_AUDIT = ["energy_residual", "crank_work", "friction_loss", "damping_loss", "mode_time", "contact_onsets"]
+
+
+@dataclass(frozen=True)
+class Size:
+    """Members and lengths; `seconds` of the falls, `turns` of the cranks."""
+
+    falls: int = 32
+    seconds: float = 4.0
+    members: int = 48
+    turns: float = 1.0
+    exponents: int = 16
+    draws: int = 240
+    studies: int = 200
+    verify: int | None = 16
+    laws: tuple[str, ...] = tuple(LAWS)
+
+
+SIZES = {
+    "full": Size(),
+    "quick": Size(
+        falls=8, seconds=0.05, members=8, turns=0.05, exponents=8, draws=16, studies=4, verify=None, laws=("published", "conservative")
+    ),
+}
+
+
+@dataclass
+class Experiment:
+    """One section of the page."""
+
+    title: str
+    words: list[str]
+    tables: list[Table] = field(default_factory=list)
+
+
+Build = Callable[[Laboratory, Size, Path], Experiment]
+
+
+def resolution(path: Path) -> str:
+    """What the audit said of a result: resolved, not_resolved or not_checked."""
+    with xr.open_dataset(path, group="verification", decode_times=False) as group:
+        return str(group.attrs["resolution"]).replace("_", " ")
+
+
+def mean(values: Any, scale: float = 1.0) -> str:
+    """Mean with its 95 % interval, of the numbers that are there."""
+    numbers = np.asarray(values, dtype=float) * scale
+    numbers = numbers[np.isfinite(numbers)]
+    if numbers.size < 2:
+        return "–" if numbers.size == 0 else f"{numbers[0]:.3g}"
+    half = student_t(numbers.size - 1) * numbers.std(ddof=1) / np.sqrt(numbers.size)
+    return f"{numbers.mean():.3g} ± {half:.1g}"
+
+
+def wilson(successes: int, trials: int) -> tuple[float, float]:
+    """95 % interval of a share (Wilson 1927)."""
+    z, share = 1.959964, successes / trials
+    centre = (share + z * z / (2 * trials)) / (1 + z * z / trials)
+    half = z / (1 + z * z / trials) * np.sqrt(share * (1 - share) / trials + (z / (2 * trials)) ** 2)
+    return max(0.0, centre - half), min(1.0, centre + half)
+
+
+def _done(result: xr.Dataset) -> xr.Dataset:
+    return result.sel(member=result["member"].values[slideway.finished(result).values])
+
+
+def fall(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
+    """A slider that nothing drives and no friction holds falls once through its clearance."""
+    rows = []
+    variants = {"published": {"contact.law": "paper"}, "conservative": {"contact.law": "conservative"}}
+    runs = {}
+    for name, law in variants.items():
+        keys = {
+            **law,
+            "friction.enabled": False,
+            "initial.vx": 0.0,
+            "study.members": size.falls,
+            "study.duration": size.seconds,
+            "study.samples": 0,
+            "study.quantities": ["energy_change", "damping_loss", "energy_residual", "contact_onsets", "mode_time"],
+            "study.vary": starts(0.1),
+        }
+        if size.verify and name == "published":
+            keys["study.verify"] = size.verify
+        runs[name] = Run(f"fall_{name}", "free_slider_drop.toml", keys)
+    laboratory.make(list(runs.values()))
+    for name, run in runs.items():
+        result = _done(laboratory.result(run.name))
+        free = result["mode_time"].sel(mode_class="free") / size.seconds
+        rows.append(
+            [
+                name,
+                mean(-result["energy_change"], 1e3),
+                mean(result["damping_loss"], 1e3),
+                mean(result["energy_residual"], 1e3),
+                mean(free, 100),
+                mean(result["contact_onsets"]),
+                resolution(output / f"{run.name}.nc"),
+            ]
+        )
+    head = ["law", "lost by the fall [mJ]", "taken by damping [mJ]", "made from nothing [mJ]", "in flight [%]", "landings", "figures"]
+    words = [
+        "A slider on its way, without friction, crank or rod, starts at rest within its clearance of 0.1 mm and falls. All the energy that it can "
+        f"ever lose is that of its fall, some 0.2 mJ. What contact damping has taken after {size.seconds:g} s is a matter of counting."
+    ]
+    return Experiment("The experiment that settles it: a fall", words, [Table("Free slider, no friction; mean per member ± 95 %", head, rows)])
+
+
+def _loop_path(depth: float, points: int) -> np.ndarray:
+    """Poses (y, pitch) of a closed loop: onto one edge, rocked flat, lifted; depth of the lower edge [m]."""
+    half, clearance = 0.02, 1e-4
+    tilt = 4 * depth / half
+    press = np.linspace(-depth, depth, points)
+    edge = np.column_stack([-(clearance + press) + half * tilt, np.full(points, tilt)])
+    angles = np.linspace(tilt, 0, points)
+    rock = np.column_stack([-(clearance + depth) + half * angles, angles])
+    lift = np.column_stack([-(clearance + np.linspace(depth, -depth, points)), np.zeros(points)])
+    return np.vstack([edge, rock[1:], lift[1:]])
+
+
+def loop(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
+    """Work of the contact forces around a closed loop of poses: nothing moves by itself, no method integrates."""
+    del laboratory
+    points = 4001 if size.verify else 401
+    rows = []
+    for name, law in (("published", "paper"), ("conservative", "conservative"), ("springs at the apices", "kelvin_voigt")):
+        cells = [name]
+        for depth in (1e-7, 3e-7, 1e-6):
+            path = _loop_path(depth, points)
+            works = []
+            for poses in (path, path[::-1]):
+                table, answer = output / "loop.csv", output / "loop_forces.csv"
+                states = dict.fromkeys(("t", "z", "vy", "vz", "roll", "yaw", "wx", "wy", "wz", "x", "vx"), np.zeros(len(poses)))
+                states |= {"y": poses[:, 0], "pitch": poses[:, 1]}
+                np.savetxt(table, np.column_stack(list(states.values())), delimiter=",", header=",".join(states), comments="", fmt="%.17g")
+                slideway.program.call(
+                    None,
+                    ["probe", str(Path(__file__).resolve().parents[2] / "scenes/free_slider_drop.toml"), "--set", f"contact.law={law}"]
+                    + ["friction.enabled=false", "initial.roll=0", "initial.yaw=0", "--csv", str(table), "-o", str(answer)],
+                )
+                data = np.genfromtxt(answer, delimiter=",", names=True)
+                work = 0.0
+                for apex in range(1, 9):
+                    force, depths = data[f"fn_y_P{apex}"], data[f"pen_y_P{apex}"]
+                    work -= float(np.sum(0.5 * (force[1:] + force[:-1]) * np.diff(depths)))
+                works.append(work)
+            cells.append(f"{works[0]:+.2g}, {works[1]:+.2g}")
+        rows.append(cells)
+    words = [
+        "Quasi-static: the slider is led onto one edge, rocked flat and lifted, and the same way back. W = −∮ Σ F_i dδ_i is what the contact gives "
+        "to the hand that leads it. A law with a potential gives nothing; the published law gives or takes the jump between the potentials of a "
+        "line and of a surface, by direction."
+    ]
+    head = ["law", "0.1 µm deep: W [J], there and back", "0.3 µm", "1 µm"]
+    return Experiment("A closed loop of poses", words, [Table(f"Work around the loop, {points} poses a side", head, rows)])
+
+
+def variants(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
+    """Energy, flight, amplitude and exponents of each law and each number that the paper leaves open."""
+    runs, exponents = {}, {}
+    for name in size.laws:
+        slug = "".join(c if c.isascii() and c.isalnum() else "_" for c in name)
+        located = {"integrator.locate_modes": True} if name.startswith("published") else {}
+        keys = {
+            **located,
+            **LAWS[name],
+            "study.members": size.members,
+            "study.revolutions": size.turns,
+            "study.samples_per_revolution": 2000,
+            "study.quantities": _AUDIT + (["switching_energy"] if located and "leapt" not in name else []),
+            "study.vary": starts(0.1),
+        }
+        study = {
+            **LAWS[name],
+            "study.members": size.exponents,
+            "study.transient_revolutions": size.turns,
+            "study.revolutions": size.turns,
+            "study.history": 0,
+            "study.quantities": ["energy_residual"],
+        }
+        if size.verify and name.startswith("published"):
+            keys["study.verify"] = study["study.verify"] = size.verify
+        runs[name] = Run(f"turn_{slug}", "slider_crank_0.1mm.toml", keys)
+        if "leapt" not in name:
+            exponents[name] = Run(f"exponent_{slug}", "lyapunov_0.1mm.toml", study)
+    laboratory.make([*runs.values(), *exponents.values()])
+    rows = []
+    for name, run in runs.items():
+        result = _done(laboratory.result(run.name))
+        seconds = float(result["time"][-1])
+        late = result["y"].isel(sample=slice(result.sizes["sample"] // 2, None))
+        made = result["energy_residual"]
+        work = float(result["crank_work"].mean())
+        switches = "–"
+        if "switching_energy" in result:
+            apart = float(np.abs(made - result["switching_energy"]).sum()) / max(float(np.abs(made).sum()), 1e-30)
+            switches = f"{100 * apart:.1g} %"
+        largest, seen = "–", "–"
+        if name in exponents:
+            of = _done(laboratory.result(exponents[name].name))
+            largest = mean(of["lyapunov_exponent"].values[:, 0])
+            seen = resolution(output / f"{exponents[name].name}.nc")
+        rows.append(
+            [
+                name,
+                mean(made / seconds, 1e3),
+                f"{100 * float(made.mean()) / work:.2g} %",
+                switches,
+                mean(result["mode_time"].sel(mode_class="free") / seconds, 100),
+                f"{1e6 * float(late.std('sample').median()):.2g}",
+                largest,
+                f"{resolution(output / f'{run.name}.nc')}; {seen}",
+            ]
+        )
+    head = [
+        "law", "made [mJ/s]", "of the crank's work", "off Σ jumps of U", "in flight [%]", "amplitude [µm]", "λ₁ [1/s]", "figures; exponent",
+    ]
+    words = [
+        f"The slider-crank of 0.1 mm at π rad/s, {size.members} starts, {size.turns:g} revolution(s); 0.1 mm, n = 1.5, η = 0.01, radii 0.5 mm, steel, rtol 1e-6, "
+        "where nothing else is said. Amplitude: median over the members of the standard deviation of y in the second half, which holds the slow "
+        "motion along the way, too. λ₁ of the revolution after the first, from other starts. *Off Σ jumps of U*: how far the residual of the energy "
+        "audit is from the sum of the potential's jumps at located switches.",
+    ]
+    return Experiment("Each law, and each number that the paper leaves open", words, [Table("Slider-crank; mean ± 95 %", head, rows)])
+
+
+def scatter(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
+    """All open numbers at once: a Latin hypercube under the published law."""
+    vary = {
+        **starts(0.1),
+        "contact.hertz_exponent": {"dist": "unif", "low": 1.3, "high": 1.5},
+        "contact.eta": {"dist": "unif", "low": 0.001, "high": 0.1},
+        "contact.chi_line": {"dist": "unif", "low": 0, "high": 1000},
+        "contact.chi_surface": {"dist": "unif", "low": 0, "high": 1000},
+        "contact.apex_radius": {"dist": "unif", "low": "0.2 mm", "high": "5 mm"},
+        "contact.edge_radius": {"dist": "unif", "low": "0.2 mm", "high": "5 mm"},
+        "contact.slider_young_modulus": {"dist": "unif", "low": 2e10, "high": 2.1e11},
+        "friction.kinetic": {"dist": "unif", "low": 0.02, "high": 0.15},
+        "mechanism.crank_speed": {"dist": "unif", "low": 1.5, "high": 6.3},
+    }
+    runs = {}
+    for words, located in (("located", True), ("leapt", False)):
+        keys = {
+            "contact.law": "paper",
+            "integrator.locate_modes": located,
+            "study.kind": "tolerance",
+            "study.design": "lhs",
+            "study.members": size.draws,
+            "study.revolutions": None,
+            "study.duration": 2 * size.turns,
+            "study.samples_per_revolution": None,
+            "study.samples": 0,
+            "study.quantities": [*_AUDIT],
+            "study.vary": vary,
+        }
+        if size.verify:
+            keys["study.verify"] = size.verify
+        runs[words] = Run(f"scatter_{words}", "slider_crank_0.1mm.toml", keys)
+    laboratory.make(list(runs.values()))
+    rows, influences = [], []
+    for words, run in runs.items():
+        result = _done(laboratory.result(run.name))
+        made = result["energy_residual"] / (2 * size.turns)
+        rows.append(
+            [words, *(f"{1e3 * float(made.quantile(q)):.3g}" for q in (0.05, 0.25, 0.5, 0.75, 0.95)),
+             f"{100 * float((made > 0).mean()):.0f} %", f"{result.sizes['member']}", resolution(output / f"{run.name}.nc")]
+        )
+        for key in vary:
+            if key.startswith("initial"):
+                continue
+            ranks = [np.argsort(np.argsort(values)) for values in (result[key.replace(".", "_")].values, made.values)]
+            rho = float(np.corrcoef(*ranks)[0, 1])
+            half = 1.96 / np.sqrt(result.sizes["member"] - 3)
+            low, high = np.tanh(np.arctanh(rho) + np.array([-half, half]))
+            influences.append([words, key, f"{rho:+.2f}", f"{low:+.2f} … {high:+.2f}"])
+    quantiles = Table(
+        "Energy made under the published law [mJ/s]: quantiles over the draws",
+        ["switches", "5 %", "25 %", "50 %", "75 %", "95 %", "above zero", "draws", "figures"], rows,
+    )
+    influence = Table("What it goes with: Spearman's rank correlation, 95 % interval", ["switches", "key", "ρ", "interval"], influences)
+    return Experiment(
+        "All that is not printed, at once",
+        ["A Latin hypercube over the Hertz exponent (1.3 … 1.5, as the paper says), damping, radii, modulus, friction and speed: not what one mechanism does, but what the law does."],
+        [quantiles, influence],
+    )
+
+
+def audit(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
+    """How often the resolution audit cries wolf."""
+    laws = ("paper", "conservative")
+    runs = [
+        Run(
+            f"alarm_{law}_{seed}",
+            "ensemble_starts.toml",
+            {
+                "contact.law": law,
+                "study.seed": seed + 1,
+                "study.members": 32,
+                "study.duration": "30 ms",
+                "study.samples": 0,
+                "study.quantities": ["peak_normal_force", "mean_normal_force", "damping_loss", "mode_time"],
+                "study.verify": 16,
+                "integrator.rtol": 1e-7,
+            },
+        )
+        for seed in range(size.studies // 2)
+        for law in laws
+    ]
+    laboratory.make(runs)
+    rows = []
+    for law in laws:
+        said = [resolution(output / f"{run.name}.nc") for run in runs if f"_{law}_" in run.name]
+        alarms = said.count("not resolved")
+        low, high = wilson(alarms, len(said))
+        rows.append([law, f"{len(said)}", f"{alarms}", f"{100 * low:.1f} … {100 * high:.1f} %", f"{said.count('not checked')}"])
+    words = ["Ensembles of 32 starts at rtol 1e-7, each with other starts; 16 members of each run again at 1e-9 by `auto` and by `dopri5`."]
+    return Experiment("False alarms of the audit", words, [Table("Studies called not resolved", ["law", "studies", "alarms", "95 % interval", "not checked"], rows)])
+
+
+EXPERIMENTS: tuple[Build, ...] = (fall, loop, variants, scatter, audit)
