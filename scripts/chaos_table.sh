@@ -20,7 +20,7 @@ exponents() {
     echo "== $1 mm, $2"
     "$slideway" run "$root/scenes/lyapunov_0.1mm.toml" --quiet --threads "$threads" \
         --set "joint.clearance=$1 mm" --set "contact.law=$2" --set "study.members=$3" \
-        --set study.revolutions=4 --set 'study.quantities=["energy_residual","crank_work","mode_time"]' \
+        --set study.revolutions=4 --set study.verify=8 --set 'study.quantities=["energy_residual","crank_work","mode_time"]' \
         -o "$folder/exponents_$1mm_$2.nc"
 }
 for clearance in 0.08 0.1 0.3 0.5; do

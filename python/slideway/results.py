@@ -23,7 +23,7 @@ def open(path: StrPath, group: str | None = None) -> xr.Dataset:  # noqa: A001
 
     Args:
         path: the result, OUT.nc of ``slideway run -o OUT.nc``.
-        group: a group of the file, as :func:`slideway.groups` lists them: "statistics", "yield", "sensitivity".
+        group: a group of the file, as :func:`slideway.groups` lists them: "statistics", "yield", "sensitivity", "verification".
 
     Raises:
         SlidewayError: the file is missing, is no result of slideway, or has no such group.
@@ -53,7 +53,7 @@ def groups(result: StrPath | xr.Dataset) -> list[str]:
     """Names of the groups of a result file, given by its path or its Dataset.
 
     >>> slideway.groups(example_file)
-    []
+    ['verification']
     """
     import netCDF4
 

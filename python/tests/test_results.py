@@ -35,7 +35,11 @@ def test_modes_are_found_by_name(result_of: Result) -> None:
 
 @pytest.mark.parametrize(
     ("name", "groups"),
-    [("ensemble", []), ("tolerance", ["statistics", "yield", "sensitivity"]), ("stored", ["statistics"])],
+    [
+        ("ensemble", ["verification"]),
+        ("tolerance", ["statistics", "yield", "sensitivity", "verification"]),
+        ("stored", ["statistics", "verification"]),
+    ],
 )
 def test_groups_are_listed(result_of: Result, name: str, groups: list[str]) -> None:
     assert slideway.groups(result_of(name)) == groups

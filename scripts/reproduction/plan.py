@@ -71,6 +71,10 @@ def plan(scale: Scale) -> list[Run]:
     return runs
 
 
+def _verified(scale: Scale) -> dict[str, Any]:
+    return {} if scale.verified is None else {"study.verify": scale.verified}
+
+
 def _cranks(scale: Scale, law: str) -> list[Run]:
     cases = {crank(c): c for c in CLEARANCES.values()} | {case: 0.1 for case in SPEEDS.values()}
     runs = []
@@ -81,6 +85,7 @@ def _cranks(scale: Scale, law: str) -> list[Run]:
             "study.revolutions": scale.revolutions,
             "study.samples_per_revolution": scale.crank_samples,
             "study.quantities": _CRANK,
+            **_verified(scale),
         }
         start = name("crank", case, "start", law)
         runs.append(Run(start, scene, {**keys, "study.members": scale.members, "study.vary": starts(clearance)}))
@@ -114,6 +119,7 @@ def _carriages(scale: Scale, law: str) -> list[Run]:
             "study.revolutions": scale.carriage_revolutions,
             "study.samples_per_revolution": scale.carriage_samples,
             "study.quantities": _CARRIAGE,
+            **_verified(scale),
         }
         start = name("carriage", case, "start", law)
         # Half the difference of the widths in Table 1 is the clearance per side.

@@ -21,6 +21,7 @@ class Scale:
             the exponents by neighbours.
         series, series_revolutions, series_samples: members and revolutions of the series that the small-data-sets method takes,
             and their samples a revolution.
+        verified: members of the slider-cranks' and carriages' runs that run again, to check the others; None: what the program does unasked.
     """
 
     members: int
@@ -42,6 +43,7 @@ class Scale:
     series: int
     series_revolutions: float
     series_samples: int
+    verified: int | None = None
 
 
 FULL = Scale(
@@ -64,6 +66,7 @@ FULL = Scale(
     series=8,
     series_revolutions=30,
     series_samples=200,
+    verified=6,
 )
 # Seconds in all: every run and every judgement is there, and no number means anything.
 TINY = Scale(

@@ -110,7 +110,8 @@ TEST(RunIdentity, NamesThreeOfManyKeysAndCountsTheOthers) {
                                             {"mechanism.inclination", "1"},
                                             {"contact.eta", "1"},
                                             {"contact.hertz_exponent", "1.4"},
-                                            {"integrator.rtol", "1e-7"}});
+                                            {"integrator.rtol", "1e-7"},
+                                            {"integrator.atol", "1e-7"}});
     EXPECT_EQ(std::count(changed.begin(), changed.end(), ';'), 3) << changed;
     EXPECT_TRUE(changed.ends_with("; and 2 more")) << changed;
 }

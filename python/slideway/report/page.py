@@ -31,6 +31,7 @@ from .film_section import animation_section
 from .markup import Section, data_block, tag, words
 from .members import chosen
 from .numbers import percent
+from .resolution import Resolution, resolution
 from .traces import Figure
 
 # Nothing is fetched: the page may run its own scripts and show its own pictures, no more.
@@ -93,6 +94,7 @@ def html_of(result: xr.Dataset) -> str:
     every = columns(result)
     ended = statuses.endings(result)
     judged = energy.verdict(result, every)
+    resolved = resolution(result)
     film = _film(result)
     figures = _figures(result, every, film)
     plots = [figure for name, figure in figures.items() if name != "balance"]
@@ -100,6 +102,7 @@ def html_of(result: xr.Dataset) -> str:
         sections.endings_section(result, ended),
         animation_section(film if isinstance(film, str) else film[1]),
         sections.energy_section(judged, figures.get("balance")),
+        sections.resolution_section(resolved),
         sections.summary_section(result, every),
         sections.plots_section(plots),
         sections.run_section(result, sum(ending.count for ending in ended)),
@@ -108,7 +111,7 @@ def html_of(result: xr.Dataset) -> str:
     title = str(result.attrs.get("title") or os.path.basename(slideway.results.path_of(result)))
     body = (
         tag("a", "Skip to the content", class_="skip", href="#content")
-        + tag("div", _header(result, title, ended, judged, there), _main(there), _footer(result), class_="wrap")
+        + tag("div", _header(result, title, ended, judged, resolved, there), _main(there), _footer(result), class_="wrap")
         + _scripts(figures, film)
     )
     head = (
@@ -159,9 +162,16 @@ def _figures(result: xr.Dataset, every: list[Column], film: Film | str) -> dict[
 
 
 def _header(
-    result: xr.Dataset, title: str, ended: list[statuses.Ending], judged: energy.Verdict, parts: list[Section]
+    result: xr.Dataset,
+    title: str,
+    ended: list[statuses.Ending],
+    judged: energy.Verdict,
+    resolved: Resolution | None,
+    parts: list[Section],
 ) -> str:
     cards = [(*statuses.headline(ended), "Members", "endings"), (judged.grade, judged.headline, "Energy", "energy")]
+    if resolved is not None:
+        cards.append((resolved.grade, resolved.headline.split(":")[0], "Resolution", "resolution"))
     exponents = figures_orbits.exponent_words(result) if "status" in result else []
     if exponents:
         cards.append(("none", exponents[0].split(", from")[0], "Chaos", "plots"))

@@ -11,6 +11,7 @@ from .columns import Column
 from .markup import Section, table, tag, words
 from .markup import facts as fact_list
 from .numbers import number, percent, scaled, unit_words
+from .resolution import Resolution
 from .traces import Figure
 
 TEXT = 9  # a column beyond the last: no column of the table holds numbers
@@ -46,6 +47,14 @@ def energy_section(judged: energy.Verdict, balance: Figure | None) -> Section:
     verdict = tag("strong", words(judged.headline)) + tag("p", words(" ".join(judged.sentences)))
     body = tag("div", verdict, class_=f"verdict {judged.grade}") + tag("p", words(RESIDUAL))
     return Section("energy", "Energy audit", body + (figure_element(balance) if balance else ""))
+
+
+def resolution_section(found: Resolution | None) -> Section | None:
+    """Whether tighter tolerances say the same, in the program's words."""
+    if found is None:
+        return None
+    lines = "".join(tag("p", words(line)) for line in found.lines)
+    return Section("resolution", "Resolution", tag("div", tag("strong", words(found.headline)) + lines, class_=f"verdict {found.grade}"))
 
 
 def summary_section(result: xr.Dataset, every: list[Column]) -> Section | None:
