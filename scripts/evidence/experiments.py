@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -30,8 +31,8 @@ LAWS: dict[str, dict[str, Any]] = {
     "published, switches leapt": {"contact.law": "paper", "integrator.locate_modes": False},
     "conservative": {"contact.law": "conservative"},
     "conservative, χ = 10 s/m": {"contact.law": "conservative", "contact.chi_line": 10, "contact.chi_surface": 10},
-    "springs at the apices": {"contact.law": "kelvin_voigt"},
-    "springs and dampers at the apices": {"contact.law": "kelvin_voigt", "contact.apex_damping": 100},
+    "springs at the apices": {"contact.law": "kelvin_voigt", "contact.eta": None},
+    "springs and dampers at the apices": {"contact.law": "kelvin_voigt", "contact.eta": None, "contact.apex_damping": 100},
 }
 """Variants of the slider-crank, by what the tables call them: overrides of the standard scene (0.1 mm, π rad/s, n = 1.5, η = 0.01, radii 0.5 mm)."""
 
@@ -127,7 +128,6 @@ def fall(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
         rows.append(
             [
                 name,
-                mean(-result["energy_change"], 1e3),
                 mean(result["damping_loss"], 1e3),
                 mean(result["energy_residual"], 1e3),
                 mean(free, 100),
@@ -135,7 +135,7 @@ def fall(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
                 resolution(output / f"{run.name}.nc"),
             ]
         )
-    head = ["law", "lost by the fall [mJ]", "taken by damping [mJ]", "made from nothing [mJ]", "in flight [%]", "landings", "figures"]
+    head = ["law", "taken by damping [mJ]", "made from nothing [mJ]", "in flight [%]", "landings", "figures"]
     words = [
         "A slider on its way, without friction, crank or rod, starts at rest within its clearance of 0.1 mm and falls. All the energy that it can "
         f"ever lose is that of its fall, some 0.2 mJ. What contact damping has taken after {size.seconds:g} s is a matter of counting."
@@ -215,10 +215,11 @@ def variants(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
             "study.history": 0,
             "study.quantities": ["energy_residual"],
         }
-        if size.verify and name.startswith("published"):
-            keys["study.verify"] = study["study.verify"] = size.verify
+        if size.verify:
+            # What lies on its way takes an explicit method a hundred times as long.
+            keys["study.verify"] = study["study.verify"] = size.verify if name.startswith("published") else 6
         runs[name] = Run(f"turn_{slug}", "slider_crank_0.1mm.toml", keys)
-        if "leapt" not in name:
+        if "leapt" not in name and "rtol" not in name:
             exponents[name] = Run(f"exponent_{slug}", "lyapunov_0.1mm.toml", study)
     laboratory.make([*runs.values(), *exponents.values()])
     rows = []
@@ -241,7 +242,7 @@ def variants(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
             [
                 name,
                 mean(made / seconds, 1e3),
-                f"{100 * float(made.mean()) / work:.2g} %",
+                f"{100 * float(made.mean()) / work:.2g} %" if LAWS[name].get("friction.enabled", True) else "–",
                 switches,
                 mean(result["mode_time"].sel(mode_class="free") / seconds, 100),
                 f"{1e6 * float(late.std('sample').median()):.2g}",
@@ -267,11 +268,11 @@ def scatter(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
         **starts(0.1),
         "contact.hertz_exponent": {"dist": "unif", "low": 1.3, "high": 1.5},
         "contact.eta": {"dist": "unif", "low": 0.001, "high": 0.1},
-        "contact.chi_line": {"dist": "unif", "low": 0, "high": 1000},
-        "contact.chi_surface": {"dist": "unif", "low": 0, "high": 1000},
+        "contact.chi_line": {"dist": "unif", "low": 0, "high": 50},
+        "contact.chi_surface": {"dist": "unif", "low": 0, "high": 50},
         "contact.apex_radius": {"dist": "unif", "low": "0.2 mm", "high": "5 mm"},
         "contact.edge_radius": {"dist": "unif", "low": "0.2 mm", "high": "5 mm"},
-        "contact.slider_young_modulus": {"dist": "unif", "low": 2e10, "high": 2.1e11},
+        "contact.slider_young_modulus": {"dist": "unif", "low": 5e10, "high": 2.1e11},
         "friction.kinetic": {"dist": "unif", "low": 0.02, "high": 0.15},
         "mechanism.crank_speed": {"dist": "unif", "low": 1.5, "high": 6.3},
     }
@@ -322,6 +323,41 @@ def scatter(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
     )
 
 
+def shipped(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
+    """Whether the scenes that are shipped are resolved at the settings that they have."""
+    folder = Path(__file__).resolve().parents[2] / "scenes"
+    clearances = {"carriage_2": 0.075, "carriage": 0.125, "0.08mm": 0.08, "0.15mm": 0.15, "0.22mm": 0.22, "0.3mm": 0.3, "0.5mm": 0.5}
+    runs = []
+    for path in sorted(folder.glob("*.toml")):
+        stem = path.stem
+        keys: dict[str, Any] = {"study.verify": max(6, size.exponents // 2)}
+        if stem.startswith(("tolerance", "ensemble")):
+            keys |= {"study.samples_per_revolution": None, "study.samples": 0}
+        elif stem.startswith("planar"):
+            keys |= {"study.members": size.exponents, "study.vary": {"initial.y": {"dist": "unif", "low": "-0.3 mm", "high": "0.3 mm"}}}
+        else:
+            gap = next((c for name, c in clearances.items() if name in stem), 0.1)
+            keys |= {"study.members": size.exponents, "study.vary": starts(gap)}
+            if stem.startswith(("lyapunov", "poincare")):
+                keys |= {"study.transient_revolutions": size.turns, "study.revolutions": size.turns}
+            elif stem.startswith("sweep"):
+                keys |= {"study.members": 2, "study.transient_revolutions": size.turns, "study.revolutions": 2 * size.turns}
+                keys |= {"study.from": "0.1 mm", "study.to": "0.4 mm", "study.points": 4}
+            elif not stem.startswith("free"):
+                keys["study.revolutions"] = size.turns
+        if size.verify:
+            runs.append(Run(f"shipped_{stem}", path.name, keys))
+    for table in folder.glob("*.csv"):
+        shutil.copy(table, output)
+    laboratory.make(runs)
+    rows = []
+    for run in runs:
+        result = laboratory.result(run.name)
+        rows.append([run.scene, f"{result.sizes['member']}", resolution(output / f"{run.name}.nc")])
+    words = [f"Each shipped scene at its own settings, from {size.exponents} scattered starts where it has one, over {size.turns:g} revolution(s), half of the members run again."]
+    return Experiment("The shipped scenes", words, [Table("Resolution", ["scene", "members", "figures"], rows)])
+
+
 def audit(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
     """How often the resolution audit cries wolf."""
     laws = ("paper", "conservative")
@@ -354,4 +390,4 @@ def audit(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
     return Experiment("False alarms of the audit", words, [Table("Studies called not resolved", ["law", "studies", "alarms", "95 % interval", "not checked"], rows)])
 
 
-EXPERIMENTS: tuple[Build, ...] = (fall, loop, variants, scatter, audit)
+EXPERIMENTS: tuple[Build, ...] = (fall, loop, variants, scatter, shipped, audit)
