@@ -123,8 +123,8 @@ int stats(StatsArguments const& arguments) {
     row("average period", fmt::format("{:.4g} s ({:.4g} samples)", a.average_period, a.average_period / a.spacing));
     print_embedding(a, arguments.options);
     print_growth(a, arguments.options);
-    std::string const k = std::isnan(a.zero_one.k) ? "none" : fmt::format("{:.3f}", a.zero_one.k);
-    row("0-1 test", fmt::format("K = {} from {} samples, one of every {}", k, a.zero_one.points, a.stride));
+    std::string const k = std::isnan(a.zero_one.k) ? "none" : fmt::format("K = {:.3f}", a.zero_one.k);
+    row("0-1 test", fmt::format("{} from {} samples, one of every {}", k, a.zero_one.points, a.stride));
     row("verdict", verdict(a));
     for (std::string const& line : reservations(a)) row("", "- " + line);
     if (!arguments.output.empty()) row("curves", arguments.output);
