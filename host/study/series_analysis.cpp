@@ -80,6 +80,26 @@ std::size_t longest_growth(SeriesAnalysis const& analysis, SeriesOptions const& 
     return std::max(found, options.fit->last);
 }
 
+/// Of sampled motions curves are bent by pairs that grow at unlike speeds: of Rössler's flow slopes read 15 to 20 % low wherever
+/// the window lies, of Lorenz's 5 to 8 %, of maps not at all.  No variation of the fit shows it.
+constexpr double flow_bend = 0.2;  // of the exponent
+
+/// The most that the exponent changes with one coordinate more or less.
+double change_with_dimension(SeriesAnalysis const& analysis, std::span<double const> series,
+                             SeriesOptions const& options) {
+    double most = 0;
+    for (std::size_t const dimension : {analysis.dimension - 1, analysis.dimension + 1}) {
+        if (dimension < 2) continue;
+        DelayEmbedding const embedding(series, analysis.delay, dimension);
+        auto const curve = divergence_curve(embedding, analysis.theiler, analysis.divergence.mean_log.size() - 1);
+        double const period = analysis.average_period / analysis.spacing;
+        auto const window = options.fit ? options.fit : growth_window(curve, embedding.span(), period);
+        auto const growth = window ? fit_growth(curve, *window, analysis.spacing) : std::nullopt;
+        if (growth) most = std::max(most, std::abs(growth->exponent - analysis.growth->exponent));
+    }
+    return most;
+}
+
 char const* why_no_growth(DivergenceCurve const& curve) {
     if (curve.mean_log.empty())
         return "no neighbours: points are alike, or all near ones lie within the Theiler window";
@@ -90,7 +110,7 @@ char const* why_no_growth(DivergenceCurve const& curve) {
 }
 
 std::string exponent_text(Growth const& growth) {
-    return fmt::format("{:.3g} ± {:.2g} per second", growth.exponent, growth.error);
+    return fmt::format("{:.3g} ± {:.2g} per second", growth.exponent, growth.half_width());
 }
 
 }  // namespace
@@ -121,6 +141,10 @@ SeriesAnalysis analyse_series(std::span<double const> series, double spacing, Se
     analysis.divergence = divergence_curve(embedding, analysis.theiler, longest_growth(analysis, options));
     auto const window = options.fit ? options.fit : growth_window(analysis.divergence, analysis.window, period);
     if (window) analysis.growth = fit_growth(analysis.divergence, *window, spacing);
+    if (analysis.growth) {
+        analysis.growth->systematic += change_with_dimension(analysis, series, options);
+        if (!analysis.from_map) analysis.growth->systematic += flow_bend * std::abs(analysis.growth->exponent);
+    }
     analysis.stride = zero_one_stride(period);
     analysis.zero_one = zero_one_test(series, {.stride = analysis.stride});
     return analysis;
@@ -163,9 +187,10 @@ std::vector<std::string> reservations(SeriesAnalysis const& analysis) {
         lines.push_back(fmt::format("distances grow by e^{:.1f} only within the fit window", analysis.growth->rise));
     }
     if (analysis.zero_one.points < fewest_for_zero_one) {
-        lines.push_back(fmt::format("no 0–1 test: {} samples, one of every {}, are too few; it needs {}, for of fewer "
-                                    "regular motion looks irregular",
-                                    analysis.zero_one.points, analysis.stride, fewest_for_zero_one));
+        lines.push_back(
+            fmt::format("no 0–1 test: {} samples, one of every {}, are too few; it needs {}, for of fewer "
+                        "regular motion looks irregular",
+                        analysis.zero_one.points, analysis.stride, fewest_for_zero_one));
     }
     if (analysis.growth_is_seen()) lines.emplace_back("coloured noise can look alike; compare with surrogate data");
     return lines;
