@@ -28,7 +28,8 @@ struct Exponents {
 };
 
 /// λ_j = Σ_i g_ij / (n Δ).  Source: Benettin et al., Meccanica 15 (1980) 9–20 and 21–30.
-/// Error by batch means: a = ⌊n/b⌋ batches of b = max(⌊√n⌋, ⌊n/16⌋) consecutive intervals, s.e. = s(batch means)/√a; a remainder, at the
+/// Error by batch means: a = ⌊n/b⌋ batches of b = max(⌊√n⌋, ⌊n/16⌋) consecutive intervals,
+/// s.e. = s(batch means)/√a; a remainder, at the
 /// start, is left out of it.  Where the record has 8 periods of the forcing or more, batches are whole
 /// periods.  Source: Flegal & Jones, Annals of Statistics 38 (2010) 1034–1070; at most some sixteen batches, for more of them
 /// add little and must be longer than what growth remembers: Schmeiser, Operations Research 30 (1982) 556–568.  With a memory
