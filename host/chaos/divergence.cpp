@@ -146,6 +146,20 @@ double jackknife_error(DivergenceCurve const& curve, FitWindow window, double sp
     return std::sqrt((n - 1) / n * squares);
 }
 
+double change_with_window(DivergenceCurve const& curve, FitWindow window, double spacing, double slope) {
+    std::size_t const step = std::max<std::size_t>(1, (window.last - window.first) / 4);
+    double most = 0;
+    if (window.first >= step) {
+        FitWindow const before{window.first - step, window.last - step};
+        most = std::abs(fit_part(curve.mean_log, before, spacing).slope - slope);
+    }
+    if (window.last + step < curve.mean_log.size()) {
+        FitWindow const after{window.first + step, window.last + step};
+        most = std::max(most, std::abs(fit_part(curve.mean_log, after, spacing).slope - slope));
+    }
+    return most;
+}
+
 }  // namespace
 
 DivergenceCurve divergence_curve(DelayEmbedding const& embedding, std::size_t theiler, std::size_t longest) {
@@ -189,7 +203,12 @@ std::optional<Growth> fit_growth(DivergenceCurve const& curve, FitWindow window,
     if (window.last <= window.first || window.last >= curve.mean_log.size()) return std::nullopt;
     LinearFit const line = fit_part(curve.mean_log, window, spacing);
     double const length = static_cast<double>(window.last - window.first) * spacing;
-    return Growth{window, line, line.slope, jackknife_error(curve, window, spacing), line.slope * length};
+    return Growth{window,
+                  line,
+                  line.slope,
+                  jackknife_error(curve, window, spacing),
+                  line.slope * length,
+                  change_with_window(curve, window, spacing, line.slope)};
 }
 
 }  // namespace slideway

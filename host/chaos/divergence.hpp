@@ -46,15 +46,22 @@ std::optional<FitWindow> growth_window(DivergenceCurve const& curve, std::size_t
 
 struct Growth {
     FitWindow window;
-    LinearFit line;   // ⟨ln d⟩ over time
-    double exponent;  // λ₁ = line.slope [1/unit of spacing]
-    double error;     // standard error of λ₁ by the jackknife over the parts of `without`
-    double rise;      // exponent times the length of the window: e-foldings seen
+    LinearFit line;     // ⟨ln d⟩ over time
+    double exponent;    // λ₁ = line.slope [1/unit of spacing]
+    double error;       // standard error of λ₁ by the jackknife over the parts of `without`
+    double rise;        // exponent times the length of the window: e-foldings seen
+    double systematic;  // what the choice of window changes, and what a caller knows besides [as the exponent]
+
+    /// Of the 95 % interval: Student's t of ten parts times the error, and the systematic part in full.
+    double chance() const { return 2.262 * error; }
+    double half_width() const { return chance() + systematic; }
 };
 
 /// Line through the curve in the window.  The error of the regression takes the points of the curve as independent, which
 /// they are not; the jackknife asks how the slope changes with the stretches of trajectory that happened to be there.  A pair
 /// counts for both its stretches, which is cautious: over 5,000 points of Lorenz the error is half as large again as the scatter.
+/// Systematic: the most that the slope changes where the window is moved by a quarter of its length, to either side; the jackknife
+/// cannot see a bend that all stretches share.
 /// @param spacing of samples.  @return nothing for a window with less than two points or outside the curve.
 std::optional<Growth> fit_growth(DivergenceCurve const& curve, FitWindow window, double spacing);
 

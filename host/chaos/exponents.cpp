@@ -26,12 +26,14 @@ double error_of_mean(std::span<double const> numbers) {
 }
 
 constexpr std::size_t least_batches = 8;  // of fewer the spread is a guess
+constexpr std::size_t most_batches = 16;  // more say little more of the spread, and are shorter than what growth remembers
 
 std::size_t batch_size(GrowthLog const& log) {
     std::size_t const n = log.intervals();
     auto const root = static_cast<std::size_t>(std::sqrt(static_cast<double>(n)));
-    if (log.period == 0 || n / log.period < least_batches) return root;
-    std::size_t const periods = std::max<std::size_t>(1, root / log.period);
+    std::size_t const wanted = std::max(root, n / most_batches);
+    if (log.period == 0 || n / log.period < least_batches) return wanted;
+    std::size_t const periods = std::max<std::size_t>(1, wanted / log.period);
     return periods * log.period;
 }
 

@@ -28,9 +28,13 @@ struct Exponents {
 };
 
 /// λ_j = Σ_i g_ij / (n Δ).  Source: Benettin et al., Meccanica 15 (1980) 9–20 and 21–30.
-/// Error by batch means: a = ⌊n/b⌋ batches of b = ⌊√n⌋ consecutive intervals, s.e. = s(batch means)/√a; a remainder, at the
-/// start, is left out of it.  Where the record has 8 periods of the forcing or more, batches are whole periods.  Source: Flegal & Jones, Annals of Statistics 38 (2010) 1034–1070.  It is honest where growth is independent over √n
-/// intervals.
+/// Error by batch means: a = ⌊n/b⌋ batches of b = max(⌊√n⌋, ⌊n/16⌋) consecutive intervals,
+/// s.e. = s(batch means)/√a; a remainder, at the
+/// start, is left out of it.  Where the record has 8 periods of the forcing or more, batches are whole
+/// periods.  Source: Flegal & Jones, Annals of Statistics 38 (2010) 1034–1070; at most some sixteen batches, for more of them
+/// add little and must be longer than what growth remembers: Schmeiser, Operations Research 30 (1982) 556–568.  With a memory
+/// of τ = 1 + 2 Σ ρ_k intervals (ρ_k the correlation at lag k) 95 % intervals hold the exponent in 93 to 96 % of records of 50 τ
+/// and more, in 84 % of 13 τ (tests/validation/slow/coverage_test.cpp).
 Exponents exponents_of(GrowthLog const& log);
 
 /// Running exponents of an offset: those of the first n intervals, for each n of `after` (ascending).  NaN where there are fewer.

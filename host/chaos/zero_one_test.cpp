@@ -11,7 +11,6 @@ namespace slideway {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t fewest_points = 50;
 
 std::vector<double> thinned(std::span<double const> series, ZeroOneOptions const& options) {
     std::vector<double> out;
@@ -66,7 +65,7 @@ double median(std::vector<double> values) {
 ZeroOneTest zero_one_test(std::span<double const> series, ZeroOneOptions const& options) {
     std::vector<double> used = thinned(series, options);
     ZeroOneTest test{nan, {}, used.size()};
-    if (used.size() < fewest_points || !remove_mean(used)) return test;
+    if (used.size() < fewest_for_zero_one || !remove_mean(used)) return test;
     for (std::size_t i = 1; i <= options.frequencies; ++i) {
         double const turns = static_cast<double>(i) / std::numbers::phi;
         double const c = std::numbers::pi * (0.2 + 0.6 * (turns - std::floor(turns)));

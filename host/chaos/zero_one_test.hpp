@@ -7,6 +7,8 @@
 
 namespace slideway {
 
+inline constexpr std::size_t fewest_for_zero_one = 300;  // samples after thinning
+
 struct ZeroOneOptions {
     std::size_t stride = 1;          // every stride-th sample is used
     std::size_t frequencies = 100;   // numbers of c
@@ -25,7 +27,11 @@ struct ZeroOneTest {
 /// motion; K_c is the correlation of M(n) with n, n = 1 … N/10.  The oscillation (Eφ)²(1 - cos nc)/(1 - cos c) that the
 /// paper subtracts is that of the mean; here the mean is taken from φ first.  The c are spread evenly over (π/5, 4π/5) by multiples of
 /// the golden ratio, so that no two runs differ and few c are near a resonance.
-/// @return K = NaN for less than 50 samples after thinning, numbers that are not finite, or a constant series.
+/// Of fewer than 300 samples K says nothing.  Of 60 sums of two sines, four to ten samples a period, K is above 0.8 in 55 % with
+/// 139 samples, in 47 % with 150, in none with 200 (0.75 at most); above 0.2 in 48 % with 200, 18 % with 250, none with 300 (0.19 at
+/// most) and 400 (0.12).  Single sines are below 0.2 from 139 on, r = 3.55 of the logistic map from 139 on; chaotic series are above
+/// 0.95 from 50 on, so it is regular motion that needs the samples.
+/// @return K = NaN for less than `fewest_for_zero_one` samples after thinning, numbers that are not finite, or a constant series.
 ZeroOneTest zero_one_test(std::span<double const> series, ZeroOneOptions const& options = {});
 
 /// Sampled densely, even a chaotic series looks regular: it is smooth over N/10 samples.  Four samples per average period,

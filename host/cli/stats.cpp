@@ -72,8 +72,10 @@ void print_embedding(SeriesAnalysis const& a, SeriesOptions const& given) {
 void print_growth(SeriesAnalysis const& a, SeriesOptions const& given) {
     if (!a.growth) return row("exponent", "none");
     Growth const& g = *a.growth;
-    row("exponent", fmt::format("{:.4g} ± {:.2g} 1/s, {:.3g} ± {:.2g} per average period", g.exponent, g.error,
-                                g.exponent * a.average_period, g.error * a.average_period));
+    row("exponent", fmt::format("{:.4g} ± {:.2g} 1/s, {:.3g} ± {:.2g} per average period", g.exponent, g.half_width(),
+                                g.exponent * a.average_period, g.half_width() * a.average_period));
+    row("", fmt::format("95 % interval: ± {:.2g} of chance, ± {:.2g} of window, dimension{}", g.chance(), g.systematic,
+                        a.from_map ? "" : " and bend"));
     row("fit window", fmt::format("samples {} to {}{}, R² = {:.4f}, distances grow by e^{:.2f}, {} pairs",
                                   g.window.first, g.window.last, given.fit ? ", as given" : "", g.line.r_squared,
                                   g.rise, a.divergence.pairs[g.window.first]));
@@ -123,8 +125,8 @@ int stats(StatsArguments const& arguments) {
     row("average period", fmt::format("{:.4g} s ({:.4g} samples)", a.average_period, a.average_period / a.spacing));
     print_embedding(a, arguments.options);
     print_growth(a, arguments.options);
-    std::string const k = std::isnan(a.zero_one.k) ? "none" : fmt::format("{:.3f}", a.zero_one.k);
-    row("0-1 test", fmt::format("K = {} from {} samples, one of every {}", k, a.zero_one.points, a.stride));
+    std::string const k = std::isnan(a.zero_one.k) ? "none" : fmt::format("K = {:.3f}", a.zero_one.k);
+    row("0-1 test", fmt::format("{} from {} samples, one of every {}", k, a.zero_one.points, a.stride));
     row("verdict", verdict(a));
     for (std::string const& line : reservations(a)) row("", "- " + line);
     if (!arguments.output.empty()) row("curves", arguments.output);

@@ -23,6 +23,7 @@ double product_moment(std::span<double const> x, std::span<double const> y);
 
 /// Interval of a rank correlation r of n independent pairs, tanh(artanh r ± z √((1 + r²/2)/(n-3))): Fisher's
 /// transformation with the variance of Spearman's r, z the (1+level)/2 quantile of the normal distribution.
+/// 95 % ones hold the rank correlation of normal pairs in 95 to 96 % of studies of 20 pairs or more, in 95 to 97.5 % of 10.
 /// Source: Fisher (1921), Metron 1; Bonett and Wright (2000), Sample size requirements for estimating Pearson, Kendall
 /// and Spearman correlations, Psychometrika 65, table 1.
 /// @return NaN with n < 4; r itself where it is 1 or -1.

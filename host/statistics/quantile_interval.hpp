@@ -23,7 +23,8 @@ struct RankInterval {
 /// Confidence interval of the p-quantile of n independent draws by two of their order statistics.  The number of draws
 /// below the quantile is B ~ Bin(n, p), so P(x(r) > q) = P(B <= r-1) and P(x(s) < q) = P(B >= s), both at most: the
 /// lower bound is x(r) with the largest r of P(B <= r-1) <= (1-level)/2, the upper one x(s) with the smallest s of
-/// P(B >= s) <= (1-level)/2.  It covers the quantile of any distribution with at least `level`.
+/// P(B >= s) <= (1-level)/2.  It covers the quantile of any distribution with at least `level`;
+/// ranks are whole, so 95 % ones have 95 to 98.5 % with 50 to 1,000 draws.
 /// Source: Conover (1999), Practical Nonparametric Statistics, 3.2; Hahn and Meeker (1991), Statistical Intervals, 5.2.
 /// @param n > 0 draws; or their values, sorted ascending, no NaN.  @param p, level in (0, 1).
 /// @return r and s; or the interval in the unit of the values.  A bound for which n is too small (no such rank) is NaN.

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
 #include "host/scene/sampling.hpp"
 #include "host/statistics/exact_sum.hpp"
 #include "host/statistics/summary.hpp"
@@ -102,10 +105,22 @@ void resample(std::span<double const> groups, std::size_t size, std::uint64_t se
     }
 }
 
-Interval percentile_interval(std::vector<double> replicates, double level) {
+/// Tail of the percentiles: Student's, and wider by the shrinkage of a bootstrap's variance.
+double tail_of(std::size_t rows, double level) {
+    auto const n = static_cast<double>(rows);
+    boost::math::students_t const student(n - 1);
+    double const reach = boost::math::quantile(student, 0.5 + 0.5 * level) * std::sqrt(n / (n - 1));
+    return boost::math::cdf(boost::math::normal(), -reach);
+}
+
+Interval percentile_interval(std::vector<double> replicates, double tail) {
     std::erase_if(replicates, [](double x) { return std::isnan(x); });  // all rows drawn were alike
     std::sort(replicates.begin(), replicates.end());
-    return {quantile(replicates, 0.5 - 0.5 * level), quantile(replicates, 0.5 + 0.5 * level)};
+    if (replicates.size() < 2) return {};
+    // Of B replicates the k-th is the k/(B+1) quantile: a new one falls below it that often.
+    auto const count = static_cast<double>(replicates.size());
+    double const p = std::clamp((tail * (count + 1) - 1) / (count - 1), 0.0, 0.5);
+    return {quantile(replicates, p), quantile(replicates, 1 - p)};
 }
 
 }  // namespace
@@ -142,10 +157,11 @@ SobolIndices sobol_indices(RadialValues const& design, BootstrapSettings const& 
         resample(groups, size, bootstrap.seed, b, replicate);
         estimate(replicate, std::span(drawn).subspan(b * estimates, estimates));
     }
+    double const tail = tail_of(result.rows, bootstrap.level);
     auto const interval_of = [&](std::size_t k) {
         std::vector<double> column(replicates);
         for (std::size_t b = 0; b < replicates; ++b) column[b] = drawn[b * estimates + k];
-        return percentile_interval(std::move(column), bootstrap.level);
+        return percentile_interval(std::move(column), tail);
     };
     for (std::size_t i = 0; i < d; ++i) {
         result.first[i].interval = interval_of(i);

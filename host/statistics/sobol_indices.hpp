@@ -43,8 +43,11 @@ struct SobolIndices {
 /// Source: Saltelli et al. (2010), Variance based sensitivity analysis of model output, Comput. Phys. Commun. 181,
 /// table 2 (b) and (f); (f) is Jansen (1999), ibid. 117.
 ///
-/// Intervals are percentiles of bootstrap replicates (Efron and Tibshirani 1993, 13.3) that draw rows with replacement.
-/// Of more than 2^16 rows, 2^16 groups of neighbouring rows are drawn instead; estimates are functions of sums over
+/// Intervals are percentiles of bootstrap replicates (Efron and Tibshirani 1993, 13.3) that draw rows with replacement,
+/// expanded for few rows (Hesterberg 2015, What teachers should know about the bootstrap, Am. Statistician 69, 3.3.2): the
+/// tail is Φ(-t √(n/(n-1))), t Student's of n - 1.  Of independent rows of Ishigami's function 95 % ones hold the index in
+/// 92.8 to 96 % of studies of 256 rows or more, of 64 rows in 91.8 to 95 % (tests/validation/slow/coverage_test.cpp).  Of more
+/// than 2^16 rows, 2^16 groups of neighbouring rows are drawn instead; estimates are functions of sums over
 /// rows, so groups are as good.  Draws are Philox words keyed by seed and counted by replicate: results depend on
 /// neither the threads nor their number.
 ///

@@ -33,6 +33,7 @@ struct SeriesAnalysis {
     std::size_t wanted_dimension;                   // what the C–C window asks for, before it was cut to the points
 
     DivergenceCurve divergence;
+    /// Its systematic part: change with the window, with one coordinate more or less, and of sampled motions a fifth of the exponent.
     std::optional<Growth> growth;
     ZeroOneTest zero_one;
     std::size_t stride;  // of the 0–1 test [samples]

@@ -27,8 +27,9 @@ std::string intervals_of(DesignKind design, bool complete) {
                "among the others";
     }
     std::string const level = fmt::format("{:.0f} % intervals of independent draws", 100 * confidence_level);
+    std::string const skewed = "; those of means hold less often where draws are few and skewed";
     if (!is_random(design)) return "none: the members are no random draws";
-    if (design == DesignKind::mc) return level;
+    if (design == DesignKind::mc) return level + skewed;
     return level + "; as a rule too wide, for the draws of this design are spread more evenly";
 }
 

@@ -57,9 +57,27 @@ TEST(ZeroOneTest, MedianIsOverAllFrequencies) {
     EXPECT_EQ(zero_one_test(logistic_series(500, 4), {.max_points = 300}).points, 300u);
 }
 
+TEST(ZeroOneTest, OfTwoTonesIsRegularWhereverItAnswers) {
+    for (int i = 0; i < 60; ++i) {
+        double const period = 4.8 + 0.48 * (i % 10), ratio = 1.1 + 0.3236 * (i / 10), share = 0.3 + 0.1 * (i % 7);
+        for (std::size_t const n : {139u, 200u, 299u, 300u, 400u, 1000u}) {
+            ZeroOneTest const test = zero_one_test(sum(sine_series(n, period), sine_series(n, period / ratio, share)));
+            EXPECT_EQ(test.points, n);
+            EXPECT_EQ(std::isnan(test.k), n < 300) << n;
+            EXPECT_FALSE(test.k > 0.2) << n << ' ' << i;
+        }
+    }
+    for (std::size_t const n : {300u, 500u}) {
+        for (double const period : {4.1, 5.3, 7.9}) EXPECT_LT(zero_one_test(sine_series(n, period)).k, 0.1) << n;
+        EXPECT_LT(zero_one_test(logistic_series(n, 3.55)).k, 0.1) << n;
+        EXPECT_GT(zero_one_test(logistic_series(n, 4)).k, 0.95) << n;
+        EXPECT_GT(zero_one_test(lorenz_series(n, 0.37)).k, 0.95) << n;
+    }
+}
+
 TEST(ZeroOneTest, HasNoAnswerOutsideItsDomain) {
     EXPECT_TRUE(std::isnan(zero_one_test(std::vector<double>(500, 1.0)).k));
-    EXPECT_TRUE(std::isnan(zero_one_test(white_series(49)).k));
+    EXPECT_TRUE(std::isnan(zero_one_test(white_series(299)).k));
     auto series = white_series(500);
     series[7] = std::numeric_limits<double>::infinity();
     EXPECT_TRUE(std::isnan(zero_one_test(series).k));
