@@ -30,6 +30,9 @@ constexpr double least_share = 1e-4;     // of the run's time, and of what a fal
 constexpr double of_the_study = 0.1;     // that a check may cost unasked
 constexpr double first_share = 0.8;      // of what is left
 constexpr std::size_t most_members = 16, least_members = 6;
+/// Welch's test trusts means of few members to be normal: not of fewer, nor of numbers as skewed as rare events.
+constexpr std::size_t least_of_welch = 12;
+constexpr double most_skewed = 1.5;
 constexpr double jacobian_work = 1.5;    // right-hand sides
 constexpr double steps_beyond = 2;       // how much more than foreseen a check may take
 
@@ -90,6 +93,21 @@ std::vector<std::size_t> rows_of(ResultView const& results, std::vector<std::uin
     return found;
 }
 
+/// A number over all members of a study.
+struct Whole {
+    Summary summary;
+    double skewness;  // mean cube of what is off the mean, in standard deviations; NaN where all are alike
+};
+
+Whole whole_of(std::vector<double> const& values) {
+    Summary const summary = summarise(values);
+    double cubes = 0;
+    for (double const x : values) {
+        if (!std::isnan(x)) cubes += std::pow((x - summary.mean) / summary.sd, 3);
+    }
+    return {summary, cubes / static_cast<double>(summary.count)};
+}
+
 std::vector<double> work_of(ResultView const& results) {
     std::vector<double> work = results.values("rhs_evaluations");
     std::vector<double> const jacobians = results.values("jacobian_evaluations");
@@ -100,7 +118,7 @@ std::vector<double> work_of(ResultView const& results) {
 /// What the study says of some of its members.  @param whole where each column's summary over all of its members goes, but those of how
 /// they end
 MemberNumbers stored_numbers(ResultView const& results, Scene const& scene, std::vector<std::uint64_t> const& members,
-                             std::vector<Summary>& whole) {
+                             std::vector<Whole>& whole) {
     MemberNumbers numbers = empty_numbers(scene);
     std::vector<std::size_t> const rows = rows_of(results, members);
     std::vector<double> const statuses = results.values("status");
@@ -119,7 +137,7 @@ MemberNumbers stored_numbers(ResultView const& results, Scene const& scene, std:
         for (std::size_t row = 0; row < statuses.size(); ++row) {
             if (statuses[row] == is_finished) all.push_back(values[row * width + index]);
         }
-        whole.push_back(summarise(all));
+        whole.push_back(whole_of(all));
     };
     for (QuantityColumn const& of : report_columns(scene.quantities)) {
         if (numbers.columns[column].name != of.name()) continue;  // not compared
@@ -237,7 +255,7 @@ double least_difference(std::string const& unit, Scene const& scene) {
 
 /// Looks at every column of every check.
 /// @param whole of the study's columns over all of its members, as far as they are known
-void compare(Verification& v, Scene const& scene, std::vector<Summary> const& whole, std::uint64_t all) {
+void compare(Verification& v, Scene const& scene, std::vector<Whole> const& whole, std::uint64_t all) {
     MemberNumbers const& study = v.numbers.front();
     std::vector<double> p;
     for (std::size_t method = 0; method + 1 < v.numbers.size(); ++method) {
@@ -252,9 +270,9 @@ void compare(Verification& v, Scene const& scene, std::vector<Summary> const& wh
             p.push_back(found.pairs.pairs >= least_members ? found.pairs.p_distribution : nan);
             // Where the study's numbers scatter far more than they should, all of its members tell better than a few.
             Summary const again = summarise(v.numbers[method + 1].columns[column].values);
-            bool const known = column < whole.size() && again.count >= least_members;
-            found.welch = known ? again.mean - whole[column].mean : 0;
-            p.push_back(known ? welch_p(whole[column], again) : nan);
+            bool const known = column < whole.size() && again.count >= least_of_welch && std::abs(whole[column].skewness) < most_skewed;
+            found.welch = known ? again.mean - whole[column].summary.mean : 0;
+            p.push_back(known ? welch_p(whole[column].summary, again) : nan);
             v.findings.push_back(found);
         }
     }
@@ -343,7 +361,7 @@ Verification verify(ResultView const& results, Scene const& scene, Backend const
         return members;
     };
     std::vector<std::uint64_t> members;
-    std::vector<Summary> whole;
+    std::vector<Whole> whole;
     double total = 0;
     if (stores) {
         std::vector<double> const work = work_of(results);

@@ -75,7 +75,7 @@ TEST(SceneToleranceErrors, DistributionsBreakTheirKeysRule) {
               "scene.toml:4: study.vary.joint.clearance.values is 0 m (the joint needs a gap); use a value > 0");
     EXPECT_EQ(error_of_entry("\"contact.restitution\" = {dist=\"lognorm\", mean=1.5, sd=1}"),
               "scene.toml:4: study.vary.contact.restitution.mean is 1.5 "
-              "(the coefficient of restitution must be in (0, 1]); use a value > 0 and <= 1");
+              "(the coefficient of restitution of isolated impacts must be in (0, 1]); use a value > 0 and <= 1");
     EXPECT_EQ(error_of_entry("\"contact.hertz_exponent\" = {dist=\"weibull\", scale=1, shape=1}"),
               "scene.toml:4: study.vary.contact.hertz_exponent has no low (its values would begin at 0: "
               "the Hertz exponent of point contacts must be in [1, 3]); add low = ..., use a value from 1 to 3");
