@@ -49,7 +49,7 @@ def stats(
         SceneError: no such variable, or too few samples.
 
     >>> slideway.stats(example_file, "y").text["0-1 test"]
-    'K = ...'
+    'none from ... samples, one of every ...'
     """
     path = path_of(result) if isinstance(result, xr.Dataset) else os.fspath(result)
     curves = temporary_file("curves.csv")
