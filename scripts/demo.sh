@@ -42,7 +42,7 @@ and sensitivity the tables above with their intervals.
 How to read them:
   quantiles     of what scatters, by the 512 independent draws of the design
   yield         how many mechanisms keep to the scene's limit of 1 kN on the peak normal force: under the conservative law
-                nine in ten, under the law as published one in twenty-five
+                nine in ten, under the law as published one in forty
   sensitivity   first order: the share of a quantity's variance that an input explains alone; total: with its part in mixtures.
                 Friction loss and crank work are explained by friction and crank speed.  Contact counts and times are mixed by the
                 impacts: first orders near 0, totals near 1, and no single tolerance would calm them.
