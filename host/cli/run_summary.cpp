@@ -119,8 +119,8 @@ void print_failures(RunArguments const& arguments, Scene const& scene, EndedMemb
 
 /// A law makes energy where its modes switch (model.md 8); a reader of results has to know how much.
 void print_energy_made(Scene const& scene, EndedMembers const& ended, std::vector<QuantitySummary> const& quantities) {
+    if (!makes_energy(scene.parts)) return;
     LawInfo const& law = info(scene.parts.law);
-    if (!info(scene.parts.mechanism).spatial || !law.switches) return;
     auto const mean_of = [&](std::string_view label) -> QuantitySummary const* {
         for (QuantitySummary const& quantity : quantities) {
             if (quantity.label == label && quantity.values.count > 0) return &quantity;

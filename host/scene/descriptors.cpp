@@ -55,6 +55,8 @@ std::span<std::string_view const> law_names() {
 MechanismInfo const& info(Mechanism mechanism) { return mechanism_infos[static_cast<int>(mechanism)]; }
 LawInfo const& info(Law law) { return law_infos[static_cast<int>(law)]; }
 
+bool makes_energy(Parts const& parts) { return info(parts.mechanism).spatial && info(parts.law).switches; }
+
 bool is_prescribed(Parts const& parts, int component) {
     return !parts.free_crank && (info(parts.mechanism).prescribed >> component & 1u) != 0;
 }

@@ -19,6 +19,9 @@ std::span<std::string_view const> law_names();
 MechanismInfo const& info(Mechanism mechanism);
 LawInfo const& info(Law law);
 
+/// Whether the contact law makes energy where its modes switch (model.md 8); a mechanism whose corners are points has none.
+bool makes_energy(Parts const& parts);
+
 /// Whether a drive prescribes a component of the state, so that neighbours cannot differ in it.
 bool is_prescribed(Parts const& parts, int component);
 /// How many components neighbours may differ in.

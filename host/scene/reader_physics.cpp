@@ -90,8 +90,7 @@ void check_located_modes(Node const& node, Scene const& scene) {
 void read_located_modes(Node const& root, Scene& scene) {
     IntegratorSettings& settings = scene.integrator;
     Node const* const node = root.find_path("integrator.locate_modes");
-    bool const switches = info(scene.parts.mechanism).spatial && info(scene.parts.law).switches &&
-                          scene.parts.damping != Damping::restitution;
+    bool const switches = makes_energy(scene.parts) && scene.parts.damping != Damping::restitution;
     bool const orbits = !runs_to_end(scene.study), neighbours = scene.chaos.exponents > 0;
     bool const can = has_effect("locate_modes", settings.method, info(scene.parts.mechanism));
     // Long orbits under the law that switches take half the steps so, and neighbours need it.

@@ -9,6 +9,8 @@ namespace slideway {
 struct Interval {
     double low = std::numeric_limits<double>::quiet_NaN();
     double high = std::numeric_limits<double>::quiet_NaN();
+
+    double half_width() const { return 0.5 * (high - low); }
 };
 
 }  // namespace slideway

@@ -14,13 +14,17 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
+/// P(|T| >= t) of Student's t.
+double two_sided_p(double freedom, double t) {
+    return 2 * boost::math::cdf(boost::math::complement(boost::math::students_t(freedom), t));
+}
+
 double paired_t_p(Summary const& differences) {
     if (differences.count < 2 || !std::isfinite(differences.mean)) return nan;
     if (differences.mean == 0) return 1;
     if (differences.sd == 0) return 0;
     auto const n = static_cast<double>(differences.count);
-    double const t = std::abs(differences.mean) / (differences.sd / std::sqrt(n));
-    return 2 * boost::math::cdf(boost::math::complement(boost::math::students_t(n - 1), t));
+    return two_sided_p(n - 1, std::abs(differences.mean) / (differences.sd / std::sqrt(n)));
 }
 
 /// n sup_x (F_a(x − slack) − F_b(x)) of two sorted samples of n values: how far a lies below b, whatever a shift explains.
@@ -43,7 +47,7 @@ double welch_p(Summary const& first, Summary const& second) {
     if (a + b == 0) return difference == 0 ? 1 : 0;
     double const freedom = (a + b) * (a + b) /
                            (a * a / static_cast<double>(first.count - 1) + b * b / static_cast<double>(second.count - 1));
-    return 2 * boost::math::cdf(boost::math::complement(boost::math::students_t(freedom), difference / std::sqrt(a + b)));
+    return two_sided_p(freedom, difference / std::sqrt(a + b));
 }
 
 double kolmogorov_smirnov_p(std::size_t n, std::size_t steps) {

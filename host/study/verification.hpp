@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "host/output/result_view.hpp"
 #include "host/scene/scene.hpp"
 #include "host/statistics/paired_comparison.hpp"
+#include "host/study/member_numbers.hpp"
 
 namespace slideway {
 
@@ -23,6 +23,9 @@ struct CheckMethod {
     Scene scene;        // the study's, integrated in that way, without time series
     double cost;        // what a member takes, roughly, in units of what it took in the study
 };
+
+/// What a check makes of rtol and atol.
+inline constexpr double check_tightening = 0.01;
 
 /// How a study is checked: by its own method with a hundredth of the tolerance (a quarter of a fixed step), and by another method with a
 /// hundredth of it; where exponents are asked for, also by its own with neighbours ten times as far.
@@ -34,17 +37,6 @@ Scene without_series(Scene scene);
 /// "dopri5 at rtol 1e-08"
 std::string words_of(IntegratorSettings const& settings);
 
-/// Numbers of members, one row a number: quantities, exponents, and how many surfaces, lines and points touch at the end.
-struct MemberNumbers {
-    struct Column {
-        std::string name, unit;
-        bool is_exponent = false;
-        std::vector<double> values;  // [members]; NaN of a member that did not finish
-    };
-    std::vector<Column> columns;
-    std::vector<double> work;  // [members] right-hand sides, a Jacobian counting one and a half
-};
-
 /// What one check says of one column.
 struct CheckedColumn {
     std::size_t column = 0, method = 0;
@@ -55,6 +47,15 @@ struct CheckedColumn {
     bool differs = false;       // beyond chance, and relevant
     bool refutes_sign = false;  // of an exponent's mean: certain in the study, and not so, or the other, here; differs too
 };
+
+/// Fewer pairs are not tested.
+inline constexpr std::size_t least_members = 6;
+
+/// Looks at every column of every check.  @param numbers the study's, and of each check  @param whole of the study's columns over all of its
+/// members, as far as they are known  @param all how many those are
+/// @return one per column and check
+std::vector<CheckedColumn> compare(std::vector<MemberNumbers> const& numbers, Scene const& scene,
+                                   std::vector<WholeColumn> const& whole, std::uint64_t all);
 
 enum class Resolution { resolved, not_resolved, not_checked };
 

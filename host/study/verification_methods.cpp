@@ -9,16 +9,15 @@
 namespace slideway {
 namespace {
 
-constexpr double tightening = 0.01;
 /// Tolerances below are beyond what doubles resolve.
 constexpr double least_tolerance = 1e-13;
 /// How much smaller a fixed step is, and of neighbours how much farther they start.
 constexpr double fewer_steps = 0.25, farther = 10;
 
 void tighten(IntegratorSettings& settings) {
-    settings.rtol = std::max(least_tolerance, tightening * settings.rtol);
-    settings.atol = std::max(least_tolerance, tightening * settings.atol);
-    settings.stiff_tolerance = std::max(settings.rtol, tightening * settings.stiff_tolerance);
+    settings.rtol = std::max(least_tolerance, check_tightening * settings.rtol);
+    settings.atol = std::max(least_tolerance, check_tightening * settings.atol);
+    settings.stiff_tolerance = std::max(settings.rtol, check_tightening * settings.stiff_tolerance);
 }
 
 /// Who is least like the study's own.

@@ -1,0 +1,49 @@
+// What members of a study came to, as the columns of its result have it or as running them again tells it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host/backend/backend.hpp"
+#include "host/driver/stop.hpp"
+#include "host/scene/scene.hpp"
+#include "host/statistics/summary.hpp"
+#include "host/study/tolerance_members.hpp"
+
+namespace slideway {
+
+/// Numbers of members, one column a number: quantities, exponents, and how many surfaces, lines and points touch at the end.
+struct MemberNumbers {
+    struct Column {
+        std::string name, unit;
+        bool is_exponent = false;
+        std::vector<double> values;  // [members]; NaN of a member that did not finish
+    };
+    std::vector<Column> columns;
+    std::vector<double> work;  // [members] right-hand sides, a Jacobian counting one and a half
+
+    std::size_t finished() const;
+    double total_work() const;
+};
+
+/// A number over all members of a study.
+struct WholeColumn {
+    Summary summary;
+    double skewness;  // mean cube of what is off the mean, in standard deviations; NaN where all are alike
+};
+WholeColumn whole_of(std::vector<double> const& values);
+
+/// Right-hand sides of each member, a Jacobian counting one and a half.
+std::vector<double> stored_work(ToleranceMembers const& members);
+
+/// What a result says of some of its members.  @param rows of the members  @param work of all of them
+/// @param whole where each column goes over all members, but those of how they end
+MemberNumbers stored_numbers(ToleranceMembers const& members, Scene const& scene, std::vector<std::size_t> const& rows,
+                             std::vector<double> const& work, std::vector<WholeColumn>& whole);
+
+/// Runs members, and says what they came to in their order.  @param stop may be nullptr
+MemberNumbers fresh_numbers(Scene const& scene, std::vector<std::uint64_t> const& members, Backend const& backend, int threads,
+                            StopRequest const* stop);
+
+}  // namespace slideway
