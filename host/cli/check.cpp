@@ -151,8 +151,7 @@ int check(CheckArguments const& arguments) {
                                        choice.backend->workers(threads), prediction.largest_block));
     if (!choice.reason.empty()) print_field("", choice.reason);
     OrbitSchedule const schedule = orbit_schedule(scene);
-    print_field("members", fmt::format("{}, each over {:.6g} s", member_count(scene),
-                                       schedule.timing ? schedule.longest : scene.integrator.end_time));
+    print_field("members", fmt::format("{}, each over {:.6g} s", member_count(scene), schedule.end));
     print_design(scene);
     print_orbits(scene, schedule);
     print_field("memory",

@@ -171,7 +171,8 @@ std::uint64_t failed_count(ResultReader const& results) { return EndedMembers(re
 
 void print_throughput(Scene const& scene, StudyOptions const& options, EnsembleTotals const& totals, int ranks) {
     double const rate = totals.seconds > 0 ? static_cast<double>(totals.done()) / totals.seconds : 0.0;
-    double const turns = orbit_schedule(scene).longest / drive_period(scene.parts, scene.inputs);
+    OrbitSchedule const schedule = orbit_schedule(scene);
+    double const turns = schedule.timing ? schedule.end / drive_period(scene.parts, scene.inputs) : 0;
     print_field("throughput",
                 fmt::format("{:.4g} members/s, {}{} wall time ({}{} threads, {})", rate,
                             turns > 0 ? fmt::format("{:.4g} members x revolutions/s, ", rate * turns) : "",

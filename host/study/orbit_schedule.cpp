@@ -99,7 +99,7 @@ OrbitSchedule orbit_schedule(Scene const& scene) {
     if (scene.study == StudyKind::poincare || scene.study == StudyKind::sweep) {
         schedule = scene.chaos.section.on == SectionSurface::On::phase ? of_sections(scene) : of_crossings(scene);
     }
-    if (schedule.timing) schedule.longest = schedule.timing(scene.inputs).end;
+    schedule.end = schedule.timing ? schedule.timing(scene.inputs).end : scene.integrator.end_time;
     return schedule;
 }
 

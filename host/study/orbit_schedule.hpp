@@ -15,13 +15,13 @@ struct OrbitSchedule {
     MemberTiming timing;
     CrossingPlan crossings;  // of sections on a state or a gap
     bool sections = false;   // the states at the stops' sections are kept
-    double longest = 0;      // [s] of the scene's own member
+    double end = 0;          // [s] of the scene's own member
 
     /// Rows of a member in the file, at most.
     std::size_t section_rows() const { return !sections ? 0 : crossings.room > 0 ? crossings.room : stops.sections(); }
 };
 
-/// Empty for an ensemble.
+/// Of an ensemble: its end alone.
 OrbitSchedule orbit_schedule(Scene const& scene);
 
 /// Shadows as a study asks for them, without directions.

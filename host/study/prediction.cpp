@@ -68,7 +68,7 @@ struct StepRange {
 /// Of one member.
 StepRange steps_of_member(Scene const& scene) {
     OrbitSchedule const schedule = orbit_schedule(scene);
-    double const end = schedule.timing ? schedule.longest : scene.integrator.end_time;
+    double const end = schedule.end;
     auto const stops = static_cast<double>(schedule.stops.count);
     if (scene.integrator.method == Method::rk4) {
         double const steps = fixed_steps(scene.integrator) + stops;

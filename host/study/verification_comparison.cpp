@@ -27,7 +27,7 @@ double chance_of_mean(Summary const& some, std::uint64_t all) {
 
 /// A difference below which a number with this unit is the same.
 double least_difference(std::string const& unit, Scene const& scene) {
-    if (unit == "s") return least_share * orbit_schedule(scene).longest;
+    if (unit == "s") return least_share * orbit_schedule(scene).end;
     if (unit != "J") return 0;
     Inputs const in = complete_inputs(scene.inputs);
     double const clearance = std::max(in.clearance_y, in.clearance_z), speed = clearance * std::max(1.0, std::abs(in.crank_speed));

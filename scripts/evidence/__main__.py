@@ -9,10 +9,11 @@ from html import escape
 from pathlib import Path
 
 import slideway
-from reproduction.page import _table
+from reproduction.page import table_html
 from reproduction.runs import Laboratory, Missing
 
-from .experiments import EXPERIMENTS, SIZES, Experiment
+from .experiment import Experiment
+from .experiments import EXPERIMENTS, SIZES
 
 
 def page(experiments: list[Experiment], facts: list[str]) -> str:
@@ -26,7 +27,7 @@ def page(experiments: list[Experiment], facts: list[str]) -> str:
     for experiment in experiments:
         parts.append(f"<h2>{escape(experiment.title)}</h2>")
         parts += [f"<p>{escape(words)}</p>" for words in experiment.words]
-        parts += [_table(table) for table in experiment.tables]
+        parts += [table_html(table) for table in experiment.tables]
     return "\n".join(parts) + "\n</body></html>\n"
 
 

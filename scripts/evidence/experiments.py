@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import slideway
 import xarray as xr
-from reproduction.plan import starts
+from reproduction.estimates import estimate, share
+from reproduction.plan import AUDIT, starts
 from reproduction.runs import Laboratory, Run
 from reproduction.sections import Table
-from slideway.intervals import student_t
+
+from .experiment import Build, Experiment, Size
+from .loop import loop
 
 LAWS: dict[str, dict[str, Any]] = {
     "published": {"contact.law": "paper"},
@@ -31,27 +32,13 @@ LAWS: dict[str, dict[str, Any]] = {
     "published, switches leapt": {"contact.law": "paper", "integrator.locate_modes": False},
     "conservative": {"contact.law": "conservative"},
     "conservative, χ = 10 s/m": {"contact.law": "conservative", "contact.chi_line": 10, "contact.chi_surface": 10},
+    "conservative, no damping": {"contact.law": "conservative", "contact.eta": 0},
     "springs at the apices": {"contact.law": "kelvin_voigt", "contact.eta": None},
     "springs and dampers at the apices": {"contact.law": "kelvin_voigt", "contact.eta": None, "contact.apex_damping": 100},
 }
 """Variants of the slider-crank, by what the tables call them: overrides of the standard scene (0.1 mm, π rad/s, n = 1.5, η = 0.01, radii 0.5 mm)."""
 
-_AUDIT = ["energy_residual", "crank_work", "friction_loss", "damping_loss", "mode_time", "contact_onsets"]
-
-
-@dataclass(frozen=True)
-class Size:
-    """Members and lengths; `seconds` of the falls, `turns` of the cranks."""
-
-    falls: int = 32
-    seconds: float = 4.0
-    members: int = 48
-    turns: float = 1.0
-    exponents: int = 16
-    draws: int = 240
-    studies: int = 200
-    verify: int | None = 16
-    laws: tuple[str, ...] = tuple(LAWS)
+_QUANTITIES = [*AUDIT, "mode_time", "contact_onsets"]
 
 
 SIZES = {
@@ -62,40 +49,18 @@ SIZES = {
 }
 
 
-@dataclass
-class Experiment:
-    """One section of the page."""
-
-    title: str
-    words: list[str]
-    tables: list[Table] = field(default_factory=list)
-
-
-Build = Callable[[Laboratory, Size, Path], Experiment]
-
-
 def resolution(path: Path) -> str:
-    """What the audit said of a result: resolved, not_resolved or not_checked."""
-    with xr.open_dataset(path, group="verification", decode_times=False) as group:
+    """What the audit said of a result: resolved, not resolved or not checked."""
+    with slideway.open(path, group="verification") as group:
         return str(group.attrs["resolution"]).replace("_", " ")
 
 
 def mean(values: Any, scale: float = 1.0) -> str:
     """Mean with its 95 % interval, of the numbers that are there."""
-    numbers = np.asarray(values, dtype=float) * scale
-    numbers = numbers[np.isfinite(numbers)]
-    if numbers.size < 2:
-        return "–" if numbers.size == 0 else f"{numbers[0]:.3g}"
-    half = student_t(numbers.size - 1) * numbers.std(ddof=1) / np.sqrt(numbers.size)
-    return f"{numbers.mean():.3g} ± {half:.1g}"
-
-
-def wilson(successes: int, trials: int) -> tuple[float, float]:
-    """95 % interval of a share (Wilson 1927)."""
-    z, share = 1.959964, successes / trials
-    centre = (share + z * z / (2 * trials)) / (1 + z * z / trials)
-    half = z / (1 + z * z / trials) * np.sqrt(share * (1 - share) / trials + (z / (2 * trials)) ** 2)
-    return max(0.0, centre - half), min(1.0, centre + half)
+    of = estimate(np.asarray(values) * scale)
+    if of.count < 2:
+        return "–" if of.count == 0 else f"{of.mean:.3g}"
+    return f"{of.mean:.3g} ± {of.half_width:.1g}"
 
 
 def _done(result: xr.Dataset) -> xr.Dataset:
@@ -143,59 +108,10 @@ def fall(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
     return Experiment("The experiment that settles it: a fall", words, [Table("Free slider, no friction; mean per member ± 95 %", head, rows)])
 
 
-def _loop_path(depth: float, points: int) -> np.ndarray:
-    """Poses (y, pitch) of a closed loop: onto one edge, rocked flat, lifted; depth of the lower edge [m]."""
-    half, clearance = 0.02, 1e-4
-    tilt = 4 * depth / half
-    press = np.linspace(-depth, depth, points)
-    edge = np.column_stack([-(clearance + press) + half * tilt, np.full(points, tilt)])
-    angles = np.linspace(tilt, 0, points)
-    rock = np.column_stack([-(clearance + depth) + half * angles, angles])
-    lift = np.column_stack([-(clearance + np.linspace(depth, -depth, points)), np.zeros(points)])
-    return np.vstack([edge, rock[1:], lift[1:]])
-
-
-def loop(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
-    """Work of the contact forces around a closed loop of poses: nothing moves by itself, no method integrates."""
-    del laboratory
-    points = 4001 if size.verify else 401
-    rows = []
-    for name, law in (("published", "paper"), ("conservative", "conservative"), ("springs at the apices", "kelvin_voigt")):
-        cells = [name]
-        for depth in (1e-7, 3e-7, 1e-6):
-            path = _loop_path(depth, points)
-            works = []
-            for poses in (path, path[::-1]):
-                table, answer = output / "loop.csv", output / "loop_forces.csv"
-                states = dict.fromkeys(("t", "z", "vy", "vz", "roll", "yaw", "wx", "wy", "wz", "x", "vx"), np.zeros(len(poses)))
-                states |= {"y": poses[:, 0], "pitch": poses[:, 1]}
-                np.savetxt(table, np.column_stack(list(states.values())), delimiter=",", header=",".join(states), comments="", fmt="%.17g")
-                slideway.program.call(
-                    None,
-                    ["probe", str(Path(__file__).resolve().parents[2] / "scenes/free_slider_drop.toml"), "--set", f"contact.law={law}"]
-                    + ["friction.enabled=false", "initial.roll=0", "initial.yaw=0", "--csv", str(table), "-o", str(answer)],
-                )
-                data = np.genfromtxt(answer, delimiter=",", names=True)
-                work = 0.0
-                for apex in range(1, 9):
-                    force, depths = data[f"fn_y_P{apex}"], data[f"pen_y_P{apex}"]
-                    work -= float(np.sum(0.5 * (force[1:] + force[:-1]) * np.diff(depths)))
-                works.append(work)
-            cells.append(f"{works[0]:+.2g}, {works[1]:+.2g}")
-        rows.append(cells)
-    words = [
-        "Quasi-static: the slider is led onto one edge, rocked flat and lifted, and the same way back. W = −∮ Σ F_i dδ_i is what the contact gives "
-        "to the hand that leads it. A law with a potential gives nothing; the published law gives or takes the jump between the potentials of a "
-        "line and of a surface, by direction."
-    ]
-    head = ["law", "0.1 µm deep: W [J], there and back", "0.3 µm", "1 µm"]
-    return Experiment("A closed loop of poses", words, [Table(f"Work around the loop, {points} poses a side", head, rows)])
-
-
 def variants(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
     """Energy, flight, amplitude and exponents of each law and each number that the paper leaves open."""
     runs, exponents = {}, {}
-    for name in size.laws:
+    for name in size.laws or LAWS:
         slug = "".join(c if c.isascii() and c.isalnum() else "_" for c in name)
         located = {"integrator.locate_modes": True} if name.startswith("published") else {}
         keys = {
@@ -204,7 +120,7 @@ def variants(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
             "study.members": size.members,
             "study.revolutions": size.turns,
             "study.samples_per_revolution": 2000,
-            "study.quantities": _AUDIT + (["switching_energy"] if located and "leapt" not in name else []),
+            "study.quantities": _QUANTITIES + (["switching_energy"] if located and "leapt" not in name else []),
             "study.vary": starts(0.1),
         }
         study = {
@@ -288,7 +204,7 @@ def scatter(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
             "study.duration": 2 * size.turns,
             "study.samples_per_revolution": None,
             "study.samples": 0,
-            "study.quantities": [*_AUDIT],
+            "study.quantities": _QUANTITIES,
             "study.vary": vary,
         }
         if size.verify:
@@ -383,9 +299,10 @@ def audit(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
     rows = []
     for law in laws:
         said = [resolution(output / f"{run.name}.nc") for run in runs if f"_{law}_" in run.name]
-        alarms = said.count("not resolved")
-        low, high = wilson(alarms, len(said))
-        rows.append([law, f"{len(said)}", f"{alarms}", f"{100 * low:.1f} … {100 * high:.1f} %", f"{said.count('not checked')}"])
+        alarms = np.array([words == "not resolved" for words in said])
+        of = share(alarms, np.ones(alarms.size, bool))
+        interval = f"{100 * of.low:.1f} … {100 * of.high:.1f} %"
+        rows.append([law, f"{alarms.size}", f"{np.sum(alarms)}", interval, f"{said.count('not checked')}"])
     words = ["Ensembles of 32 starts at rtol 1e-7, each with other starts; 16 members of each run again at 1e-9 by `auto` and by `dopri5`."]
     return Experiment("False alarms of the audit", words, [Table("Studies called not resolved", ["law", "studies", "alarms", "95 % interval", "not checked"], rows)])
 

@@ -57,7 +57,7 @@ def _section(number: int, section: Section) -> str:
     if section.claims:
         parts.append(_claims(section.claims))
     parts += [_figure(figure) for figure in section.figures]
-    parts += [_table(table) for table in section.tables]
+    parts += [table_html(table) for table in section.tables]
     return "\n".join(parts)
 
 
@@ -87,7 +87,7 @@ def _figure(figure: Figure) -> str:
     return f'<figure><figcaption>{escape(figure.caption)}</figcaption><div class="laws">{"".join(sides)}</div></figure>'
 
 
-def _table(table: Table) -> str:
+def table_html(table: Table) -> str:
     head = "".join(f"<th>{escape(cell)}</th>" for cell in table.header)
     rows = "".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in table.rows)
     return f'<div class="wide"><table><caption>{escape(table.caption)}</caption><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>'

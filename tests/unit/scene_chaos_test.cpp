@@ -275,6 +275,16 @@ TEST(SceneChaos, ModesAreLocatedForOrbits) {
     EXPECT_TRUE(contains(fixed.warnings[0], "integrator.method is rk4")) << fixed.warnings[0];
 }
 
+TEST(SceneChaos, WhatSwitchesMakeIsKnownWhereStepsEndAtThem) {
+    std::string const asked = "quantities = [\"switching_energy\"]\n";
+    EXPECT_TRUE(study("poincare", asked).warnings.empty());
+    EXPECT_TRUE(study("ensemble", asked + "[integrator]\nlocate_modes = true").warnings.empty());
+    EXPECT_TRUE(study("ensemble", asked + "[contact]\nlaw = \"conservative\"").warnings.empty()) << "zero";
+    std::string const leapt = testing::error_of("schema = 1\n[study]\nkind = \"ensemble\"\n" + asked);
+    EXPECT_TRUE(contains(leapt, "study.quantities")) << leapt;
+    EXPECT_TRUE(contains(leapt, "set integrator.locate_modes = true")) << leapt;
+}
+
 TEST(SceneChaos, FixedStepsLeaveRoomForStops) {
     auto const steps = [](std::string const& lines) {
         return study("lyapunov",

@@ -95,12 +95,12 @@ TEST(FirstTimeAt, FindsEveryAngleWithinATurn) {
 
 // ---- numbers of stops ----
 
-TEST(OrbitSchedule, OfAnEnsembleIsEmpty) {
-    OrbitSchedule const schedule = orbit_schedule(scene_of("schema = 1"));
+TEST(OrbitSchedule, OfAnEnsembleHasNoStops) {
+    OrbitSchedule const schedule = orbit_schedule(scene_of("schema = 1\n[study]\nkind = \"ensemble\"\nmembers = 2\nduration = \"20 ms\""));
     EXPECT_FALSE(schedule.timing);
     EXPECT_EQ(schedule.stops.count, 0u);
     EXPECT_EQ(schedule.section_rows(), 0u);
-    EXPECT_EQ(schedule.longest, 0);
+    EXPECT_EQ(schedule.end, 0.02);
 }
 
 TEST(OrbitSchedule, OfAPoincareSectionStopsOnceATurn) {
@@ -116,7 +116,7 @@ TEST(OrbitSchedule, OfAPoincareSectionStopsOnceATurn) {
     EXPECT_DOUBLE_EQ(clock.first_stop, 0.5);
     EXPECT_DOUBLE_EQ(clock.period, pi);
     EXPECT_DOUBLE_EQ(clock.end, 0.5 + 10 * pi);
-    EXPECT_EQ(schedule.longest, clock.end);
+    EXPECT_EQ(schedule.end, clock.end);
 }
 
 TEST(OrbitSchedule, RoundsATransientUpAndASpanToTheNearestTurn) {

@@ -6,7 +6,9 @@ from pathlib import Path
 
 import pytest
 from evidence.__main__ import page, text
-from evidence.experiments import EXPERIMENTS, SIZES, Experiment, fall, loop
+from evidence.experiment import Experiment
+from evidence.experiments import EXPERIMENTS, SIZES, fall
+from evidence.loop import loop
 from reproduction.runs import Laboratory
 
 SCENES = Path(__file__).resolve().parents[3] / "scenes"
@@ -47,3 +49,8 @@ def test_a_loop_of_poses_gives_work_under_the_published_law_alone(made: dict[str
     assert there > 1e-4
     for law in ("conservative", "springs at the apices"):
         assert abs(rows[law][0]) < 1e-2 * there
+    sharings = [name for name in rows if name.startswith("published,")]
+    assert len(sharings) == 3
+    for name in sharings:
+        assert rows[name][0] == pytest.approx(-rows[name][1], rel=1e-6)
+        assert rows[name][0] > 1e-5
