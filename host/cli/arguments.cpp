@@ -19,7 +19,7 @@ struct Words {
     std::vector<std::string> overrides;
     std::string max_failures, max_hours, member, members, threads, shard, block_members;
     std::string variable, column, spacing, skip_time, skip_samples, max_points, delay, dimension, theiler, fit;
-    bool quiet = false, resume = false, verify = false;
+    bool quiet = false, resume = false, force = false, verify = false;
 };
 
 std::string isa_help() {
@@ -38,6 +38,10 @@ void add_scene_options(CLI::App& command, Words& words) {
 
 void add_backend(CLI::App& command, Words& words) {
     command.add_option("--backend", words.backend, "auto (a card where it pays), cpu or cuda")->type_name("NAME");
+}
+
+void add_force(CLI::App& command, Words& words) {
+    command.add_flag("--force", words.force, "Replace a file of slideway that is there already; inputs and other files never");
 }
 
 void add_threads(CLI::App& command, Words& words) {
@@ -61,6 +65,7 @@ void add_stats_options(CLI::App& command, Words& words) {
     add("--theiler", words.theiler, "Neighbours are farther apart in time, samples (default: the average period)", "N");
     add("--fit", words.fit, "Fit the exponent over these samples of the divergence curve (default: found)", "A..B");
     add("-o,--output", words.output, "Write the C-C curves and the divergence curve to this file", "OUT.csv");
+    add_force(command, words);
 }
 
 /// `--set` takes all words up to the next option, the scene too where it stands behind: only that has no `=`.
@@ -92,6 +97,7 @@ RunArguments run_arguments(Words const& words) {
     run.threads = threads(words);
     run.quiet = words.quiet;
     run.resume = words.resume;
+    run.force = words.force;
     if (!words.max_failures.empty()) run.max_failures = parse_failure_limit(words.max_failures);
     if (!words.max_hours.empty()) run.max_hours = parse_hours(words.max_hours);
     if (!words.member.empty() && !words.members.empty()) {
@@ -108,6 +114,7 @@ StatsArguments stats_arguments(Words const& words) {
     StatsArguments stats;
     stats.path = words.file;
     stats.output = words.output;
+    stats.force = words.force;
     if (!words.variable.empty()) stats.variable = words.variable;
     if (!words.column.empty()) stats.column = words.column;
     if (!words.member.empty()) stats.member = parse_member(words.member).first;
@@ -143,6 +150,16 @@ void require_known_command(int argc, char const* const* argv) {
                                                : fmt::format("did you mean {}?", meant)));
 }
 
+/// A shell's variable that is unset must not become the whole study, or a default.
+void refuse_empty_words(CLI::App const& command) {
+    for (CLI::Option const* const option : command.get_options()) {
+        for (std::string const& word : option->results()) {
+            if (!word.empty()) continue;
+            throw SceneError(fmt::format("{}: is empty; give a value, or leave it out", option->get_name()));
+        }
+    }
+}
+
 std::string one_line(std::string text) {
     while (!text.empty() && text.back() == '\n') text.pop_back();
     std::replace(text.begin(), text.end(), '\n', ' ');
@@ -160,11 +177,12 @@ Arguments parse_arguments(int argc, char const* const* argv) {
 
     CLI::App* const run = app.add_subcommand("run", "Integrate the members of a scene to a NetCDF file");
     add_scene_options(*run, words);
-    run->add_option("-o,--output", words.output, "Result file (default: the scene's name with .nc, in this folder)")
+    run->add_option("-o,--output", words.output, "Result file (default: in this folder, the scene's name and what --set changes)")
         ->type_name("OUT.nc");
     add_threads(*run, words);
     add_backend(*run, words);
     run->add_flag("--resume", words.resume, "Go on with what an earlier run has left in OUT.nc.shards");
+    add_force(*run, words);
     run->add_option("--max-hours", words.max_hours,
                     "Stop after this time and keep what is finished in OUT.nc.shards (exit code 5)")
         ->type_name("H");
@@ -195,6 +213,7 @@ Arguments parse_arguments(int argc, char const* const* argv) {
     add_scene_options(*probe, words);
     probe->add_option("--csv", words.table, "Table of states (default: the scene's start)")->type_name("STATES.csv");
     probe->add_option("-o,--output", words.output, "Write CSV to this file")->type_name("OUT.csv");
+    add_force(*probe, words);
 
     CLI::App* const info = app.add_subcommand("info", "Provenance, statuses and statistics of a result file");
     info->add_option("FILE", words.file, "Result file")->required()->type_name("");
@@ -205,11 +224,13 @@ Arguments parse_arguments(int argc, char const* const* argv) {
     CLI::App* const merge = app.add_subcommand("merge", "Shards of a run or of a job array to one result file");
     merge->add_option("DIR", words.file, "Folder of shards, OUT.nc.shards")->required()->type_name("");
     merge->add_option("-o,--output", words.output, "Result file")->required()->type_name("OUT.nc");
+    add_force(*merge, words);
 
     CLI::App* const report = app.add_subcommand(
         "report", "A page to look at, without a network, of a result file (uses the Python companion)");
     report->add_option("FILE", words.file, "Result file")->required()->type_name("");
     report->add_option("-o,--output", words.output, "Page (default: FILE with .html)")->type_name("OUT.html");
+    add_force(*report, words);
     report->footer(
         "The companion is the package slideway of the interpreter that SLIDEWAY_PYTHON names, else of python3;\n"
         "pip install ./python in the source tree installs it.");
@@ -228,13 +249,14 @@ Arguments parse_arguments(int argc, char const* const* argv) {
         throw SceneError("slideway: " + one_line(error.what()));
     }
 
+    for (CLI::App const* const command : app.get_subcommands()) refuse_empty_words(*command);
     if (run->parsed()) return run_arguments(words);
     if (check->parsed()) return CheckArguments{scene_arguments(words), threads(words)};
-    if (probe->parsed()) return ProbeArguments{scene_arguments(words), words.table, words.output};
+    if (probe->parsed()) return ProbeArguments{scene_arguments(words), words.table, words.output, words.force};
     if (info->parsed()) return InfoArguments{words.file};
     if (stats->parsed()) return stats_arguments(words);
-    if (merge->parsed()) return MergeArguments{words.file, words.output};
-    if (report->parsed()) return ReportArguments{words.file, words.output};
+    if (merge->parsed()) return MergeArguments{words.file, words.output, words.force};
+    if (report->parsed()) return ReportArguments{words.file, words.output, words.force};
     if (list->parsed()) return ListArguments{};
     throw SceneError("slideway: a command is missing; see slideway --help");
 }

@@ -45,7 +45,7 @@ struct RunArguments {
     std::optional<MemberRange> members;  // empty: all
     RunPart part;
     std::size_t block_members = 0;  // 0: by their cost
-    bool resume = false;
+    bool resume = false, force = false;
     bool quiet = false;
 };
 int run(RunArguments const& arguments);
@@ -60,6 +60,7 @@ struct ProbeArguments {
     SceneArguments scene;
     std::string table;   // empty: the scene's start
     std::string output;  // empty: stdout
+    bool force = false;
 };
 int probe(ProbeArguments const& arguments);
 
@@ -78,17 +79,20 @@ struct StatsArguments {
     std::optional<std::size_t> max_points;  // behind the transient
     SeriesOptions options;
     std::string output;  // empty: no curves
+    bool force = false;
 };
 int stats(StatsArguments const& arguments);
 
 struct MergeArguments {
     std::string folder, output;
+    bool force = false;
 };
 int merge(MergeArguments const& arguments);
 
 struct ReportArguments {
     std::string path;
     std::string output;  // empty: the path with .html
+    bool force = false;
 };
 /// Ends as the companion in Python, which writes the page; returns only by an exception.
 int report(ReportArguments const& arguments);

@@ -20,7 +20,7 @@ std::optional<ToleranceReport> report_of(ResultReader const& results) {
         if (asks_for_report(scene)) return tolerance_report(results, scene);
     } catch (SceneError const& error) {
         // Of another version, or its table of members is elsewhere.
-        fmt::print(stderr, "warning: {}\n", error.what());
+        tell("warning: {}\n", error.what());
     }
     return {};
 }

@@ -14,12 +14,10 @@ namespace slideway::cli {
 namespace {
 
 /// A result in the place of a shard, or of what tells them, would be the end of the run.
-void require_outside(MergeArguments const& arguments) {
-    namespace fs = std::filesystem;
+void require_outside(OutputTarget const& target, std::string const& folder) {
     std::error_code ignored;
-    if (fs::equivalent(folder_of(arguments.output), arguments.folder, ignored)) {
-        throw SceneError(
-            fmt::format("{}: lies in the folder of the shards; give a name elsewhere with -o", arguments.output));
+    if (std::filesystem::equivalent(folder_of(target.path()), folder, ignored)) {
+        throw FileError(fmt::format("{}: lies in the folder of the shards; give a name elsewhere with -o", target.name()));
     }
 }
 
@@ -28,7 +26,7 @@ std::vector<Shard> intact_shards(ShardFolder const& folder) {
     std::vector<DamagedShard> damaged;
     std::vector<Shard> shards = folder.intact(damaged);
     for (DamagedShard const& one : damaged) {
-        fmt::print(stderr, "warning: {}/{}: {}; its members are left out: slideway run --resume runs them again\n",
+        tell("warning: {}/{}: {}; its members are left out: slideway run --resume runs them again\n",
                    folder.path(), one.shard.name, one.is_gone ? "is gone" : "is not what was written");
     }
     return shards;
@@ -45,14 +43,12 @@ int merge(MergeArguments const& arguments) {
     }
     std::string const scene_path = (std::filesystem::path(arguments.folder) / shard_names::identity).string();
     Scene const scene = scene_of(folder);
-    require_writable_place(arguments.output);
-    require_outside(arguments);
-    std::error_code ignored;
-    bool const replaced = std::filesystem::exists(arguments.output, ignored);
+    OutputTarget const target(arguments.output, {inputs_of(scene), arguments.force, is_result_file});
+    require_outside(target, arguments.folder);
     std::optional<ToleranceReport> report;
     std::vector<Shard> const shards = intact_shards(folder);
     std::uint64_t const left =
-        merge_study(scene, folder, shards, shard_origin(folder, shards, scene), arguments.output, report);
+        merge_study(scene, folder, shards, shard_origin(folder, shards, scene), target, report);
 
     RunArguments replay;
     replay.scene.path = scene_path;
@@ -61,9 +57,9 @@ int merge(MergeArguments const& arguments) {
     print_results(replay, scene, results, report);
     fmt::print("\n");
     print_field("results", fmt::format("{}{}; {} is no longer needed", arguments.output,
-                                       replaced ? " (replaced a former file)" : "", arguments.folder));
+                                       target.replaces() ? " (replaced a former file)" : "", arguments.folder));
     if (left == 0) return exit_code::done;
-    fmt::print(stderr, "slideway: {} of {} members have not run; run them and merge again\n", left,
+    tell("slideway: {} of {} members have not run; run them and merge again\n", left,
                folder.identity().members.count());
     return exit_code::stopped_early;
 }

@@ -1,5 +1,7 @@
 #include "host/cli/orbit_text.hpp"
 
+#include "host/cli/text.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -33,16 +35,13 @@ std::string text(MeanOfMembers const& mean) {
 void print_doubts(ResultReader const& results, ExponentSummary const& largest) {
     OffsetHealth const health = offset_health(results);
     if (health.grown > 0.01) {
-        fmt::print(stderr,
-                   "warning: at {:.0f} % of the rescalings an offset had grown to the size of the joint: exponents are "
+        tell("warning: at {:.0f} % of the rescalings an offset had grown to the size of the joint: exponents are "
                    "too small; "
                    "rescale oftener (study.rescalings_per_revolution, study.dt) or use a smaller study.d0\n",
                    100 * health.grown);
     }
     if (health.lost > 0.01) {
-        fmt::print(
-            stderr,
-            "warning: at {:.0f} % of the rescalings an offset had shrunk into rounding: exponents are upper bounds; "
+        tell("warning: at {:.0f} % of the rescalings an offset had shrunk into rounding: exponents are upper bounds; "
             "rescale oftener or use a larger study.d0\n",
             100 * health.lost);
     }
@@ -113,10 +112,10 @@ void print_sections(ResultReader const& results) {
     fmt::print("\n");
     print_field("sections", fmt::format("{} of all members", sections->sections));
     if (sections->beyond > 0) {
-        fmt::print(stderr, "warning: {} more crossings are not stored: raise study.max_crossings\n", sections->beyond);
+        tell("warning: {} more crossings are not stored: raise study.max_crossings\n", sections->beyond);
     }
     if (sections->without > 0) {
-        fmt::print(stderr, "warning: {} member{} never crossed the section: look at study.section, or at the orbit\n",
+        tell("warning: {} member{} never crossed the section: look at study.section, or at the orbit\n",
                    sections->without, sections->without == 1 ? "" : "s");
     }
 }

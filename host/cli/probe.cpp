@@ -4,13 +4,17 @@
 #include <cstring>
 #include <fstream>
 #include <iostream>
+#include <optional>
+#include <sstream>
 
 #include <fmt/format.h>
 
 #include "host/cli/commands.hpp"
 #include "host/cli/text.hpp"
+#include "host/output/output_target.hpp"
 #include "host/scene/labels.hpp"
 #include "host/study/state_numbers.hpp"
+#include "host/study/study_run.hpp"
 
 namespace slideway::cli {
 namespace {
@@ -24,11 +28,19 @@ StateTable load_table(std::string const& path, Scene const& scene) {
     return read_state_table(in, path, scene);
 }
 
-void write_table(std::string const& path, StateTable const& table, std::vector<ProbeResult> const& results) {
-    std::ofstream out(path);
-    if (out) write_probe_csv(out, table, results);
-    out.close();
-    if (!out) throw FileError(fmt::format("{}: cannot write: {}", path, std::strerror(errno)));
+OutputTarget table_target(ProbeArguments const& arguments, Scene const& scene) {
+    std::vector<std::string> inputs = inputs_of(scene);
+    if (!arguments.table.empty()) inputs.push_back(arguments.table);
+    auto const is_ours = [](std::string const& path) {
+        return begins_with(path, [](std::string_view line) { return line.ends_with(",status"); });
+    };
+    return {arguments.output, {inputs, arguments.force, is_ours}};
+}
+
+std::string table_text(StateTable const& table, std::vector<ProbeResult> const& results) {
+    std::ostringstream out;
+    write_probe_csv(out, table, results);
+    return out.str();
 }
 
 /// Of the eight apices, or of the four corners of a planar slider.
@@ -79,10 +91,12 @@ void print_listing(Scene const& scene, StateTable const& table, ProbeResult cons
 int probe(ProbeArguments const& arguments) {
     Isa const isa = parse_isa(arguments.scene.isa);
     Scene const scene = load_scene(arguments.scene);
+    std::optional<OutputTarget> const target =
+        arguments.output.empty() ? std::nullopt : std::optional(table_target(arguments, scene));
     StateTable const table = arguments.table.empty() ? start_state(scene) : load_table(arguments.table, scene);
     std::vector<ProbeResult> const results = slideway::probe(table, isa);
-    if (!arguments.output.empty())
-        write_table(arguments.output, table, results);
+    if (target)
+        target->write(table_text(table, results));
     else if (!arguments.table.empty())
         write_probe_csv(std::cout, table, results);
     else

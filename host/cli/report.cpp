@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include <fmt/format.h>
 #include <spawn.h>
@@ -9,7 +10,7 @@
 #include <unistd.h>
 
 #include "host/cli/commands.hpp"
-#include "host/output/result_merge.hpp"
+#include "host/output/output_target.hpp"
 #include "host/output/result_reader.hpp"
 #include "host/scene/error.hpp"
 
@@ -66,16 +67,22 @@ void require_intact(std::string const& path) {
     }
 }
 
+/// As the companion marks its pages.
+bool is_page(std::string const& path) {
+    constexpr std::size_t head = 1024;
+    std::ifstream in(path, std::ios::binary);
+    std::string text(head, '\0');
+    in.read(text.data(), head);
+    return text.find("<meta name=\"generator\" content=\"slideway\">") != text.npos;
+}
+
 }  // namespace
 
 int report(ReportArguments const& arguments) {
     std::string page = arguments.output;
     if (page.empty()) page = std::filesystem::path(arguments.path).replace_extension(".html").string();
-    std::error_code missing;
-    if (page == arguments.path || std::filesystem::equivalent(page, arguments.path, missing)) {
-        throw SceneError(fmt::format("{}: is the result itself; give the page another name with -o", page));
-    }
-    require_writable_place(page);
+    std::string const inputs[] = {arguments.path};
+    OutputTarget const target(page, {inputs, arguments.force, is_page});
     require_intact(arguments.path);
     // Packages come from where they are installed, not from whatever lies in this folder.
     setenv("PYTHONSAFEPATH", "1", 1);
@@ -86,7 +93,7 @@ int report(ReportArguments const& arguments) {
             "tree, and if that was in a virtual environment, name its interpreter with SLIDEWAY_PYTHON=PATH",
             python));
     }
-    ArgumentList const words({python, "-m", "slideway", "report", "--output=" + page, "--", arguments.path});
+    ArgumentList const words({python, "-m", "slideway", "report", "--force", "--output=" + target.path(), "--", arguments.path});
     execvp(python.c_str(), words.get());
     throw no_interpreter(python, errno);
 }

@@ -1,21 +1,33 @@
 #include <exception>
 #include <filesystem>
+#include <span>
 #include <sstream>
-#include <system_error>
 
 #include <fmt/format.h>
 
 #include "host/cli/commands.hpp"
 #include "host/cli/run_summary.hpp"
 #include "host/cli/text.hpp"
+#include "host/scene/fnv1a.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/prediction.hpp"
 
 namespace slideway::cli {
 namespace {
 
+/// Of the overrides, so that runs of one scene that differ in them have names of their own: ".contact.law=conservative"; a checksum where
+/// that would be no good name.
+std::string words_of(Overrides const& overrides) {
+    constexpr std::size_t longest = 40;
+    constexpr std::string_view good = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.";
+    std::string words;
+    for (auto const& [key, value] : overrides) words += fmt::format(".{}={}", key, value);
+    if (words.size() <= longest && words.find_first_not_of(good) == words.npos) return words;
+    return fmt::format(".set-{:08x}", static_cast<std::uint32_t>(fnv1a(std::as_bytes(std::span(words)))));
+}
+
 std::string default_output(RunArguments const& arguments) {
-    std::string const stem = std::filesystem::path(arguments.scene.path).stem().string();
+    std::string const stem = std::filesystem::path(arguments.scene.path).stem().string() + words_of(arguments.scene.overrides);
     if (!arguments.members) return stem + ".nc";
     // A replay must not replace the ensemble that it looks into.
     auto const [first, count] = *arguments.members;
@@ -44,11 +56,8 @@ StudyOptions study_options(RunArguments const& arguments, Scene const& scene) {
     options.threads = arguments.threads.value_or(default_threads());
     options.block_members = arguments.block_members;
     options.resume = arguments.resume;
+    options.force = arguments.force;
     options.progress = Progress::style_for(stderr, arguments.quiet);
-    std::error_code ignored;
-    if (std::filesystem::equivalent(options.output, scene.path, ignored)) {
-        throw SceneError(options.output + ": is the scene itself; give another name with -o");
-    }
     return options;
 }
 
@@ -66,15 +75,13 @@ BackendChoice chosen_backend(RunArguments const& arguments, Scene const& scene, 
 void warn_of_losses(StudyOptions const& options, StudyRun const& run) {
     for (DamagedShard const& damaged : run.damaged()) {
         std::string const& name = damaged.shard.name;
-        fmt::print(stderr, "warning: {}/{}: {}; its members run again\n", shard_folder_of(options.output), name,
+        tell("warning: {}/{}: {}; its members run again\n", shard_folder_of(options.output), name,
                    damaged.is_gone
                        ? std::string("is gone")
                        : fmt::format("is not what was written and is now {}{}", shard_names::damaged, name));
     }
-    std::error_code ignored;
-    if (options.resume && !run.is_complete() && run.work().before == 0 &&
-        std::filesystem::exists(options.output, ignored)) {
-        fmt::print(stderr, "warning: {}: holds a part of this run, but its shards are gone; all members run again\n",
+    if (options.resume && !run.is_complete() && run.work().before == 0 && run.target().replaces()) {
+        tell("warning: {}: holds a part of this run, but its shards are gone; all members run again\n",
                    options.output);
     }
 }
@@ -84,28 +91,24 @@ void announce(Scene const& scene, StudyOptions const& options, std::string const
               StudyRun const& run) {
     StudyWork const& work = run.work();
     if (work.before > 0) {
-        fmt::print(stderr, "resuming: {} of {} members are done\n", work.before, work.before + work.todo.count());
+        tell("resuming: {} of {} members are done\n", work.before, work.before + work.todo.count());
     }
-    fmt::print(stderr, "backend {}{}{}\n", backend_text(*options.backend), reason.empty() ? "" : ": ", reason);
-    fmt::print(stderr, "memory {}{}, disk {} and {} for the shards until the end\n",
+    tell("backend {}{}{}\n", backend_text(*options.backend), reason.empty() ? "" : ": ", reason);
+    tell("memory {}{}, disk {} and {} for the shards until the end\n",
                bytes_text(static_cast<double>(prediction.memory())), card_memory_text(prediction),
                bytes_text(static_cast<double>(prediction.output_bytes)), shards_text(scene, prediction));
 }
 
 int end_stopped(StudyOptions const& options, std::string_view why, std::uint64_t left) {
     std::string const folder = shard_folder_of(options.output);
-    fmt::print(
-        stderr,
-        "slideway: stopped early{}: {} members have not run; those that did are kept in {}: add --resume to go on, or "
+    tell("slideway: stopped early{}: {} members have not run; those that did are kept in {}: add --resume to go on, or "
         "make a file of them with slideway merge\n",
         why, left, folder);
     return exit_code::stopped_early;
 }
 
 int end_unmerged(StudyOptions const& options) {
-    fmt::print(
-        stderr,
-        "slideway: stopped early (signal): all members have run, and are kept in {}: add --resume to merge them\n",
+    tell("slideway: stopped early (signal): all members have run, and are kept in {}: add --resume to merge them\n",
         shard_folder_of(options.output));
     return exit_code::stopped_early;
 }
@@ -133,7 +136,7 @@ int conclude(RunArguments const& arguments, Scene const& scene, StudyOptions con
     print_field("results", fmt::format("{}{}", options.output, replaced ? " (replaced a former file)" : ""));
     std::uint64_t const failed = failed_count(results), members = options.range.count;
     if (!arguments.max_failures.exceeded(failed, members)) return exit_code::done;
-    fmt::print(stderr, "slideway: {} of {} members failed, more than --max-failures {}\n", failed, members,
+    tell("slideway: {} of {} members failed, more than --max-failures {}\n", failed, members,
                arguments.max_failures.text());
     return exit_code::too_many_failures;
 }
@@ -148,11 +151,9 @@ int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& 
          StopRequest const& stop) {
     print_field("scene", scene.title.empty() ? scene.path : fmt::format("{} ({})", scene.title, scene.path));
     if (run.is_complete()) {
-        if (!arguments.quiet) fmt::print(stderr, "resuming: {} is complete already\n", options.output);
+        if (!arguments.quiet) tell("resuming: {} is complete already\n", options.output);
         return conclude(arguments, scene, options, false, {});
     }
-    std::error_code ignored;
-    bool const replaced = std::filesystem::exists(options.output, ignored);
     std::optional<ToleranceReport> report;
     try {
         EnsembleTotals const totals = run_work(scene, options, run.work(), ranks, stop);
@@ -165,7 +166,7 @@ int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& 
     } catch (DeviceError const& error) {
         throw DeviceError(kept(error, options));
     }
-    int const code = conclude(arguments, scene, options, replaced, std::move(report));
+    int const code = conclude(arguments, scene, options, run.target().replaces(), std::move(report));
     run.remove_shards();
     return code;
 }
@@ -240,7 +241,7 @@ int run(RunArguments const& arguments) {
         if (ranks->is_in_round()) {
             // The others are at work, and hear nothing but the end of the job.
             std::fflush(stdout);
-            fmt::print(stderr, "{}\n", line_of(error));
+            tell("{}\n", line_of(error));
             ranks->abort(exit_code_of(error));
         }
         if (ranks->rank() > 0) throw;

@@ -154,7 +154,7 @@ void print_verification(ResultReader const& results) {
     auto const summary = verification_summary(results);
     if (!summary) return;
     fmt::print("\n{}\n", *summary);
-    if (summary->starts_with("NOT")) fmt::print(stderr, "warning: {}\n", summary->substr(0, summary->find('\n')));
+    if (summary->starts_with("NOT")) tell("warning: {}\n", summary->substr(0, summary->find('\n')));
 }
 
 double sum_of(ResultReader const& results, std::string const& variable) {

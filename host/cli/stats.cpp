@@ -1,12 +1,13 @@
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <fstream>
+#include <optional>
+#include <sstream>
 
 #include <fmt/format.h>
 
 #include "host/cli/commands.hpp"
+#include "host/output/output_target.hpp"
 #include "host/scene/error.hpp"
 #include "host/study/series_analysis.hpp"
 #include "host/study/series_file.hpp"
@@ -81,10 +82,20 @@ void print_growth(SeriesAnalysis const& a, SeriesOptions const& given) {
                                   g.rise, a.divergence.pairs[g.window.first]));
 }
 
+constexpr std::string_view curves_header = "sample,time,S,delta_S,S_cor,mean_log_distance,pairs";
+
+OutputTarget curves_target(StatsArguments const& arguments) {
+    std::string const inputs[] = {arguments.path};
+    auto const is_ours = [](std::string const& path) {
+        return begins_with(path, [](std::string_view line) { return line == curves_header; });
+    };
+    return {arguments.output, {inputs, arguments.force, is_ours}};
+}
+
 /// One row per sample: t of C–C and k of the divergence; cells beyond a curve's end are empty.
-void write_curves(std::string const& path, SeriesAnalysis const& a) {
-    std::ofstream out(path);
-    out << "sample,time,S,delta_S,S_cor,mean_log_distance,pairs\n";
+std::string curves_text(SeriesAnalysis const& a) {
+    std::ostringstream out;
+    out << curves_header << '\n';
     std::size_t const rows = std::max(a.curves.mean.size() + 1, a.divergence.mean_log.size());
     for (std::size_t i = 0; i < rows; ++i) {
         out << fmt::format("{},{:.17g}", i, static_cast<double>(i) * a.spacing);
@@ -100,8 +111,7 @@ void write_curves(std::string const& path, SeriesAnalysis const& a) {
             out << ",,\n";
         }
     }
-    out.close();
-    if (!out) throw FileError(fmt::format("{}: cannot write: {}", path, std::strerror(errno)));
+    return out.str();
 }
 
 SeriesAnalysis analyse(StoredSeries const& series, StatsArguments const& arguments) {
@@ -115,10 +125,11 @@ SeriesAnalysis analyse(StoredSeries const& series, StatsArguments const& argumen
 }  // namespace
 
 int stats(StatsArguments const& arguments) {
+    std::optional<OutputTarget> const target = arguments.output.empty() ? std::nullopt : std::optional(curves_target(arguments));
     StoredSeries series = read_series(arguments);
     cut(series, arguments);
     SeriesAnalysis const a = analyse(series, arguments);
-    if (!arguments.output.empty()) write_curves(arguments.output, a);
+    if (target) target->write(curves_text(a));
 
     row("series", fmt::format("{} of {}", series.name, arguments.path));
     row("points", fmt::format("{}, every {:.6g} s", a.points, a.spacing));
@@ -129,7 +140,7 @@ int stats(StatsArguments const& arguments) {
     row("0-1 test", fmt::format("{} from {} samples, one of every {}", k, a.zero_one.points, a.stride));
     row("verdict", verdict(a));
     for (std::string const& line : reservations(a)) row("", "- " + line);
-    if (!arguments.output.empty()) row("curves", arguments.output);
+    if (target) row("curves", target->name());
     return exit_code::done;
 }
 

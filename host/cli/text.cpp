@@ -53,8 +53,10 @@ Scene load_scene(SceneArguments const& arguments) {
     }
 }
 
+void tell_text(std::string const& text) noexcept { std::fwrite(text.data(), 1, text.size(), stderr); }
+
 void print_warnings(Scene const& scene) {
-    for (std::string const& warning : scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    for (std::string const& warning : scene.warnings) tell("warning: {}\n", warning);
 }
 
 std::string bytes_text(double bytes) {

@@ -3,7 +3,10 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "host/cli/commands.hpp"
 #include "host/study/prediction.hpp"
@@ -16,6 +19,12 @@ Scene load_scene(SceneArguments const& arguments);
 
 /// To stderr: what the scene gives and does not use.
 void print_warnings(Scene const& scene);
+
+/// To stderr.  Where that cannot be written, nobody is there to read it, and the command goes on: never an exception.
+void tell_text(std::string const& text) noexcept;
+template <class... Values> void tell(fmt::format_string<Values...> format, Values&&... values) {
+    tell_text(fmt::format(format, std::forward<Values>(values)...));
+}
 
 std::string bytes_text(double bytes);       // "1.5 MB"
 std::string duration_text(double seconds);  // "8.2 s", "3 min 20 s", "2.4 h"

@@ -54,10 +54,12 @@ void Progress::print_line() {
     std::string const line =
         progress_line(before_ + done_.load(std::memory_order_relaxed), members_, elapsed.count(), before_);
     // Erase to the end of the line: the next one may be shorter.
-    if (style_ == Style::terminal)
-        fmt::print(out_, "\r{}\x1b[K", line);
-    else
-        fmt::print(out_, "{}\n", line);
+    tell(style_ == Style::terminal ? fmt::format("\r{}\x1b[K", line) : line + '\n');
+}
+
+/// A stream that cannot be written is no reason to stop.
+void Progress::tell(std::string const& text) {
+    std::fwrite(text.data(), 1, text.size(), out_);
     std::fflush(out_);
 }
 
@@ -69,10 +71,9 @@ void Progress::report() {
     for (int tick = 1; !changed_.wait_for(lock, 250ms, [this] { return ended_; }); ++tick) {
         if (!told_stop && stop_.reason() != StopReason::none) {
             told_stop = true;
-            fmt::print(out_, "{}stopping ({}): members under way are given up, those that ended are written\n",
-                       style_ == Style::terminal ? "\r\x1b[K" : "",
-                       stop_.reason() == StopReason::signal ? "signal" : "--max-hours");
-            std::fflush(out_);
+            tell(fmt::format("{}stopping ({}): members under way are given up, those that ended are written\n",
+                             style_ == Style::terminal ? "\r\x1b[K" : "",
+                             stop_.reason() == StopReason::signal ? "signal" : "--max-hours"));
         }
         if (tick % ticks_per_line == 0) print_line();
     }

@@ -37,6 +37,7 @@ public:
 private:
     void report();
     void print_line();
+    void tell(std::string const& text);
 
     std::uint64_t const members_, before_;
     Style const style_;

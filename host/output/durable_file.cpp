@@ -59,6 +59,16 @@ void sync(int file, std::string const& path) {
     if (::fsync(file) != 0) fail(path, "write to the disk", errno);
 }
 
+/// rename(2), or its form that leaves what is there alone.  @return 0 or the reason why not
+int put_in_place(std::string const& from, std::string const& to, Existing existing) {
+    if (existing == Existing::replaced) return std::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+    // Of file systems that cannot rename so, most can link.
+    if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
+    if (errno != EINVAL && errno != ENOSYS) return errno;
+    if (::link(from.c_str(), to.c_str()) != 0) return errno;
+    return ::unlink(from.c_str()) == 0 ? 0 : errno;
+}
+
 }  // namespace
 
 std::string folder_of(std::string const& path) {
@@ -80,32 +90,45 @@ void sync_folder(std::string const& path) { sync_folder_for(path, path); }
 
 void sync_name(std::string const& path) { sync_folder_for(folder_of(path), path); }
 
-void write_durably(std::string const& path, std::span<std::byte const> bytes) {
-    std::string const temporary = path + ".tmp";
+namespace {
+
+void write_file(std::string const& path, int flags, std::span<std::byte const> bytes) {
+    Descriptor file(path, O_WRONLY | O_CREAT | flags);
     try {
-        Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
-        write_all(file.get(), bytes, temporary);
-        sync(file.get(), temporary);
+        write_all(file.get(), bytes, path);
+        sync(file.get(), path);
         file.close();
-        if (std::rename(temporary.c_str(), path.c_str()) != 0) fail(path, "put in place", errno);
-        sync_name(path);
     } catch (...) {
-        ::unlink(temporary.c_str());
+        ::unlink(path.c_str());
         throw;
     }
+}
+
+}  // namespace
+
+void write_new(std::string const& path, std::span<std::byte const> bytes) { write_file(path, O_EXCL, bytes); }
+
+void write_durably(std::string const& path, std::span<std::byte const> bytes) {
+    std::string const temporary = path + ".tmp";
+    write_file(temporary, O_TRUNC, bytes);
+    if (std::rename(temporary.c_str(), path.c_str()) != 0) {
+        int const reason = errno;
+        ::unlink(temporary.c_str());
+        fail(path, "put in place", reason);
+    }
+    sync_name(path);
 }
 
 void write_durably(std::string const& path, std::string_view text) {
     write_durably(path, std::as_bytes(std::span(text)));
 }
 
-void rename_durably(std::string const& from, std::string const& to) {
+void rename_durably(std::string const& from, std::string const& to, Existing existing) {
     {
         Descriptor file(from, O_RDONLY);
         sync(file.get(), from);
     }
-    if (std::rename(from.c_str(), to.c_str()) != 0) {
-        int const reason = errno;
+    if (int const reason = put_in_place(from, to, existing); reason != 0) {
         throw FileError(fmt::format("{}: cannot replace: {}; the results are in {}", to, std::strerror(reason), from));
     }
     sync_name(to);

@@ -9,14 +9,24 @@
 
 namespace slideway {
 
+/// What becomes of a file that is there when another is put in its place.
+enum class Existing {
+    replaced,
+    kept  // it is refused
+};
+
 /// Puts a file into place: writes `path`.tmp, fsync, rename, fsync of the folder.  So `path` holds what it held before or all of
-/// `bytes`, also after a power loss.  @throws FileError; `path` is then as before, but for a failed fsync of the folder, which
-/// comes last: `path` then holds all of `bytes`, and a power loss may bring back what it held before.
+/// `bytes`, also after a power loss.  Of folders that are slideway's own, where nobody else has a `path`.tmp.
+/// @throws FileError; `path` is then as before, but for a failed fsync of the folder, which comes last: `path` then holds all of `bytes`,
+/// and a power loss may bring back what it held before.
 void write_durably(std::string const& path, std::span<std::byte const> bytes);
 void write_durably(std::string const& path, std::string_view text);
 
+/// A new file, on the disk when it returns.  @throws FileError, also if there is one of this name; it is gone then, if it was this call's
+void write_new(std::string const& path, std::span<std::byte const> bytes);
+
 /// The last steps for a file that another library wrote: fsync, rename, fsync of the folder.  @throws FileError; `from` then stays.
-void rename_durably(std::string const& from, std::string const& to);
+void rename_durably(std::string const& from, std::string const& to, Existing existing = Existing::replaced);
 
 /// Makes new names and removals in a folder last.  @throws FileError
 void sync_folder(std::string const& path);

@@ -160,25 +160,6 @@ void require_sound(std::string const& part) {
     }
 }
 
-}  // namespace
-
-/// Before netCDF tries: its reasons for a folder ("HDF error") tell nobody what to do.
-void require_writable_place(std::string const& path) {
-    namespace fs = std::filesystem;
-    std::error_code ignored;
-    if (fs::is_directory(path, ignored)) throw FileError(path + ": is a folder; give a file name with -o");
-    std::string const folder = folder_of(path);
-    if (!fs::is_directory(folder, ignored)) {
-        throw FileError(fmt::format("{}: cannot create: there is no folder '{}'", path, folder));
-    }
-    // The renaming at the end would put a file in the place of /dev/null.
-    if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
-        throw FileError(path + ": is a device or a pipe; give the name of a file with -o");
-    }
-}
-
-namespace {
-
 std::string lock_file_of(std::string const& path) { return path + ".part.lock"; }
 
 /// The right to write the file: HDF5's own locks may be switched off, and it takes them only once the file is emptied.
@@ -187,12 +168,15 @@ FileLock lock_of(std::string const& path) {
             path + ": another process is writing it; wait for its end or give another name with -o"};
 }
 
+/// @param left whether a merge was killed here: whose part it is then is known
+void remove_part(std::string const& part, bool left) {
+    if (!is_there(part)) return;
+    if (!left) throw FileError(part + ": is in the way, and no merge left it; remove it, or give another name with -o");
+    if (std::remove(part.c_str()) != 0) throw FileError(fmt::format("{}: cannot remove: {}", part, std::strerror(errno)));
+}
+
 void write_part(std::string const& part, std::string const& completeness,
                 std::function<void(NetcdfFile& file)> const& write) {
-    // What a killed merge left.
-    if (is_there(part) && std::remove(part.c_str()) != 0) {
-        throw FileError(fmt::format("{}: cannot remove: {}", part, std::strerror(errno)));
-    }
     try {
         NetcdfFile file = NetcdfFile::create(part);
         write(file);
@@ -210,14 +194,20 @@ void write_part(std::string const& part, std::string const& completeness,
 }  // namespace
 
 void write_result(std::string const& path, std::string const& completeness,
-                  std::function<void(NetcdfFile& file)> const& write) {
+                  std::function<void(NetcdfFile& file)> const& write, Existing existing) {
     std::string const part = path + ".part", lock_file = lock_file_of(path);
+    bool const left = is_there(lock_file);
     FileLock lock = lock_of(path);
+    bool ours = false;
     try {
+        remove_part(part, left);
+        ours = true;
         write_part(part, completeness, write);
-        rename_durably(part, path);
+        rename_durably(part, path, existing);
     } catch (...) {
-        std::remove(lock_file.c_str());
+        // Beside a part that stays, the lock says whose it is.
+        std::error_code ignored;
+        if (!ours || !std::filesystem::exists(part, ignored)) std::remove(lock_file.c_str());
         throw;
     }
     lock.remove();
@@ -229,7 +219,7 @@ void remove_merge_lock(std::string const& path) {
 
 void merge_shards(ShardFolder const& folder, std::vector<Shard> const& shards, ResultMerge merge,
                   std::string const& path) {
-    write_result(path, merge.completeness, [&](NetcdfFile& file) { write_merged(file, folder, shards, merge); });
+    write_result(path, merge.completeness, [&](NetcdfFile& file) { write_merged(file, folder, shards, merge); }, merge.existing);
 }
 
 }  // namespace slideway

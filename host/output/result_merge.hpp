@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/output/durable_file.hpp"
 #include "host/output/netcdf_file.hpp"
 #include "host/output/provenance.hpp"
 #include "host/output/result_layout.hpp"
@@ -22,19 +23,18 @@ struct ResultMerge {
     std::function<void(NetcdfFile& file)> conclude;
     /// Called now and then; what it throws ends the merge and leaves no file.  May be empty.
     std::function<void()> pause;
+    Existing existing = Existing::replaced;  // of a file of the same name
 };
 
-/// Whether a result can be put there.  @throws FileError with what is wrong with the path.
-void require_writable_place(std::string const& path);
-
 /// Writes `path`.part, which becomes `path` when it is whole: a former file stays until then.  One shard at a time is in memory.
-/// @throws FileError, also if another process writes the same file; if only the renaming failed, `path`.part stays.
+/// @throws FileError, also if another process writes the same file, or somebody else's `path`.part is there; if only the renaming failed,
+/// `path`.part stays.
 void merge_shards(ShardFolder const& folder, std::vector<Shard> const& shards, ResultMerge merge,
                   std::string const& path);
 
 /// The same for what `write` puts into the file: adds completeness and payload hash.
 void write_result(std::string const& path, std::string const& completeness,
-                  std::function<void(NetcdfFile& file)> const& write);
+                  std::function<void(NetcdfFile& file)> const& write, Existing existing = Existing::replaced);
 
 /// Removes the lock of a process that was killed when its file was whole.  @throws FileError, also if another writes it
 void remove_merge_lock(std::string const& path);

@@ -117,7 +117,7 @@ void merge_statistics(ShardFolder const& folder, std::vector<Shard> const& shard
         write_all(file, merge, statistics);
         if (merge.conclude) merge.conclude(file, statistics);
         if (merge.pause) merge.pause();
-    });
+    }, merge.existing);
 }
 
 BlockStatistics stored_statistics(ResultView const& results) {

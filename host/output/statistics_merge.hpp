@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/output/durable_file.hpp"
 #include "host/output/netcdf_file.hpp"
 #include "host/output/result_view.hpp"
 #include "host/output/statistics_shard.hpp"
@@ -21,6 +22,7 @@ struct StatisticsMerge {
     std::function<void(NetcdfFile& file, BlockStatistics const& statistics)> conclude;
     /// Called now and then; what it throws ends the merge and leaves no file.  May be empty.
     std::function<void()> pause;
+    Existing existing = Existing::replaced;  // of a file of the same name
 };
 
 /// Writes a result file without members, as `merge_shards` one with.  Its attribute `store` is "statistics", and

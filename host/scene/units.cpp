@@ -1,5 +1,7 @@
 #include "host/scene/units.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -151,8 +153,37 @@ double scaled(std::string_view number, double value, double factor) {
 
 constexpr std::size_t longest_unit = 100;
 
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// UDUNITS-2 takes numbers in a unit for factors: "1 500 rpm" would be 500 rpm.  Digits are welcome in exponents alone, behind the letter
+/// or the sign of power that they belong to: "m2", "s-1", "m^2", "m**-2".
+bool has_factor(std::string_view unit) {
+    if (unit.starts_with("1/")) unit.remove_prefix(2);
+    for (std::size_t i = 0; i < unit.size(); ++i) {
+        if (!is_digit(unit[i])) continue;
+        std::size_t before = i;
+        if (before > 0 && (unit[before - 1] == '-' || unit[before - 1] == '+')) --before;
+        bool const power = before > 0 && (unit[before - 1] == '^' || (before > 1 && unit.substr(before - 2, 2) == "**"));
+        auto const letter = before > 0 ? static_cast<unsigned char>(unit[before - 1]) : 0;
+        if (!power && !std::isalpha(letter) && letter < 0x80) return true;
+        while (i < unit.size() && is_digit(unit[i])) ++i;
+    }
+    return false;
+}
+
 bool is_unit_text(std::string_view text) {
-    return text.size() <= longest_unit && text.find('\0') == std::string_view::npos;
+    constexpr std::string_view never_first = "+-.,";
+    return text.size() <= longest_unit && text.find('\0') == std::string_view::npos && !has_factor(text) &&
+           (text.empty() || never_first.find(text.front()) == text.npos);
+}
+
+/// What was meant by digits behind a number: "1 500 rpm", "1,5 mm".
+std::string meant(std::string_view number, std::string_view rest) {
+    auto const digits = std::find_if_not(rest.begin() + (rest.front() == ',' ? 1 : 0), rest.end(), is_digit);
+    auto const count = digits - rest.begin();
+    if (rest.front() == ',' && count > 1) return fmt::format("write a point: \"{}.{}\"", number, rest.substr(1));
+    if (count == 3 && digits != rest.end()) return fmt::format("write \"{}{}\"", number, rest);
+    return "write one number and its unit";
 }
 
 }  // namespace
@@ -197,7 +228,7 @@ std::variant<double, Problem> to_si(std::string_view text, std::string_view unit
                        fmt::format("write the unit, \"{} {}\", or the number without quotes", number, unit)};
     }
     if (!is_unit_text(rest)) {
-        return Problem{"what follows the number is no unit", example};
+        return Problem{fmt::format("what follows the number {} is no unit", number), meant(number, rest)};
     }
     Factor const factor = factor_of(std::string(rest), unit);
     if (factor.problem) return *factor.problem;

@@ -36,14 +36,14 @@ bool is_result_of(std::string const& path, RunIdentity const& identity) {
     }
     if (std::string const changed = identity.difference(found); !changed.empty()) {
         throw SceneError(
-            fmt::format("{}: cannot resume: it is the result of another run ({}); leave --resume out to replace it",
+            fmt::format("{}: cannot resume: it is the result of another run ({}); give another name with -o, or --force instead of --resume to replace it",
                         path, changed));
     }
     if (result.attribute("completeness") != "complete") return false;
     if (result.computed_hash() != result.stored_hash()) {
         throw FileError(
-            fmt::format("{}: is damaged: it does not hold what was written to it (its hash differs); leave --resume "
-                        "out to run again",
+            fmt::format("{}: is damaged: it does not hold what was written to it (its hash differs); give --force "
+                        "instead of --resume to run again",
                         path));
     }
     return true;
@@ -101,17 +101,34 @@ Scene scene_of(ShardFolder const& folder) {
     return scene;
 }
 
+std::vector<std::string> inputs_of(Scene const& scene) {
+    std::vector<std::string> inputs{scene.path};
+    if (scene.design.table != nullptr) inputs.push_back(scene.design.table->path);
+    return inputs;
+}
+
+namespace {
+
+OutputTarget target_of(Scene const& scene, StudyOptions const& options) {
+    std::vector<std::string> const inputs = inputs_of(scene);
+    return {options.output,
+            {inputs, options.force || options.resume, is_result_file,
+             "add --force to replace it, --resume to go on with it, or give another name with -o"}};
+}
+
+}  // namespace
+
 StudyRun::StudyRun(Scene const& scene, StudyOptions const& options)
-    : scene_(scene), options_(options), members_(options.range), mine_(members_of_part(scene, options.part, members_)) {
-    require_writable_place(options.output);
+    : scene_(scene), options_(options), target_(target_of(scene, options)), members_(options.range),
+      mine_(members_of_part(scene, options.part, members_)) {
     std::string const folder = shard_folder_of(options.output);
     RunIdentity const identity = run_identity(scene, members_, *options.backend);
-    std::error_code ignored;
-    if (options.resume && !ShardFolder::exists(folder) && std::filesystem::exists(options.output, ignored)) {
-        is_complete_ = is_result_of(options.output, identity);
+    if (options.resume && target_.replaces() && !(options.force && ShardFolder::exists(folder))) {
+        bool const whole = is_result_of(options.output, identity);
+        is_complete_ = whole && !ShardFolder::exists(folder);
         if (is_complete_) {
             ShardClaim::remove_remains(folder);
-            remove_merge_lock(options.output);
+            remove_merge_lock(target_.path());
             return;
         }
     }
@@ -156,7 +173,7 @@ bool StudyRun::merge(StopRequest const& stop, std::optional<ToleranceReport>& re
             write_verification(file, verify(ResultView(file), scene_, *options_.backend, {scene_.verify, options_.threads, &stop}));
         };
         merge_study(scene_, folder, folder.listed(), provenance(scene_, *options_.backend, options_.threads),
-                    options_.output, report, settings, check);
+                    target_, report, settings, check);
     } catch (Interrupted const&) {
         return false;
     }
@@ -171,7 +188,7 @@ bool asks_for_report(Scene const& scene) {
 }
 
 std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, std::vector<Shard> const& shards,
-                          Provenance const& provenance, std::string const& output,
+                          Provenance const& provenance, OutputTarget const& output,
                           std::optional<ToleranceReport>& report, ReportSettings const& settings,
                           std::function<void(NetcdfFile&)> const& verify) {
     MemberSet const& members = folder.identity().members;
@@ -180,12 +197,13 @@ std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, std::ve
         left == 0 ? "complete" : fmt::format("{} of {} members not run", left, members.count());
     if (!scene.stores_members()) {
         auto const conclude = [&](NetcdfFile& file, BlockStatistics const& statistics) {
-            report = statistics_report(statistics, left, scene, output);
+            report = statistics_report(statistics, left, scene, output.name());
             write_statistics(file, *report);
             if (verify && left == 0) verify(file);
         };
         merge_statistics(folder, shards,
-                         {statistics_plan(scene), members, provenance, completeness, conclude, settings.pause}, output);
+                         {statistics_plan(scene), members, provenance, completeness, conclude, settings.pause, output.existing()},
+                         output.path());
         return left;
     }
     auto const conclude = [&](NetcdfFile& file) {
@@ -196,8 +214,8 @@ std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, std::ve
         if (verify && left == 0) verify(file);
     };
     merge_shards(folder, shards,
-                 {result_layout(scene, members), provenance, completeness, conclude, settings.pause},
-                 output);
+                 {result_layout(scene, members), provenance, completeness, conclude, settings.pause, output.existing()},
+                 output.path());
     return left;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/driver/ranks.hpp"
+#include "host/output/output_target.hpp"
 #include "host/output/shard_claim.hpp"
 #include "host/study/ensemble_plan.hpp"
 #include "host/study/tolerance_report.hpp"
@@ -30,6 +31,7 @@ MemberSet members_of_part(Scene const& scene, RunPart const& part, MemberSet con
 
 struct StudyOptions {
     std::string output;
+    bool force = false;  // a former result of another run is replaced
     MemberRange range;
     RunPart part;
     std::shared_ptr<Backend const> backend;
@@ -41,6 +43,9 @@ struct StudyOptions {
 
 /// The folder of the shards of a result.
 std::string shard_folder_of(std::string const& output);
+
+/// What a study reads beside what the program brings: its scene and its table.
+std::vector<std::string> inputs_of(Scene const& scene);
 
 /// What the ranks compute together.
 struct StudyWork {
@@ -61,6 +66,7 @@ public:
 
     /// The result was there before, complete.
     bool is_complete() const { return is_complete_; }
+    OutputTarget const& target() const { return target_; }
     StudyWork const& work() const { return work_; }
     /// Shards that were not what had been written: their members run again.
     std::vector<DamagedShard> damaged() const;
@@ -78,6 +84,7 @@ private:
 
     Scene const& scene_;
     StudyOptions const& options_;
+    OutputTarget const target_;
     MemberSet const members_, mine_;
     bool is_complete_ = false;
     std::unique_ptr<ShardClaim> claim_;
@@ -92,7 +99,7 @@ bool asks_for_report(Scene const& scene);
 /// @param report where that of a scene that `asks_for_report` goes  @param verify checks a complete result before it is closed
 /// @return how many members have none.  @throws FileError
 std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, std::vector<Shard> const& shards,
-                          Provenance const& provenance, std::string const& output,
+                          Provenance const& provenance, OutputTarget const& output,
                           std::optional<ToleranceReport>& report, ReportSettings const& settings = {},
                           std::function<void(NetcdfFile&)> const& verify = {});
 

@@ -143,9 +143,12 @@ Verification verify(ResultView const& results, Scene const& scene, Backend const
     });
     bool const differs = std::any_of(v.findings.begin(), v.findings.end(), [](CheckedColumn const& found) { return found.differs; });
     if (!enough && !differs) {
-        bool const failed = v.numbers.front().finished() < least_members;
-        return not_checked(std::move(v), failed ? "too few of its members came to their end"
-                                                : "too few members came to their end in the time for it; run --verify gives them more");
+        if (v.numbers.front().finished() < least_members) return not_checked(std::move(v), "too few of its members came to their end");
+        std::string ends;
+        for (std::size_t i = 0; i < v.methods.size(); ++i)
+            ends += fmt::format("{}{} of {} by {}", i > 0 ? ", " : "", v.finished[i], v.members.size(), v.methods[i]);
+        return not_checked(std::move(v), fmt::format("too few members came to their end again ({}){}", ends,
+                                                     request.members ? "" : "; run --verify gives them more time"));
     }
     v.resolution = differs ? Resolution::not_resolved : Resolution::resolved;
     v.summary = describe(v, scene);

@@ -61,6 +61,10 @@ std::vector<CheckMethod> check_methods(Scene const& scene) {
     auto const add = [&](Scene check, double cost, std::string_view beside = "") {
         methods.push_back({words_of(check.integrator) + std::string(beside), std::move(check), cost});
     };
+    // Where forces jump, no tolerance brings a step across that does not end there: far below the study's, steps become too small.
+    bool const jumps = makes_energy(scene.parts) && scene.parts.damping != Damping::restitution;
+    bool const locates = jumps && !scene.integrator.locate_modes;
+    std::string_view const located = locates ? ", switches located" : "";
 
     Scene tight = bare;
     if (own == Method::rk4) {
@@ -68,8 +72,9 @@ std::vector<CheckMethod> check_methods(Scene const& scene) {
         tight.integrator.max_steps = static_cast<std::uint64_t>(static_cast<double>(scene.integrator.max_steps) / fewer_steps);
     } else {
         tighten(tight.integrator);
+        tight.integrator.locate_modes = tight.integrator.locate_modes || locates;
     }
-    add(tight, cost_of(own, own));
+    add(tight, cost_of(own, own), own == Method::rk4 ? "" : located);
 
     Scene other = bare;
     other.integrator.method = other_method(own, info(scene.parts.mechanism));
@@ -80,7 +85,8 @@ std::vector<CheckMethod> check_methods(Scene const& scene) {
         other.integrator.max_steps = std::max(other.integrator.max_steps, usual.max_steps);
     }
     tighten(other.integrator);
-    add(other, cost_of(own, other.integrator.method));
+    other.integrator.locate_modes = other.integrator.locate_modes || locates;
+    add(other, cost_of(own, other.integrator.method), located);
 
     if (scene.chaos.exponents > 0 && !runs_to_end(scene.study)) {
         Scene wide = bare;

@@ -40,7 +40,7 @@ def _contacts(law: str, poses: np.ndarray, output: Path) -> tuple[np.ndarray, np
     states |= {"y": poses[:, 0], "pitch": poses[:, 1]}
     np.savetxt(table, np.column_stack(list(states.values())), delimiter=",", header=",".join(states), comments="", fmt="%.17g")
     still = ["--set", f"contact.law={law}", "friction.enabled=false", "initial.roll=0", "initial.yaw=0"]
-    slideway.program.call(None, ["probe", str(SCENE), *still, "--csv", str(table), "-o", str(answer)])
+    slideway.program.call(None, ["probe", str(SCENE), *still, "--csv", str(table), "-o", str(answer), "--force"])
     data = np.genfromtxt(answer, delimiter=",", names=True)
     depths, forces = (np.array([data[f"{name}_y_P{apex}"] for apex in range(1, 9)]) for name in ("pen", "fn"))
     return np.maximum(depths, 0.0), forces

@@ -112,6 +112,7 @@ class OrbitProgram : public Program {
 protected:
     Outcome run_scene(std::string const& text, std::vector<std::string> options = {}) const {
         write("s.toml", text);
+        options = to_result(std::move(options));
         options.insert(options.begin(), {"run", "s.toml", "--quiet"});
         return run(std::move(options));
     }

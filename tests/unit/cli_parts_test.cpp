@@ -114,8 +114,9 @@ TEST_F(MergeOfShards, LeavesADamagedShardOutAndSaysSo) {
 
 TEST_F(MergeOfShards, NeverWritesAmongThem) {
     make_shards();
-    for (std::string const name : {"s.nc.shards/run.toml", "s.nc.shards/out.nc"}) {
-        expect_refusal(2, name + ": lies in the folder of the shards", {"merge", "s.nc.shards", "-o", name});
+    expect_refusal(4, "is what this command reads", {"merge", "s.nc.shards", "-o", "s.nc.shards/run.toml", "--force"});
+    for (std::string const name : {"s.nc.shards/table.csv", "s.nc.shards/out.nc"}) {
+        expect_refusal(4, name + ": lies in the folder of the shards", {"merge", "s.nc.shards", "-o", name});
     }
     EXPECT_EQ(run_scene({"--quiet", "--resume"}).code, 0);
 }

@@ -37,6 +37,17 @@ template <class Condition> bool comes_true(Condition const& condition) {
     return false;
 }
 
+/// Options of a run whose result is s.nc whatever they change, also where there is one, unless they say otherwise.
+inline std::vector<std::string> to_result(std::vector<std::string> options) {
+    auto const has = [&](std::initializer_list<char const*> names) {
+        return std::any_of(options.begin(), options.end(),
+                           [&](std::string const& word) { return std::find(names.begin(), names.end(), word) != names.end(); });
+    };
+    if (!has({"-o", "--member", "--members"})) options.insert(options.end(), {"-o", "s.nc"});
+    if (!has({"--resume"})) options.push_back("--force");
+    return options;
+}
+
 class Program : public ::testing::Test {
 protected:
     Program() : folder_(std::filesystem::temp_directory_path() / ("slideway_cli_test_" + std::to_string(getpid()))) {

@@ -28,9 +28,9 @@ protected:
 
 TEST_F(Report, HandsTheFileAndThePageOver) {
     set_interpreter(true);
-    EXPECT_EQ(run({"report", "s.nc"}).out, "[-m][slideway][report][--output=s.html][--][s.nc]");
+    EXPECT_EQ(run({"report", "s.nc"}).out, "[-m][slideway][report][--force][--output=s.html][--][s.nc]");
     EXPECT_EQ(run({"report", "s.nc", "-o", "-page of it.html"}).out,
-              "[-m][slideway][report][--output=-page of it.html][--][s.nc]");
+              "[-m][slideway][report][--force][--output=-page of it.html][--][s.nc]");
 }
 
 TEST_F(Report, EndsAsTheCompanionDoes) {
@@ -78,9 +78,9 @@ TEST_F(Report, ReplacesFilesAlone) {
 
 TEST_F(Report, NeverReplacesTheResult) {
     set_interpreter(true);
-    expect_refusal(2, "is the result itself", {"report", "s.nc", "-o", "./s.nc"});
+    expect_refusal(4, "is what this command reads", {"report", "s.nc", "-o", "./s.nc"});
     std::filesystem::copy_file(path("s.nc"), path("r.html"));
-    expect_refusal(2, "is the result itself", {"report", "r.html"});
+    expect_refusal(4, "is what this command reads", {"report", "r.html"});
 }
 
 }  // namespace

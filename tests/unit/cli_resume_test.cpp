@@ -16,7 +16,7 @@ TEST_F(Resume, AfterASignalGivesTheSameResult) {
     };
     ASSERT_EQ(run_scene(with({"--quiet", "-o", "whole.nc"})).code, 0);
     for (int const signal : {SIGTERM, SIGKILL}) {
-        auto arguments = with({"run", "s.toml", "--threads", "1", "--quiet"});
+        auto arguments = with({"run", "s.toml", "-o", "s.nc", "--threads", "1", "--quiet"});
         pid_t const child = start(arguments);
         EXPECT_TRUE(comes_true([&] { return shards_in("s.nc.shards") >= 3; }));
         kill(child, signal);
@@ -82,7 +82,7 @@ TEST_F(Resume, KeepsAShardThatCannotBeReadForNow) {
     fs::rename(victim, path("away.nc"));
     fs::create_symlink(victim, victim);
     for (char const* const seed : {"study.seed=1", "study.seed=2"}) {
-        expect_refusal(4, shard(24) + ": cannot ", {"run", "s.toml", "--quiet", "--resume", "--set", seed});
+        expect_refusal(4, shard(24) + ": cannot ", {"run", "s.toml", "--quiet", "-o", "s.nc", "--resume", "--set", seed});
     }
     fs::remove(victim);
     fs::rename(path("away.nc"), victim);
@@ -103,7 +103,7 @@ TEST_F(Resume, SaysOfAShardThatIsGoneThatItIs) {
 TEST_F(Resume, OfTheFileOfAnotherSceneIsRefused) {
     ASSERT_EQ(run_scene({"--quiet"}).code, 0);
     expect_refusal(2, "s.nc: cannot resume: it is the result of another run (study.seed was 1, is 2)",
-                   {"run", "s.toml", "--quiet", "--resume", "--set", "study.seed=2"});
+                   {"run", "s.toml", "--quiet", "-o", "s.nc", "--resume", "--set", "study.seed=2"});
     expect_refusal(2, "the members were 0-63, are 3-5",
                    {"run", "s.toml", "--quiet", "--resume", "--members", "3..5", "-o", "s.nc"});
     EXPECT_EQ(results("s.nc").values("status").size(), 64u);
@@ -117,9 +117,9 @@ TEST_F(Resume, OfAChangedSceneIsRefusedAndSaysWhatChanged) {
         2,
         "s.nc.shards: cannot resume: it holds 48 finished members of another run (mechanism.gravity was 9.81, "
         "is 1.62)",
-        {"run", "s.toml", "--quiet", "--resume", "--set", "mechanism.gravity=1.62"});
+        {"run", "s.toml", "--quiet", "-o", "s.nc", "--resume", "--set", "mechanism.gravity=1.62"});
     expect_refusal(2, "joint.clearance_y was 0.0001, is 0.0002",
-                   {"run", "s.toml", "--quiet", "--resume", "--set", "joint.clearance=0.2 mm"});
+                   {"run", "s.toml", "--quiet", "-o", "s.nc", "--resume", "--set", "joint.clearance=0.2 mm"});
     // What gives no member other bits is nothing that changed.
     EXPECT_EQ(run({"run", "s.toml", "--resume", "--threads", "1", "--block-members", "3"}).code, 0);
 }
@@ -129,7 +129,7 @@ TEST_F(Resume, IsAskedForWhereARunIsUnfinished) {
     expect_refusal(2, "s.nc.shards: holds 48 finished members of this run; add --resume to go on with it",
                    {"run", "s.toml", "--quiet"});
     expect_refusal(2, "s.nc.shards: holds 48 finished members of another run",
-                   {"run", "s.toml", "--quiet", "--set", "study.seed=2"});
+                   {"run", "s.toml", "--quiet", "-o", "s.nc", "--set", "study.seed=2"});
     EXPECT_FALSE(exists("s.nc"));
     EXPECT_EQ(run_scene({"--quiet", "--resume"}).code, 0);
 }

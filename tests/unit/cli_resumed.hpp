@@ -32,6 +32,7 @@ class Resumed : public ProgramWithResults {
 protected:
     Resumed() { write("s.toml", resumed_scene); }
     Outcome run_scene(std::vector<std::string> options) const {
+        options = to_result(std::move(options));
         options.insert(options.begin(), {"run", "s.toml", "--threads", "2"});
         return run(std::move(options));
     }

@@ -29,7 +29,7 @@ TEST_F(Run, WritesItsResultsAndSaysWhere) {
     // The series starts where the member was drawn.
     auto const y = file.values("y"), start = file.values("initial_y");
     for (std::size_t i = 0; i < 37; ++i) EXPECT_EQ(y[6 * i], start[i]);
-    EXPECT_NE(run_scene({}).out.find("replaced a former file"), std::string::npos);
+    EXPECT_NE(run_scene({"--force"}).out.find("replaced a former file"), std::string::npos);
 }
 
 TEST_F(Run, SaysNothingOfMadeEnergyUnderTheConservativeLaw) {
@@ -208,6 +208,19 @@ TEST_F(Run, ToAClosedOutputIsNoSuccess) {
     std::string const shell = "cd '" + path("").string() + "' && '" SLIDEWAY_BINARY "' list >/dev/full 2>err";
     EXPECT_EQ(WEXITSTATUS(std::system(shell.c_str())), 4);
     EXPECT_NE(file_text(path("err")), "");
+}
+
+TEST_F(Run, GoesOnWhereNobodyCanReadWhatItSays) {
+    std::string const here = "cd '" + path("").string() + "' && '" SLIDEWAY_BINARY "' ";
+    int of_lost_lines = 0;
+    for (std::string const closed : {" 2>/dev/full", " 2>&-"}) {
+        auto const code = [&](std::string const& words) { return WEXITSTATUS(std::system((here + words + " >/dev/null" + closed).c_str())); };
+        EXPECT_EQ(code("check nope.toml"), 2) << closed;
+        EXPECT_EQ(code("info nope.nc"), 4) << closed;
+        EXPECT_EQ(code("nonsense"), 2) << closed;
+        EXPECT_EQ(code("run s.toml -o lost" + std::to_string(of_lost_lines) + ".nc"), 0) << closed;
+        EXPECT_EQ(results("lost" + std::to_string(of_lost_lines++) + ".nc").values("status").size(), 37u);
+    }
 }
 
 TEST_F(Run, InfoTellsOfItsResults) {

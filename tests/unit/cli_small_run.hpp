@@ -25,6 +25,7 @@ class SmallRun : public ProgramWithResults {
 protected:
     SmallRun() { write("s.toml", small_scene); }
     Outcome run_scene(std::vector<std::string> options) const {
+        options = to_result(std::move(options));
         options.insert(options.begin(), {"run", "s.toml", "--quiet"});
         return run(std::move(options));
     }

@@ -15,7 +15,7 @@ TEST_F(StatisticsRun, HasTheSameBitsWithAnyThreadsBlocksAndParts) {
     std::string const hash = hash_of("a.nc");
     for (char const* const threads : {"1", "2", "4"}) {
         for (char const* const block : {"8", "100"}) {
-            ASSERT_EQ(run_scene("b.nc", failing, {"--threads", threads, "--block-members", block}).code, 0);
+            ASSERT_EQ(run_scene("b.nc", failing, {"--force", "--threads", threads, "--block-members", block}).code, 0);
             EXPECT_EQ(hash_of("b.nc"), hash) << threads << " " << block;
         }
     }
@@ -45,7 +45,7 @@ TEST_F(StatisticsRun, GoesOnAfterItsEndWithTheSameBits) {
         }
         kill(child, signal);
         EXPECT_EQ(wait(child).code, signal == SIGTERM ? 5 : -SIGKILL);
-        Outcome const partial = run({"merge", "b.nc.shards", "-o", "partial.nc"});
+        Outcome const partial = run({"merge", "b.nc.shards", "-o", "partial.nc", "--force"});
         EXPECT_EQ(partial.code, 5);
         EXPECT_NE(partial.out.find("not_run"), std::string::npos);
         auto const counts = ResultReader(path("partial.nc").string()).values("status_count");

@@ -102,7 +102,7 @@ TEST_F(Stats, WritesItsCurves) {
     do {
         EXPECT_EQ(std::count(line.begin(), line.end(), ','), 6) << line;
     } while (std::getline(lines, line));
-    expect_refusal(4, "missing/curves.csv: cannot write", {"stats", "lorenz.csv", "-o", "missing/curves.csv"});
+    expect_refusal(4, "missing/curves.csv: cannot create", {"stats", "lorenz.csv", "-o", "missing/curves.csv"});
 }
 
 TEST_F(Stats, OfAResultAreThoseOfOneMember) {

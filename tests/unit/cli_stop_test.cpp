@@ -23,7 +23,7 @@ TEST_F(StoppedRun, StoppedByASignalKeepsWhatIsFinished) {
     // Half a minute of work whose first members take milliseconds.
     for (int const signal : {SIGINT, SIGTERM}) {
         std::filesystem::remove_all(path("s.nc.shards"));
-        pid_t const child = start({"run", "s.toml", "--set", "study.members=100000", "study.samples=0",
+        pid_t const child = start({"run", "s.toml", "-o", "s.nc", "--set", "study.members=100000", "study.samples=0",
                                    "study.duration=0.1", "--threads", "2"});
         EXPECT_TRUE(comes_true([&] { return shards_in("s.nc.shards") >= 2; }));
         kill(child, signal);
@@ -46,12 +46,12 @@ TEST_F(StoppedRun, StoppedByASignalKeepsWhatIsFinished) {
 
 TEST_F(StoppedRun, LeavesTheFolderOfARunThatIsAtWorkAlone) {
     pid_t const child = start(
-        {"run", "s.toml", "--set", "study.members=100000", "study.samples=0", "study.duration=0.1", "--threads", "1"});
+        {"run", "s.toml", "-o", "s.nc", "--set", "study.members=100000", "study.samples=0", "study.duration=0.1", "--threads", "1"});
     EXPECT_TRUE(comes_true([&] { return std::filesystem::exists(path("s.nc.shards/run.toml")); }));
     std::this_thread::sleep_for(std::chrono::milliseconds(300));  // its handler stands
     for (char const* const options : {"", "--resume", "--shard 1/2"}) {
         std::string const rival =
-            "cd '" + path("").string() + "' && '" SLIDEWAY_BINARY "' run s.toml " + options + " >rival 2>&1";
+            "cd '" + path("").string() + "' && '" SLIDEWAY_BINARY "' run s.toml -o s.nc " + options + " >rival 2>&1";
         EXPECT_EQ(WEXITSTATUS(std::system(rival.c_str())), 4);
         EXPECT_EQ(file_text(path("rival")),
                   "s.nc.shards: another run is writing here; wait for its end or give another name with -o\n");
@@ -62,7 +62,7 @@ TEST_F(StoppedRun, LeavesTheFolderOfARunThatIsAtWorkAlone) {
 
 TEST_F(StoppedRun, TakesTheFolderOfAKilledRunThatFinishedNothing) {
     pid_t const child =
-        start({"run", "s.toml", "--set", "study.members=1", "study.duration=5000 s", "study.samples=11"});
+        start({"run", "s.toml", "-o", "s.nc", "--set", "study.members=1", "study.duration=5000 s", "study.samples=11"});
     EXPECT_TRUE(comes_true([&] { return std::filesystem::exists(path("s.nc.shards/run.toml")); }));
     kill(child, SIGKILL);
     EXPECT_EQ(wait(child).code, -SIGKILL);
@@ -74,7 +74,7 @@ TEST_F(StoppedRun, TakesTheFolderOfAKilledRunThatFinishedNothing) {
 
 TEST_F(StoppedRun, ASignalEndsAMemberThatWouldTakeMinutes) {
     pid_t const child =
-        start({"run", "s.toml", "--set", "study.members=1", "study.duration=5000 s", "study.samples=11"});
+        start({"run", "s.toml", "-o", "s.nc", "--set", "study.members=1", "study.duration=5000 s", "study.samples=11"});
     EXPECT_TRUE(comes_true([&] { return std::filesystem::exists(path("s.nc.shards/run.toml")); }));
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     auto const asked = std::chrono::steady_clock::now();
@@ -92,7 +92,7 @@ protected:
     Outcome run_small(std::string const& options) const {
         write("wrapper.sh", "ulimit -f 128\nexec \"$@\"\n");
         std::string const shell = "cd '" + path("").string() +
-                                  "' && bash wrapper.sh '" SLIDEWAY_BINARY "' run s.toml " +
+                                  "' && bash wrapper.sh '" SLIDEWAY_BINARY "' run s.toml -o s.nc " +
                                   "--quiet --set study.samples=0 --set study.duration=1e-4 " + options + " >out 2>err";
         int const code = WEXITSTATUS(std::system(shell.c_str()));
         return {code, file_text(path("out")), file_text(path("err"))};
@@ -121,7 +121,7 @@ TEST_F(RunOnAFullDisk, KeepsItsShardsIfTheResultHasNoRoom) {
     EXPECT_EQ(shards_in("s.nc.shards"), 100u);
     // With room again there is nothing left to compute.
     Outcome const later =
-        run({"run", "s.toml", "--set", "study.samples=0", "study.duration=1e-4", "study.members=800", "--resume"});
+        run({"run", "s.toml", "-o", "s.nc", "--set", "study.samples=0", "study.duration=1e-4", "study.members=800", "--resume"});
     EXPECT_EQ(later.code, 0) << later.err;
     EXPECT_NE(later.err.find("resuming: 800 of 800 members are done\n"), std::string::npos) << later.err;
     EXPECT_EQ(results("s.nc").values("status"), std::vector<double>(800, 0));

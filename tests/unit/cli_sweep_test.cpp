@@ -174,7 +174,7 @@ TEST_F(ContinuedSweep, InPartsIsTheSame) {
                 sweep_with({"--shard", fmt::format("{}/{}", part, parts), "--threads", "2", "-o", "r.nc"});
             EXPECT_EQ(outcome.code, 0) << outcome.err;
         }
-        EXPECT_EQ(run({"merge", "r.nc.shards", "-o", "r.nc"}).code, 0);
+        EXPECT_EQ(run({"merge", "r.nc.shards", "-o", "r.nc", "--force"}).code, 0);
         EXPECT_EQ(results().computed_hash(), whole) << parts;
         std::filesystem::remove_all(path("r.nc.shards"));
     }

@@ -138,6 +138,19 @@ TEST_F(Usage, OfOptionsOfRun) {
     EXPECT_FALSE(std::filesystem::exists(path("s.nc")));
 }
 
+TEST_F(Usage, OfEmptyWordsIsRefused) {
+    for (char const* const option : {"-o", "--threads", "--max-hours", "--max-failures", "--member", "--members", "--shard", "--block-members",
+                                     "--isa", "--backend", "--set"}) {
+        expect_refusal(2, "empty", {"run", "s.toml", option, ""});
+        if (option[1] == '-') expect_refusal(2, option, {"run", "s.toml", std::string(option) + "="});
+    }
+    for (char const* const option : {"--csv", "-o"}) expect_refusal(2, "empty", {"probe", "s.toml", option, ""});
+    for (char const* const option : {"--variable", "--member", "--dt", "--skip", "--max-points", "--fit", "-o"})
+        expect_refusal(2, "empty", {"stats", "s.nc", option, ""});
+    for (char const* const command : {"run", "check", "probe", "info", "stats", "report"}) expect_refusal(2, "empty", {command, ""});
+    EXPECT_FALSE(std::filesystem::exists(path("s.nc")));
+}
+
 TEST_F(Usage, OfAnInstructionSetThatThisMachineOrBuildLacks) {
     std::string const list = run({"list"}).out;
     int lacking = 0;
@@ -173,13 +186,13 @@ TEST_F(Usage, OfPlacesForResults) {
     expect_refusal(4, "no folder", {"run", "s.toml", "-o", "nowhere/s.nc"});
     expect_refusal(4, "is a folder", {"run", "s.toml", "-o", "."});
     expect_refusal(4, "states.csv", {"probe", "s.toml", "--csv", "states.csv"});
-    expect_refusal(4, "cannot write", {"probe", "s.toml", "-o", "nowhere/p.csv"});
+    expect_refusal(4, "there is no folder", {"probe", "s.toml", "-o", "nowhere/p.csv"});
 }
 
 TEST_F(Usage, NeverReplacesWhatIsNoResult) {
     std::string const scene = file_text(path("s.toml"));
     for (char const* const name : {"s.toml", "./s.toml"}) {
-        expect_refusal(2, "is the scene itself", {"run", "s.toml", "-o", name});
+        expect_refusal(4, "is what this command reads", {"run", "s.toml", "--force", "-o", name});
         EXPECT_EQ(file_text(path("s.toml")), scene);
     }
     ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "host/output/output_target.hpp"
 #include "host/output/payload_hash.hpp"
 #include "host/output/result_reader.hpp"
 #include "host/scene/error.hpp"
@@ -199,18 +200,28 @@ TEST_F(ResultFile, StaysAsPartIfOnlyItsNameIsTaken) {
 
 TEST_F(ResultFile, TakesAwayThePartOfAKilledMerge) {
     std::ofstream(path() + ".part") << "half of a file";
+    std::ofstream(path() + ".part.lock") << "";
     write_file(path(), {{0, 5}});
     EXPECT_FALSE(fs::exists(path() + ".part"));
     EXPECT_EQ(ResultReader(path()).values("status").size(), 5u);
 }
 
+TEST_F(ResultFile, LeavesThePartOfSomebodyElse) {
+    std::ofstream(path() + ".part") << "half of a file";
+    EXPECT_THROW(write_file(path(), {{0, 5}}), FileError);
+    EXPECT_EQ(fs::file_size(path() + ".part"), 14u);
+    EXPECT_FALSE(fs::exists(path() + ".part.lock"));
+}
+
 TEST_F(ResultFile, NeedsAPlaceToBeWritten) {
-    EXPECT_THROW(require_writable_place(path("no_folder/out.nc")), FileError);
-    EXPECT_THROW(require_writable_place(folder()), FileError);
-    EXPECT_THROW(require_writable_place("/dev/null"), FileError);
-    EXPECT_NO_THROW(require_writable_place(path()));
+    OutputRules const rules{{}, true, is_result_file};
+    EXPECT_THROW(OutputTarget(path("no_folder/out.nc"), rules), FileError);
+    EXPECT_THROW(OutputTarget(folder(), rules), FileError);
+    EXPECT_THROW(OutputTarget("/dev/null", rules), FileError);
+    EXPECT_THROW(OutputTarget("", rules), FileError);
+    EXPECT_FALSE(OutputTarget(path(), rules).replaces());
     write_file(path(), {{0, 5}});
-    EXPECT_NO_THROW(require_writable_place(path()));
+    EXPECT_TRUE(OutputTarget(path(), rules).replaces());
     EXPECT_THROW(write_file(path("no_folder/out.nc"), {{0, 5}}), FileError);
 }
 

@@ -97,6 +97,20 @@ TEST(Units, RefusesWhatDoesNotConvert) {
     EXPECT_TRUE(is_refused("1 -5 m", "m"));
 }
 
+TEST(Units, TakesNoNumbersInAUnitForFactors) {
+    for (char const* const text : {"1 500 rpm", "0.1.5 rad/s", "1.5.5 rad/s", "2 3 rad/s", "1+1 rad/s", "1e rad/s", "0x10 rad/s", "\u0661 rad/s",
+                                   "1,5 rad/s", "1/2 rad/s", "rad/s", "", "5 rad/s 3", "5 rad 3/s", "5 rad*3/s", "5 rad/0.5 s", "5 .5 rad/s"}) {
+        EXPECT_TRUE(is_refused(text, "rad/s")) << text;
+    }
+    for (char const* const text : {"5 m2", "5 m^2", "5 m**2", "5 m2.s0", "5 m3 m-1", "5 m^3/m^+1"}) EXPECT_DOUBLE_EQ(value_of(text, "m2"), 5) << text;
+    EXPECT_DOUBLE_EQ(value_of("5 1/s", "1/s"), 5);
+    EXPECT_TRUE(is_refused("5 1/2 s", "1/s"));
+    auto const advice = [](char const* text) { return std::get<Problem>(to_si(text, "rad/s")).advice; };
+    EXPECT_EQ(advice("1 500 rpm"), "write \"1500 rpm\"");
+    EXPECT_EQ(advice("1,5 rpm"), "write a point: \"1.5 rpm\"");
+    EXPECT_FALSE(std::holds_alternative<UnitFactor>(unit_factor("3 rad/s", "rad/s")));
+}
+
 TEST(Units, RefusesTextsWithoutNumberOrUnit) {
     EXPECT_TRUE(is_refused("0.1", "m"));
     EXPECT_TRUE(is_refused("mm", "m"));
