@@ -22,7 +22,7 @@ build=$root/build/neon
 sysroot=$build/sysroot
 jobs=${SLIDEWAY_JOBS:-$(nproc)}
 # The libraries of scripts/setup.sh that the program and its tests are made of.
-libraries=(libeigen3-dev libnanoflann-dev libxsimd-dev libboost-dev librandom123-dev libfmt-dev libcli11-dev libtomlplusplus-dev
+libraries=(libeigen3-dev libnanoflann-dev libxsimd-dev libboost-dev librandom123-dev libfmt-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev
     libudunits2-dev libnetcdf-dev libgtest-dev libgomp1)
 
 skip() {

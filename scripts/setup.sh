@@ -8,7 +8,7 @@ set -euo pipefail
 packages=(
     build-essential cmake ninja-build pkg-config git
     libeigen3-dev libnanoflann-dev libxsimd-dev libboost-dev librandom123-dev libfmt-dev
-    libcli11-dev libtomlplusplus-dev libudunits2-dev libnetcdf-dev
+    libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libudunits2-dev libnetcdf-dev
     libgtest-dev libbenchmark-dev
     libopenmpi-dev openmpi-bin
 )

@@ -19,7 +19,7 @@ struct Words {
     std::vector<std::string> overrides;
     std::string max_failures, max_hours, member, members, threads, shard, block_members;
     std::string variable, column, spacing, skip_time, skip_samples, max_points, delay, dimension, theiler, fit;
-    bool quiet = false, resume = false, force = false, verify = false;
+    bool quiet = false, resume = false, force = false, verify = false, json = false, schema = false, markdown = false;
 };
 
 std::string isa_help() {
@@ -208,6 +208,7 @@ Arguments parse_arguments(int argc, char const* const* argv) {
     add_scene_options(*check, words);
     add_threads(*check, words);
     add_backend(*check, words);
+    check->add_flag("--force", words.force, "Accept starts inside the way");
 
     CLI::App* const probe = app.add_subcommand("probe", "Forces, contact mode and derivative of single states");
     add_scene_options(*probe, words);
@@ -236,6 +237,9 @@ Arguments parse_arguments(int argc, char const* const* argv) {
         "pip install ./python in the source tree installs it.");
 
     CLI::App* const list = app.add_subcommand("list", "Mechanisms, laws, quantities, keys: what a scene may ask for");
+    CLI::Option* const json = list->add_flag("--json", words.json, "The keys of a scene as JSON");
+    CLI::Option* const schema = list->add_flag("--schema", words.schema, "A JSON Schema of scenes, for editors of TOML")->excludes(json);
+    list->add_flag("--markdown", words.markdown, "The keys of a scene as a page in Markdown")->excludes(json)->excludes(schema);
 
     try {
         app.parse(argc, argv);
@@ -251,13 +255,16 @@ Arguments parse_arguments(int argc, char const* const* argv) {
 
     for (CLI::App const* const command : app.get_subcommands()) refuse_empty_words(*command);
     if (run->parsed()) return run_arguments(words);
-    if (check->parsed()) return CheckArguments{scene_arguments(words), threads(words)};
+    if (check->parsed()) return CheckArguments{scene_arguments(words), threads(words), words.force};
     if (probe->parsed()) return ProbeArguments{scene_arguments(words), words.table, words.output, words.force};
     if (info->parsed()) return InfoArguments{words.file};
     if (stats->parsed()) return stats_arguments(words);
     if (merge->parsed()) return MergeArguments{words.file, words.output, words.force};
     if (report->parsed()) return ReportArguments{words.file, words.output, words.force};
-    if (list->parsed()) return ListArguments{};
+    if (list->parsed()) {
+        using Form = ListArguments::Form;
+        return ListArguments{words.json ? Form::json : words.schema ? Form::schema : words.markdown ? Form::markdown : Form::text};
+    }
     throw SceneError("slideway: a command is missing; see slideway --help");
 }
 

@@ -7,6 +7,7 @@
 #include "host/study/continued_sweep.hpp"
 #include "host/study/orbit_schedule.hpp"
 #include "host/study/prediction.hpp"
+#include "host/study/start_check.hpp"
 
 namespace slideway::cli {
 namespace {
@@ -142,6 +143,11 @@ int check(CheckArguments const& arguments) {
     BackendChoice const choice =
         choose_backend(request, scene, place_count(scene, MemberSet(MemberRange{0, member_count(scene)})));
     Prediction const prediction = predict(scene, *choice.backend, threads);
+
+    if (!arguments.force) {
+        if (auto const wrong = impossible_starts(scene, best_isa()))
+            throw SceneError(fmt::format("{}: {}; change [initial] or [joint], or add --force", scene.path, *wrong));
+    }
 
     fmt::print("# {} is a valid scene.  Resolved, in SI units:\n\n", scene.path);
     std::string const resolved = resolved_toml(scene);

@@ -53,6 +53,7 @@ int run(RunArguments const& arguments);
 struct CheckArguments {
     SceneArguments scene;
     std::optional<int> threads;
+    bool force = false;  // also of starts that no mechanism has
 };
 int check(CheckArguments const& arguments);
 
@@ -97,7 +98,10 @@ struct ReportArguments {
 /// Ends as the companion in Python, which writes the page; returns only by an exception.
 int report(ReportArguments const& arguments);
 
-struct ListArguments {};
+struct ListArguments {
+    enum class Form { text, json, schema, markdown };  // all but the first: of the keys of a scene
+    Form form = Form::text;
+};
 int list(ListArguments const& arguments);
 
 /// Text for stdout and nothing to run: --help, --version.

@@ -3,11 +3,13 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/cli/commands.hpp"
 #include "host/scene/distribution_forms.hpp"
+#include "host/scene/key_reference.hpp"
 #include "host/scene/labels.hpp"
-#include "host/scene/study_keys.hpp"
+#include "host/scene/settings.hpp"
 
 namespace slideway::cli {
 namespace {
@@ -44,33 +46,12 @@ void print_mechanisms() {
     }
 }
 
-/// " (paper, conservative)": the laws that know a key of contacts, where not all do.
-std::string laws_text(Key const& key) {
-    std::string names;
-    bool all = true;
-    for (std::size_t i = 0; i < laws().size(); ++i) {
-        Parts parts;
-        parts.law = static_cast<Law>(i);
-        if (!counts_for(key, parts) && counts_for(key, parts.mechanism))
-            all = false;
-        else
-            names += fmt::format("{}{}", names.empty() ? "" : ", ", laws()[i].name);
-    }
-    return all ? std::string() : fmt::format(" (contact.law {})", names);
-}
-
-std::string preset_text(Key const& key) {
-    if (key.member == &Inputs::restitution) return "none";
-    return std::isnan(key.preset) ? "follows from others" : fmt::format("{:.10g}", key.preset);
-}
-
-void print_keys(std::span<Key const> table) {
-    for (Key const& key : table) {
-        fmt::print("  {:<30} {:<8} {}; default {}{}{}\n", key.name, key.unit, key.meaning, preset_text(key),
-                   owners_text([&](MechanismInfo const& one) {
-                       return counts_for(key, static_cast<Mechanism>(&one - mechanisms().data()));
-                   }),
-                   laws_text(key));
+/// In the order of a scene's tables, each with its unit, domain and default, and who knows it where not all do.
+void print_keys() {
+    for (KeyReference const& key : key_references()) {
+        std::string const domain = domain_text(key), owners = owners_text(key);
+        fmt::print("  {:<30} {:<8} {}{}{}{}\n", key.name, key.unit, key.meaning, domain.empty() ? "" : ": " + domain,
+                   key.preset.empty() ? "" : "; default " + key.preset, owners.empty() ? "" : fmt::format(" ({})", owners));
     }
 }
 
@@ -89,7 +70,7 @@ void print_laws() {
         }
         fmt::print("  {:<30} damping: {}\n", "", dampings.empty() ? "its own alone" : dampings);
         for (Key const& key : law.keys) {
-            fmt::print("  {:<30} {} [{}]: {}; default {}\n", "", key.name, key.unit, key.meaning, preset_text(key));
+            fmt::print("  {:<30} {} [{}]: {}\n", "", key.name, key.unit, key.meaning);
         }
     }
 }
@@ -104,16 +85,6 @@ constexpr std::string_view design_meanings[] = {
     "the rows of a CSV file (study.table)",
 };
 static_assert(std::size(design_meanings) == std::size(design_names));
-
-std::string studies_of(StudyKey const& key) {
-    if (key.studies == study_sets::all) return "all";
-    std::string names;
-    for (std::size_t i = 0; i < std::size(study_kind_names); ++i) {
-        if ((key.studies & set_of(static_cast<StudyKind>(i))) == 0) continue;
-        names += fmt::format("{}{}", names.empty() ? "" : ", ", study_kind_names[i]);
-    }
-    return names;
-}
 
 /// What there is behind --backend cuda.
 std::string card_text() {
@@ -133,7 +104,15 @@ std::string state_of(Isa isa) {
 
 }  // namespace
 
-int list(ListArguments const&) {
+int list(ListArguments const& arguments) {
+    using Form = ListArguments::Form;
+    if (arguments.form != Form::text) {
+        std::string const text = arguments.form == Form::json     ? keys_json()
+                                 : arguments.form == Form::schema ? scene_schema()
+                                                                  : keys_markdown();
+        fmt::print("{}", text);
+        return exit_code::done;
+    }
     print_mechanisms();
     fmt::print("\ncontact laws (contact.law){}\n", owners_text([](MechanismInfo const& one) { return one.spatial; }));
     print_laws();
@@ -152,11 +131,6 @@ int list(ListArguments const&) {
         "  sweep                          sections and exponents, column by column, as one key changes\n"
         "  tolerance                      how quantities scatter with what varies, what drives them, which limits they "
         "meet\n");
-    fmt::print("\nkeys of the studies ([study])\n");
-    for (StudyKey const& key : study_keys) {
-        fmt::print("  {:<30} {:<8} {}: {}\n", key.name.substr(key.name.find('.') + 1), key.unit, studies_of(key),
-                   key.meaning);
-    }
     fmt::print("\ndistributions (dist in study.vary); arguments in [] may be left out\n");
     for (DistributionForm const& form : distribution_forms()) {
         fmt::print("  {:<10} {:<19} {}\n", form.name, listed_arguments(form), form.meaning);
@@ -178,10 +152,8 @@ int list(ListArguments const&) {
         fmt::print("  {:<30} {:<8} {}{}\n", series.name, series.unit, series.long_name,
                    owners_text([bit](MechanismInfo const& one) { return (one.series & bit) != 0; }));
     }
-    fmt::print("\nnumeric keys of a scene\n");
-    print_keys(keys());
-    fmt::print("\nkeys that set two others at once\n");
-    print_keys(twin_keys());
+    fmt::print("\nkeys of a scene, with their unit, domain and default\n");
+    print_keys();
     fmt::print("\nbackends (--backend)\n");
     fmt::print("  {:<30} this machine's processor, with one of its instruction sets\n", "cpu");
     fmt::print("  {:<30} {}\n", "cuda", card_text());

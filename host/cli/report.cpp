@@ -58,15 +58,6 @@ bool has_companion(std::string const& python) {
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-void require_intact(std::string const& path) {
-    // Closed again before the companion opens it.
-    ResultReader const results(path);
-    if (results.computed_hash() != results.stored_hash()) {
-        throw FileError(fmt::format(
-            "{}: the data do not match their hash; the file is damaged or was edited, see slideway info", path));
-    }
-}
-
 /// As the companion marks its pages.
 bool is_page(std::string const& path) {
     constexpr std::size_t head = 1024;

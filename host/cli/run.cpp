@@ -11,6 +11,7 @@
 #include "host/scene/fnv1a.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/prediction.hpp"
+#include "host/study/start_check.hpp"
 
 namespace slideway::cli {
 namespace {
@@ -231,6 +232,7 @@ int run(RunArguments const& arguments) {
         // Of a card that lacks the memory this is the last word: nothing is on the disk yet.
         Prediction const prediction = predict(scene, *options.backend, options.threads, options.block_members);
         StudyRun study(scene, options);
+        if (auto const wrong = impossible_starts(scene, best_isa())) tell("warning: {}\n", *wrong);
         warn_of_losses(options, study);
         if (!arguments.quiet && !study.is_complete()) announce(scene, options, choice.reason, prediction, study);
         invited = true;

@@ -8,6 +8,7 @@
 
 #include "host/cli/commands.hpp"
 #include "host/output/output_target.hpp"
+#include "host/output/result_reader.hpp"
 #include "host/scene/error.hpp"
 #include "host/study/series_analysis.hpp"
 #include "host/study/series_file.hpp"
@@ -21,6 +22,7 @@ StoredSeries read_series(StatsArguments const& arguments) {
     if (is_netcdf(arguments.path)) {
         if (arguments.column) throw SceneError("--column is for tables; use --variable for a result file");
         if (arguments.spacing) throw SceneError("--dt is for tables; a result file has its own times");
+        require_intact(arguments.path);
         return read_result_series(arguments.path, arguments.variable.value_or("y"), arguments.member);
     }
     if (arguments.variable) throw SceneError("--variable is for result files; use --column for a table");

@@ -1,5 +1,7 @@
 #include "host/output/result_reader.hpp"
 
+#include <fmt/format.h>
+
 #include "host/output/payload_hash.hpp"
 #include "host/scene/error.hpp"
 
@@ -12,5 +14,11 @@ ResultReader::ResultReader(std::string const& path) : OpenResult{NetcdfFile::ope
 }
 
 std::string ResultReader::computed_hash() const { return payload_hash(file); }
+
+void require_intact(std::string const& path) {
+    ResultReader const results(path);
+    if (results.computed_hash() == results.stored_hash()) return;
+    throw FileError(fmt::format("{}: the data do not match their hash; the file is damaged or was edited, see slideway info", path));
+}
 
 }  // namespace slideway

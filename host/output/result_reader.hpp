@@ -25,4 +25,7 @@ public:
     std::string computed_hash() const;  // reads all data
 };
 
+/// Reads all data of a result.  @throws FileError if they do not match their hash, or the file is no finished result
+void require_intact(std::string const& path);
+
 }  // namespace slideway

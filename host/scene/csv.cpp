@@ -18,12 +18,29 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
+bool CsvReader::read_line() {
+    constexpr std::size_t longest = 1'000'000;
+    text_.clear();
+    ++number_;
+    for (std::streambuf* const from = in_.rdbuf();;) {
+        int const c = in_ ? from->sbumpc() : std::char_traits<char>::eof();
+        if (c == std::char_traits<char>::eof()) {
+            in_.setstate(std::ios::eofbit);
+            if (text_.empty()) --number_;
+            return !text_.empty();
+        }
+        if (c == '\n') return true;
+        text_ += static_cast<char>(c);
+        if (text_.size() > longest) fail(fmt::format("the line is longer than {} characters; this is no table", longest));
+    }
+}
+
 bool CsvReader::next() {
-    while (std::getline(in_, text_)) {
-        ++number_;
+    while (read_line()) {
         if (number_ == 1 && text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);  // byte order mark
         std::string_view const row = trimmed(text_);
         if (row.empty() || row.front() == '#') continue;
+        if (separator_ == '\0') separator_ = row.find(',') != row.npos ? ',' : row.find(';') != row.npos ? ';' : ' ';
         split();
         return true;
     }
@@ -32,7 +49,8 @@ bool CsvReader::next() {
 
 void CsvReader::split() {
     fields_.clear();
-    std::string_view rest = text_;
+    std::string_view rest = separator_ == ' ' ? trimmed(text_) : std::string_view(text_);
+    std::string_view const ends = separator_ == ' ' ? std::string_view(" \t") : std::string_view(&separator_, 1);
     for (;;) {
         auto const first = rest.find_first_not_of(" \t");
         std::string field;
@@ -47,16 +65,17 @@ void CsvReader::split() {
                 field += rest[at];
             }
             rest.remove_prefix(at + 1);
-            if (auto const tail = trimmed(rest.substr(0, rest.find(','))); !tail.empty()) {
+            if (auto const tail = trimmed(rest.substr(0, rest.find_first_of(ends))); !tail.empty()) {
                 fail("a quoted field goes on behind its quotes; write a comma there");
             }
             fields_.push_back(std::move(field));
         } else {
-            fields_.emplace_back(trimmed(rest.substr(0, rest.find(','))));
+            fields_.emplace_back(trimmed(rest.substr(0, rest.find_first_of(ends))));
         }
-        auto const comma = rest.find(',');
-        if (comma == rest.npos) return;
-        rest.remove_prefix(comma + 1);
+        auto const end = rest.find_first_of(ends);
+        if (end == rest.npos) return;
+        rest.remove_prefix(end + 1);
+        if (separator_ == ' ') rest = trimmed(rest);
     }
 }
 

@@ -1,4 +1,4 @@
-// Tables of comma-separated values, row by row.
+// Tables of comma-separated values, row by row; of series also separated by semicolons or blanks.
 #pragma once
 
 #include <iosfwd>
@@ -12,9 +12,12 @@ namespace slideway {
 /// A field in double quotes may hold commas, and "" for a quote; it ends on its own line.
 class CsvReader {
 public:
-    CsvReader(std::istream& in, std::string name) : in_(in), name_(std::move(name)) {}
+    enum class Separator { comma, by_first_row };  // there: a comma, else a semicolon, else blanks
 
-    /// The next row, if there is one.  @throws SceneError where a quote does not end
+    CsvReader(std::istream& in, std::string name, Separator separator = Separator::comma)
+        : in_(in), name_(std::move(name)), separator_(separator == Separator::comma ? ',' : '\0') {}
+
+    /// The next row, if there is one.  @throws SceneError where a quote does not end, or a line is too long for a table (a device, say)
     bool next();
     std::vector<std::string> const& fields() const { return fields_; }
 
@@ -24,6 +27,7 @@ public:
     [[noreturn]] void fail(std::string_view message) const;  // SceneError `members.csv:3: message`
 
 private:
+    bool read_line();
     void split();
 
     std::istream& in_;
@@ -31,6 +35,7 @@ private:
     std::string text_;
     std::vector<std::string> fields_;
     int number_ = 0;
+    char separator_;
 };
 
 /// Without the blanks around it.

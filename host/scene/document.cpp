@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "host/scene/scene_text.hpp"
+#include "host/scene/settings.hpp"
 
 // toml++ asserts that "[" is followed by a key, and with NDEBUG has clang assume it, ahead of the code that reports the
 // error.  A damaged file must be refused in every build: the assertions are left out and nothing is assumed.
@@ -142,34 +144,11 @@ Node parse_override(std::string const& key, std::string const& value, int order)
 
 /// What an override of a key makes void in the file: keys that say the same in other words.
 std::vector<std::string_view> rivals_of(std::string_view name) {
-    static constexpr std::pair<std::string_view, std::string_view> rivals[] = {
-        {"contact.restitution", "contact.eta"},
-        {"contact.restitution", "contact.chi_line"},
-        {"contact.restitution", "contact.chi_surface"},
-        {"study.revolutions", "study.duration"},
-        {"study.duration", "study.revolutions"},
-        {"study.samples", "study.samples_per_revolution"},
-        {"study.samples_per_revolution", "study.samples"},
-        {"study.phase", "study.section"},
-        {"study.section", "study.phase"},
-        {"study.Ttr", "study.transient_revolutions"},
-        {"study.transient_revolutions", "study.Ttr"},
-        {"study.dt", "study.rescalings_per_revolution"},
-        {"study.rescalings_per_revolution", "study.dt"},
-        {"study.base", "study.members"},
-        {"study.levels", "study.members"},
-        {"study.values", "study.from"},
-        {"study.values", "study.to"},
-        {"study.values", "study.points"},
-        {"study.values", "study.spacing"},
-        {"study.from", "study.values"},
-        {"study.to", "study.values"},
-        {"study.points", "study.values"},
-    };
     std::vector<std::string_view> result;
-    for (auto const& [key, rival] : rivals) {
-        if (key == name) result.push_back(rival);
-    }
+    // The numbers of the physics have but this one.
+    if (name == "contact.restitution") result = {"contact.eta", "contact.chi_line", "contact.chi_surface"};
+    auto const row = std::ranges::find(settings(), name, &Setting::name);
+    if (row != settings().end()) std::ranges::copy_if(row->rivals, std::back_inserter(result), [](auto rival) { return !rival.empty(); });
     for (Key const& twin : twin_keys()) {
         if (twin.name != name) continue;
         for (Key const& single : keys()) {

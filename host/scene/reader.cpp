@@ -5,40 +5,31 @@
 #include <fmt/format.h>
 
 #include "host/scene/scene_text.hpp"
-#include "host/scene/study_keys.hpp"
+#include "host/scene/settings.hpp"
 #include "host/scene/suggest.hpp"
 #include "host/scene/values.hpp"
 
 namespace slideway {
 namespace {
 
-constexpr std::string_view table_names[] = {"mechanism", "joint",   "way",        "contact",
-                                            "friction",  "initial", "integrator", "study"};
-constexpr std::string_view other_names[] = {
-    "schema",
-    "title",
-    "mechanism.kind",
-    "mechanism.crank",
-    "contact.law",
-    "friction.enabled",
-    "integrator.method",
-    "integrator.rtol",
-    "integrator.atol",
-    "integrator.max_step",
-    "integrator.max_steps",
-    "integrator.step",
-    "integrator.locate_modes",
-    "integrator.stiff_max_step",
-    "integrator.stiff_tolerance",
-};
+/// Tables of a scene, by the names of its keys.
+std::vector<std::string_view> table_names() {
+    std::vector<std::string_view> names;
+    auto const add = [&](std::string_view name) {
+        auto const dot = name.find('.');
+        if (dot != name.npos && std::ranges::find(names, name.substr(0, dot)) == names.end()) names.push_back(name.substr(0, dot));
+    };
+    for (Setting const& one : settings()) add(one.name);
+    for (Key const& key : keys()) add(key.name);
+    return names;
+}
 
 std::vector<std::string_view> known_names() {
-    std::vector<std::string_view> names(std::begin(other_names), std::end(other_names));
-    for (StudyKey const& key : study_keys) names.push_back(key.name);
+    std::vector<std::string_view> names;
+    for (Setting const& one : settings()) names.push_back(one.name);
     for (auto const table : {keys(), twin_keys()}) {
         for (Key const& key : table) names.push_back(key.name);
     }
-    names.insert(names.end(), std::begin(table_names), std::end(table_names));
     return names;
 }
 
@@ -47,21 +38,22 @@ bool contains(std::span<std::string_view const> names, std::string_view name) {
 }
 
 void check_known(Node const& root) {
-    auto const known = known_names();
+    auto const tables = table_names(), keys = known_names();
+    std::vector<std::string_view> all = keys;
+    all.insert(all.end(), tables.begin(), tables.end());
     for (Node const& node : root.children) {
-        if (contains(table_names, node.key)) {
+        if (contains(tables, node.key)) {
             if (!node.is_table()) {
                 refuse(node, {"it must be a table", fmt::format("write [{}] and its keys below", node.key)});
             }
             for (Node const& child : node.children) {
-                if (child.key.find('.') != std::string::npos || !contains(known, child.name)) {
-                    refuse_unknown(child, "key", known);
+                if (child.key.find('.') != std::string::npos || !contains(all, child.name)) {
+                    refuse_unknown(child, "key", all);
                 }
             }
-        } else if (node.key != "schema" && node.key != "title") {
-            std::span<std::string_view const> const names = known;
-            if (node.is_table()) refuse_unknown(node, "table", names.last(std::size(table_names)));
-            refuse_unknown(node, "key", names);
+        } else if (node.key.find('.') != std::string::npos || !contains(keys, node.key)) {
+            if (node.is_table()) refuse_unknown(node, "table", tables);
+            refuse_unknown(node, "key", all);
         }
     }
 }
@@ -99,6 +91,16 @@ void check_inputs(Node const& root, Scene const& scene) {
 }
 
 }  // namespace
+
+void read_bound(Node const& root, std::string_view table, Scene& scene, Settings rows) {
+    for (Setting const& row : rows) {
+        Node const* const node = row.is_bound() && row.table() == table ? root.find_path(row.name) : nullptr;
+        if (node == nullptr) continue;
+        if (row.number != nullptr) row.number(scene) = read_number(*node, row);
+        if (row.count != nullptr) row.count(scene) = read_count(*node, row);
+        if (row.truth != nullptr) row.truth(scene) = read_boolean(*node);
+    }
+}
 
 void refuse_both(Node const& root, std::string_view first, std::string_view second) {
     Node const* const a = root.find_path(first);

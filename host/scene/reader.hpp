@@ -3,6 +3,7 @@
 
 #include "host/scene/document.hpp"
 #include "host/scene/scene.hpp"
+#include "host/scene/settings.hpp"
 
 namespace slideway {
 
@@ -82,17 +83,14 @@ struct RunLength {
 };
 RunLength run_length(Scene const& scene);
 
-/// Largest study.members.
-inline constexpr std::uint64_t most_members = 1'000'000'000;
-/// Largest integrator.max_steps.
-inline constexpr std::uint64_t most_steps = 1'000'000'000'000'000;
-/// Longest study [s].
-inline constexpr double longest_time = 1e9;
 /// Most numbers of one kind in a result file, 80 GB.
 inline constexpr double most_values = 1e10;
 
 /// `count` times from 0 to end_time, both included; count is 0 or at least 2.
 std::vector<double> uniform_times(double end_time, std::size_t count);
+
+/// What is given of the bound settings of a table.
+void read_bound(Node const& root, std::string_view table, Scene& scene, Settings rows = settings());
 
 /// Refuses the later one of two keys that say the same, if both are given.
 void refuse_both(Node const& root, std::string_view first, std::string_view second);

@@ -10,18 +10,15 @@
 namespace slideway {
 namespace {
 
-constexpr std::uint64_t most_per_turn = 1'000'000;  // rescalings
 constexpr double most_numbers = 1e7;                // of one member, which keeps them in memory while it runs
 
 /// The two keys of a length of time.
 struct SpanKeys {
     std::string_view time, turns;  // dotted names
-    std::string_view what;
-    bool may_be_zero;
 };
-constexpr SpanKeys span_keys{"study.duration", "study.revolutions", "duration", false};
-constexpr SpanKeys transient_keys{"study.Ttr", "study.transient_revolutions", "transient", true};
-constexpr SpanKeys dt_keys{"study.dt", "study.rescalings_per_revolution", "time between rescalings", false};
+constexpr SpanKeys span_keys{"study.duration", "study.revolutions"};
+constexpr SpanKeys transient_keys{"study.Ttr", "study.transient_revolutions"};
+constexpr SpanKeys dt_keys{"study.dt", "study.rescalings_per_revolution"};
 
 Node const* given_of(Node const& root, SpanKeys const& keys) {
     Node const* const node = root.find_path(keys.time);
@@ -37,26 +34,21 @@ bool has_period(Scene const& scene) { return std::isfinite(drive_period(scene.pa
 /// Where nothing turns there are no revolutions; each that would be the default is a second, as in an ensemble.
 Span read_span(Node const& root, Scene const& scene, SpanKeys const& keys, double default_turns) {
     refuse_both(root, keys.turns, keys.time);
-    Range const range{0, longest_time, keys.may_be_zero};
-    if (Node const* const node = root.find_path(keys.time)) {
-        return {read_number(*node, "s", keys.what, range), false};
-    }
+    if (Node const* const node = root.find_path(keys.time)) return {read_number(*node, setting(keys.time)), false};
     bool const turns = has_period(scene);
     Node const* const node = root.find_path(keys.turns);
     if (node == nullptr) return {default_turns, turns};
-    double const value = read_number(*node, "1", "number of revolutions", range);
+    double const value = read_number(*node, setting(keys.turns));
     if (!turns) refuse_at_rest(*node, scene.parts, fmt::format("use {} instead", keys.time));
     return {value, true};
 }
 
 Span read_dt(Node const& root, Scene const& scene) {
     refuse_both(root, dt_keys.turns, dt_keys.time);
-    if (Node const* const node = root.find_path(dt_keys.time)) {
-        return {read_number(*node, "s", dt_keys.what, {0, longest_time, false}), false};
-    }
+    if (Node const* const node = root.find_path(dt_keys.time)) return {read_number(*node, setting(dt_keys.time)), false};
     Node const* const node = root.find_path(dt_keys.turns);
     std::uint64_t const per_turn =
-        node != nullptr ? read_count(*node, "number of rescalings per revolution", 1, most_per_turn) : 2000;
+        node != nullptr ? read_count(*node, setting(dt_keys.turns)) : 2000;
     if (node != nullptr && !has_period(scene)) refuse_at_rest(*node, scene.parts, "use study.dt instead");
     return {1 / static_cast<double>(per_turn), has_period(scene)};
 }
@@ -66,17 +58,15 @@ void read_neighbours(Node const& root, Scene& scene) {
     Node const* const count = root.find_path("study.exponents");
     int const least = scene.study == StudyKind::sweep ? 0 : 1;
     int const most = std::min(most_shadows, free_states(scene.parts));
-    chaos.exponents = count != nullptr ? static_cast<int>(read_count(*count, "number of exponents", least, most)) : 1;
-    // Distances of some 1e-15 are rounding, and at 1 an offset is as large as the joint.
-    Range const range{1e-14, 1, true};
+    chaos.exponents = count != nullptr ? static_cast<int>(read_count(*count, setting("study.exponents").what, least, most)) : 1;
     Node const *const d0 = root.find_path("study.d0"), *const lower = root.find_path("study.d0_lower"),
                       *const upper = root.find_path("study.d0_upper");
     ChaosSettings given;
-    if (d0 != nullptr) given.d0 = read_number(*d0, "1", "distance of neighbours", {1e-11, 1e-2, true});
+    if (d0 != nullptr) given.d0 = read_number(*d0, setting("study.d0"));
     given.d0_lower =
-        lower != nullptr ? read_number(*lower, "1", "least distance", range) : std::max(given.d0 * 0.3, 1e-14);
+        lower != nullptr ? read_number(*lower, setting("study.d0_lower")) : std::max(given.d0 * 0.3, 1e-14);
     given.d0_upper =
-        upper != nullptr ? read_number(*upper, "1", "largest distance", range) : std::min(given.d0 * 3, 1.0);
+        upper != nullptr ? read_number(*upper, setting("study.d0_upper")) : std::min(given.d0 * 3, 1.0);
     auto const name_d0 = [&](std::string_view side) {
         return Problem{fmt::format("not {} study.d0, {}", side, given.d0), "use d0_lower < d0 < d0_upper"};
     };
@@ -156,8 +146,7 @@ void read_history(Node const& root, Scene& scene) {
     chaos.history = static_cast<std::size_t>(std::min(100.0, rescalings));
     Node const* const node = root.find_path("study.history");
     if (node == nullptr) return;
-    constexpr std::uint64_t most = static_cast<std::uint64_t>(most_numbers);
-    chaos.history = read_count(*node, "number of points", 0, most);
+    chaos.history = read_count(*node, setting("study.history"));
     if (static_cast<double>(chaos.history) > rescalings) {
         refuse(*node, {fmt::format("there are {:.0f} rescalings", rescalings),
                        fmt::format("use a value <= {:.0f}", rescalings)});

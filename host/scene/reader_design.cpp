@@ -17,7 +17,7 @@ bool varies(Variation const& variation) {
 DesignKind read_kind(Node const& root, Scene const& scene) {
     Node const* const node = root.find_path("study.design");
     if (node == nullptr) return DesignKind::mc;
-    auto const kind = static_cast<DesignKind>(read_choice(*node, "design", design_names));
+    auto const kind = static_cast<DesignKind>(read_choice(*node, setting("study.design")));
     bool const drawn = kind == DesignKind::mc || kind == DesignKind::lhs || kind == DesignKind::sobol;
     if (scene.study == StudyKind::sweep && !drawn) {
         refuse(*node, {"a sweep draws the starts of its columns", "use \"mc\", \"lhs\" or \"sobol\""});
@@ -49,7 +49,7 @@ void read_base(Node const& root, Scene& scene) {
                        "\"saltelli\" has base rows of one member and one more of each key and another",
                        "add base = 256");
     }
-    std::uint64_t const base = read_count(*node, "number of rows", 2, most_members);
+    std::uint64_t const base = read_count(*node, setting("study.base"));
     std::uint64_t const row = scene.variations.size() + 2;
     if (base > most_members / row) {
         refuse(*node, {fmt::format("with {} members a row there would be {}", row, base * row),

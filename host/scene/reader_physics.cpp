@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "host/scene/drive_period.hpp"
-#include "host/scene/integrator_keys.hpp"
 #include "host/scene/reader.hpp"
 #include "host/scene/values.hpp"
 
@@ -17,13 +16,6 @@ namespace {
 /// Of a slider at rest velocities are small: atol alone holds its ringing. At the size of rtol an explicit pair at its limit of stability puts as
 /// much energy into it as damping takes, and it never comes to rest (docs/integrators.md).
 constexpr double atol_per_rtol = 0.1;
-
-constexpr std::string_view crank_names[] = {"driven", "free"};
-constexpr auto method_names = [] {
-    std::array<std::string_view, method_count> names;
-    for (std::size_t i = 0; i < names.size(); ++i) names[i] = method_table[i].name;
-    return names;
-}();
 
 void check_rivals(std::vector<GivenKey> const& given) {
     for (std::size_t i = 0; i < given.size(); ++i) {
@@ -51,7 +43,7 @@ void check_restitution(Node const& root) {
 void read_mechanism(Node const& root, Parts& parts) {
     if (Node const* const kind = root.find_path("mechanism.kind")) {
         parts.mechanism =
-            static_cast<Mechanism>(read_choice(*kind, "mechanism", mechanism_names()));
+            static_cast<Mechanism>(read_choice(*kind, setting("mechanism.kind")));
     }
     for (auto const& [key, node] : given_keys(root)) {
         if (!counts_for(*key, parts.mechanism)) refuse_meaningless(node->where, node->name, parts.mechanism);
@@ -63,7 +55,7 @@ void read_mechanism(Node const& root, Parts& parts) {
     if (!info(parts.mechanism).free_crank) {
         refuse_given("mechanism.crank");
     } else if (Node const* const crank = root.find_path("mechanism.crank")) {
-        parts.free_crank = read_choice(*crank, "crank", crank_names) == 1;
+        parts.free_crank = read_choice(*crank, setting("mechanism.crank")) == 1;
     }
     if (info(parts.mechanism).spatial) return;
     refuse_given("contact.law");
@@ -92,9 +84,9 @@ void read_located_modes(Node const& root, Scene& scene) {
     Node const* const node = root.find_path("integrator.locate_modes");
     bool const switches = makes_energy(scene.parts) && scene.parts.damping != Damping::restitution;
     bool const orbits = !runs_to_end(scene.study), neighbours = scene.chaos.exponents > 0;
-    bool const can = has_effect("locate_modes", settings.method, info(scene.parts.mechanism));
+    bool const can = has_effect(setting("integrator.locate_modes"), settings.method, info(scene.parts.mechanism));
     // Long orbits under the law that switches take half the steps so, and neighbours need it.
-    settings.locate_modes = node != nullptr ? read_boolean(*node) : switches && orbits && can;
+    if (node == nullptr) settings.locate_modes = switches && orbits && can;
     if (node != nullptr && settings.locate_modes) check_located_modes(*node, scene);
     if (!switches || !neighbours || settings.locate_modes) return;
     // In trials exponents came out up to half as large again.
@@ -109,11 +101,11 @@ void read_located_modes(Node const& root, Scene& scene) {
 
 void warn_of_idle_keys(Node const& table, Scene& scene) {
     for (Node const& node : table.children) {
-        if (has_effect(node.key, scene.integrator.method, info(scene.parts.mechanism))) continue;
+        if (has_effect(setting(node.name), scene.integrator.method, info(scene.parts.mechanism))) continue;
         // Said to be off where it cannot be on, it is as it was asked for.
         if (node.key == "locate_modes") continue;
         bool const of_method = std::ranges::none_of(mechanisms(), [&](MechanismInfo const& one) {
-            return has_effect(node.key, scene.integrator.method, one);
+            return has_effect(setting(node.name), scene.integrator.method, one);
         });
         scene.warnings.push_back(
             of_method ? fmt::format("{} has no effect with method {}", node.name, name_of(scene.integrator.method))
@@ -138,7 +130,7 @@ std::vector<GivenKey> given_keys(Node const& root) {
 void read_physics(Node const& root, Scene& scene) {
     read_mechanism(root, scene.parts);
     Node const* const law = root.find_path("contact.law");
-    if (law != nullptr) scene.parts.law = static_cast<Law>(read_choice(*law, "contact law", law_names()));
+    if (law != nullptr) scene.parts.law = static_cast<Law>(read_choice(*law, setting("contact.law")));
     scene.inputs = with_presets(scene.inputs, scene.parts.law);
     auto const given = given_keys(root);
     bool restitution = false;
@@ -169,8 +161,9 @@ void read_physics(Node const& root, Scene& scene) {
 
 void read_integrator(Node const& root, Scene& scene) {
     IntegratorSettings& settings = scene.integrator;
+    read_bound(root, "integrator", scene);
     if (Node const* const node = root.find_path("integrator.method")) {
-        settings.method = static_cast<Method>(read_choice(*node, "method", method_names));
+        settings.method = static_cast<Method>(read_choice(*node, setting("integrator.method")));
     }
     if (settings.method == Method::ros34pw2 && !info(scene.parts.mechanism).spatial) {
         refuse(*root.find_path("integrator.method"),
@@ -178,7 +171,6 @@ void read_integrator(Node const& root, Scene& scene) {
                 "use method \"auto\", \"dopri5\", \"bs32\" or \"rk4\""});
     }
     Node const* const step = root.find_path("integrator.step");
-    if (step != nullptr) settings.fixed_step = read_number(*step, "s", "fixed step", {.low = 0, .low_included = false});
     if (settings.method == Method::rk4 && step == nullptr) {
         refuse(*root.find_path("integrator.method"), {"the method has no step control", "give integrator.step"});
     }
@@ -188,15 +180,8 @@ void read_integrator(Node const& root, Scene& scene) {
                 "use method \"auto\", \"dopri5\", \"bs32\" or \"ros34pw2\""});
     }
     read_located_modes(root, scene);
-    if (Node const* const node = root.find_path("integrator.rtol")) {
-        // Below some 50 roundings of a double the error estimate is noise.
-        settings.rtol = read_number(*node, "1", "relative tolerance", {1e-14, 0.1});
-    }
-    if (Node const* const node = root.find_path("integrator.atol")) {
-        settings.atol = read_number(*node, "1", "absolute tolerance", {0, 0.1, false});
-    } else {
-        settings.atol = atol_per_rtol * settings.rtol;
-    }
+    auto const is_given = [&](std::string_view name) { return root.find_path(name) != nullptr; };
+    if (!is_given("integrator.atol")) settings.atol = atol_per_rtol * settings.rtol;
     // A sweep goes by its fastest drive, a free crank by the speed that it starts with.
     Parts driven = scene.parts;
     driven.free_crank = false;
@@ -204,25 +189,15 @@ void read_integrator(Node const& root, Scene& scene) {
         scene.study == StudyKind::sweep ? drive_periods(scene).least : drive_period(driven, scene.inputs);
     // A step may not leap over an impact: between two of them the slider flies for milliseconds.
     constexpr double longest_step = 1e-3;
-    settings.max_step = std::min(longest_step, period / 2000);
+    double max_step = std::min(longest_step, period / 2000);
     // Nor over a carriage's reversal, which accelerates it for a small part of its period.
     bool const reverses = info(scene.parts.mechanism).drive == DriveKind::carriage;
-    double const reversal = reverses ? shortest_reversal(scene) / 20 : settings.max_step;
-    settings.max_step = std::min(settings.max_step, reversal);
-    if (Node const* const node = root.find_path("integrator.max_step")) {
-        settings.max_step = read_number(*node, "s", "largest step", {.low = 0, .low_included = false});
-    }
+    double const reversal = reverses ? shortest_reversal(scene) / 20 : max_step;
+    max_step = std::min(max_step, reversal);
+    if (!is_given("integrator.max_step")) settings.max_step = max_step;
     // The stiff method runs in lasting contact alone, where nothing is to be leapt over.
-    settings.stiff_max_step = reverses ? std::min(10 * settings.max_step, reversal) : 10 * settings.max_step;
-    if (Node const* const node = root.find_path("integrator.stiff_max_step")) {
-        settings.stiff_max_step = read_number(*node, "s", "largest step", {.low = 0, .low_included = false});
-    }
-    if (Node const* const node = root.find_path("integrator.stiff_tolerance")) {
-        settings.stiff_tolerance = read_number(*node, "1", "least tolerance of ringing", {1e-14, 0.1});
-    }
-    if (Node const* const node = root.find_path("integrator.max_steps")) {
-        settings.max_steps = read_count(*node, "number of steps", 1, most_steps);
-    }
+    double const stiff_step = reverses ? std::min(10 * settings.max_step, reversal) : 10 * settings.max_step;
+    if (!is_given("integrator.stiff_max_step")) settings.stiff_max_step = stiff_step;
     if (Node const* const table = root.find("integrator")) warn_of_idle_keys(*table, scene);
 }
 

@@ -16,7 +16,6 @@
 namespace slideway {
 namespace {
 
-constexpr std::uint64_t most_crossings = 1'000'000;
 constexpr int apices = 8;
 
 void read_phase(Node const& root, Scene& scene) {
@@ -111,7 +110,7 @@ void read_section(Node const& root, Scene& scene) {
     }
     read_section_table(*table, scene);
     if (crossings != nullptr) {
-        scene.chaos.max_crossings = read_count(*crossings, "number of crossings", 1, most_crossings);
+        scene.chaos.max_crossings = read_count(*crossings, setting("study.max_crossings"));
     }
 }
 

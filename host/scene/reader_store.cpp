@@ -6,7 +6,7 @@ namespace slideway {
 void read_store(Node const& root, Scene& scene) {
     Node const* const node = root.find_path("study.store");
     if (node == nullptr) return;
-    scene.store = static_cast<Store>(read_choice(*node, "store", store_names));
+    scene.store = static_cast<Store>(read_choice(*node, setting("study.store")));
     if (scene.stores_members()) return;
     if (scene.design.kind == DesignKind::saltelli) {
         refuse(*node, {"sensitivity indices need every member's values", "use store = \"members\""});

@@ -8,16 +8,15 @@
 #include <fmt/format.h>
 
 #include "host/scene/drive_period.hpp"
-#include "host/scene/integrator_keys.hpp"
 #include "host/scene/reader.hpp"
-#include "host/scene/study_keys.hpp"
+#include "host/scene/settings.hpp"
 #include "host/scene/values.hpp"
 
 namespace slideway {
 namespace {
 
-constexpr std::uint64_t most_verified = 1'000'000;
-constexpr std::uint64_t most_samples = 1'000'000;  // of one member: they stay in memory while it runs
+/// Of one member: they stay in memory while it runs.
+std::uint64_t most_samples() { return setting("study.samples").most; }
 
 struct EndTime {
     double seconds;
@@ -29,7 +28,7 @@ EndTime read_end_time(Node const& root, Scene const& scene) {
     double const turn = drive_period(scene.parts, scene.inputs);
     bool const turns = std::isfinite(turn);
     if (Node const* const node = root.find_path("study.duration")) {
-        double const seconds = read_number(*node, "s", "duration", {0, longest_time, false});
+        double const seconds = read_number(*node, setting("study.duration"));
         return {seconds, turns ? seconds / turn : NAN};
     }
     Node const* const node = root.find_path("study.revolutions");
@@ -41,7 +40,7 @@ EndTime read_end_time(Node const& root, Scene const& scene) {
         return {1, NAN};
     }
     double const revolutions =
-        node != nullptr ? read_number(*node, "1", "number of revolutions", {0, longest_time, false}) : 1;
+        node != nullptr ? read_number(*node, setting("study.revolutions")) : 1;
     double const seconds = revolutions * turn;
     if (!(seconds > 0 && seconds <= longest_time)) {
         std::string const reason = fmt::format("it lasts {} s, with {} s for each", seconds, turn);
@@ -61,22 +60,22 @@ struct Sampling {
 Sampling read_sampling(Node const& root, Scene const& scene, EndTime const& end) {
     refuse_both(root, "study.samples_per_revolution", "study.samples");
     if (Node const* const node = root.find_path("study.samples")) {
-        std::uint64_t const count = read_count(*node, "number of samples", 0, most_samples);
+        std::uint64_t const count = read_count(*node, setting("study.samples"));
         if (count == 1) refuse(*node, {"the first and the last time are both stored", "use 0 or at least 2"});
         return {node, count};
     }
     Node const* const node = root.find_path("study.samples_per_revolution");
     if (node == nullptr) return {};
-    std::uint64_t const per_turn = read_count(*node, "number of samples per revolution", 0, most_samples);
+    std::uint64_t const per_turn = read_count(*node, setting("study.samples_per_revolution"));
     if (per_turn == 0) return {node, 0};
     if (std::isnan(end.revolutions)) {
         refuse(*node, {fmt::format("{}, so there are no revolutions", why_no_period(scene.parts)),
                        "use study.samples instead"});
     }
     double const intervals = std::max(1.0, std::round(static_cast<double>(per_turn) * end.revolutions));
-    if (intervals >= static_cast<double>(most_samples)) {
+    if (intervals >= static_cast<double>(most_samples())) {
         refuse(*node, {fmt::format("that makes {} samples of each member", intervals + 1),
-                       fmt::format("ask for at most {}", most_samples)});
+                       fmt::format("ask for at most {}", most_samples())});
     }
     return {node, static_cast<std::size_t>(intervals) + 1};
 }
@@ -154,7 +153,7 @@ void read_max_steps_of_fixed(Node const& root, IntegratorSettings& settings, Run
 }
 
 /// Why a study has no such key, where there is more to say than that.
-Problem foreign_key(StudyKey const& key, StudyKind kind) {
+Problem foreign_key(Setting const& key, StudyKind kind) {
     bool const sweep = kind == StudyKind::sweep;
     if (key.name.starts_with("study.samples")) {
         return {fmt::format("kind = \"{}\" stores no time series", name_of(kind)),
@@ -176,7 +175,7 @@ Problem foreign_key(StudyKey const& key, StudyKind kind) {
 
 void refuse_foreign_keys(Node const& table, StudyKind kind) {
     for (Node const& node : table.children) {
-        for (StudyKey const& key : study_keys) {
+        for (Setting const& key : settings()) {
             if (key.name == node.name && (key.studies & set_of(kind)) == 0) refuse(node, foreign_key(key, kind));
         }
     }
@@ -195,18 +194,11 @@ std::vector<double> uniform_times(double end_time, std::size_t count) {
 
 void read_study(Node const& root, Scene& scene) {
     if (Node const* const kind = root.find_path("study.kind")) {
-        scene.study = static_cast<StudyKind>(read_choice(*kind, "study", study_kind_names));
+        scene.study = static_cast<StudyKind>(read_choice(*kind, setting("study.kind")));
     }
     if (Node const* const table = root.find("study")) refuse_foreign_keys(*table, scene.study);
-    if (Node const* const node = root.find_path("study.members")) {
-        scene.members = read_count(*node, "number of members", 1, most_members);
-    }
-    if (Node const* const node = root.find_path("study.seed")) {
-        scene.seed = read_count(*node, "seed", 0, std::numeric_limits<std::int64_t>::max());
-    }
-    if (Node const* const node = root.find_path("study.verify")) {
-        scene.verify = read_count(*node, "number of members that run again", 0, most_verified);
-    }
+    read_bound(root, "study", scene);
+    if (Node const* const node = root.find_path("study.verify")) scene.verify = read_count(*node, setting("study.verify"));
     read_design(root, scene);
     if (scene.study == StudyKind::sweep) read_sweep(root, scene);
     if (!runs_to_end(scene.study)) read_chaos(root, scene);

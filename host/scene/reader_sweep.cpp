@@ -11,7 +11,6 @@
 namespace slideway {
 namespace {
 
-constexpr std::uint64_t most_columns = 10'000;
 
 Key const& read_parameter(Node const& root, Scene const& scene) {
     Node const* const node = root.find_path("study.parameter");
@@ -59,14 +58,13 @@ std::vector<double> read_range(Node const& root, Key const& key) {
     Node const* const count = root.find_path("study.points");
     if (count == nullptr)
         refuse_missing(*root.find_path("study.kind"), "study.points", "how many columns there are", "add points = 50");
-    std::uint64_t const points = read_count(*count, "number of columns", 2, most_columns);
+    std::uint64_t const points = read_count(*count, setting("study.points"));
     Node const& last = *root.find_path("study.to");
     if (from == to)
         refuse(last, with_unit(to, key.unit), {"equal to study.from", "use another value, or study.values"});
     bool logarithmic = false;
     if (Node const* const spacing = root.find_path("study.spacing")) {
-        constexpr std::string_view spacings[] = {"linear", "log"};
-        logarithmic = read_choice(*spacing, "spacing", spacings) == 1;
+        logarithmic = read_choice(*spacing, setting("study.spacing")) == 1;
         if (logarithmic && !(from * to > 0)) {
             refuse(*spacing, {fmt::format("from {} to {} there is no common ratio", with_unit(from, key.unit),
                                           with_unit(to, key.unit)),
@@ -84,8 +82,8 @@ std::vector<double> read_range(Node const& root, Key const& key) {
 }
 
 std::vector<double> read_list(Node const& list, Key const& key) {
-    if (list.type != Node::Type::array || list.children.empty() || list.children.size() > most_columns) {
-        refuse(list, {fmt::format("not a list of 1 to {} values", most_columns),
+    if (list.type != Node::Type::array || list.children.empty() || list.children.size() > setting("study.points").most) {
+        refuse(list, {fmt::format("not a list of 1 to {} values", setting("study.points").most),
                       "write for example [\"0.1 mm\", \"0.2 mm\"]"});
     }
     std::vector<double> values;
@@ -142,8 +140,7 @@ void read_sweep(Node const& root, Scene& scene) {
     require_part(scene.parts, key);
     check_values(root, scene);
     if (Node const* const node = root.find_path("study.start")) {
-        constexpr std::string_view starts[] = {"fresh", "continue"};
-        scene.chaos.continued = read_choice(*node, "start", starts) == 1;
+        scene.chaos.continued = read_choice(*node, setting("study.start")) == 1;
         if (scene.chaos.continued && (key.name.starts_with("initial.") || key.name == "mechanism.start_angle")) {
             refuse(*node,
                    {fmt::format("{} is where a member starts, and columns start where the one before ended", key.name),

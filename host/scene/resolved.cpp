@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "host/scene/integrator_keys.hpp"
 #include "host/scene/labels.hpp"
 #include "host/scene/resolved_members.hpp"
 #include "host/scene/scene.hpp"
 #include "host/scene/scene_text.hpp"
+#include "host/scene/settings.hpp"
 
 namespace slideway {
 namespace {
@@ -58,21 +58,18 @@ std::string quantities_text(Scene const& scene) {
     return text;
 }
 
+/// Of a bound setting: "max_step = 0.001  # s".
+std::string line_of(Setting const& row, Scene const& scene) {
+    bool const plain = row.unit.empty() || row.unit == "1";
+    return fmt::format("{} = {}{}{}\n", row.key(), value_text(row, scene), plain ? "" : "  # ", plain ? "" : row.unit);
+}
+
 /// Only what counts with the scene's method.
-std::string integrator_table(IntegratorSettings const& settings, MechanismInfo const& mechanism) {
-    std::string text = fmt::format("\n[integrator]\nmethod = \"{}\"\n", name_of(settings.method));
-    auto const add = [&](std::string_view key, std::string const& value, std::string_view unit = "") {
-        if (!has_effect(key, settings.method, mechanism)) return;
-        text += fmt::format("{} = {}{}{}\n", key, value, unit.empty() ? "" : "  # ", unit);
-    };
-    add("rtol", toml_number(settings.rtol));
-    add("atol", toml_number(settings.atol));
-    add("max_step", toml_number(settings.max_step), "s");
-    add("stiff_max_step", toml_number(settings.stiff_max_step), "s");
-    add("stiff_tolerance", toml_number(settings.stiff_tolerance));
-    add("step", toml_number(settings.fixed_step), "s");
-    add("locate_modes", fmt::format("{}", settings.locate_modes));
-    add("max_steps", fmt::format("{}", settings.max_steps));
+std::string integrator_table(Scene const& scene, MechanismInfo const& mechanism) {
+    std::string text = fmt::format("\n[integrator]\nmethod = \"{}\"\n", name_of(scene.integrator.method));
+    for (Setting const& row : settings()) {
+        if (row.table() == "integrator" && row.is_bound() && has_effect(row, scene.integrator.method, mechanism)) text += line_of(row, scene);
+    }
     return text;
 }
 
@@ -108,14 +105,16 @@ std::string sweep_text(ChaosSettings const& chaos) {
     for (double const value : chaos.values) text += fmt::format("\n    {},", toml_number(value));
     std::string_view const unit = chaos.parameter->unit;
     text += fmt::format("\n]{}{}\n", unit == "1" ? "" : "  # ", unit == "1" ? "" : unit);
-    return text + fmt::format("start = \"{}\"\n", chaos.continued ? "continue" : "fresh");
+    return text + fmt::format("start = \"{}\"\n", setting("study.start").choices[chaos.continued ? 1 : 0]);
 }
 
 /// Only what counts in the scene's study.
 std::string study_table(Scene const& scene) {
     ChaosSettings const& chaos = scene.chaos;
-    std::string text = fmt::format("\n[study]\nkind = \"{}\"\nmembers = {}\nseed = {}\n", name_of(scene.study),
-                                   scene.members, scene.seed);
+    std::string text = fmt::format("\n[study]\nkind = \"{}\"\n", name_of(scene.study));
+    for (Setting const& row : settings()) {
+        if (row.table() == "study" && row.is_bound() && (row.studies & set_of(scene.study)) != 0) text += line_of(row, scene);
+    }
     if (runs_to_end(scene.study)) {
         text += fmt::format("duration = {}  # s\nsamples = {}\n", toml_number(scene.integrator.end_time),
                             scene.sample_times.size());
@@ -153,7 +152,7 @@ std::string resolved_toml(Scene const& scene) {
                               : std::string());
     text += physics_table(scene, complete, "friction", fmt::format("enabled = {}\n", scene.parts.friction));
     text += physics_table(scene, complete, "initial", "");
-    text += integrator_table(scene.integrator, mechanism);
+    text += integrator_table(scene, mechanism);
     text += study_table(scene);
     return text + members_text(scene);
 }

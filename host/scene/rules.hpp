@@ -1,6 +1,7 @@
 // Why a number cannot be used: the words behind `defect`, in the parts that the reader needs for its positions.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -12,6 +13,13 @@ namespace slideway {
 struct Problem {
     std::string reason;
     std::string advice;
+};
+
+/// What a number may be; the words of a refusal come from the limits.
+struct Range {
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
+    bool low_included = true;
 };
 
 /// The problem of one value with its key's rule; NaN and infinity break every rule.

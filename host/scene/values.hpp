@@ -8,15 +8,9 @@
 #include <string_view>
 
 #include "host/scene/document.hpp"
+#include "host/scene/settings.hpp"
 
 namespace slideway {
-
-/// What a number may be; the words come from the limits.
-struct Range {
-    double low = -std::numeric_limits<double>::infinity();
-    double high = std::numeric_limits<double>::infinity();
-    bool low_included = true;
-};
 
 /// A finite number, or a text with a unit that converts to `unit`; in SI units.  @throws SceneError
 double read_number(Node const& node, std::string_view unit);
@@ -24,6 +18,11 @@ double read_number(Node const& node, std::string_view unit);
 double read_number(Node const& node, std::string_view unit, std::string_view meaning, Range range);
 /// The same for a key of the physics: within the key's rule.
 double read_number(Node const& node, Key const& key);
+
+/// Of a setting: within its limits.
+double read_number(Node const& node, Setting const& setting);
+std::uint64_t read_count(Node const& node, Setting const& setting);
+std::size_t read_choice(Node const& node, Setting const& setting);
 
 /// An integer (or a real number that is one) from low to high.
 std::uint64_t read_count(Node const& node, std::string_view meaning, std::uint64_t low, std::uint64_t high);

@@ -5,7 +5,7 @@
 
 #include "host/output/shard_store.hpp"
 #include "host/output/shard_writer.hpp"
-#include "host/scene/integrator_keys.hpp"
+#include "host/scene/settings.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/ensemble_plan.hpp"
 #include "host/study/orbit_schedule.hpp"

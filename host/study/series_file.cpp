@@ -10,12 +10,12 @@
 #include <fmt/format.h>
 
 #include "host/output/result_reader.hpp"
+#include "host/scene/csv.hpp"
 #include "host/scene/error.hpp"
 
 namespace slideway {
 namespace {
 
-constexpr std::string_view blanks = " \t\r";
 constexpr std::size_t no_column = static_cast<std::size_t>(-1);
 
 struct Table {
@@ -23,96 +23,27 @@ struct Table {
     std::vector<std::vector<double>> columns;
 };
 
-std::string_view trimmed(std::string_view text) {
-    auto const first = text.find_first_not_of(blanks);
-    if (first == text.npos) return {};
-    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-std::vector<std::string_view> cells_of(std::string_view line, char separator) {
-    std::vector<std::string_view> cells;
-    for (line = trimmed(line);;) {
-        auto const end = line.find_first_of(separator == ' ' ? blanks : std::string_view(&separator, 1));
-        cells.push_back(trimmed(line.substr(0, end)));
-        if (end == line.npos) return cells;
-        line.remove_prefix(end + 1);
-        if (separator == ' ') line = trimmed(line);
-    }
-}
-
-char separator_of(std::string_view line) {
-    for (char const separator : {',', ';'}) {
-        if (line.find(separator) != line.npos) return separator;
-    }
-    return ' ';
-}
-
-std::optional<double> number(std::string_view text) {
-    if (text.starts_with('+')) text.remove_prefix(1);
+/// A header is a first row without a number.
+Table read_table(std::istream& in, std::string const& name) {
+    CsvReader rows(in, name, CsvReader::Separator::by_first_row);
+    Table table;
+    if (!rows.next()) rows.fail("the table is empty");
+    std::size_t const count = rows.fields().size();
+    table.columns.resize(count);
     double value = 0;
-    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (text.empty() || end != text.data() + text.size()) return std::nullopt;
-    if (error == std::errc::result_out_of_range) return std::strtod(std::string(text).c_str(), nullptr);
-    return error == std::errc{} ? std::optional(value) : std::nullopt;
+    auto const is_number = [&](std::string_view field) { return read_plain_number(field, value); };
+    if (std::none_of(rows.fields().begin(), rows.fields().end(), is_number)) {
+        table.names = rows.fields();
+        if (!rows.next()) rows.fail("the table has a header but no row");
+    }
+    do {
+        auto const& cells = rows.fields();
+        if (cells.size() != count) rows.fail(fmt::format("the row has {} cells, the first line {}", cells.size(), count));
+        // Columns of text may stand beside those that are asked for.
+        for (std::size_t i = 0; i < count; ++i) table.columns[i].push_back(is_number(cells[i]) ? value : std::nan(""));
+    } while (rows.next());
+    return table;
 }
-
-/// Reads the lines that count and knows where it is.
-class TableReader {
-public:
-    TableReader(std::istream& in, std::string const& name) : in_(in), name_(name) {}
-
-    Table read() {
-        Table table;
-        if (!next()) fail("the table is empty");
-        separator_ = separator_of(line_);
-        auto const first = cells_of(line_, separator_);
-        table.columns.resize(first.size());
-        auto const is_number = [](std::string_view cell) { return number(cell).has_value(); };
-        if (std::none_of(first.begin(), first.end(), is_number)) {
-            for (std::string_view cell : first) {
-                if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"')
-                    cell = cell.substr(1, cell.size() - 2);
-                table.names.emplace_back(cell);
-            }
-            if (!next()) fail("the table has a header but no row");
-        }
-        do add_row(table);
-        while (next());
-        return table;
-    }
-
-private:
-    bool next() {
-        while (std::getline(in_, line_)) {
-            ++number_;
-            if (number_ == 1 && line_.starts_with("\xEF\xBB\xBF")) line_.erase(0, 3);  // byte order mark
-            std::string_view const text = trimmed(line_);
-            if (!text.empty() && text.front() != '#') return true;
-        }
-        return false;
-    }
-
-    void add_row(Table& table) const {
-        auto const cells = cells_of(line_, separator_);
-        if (cells.size() != table.columns.size()) {
-            fail(fmt::format("the row has {} cells, the first line {}", cells.size(), table.columns.size()));
-        }
-        for (std::size_t i = 0; i < cells.size(); ++i) {
-            // Columns of text may stand beside those that are asked for.
-            table.columns[i].push_back(number(cells[i]).value_or(std::nan("")));
-        }
-    }
-
-    [[noreturn]] void fail(std::string const& message) const {
-        throw SceneError(fmt::format("{}:{}: {}", name_, std::max(number_, 1), message));
-    }
-
-    std::istream& in_;
-    std::string const& name_;
-    std::string line_;
-    int number_ = 0;
-    char separator_ = ',';
-};
 
 std::size_t time_column(Table const& table) {
     auto const found = std::find_if(table.names.begin(), table.names.end(),
@@ -237,7 +168,7 @@ StoredSeries read_result_series(std::string const& path, std::string const& vari
 
 StoredSeries read_csv_series(std::istream& in, std::string const& name, std::string const& column,
                              std::optional<double> spacing) {
-    Table table = TableReader(in, name).read();
+    Table table = read_table(in, name);
     if (in.bad()) throw FileError(fmt::format("{}: cannot read", name));
     std::size_t const place = column_of(table, name, column), time = time_column(table);
     if (!spacing) {

@@ -86,8 +86,8 @@ TEST_F(Usage, ListShowsWhatEachLawHas) {
              "                                 damping: point, rate, restitution\n  conservative ",
              "no modes\n"
              "                                 damping: its own alone\n"
-             "                                 contact.apex_stiffness [N/m]: stiffness of an apex; default follows from others\n"
-             "                                 contact.apex_damping [N s/m]: damping of an apex; default 0\n",
+             "                                 contact.apex_stiffness [N/m]: stiffness of an apex\n"
+             "                                 contact.apex_damping [N s/m]: damping of an apex\n",
          }) {
         EXPECT_NE(list.find(lines), list.npos) << lines;
     }
@@ -101,16 +101,15 @@ TEST_F(Usage, ListShowsWhatEachMechanismHas) {
              "  peak_crank_torque              N m      largest magnitude of the drive torque, crank weight included "
              "(slider_crank, planar_slider_crank)\n",
              "  crank_angle                    rad      angle of the crank (planar_slider_crank)\n",
-             "  mechanism.stroke               m        way of the carriage at constant speed; default 0.15 (carriage)\n",
+             "  mechanism.stroke               m        way of the carriage at constant speed: > 0; default 0.15 (carriage)\n",
              "  mechanism.gravity              m/s2     gravity; default 9.81\n",
-             "  mechanism.slider_mass          kg       mass of the slider; default follows from others\n",
-             "  mechanism.crank_length         m        crank length; default 0.05 (slider_crank, scotch_yoke, "
+             "  mechanism.slider_mass          kg       mass of the slider: > 0; default follows from others\n",
+             "  mechanism.crank_length         m        crank length: > 0; default 0.05 (slider_crank, scotch_yoke, "
              "planar_slider_crank)\n",
-             "  contact.eta                    1        damping ratio of point contacts; default 0.01 (contact.law paper, "
-             "conservative)\n",
-             "  contact.slider_young_modulus   Pa       modulus of the slider; default 2.07e+11\n",
-             "  contact.apex_damping           N s/m    damping of an apex; default 0 (slider_crank, carriage, scotch_yoke, "
-             "free_slider) (contact.law kelvin_voigt)\n",
+             "  contact.eta                    1        damping ratio of point contacts: ≥ 0; default 0.01 (law paper, conservative)\n",
+             "  contact.slider_young_modulus   Pa       modulus of the slider: > 0; default 2.07e+11\n",
+             "  contact.apex_damping           N s/m    damping of an apex: ≥ 0; default 0 (slider_crank, carriage, scotch_yoke, "
+             "free_slider; law kelvin_voigt)\n",
          }) {
         EXPECT_NE(list.find(line), std::string::npos) << line;
     }

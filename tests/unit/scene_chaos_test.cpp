@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "host/scene/study_keys.hpp"
 #include "tests/unit/scene_fixture.hpp"
 
 namespace slideway {
@@ -321,16 +320,6 @@ TEST(SceneChaos, OptionsReplaceWhatSaysTheSame) {
                     {{"study.values", "[1e-5]"}})
                   .chaos.values,
               std::vector<double>{1e-5});
-}
-
-TEST(SceneChaos, EveryKeyIsListedOnce) {
-    std::set<std::string_view> names;
-    for (StudyKey const& key : study_keys) {
-        EXPECT_TRUE(names.insert(key.name).second) << key.name;
-        EXPECT_TRUE(key.name.starts_with("study."));
-        EXPECT_NE(key.studies, 0u);
-        EXPECT_FALSE(key.meaning.empty());
-    }
 }
 
 }  // namespace

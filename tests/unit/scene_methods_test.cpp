@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "host/scene/integrator_keys.hpp"
+#include "host/scene/settings.hpp"
 #include "tests/unit/scene_fixture.hpp"
 
 namespace slideway {
