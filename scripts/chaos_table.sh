@@ -18,7 +18,7 @@ mkdir -p "$folder"
 exponents() {
     echo
     echo "== $1 mm, $2"
-    "$slideway" run "$root/scenes/lyapunov_0.1mm.toml" --quiet --force --threads "$threads" \
+    "$slideway" run "$root/scenes/lyapunov_0.1mm.toml" --no-progress --force --threads "$threads" \
         --set "joint.clearance=$1 mm" --set "contact.law=$2" --set "study.members=$3" \
         --set study.revolutions=4 --set study.verify=8 --set 'study.quantities=["energy_residual","crank_work","mode_time"]' \
         -o "$folder/exponents_$1mm_$2.nc"

@@ -45,7 +45,7 @@ mkdir -p "$results"
 run() {
     local result=$results/$1 scene=$2 code=0
     shift 2
-    "$slideway" run "scenes/$scene" --quiet -o "$result" "$@" >"${result%.nc}.txt" 2>&1 || code=$?
+    "$slideway" run "scenes/$scene" --no-progress -o "$result" "$@" >"${result%.nc}.txt" 2>&1 || code=$?
     ((code == 0)) || cat "${result%.nc}.txt"
     return "$code"
 }
@@ -119,7 +119,7 @@ if [[ -n $sanitizer ]]; then
     for tool in memcheck racecheck initcheck synccheck; do
         watched=("$sanitizer" --tool "$tool" --error-exitcode 86)
         step "compute-sanitizer, $tool: a short run"
-        "${watched[@]}" "$slideway" run "scenes/${small[0]}" --quiet -o "$results/$tool.nc" "${small[@]:1}" >"$results/$tool.txt" 2>&1 ||
+        "${watched[@]}" "$slideway" run "scenes/${small[0]}" --no-progress -o "$results/$tool.nc" "${small[@]:1}" >"$results/$tool.txt" 2>&1 ||
             { tail -n 40 "$results/$tool.txt" && stop "$tool complains of a run (all of it: $results/$tool.txt)"; }
         tail -n 1 "$results/$tool.txt"
         step "compute-sanitizer, $tool: the device tests"

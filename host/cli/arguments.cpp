@@ -19,7 +19,7 @@ struct Words {
     std::vector<std::string> overrides;
     std::string max_failures, max_hours, member, members, threads, shard, block_members;
     std::string variable, column, spacing, skip_time, skip_samples, max_points, delay, dimension, theiler, fit;
-    bool quiet = false, resume = false, force = false, verify = false, json = false, schema = false, markdown = false;
+    bool quiet = false, no_progress = false, scene_too = false, resolved = false, resume = false, force = false, verify = false, json = false, schema = false, markdown = false;
 };
 
 std::string isa_help() {
@@ -44,6 +44,10 @@ void add_force(CLI::App& command, Words& words) {
     command.add_flag("--force", words.force, "Replace a file of slideway that is there already; inputs and other files never");
 }
 
+void add_json(CLI::App& command, Words& words) {
+    command.add_flag("--json", words.json, "One object in JSON in place of text (docs/json.md)");
+}
+
 void add_threads(CLI::App& command, Words& words) {
     command.add_option("--threads", words.threads, "Threads (default: all that this process may use)")->type_name("N");
 }
@@ -66,6 +70,7 @@ void add_stats_options(CLI::App& command, Words& words) {
     add("--fit", words.fit, "Fit the exponent over these samples of the divergence curve (default: found)", "A..B");
     add("-o,--output", words.output, "Write the C-C curves and the divergence curve to this file", "OUT.csv");
     add_force(command, words);
+    add_json(command, words);
 }
 
 /// `--set` takes all words up to the next option, the scene too where it stands behind: only that has no `=`.
@@ -96,6 +101,8 @@ RunArguments run_arguments(Words const& words) {
     run.output = words.output;
     run.threads = threads(words);
     run.quiet = words.quiet;
+    run.progress = !words.quiet && !words.no_progress;
+    run.json = words.json;
     run.resume = words.resume;
     run.force = words.force;
     if (!words.max_failures.empty()) run.max_failures = parse_failure_limit(words.max_failures);
@@ -115,6 +122,7 @@ StatsArguments stats_arguments(Words const& words) {
     stats.path = words.file;
     stats.output = words.output;
     stats.force = words.force;
+    stats.json = words.json;
     if (!words.variable.empty()) stats.variable = words.variable;
     if (!words.column.empty()) stats.column = words.column;
     if (!words.member.empty()) stats.member = parse_member(words.member).first;
@@ -201,13 +209,17 @@ Arguments parse_arguments(int argc, char const* const* argv) {
                     "Members that a thread takes at once (default: by their cost); a crash loses those under way")
         ->type_name("N");
     run->add_flag("--verify", words.verify, "Run 16 members again to check the study, whatever it costs (study.verify = 16)");
-    run->add_flag("--quiet", words.quiet, "No progress on stderr");
+    run->add_flag("--no-progress", words.no_progress, "No lines of progress on stderr");
+    run->add_flag("--quiet", words.quiet, "No progress and no summary: warnings and errors alone");
+    add_json(*run, words);
 
     CLI::App* const check =
         app.add_subcommand("check", "Validate a scene; print it resolved, and what a run will take");
     add_scene_options(*check, words);
     add_threads(*check, words);
     add_backend(*check, words);
+    add_json(*check, words);
+    check->add_flag("--resolved", words.resolved, "Print the resolved scene alone, as a scene file");
     check->add_flag("--force", words.force, "Accept starts inside the way");
 
     CLI::App* const probe = app.add_subcommand("probe", "Forces, contact mode and derivative of single states");
@@ -215,9 +227,12 @@ Arguments parse_arguments(int argc, char const* const* argv) {
     probe->add_option("--csv", words.table, "Table of states (default: the scene's start)")->type_name("STATES.csv");
     probe->add_option("-o,--output", words.output, "Write CSV to this file")->type_name("OUT.csv");
     add_force(*probe, words);
+    add_json(*probe, words);
 
     CLI::App* const info = app.add_subcommand("info", "Provenance, statuses and statistics of a result file");
     info->add_option("FILE", words.file, "Result file")->required()->type_name("");
+    info->add_flag("--scene", words.scene_too, "Show its scene, too");
+    add_json(*info, words);
 
     CLI::App* const stats = app.add_subcommand("stats", "Chaos statistics of a stored series (NetCDF result or CSV)");
     add_stats_options(*stats, words);
@@ -226,6 +241,7 @@ Arguments parse_arguments(int argc, char const* const* argv) {
     merge->add_option("DIR", words.file, "Folder of shards, OUT.nc.shards")->required()->type_name("");
     merge->add_option("-o,--output", words.output, "Result file")->required()->type_name("OUT.nc");
     add_force(*merge, words);
+    add_json(*merge, words);
 
     CLI::App* const report = app.add_subcommand(
         "report", "A page to look at, without a network, of a result file (uses the Python companion)");
@@ -255,11 +271,11 @@ Arguments parse_arguments(int argc, char const* const* argv) {
 
     for (CLI::App const* const command : app.get_subcommands()) refuse_empty_words(*command);
     if (run->parsed()) return run_arguments(words);
-    if (check->parsed()) return CheckArguments{scene_arguments(words), threads(words), words.force};
-    if (probe->parsed()) return ProbeArguments{scene_arguments(words), words.table, words.output, words.force};
-    if (info->parsed()) return InfoArguments{words.file};
+    if (check->parsed()) return CheckArguments{scene_arguments(words), threads(words), words.force, words.json, words.resolved};
+    if (probe->parsed()) return ProbeArguments{scene_arguments(words), words.table, words.output, words.force, words.json};
+    if (info->parsed()) return InfoArguments{words.file, words.scene_too, words.json};
     if (stats->parsed()) return stats_arguments(words);
-    if (merge->parsed()) return MergeArguments{words.file, words.output, words.force};
+    if (merge->parsed()) return MergeArguments{words.file, words.output, words.force, words.json};
     if (report->parsed()) return ReportArguments{words.file, words.output, words.force};
     if (list->parsed()) {
         using Form = ListArguments::Form;

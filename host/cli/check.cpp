@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include "host/cli/commands.hpp"
+#include "host/cli/json.hpp"
 #include "host/cli/text.hpp"
 #include "host/driver/ensemble.hpp"
 #include "host/study/continued_sweep.hpp"
@@ -147,6 +148,15 @@ int check(CheckArguments const& arguments) {
     if (!arguments.force) {
         if (auto const wrong = impossible_starts(scene, best_isa()))
             throw SceneError(fmt::format("{}: {}; change [initial] or [joint], or add --force", scene.path, *wrong));
+    }
+
+    if (arguments.resolved) {
+        fmt::print("{}", resolved_toml(scene));
+        return exit_code::done;
+    }
+    if (arguments.json) {
+        fmt::print("{}", check_json(scene, prediction, *choice.backend));
+        return exit_code::done;
     }
 
     fmt::print("# {} is a valid scene.  Resolved, in SI units:\n\n", scene.path);

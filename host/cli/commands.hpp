@@ -46,7 +46,9 @@ struct RunArguments {
     RunPart part;
     std::size_t block_members = 0;  // 0: by their cost
     bool resume = false, force = false;
-    bool quiet = false;
+    bool progress = true;
+    bool quiet = false;  // no progress, no summary
+    bool json = false;   // an object in place of the summary
 };
 int run(RunArguments const& arguments);
 
@@ -54,6 +56,8 @@ struct CheckArguments {
     SceneArguments scene;
     std::optional<int> threads;
     bool force = false;  // also of starts that no mechanism has
+    bool json = false;
+    bool resolved = false;  // the resolved scene alone, which runs as it is
 };
 int check(CheckArguments const& arguments);
 
@@ -61,12 +65,14 @@ struct ProbeArguments {
     SceneArguments scene;
     std::string table;   // empty: the scene's start
     std::string output;  // empty: stdout
-    bool force = false;
+    bool force = false, json = false;
 };
 int probe(ProbeArguments const& arguments);
 
 struct InfoArguments {
     std::string path;
+    bool scene = false;  // the scene too
+    bool json = false;
 };
 int info(InfoArguments const& arguments);
 
@@ -80,13 +86,13 @@ struct StatsArguments {
     std::optional<std::size_t> max_points;  // behind the transient
     SeriesOptions options;
     std::string output;  // empty: no curves
-    bool force = false;
+    bool force = false, json = false;
 };
 int stats(StatsArguments const& arguments);
 
 struct MergeArguments {
     std::string folder, output;
-    bool force = false;
+    bool force = false, json = false;
 };
 int merge(MergeArguments const& arguments);
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "host/cli/commands.hpp"
+#include "host/cli/json.hpp"
 #include "host/cli/orbit_text.hpp"
 #include "host/cli/text.hpp"
 #include "host/cli/tolerance_text.hpp"
@@ -25,13 +26,7 @@ std::optional<ToleranceReport> report_of(ResultReader const& results) {
     return {};
 }
 
-}  // namespace
-
-int info(InfoArguments const& arguments) {
-    ResultReader const results(arguments.path);
-    std::string const computed = results.computed_hash();
-    bool const intact = computed == results.stored_hash();
-
+void print_info(InfoArguments const& arguments, ResultReader const& results, std::string const& computed, bool intact) {
     print_field("file", arguments.path);
     for (char const* const name : {"title", "created", "version", "commit", "compiler", "flags", "machine", "backend",
                                    "isa", "threads", "seed", "completeness"}) {
@@ -52,7 +47,21 @@ int info(InfoArguments const& arguments) {
     print_exponents(results);
     print_sections(results);
     if (auto const summary = verification_summary(results)) fmt::print("\n{}\n", *summary);
-    fmt::print("\nscene\n{}\n", results.attribute("scene"));
+    if (arguments.scene) fmt::print("\nscene\n{}\n", results.attribute("scene"));
+}
+
+}  // namespace
+
+int info(InfoArguments const& arguments) {
+    ResultReader const results(arguments.path);
+    std::string const computed = results.computed_hash();
+    bool const intact = computed == results.stored_hash();
+
+    if (arguments.json) {
+        fmt::print("{}", result_json("info", results, intact));
+    } else {
+        print_info(arguments, results, computed, intact);
+    }
     if (intact) return exit_code::done;
     throw FileError(
         fmt::format("{}: the data do not match their hash; the file is damaged or was edited", arguments.path));

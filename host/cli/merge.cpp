@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "host/cli/commands.hpp"
+#include "host/cli/json.hpp"
 #include "host/cli/run_summary.hpp"
 #include "host/cli/text.hpp"
 #include "host/output/durable_file.hpp"
@@ -53,6 +54,10 @@ int merge(MergeArguments const& arguments) {
     RunArguments replay;
     replay.scene.path = scene_path;
     ResultReader const results(arguments.output);
+    if (arguments.json) {
+        fmt::print("{}", result_json("merge", results, true, nullptr, left));
+        return left == 0 ? exit_code::done : exit_code::stopped_early;
+    }
     print_field("scene", scene.title.empty() ? scene_path : fmt::format("{} ({})", scene.title, scene_path));
     print_results(replay, scene, results, report);
     fmt::print("\n");

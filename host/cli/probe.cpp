@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "host/cli/commands.hpp"
+#include "host/cli/json.hpp"
 #include "host/cli/text.hpp"
 #include "host/output/output_target.hpp"
 #include "host/scene/labels.hpp"
@@ -95,8 +96,11 @@ int probe(ProbeArguments const& arguments) {
         arguments.output.empty() ? std::nullopt : std::optional(table_target(arguments, scene));
     StateTable const table = arguments.table.empty() ? start_state(scene) : load_table(arguments.table, scene);
     std::vector<ProbeResult> const results = slideway::probe(table, isa);
-    if (target)
-        target->write(table_text(table, results));
+    if (target) target->write(table_text(table, results));
+    if (arguments.json)
+        fmt::print("{}", probe_json(scene, table, results));
+    else if (target)
+        return exit_code::done;
     else if (!arguments.table.empty())
         write_probe_csv(std::cout, table, results);
     else

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "host/cli/commands.hpp"
+#include "host/cli/json.hpp"
 #include "host/cli/run_summary.hpp"
 #include "host/cli/text.hpp"
 #include "host/scene/fnv1a.hpp"
@@ -58,7 +59,7 @@ StudyOptions study_options(RunArguments const& arguments, Scene const& scene) {
     options.block_members = arguments.block_members;
     options.resume = arguments.resume;
     options.force = arguments.force;
-    options.progress = Progress::style_for(stderr, arguments.quiet);
+    options.progress = Progress::style_for(stderr, !arguments.progress);
     return options;
 }
 
@@ -100,6 +101,8 @@ void announce(Scene const& scene, StudyOptions const& options, std::string const
                bytes_text(static_cast<double>(prediction.output_bytes)), shards_text(scene, prediction));
 }
 
+bool says_text(RunArguments const& arguments) { return !arguments.quiet && !arguments.json; }
+
 int end_stopped(StudyOptions const& options, std::string_view why, std::uint64_t left) {
     std::string const folder = shard_folder_of(options.output);
     tell("slideway: stopped early{}: {} members have not run; those that did are kept in {}: add --resume to go on, or "
@@ -115,10 +118,11 @@ int end_unmerged(StudyOptions const& options) {
 }
 
 /// Where members are left, or wait for those of other parts.
-int end_with_shards(StudyOptions const& options, EnsembleTotals const& totals, std::uint64_t left) {
+int end_with_shards(RunArguments const& arguments, StudyOptions const& options, EnsembleTotals const& totals, std::uint64_t left) {
     std::string const folder = shard_folder_of(options.output);
+    if (arguments.json) fmt::print("{}", stopped_json(folder, left));
     if (left == 0) {
-        print_field("results", fmt::format("part {} is done, in {}; slideway merge makes one file of all parts",
+        if (says_text(arguments)) print_field("results", fmt::format("part {} is done, in {}; slideway merge makes one file of all parts",
                                            options.part.name(), folder));
         return exit_code::done;
     }
@@ -128,13 +132,19 @@ int end_with_shards(StudyOptions const& options, EnsembleTotals const& totals, s
     return end_stopped(options, why, left);
 }
 
+/// @param totals of what has just run, or nullptr
 int conclude(RunArguments const& arguments, Scene const& scene, StudyOptions const& options, bool replaced,
-             std::optional<ToleranceReport> report) {
+             std::optional<ToleranceReport> report, EnsembleTotals const* totals) {
     ResultReader const results(options.output);
-    if (!report && asks_for_report(scene)) report = tolerance_report(results, scene, {options.threads});
-    print_results(arguments, scene, results, report);
-    fmt::print("\n");
-    print_field("results", fmt::format("{}{}", options.output, replaced ? " (replaced a former file)" : ""));
+    if (arguments.json) {
+        fmt::print("{}", result_json("run", results, true, totals));
+    } else if (!arguments.quiet) {
+        if (!report && asks_for_report(scene)) report = tolerance_report(results, scene, {options.threads});
+        print_results(arguments, scene, results, report);
+        fmt::print("\n");
+        print_field("results", fmt::format("{}{}", options.output, replaced ? " (replaced a former file)" : ""));
+    }
+    if (!says_text(arguments)) warn_of_results(results);
     std::uint64_t const failed = failed_count(results), members = options.range.count;
     if (!arguments.max_failures.exceeded(failed, members)) return exit_code::done;
     tell("slideway: {} of {} members failed, more than --max-failures {}\n", failed, members,
@@ -150,24 +160,26 @@ std::string kept(std::exception const& error, StudyOptions const& options) {
 /// Rank 0.
 int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& options, StudyRun& run, Ranks& ranks,
          StopRequest const& stop) {
-    print_field("scene", scene.title.empty() ? scene.path : fmt::format("{} ({})", scene.title, scene.path));
+    if (says_text(arguments)) print_field("scene", scene.title.empty() ? scene.path : fmt::format("{} ({})", scene.title, scene.path));
     if (run.is_complete()) {
-        if (!arguments.quiet) tell("resuming: {} is complete already\n", options.output);
-        return conclude(arguments, scene, options, false, {});
+        if (arguments.progress) tell("resuming: {} is complete already\n", options.output);
+        return conclude(arguments, scene, options, false, {}, nullptr);
     }
     std::optional<ToleranceReport> report;
+    EnsembleTotals done;
     try {
         EnsembleTotals const totals = run_work(scene, options, run.work(), ranks, stop);
-        print_throughput(scene, options, totals, ranks.count());
+        if (says_text(arguments)) print_throughput(scene, options, totals, ranks.count());
         std::uint64_t const left = run.left();
-        if (left > 0 || options.part.of_array) return end_with_shards(options, totals, left);
+        if (left > 0 || options.part.of_array) return end_with_shards(arguments, options, totals, left);
+        done = totals;
         if (!run.merge(stop, report)) return end_unmerged(options);
     } catch (FileError const& error) {
         throw FileError(kept(error, options));
     } catch (DeviceError const& error) {
         throw DeviceError(kept(error, options));
     }
-    int const code = conclude(arguments, scene, options, run.target().replaces(), std::move(report));
+    int const code = conclude(arguments, scene, options, run.target().replaces(), std::move(report), &done);
     run.remove_shards();
     return code;
 }
@@ -234,7 +246,7 @@ int run(RunArguments const& arguments) {
         StudyRun study(scene, options);
         if (auto const wrong = impossible_starts(scene, best_isa())) tell("warning: {}\n", *wrong);
         warn_of_losses(options, study);
-        if (!arguments.quiet && !study.is_complete()) announce(scene, options, choice.reason, prediction, study);
+        if (arguments.progress && !study.is_complete()) announce(scene, options, choice.reason, prediction, study);
         invited = true;
         ranks->broadcast(invitation(study, *options.backend));
         return ranks->agree(lead(arguments, scene, options, study, *ranks, stop));

@@ -154,7 +154,7 @@ void print_verification(ResultReader const& results) {
     auto const summary = verification_summary(results);
     if (!summary) return;
     fmt::print("\n{}\n", *summary);
-    if (summary->starts_with("NOT")) tell("warning: {}\n", summary->substr(0, summary->find('\n')));
+    warn_of_results(results);
 }
 
 double sum_of(ResultReader const& results, std::string const& variable) {
@@ -168,6 +168,11 @@ double sum_of(ResultReader const& results, std::string const& variable) {
 }  // namespace
 
 std::uint64_t failed_count(ResultReader const& results) { return EndedMembers(results).failed(); }
+
+void warn_of_results(ResultReader const& results) {
+    auto const summary = verification_summary(results);
+    if (summary && summary->starts_with("NOT")) tell("warning: {}\n", summary->substr(0, summary->find('\n')));
+}
 
 void print_throughput(Scene const& scene, StudyOptions const& options, EnsembleTotals const& totals, int ranks) {
     double const rate = totals.seconds > 0 ? static_cast<double>(totals.done()) / totals.seconds : 0.0;

@@ -15,6 +15,9 @@ namespace slideway::cli {
 /// Members that ended otherwise than finished.
 std::uint64_t failed_count(ResultReader const& results);
 
+/// To stderr: that numbers are not resolved.
+void warn_of_results(ResultReader const& results);
+
 /// What this run computed, and how fast.
 void print_throughput(Scene const& scene, StudyOptions const& options, EnsembleTotals const& totals, int ranks);
 

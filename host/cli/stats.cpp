@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "host/cli/commands.hpp"
+#include "host/cli/json.hpp"
 #include "host/output/output_target.hpp"
 #include "host/output/result_reader.hpp"
 #include "host/scene/error.hpp"
@@ -133,6 +134,10 @@ int stats(StatsArguments const& arguments) {
     SeriesAnalysis const a = analyse(series, arguments);
     if (target) target->write(curves_text(a));
 
+    if (arguments.json) {
+        fmt::print("{}", stats_json(arguments, series.name, a));
+        return exit_code::done;
+    }
     row("series", fmt::format("{} of {}", series.name, arguments.path));
     row("points", fmt::format("{}, every {:.6g} s", a.points, a.spacing));
     row("average period", fmt::format("{:.4g} s ({:.4g} samples)", a.average_period, a.average_period / a.spacing));

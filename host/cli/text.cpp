@@ -98,7 +98,8 @@ void print_quantities(std::vector<QuantitySummary> const& quantities) {
         fmt::print("\nNo member finished: there are no statistics.\n");
         return;
     }
-    fmt::print("\nOver the members that finished:\n");
+    bool const single = std::none_of(quantities.begin(), quantities.end(), [](QuantitySummary const& one) { return one.values.count > 1; });
+    fmt::print("\nOver the member{} that finished:\n", single ? "" : "s");
     std::size_t width = 8, unit_width = 4;
     for (QuantitySummary const& quantity : quantities) {
         width = std::max(width, quantity.label.size());
@@ -111,6 +112,12 @@ void print_quantities(std::vector<QuantitySummary> const& quantities) {
     };
     // One member has no standard deviation.
     auto const text = [](double value) { return std::isnan(value) ? std::string("-") : fmt::format("{:.5g}", value); };
+    if (single) {
+        // One member has a value, and no distribution.
+        row("quantity", "unit", "value");
+        for (QuantitySummary const& quantity : quantities) row(quantity.label, quantity.unit, text(quantity.values.mean));
+        return;
+    }
     row("quantity", "unit", "mean", "sd", "min", "median", "max");
     for (QuantitySummary const& quantity : quantities) {
         Summary const& s = quantity.values;

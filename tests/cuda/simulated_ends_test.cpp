@@ -91,7 +91,7 @@ TEST_F(EarlyEnds, ByASignalAreSoonAndGoOn) {
                                          "s.toml",
                                          "-o",
                                          "s.nc",
-                                         "--quiet",
+                                         "--no-progress",
                                          "--backend",
                                          "cuda",
                                          "--threads",

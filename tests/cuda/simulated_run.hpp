@@ -32,7 +32,7 @@ class SimulatedRun : public ProgramWithResults {
 protected:
     /// Runs a scene on the card, or with `--backend cpu` among the options on the processor.
     Outcome run_scene(std::string const& scene, std::string const& result, std::vector<std::string> options) const {
-        std::vector<std::string> words{"run", scene, "-o", result, "--quiet"};
+        std::vector<std::string> words{"run", scene, "-o", result, "--no-progress"};
         bool const is_told = std::find(options.begin(), options.end(), "--backend") != options.end();
         if (!is_told) words.insert(words.end(), {"--backend", "cuda"});
         words.insert(words.end(), options.begin(), options.end());

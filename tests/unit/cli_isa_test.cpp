@@ -52,8 +52,8 @@ TEST_F(InstructionSets, OfMachinesWithoutFusedMultiplyAddAreScalarAndSlow) {
     EXPECT_NE(run({"check", "s.toml", "--isa", "scalar_libm"}).out.find(slow), std::string::npos);
     EXPECT_EQ(results("libm.nc").attribute("isa"), "scalar");
     // One goes on with what the other began.
-    EXPECT_EQ(run({"run", "s.toml", "--isa", "scalar_libm", "--shard", "1/2", "-o", "both.nc", "--quiet"}).code, 0);
-    EXPECT_EQ(run({"run", "s.toml", "--isa", "scalar", "--resume", "-o", "both.nc", "--quiet"}).code, 0);
+    EXPECT_EQ(run({"run", "s.toml", "--isa", "scalar_libm", "--shard", "1/2", "-o", "both.nc", "--no-progress"}).code, 0);
+    EXPECT_EQ(run({"run", "s.toml", "--isa", "scalar", "--resume", "-o", "both.nc", "--no-progress"}).code, 0);
     EXPECT_EQ(hash_of("both.nc"), hash_of("libm.nc"));
 }
 
@@ -63,7 +63,7 @@ TEST_F(InstructionSets, HaveOneHashWhereTheCLibraryHasNoInstructionEither) {
     // The GNU C library then takes its own arithmetic; others do not know the variable, and the test says nothing.
     std::string const without = "GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2 ";
     ShellOutcome const outcome = run_shell(
-        path(""), without + "'" SLIDEWAY_BINARY "' run s.toml --quiet --isa scalar_libm --threads 1 -o libm.nc");
+        path(""), without + "'" SLIDEWAY_BINARY "' run s.toml --no-progress --isa scalar_libm --threads 1 -o libm.nc");
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(hash_of("libm.nc"), hash_of("scalar.nc"));
 }

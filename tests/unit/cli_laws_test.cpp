@@ -52,7 +52,7 @@ TEST_P(LawInStudies, Runs) {
         write("s.toml", text);
         for (Isa const isa : std::set{Isa::scalar, best_isa()}) {
             std::string const name = std::string(study) + "_" + std::string(name_of(isa)) + ".nc";
-            Outcome const outcome = run({"run", "s.toml", "--quiet", "--threads", "2", "--isa", std::string(name_of(isa)), "-o", name});
+            Outcome const outcome = run({"run", "s.toml", "--no-progress", "--threads", "2", "--isa", std::string(name_of(isa)), "-o", name});
             ASSERT_EQ(outcome.code, 0) << outcome.err;
         }
         ResultReader const file = results(std::string(study) + "_scalar.nc");

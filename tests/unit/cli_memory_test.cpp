@@ -23,7 +23,7 @@ protected:
     double peak_of(std::string const& text, std::vector<std::string> options = {}) const {
         write("s.toml", text);
         options.insert(options.begin(),
-                       {"run", "s.toml", "--quiet", "--isa", "scalar", "--threads", "2", "--force", "-o", "r.nc"});
+                       {"run", "s.toml", "--no-progress", "--isa", "scalar", "--threads", "2", "--force", "-o", "r.nc"});
         pid_t const child = start(std::move(options));
         int status = 0;
         rusage usage{};

@@ -113,7 +113,7 @@ protected:
     Outcome run_scene(std::string const& text, std::vector<std::string> options = {}) const {
         write("s.toml", text);
         options = to_result(std::move(options));
-        options.insert(options.begin(), {"run", "s.toml", "--quiet"});
+        options.insert(options.begin(), {"run", "s.toml", "--no-progress"});
         return run(std::move(options));
     }
     /// Runs to the end without complaint.

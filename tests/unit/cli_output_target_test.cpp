@@ -18,9 +18,9 @@ struct Command {
     std::vector<std::string> inputs;
 };
 std::vector<Command> const commands{
-    {"run", {"run", "s.toml", "--quiet", "--set", "study.members=2"}, ".nc", {"s.toml"}},
-    {"table", {"run", "table.toml", "--quiet"}, ".nc", {"table.toml", "members.csv"}},
-    {"member", {"run", "s.toml", "--quiet", "--member", "1"}, ".nc", {"s.toml"}},
+    {"run", {"run", "s.toml", "--no-progress", "--set", "study.members=2"}, ".nc", {"s.toml"}},
+    {"table", {"run", "table.toml", "--no-progress"}, ".nc", {"table.toml", "members.csv"}},
+    {"member", {"run", "s.toml", "--no-progress", "--member", "1"}, ".nc", {"s.toml"}},
     {"probe", {"probe", "s.toml"}, ".csv", {"s.toml"}},
     {"states", {"probe", "s.toml", "--csv", "states.csv"}, ".csv", {"s.toml", "states.csv"}},
     {"stats", {"stats", "series.nc", "--member", "0"}, ".csv", {"series.nc"}},
@@ -153,7 +153,7 @@ TEST_F(OutputTargets, ThatAreNoFilesAreRefused) {
 
 TEST_F(OutputTargets, ThatComeUpWhileItRunsAreKept) {
     std::string const seconds = "study.duration=400 ms";
-    pid_t const child = start({"run", "s.toml", "--quiet", "-o", "late.nc", "--set", seconds, "study.members=500", "study.verify=0"});
+    pid_t const child = start({"run", "s.toml", "--no-progress", "-o", "late.nc", "--set", seconds, "study.members=500", "study.verify=0"});
     ASSERT_TRUE(comes_true([&] { return fs::exists(path("late.nc.shards/run.toml")); }));
     write("late.nc", "of somebody else");
     Outcome const outcome = wait(child);
@@ -162,7 +162,7 @@ TEST_F(OutputTargets, ThatComeUpWhileItRunsAreKept) {
     EXPECT_EQ(file_text(path("late.nc")), "of somebody else");
     // Nothing that was computed is lost.
     fs::remove(path("late.nc"));
-    Outcome const again = run({"run", "s.toml", "--quiet", "-o", "late.nc", "--set", seconds, "study.members=500", "study.verify=0", "--resume"});
+    Outcome const again = run({"run", "s.toml", "--no-progress", "-o", "late.nc", "--set", seconds, "study.members=500", "study.verify=0", "--resume"});
     EXPECT_EQ(again.code, 0) << again.err;
     EXPECT_EQ(results("late.nc").values("status").size(), 500u);
 }
@@ -175,7 +175,7 @@ TEST_F(OutputTargets, ByDefaultDifferWhereOverridesDo) {
                                                      {"--set", "initial.z=0.01 mm"},
                                                      {"--set", "initial.z=0.02 mm"},
                                                      {"--member", "1"}}) {
-        std::vector<std::string> words{"run", "s.toml", "--quiet"};
+        std::vector<std::string> words{"run", "s.toml", "--no-progress"};
         words.insert(words.end(), more.begin(), more.end());
         Outcome const outcome = run(words);
         ASSERT_EQ(outcome.code, 0) << outcome.err;

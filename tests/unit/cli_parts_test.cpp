@@ -10,11 +10,11 @@ class Parts : public Resumed {};
 class MergeOfShards : public Resumed {};
 
 TEST_F(Parts, TogetherGiveTheSameResult) {
-    ASSERT_EQ(run_scene({"--quiet", "-o", "whole.nc"}).code, 0);
+    ASSERT_EQ(run_scene({"--no-progress", "-o", "whole.nc"}).code, 0);
     for (char const* const part : {"2/3", "3/3", "1/3"}) {
         EXPECT_EQ(run({"merge", "s.nc.shards", "-o", "s.nc"}).code, std::string(part) == "2/3" ? 4 : 5);
         fs::remove(path("s.nc"));
-        Outcome const outcome = run_scene({"--quiet", "--shard", part});
+        Outcome const outcome = run_scene({"--no-progress", "--shard", part});
         EXPECT_EQ(outcome.code, 0) << outcome.err;
         EXPECT_NE(outcome.out.find(fmt::format("part {}-of-3 is done, in s.nc.shards; slideway merge", part[0])),
                   std::string::npos)
@@ -31,10 +31,10 @@ TEST_F(Parts, TogetherGiveTheSameResult) {
 }
 
 TEST_F(Parts, LeaveEachOtherAlone) {
-    EXPECT_EQ(run_scene({"--quiet", "--shard", "1/3"}).code, 0);
-    EXPECT_EQ(run_scene({"--quiet", "--shard", "2/3", "--max-hours", "0"}).code, 5);
+    EXPECT_EQ(run_scene({"--no-progress", "--shard", "1/3"}).code, 0);
+    EXPECT_EQ(run_scene({"--no-progress", "--shard", "2/3", "--max-hours", "0"}).code, 5);
     expect_refusal(2, "holds 22 finished members of this run; add --resume",
-                   {"run", "s.toml", "--quiet", "--shard", "1/3"});
+                   {"run", "s.toml", "--no-progress", "--shard", "1/3"});
     Outcome const again = run_scene({"--shard", "1/3", "--resume"});
     EXPECT_EQ(again.code, 0);
     EXPECT_NE(again.err.find("resuming: 22 of 22 members are done\n"), std::string::npos) << again.err;
@@ -46,19 +46,19 @@ TEST_F(Parts, LeaveEachOtherAlone) {
 }
 
 TEST_F(Parts, OfAnotherArithmeticAreRefused) {
-    EXPECT_EQ(run_scene({"--quiet", "--shard", "1/2"}).code, 0);
+    EXPECT_EQ(run_scene({"--no-progress", "--shard", "1/2"}).code, 0);
     let_shards_be_contracted();
     expect_refusal(2, "(the arithmetic was contracted (a build with SLIDEWAY_CUDA_FMAD), is fused)",
-                   {"run", "s.toml", "--quiet", "--shard", "2/2"});
+                   {"run", "s.toml", "--no-progress", "--shard", "2/2"});
 }
 
 TEST_F(Parts, MayHaveInstructionSetsOfTheirOwn) {
-    ASSERT_EQ(run_scene({"--quiet", "-o", "whole.nc"}).code, 0);
+    ASSERT_EQ(run_scene({"--no-progress", "-o", "whole.nc"}).code, 0);
     std::size_t part = 0;
     std::string const count = std::to_string(built_isas().size());
     for (Isa const isa : built_isas()) {
         std::string const name(name_of(is_supported(isa) ? isa : Isa::scalar));
-        EXPECT_EQ(run_scene({"--quiet", "--shard", std::to_string(++part) + "/" + count, "--isa", name}).code, 0);
+        EXPECT_EQ(run_scene({"--no-progress", "--shard", std::to_string(++part) + "/" + count, "--isa", name}).code, 0);
     }
     EXPECT_EQ(run({"merge", "s.nc.shards", "-o", "s.nc"}).code, 0);
     EXPECT_EQ(hash_of("s.nc"), hash_of("whole.nc"));
@@ -66,7 +66,7 @@ TEST_F(Parts, MayHaveInstructionSetsOfTheirOwn) {
 
 TEST_F(Parts, MayBeMoreThanTheMembers) {
     for (int part = 1; part <= 5; ++part) {
-        EXPECT_EQ(run_scene({"--quiet", "--members", "9..11", "--shard", fmt::format("{}/5", part), "-o", "s.nc"}).code,
+        EXPECT_EQ(run_scene({"--no-progress", "--members", "9..11", "--shard", fmt::format("{}/5", part), "-o", "s.nc"}).code,
                   0);
     }
     EXPECT_EQ(run({"merge", "s.nc.shards", "-o", "s.nc"}).code, 0);
@@ -92,9 +92,9 @@ TEST_F(MergeOfShards, TakesAnUnfinishedFolderAndSaysSo) {
     auto const status = file.values("status");
     for (std::size_t i = 0; i < 64; ++i) EXPECT_EQ(status[i], i / 8 == 2 || i / 8 == 5 ? -1 : 0) << i;
     EXPECT_EQ(run({"info", "m.nc"}).code, 0);
-    EXPECT_EQ(run_scene({"--quiet", "--resume"}).code, 0);  // the shards were still there
+    EXPECT_EQ(run_scene({"--no-progress", "--resume"}).code, 0);  // the shards were still there
     // An incomplete file is not what there is to resume: its run begins anew.
-    EXPECT_EQ(run_scene({"--quiet", "--resume", "-o", "m.nc"}).code, 0);
+    EXPECT_EQ(run_scene({"--no-progress", "--resume", "-o", "m.nc"}).code, 0);
     EXPECT_EQ(hash_of("m.nc"), hash_of("s.nc"));
 }
 
@@ -118,7 +118,7 @@ TEST_F(MergeOfShards, NeverWritesAmongThem) {
     for (std::string const name : {"s.nc.shards/table.csv", "s.nc.shards/out.nc"}) {
         expect_refusal(4, name + ": lies in the folder of the shards", {"merge", "s.nc.shards", "-o", name});
     }
-    EXPECT_EQ(run_scene({"--quiet", "--resume"}).code, 0);
+    EXPECT_EQ(run_scene({"--no-progress", "--resume"}).code, 0);
 }
 
 TEST_F(MergeOfShards, TakesOnlyFoldersOfShards) {

@@ -137,7 +137,7 @@ TEST_F(SharedRun, GoesOnAfterOneRankWasKilled) {
 
 TEST_F(SharedRun, HasTheArithmeticOfRankZeroAtEveryRank) {
     // Machines that are not alike, as one launcher starts them.
-    std::string const program = "'" SLIDEWAY_BINARY "' run s.toml --quiet --threads 1 --block-members 4 -o ";
+    std::string const program = "'" SLIDEWAY_BINARY "' run s.toml --no-progress --threads 1 --block-members 4 -o ";
     std::string const widest(name_of(best_isa()));
     for (std::string const& leader : {widest, std::string("scalar")}) {
         std::string const other = leader == widest ? "scalar" : widest;
@@ -150,7 +150,7 @@ TEST_F(SharedRun, HasTheArithmeticOfRankZeroAtEveryRank) {
 
 TEST_F(SharedRun, EndsWhereAnotherRankCannotBegin) {
     // Rank 1 does not see the scene, and rank 0 has begun with it.
-    std::string const other = "'" SLIDEWAY_BINARY "' run none.toml --quiet -o o.nc";
+    std::string const other = "'" SLIDEWAY_BINARY "' run none.toml --no-progress -o o.nc";
     ShellOutcome const outcome = shell(mpirun(1, 30) + run_text("--threads 1") + " : -n 1 " + other);
     EXPECT_EQ(outcome.code, 2) << outcome.err;  // not 124, that of what hangs
     EXPECT_NE(outcome.err.find("none.toml: the scene cannot be read"), std::string::npos) << outcome.err;

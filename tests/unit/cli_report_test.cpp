@@ -13,7 +13,7 @@ class Report : public Program {
 protected:
     Report() {
         write("s.toml", "schema = 1\n[study]\nduration = \"1 ms\"\n");
-        EXPECT_EQ(run({"run", "s.toml", "--quiet"}).code, 0);
+        EXPECT_EQ(run({"run", "s.toml", "--no-progress"}).code, 0);
     }
     ~Report() override { unsetenv("SLIDEWAY_PYTHON"); }
 

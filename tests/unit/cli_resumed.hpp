@@ -41,7 +41,7 @@ protected:
 
     /// All members in shards of eight, not merged.
     void make_shards() const {
-        EXPECT_EQ(run_scene({"--quiet", "--block-members", "8", "--shard", "1/1"}).code, 0);
+        EXPECT_EQ(run_scene({"--no-progress", "--block-members", "8", "--shard", "1/1"}).code, 0);
         EXPECT_EQ(shards_in("s.nc.shards"), 8u);
         EXPECT_FALSE(exists("s.nc"));
     }

@@ -202,6 +202,8 @@ TEST_F(Run, OfOneMemberHasNoStandardDeviation) {
     Outcome const outcome = run_scene({"--member", "3"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(outcome.out.find("nan"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("value\n"), std::string::npos) << outcome.out;
+    EXPECT_EQ(outcome.out.find("median"), std::string::npos) << outcome.out;
 }
 
 TEST_F(Run, ToAClosedOutputIsNoSuccess) {
@@ -225,7 +227,7 @@ TEST_F(Run, GoesOnWhereNobodyCanReadWhatItSays) {
 
 TEST_F(Run, InfoTellsOfItsResults) {
     ASSERT_EQ(run_scene({}).code, 0);
-    Outcome const outcome = run({"info", "s.nc"});
+    Outcome const outcome = run({"info", "s.nc", "--scene"});
     EXPECT_EQ(outcome.code, 0);
     EXPECT_EQ(outcome.err, "");
     for (char const* const word : {"A small ensemble", "matches the data", "member           37", "sample           6",

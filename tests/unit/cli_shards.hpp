@@ -42,14 +42,14 @@ protected:
     /// `run s.toml -o o.nc` with these options, as words.
     static std::vector<std::string> run_words(std::vector<std::string> const& options,
                                               std::string const& output = "o.nc") {
-        std::vector<std::string> words{"run", "s.toml", "-o", output, "--quiet", "--isa", "scalar"};
+        std::vector<std::string> words{"run", "s.toml", "-o", output, "--no-progress", "--isa", "scalar"};
         words.insert(words.end(), options.begin(), options.end());
         return words;
     }
     Outcome run_scene(std::vector<std::string> const& options) const { return run(run_words(options)); }
     /// The same as a command of a shell.
     static std::string run_text(std::string const& options, std::string const& output = "o.nc") {
-        return "'" SLIDEWAY_BINARY "' run s.toml --quiet --isa scalar -o " + output + " " + options;
+        return "'" SLIDEWAY_BINARY "' run s.toml --no-progress --isa scalar -o " + output + " " + options;
     }
     ShellOutcome shell(std::string const& command) const { return run_shell(path(""), command); }
 

@@ -26,7 +26,7 @@ protected:
     SmallRun() { write("s.toml", small_scene); }
     Outcome run_scene(std::vector<std::string> options) const {
         options = to_result(std::move(options));
-        options.insert(options.begin(), {"run", "s.toml", "--quiet"});
+        options.insert(options.begin(), {"run", "s.toml", "--no-progress"});
         return run(std::move(options));
     }
 };

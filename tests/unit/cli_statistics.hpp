@@ -39,7 +39,7 @@ protected:
     StatisticsRun() { write("s.toml", cheap_scene); }
     Outcome run_scene(std::string const& output, std::vector<std::string> const& more = {},
                       std::vector<std::string> const& and_more = {}) const {
-        std::vector<std::string> arguments{"run", "s.toml", "--quiet", "-o", output};
+        std::vector<std::string> arguments{"run", "s.toml", "--no-progress", "-o", output};
         arguments.insert(arguments.end(), more.begin(), more.end());
         arguments.insert(arguments.end(), and_more.begin(), and_more.end());
         return run(std::move(arguments));

@@ -35,7 +35,7 @@ TEST_F(StatisticsRun, GoesOnAfterItsEndWithTheSameBits) {
     std::vector<std::string> const longer{"--set", "study.members=20000", "--set", "study.duration=0.3 ms"};
     ASSERT_EQ(run_scene("a.nc", longer).code, 0);
     for (int const signal : {SIGTERM, SIGKILL}) {
-        std::vector<std::string> arguments{"run",       "s.toml", "--quiet",         "-o", "b.nc",
+        std::vector<std::string> arguments{"run",       "s.toml", "--no-progress",         "-o", "b.nc",
                                            "--threads", "2",      "--block-members", "8"};
         arguments.insert(arguments.end(), longer.begin(), longer.end());
         pid_t const child = start(arguments);
@@ -86,7 +86,7 @@ TEST_F(StatisticsRun, HasTheSameBitsOverRanks) {
     ASSERT_EQ(run_scene("a.nc", failing).code, 0);
     ShellOutcome const outcome =
         run_shell(path(""), mpirun(3) + "'" SLIDEWAY_BINARY
-                                        "' run s.toml --quiet -o b.nc --threads 1 --block-members 8 --set "
+                                        "' run s.toml --no-progress -o b.nc --threads 1 --block-members 8 --set "
                                         "integrator.max_steps=60 --max-failures 100%");
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(hash_of("b.nc"), hash_of("a.nc"));
@@ -94,7 +94,7 @@ TEST_F(StatisticsRun, HasTheSameBitsOverRanks) {
 
 TEST_F(StatisticsRun, ADiskThatFailsInAJoinLosesNothing) {
     // 75 blocks: the 64th brings a join, which puts one shard and then removes 64.
-    std::string const options = " --set study.members=600 --threads 1 --block-members 8 --quiet -o b.nc";
+    std::string const options = " --set study.members=600 --threads 1 --block-members 8 --no-progress -o b.nc";
     ASSERT_EQ(run_scene("a.nc", {"--set", "study.members=600"}).code, 0);
     std::string const command = "'" SLIDEWAY_BINARY "' run s.toml" + options;
     std::filesystem::path const calls = path("").parent_path().string() + "_calls";

@@ -145,7 +145,7 @@ TEST_F(StatisticsRun, AnEnsembleWithoutLimitsHasItsReport) {
           "schema = 1\n[friction]\n[study]\nmembers = 20\nduration = \"0.1 ms\"\nquantities = [\"crank_work\", "
           "\"energy_residual\"]\nstore = \"statistics\"\n[study.vary]\n\"initial.y\" = { dist = \"unif\", low = "
           "\"-0.09 mm\", high = \"0.09 mm\" }\n");
-    Outcome const outcome = run({"run", "e.toml", "--quiet"});
+    Outcome const outcome = run({"run", "e.toml", "--no-progress"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("Quantiles are sketched"), std::string::npos);
     EXPECT_NE(outcome.out.find("Mode switching of the paper law made"), std::string::npos);

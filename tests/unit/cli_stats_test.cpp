@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "chaos_series.hpp"
+#include <netcdf.h>
+
 #include "cli_process.hpp"
 
 namespace slideway::testing {
@@ -31,7 +33,7 @@ samples = 201
 [study.vary]
 "initial.y" = { dist = "unif", low = "-0.09 mm", high = "0.09 mm" }
 )");
-        Outcome const outcome = run({"run", "s.toml", "--quiet", "-o", "s.nc"});
+        Outcome const outcome = run({"run", "s.toml", "--no-progress", "-o", "s.nc"});
         ASSERT_EQ(outcome.code, 0) << outcome.err;
     }
 };
@@ -124,9 +126,23 @@ TEST_F(Stats, OfAFailedMemberAreRefused) {
     write("s.toml",
           "schema = 1\n[initial]\ny = \"0.02 mm\"\n[integrator]\nmax_steps = 3\n[study]\nduration = \"20 ms\"\nsamples "
           "= 201\n");
-    run({"run", "s.toml", "--quiet", "-o", "s.nc"});
+    run({"run", "s.toml", "--no-progress", "-o", "s.nc"});
     expect_refusal(2, "samples are no finite numbers", {"stats", "s.nc"});
 }
+
+TEST_F(Stats, OfADamagedResultAreRefused) {
+    write_result();
+    int file = 0, variable = 0;
+    ASSERT_EQ(nc_open(path("s.nc").c_str(), NC_WRITE, &file), NC_NOERR);
+    ASSERT_EQ(nc_inq_varid(file, "y", &variable), NC_NOERR);
+    double const other = 1;
+    std::size_t const place[] = {2, 100};
+    ASSERT_EQ(nc_put_var1_double(file, variable, place, &other), NC_NOERR);
+    ASSERT_EQ(nc_close(file), NC_NOERR);
+    expect_refusal(4, "do not match their hash", {"stats", "s.nc", "--member", "0"});
+}
+
+TEST_F(Stats, OfWhatHasNoLinesEnd) { expect_refusal(2, "/dev/zero:1: the line is longer", {"stats", "/dev/zero"}); }
 
 TEST_F(Stats, RefusesWithOneLine) {
     write("short.csv", "1\n2\n3\n");

@@ -93,7 +93,7 @@ protected:
         write("wrapper.sh", "ulimit -f 128\nexec \"$@\"\n");
         std::string const shell = "cd '" + path("").string() +
                                   "' && bash wrapper.sh '" SLIDEWAY_BINARY "' run s.toml -o s.nc " +
-                                  "--quiet --set study.samples=0 --set study.duration=1e-4 " + options + " >out 2>err";
+                                  "--no-progress --set study.samples=0 --set study.duration=1e-4 " + options + " >out 2>err";
         int const code = WEXITSTATUS(std::system(shell.c_str()));
         return {code, file_text(path("out")), file_text(path("err"))};
     }

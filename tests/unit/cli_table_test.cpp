@@ -34,7 +34,7 @@ protected:
         write(name, text + fmt::format("{}\n", last));
     }
     Outcome run_in(std::string const& folder, std::vector<std::string> options = {}) const {
-        options.insert(options.begin(), {"run", folder + "/s.toml", "--quiet", "--threads", "2", "--block-members", "4",
+        options.insert(options.begin(), {"run", folder + "/s.toml", "--no-progress", "--threads", "2", "--block-members", "4",
                                          "-o", folder + "/s.nc"});
         return run(std::move(options));
     }

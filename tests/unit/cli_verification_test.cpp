@@ -7,7 +7,7 @@ namespace {
 class VerifiedRun : public SmallRun {
 protected:
     Outcome verified(std::vector<std::string> options) const {
-        options.insert(options.begin(), {"run", "s.toml", "--quiet", "--verify", "-o", "o.nc"});
+        options.insert(options.begin(), {"run", "s.toml", "--no-progress", "--verify", "-o", "o.nc"});
         return run(std::move(options));
     }
     std::string of_group(char const* attribute) const { return results("o.nc").group_attribute("verification", attribute); }
@@ -71,7 +71,7 @@ TEST_F(VerifiedRun, GoesOnAfterItsEnd) {
 TEST_F(VerifiedRun, IsAskedForByTheScene) {
     ASSERT_EQ(run_scene({"-o", "o.nc", "--set", "study.verify=6", "--set", "study.duration=1 ms"}).code, 0);
     EXPECT_NE(of_group("summary").find("resolved: 6 members again"), std::string::npos) << of_group("summary");
-    expect_refusal(2, "study.verify", {"run", "s.toml", "--quiet", "--set", "study.verify=-1"});
+    expect_refusal(2, "study.verify", {"run", "s.toml", "--no-progress", "--set", "study.verify=-1"});
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ TEST_F(RunWithoutCard, ForTheModuleIsOfAnotherVersion) {
     Named const named(file);
     std::string const words =
         fmt::format("cuda: {} is of slideway 0.0.9, commit abc, GNU 1, this program of {}", file, SLIDEWAY_BUILD);
-    expect_refusal(4, words, {"run", "s.toml", "-o", "s.nc", "--quiet", "--backend", "cuda"});
+    expect_refusal(4, words, {"run", "s.toml", "-o", "s.nc", "--no-progress", "--backend", "cuda"});
     EXPECT_FALSE(std::filesystem::exists(path("s.nc")));
     EXPECT_EQ(said(), processor_ + ": " + words);
     EXPECT_NE(listed().find(words), std::string::npos) << listed();
@@ -120,7 +120,7 @@ TEST_F(RunWithoutCard, ForTheModuleIsOfAnotherVersion) {
 
 TEST_F(RunWithoutCard, ForTheModuleFindsNone) {
     Named const named(module_file("own"));
-    expect_refusal(4, "cuda: no card in this module; use --backend cpu", {"run", "s.toml", "-o", "s.nc", "--quiet", "--backend", "cuda"});
+    expect_refusal(4, "cuda: no card in this module; use --backend cpu", {"run", "s.toml", "-o", "s.nc", "--no-progress", "--backend", "cuda"});
     EXPECT_EQ(said(), processor_);
 }
 
@@ -130,7 +130,7 @@ TEST_F(RunWithoutCard, ForNoModuleLiesWhereItIsLookedFor) {
     for (char const* const folder : {"bin", "lib/slideway"}) fs::create_directories(path(folder));
     fs::copy_file(SLIDEWAY_BINARY, path("bin/slideway"));
     auto const refusal = [&] {
-        auto const outcome = run_shell(path(""), "unset SLIDEWAY_CUDA_MODULE; bin/slideway run s.toml -o s.nc --quiet --backend cuda");
+        auto const outcome = run_shell(path(""), "unset SLIDEWAY_CUDA_MODULE; bin/slideway run s.toml -o s.nc --no-progress --backend cuda");
         EXPECT_EQ(outcome.code, 4);
         return outcome.err;
     };
