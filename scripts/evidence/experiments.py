@@ -50,9 +50,14 @@ SIZES = {
 
 
 def resolution(path: Path) -> str:
-    """What the audit said of a result: resolved, not resolved or not checked."""
+    """What the audit said of a result: resolved, not checked, or not resolved and in which quantities."""
     with slideway.open(path, group="verification") as group:
-        return str(group.attrs["resolution"]).replace("_", " ")
+        words = str(group.attrs["resolution"]).replace("_", " ")
+        if words != "not resolved":
+            return words
+        differ = group["differs"].values.any(axis=1)
+        names = [str(name).split(" ")[0] for name in group["checked"].values[differ]]
+        return f"{words}: {', '.join(names)}"
 
 
 def mean(values: Any, scale: float = 1.0) -> str:
@@ -299,7 +304,7 @@ def audit(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
     rows = []
     for law in laws:
         said = [resolution(output / f"{run.name}.nc") for run in runs if f"_{law}_" in run.name]
-        alarms = np.array([words == "not resolved" for words in said])
+        alarms = np.array([words.startswith("not resolved") for words in said])
         of = share(alarms, np.ones(alarms.size, bool))
         interval = f"{100 * of.low:.1f} … {100 * of.high:.1f} %"
         rows.append([law, f"{alarms.size}", f"{np.sum(alarms)}", interval, f"{said.count('not checked')}"])
