@@ -44,7 +44,7 @@ class Column:
 
 def columns(result: xr.Dataset) -> list[Column]:
     """All quantities that the scene asked for, of the members that finished; from the group statistics where there is one."""
-    if "statistics" in slideway.groups(result):
+    if "statistics" in slideway.groups(result) and slideway.results.holds_all(result):
         with slideway.open(slideway.results.path_of(result), group="statistics") as statistics:
             return [column for name in _asked(result) for column in _from_statistics(result, statistics.load(), name)]
     if "status" not in result:

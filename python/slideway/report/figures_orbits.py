@@ -129,6 +129,8 @@ def poincare(result: xr.Dataset) -> Figure | None:
     if "section_member" not in result.coords or result.sizes["section"] == 0:
         return None
     sections = slideway.sections(result)
+    if sections.sizes["section"] == 0:
+        return None
     members = sections["member"].values
     shown = np.unique(members)
     study = slideway.scene(result)["study"]

@@ -81,7 +81,7 @@ def _label(x: float, name: str) -> dict[str, Any]:
 
 def yields(result: xr.Dataset) -> list[tuple[str, int, int, float, float, float]]:
     """Of each limit and of all: name, members that meet it, members that ran, share, ends of its interval (NaN for none)."""
-    if "yield" not in slideway.groups(result):
+    if "yield" not in slideway.groups(result) or not slideway.results.holds_all(result):
         return []
     with slideway.open(slideway.results.path_of(result), group="yield") as group:
         trials = int(group["trials"])
@@ -100,7 +100,7 @@ def yields(result: xr.Dataset) -> list[tuple[str, int, int, float, float, float]
 
 def sensitivity(result: xr.Dataset) -> Figure | None:
     """Which inputs drive each quantity: Sobol indices, or rank correlations where the design has none."""
-    if "sensitivity" not in slideway.groups(result):
+    if "sensitivity" not in slideway.groups(result) or not slideway.results.holds_all(result):
         return None
     with slideway.open(slideway.results.path_of(result), group="sensitivity") as opened:
         group = opened.load()

@@ -11,7 +11,10 @@ from typing import Any
 import xarray as xr
 
 import slideway
+from slideway.arguments import one_line
+from slideway.arguments import path as path_text
 from slideway.errors import SlidewayError
+from slideway.members import with_members
 from slideway.results import StrPath
 
 from . import (
@@ -41,6 +44,7 @@ POLICY = (
 )
 
 
+@one_line
 def write(result: StrPath | xr.Dataset, out: StrPath) -> Path:
     """Write a page about a result: one HTML file that needs no network and no other file.
 
@@ -53,13 +57,17 @@ def write(result: StrPath | xr.Dataset, out: StrPath) -> Path:
 
     Raises:
         SlidewayError: the result cannot be read, or the page cannot be written.
+
+    >>> page = slideway.report.write(example_file, os.path.join(os.path.dirname(example_file), "page.html"))
+    >>> page.read_text(encoding="utf-8")[:15]
+    '<!doctype html>'
     """
+    path = Path(path_text(out, "out"))
     if isinstance(result, xr.Dataset):
         text = html_of(result)
     else:
         with slideway.open(result) as opened:
             text = html_of(opened)
-    path = Path(os.fspath(out))
     try:
         _replace(path, text)
     except OSError as error:
@@ -91,6 +99,7 @@ def _usual_mode(path: Path) -> int:
 
 def html_of(result: xr.Dataset) -> str:
     """The page's text."""
+    result = with_members(result)
     every = columns(result)
     ended = statuses.endings(result)
     judged = energy.verdict(result, every)
