@@ -43,14 +43,18 @@ def unexplained(time: NDArray[np.float64], values: NDArray[np.float64], rates: N
 def too_coarse(result: xr.Dataset, members: Sequence[int], name: str = "y") -> bool:
     """Whether the samples of a series are far coarser than the contacts that shape it, for any of these members.
 
-    Decided by :func:`unexplained` of the series where its rate is stored, else of y. Of what it cannot be decided it is False.
+    Decided by :func:`unexplained` of y, which gravity keeps in contact, and of the series itself where its rate is stored. False where
+    neither is, and of series that contacts hardly change.
     """
-    state = name if name in _rates and name in result and _rates[name] in result else "y"
-    if name in _smooth or state not in result or _rates[state] not in result or "sample" not in result[state].dims:
+    if name in _smooth:
         return False
-    time = result["time"].values
-    rows = (result[which].sel(member=list(members)).values for which in (state, _rates[state]))
-    return any(unexplained(time, values, rates) > _most for values, rates in zip(*rows, strict=True))
+    time = result["time"].values if "time" in result else np.array([])
+    for state in {"y", name} & _rates.keys():
+        if {state, _rates[state]} <= set(result.data_vars) and "sample" in result[state].dims:
+            rows = (result[which].sel(member=list(members)).values for which in (state, _rates[state]))
+            if any(unexplained(time, values, rates) > _most for values, rates in zip(*rows, strict=True)):
+                return True
+    return False
 
 
 def coarse_words(time: NDArray[np.float64]) -> str:

@@ -36,7 +36,7 @@ def beside(ax: Axes, again: bool = False) -> None:
         figure.draw_without_rendering()
         wide = legend.get_window_extent().width / ax.get_window_extent().width
         place = ax.get_position()
-        ax.set_position((place.x0, place.y0, place.width / (1 + 1.05 * wide), place.height))
+        ax.set_position((place.x0, place.y0, place.width * max(0.97 - wide, 0.3), place.height))
 
 
 def covered(ax: Axes, box: Bbox) -> bool:

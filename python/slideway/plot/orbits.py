@@ -42,11 +42,11 @@ def orbit_yz(result: xr.Dataset, member: Members = None, ax: Axes | None = None)
     if not np.isfinite(ys).any():
         raise SlidewayError("these members have no samples, for they failed before the first; see slideway.statuses(result)")
     factor, unit = scaled("m", np.concatenate([ys.ravel(), zs.ravel()]))
-    ax = axis(ax)
+    ax, many = axis(ax), len(members) > most_lines
     for width, height in _gaps(result, members) if turned is not None else ():
         ax.add_patch(Rectangle((-factor * width, -factor * height), 2 * factor * width, 2 * factor * height, fill=False,
-                               ec=grey, ls="--", label=None if ax.patches else "clearance"))
-    if len(members) <= most_lines:
+                               ec=grey, ls="--", label=None if ax.patches or many else "clearance"))
+    if not many:
         coarse = too_coarse(result, members)
         style = {"ls": "none", "marker": ".", "ms": 2.5, "mew": 0} if coarse else {"lw": 0.6}
         for number, row_y, row_z, colour in zip(members, ys, zs, colours, strict=False):
@@ -57,7 +57,7 @@ def orbit_yz(result: xr.Dataset, member: Members = None, ax: Axes | None = None)
     else:
         there = np.isfinite(ys) & np.isfinite(zs)
         image = ax.hist2d(factor * zs[there], factor * ys[there], bins=120, cmap="viridis_r", norm=LogNorm())[3]
-        ax.figure.colorbar(image, ax=ax, label=f"samples of {len(members)} members")
+        ax.figure.colorbar(image, ax=ax, label=f"samples of {len(members)} members" + "; dashed: clearance" * bool(ax.patches))
     ax.set_aspect("equal", adjustable="box")
     ax.autoscale_view()
     origin = " from the way's axis" if turned is not None and may_be_misaligned(result) else ""
