@@ -192,6 +192,15 @@ def test_legends_hide_nothing(name: str, place: str, result_of: Result) -> None:
     assert hidden(ax) == 0
 
 
+def test_axes_that_are_drawn_on_twice_stay_in_their_place(result_of: Result) -> None:
+    first, second = plt.subplots(1, 2, figsize=(12, 4))[1]
+    with result_of("ensemble") as result:
+        for _ in range(3):
+            plot.time_series(result, "y", ax=first)
+    assert first.get_position().width > 0.5 * second.get_position().width
+    assert first.get_legend().get_window_extent().x1 < second.get_window_extent().x0
+
+
 def test_map_of_orbits_names_the_clearance_beside_its_colours(result_of: Result) -> None:
     with result_of("ensemble") as result:
         ax = plot.orbit_yz(result)

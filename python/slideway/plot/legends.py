@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from matplotlib.axes import Axes
 from matplotlib.collections import Collection, PathCollection, QuadMesh
-from matplotlib.legend import Legend
 from matplotlib.patches import StepPatch
 from matplotlib.transforms import Bbox
 
@@ -14,28 +13,20 @@ _room = 8  # pixels that a corner has to have beyond the legend, for layouts cha
 
 def place_legend(ax: Axes) -> None:
     """Draws the legend where nothing else is; where no corner is empty, to the right of the axes."""
-    before = ax.get_legend()
     style = {"frameon": False, "fontsize": "small"}
-    ax.figure.canvas.figure.draw_without_rendering()  # type: ignore[attr-defined] # sizes are known once it is laid out
+    figure = ax.figure.canvas.figure  # type: ignore[attr-defined]
+    figure.draw_without_rendering()  # sizes are known once it is laid out
     for corner in _corners:
         legend = ax.legend(loc=corner, **style)  # type: ignore[arg-type]
         if not covered(ax, legend.get_window_extent().padded(_room)):
             return
-    beside(ax, Legend is type(before))
-
-
-def beside(ax: Axes, again: bool = False) -> None:
-    """Puts the legend to the right of the axes, and leaves room for it where no layout engine does.
-
-    Args:
-        again: the axes have been made smaller before.
-    """
-    legend = ax.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0, frameon=False, fontsize="small")
-    figure = ax.figure.canvas.figure  # type: ignore[attr-defined]
-    if figure.get_layout_engine() is None and not again:
+    legend = ax.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0, **style)  # type: ignore[arg-type]
+    if figure.get_layout_engine() is None:
+        # Nobody else leaves room for it. A second plot on the same axes starts again from their whole place.
         figure.draw_without_rendering()
-        wide = legend.get_window_extent().width / ax.get_window_extent().width
-        place = ax.get_position()
+        cell = ax.get_subplotspec()
+        place = ax.get_position() if cell is None else cell.get_position(figure)
+        wide = legend.get_window_extent().width / (place.width * figure.bbox.width)
         ax.set_position((place.x0, place.y0, place.width * max(0.97 - wide, 0.3), place.height))
 
 
