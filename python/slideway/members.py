@@ -81,6 +81,7 @@ def with_members(result: xr.Dataset) -> xr.Dataset:
         raise SlidewayError("this Dataset does not say which member it is; select with result.sel(member=...), without drop=True")
     # In a file that holds members, only their sections lie along no dimension member.
     own = {name: data.variable for name, data in result.data_vars.items() if "section" not in data.dims}
-    made = result.drop_vars("member").assign({name: data.set_dims(("member", *data.dims)) for name, data in own.items()})
+    wider = {name: (("member", *data.dims), data.values[np.newaxis], data.attrs, data.encoding) for name, data in own.items()}
+    made = result.drop_vars("member").assign(wider)
     made.encoding = dict(result.encoding)
     return made.assign_coords(member=("member", numbers(result), result["member"].attrs))

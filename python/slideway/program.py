@@ -64,7 +64,7 @@ def call(program: StrPath | None, arguments: Sequence[str], good: Sequence[int] 
     done = _started(subprocess.run, [found, *arguments], capture_output=True, text=True, encoding="utf-8", check=False)
     if done.returncode not in good:
         raise error_of(done.returncode, _last_line(done.stderr.splitlines()), "", found)
-    return done.stdout
+    return str(done.stdout)
 
 
 def follow(command: Sequence[str], show: bool, written: Callable[[str], str] = str) -> tuple[int, str]:

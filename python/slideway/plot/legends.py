@@ -2,25 +2,29 @@
 
 from __future__ import annotations
 
+from typing import Any, Literal
+
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import Collection, PathCollection, QuadMesh
 from matplotlib.patches import StepPatch
 from matplotlib.transforms import Bbox
+from numpy.typing import ArrayLike
 
-_corners = ("upper right", "upper left", "lower right", "lower left")
+_corners: tuple[Literal["upper right", "upper left", "lower right", "lower left"], ...] = ("upper right", "upper left", "lower right", "lower left")
 _room = 8  # pixels that a corner has to have beyond the legend, for layouts change when the next axes are filled
 
 
 def place_legend(ax: Axes) -> None:
     """Draws the legend where nothing else is; where no corner is empty, to the right of the axes."""
-    style = {"frameon": False, "fontsize": "small"}
-    figure = ax.figure.canvas.figure  # type: ignore[attr-defined]
+    style: dict[str, Any] = {"frameon": False, "fontsize": "small"}
+    figure = ax.figure.canvas.figure
     figure.draw_without_rendering()  # sizes are known once it is laid out
     for corner in _corners:
-        legend = ax.legend(loc=corner, **style)  # type: ignore[arg-type]
+        legend = ax.legend(loc=corner, **style)
         if not covered(ax, legend.get_window_extent().padded(_room)):
             return
-    legend = ax.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0, **style)  # type: ignore[arg-type]
+    legend = ax.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0, **style)
     if figure.get_layout_engine() is None:
         # Nobody else leaves room for it. A second plot on the same axes starts again from their whole place.
         figure.draw_without_rendering()
@@ -42,7 +46,7 @@ def covered(ax: Axes, box: Bbox) -> bool:
     """
     for line in ax.lines:
         path = line.get_path()
-        if len(path.vertices) and line.get_transform().transform_path(path).intersects_bbox(box, filled=False):
+        if np.size(path.vertices) and line.get_transform().transform_path(path).intersects_bbox(box, filled=False):
             return True
         if line.get_marker() not in (None, "None", "", " ") and _any_in(line.get_transform().transform(path.vertices), box):
             return True
@@ -62,5 +66,5 @@ def _meets(collection: Collection, box: Bbox) -> bool:
     return any(transform.transform_path(path).intersects_bbox(box, filled=True) for path in collection.get_paths())
 
 
-def _any_in(points: object, box: Bbox) -> bool:
-    return bool(box.count_contains(points))
+def _any_in(points: ArrayLike, box: Bbox) -> bool:
+    return bool(box.count_contains(np.asarray(points, dtype=float)))

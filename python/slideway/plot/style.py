@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Sequence
-from typing import Any, Concatenate, ParamSpec, Union
+from typing import Any, Concatenate, ParamSpec, Union, cast
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -36,7 +36,7 @@ def of_result(function: Callable[Concatenate[xr.Dataset, P], Axes]) -> Callable[
     def drawn(result: xr.Dataset, *given: P.args, **named: P.kwargs) -> Axes:
         return function(with_members(result), *given, **named)
 
-    return arguments.one_line(drawn)
+    return cast(Callable[Concatenate[xr.Dataset, P], Axes], arguments.one_line(drawn))
 
 
 def axis(ax: Axes | None) -> Axes:

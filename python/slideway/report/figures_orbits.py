@@ -9,7 +9,7 @@ import slideway
 
 from .numbers import amount, counted, number
 from .sweep import FACTORS, Sweep, sweep_of
-from .traces import Figure, Variant, band, bars_of, bins, line, packed, points, rows, text
+from .traces import Figure, Variant, band, bars_of, bins, line, points, rows, text
 
 LINES = 20  # single members behind a band
 

@@ -73,8 +73,8 @@ def summary_section(result: xr.Dataset, every: list[Column]) -> Section | None:
     sweep = sweep_of(result)
     if sweep and shown:
         caption = f"Quantities of the members that finished: medians of the columns of {sweep.key}"
-        head = ("quantity", "unit", "least", "largest")
-        body += table(head, figures_sweep.column_table(result, sweep), caption, numeric=2)
+        named = ("quantity", "unit", "least", "largest")
+        body += table(named, figures_sweep.column_table(result, sweep), caption, numeric=2)
     elif shown:
         body += _quantities(shown)
     return Section("summary", "Summary", body) if body else None
