@@ -58,10 +58,10 @@ def too_coarse(result: xr.Dataset, members: Sequence[int], name: str = "y") -> b
 
 
 def coarse_words(time: NDArray[np.float64]) -> str:
-    """What a reader has to know of samples that are too coarse.
+    """What a reader has to know of samples that are too coarse, in two short lines of a legend.
 
     >>> import numpy as np
     >>> coarse_words(np.array([0.0, 0.01, 0.02]))
-    'samples every 10 ms, far coarser than contacts: not joined'
+    'samples every 10 ms,\\nfar coarser than contacts'
     """
-    return f"samples every {1e3 * float(np.median(np.diff(time))):.3g} ms, far coarser than contacts: not joined"
+    return f"samples every {1e3 * float(np.median(np.diff(time))):.3g} ms,\nfar coarser than contacts"
