@@ -22,7 +22,7 @@ from .sections import sections
 from .series_statistics import SeriesStatistics, stats
 
 if TYPE_CHECKING:
-    from . import plot
+    from . import plot, report
 
 __all__ = [
     "FileError",
@@ -40,6 +40,7 @@ __all__ = [
     "info",
     "open",
     "plot",
+    "report",
     "run",
     "scene",
     "sections",
@@ -48,8 +49,15 @@ __all__ = [
 ]
 
 
+_at_first_use = ("plot", "report")  # matplotlib takes its time
+
+
 def __getattr__(name: str) -> Any:
-    """slideway.plot is imported when it is first used: matplotlib takes its time."""
-    if name == "plot":
-        return importlib.import_module(".plot", __name__)
+    """slideway.plot and slideway.report are imported when they are first used."""
+    if name in _at_first_use:
+        return importlib.import_module(f".{name}", __name__)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import weakref
 from typing import Any
 
 import xarray as xr
@@ -23,7 +24,14 @@ class ResultAccessor:
     """
 
     def __init__(self, result: xr.Dataset) -> None:
-        self._result = result
+        # xarray keeps the accessor in its Dataset: a reference back would keep both, and a temporary file, until the next collection.
+        self._living = weakref.ref(result)
+        self._otherwise = result.copy()
+
+    @property
+    def _result(self) -> xr.Dataset:
+        living = self._living()
+        return self._otherwise if living is None else living
 
     @property
     def path(self) -> str:

@@ -18,6 +18,9 @@ class SlidewayError(Exception):
     nowhere.nc: there is no such file; check the path
     """
 
+    def __init__(self, line: str = "") -> None:
+        super().__init__(" ".join(line.splitlines()))  # names of files and keys may hold line breaks
+
 
 class RunError(SlidewayError):
     """The program ended with an error.
@@ -76,11 +79,12 @@ class StoppedEarly(KeptResults):
     @property
     def dataset(self) -> xr.Dataset:
         """One file of the members that ended before the stop; the others have the status not_run. The shards stay as they are."""
-        from .program import call, temporary_file
+        from .program import call
         from .results import open as open_result
+        from .temporary import temporary_path
 
         if self._merged is None:
-            merged = temporary_file("merged.nc")
+            merged = temporary_path("merged.nc")
             # Code 5 says that members are missing, which is known.
             call(self.program, ["merge", self.output + ".shards", "-o", merged], good=(0, 5))
             self._merged = merged

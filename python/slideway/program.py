@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import atexit
 import contextlib
 import ctypes
-import itertools
 import os
 import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from .arguments import path
 from .errors import FileError, RunError, SceneError, SlidewayError, StoppedEarly, TooManyFailures
 
 if TYPE_CHECKING:
@@ -22,9 +20,6 @@ if TYPE_CHECKING:
 
 _set_parent_death_signal = 1  # PR_SET_PDEATHSIG of prctl(2)
 _patience = 30.0  # until a program that was asked to end is made to [s]
-
-_files = itertools.count()
-_folder: str | None = None
 
 
 def find_program(program: StrPath | None = None) -> str:
@@ -39,9 +34,10 @@ def find_program(program: StrPath | None = None) -> str:
     """
     for given in (program, os.environ.get("SLIDEWAY_PROGRAM")):
         if given:
-            found = shutil.which(os.fspath(given))
+            name = path(given, "program")
+            found = shutil.which(name)
             if not found:
-                raise SlidewayError(f"{os.fspath(given)}: is no program that can be run; give the path of the program slideway")
+                raise SlidewayError(f"{name}: is no program that can be run; give the path of the program slideway")
             return found
     found = shutil.which("slideway")
     if not found:
@@ -50,17 +46,6 @@ def find_program(program: StrPath | None = None) -> str:
             "program=..., or put its folder on the PATH"
         )
     return found
-
-
-def temporary_file(name: str) -> str:
-    """A new path for a file that lives as long as this Python does."""
-    global _folder
-    if _folder is None:
-        _folder = tempfile.mkdtemp(prefix="slideway_")
-        atexit.register(shutil.rmtree, _folder, ignore_errors=True)
-    folder = os.path.join(_folder, str(next(_files)))
-    os.mkdir(folder)
-    return os.path.join(folder, name)
 
 
 def call(program: StrPath | None, arguments: Sequence[str], good: Sequence[int] = (0,)) -> str:
@@ -75,14 +60,17 @@ def call(program: StrPath | None, arguments: Sequence[str], good: Sequence[int] 
     Raises:
         RunError: it failed; the text is its own last line.
     """
-    done = subprocess.run([find_program(program), *arguments], capture_output=True, text=True, encoding="utf-8", check=False)
+    found = find_program(program)
+    done = _started(subprocess.run, [found, *arguments], capture_output=True, text=True, encoding="utf-8", check=False)
     if done.returncode not in good:
-        raise error_of(done.returncode, _last_line(done.stderr.splitlines()), "", find_program(program))
-    return done.stdout
+        raise error_of(done.returncode, _last_line(done.stderr.splitlines()), "", found)
+    return str(done.stdout)
 
 
-def follow(command: Sequence[str], show: bool) -> tuple[int, str]:
+def follow(command: Sequence[str], show: bool, written: Callable[[str], str] = str) -> tuple[int, str]:
     """Runs a command to its end and shows what it says on stderr, line by line; without `show` its warnings alone.
+
+    Each line is put as `written` has it.
 
     Ctrl-C asks the command to stop, waits until it has written what it has, and is then raised again; a second Ctrl-C does
     not wait. Any other exception, such as one that a handler of SIGTERM raises, ends it in the same way, and so does the end of
@@ -93,8 +81,8 @@ def follow(command: Sequence[str], show: bool) -> tuple[int, str]:
     """
     # In a process group of its own: a terminal's Ctrl-C reaches Python alone, which passes it on once.
     # SIGPIPE stays ignored: once Python is gone nobody reads stderr, and what is finished has to be written all the same.
-    process = subprocess.Popen(
-        command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, encoding="utf-8",
+    process = _started(
+        subprocess.Popen, command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, encoding="utf-8",
         errors="replace", start_new_session=True, restore_signals=False, preexec_fn=_end_with_python(),
     )
     lines: list[str] = []
@@ -102,7 +90,7 @@ def follow(command: Sequence[str], show: bool) -> tuple[int, str]:
     try:
         while True:
             try:
-                _pass_on(process, lines, show)
+                _pass_on(process, lines, show, written)
                 code = process.wait()
                 break
             except KeyboardInterrupt as error:
@@ -113,9 +101,20 @@ def follow(command: Sequence[str], show: bool) -> tuple[int, str]:
                 process.send_signal(signal.SIGINT)
     finally:
         _end(process)
+        if process.stderr is not None:
+            process.stderr.close()
     if interrupt is not None:
         raise Interrupted(code, _last_line(lines)) from interrupt
     return code, _last_line(lines)
+
+
+def _started(start: Callable[..., Any], command: Sequence[str], **options: Any) -> Any:
+    """Starts a process, or says why its program does not run."""
+    try:
+        return start(command, **options)
+    except OSError as error:
+        why = error.strerror or error
+        raise SlidewayError(f"{command[0]}: cannot be run ({why}); give the path of the program slideway") from error
 
 
 class Interrupted(Exception):
@@ -175,10 +174,10 @@ def _end(process: subprocess.Popen[str]) -> None:
             process.wait()
 
 
-def _pass_on(process: subprocess.Popen[str], lines: list[str], show: bool) -> None:
+def _pass_on(process: subprocess.Popen[str], lines: list[str], show: bool, written: Callable[[str], str]) -> None:
     assert process.stderr is not None
     for line in process.stderr:
-        lines.append(line.rstrip("\n"))
+        lines.append(written(line.rstrip("\n")))
         del lines[:-20]
         if show or lines[-1].startswith("warning: "):
             print(lines[-1], file=sys.stderr, flush=True)

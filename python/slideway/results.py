@@ -8,11 +8,15 @@ from typing import Union
 import numpy as np
 import xarray as xr
 
+from .arguments import dataset, one_line, text
+from .arguments import path as path_text
 from .errors import SlidewayError
+from .temporary import TemporaryPath
 
 StrPath = Union[str, "os.PathLike[str]"]
 
 
+@one_line
 def open(path: StrPath, group: str | None = None) -> xr.Dataset:  # noqa: A001
     """Open a result file of slideway, or one of its groups.
 
@@ -26,7 +30,7 @@ def open(path: StrPath, group: str | None = None) -> xr.Dataset:  # noqa: A001
         group: a group of the file, as :func:`slideway.groups` lists them: "statistics", "yield", "sensitivity", "verification".
 
     Raises:
-        SlidewayError: the file is missing, is no result of slideway, or has no such group.
+        SlidewayError: the file is missing, damaged or no result of slideway, or has no such group.
 
     >>> result = slideway.open(example_file)
     >>> result.peak_normal_force.units
@@ -34,21 +38,25 @@ def open(path: StrPath, group: str | None = None) -> xr.Dataset:  # noqa: A001
     >>> float(result.y.sel(member=3, time=0.01, method="nearest").time)
     0.01
     """
-    name = os.fspath(path)
+    name = path_text(path, "path")
     _check(name)
-    if group is not None and group not in groups(name):
+    if group is not None and text(group, "group") not in groups(name):
         there = ", ".join(groups(name)) or "no groups"
         raise SlidewayError(f'{name}: has no group "{group}", but {there}; see slideway.groups(path)')
-    dataset = _labelled(_opened(name, group))
-    if group is not None:
-        # A group shares the file's dimensions, whose labels lie outside it.
-        with _labelled(_opened(name, None)) as whole:
-            shared = {d: whole[d].load() for d in dataset.dims if d in whole.indexes and d not in dataset.coords}
-        dataset = dataset.assign_coords(shared)
-    dataset.encoding["source"] = os.path.abspath(name)
-    return dataset
+    try:
+        raw = _opened(name, group)
+        opened = _labelled(raw)
+        if group is not None:
+            # A group shares the file's dimensions, whose labels lie outside it.
+            with _labelled(_opened(name, None)) as whole:
+                shared = {d: whole[d].load() for d in opened.dims if d in whole.indexes and d not in opened.coords}
+            opened = opened.assign_coords(shared)
+    except (ArithmeticError, AttributeError, LookupError, OSError, RuntimeError, TypeError, ValueError) as error:
+        raise SlidewayError(f"{name}: is damaged ({' '.join(str(error).split())}); copy it again, or run its scene again") from error
+    return _from(name, raw, opened)
 
 
+@one_line
 def groups(result: StrPath | xr.Dataset) -> list[str]:
     """Names of the groups of a result file, given by its path or its Dataset.
 
@@ -57,7 +65,7 @@ def groups(result: StrPath | xr.Dataset) -> list[str]:
     """
     import netCDF4
 
-    name = path_of(result) if isinstance(result, xr.Dataset) else os.fspath(result)
+    name = file_of(result)
     _check(name)
     with netCDF4.Dataset(name) as file:
         return list(file.groups)
@@ -69,10 +77,55 @@ def path_of(result: xr.Dataset) -> str:
     Raises:
         SlidewayError: the Dataset does not come from a file.
     """
-    source = result.encoding.get("source")
-    if not source:
+    source = dataset(result).encoding.get("source")
+    if not isinstance(source, str) or not source:
         raise SlidewayError("this Dataset does not know its file; use the one that slideway.open or slideway.run returned")
-    return str(source)
+    return source  # as it is, for a temporary file lives as long as its path
+
+
+def file_of(result: StrPath | xr.Dataset) -> str:
+    """The file of a result that is given by its path or its Dataset."""
+    return path_of(result) if isinstance(result, xr.Dataset) else path_text(result, "the result")
+
+
+def holds_all(result: xr.Dataset) -> bool:
+    """Whether a result holds all members of its file, for which alone the groups of the file speak.
+
+    >>> result = slideway.open(example_file)
+    >>> holds_all(result), holds_all(result.sel(member=[0, 1]))
+    (True, False)
+    """
+    import netCDF4
+
+    with netCDF4.Dataset(path_of(result)) as file:
+        stored = len(file.dimensions["member"]) if "member" in file.dimensions else 0
+    return int(result["member"].size if "member" in result.coords else 0) == stored
+
+
+def _from(name: str, raw: xr.Dataset, labelled: xr.Dataset) -> xr.Dataset:
+    """Says of a Dataset and its variables which file they are from, and lets it close the file."""
+    opened = labelled.copy() if labelled is raw else labelled  # what closes the file must not hold the Dataset itself
+    source = name if isinstance(name, TemporaryPath) else os.path.abspath(name)
+    opened.encoding["source"] = source
+    for variable in opened.variables.values():
+        variable.encoding["source"] = source
+    opened.set_close(raw.close)
+    return opened
+
+
+def open_temporary(path: TemporaryPath) -> xr.Dataset:
+    """A temporary result, whose folder is removed when it is closed, or when nothing uses it any more."""
+    opened = open(path)
+    # What removes the folder must not hold the Dataset itself, which would then live until the next collection.
+    closing = opened.copy()
+    closing.encoding = dict(opened.encoding)
+
+    def end() -> None:
+        opened.close()
+        path.remove()
+
+    closing.set_close(end)
+    return closing
 
 
 def _opened(name: str, group: str | None) -> xr.Dataset:
@@ -89,11 +142,14 @@ def _check(name: str) -> None:
     if os.path.isdir(name):
         hint = "; slideway merge makes one file of its shards" if name.rstrip("/").endswith(".shards") else ""
         raise SlidewayError(f"{name}: is a folder, not a result file{hint}")
+    if not os.path.isfile(name) or os.path.getsize(name) == 0:
+        raise SlidewayError(f"{name}: is {'empty' if os.path.isfile(name) else 'no file'}, and so no result; check the path")
     try:
         with netCDF4.Dataset(name) as file:
             source = getattr(file, "source", "")
-    except OSError as error:
-        raise SlidewayError(f"{name}: is no NetCDF file that can be read ({error.strerror or error})") from error
+    except (OSError, RuntimeError, ValueError, AttributeError) as error:
+        why = getattr(error, "strerror", None) or error
+        raise SlidewayError(f"{name}: is no NetCDF file that can be read ({why}); check the path") from error
     if not str(source).startswith("slideway"):
         raise SlidewayError(f"{name}: is a NetCDF file, but not a result of slideway; open it with xarray.open_dataset")
 

@@ -8,11 +8,14 @@ from typing import Any
 
 import xarray as xr
 
+from . import arguments
 from .errors import SlidewayError
-from .program import Interrupted, call, error_of, find_program, follow, temporary_file
-from .results import StrPath, path_of
+from .program import Interrupted, call, error_of, find_program, follow
+from .results import StrPath, file_of, open_temporary
 from .results import open as open_result
-from .toml_writer import to_toml, to_value
+from .scene_files import scene_file
+from .temporary import TemporaryPath, temporary_path
+from .toml_writer import to_value
 
 
 def run(
@@ -35,7 +38,8 @@ def run(
 
     Args:
         scene: path of a TOML file, or the scene as nested dictionaries.
-        output: the result file; left out: a temporary one, which is gone when Python ends.
+        output: the result file; left out: a temporary one, which is gone once the Dataset is closed, or
+            neither it nor anything selected from it is used any more.
         program: path of the program; left out: SLIDEWAY_PROGRAM, else the PATH.
         threads: left out: all that this process may use.
         backend: "auto", "cpu" or "cuda".
@@ -66,48 +70,67 @@ def run(
     ('member', 'axis')
     """
     found = find_program(program)
-    path = _scene_file(scene)
-    result = temporary_file(_stem(path) + ".nc") if output is None else os.fspath(output)
-    command = [found, "run", path, "-o", result]
+    options = _options(threads, backend, isa, max_hours, max_failures, members)
     for key, value in _all_overrides(set, overrides).items():
-        command += ["--set", f"{key}={to_value(value, key)}"]
-    for option, given in (("--threads", threads), ("--backend", backend), ("--isa", isa), ("--max-hours", max_hours),
-                          ("--max-failures", max_failures)):
-        if given is not None:
-            command += [option, str(given)]
-    if members is not None:
-        command += ["--member", str(members)] if isinstance(members, int) else ["--members", f"{members[0]}..{members[1]}"]
-    command += ["--resume"] * resume + ["--quiet"] * (not progress)
-    try:
-        code, line = follow(command, show=progress)
-    except Interrupted as stopped:
-        # Code 0: the run was at its end already.
-        raise KeyboardInterrupt from error_of(stopped.code, stopped.line, result, found) if stopped.code != 0 else None
+        options += ["--set", f"{key}={to_value(value, key)}"]
+    options += ["--resume"] * bool(resume) + ["--quiet"] * (not progress)
+    with scene_file(scene) as file:
+        result = temporary_path(_stem(file.path) + ".nc") if output is None else arguments.path(output, "output")
+        try:
+            code, line = follow([found, "run", file.path, "-o", result, *options], bool(progress), file.said)
+        except Interrupted as stopped:
+            # Code 0: the run was at its end already.
+            raise KeyboardInterrupt from error_of(stopped.code, stopped.line, result, found) if stopped.code != 0 else None
     if code != 0:
         raise error_of(code, line, result, found)
-    return open_result(result)
+    return open_temporary(result) if isinstance(result, TemporaryPath) else open_result(result)
 
 
 def info(result: StrPath | xr.Dataset, program: StrPath | None = None) -> str:
     """What `slideway info` says of a result: provenance, statuses, statistics.
 
+    Args:
+        result: a Dataset of slideway.open or slideway.run, of whose whole file it speaks, or the path of the file.
+        program: path of the program; left out: SLIDEWAY_PROGRAM, else the PATH.
+
+    Raises:
+        FileError: the file cannot be read.
+
     >>> print(slideway.info(example_file).splitlines()[0])
     file ...ensemble.nc
     """
-    return call(program, ["info", path_of(result) if isinstance(result, xr.Dataset) else os.fspath(result)])
+    return call(program, ["info", file_of(result)])
 
 
-def _scene_file(scene: StrPath | Mapping[str, Any]) -> str:
-    if not isinstance(scene, Mapping):
-        return os.fspath(scene)
-    study = scene.get("study")
-    if isinstance(study, Mapping) and "table" in study:
-        # The program looks for a table beside the scene, and this one lies in a temporary folder.
-        scene = {**scene, "study": {**study, "table": os.path.abspath(study["table"])}}
-    path = temporary_file("scene.toml")
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(to_toml(scene))
-    return path
+def _options(
+    threads: int | None,
+    backend: str | None,
+    isa: str | None,
+    max_hours: float | None,
+    max_failures: int | str | None,
+    members: int | tuple[int, int] | None,
+) -> list[str]:
+    """The options of the command line for arguments that Python can tell to be wrong, as their types."""
+    given: dict[str, str] = {}
+    if threads is not None:
+        given["--threads"] = str(arguments.whole(threads, "threads", 1))
+    if backend is not None:
+        given["--backend"] = arguments.text(backend, "backend")
+    if isa is not None:
+        given["--isa"] = arguments.text(isa, "isa")
+    if max_hours is not None:
+        given["--max-hours"] = str(arguments.positive(max_hours, "max_hours"))
+    if max_failures is not None:
+        share = isinstance(max_failures, str)
+        given["--max-failures"] = str(max_failures if share else arguments.whole(max_failures, "max_failures", 0))
+    if isinstance(members, (tuple, list)):
+        if len(members) != 2:
+            raise SlidewayError(f"members is {arguments.shown(members)}; give one number, or the first and the last: (0, 15)")
+        first, last = (arguments.whole(number, "members", 0) for number in members)
+        given["--members"] = f"{first}..{last}"
+    elif members is not None:
+        given["--member"] = str(arguments.whole(members, "members", 0))
+    return [word for option in given.items() for word in option]
 
 
 def _stem(path: str) -> str:
@@ -115,7 +138,9 @@ def _stem(path: str) -> str:
 
 
 def _all_overrides(given: Mapping[str, Any] | None, words: Mapping[str, Any]) -> dict[str, Any]:
-    named = dict(given or {})
+    if given is not None and not isinstance(given, Mapping):
+        raise SlidewayError(f'set is {arguments.shown(given)}; give keys and their values: {{"joint.clearance": "0.2 mm"}}')
+    named = {arguments.text(key, "a key of set"): value for key, value in (given or {}).items()}
     for word, value in words.items():
         if "__" not in word:
             raise SlidewayError(f"run() has no argument {word}; keys of the scene have two underscores, as in study__members=64")

@@ -8,7 +8,9 @@ from typing import Any
 
 import xarray as xr
 
+from .arguments import dataset, members, one_line
 from .errors import SlidewayError
+from .members import numbers, with_members
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -19,6 +21,7 @@ else:
 _derived = re.compile(r"^# (\w+ = .*follows from other keys)$", re.MULTILINE)
 
 
+@one_line
 def scene(result: xr.Dataset, member: int | None = None, derived: bool = False) -> dict[str, Any]:
     """The scene that was run, all defaults filled in, as nested dictionaries in SI units.
 
@@ -35,8 +38,8 @@ def scene(result: xr.Dataset, member: int | None = None, derived: bool = False) 
     >>> slideway.scene(slideway.example(), derived=True)["mechanism"]["slider_mass"]
     0.1872
     """
-    text = result.attrs.get("scene")
-    if not text:
+    text = dataset(result).attrs.get("scene")
+    if not text or not isinstance(text, str):
         raise SlidewayError("this Dataset carries no scene; use the one that slideway.open or slideway.run returned")
     resolved = tomllib.loads(_derived.sub(r"\1", text) if derived else text)
     if member is not None:
@@ -44,6 +47,7 @@ def scene(result: xr.Dataset, member: int | None = None, derived: bool = False) 
     return resolved
 
 
+@one_line
 def varied(result: xr.Dataset) -> dict[str, str]:
     """Dotted keys that differ between members, and the variable that holds each of them.
 
@@ -57,8 +61,8 @@ def varied(result: xr.Dataset) -> dict[str, str]:
 
 def _draw(resolved: dict[str, Any], result: xr.Dataset, member: int) -> None:
     """Puts what a member drew in the place of the common values."""
-    if "member" not in result.coords or member not in result["member"].values:
-        raise SlidewayError(f"there is no member {member} in this result; see its coordinate member")
+    result = with_members(result)
+    (member,) = members(member, numbers(result))[:1]
     both = {"joint.clearance": ("clearance_y", "clearance_z"),
             "contact.young_modulus": ("slider_young_modulus", "way_young_modulus")}
     for key, variable in varied(result).items():

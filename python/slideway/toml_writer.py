@@ -68,6 +68,21 @@ def to_value(value: Any, where: str = "") -> str:
     )
 
 
+def keys_of_lines(text: str) -> tuple[str, ...]:
+    """The dotted key that stands in each line of what :func:`to_toml` wrote; a table's name in its own line, empty in an empty one.
+
+    >>> keys_of_lines(to_toml({"schema": 1, "study": {"members": 8, "vary": {"initial.y": {"dist": "unif"}}}}))
+    ('schema', '', 'study', 'study.members', '', 'study.vary', 'study.vary.initial.y')
+    """
+    keys, table = [], ""
+    for line in text.splitlines():
+        if line.startswith("["):
+            table = line[1:-1].replace('"', "")
+        own = line.partition(" = ")[0].strip('"') if " = " in line and not line.startswith("[") else ""
+        keys.append(f"{table}.{own}".strip(".") if own else table if line else "")
+    return tuple(keys)
+
+
 def _escaped(character: str) -> str:
     if character in _escapes:
         return _escapes[character]

@@ -28,7 +28,7 @@ def test_package_is_marked_as_typed() -> None:
     assert (Path(slideway.__file__).parent / "py.typed").exists()
 
 
-@pytest.mark.parametrize("module", [slideway, slideway.plot])
+@pytest.mark.parametrize("module", [slideway, slideway.plot, slideway.report])
 def test_every_public_function_has_an_example(module: object) -> None:
     functions = {name: getattr(module, name) for name in module.__all__ if inspect.isfunction(getattr(module, name))}  # type: ignore[attr-defined]
     assert functions
@@ -63,3 +63,9 @@ def test_importing_the_package_leaves_matplotlib_alone() -> None:
     code = "import sys, slideway; print('matplotlib' in sys.modules, slideway.plot.__name__, 'matplotlib' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["False", "slideway.plot", "True"]
+
+
+def test_pages_are_reached_from_the_package_alone() -> None:
+    code = "import slideway; print('report' in dir(slideway), slideway.report.write.__name__, 'report' in slideway.__all__)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.stdout.split() == ["True", "write", "True"], done.stderr

@@ -8,16 +8,22 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
+from ..arguments import one_line, whole
 from ..errors import SlidewayError
 from ..intervals import student_t
+from ..members import with_members
+from ..palette import colours, grey
 from ..series_statistics import SeriesStatistics, stats
-from .style import Members, axis, chosen, colours, draw_members, failures, finish, grey, label, numbered, plus_minus, scaled, variable
+from .style import Members, axis, chosen, draw_members, failures, finish, label, numbered, of_result, plus_minus, scaled, variable
 
 
+@one_line
 def divergence(
     curve: Union[SeriesStatistics, xr.Dataset], name: str = "y", member: int | None = None, ax: Axes | None = None, **options: object
 ) -> Axes:
     """How far neighbours of one series part, after Rosenstein, with the fitted line whose slope is the exponent.
+
+    There is no line where `slideway stats` sees no exponential growth, though it gives the slope of a fit.
 
     Args:
         curve: what :func:`slideway.stats` returned, or a result, of which it is called (with `options`).
@@ -34,22 +40,25 @@ def divergence(
     'mean ln distance'
     """
     if isinstance(curve, xr.Dataset):
-        variable(curve, name)
+        variable(with_members(curve), name)
         curve = stats(curve, name, member, **options)  # type: ignore[arg-type]
+    elif not isinstance(curve, SeriesStatistics) or options:
+        raise SlidewayError("give what slideway.stats returned, or a result (Dataset) and the options of slideway.stats")
     factor, unit = scaled("s", curve.time)
     ax = axis(ax)
     ax.plot(factor * curve.time, curve.mean_log_distance, ".-", color=colours[0], ms=4, lw=0.8, label="neighbours of the series")
-    if curve.exponent is not None and curve.fit is not None:
+    if curve.growth_is_seen and curve.exponent is not None and curve.fit is not None:
         first, last = curve.fit
         time, values = curve.time[first : last + 1], curve.mean_log_distance[first : last + 1]
         line = values.mean() + curve.exponent * (time - time.mean())
         ax.plot(factor * time, line, color=colours[1], lw=2.2,
                 label=f"λ₁ = ({plus_minus(curve.exponent, curve.error or 0)}) 1/s, samples {first} to {last}")
     else:
-        ax.plot([], [], " ", label="no line to fit")
-    return finish(ax, label("time", unit), "mean ln distance", "lower right")
+        ax.plot([], [], " ", label="no exponential growth is seen" if curve.exponent is not None else "no line to fit")
+    return finish(ax, label("time", unit), "mean ln distance")
 
 
+@of_result
 def exponent_history(result: xr.Dataset, member: Members = None, ax: Axes | None = None, *, exponent: int = 1) -> Axes:
     """How a Lyapunov exponent settles with the time over which it is taken.
 
@@ -72,6 +81,8 @@ def exponent_history(result: xr.Dataset, member: Members = None, ax: Axes | None
         raise SlidewayError("none of these members finished; see slideway.statuses(result)")
     time = result["history"].values * float(np.nanmedian(every))
     factor, unit = scaled("s", time)
+    if not np.isfinite(rows).any():
+        raise SlidewayError("none of these members has a running exponent; see slideway.statuses(result)")
     ax = axis(ax)
     ax.axhline(0, color=grey, lw=1)
     draw_members(ax, factor * time, rows, members, failures(result, members))
@@ -82,6 +93,7 @@ def exponent_history(result: xr.Dataset, member: Members = None, ax: Axes | None
     return finish(ax, label("time", unit), f"running {numbered('λ', exponent)} [1/s]")
 
 
+@of_result
 def exponent_histogram(result: xr.Dataset, ax: Axes | None = None, *, exponent: int = 1, bins: int | str = "auto") -> Axes:
     """Lyapunov exponents of all members that finished, with their mean and its 95 % interval.
 
@@ -128,6 +140,6 @@ def exponent_histogram(result: xr.Dataset, ax: Axes | None = None, *, exponent: 
 
 def _exponent(data: xr.DataArray, number: int) -> xr.DataArray:
     count = data.sizes["exponent"]
-    if not 1 <= number <= count:
+    if whole(number, "exponent", 1) > count:
         raise SlidewayError(f"there is no exponent {number} in this result, which has {count}; use study.exponents = {number}")
     return data.isel(exponent=number - 1)

@@ -6,18 +6,20 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
+from ..arguments import whole
 from ..errors import SlidewayError
-from .style import Members, axis, chosen, class_colours, finish, kind_of, label, scaled, variable
+from ..palette import class_colours
+from .style import Members, axis, chosen, finish, kind_of, label, of_result, scaled, variable
 
 _classes = ("point", "line", "surface")
 
 
+@of_result
 def force_histogram(result: xr.Dataset, member: Members = None, ax: Axes | None = None, *, bins: int = 40) -> Axes:
     """How often which normal force acts, by the class of the contact mode (Fig. 11 of Qian et al. 2020).
 
-    Shares of the samples in contact, by the hardest contact of the moment: a surface, else a line, else a point. Both axes are
-    logarithmic, for the rare contacts of lines and surfaces have the largest forces. The legend has the share of all samples in
-    each class.
+    By the hardest contact of the moment: a surface, else a line, else a point. Both axes are logarithmic, for the rare contacts of
+    lines and surfaces have the largest forces. All shares, those of the legend too, are of all samples.
 
     Args:
         member: number of a member, or several; left out: all.
@@ -35,7 +37,7 @@ def force_histogram(result: xr.Dataset, member: Members = None, ax: Axes | None 
     if missing and "sample" in result.dims:
         listed = ", ".join(f'"{name}"' for name in missing)
         raise SlidewayError(f"this result lacks {listed}; add to study.quantities, with study.samples_per_revolution = 200 or more")
-    members = chosen(result, member)
+    members, bins = chosen(result, member), whole(bins, "bins", 1, 10000)
 
     def taken(name: str) -> np.ndarray:
         return np.asarray(variable(result, name).sel(member=members).values, dtype=float).ravel()
@@ -54,7 +56,7 @@ def force_histogram(result: xr.Dataset, member: Members = None, ax: Axes | None 
     low, high = np.quantile(force[pushing], (0.001, 1.0))
     edges = factor * np.geomspace(max(low, 1e-6 * high), high * 1.0001, bins + 1)
     ax = axis(ax)
-    least = 100 / touching.sum()  # one sample
+    least = 100 / there.sum()  # one sample
     for name in _classes:
         counts = np.histogram(factor * force[of_class[name]], edges)[0] * least
         share = of_class[name].sum() / there.sum()
@@ -66,4 +68,4 @@ def force_histogram(result: xr.Dataset, member: Members = None, ax: Axes | None 
     ax.set_xscale("log")
     ax.set_yscale("log")
     ax.set_ylim(bottom=0.5 * least)
-    return finish(ax, label("normal force", unit), "share of samples in contact [%]")
+    return finish(ax, label("normal force", unit), "share of all samples [%]")

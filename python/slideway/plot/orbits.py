@@ -8,18 +8,23 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.patches import Rectangle
 
+from ..arguments import text
 from ..errors import SlidewayError
+from ..palette import colours, grey
+from ..sampling import coarse_words, too_coarse
 from ..scenes import scene
 from ..sections import sections
 from ..way import across, may_be_misaligned
-from .style import Members, axis, chosen, colours, finish, grey, label, most_lines, scaled, variable, words_of
+from .style import Members, axis, chosen, finish, label, most_lines, of_result, scaled, variable, words_of
 
 
+@of_result
 def orbit_yz(result: xr.Dataset, member: Members = None, ax: Axes | None = None) -> Axes:
     """The slider's centre across the way, within the clearance (Fig. 13 of Qian et al. 2020).
 
-    Up to eight members are lines from a dot, where they start; of more the time that all of them spend is a map. Where the scene's [way]
-    moves or turns the way, y and z are from its axis, and the axes say so.
+    Up to eight members are lines from a dot, where they start; points where samples are far coarser than contacts. Of more
+    members the time that all of them spend is a map. Where the scene's [way] moves or turns the way, y and z are from its axis,
+    and the axes say so.
 
     Args:
         member: number of a member, or several; left out: all.
@@ -37,24 +42,29 @@ def orbit_yz(result: xr.Dataset, member: Members = None, ax: Axes | None = None)
     if not np.isfinite(ys).any():
         raise SlidewayError("these members have no samples, for they failed before the first; see slideway.statuses(result)")
     factor, unit = scaled("m", np.concatenate([ys.ravel(), zs.ravel()]))
-    ax = axis(ax)
+    ax, many = axis(ax), len(members) > most_lines
     for width, height in _gaps(result, members) if turned is not None else ():
         ax.add_patch(Rectangle((-factor * width, -factor * height), 2 * factor * width, 2 * factor * height, fill=False,
-                               ec=grey, ls="--", label=None if ax.patches else "clearance"))
-    if len(members) <= most_lines:
+                               ec=grey, ls="--", label=None if ax.patches or many else "clearance"))
+    if not many:
+        coarse = too_coarse(result, members)
+        style = {"ls": "none", "marker": ".", "ms": 2.5, "mew": 0} if coarse else {"lw": 0.6}
         for number, row_y, row_z, colour in zip(members, ys, zs, colours, strict=False):
-            ax.plot(factor * row_z, factor * row_y, color=colour, lw=0.6, alpha=0.8, label=f"member {number}" if len(members) > 1 else None)
+            ax.plot(factor * row_z, factor * row_y, color=colour, alpha=0.8, label=f"member {number}" if len(members) > 1 else None, **style)
             ax.plot(factor * row_z[:1], factor * row_y[:1], "o", ms=4, color=colour)
+        if coarse:
+            ax.plot([], [], " ", label=coarse_words(result["time"].values))
     else:
         there = np.isfinite(ys) & np.isfinite(zs)
         image = ax.hist2d(factor * zs[there], factor * ys[there], bins=120, cmap="viridis_r", norm=LogNorm())[3]
-        ax.figure.colorbar(image, ax=ax, label=f"samples of {len(members)} members")
+        ax.figure.colorbar(image, ax=ax, label=f"samples of {len(members)} members" + "; dashed: clearance" * bool(ax.patches))
     ax.set_aspect("equal", adjustable="box")
     ax.autoscale_view()
     origin = " from the way's axis" if turned is not None and may_be_misaligned(result) else ""
     return finish(ax, label(f"z{origin}", unit), label(f"y{origin}", unit))
 
 
+@of_result
 def poincare(result: xr.Dataset, x: str = "y", y: str = "vy", member: Members = None, ax: Axes | None = None) -> Axes:
     """Sections of the orbits: a few points are a periodic motion, a cloud is an irregular one (Fig. 17 of Qian et al. 2020).
 
@@ -70,7 +80,7 @@ def poincare(result: xr.Dataset, x: str = "y", y: str = "vy", member: Members = 
     """
     rows = sections(result)
     for name in (x, y):
-        if name not in rows:
+        if text(name, "x or y") not in rows:
             raise SlidewayError(f"the sections have no {name}, but {', '.join(str(v) for v in rows.data_vars)}")
     members = chosen(result, member)
     here = np.isin(rows["member"].values, members)

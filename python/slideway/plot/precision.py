@@ -10,13 +10,16 @@ from typing import Any, Union
 import numpy as np
 from matplotlib.axes import Axes
 
+from ..arguments import one_line, path, shown, text
 from ..errors import SlidewayError
-from .style import axis, colours, finish, label
+from ..palette import colours
+from .style import axis, finish, label
 
 Table = Union[str, "os.PathLike[str]", Mapping[str, Sequence[Any]]]
 _markers = "os^Dv<>P"
 
 
+@one_line
 def work_precision(
     table: Table, problem: str | None = None, ax: Axes | None = None, *, error: str = "p95_error", cost: str = "seconds_per_member"
 ) -> Axes:
@@ -36,7 +39,7 @@ def work_precision(
     'decay'
     """
     columns = _columns(table)
-    for name in ("problem", "method", "code", error, cost):
+    for name in ("problem", "method", "code", text(error, "error"), text(cost, "cost")):
         if name not in columns:
             raise SlidewayError(f"the table has no column {name}, but {', '.join(columns)}")
     problems = list(dict.fromkeys(columns["problem"]))
@@ -62,18 +65,19 @@ def work_precision(
     ax.set_title(problem)
     unit = columns["error_unit"][rows[0]] if "error_unit" in columns else "1"
     words = {"p95_error": "error, 95th percentile", "median_error": "error, median"}.get(error, error.replace("_", " "))
-    finish(ax, "time per member [s]" if cost == "seconds_per_member" else cost.replace("_", " "),
-           label(words, "" if unit == "1" else unit), None)
-    ax.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), frameon=False, fontsize="small")
-    return ax
+    return finish(ax, "time per member [s]" if cost == "seconds_per_member" else cost.replace("_", " "),
+                  label(words, "" if unit == "1" else unit))
 
 
 def _columns(table: Table) -> dict[str, list[str]]:
     if isinstance(table, (str, os.PathLike)):
+        name = path(table, "table")
         try:
-            with open(table, encoding="utf-8", newline="") as file:
+            with open(name, encoding="utf-8", newline="") as file:
                 rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
         except OSError as problem:
-            raise SlidewayError(f"{os.fspath(table)}: cannot be read ({problem.strerror}); check the path") from problem
+            raise SlidewayError(f"{name}: cannot be read ({problem.strerror}); check the path") from problem
         return {name: [row[name] for row in rows] for name in (rows[0] if rows else ())}
+    if not hasattr(table, "keys"):
+        raise SlidewayError(f"the table is {shown(table)}; give the path of a CSV, or its columns by their names")
     return {str(name): [str(value) for value in table[name]] for name in table}

@@ -8,20 +8,23 @@ from matplotlib.axes import Axes
 
 from ..errors import SlidewayError
 from ..ideal import ideal
+from ..palette import grey
+from ..sampling import coarse_words, too_coarse
 from ..scenes import scene
 from ..signals import running_integral
 from ..way import across, may_be_misaligned
-from .style import Members, axis, chosen, draw_members, failures, finish, grey, label, scaled, variable, words_of
+from .style import Members, axis, chosen, draw_members, failures, finish, label, of_result, scaled, series_of, words_of
 
 
+@of_result
 def time_series(
     result: xr.Dataset, name: str = "y", member: Members = None, ax: Axes | None = None, *, difference: bool = False, gap: bool = True
 ) -> Axes:
     """A series over the time, with the mechanism without clearance behind it.
 
-    Up to eight members are lines, more of them bands. Of y and z the ideal is the axis of the way, and dotted lines are the ends of
-    the clearance, where a slider that is not tilted touches. Where the scene's [way] moves or turns the way, y and z are drawn from its
-    axis, and the axis says so.
+    Up to eight members are lines, more of them bands; samples that are far coarser than the contacts are points. Of y and z the
+    ideal is the axis of the way, and dotted lines are the ends of the clearance, where a slider that is not tilted touches. Where
+    the scene's [way] moves or turns the way, y and z are drawn from its axis, and the axis says so.
 
     Args:
         name: of the series.
@@ -35,9 +38,7 @@ def time_series(
     >>> slideway.plot.time_series(slideway.example(), "y", member=0).get_ylabel()
     'y [µm]'
     """
-    data = variable(result, name)
-    if "sample" not in data.dims:
-        raise SlidewayError(f"{name} is no series over the time; see slideway.plot.quantiles")
+    data = series_of(result, name)
     members = chosen(result, member)
     time = result["time"].values
     rows = np.array(data.sel(member=members).values)
@@ -65,10 +66,12 @@ def time_series(
     if clearance is not None:
         for end, words_of_line in ((clearance, "clearance"), (-clearance, None)):
             ax.axhline(factor * end, color=grey, lw=1, ls=":", label=words_of_line, zorder=1)
-    draw_members(ax, second * time, factor * rows, members, failures(result, members))
+    coarse = coarse_words(time) if too_coarse(result, members, name) else None
+    draw_members(ax, second * time, factor * rows, members, failures(result, members), coarse)
     return finish(ax, label("time", time_unit), label(words, unit))
 
 
+@of_result
 def cumulative_area(result: xr.Dataset, name: str = "acceleration_top", member: Members = None, ax: Axes | None = None) -> Axes:
     """∫|a| dt over the time, as Fig. 4 of Qian et al. (2020): its slope is the mean magnitude of an acceleration.
 
@@ -82,7 +85,7 @@ def cumulative_area(result: xr.Dataset, name: str = "acceleration_top", member: 
     >>> slideway.plot.cumulative_area(slideway.example()).get_ylabel()
     '∫|acceleration top| dt [mm/s]'
     """
-    data = variable(result, name)
+    data = series_of(result, name)
     members = chosen(result, member)
     time = result["time"].values
     rows = running_integral(np.abs(data.sel(member=members).values), time)

@@ -6,13 +6,16 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
+from ..arguments import positive
 from ..errors import SlidewayError
+from ..palette import colours
 from ..signals import amplitude_spectrum, even_step
-from .style import Members, axis, chosen, colours, finish, label, most_lines, scaled, variable, words_of
+from .style import Members, axis, chosen, finish, label, most_lines, of_result, scaled, series_of, words_of
 
 standard_gravity = 9.80665  # m/s²
 
 
+@of_result
 def spectrum(
     result: xr.Dataset,
     name: str = "acceleration_top",
@@ -39,7 +42,10 @@ def spectrum(
     >>> slideway.plot.spectrum(slideway.example(), "y", member=0).get_xlabel()
     'frequency [Hz]'
     """
-    data = variable(result, name)
+    data = series_of(result, name)
+    if reference is not None:
+        positive(reference, "reference")
+    positive(span, "span")
     units = str(data.attrs.get("units", "1"))
     members = chosen(result, member)
     rows = data.sel(member=members).values
@@ -73,4 +79,4 @@ def spectrum(
     peak, floor = float(shown.max()), float(np.quantile(shown, 0.01))
     ax.set_ylim(max(peak - span, floor - 5), peak + 5)
     ax.margins(x=0)
-    return finish(ax, label("frequency", hertz), label(words_of(name), f"dB re {against}"), "upper right")
+    return finish(ax, label("frequency", hertz), label(words_of(name), f"dB re {against}"))

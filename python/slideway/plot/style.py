@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any, Literal, Union
+import functools
+from collections.abc import Callable, Sequence
+from typing import Any, Concatenate, ParamSpec, Union, cast
 
 import matplotlib.pyplot as plt
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
+from .. import arguments
 from ..errors import SlidewayError
-from ..members import finished
+from ..members import finished, numbers, with_members
+from ..palette import colours
 from ..scenes import scene
+from .legends import place_legend
 
 Members = Union[int, Sequence[int], None]
-Legend = Literal["best", "upper right", "upper left", "lower right"]
+P = ParamSpec("P")
 
-# Okabe and Ito (2008): told apart by all readers.
-colours = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#666666", "#B8A700")
-grey = "#888888"
-class_colours = {"free": "#999999", "point": colours[0], "line": colours[1], "surface": colours[2]}
 most_lines = 8  # members that are drawn one by one
 
 _spatial = ("z", "vz", "az", "roll", "yaw", "wx", "wy")  # series of spatial mechanisms
@@ -29,8 +29,20 @@ _prefixes = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, 
 _spellings = {"m s-1": "m/s", "m s-2": "m/s²", "rad s-1": "rad/s", "s-1": "1/s", "N m": "N m"}
 
 
+def of_result(function: Callable[Concatenate[xr.Dataset, P], Axes]) -> Callable[Concatenate[xr.Dataset, P], Axes]:
+    """A plot of a result, which may also be one member of it (``result.sel(member=0)``); all its errors have one line."""
+
+    @functools.wraps(function)
+    def drawn(result: xr.Dataset, *given: P.args, **named: P.kwargs) -> Axes:
+        return function(with_members(result), *given, **named)
+
+    return cast(Callable[Concatenate[xr.Dataset, P], Axes], arguments.one_line(drawn))
+
+
 def axis(ax: Axes | None) -> Axes:
     """The axis given, or one of a new figure."""
+    if ax is not None and not isinstance(ax, Axes):
+        raise SlidewayError(f"ax is {arguments.shown(ax)}; give one axis of matplotlib, such as plt.subplots()[1]")
     return ax if ax is not None else plt.subplots(figsize=(7.2, 4.2), layout="constrained")[1]
 
 
@@ -93,7 +105,7 @@ def variable(result: xr.Dataset, name: str) -> xr.DataArray:
     Raises:
         SlidewayError: it is not there; the text says which key of the scene stores it.
     """
-    if name in result:
+    if arguments.text(name, "name") in result:
         return result[name]
     if name in _spatial and kind_of(result) == "planar_slider_crank":
         raise SlidewayError(f"a planar_slider_crank moves in one plane and has no {name}; take x, y or pitch")
@@ -111,6 +123,18 @@ def variable(result: xr.Dataset, name: str) -> xr.DataArray:
     raise SlidewayError(f'this result has no {name}; add "{name}" to study.quantities')
 
 
+def series_of(result: xr.Dataset, name: str) -> xr.DataArray:
+    """A variable along member and sample.
+
+    Raises:
+        SlidewayError: it is not there, or no series.
+    """
+    data = variable(result, name)
+    if set(data.dims) != {"member", "sample"}:
+        raise SlidewayError(f"{name} is no series over the time; see slideway.plot.quantiles")
+    return data.transpose("member", "sample")
+
+
 def kind_of(result: xr.Dataset) -> str:
     """mechanism.kind of the result's scene, empty where it carries none."""
     return str(scene(result)["mechanism"]["kind"]) if "scene" in result.attrs else ""
@@ -122,14 +146,10 @@ def chosen(result: xr.Dataset, member: Members) -> list[int]:
     Raises:
         SlidewayError: one of them is not in the result.
     """
-    there = [int(m) for m in np.atleast_1d(result["member"].values)]
-    if member is None:
-        return there
-    wanted = [int(m) for m in np.atleast_1d(np.asarray(member))]
-    for m in wanted:
-        if m not in there:
-            raise SlidewayError(f"there is no member {m} in this result; see its coordinate member")
-    return wanted
+    there = numbers(result)
+    if not there:
+        raise SlidewayError('this result holds no members; run it with study.store = "members"')
+    return there if member is None else arguments.members(member, there)
 
 
 def failures(result: xr.Dataset, members: Sequence[int]) -> int:
@@ -137,15 +157,21 @@ def failures(result: xr.Dataset, members: Sequence[int]) -> int:
     return int((~finished(result).sel(member=list(members))).sum()) if "status" in result else 0
 
 
-def draw_members(ax: Axes, time: np.ndarray, rows: np.ndarray, members: Sequence[int], failed: int) -> None:
+def draw_members(
+    ax: Axes, time: np.ndarray, rows: np.ndarray, members: Sequence[int], failed: int, coarse: str | None = None
+) -> None:
     """Series of members over the time: lines of few, the bands in which many of them lie.
 
     Args:
         rows: member × time, in the units of the axis; NaN where a member has nothing.
+        coarse: why the samples of a member are not joined, if so.
     """
     if len(members) <= most_lines:
+        style = {"ls": "-", "lw": 1.0} if coarse is None else {"ls": "none", "marker": ".", "ms": 3.0, "mew": 0}
         for number, row, colour in zip(members, rows, colours, strict=False):
-            ax.plot(time, row, color=colour, lw=1.0, label=f"member {number}" if len(members) > 1 else None)
+            ax.plot(time, row, color=colour, label=f"member {number}" if len(members) > 1 else None, **style)  # type: ignore[arg-type]
+        if coarse is not None:
+            ax.plot([], [], " ", label=coarse)
     else:
         levels = np.full((5, time.size), np.nan)
         some = np.isfinite(rows).any(axis=0)
@@ -157,14 +183,14 @@ def draw_members(ax: Axes, time: np.ndarray, rows: np.ndarray, members: Sequence
     ax.margins(x=0)
 
 
-def finish(ax: Axes, x: str, y: str, legend: Legend | None = "best") -> Axes:
-    """Labels, a light grid and, where there is something to tell, a legend."""
+def finish(ax: Axes, x: str, y: str) -> Axes:
+    """Labels, a light grid and, where there is something to tell, a legend that covers no data."""
     ax.set_xlabel(x)
     ax.set_ylabel(y)
     ax.grid(True, color="#DDDDDD", lw=0.6)
     ax.set_axisbelow(True)
     for side in ("top", "right"):
         ax.spines[side].set_visible(False)
-    if legend is not None and ax.get_legend_handles_labels()[1]:
-        ax.legend(loc=legend, frameon=True, framealpha=0.85, edgecolor="none", fontsize="small")
+    if ax.get_legend_handles_labels()[1]:
+        place_legend(ax)
     return ax

@@ -6,12 +6,15 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
+from ..arguments import text, whole
 from ..errors import SlidewayError
+from ..palette import colours, grey
 from ..scenes import scene
 from ..sections import sections
-from .style import axis, colours, finish, grey, label, numbered, scaled, variable, words_of
+from .style import axis, finish, label, numbered, of_result, scaled, variable, words_of
 
 
+@of_result
 def bifurcation(result: xr.Dataset, name: str = "y", ax: Axes | None = None) -> Axes:
     """A state at the sections over the parameter of a sweep.
 
@@ -26,7 +29,7 @@ def bifurcation(result: xr.Dataset, name: str = "y", ax: Axes | None = None) -> 
     """
     key, parameter = _parameter(result)
     rows = sections(result)
-    if name not in rows:
+    if text(name, "name") not in rows:
         raise SlidewayError(f"the sections have no {name}, but {', '.join(str(v) for v in rows.data_vars)}")
     at = parameter.sel(member=rows["member"].values).values
     values = rows[name].values
@@ -37,6 +40,7 @@ def bifurcation(result: xr.Dataset, name: str = "y", ax: Axes | None = None) -> 
     return finish(ax, label(key, unit_x), label(f"{words_of(name)} at the sections", unit_y))
 
 
+@of_result
 def exponent_sweep(result: xr.Dataset, ax: Axes | None = None, *, exponent: int = 1) -> Axes:
     """A Lyapunov exponent over the parameter of a sweep: each member, and the median of each column.
 
@@ -48,7 +52,7 @@ def exponent_sweep(result: xr.Dataset, ax: Axes | None = None, *, exponent: int 
     """
     key, parameter = _parameter(result)
     data = variable(result, "lyapunov_exponent")
-    if not 1 <= exponent <= data.sizes["exponent"]:
+    if whole(exponent, "exponent", 1) > data.sizes["exponent"]:
         raise SlidewayError(f"there is no exponent {exponent} in this result; use study.exponents = {exponent}")
     values, at = data.isel(exponent=exponent - 1).values, parameter.values
     factor, unit = scaled(str(parameter.attrs["units"]), at)
@@ -66,4 +70,6 @@ def _parameter(result: xr.Dataset) -> tuple[str, xr.DataArray]:
     name = str(result.attrs.get("sweep_parameter", ""))
     if not name:
         raise SlidewayError('this result is no sweep; use study.kind = "sweep"')
+    if name not in result:
+        raise SlidewayError(f"this result has lost {name}, which its sweep changes; keep the variable")
     return str(scene(result)["study"]["parameter"]), result[name]

@@ -44,13 +44,13 @@ class Column:
 
 def columns(result: xr.Dataset) -> list[Column]:
     """All quantities that the scene asked for, of the members that finished; from the group statistics where there is one."""
-    if "statistics" in slideway.groups(result):
+    if "statistics" in slideway.groups(result) and slideway.results.holds_all(result):
         with slideway.open(slideway.results.path_of(result), group="statistics") as statistics:
             return [column for name in _asked(result) for column in _from_statistics(result, statistics.load(), name)]
     if "status" not in result:
         return []
     ended = slideway.finished(result).values
-    return [_of_members(name, meaning, unit, values[ended]) for name, meaning, unit, values in _stored(result)]
+    return [_of_members(name, meaning, unit, values[ended]) for name, meaning, unit, values in stored(result)]
 
 
 def column(every: list[Column], name: str) -> Column | None:
@@ -62,7 +62,7 @@ def _asked(result: xr.Dataset) -> list[str]:
     return [str(name) for name in slideway.scene(result).get("study", {}).get("quantities", [])]
 
 
-def _stored(result: xr.Dataset) -> Iterator[tuple[str, str, str, Array]]:
+def stored(result: xr.Dataset) -> Iterator[tuple[str, str, str, Array]]:
     """Name, meaning, unit and values (member) of each component of each quantity."""
     for name in _asked(result):
         if name not in result or "sample" in result[name].dims:
@@ -106,7 +106,7 @@ def _from_statistics(result: xr.Dataset, statistics: xr.Dataset, name: str) -> I
         return
     mean = statistics[f"{name}_mean"]
     probabilities = statistics["probability"].values.tolist()
-    members = dict((one, values) for one, _, _, values in _stored(result)) if "status" in result else {}
+    members = dict((one, values) for one, _, _, values in stored(result)) if "status" in result else {}
     ended = slideway.finished(result).values if members else None
     labels = _labels(result, str(mean.dims[0]), mean.shape[0]) if mean.ndim else [None]
     for k, label in enumerate(labels):

@@ -126,7 +126,8 @@ def _switches(result: xr.Dataset, law: str | None) -> bool:
     return bool(result.attrs.get("contact_law_switches", law == "paper"))
 
 
-def _share(terms: Balance) -> float:
+def share(terms: Balance) -> float:
+    """The largest residual of a member, as a part of what it is compared with; NaN where that is not known."""
     return terms.largest / terms.scale if terms.scale > 0 else math.nan
 
 
@@ -145,46 +146,46 @@ def _compared(terms: Balance) -> list[str]:
 
 
 def _of_conserving(terms: Balance, law: str) -> Verdict:
-    share = _share(terms)
+    part = share(terms)
     found = [
         f"The residual is {_amount(terms)}.",
         *_compared(terms),
         f"{law} derives its elastic forces from one potential, so by itself it makes no energy: friction and damping alone take "
         "some, and both are in the balance.",
     ]
-    if math.isnan(share) or (share > CLEAN and not terms.complete):
+    if math.isnan(part) or (part > CLEAN and not terms.complete):
         unknown = (
             "Whether that is much cannot be said without the drive's work and the losses; add crank_work, friction_loss and "
             "damping_loss to study.quantities."
         )
         return Verdict("none", f"Residual {joules(terms.residual)}", [*found, unknown])
-    if share <= CLEAN:
+    if part <= CLEAN:
         left = "What is left is the error of the integration; it falls with integrator.rtol and atol."
-        return Verdict("good", f"Energy is kept to {percent(share)}", [*found, left])
-    if share <= SMALL:
+        return Verdict("good", f"Energy is kept to {percent(part)}", [*found, left])
+    if part <= SMALL:
         mean = percent(abs(terms.residual) / terms.scale)
         left = (
             "What is left is error of the integration, and in the worst member more than need be: smaller integrator.rtol "
             "and atol make it smaller."
         )
-        return Verdict("warn", f"Energy is kept to {mean} on average, {percent(share)} at worst", [*found, left])
+        return Verdict("warn", f"Energy is kept to {mean} on average, {percent(part)} at worst", [*found, left])
     much = (
         "So this is no physics but error of the integration, and too much of it: use smaller integrator.rtol and atol, or "
         "another method, before trusting these results."
     )
-    return Verdict("bad", f"The method made or lost up to {percent(share)}", [*found, much])
+    return Verdict("bad", f"The method made or lost up to {percent(part)}", [*found, much])
 
 
 def _of_switching(terms: Balance, law: str) -> Verdict:
-    share = _share(terms)
+    part = share(terms)
     found = f"The residual is {_amount(terms)}."
     why = (
         f"{law} switches between surface, line and point contact, and the force jumps where it does. "
         "Each mode by itself keeps energy, the jumps do not."
     )
-    if share <= CLEAN:
+    if part <= CLEAN:
         hardly = "Here the modes hardly switched under load, so hardly any energy was made."
-        return Verdict("good", f"Energy is kept to {percent(share)}", [found, *_compared(terms), why, hardly])
+        return Verdict("good", f"Energy is kept to {percent(part)}", [found, *_compared(terms), why, hardly])
     if terms.duration > 0:
         found += f" That is {joules(terms.residual / terms.duration)} in each second."
     sentences = [found, *_compared(terms), why]

@@ -36,7 +36,7 @@ def of_scene(result: xr.Dataset, members: int) -> Facts:
     facts = [
         ("study", STUDIES.get(str(study.get("kind")), str(study.get("kind")))),
         ("mechanism", str(result.attrs.get("mechanism_meaning", kind)) + _speed(mechanism)),
-        ("clearance per side", _clearance(joint)),
+        ("clearance per side", "" if str(study.get("parameter")).startswith("joint.clearance") else _clearance(joint)),
         ("contact law", _law(result, scene.get("contact", {}))),
         ("friction", _friction(scene.get("friction", {}))),
         ("members", counted(members, "member") + _design(study)),

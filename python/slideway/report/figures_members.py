@@ -9,7 +9,7 @@ import numpy as np
 from .columns import Column
 from .energy import Balance, joules
 from .numbers import counted, number, percent, scaled, unit_words
-from .traces import Figure, Variant, bars_of, bins, packed, rows, text
+from .traces import Figure, Variant, bars_of, bins, colour_of, packed, rows, text
 
 CLASSES = ("free", "point", "line", "surface")
 
@@ -28,7 +28,7 @@ def histograms(every: list[Column]) -> Figure | None:
         else:
             continue
         factor, named = scaled(max(abs(one.low), abs(one.high)), one.unit)
-        data = [bars_of(edges * factor, counts, one.name, "@c1")]
+        data = [bars_of(edges * factor, counts, one.name, colour_of(one.name))]
         unit = "" if named == "1" else f" [{text(unit_words(named))}]"
         layout = rows(["members"], f"{text(one.name)}{unit}")
         mean = one.mean * factor
@@ -36,7 +36,7 @@ def histograms(every: list[Column]) -> Figure | None:
         variants.append(Variant(one.name, data, layout))
     if not variants:
         return None
-    caption = "Of the members that finished."
+    caption = "Counts of the members that finished."
     return Figure("histograms", "How quantities scatter", caption, variants, choice="Quantity")
 
 
@@ -80,7 +80,7 @@ def mode_shares(every: list[Column]) -> Figure | None:
     return Figure("modes", "Time by contact mode", caption, [Variant("all", data, layout)], height=210)
 
 
-def energy_balance(terms: Balance) -> Figure | None:
+def energy_balance(terms: Balance, whose: str) -> Figure | None:
     """Where energy came from and where it went; None where the file lacks a term."""
     if not all(math.isfinite(term) for term in (terms.work, terms.friction, terms.damping)):
         return None
@@ -116,5 +116,5 @@ def energy_balance(terms: Balance) -> Figure | None:
         "yaxis": {"categoryorder": "array", "categoryarray": ["went to", "came from"]},
         "hovermode": "closest",
     }
-    caption = "Means over the members. Both bars are as long as each other, for the residual is what closes the balance."
+    caption = f"Means over {whose}. Both bars are as long as each other, for the residual is what closes the balance."
     return Figure("balance", "Balance of energy", caption, [Variant("all", data, layout)], height=250)

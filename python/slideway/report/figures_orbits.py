@@ -7,8 +7,9 @@ import xarray as xr
 
 import slideway
 
-from .numbers import counted, number
-from .traces import Figure, Variant, band, bars_of, bins, line, packed, points, rows, text
+from .numbers import amount, counted, number
+from .sweep import FACTORS, Sweep, sweep_of
+from .traces import Figure, Variant, band, bars_of, bins, line, points, rows, text
 
 LINES = 20  # single members behind a band
 
@@ -23,11 +24,14 @@ def exponent_words(result: xr.Dataset) -> list[str]:
     if len(largest) == 0:
         return ["No member finished, so there are no exponents."]
     positive, negative = int((largest - wide > 0).sum()), int((largest + wide < 0).sum())
+    sweep = sweep_of(result)
     sentences = [
-        f"Largest exponent: {number(float(largest.mean()))} s⁻¹ on average of {counted(len(largest), 'member')}, from "
+        _of_columns(sweep, np.where(ended, result["lyapunov_exponent"].values[:, 0], np.nan))
+        if sweep
+        else f"Largest exponent: {number(float(largest.mean()))} s⁻¹ on average of {counted(len(largest), 'member')}, from "
         f"{number(float(largest.min()))} to {number(float(largest.max()))} s⁻¹.",
         f"With its 95 % interval it is positive in {positive}, negative in {negative} and undecided in "
-        f"{len(largest) - positive - negative} of them; positive means that neighbouring motions part exponentially.",
+        f"{len(largest) - positive - negative} of {counted(len(largest), 'member')}; positive means that neighbouring motions part exponentially.",
     ]
     for name, words in (
         (
@@ -47,11 +51,21 @@ def exponent_words(result: xr.Dataset) -> list[str]:
     return sentences
 
 
+def _of_columns(sweep: Sweep, largest: np.ndarray) -> str:
+    """The range of the columns' medians: a mean over columns would be of no mechanism at all."""
+    medians = sweep.medians(largest)
+    ends = (
+        f"{number(float(medians[k]))} s⁻¹ at {amount(float(sweep.columns[k]), sweep.unit)}"
+        for k in (int(np.nanargmin(medians)), int(np.nanargmax(medians)))
+    )
+    return f"Largest exponent: medians of the columns lie between {' and '.join(ends)} of {sweep.key}."
+
+
 def exponents(result: xr.Dataset) -> list[Figure]:
     """Histogram of the exponents of all members, and the running exponents over time with a fit of what they tend to."""
     ended = slideway.finished(result).values
-    if "lyapunov_exponent" not in result or not ended.any():
-        return []
+    if "lyapunov_exponent" not in result or not ended.any() or sweep_of(result):
+        return []  # of sweeps see figures_sweep
     values = result["lyapunov_exponent"].values[ended]
     data = []
     for k in range(values.shape[1]):
@@ -60,7 +74,7 @@ def exponents(result: xr.Dataset) -> list[Figure]:
         data.append(bars_of(edges, counts, f"λ{_lowered(k + 1)}", f"@c{k % 4 + 1}", opacity=0.8))
     layout = {**rows(["members"], "exponent [s<sup>−1</sup>]"), "barmode": "overlay", "bargap": 0}
     figures = []
-    if len(values) > 1 and slideway.scene(result)["study"].get("kind") != "sweep":
+    if len(values) > 1:
         span = float(result["lyapunov_time"].values[ended].mean())
         caption = f"Finite-time exponents of {counted(len(values), 'member')} over {number(span)} s each."
         figures.append(Figure("exponents", "Lyapunov exponents", caption, [Variant("all", data, layout)]))
@@ -121,7 +135,6 @@ def _lowered(k: int) -> str:
 
 
 MAPS = (("y", "vy"), ("z", "vz"), ("z", "y"), ("roll", "wx"), ("yaw", "wy"), ("pitch", "wz"))
-FACTORS = {"m": (1e3, "mm"), "m s-1": (1e3, "mm/s"), "rad": (1e3, "mrad"), "rad s-1": (1.0, "rad/s")}
 
 
 def poincare(result: xr.Dataset) -> Figure | None:
@@ -129,6 +142,8 @@ def poincare(result: xr.Dataset) -> Figure | None:
     if "section_member" not in result.coords or result.sizes["section"] == 0:
         return None
     sections = slideway.sections(result)
+    if sections.sizes["section"] == 0:
+        return None
     members = sections["member"].values
     shown = np.unique(members)
     study = slideway.scene(result)["study"]
@@ -136,7 +151,7 @@ def poincare(result: xr.Dataset) -> Figure | None:
     for across, up in MAPS:
         if across not in sections or up not in sections:
             continue
-        (x, x_title), (y, y_title) = (_scaled(sections, name) for name in (across, up))
+        (x, x_title), (y, y_title) = (scaled_sections(sections, name) for name in (across, up))
         if len(shown) <= 4:
             data = [points(x[members == m], y[members == m], f"member {m}", f"@c{k % 4 + 1}") for k, m in enumerate(shown)]
         else:
@@ -159,54 +174,9 @@ def poincare(result: xr.Dataset) -> Figure | None:
     return Figure("poincare", "Poincaré map", caption, variants, height=480, choice="Plane")
 
 
-def _scaled(sections: xr.Dataset, name: str) -> tuple[np.ndarray, str]:
+def scaled_sections(sections: xr.Dataset, name: str) -> tuple[np.ndarray, str]:
+    """A state at the sections in a handy unit, and the title of its axis."""
     factor, unit = FACTORS.get(
         str(sections[name].attrs.get("units", "1")), (1.0, str(sections[name].attrs.get("units", "1")))
     )
     return sections[name].values * factor, f"{text(name)} [{text(unit)}]"
-
-
-def bifurcation(result: xr.Dataset) -> Figure | None:
-    """Sections and exponents over the parameter of a sweep."""
-    key = slideway.scene(result)["study"].get("parameter")
-    variable = str(key).replace(".", "_")
-    if key is None or variable not in result:
-        return None
-    values = result[variable]
-    factor, unit = FACTORS.get(str(values.attrs.get("units", "1")), (1.0, str(values.attrs.get("units", "1"))))
-    of_member = dict(zip(result["member"].values.tolist(), (values.values * factor).tolist(), strict=True))
-    x_title = f"{text(key)}" + ("" if unit == "1" else f" [{text(unit)}]")
-    sections = slideway.sections(result) if "section_member" in result.coords else None
-    lower = _exponent_row(result, values.values * factor)
-    variants = []
-    for name in ("y", "z", "roll", "yaw", "pitch", "vy", "vz"):
-        if sections is None or name not in sections:
-            continue
-        y, title = _scaled(sections, name)
-        at = np.array([of_member[m] for m in sections["member"].values.tolist()])
-        data = [points(at, y, f"{name} at the sections", "@c1/0.7", size=3, showlegend=False), *lower]
-        titles = [title, "largest exponent<br>[s<sup>−1</sup>]"] if lower else [title]
-        variants.append(Variant(name, data, {**rows(titles, x_title), "hovermode": "closest"}))
-    if not variants and lower:
-        bare = [{key: part for key, part in trace.items() if key != "yaxis"} for trace in lower]
-        variants.append(Variant("exponent", bare, rows(["largest exponent<br>[s<sup>−1</sup>]"], x_title)))
-    if not variants:
-        return None
-    columns = len(np.unique(values.values))
-    caption = f"{counted(columns, 'column')}, the states of all members at their sections."
-    if lower:
-        caption += " Below: each member's largest exponent with its 95 % interval, and the mean of each column."
-    return Figure("bifurcation", "Bifurcation diagram", caption, variants, height=600 if lower else 420, choice="State")
-
-
-def _exponent_row(result: xr.Dataset, parameter: np.ndarray) -> list[dict[str, object]]:
-    if "lyapunov_exponent" not in result:
-        return []
-    ended = slideway.finished(result).values
-    x, largest = parameter[ended], result["lyapunov_exponent"].values[ended, 0]
-    wide = result["lyapunov_exponent_half_width"].values[ended, 0]
-    bars = {"type": "data", "array": packed(wide), "color": "@c2/0.4", "thickness": 1, "width": 0}
-    each = points(x, largest, "member", "@c2", axis=2, size=4, error_y=bars)
-    columns = np.unique(x[np.isfinite(largest)])
-    means = np.array([np.nanmean(largest[x == column]) for column in columns])
-    return [each, line(columns, means, "mean of the column", "@c3", 2, width=2)]

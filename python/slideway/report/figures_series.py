@@ -1,27 +1,28 @@
-"""Figures of time series: of single members, of all of them as bands, orbits, and forces by contact."""
+"""Figures of time series: of single members, orbits, and forces by contact."""
 
 from __future__ import annotations
 
 import textwrap
-import warnings
+from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from slideway.ideal import rod_reach
+from slideway.sampling import too_coarse
 from slideway.way import may_be_misaligned
 
 from .contact import mode_classes
 from .members import chosen
-from .numbers import counted, number, scaled, unit_words
+from .numbers import counted, number, unit_words
 from .poses import Poses
-from .traces import Figure, Trace, Variant, band, bars_of, line, packed, points, rows, text, thinned
+from .traces import Figure, Trace, Variant, bars_of, line, packed, points, rows, text, thinned
 
 CLASSES = ("free", "point", "line", "surface")
 STATES = ("y", "z", "roll", "yaw", "pitch", "vy", "vz", "wx", "wy", "wz")
 COUNTS = ("surfaces", "lines", "points")
-BAND_TIMES = 1000
 BAND_MEMBERS = 2000
 
 # (unit, series, factor to this unit) of each row of states.
@@ -88,19 +89,25 @@ def _rows_of(
     result: xr.Dataset, member: int, groups: list[tuple[str, list[str], float]], extra: list[str], pose: Poses
 ) -> list[Trace]:
     row = result.sel(member=member).isel(sample=pose.samples)
+    rough = {name: too_coarse(result, [member], name) for name in [*STATES, *extra]}
     across = {"y": pose.y, "z": pose.z}  # from the way's axis, as the walls
     data: list[Trace] = []
     for place, (_, names, factor) in enumerate(groups, start=1):
         data += [
-            line(pose.time, (across[name] if name in across else row[name].values) * factor, name, colour, place)
+            _drawn(rough[name])(pose.time, (across[name] if name in across else row[name].values) * factor, name, colour, place)
             for name, colour in zip(names, COLOURS, strict=False)
         ]
     for place, name in enumerate(extra, start=len(groups) + 1):
         if name == "x" and pose.crank is not None and pose.links is not None:
             r, rod = pose.links
             data.append(line(pose.time, rod_reach(r, rod, pose.crank), "x of the ideal mechanism", "@muted", place, width=4))
-        data.append(line(pose.time, row[name].values, name, "@c4", place, showlegend=name == "x"))
+        data.append(_drawn(rough[name])(pose.time, row[name].values, name, "@c1", place, showlegend=name == "x"))
     return data
+
+
+def _drawn(rough: bool) -> Callable[..., Trace]:
+    """How samples are drawn: joined, or as points where they are too far apart for that."""
+    return partial(points, size=3) if rough else line
 
 
 def _walls(pose: Poses) -> list[dict[str, object]]:
@@ -117,6 +124,8 @@ def _walls(pose: Poses) -> list[dict[str, object]]:
 def _series_caption(result: xr.Dataset, name: str) -> str:
     samples = result.sizes["sample"]
     caption = f"{counted(samples, 'sample')}, every {number(_spacing(result))} s."
+    if too_coarse(result, list(chosen(result))):
+        caption += " That is far coarser than the contacts: samples are points, for a line between them would show what never was."
     if name == "series":
         caption += " Dotted: the clearance, where the slider without tilt would touch."
         if may_be_misaligned(result):
@@ -131,34 +140,6 @@ def _spacing(result: xr.Dataset) -> float:
     return float((time[-1] - time[0]) / max(len(time) - 1, 1))
 
 
-def bands(result: xr.Dataset) -> Figure | None:
-    """Quantiles over the members at each time; None where there are too few members."""
-    if result.sizes["member"] < 10:
-        return None
-    samples, members = result.sizes["sample"], result.sizes["member"]
-    step, stride = -(-samples // BAND_TIMES), -(-members // BAND_MEMBERS)
-    thin = result.isel(sample=slice(None, None, step), member=slice(None, None, stride))
-    variants = []
-    for name in [name for name in series_names(result) if name not in COUNTS]:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", RuntimeWarning)  # times that no member reached
-            values = thin[name].transpose("member", "sample").values
-            curves = np.nanquantile(values, (0.05, 0.25, 0.5, 0.75, 0.95), axis=0)
-        factor, named = scaled(float(np.nanmax(np.abs(curves))), str(thin[name].attrs.get("units", "1")))
-        low, quarter, middle, three, high = curves * factor
-        title = name.replace("_", " ") + ("" if named == "1" else f" [{text(unit_words(named))}]")
-        time = thin["time"].values
-        data = band(time, low, high, "5 to 95 %", "@c1/0.18") + band(time, quarter, three, "25 to 75 %", "@c1/0.35")
-        data.append(line(time, middle, "median", "@c1", width=2))
-        variants.append(Variant(name, data, rows([title], "time [s]")))
-    caption = f"At each time, of the {counted(thin.sizes['member'], 'member')} that got there."
-    if step > 1:
-        caption += f" Every {step}th sample."
-    if may_be_misaligned(result):
-        caption += " As stored: y and z are not from the way's axis."
-    return Figure("bands", "All members over time", caption, variants, choice="Series")
-
-
 def orbit(result: xr.Dataset, seen: dict[int, Poses]) -> Figure | None:
     """Path of the slider's centre in the gap, seen along the way."""
     if "z" not in result:
@@ -168,8 +149,10 @@ def orbit(result: xr.Dataset, seen: dict[int, Poses]) -> Figure | None:
         pose = seen[member]
         y, z = pose.y * 1e3, pose.z * 1e3
         kept = np.unique(np.concatenate([thinned(y), thinned(z)])) if len(y) > 5000 else np.arange(len(y))
-        path = {**line([], [], "centre", "@c1/0.55", width=0.8), **_xy(z[kept], y[kept])}
-        start = points(z[:1], y[:1], "start", "@c2", size=9)
+        rough = too_coarse(result, [member])
+        drawn = points([], [], "centre", "@c1/0.7", size=3) if rough else line([], [], "centre", "@c1/0.55", width=0.8)
+        path = {**drawn, **_xy(z[kept], y[kept])}
+        start = points(z[:1], y[:1], "start", "@c1", size=9)
         joint = pose.joint
         across, up = joint.gap_z * 1e3, joint.gap_y * 1e3
         walls = {
@@ -186,6 +169,8 @@ def orbit(result: xr.Dataset, seen: dict[int, Poses]) -> Figure | None:
         layout["xaxis"] |= {"constrain": "domain"}
         variants.append(Variant(label, [path, start], {**layout, "shapes": [walls]}))
     caption = "The slider's centre, seen along the way. Dotted: how far it can go without tilt."
+    if too_coarse(result, list(seen)):
+        caption += " Samples are far coarser than the contacts, and so are points."
     return Figure("orbit", "Orbit in the gap", caption, variants, height=460, choice="Member")
 
 

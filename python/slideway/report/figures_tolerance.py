@@ -9,49 +9,85 @@ import xarray as xr
 
 import slideway
 
-from .columns import Array, Column
-from .numbers import counted, scaled, unit_words
-from .traces import Figure, Trace, Variant, packed, rows, text
+from slideway.distribution import bounds, steps
 
+from .columns import Array, Column
+from .numbers import counted, percent, scaled, unit_words
+from .traces import MOST_POINTS, Figure, Trace, Variant, colour_of, packed, rows, text
 
 Kinds = tuple[tuple[str, str, str], ...]  # name in the file, in words, colour
 
 
-def quantiles(every: list[Column], limits: dict[str, Any]) -> Figure | None:
-    """Distribution of each quantity by its quantiles, with their intervals and the scene's limits."""
+def quantiles(every: list[Column], limits: dict[str, Any], trials: int) -> Figure | None:
+    """Distribution function of each quantity, with quantiles, their intervals and the scene's limits; shares of `trials` members."""
     variants = []
     for one in every:
         if len(one.quantiles) < 6 or not one.high > one.low:
             continue
         factor, named = scaled(max(abs(one.low), abs(one.high)), one.unit)
-        probability = np.array(list(one.quantiles))
-        value = np.array(list(one.quantiles.values())) * factor
-        trace: Trace = {
-            "type": "scatter",
-            "mode": "lines+markers",
-            "name": text(one.name),
-            "x": packed(value),
-            "y": packed(probability * 100),
-            "line": {"color": "@c1"},
-            "showlegend": False,
-        }
-        if one.quantile_intervals:
-            ends = np.array(list(one.quantile_intervals.values())) * factor
-            trace["error_x"] = _interval(value, ends, "@c1/0.6")
+        edges = {name: float(edge) for name, edge in limits.get(one.name, {}).items()}
+        data = _function(one, trials, factor, list(edges.values())) + [_quantiles(one, trials, factor)]
         unit = "" if named == "1" else f" [{text(unit_words(named))}]"
-        layout = rows(["members below [%]"], f"{text(one.name)}{unit}")
-        marks = [(name, edge * factor) for name, edge in limits.get(one.name, {}).items()]
-        layout["shapes"] = [_line(edge) for _, edge in marks]
-        layout["annotations"] = [_label(edge, name) for name, edge in marks]
-        variants.append(Variant(one.name, [trace], {**layout, "hovermode": "closest"}))
+        layout = rows([f"share of {trials:,} that ran [%]"], f"{text(one.name)}{unit}")
+        layout["yaxis"] |= {"range": [-2, 102]}
+        layout["shapes"] = [_line(edge * factor) for edge in edges.values()]
+        layout["annotations"] = [_label(edge * factor, _kept(one, name, edge, trials)) for name, edge in edges.items()]
+        variants.append(Variant(one.name, data, {**layout, "hovermode": "closest", "showlegend": False}))
     if not variants:
         return None
-    caption = "Quantiles of the members that finished, bars: their 95 % intervals where the design allows some."
-    return Figure("quantiles", "Quantiles", caption, variants, choice="Quantity")
+    caption = "Distribution functions; all shares are of the members that ran, and those that failed lie beyond the end of the curve. "
+    if all(one.values is not None for one in every):
+        caption += "Each step is a member"
+        caption += f"; of so many, {MOST_POINTS:,} are drawn." if trials > MOST_POINTS else "."
+    else:
+        caption += "The members are not stored: the function lies in the band, and is known at its corners."
+    caption += " Dots: quantiles of the members that finished; bars: their 95 % intervals, as far as the design allows some."
+    return Figure("quantiles", "Distribution functions", caption, variants, choice="Quantity")
+
+
+def _function(one: Column, trials: int, factor: float, edges: list[float]) -> list[Trace]:
+    """Steps at the stored members, or the band between the bounds that a histogram gives."""
+    style = {"type": "scatter", "mode": "lines", "hoverinfo": "x+y"}
+    colour = colour_of(one.name)
+    if one.values is None:
+        if one.histogram is None:
+            return []
+        x, low, high = bounds(one.histogram.edges, one.histogram.counts, trials)
+        lines = [{**style, "x": packed(x * factor, "f8"), "y": packed(y), "line": {"color": colour, "width": 1}} for y in (low, high)]
+        return [lines[0], {**lines[1], "fill": "tonexty", "fillcolor": f"{colour}/0.35"}]
+    x, y = steps(one.values, trials)
+    kept = np.arange(x.size)
+    if x.size > MOST_POINTS:
+        # Members at the limits stay, so that the curve has there what the file says.
+        beside = [k for edge in edges for k in (np.searchsorted(x, edge, side="right") - 1, np.searchsorted(x, edge))]
+        kept = np.unique(np.concatenate([np.linspace(0, x.size - 1, MOST_POINTS).round(), np.clip(beside, 0, x.size - 1)]).astype(int))
+    ends = (np.concatenate([x[:1], x[kept]]) * factor, np.concatenate([[0.0], y[kept]]))
+    # Eight bytes: a value rounded to four might pass to the other side of a limit.
+    return [{**style, "x": packed(ends[0], "f8"), "y": packed(ends[1], "f8"), "line": {"color": colour, "shape": "hv", "width": 1.5}}]
+
+
+def _quantiles(one: Column, trials: int, factor: float) -> Trace:
+    """Quantiles as dots at their shares of the members that ran, with intervals."""
+    value = np.array(list(one.quantiles.values())) * factor
+    share = np.array(list(one.quantiles)) * 100 * one.count / max(trials, 1)
+    marker = {"color": colour_of(one.name), "size": 6}
+    trace: Trace = {"type": "scatter", "mode": "markers", "name": "quantile", "x": packed(value), "y": packed(share), "marker": marker}
+    if one.quantile_intervals:
+        ends = np.array(list(one.quantile_intervals.values())) * factor
+        trace["error_x"] = _interval(value, ends, f"{colour_of(one.name)}/0.6")
+    return trace
+
+
+def _kept(one: Column, name: str, edge: float, trials: int) -> str:
+    """Name of a limit, and how many of the members that ran are on its right side."""
+    if one.values is None:
+        return f"limit ({name})"
+    kept = int((one.values >= edge if name == "min" else one.values <= edge).sum())
+    return f"limit ({name}), kept by {percent(kept / max(trials, 1), 3)}"
 
 
 def _interval(values: Array, ends: Array, colour: str) -> dict[str, Any]:
-    """Error bars from values (n) to ends (n, 2), none where an end is unknown."""
+    """Error bars from values (n) to ends (n, 2), none where an end is unknown; without caps, which would stand there all the same."""
     up, down = (np.nan_to_num(np.clip(part, 0, None)) for part in (ends[:, 1] - values, values - ends[:, 0]))
     return {
         "type": "data",
@@ -60,6 +96,7 @@ def _interval(values: Array, ends: Array, colour: str) -> dict[str, Any]:
         "arrayminus": packed(down),
         "color": colour,
         "thickness": 1.2,
+        "width": 0,
     }
 
 
@@ -73,7 +110,7 @@ def _label(x: float, name: str) -> dict[str, Any]:
         "y": 1,
         "yref": "paper",
         "yanchor": "bottom",
-        "text": f"limit ({text(name)})",
+        "text": text(name),
         "showarrow": False,
         "font": {"color": "@bad"},
     }
@@ -81,7 +118,7 @@ def _label(x: float, name: str) -> dict[str, Any]:
 
 def yields(result: xr.Dataset) -> list[tuple[str, int, int, float, float, float]]:
     """Of each limit and of all: name, members that meet it, members that ran, share, ends of its interval (NaN for none)."""
-    if "yield" not in slideway.groups(result):
+    if "yield" not in slideway.groups(result) or not slideway.results.holds_all(result):
         return []
     with slideway.open(slideway.results.path_of(result), group="yield") as group:
         trials = int(group["trials"])
@@ -100,12 +137,12 @@ def yields(result: xr.Dataset) -> list[tuple[str, int, int, float, float, float]
 
 def sensitivity(result: xr.Dataset) -> Figure | None:
     """Which inputs drive each quantity: Sobol indices, or rank correlations where the design has none."""
-    if "sensitivity" not in slideway.groups(result):
+    if "sensitivity" not in slideway.groups(result) or not slideway.results.holds_all(result):
         return None
     with slideway.open(slideway.results.path_of(result), group="sensitivity") as opened:
         group = opened.load()
     inputs = [text(name) for name in group["input"].values.tolist()]
-    kinds: Kinds = (("first", "first order: alone", "@c1"), ("total", "total: with all that it interacts with", "@c2"))
+    kinds: Kinds = (("first", "first order: alone", "@c2"), ("total", "total: with all that it interacts with", "@c1"))
     if not any(str(name).endswith("_total") for name in group):
         kinds = (("rank_correlation", "rank correlation", "@c1"),)
     variants = []
@@ -119,7 +156,7 @@ def sensitivity(result: xr.Dataset) -> Figure | None:
             if data:
                 layout = {
                     "xaxis": {
-                        "title": {"text": "share of the variance" if len(kinds) > 1 else "Spearman's rank correlation"}
+                        "title": {"text": "share of the variance" if len(kinds) > 1 else "rank correlation"}
                     },
                     "yaxis": {"automargin": True},
                     "barmode": "group",
@@ -134,7 +171,7 @@ def sensitivity(result: xr.Dataset) -> Figure | None:
             "The total less the first is what an input does together with others."
         )
     else:
-        caption = "How the ranks of input and quantity go together, from −1 to 1, bars: 95 % intervals where the design allows some."
+        caption = "Spearman's rank correlation of input and quantity, from −1 to 1, bars: 95 % intervals where the design allows some."
     return Figure(
         "sensitivity", "What drives the scatter", caption, variants, height=140 + 42 * len(inputs), choice="Quantity"
     )

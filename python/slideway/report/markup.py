@@ -38,19 +38,21 @@ def words(text: object) -> str:
     return html.escape(str(text))
 
 
-def table(head: Sequence[str], body: Iterable[Sequence[object]], caption: str, numeric: int = 1) -> str:
-    """A table that scrolls by itself on a narrow page; columns from `numeric` on hold numbers."""
+def table(head_words: Sequence[str], body: Iterable[Sequence[object]], caption: str, numeric: int = 1) -> str:
+    """A table; columns from `numeric` on hold numbers. On a narrow page a row of more than three cells becomes a block of lines."""
 
     def cells(row: Sequence[object], head: bool) -> str:
         parts = []
         for k, cell in enumerate(row):
             scope = "col" if head else "row" if k == 0 else None
-            parts.append(tag("th" if scope else "td", words(cell), class_="n" if k >= numeric else None, scope=scope))
+            column = None if scope else head_words[k]
+            parts.append(tag("th" if scope else "td", words(cell), class_="n" if k >= numeric else None, scope=scope, data_column=column))
         return tag("tr", *parts)
 
+    layout = "scroll" + " stacked" * (len(head_words) > 3) + " pairs" * (len(head_words) > 5)
     lines = [cells(row, False) for row in body]
-    inner = tag("caption", words(caption)) + tag("thead", cells(head, True)) + tag("tbody", *lines)
-    return tag("div", tag("table", inner), class_="scroll", tabindex="0", role="region", aria_label=caption)
+    inner = tag("caption", words(caption)) + tag("thead", cells(head_words, True)) + tag("tbody", *lines)
+    return tag("div", tag("table", inner), class_=layout, tabindex="0", role="region", aria_label=caption)
 
 
 def facts(pairs: Iterable[tuple[str, str]]) -> str:

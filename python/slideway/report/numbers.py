@@ -68,18 +68,18 @@ def amount(value: float, unit: str, digits: int = 4) -> str:
     return f"{number(value * factor, digits)} {'' if named == '1' else unit_words(named)}".strip()
 
 
-def percent(share: float) -> str:
+def percent(share: float, digits: int = 2) -> str:
     """A share in percent, small ones in parts per million.
 
     >>> from slideway.report.numbers import percent
-    >>> percent(0.354), percent(5.5e-06), percent(-2e-3)
-    ('35 %', '5.5 ppm', '−0.2 %')
+    >>> percent(0.354), percent(5.5e-06), percent(-2e-3), percent(0.8958, 3)
+    ('35 %', '5.5 ppm', '−0.2 %', '89.6 %')
     """
     if not math.isfinite(share):
         return "–"
     if share != 0 and abs(share) < 1e-4:
         return f"{number(share * 1e6, 2)} ppm"
-    return f"{number(100 * share, 2)} %"
+    return f"{number(100 * share, digits)} %"
 
 
 def counted(count: int, what: str) -> str:

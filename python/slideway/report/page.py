@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -11,27 +10,38 @@ from typing import Any
 import xarray as xr
 
 import slideway
+from slideway.arguments import one_line
+from slideway.arguments import path as path_text
+from slideway.distribution import ran
 from slideway.errors import SlidewayError
+from slideway.members import with_members
+from slideway.palette import style_sheet
 from slideway.results import StrPath
 
 from . import (
     animation,
     energy,
+    figures_bands,
     figures_members,
     figures_orbits,
     figures_series,
     figures_signals,
+    figures_sweep,
     figures_tolerance,
     poses,
     sections,
     statuses,
 )
+from .audit import Audit
+from .audit import audit as audit_of
 from .columns import Column, columns
+from .files import replace
 from .film_section import animation_section
 from .markup import Section, data_block, tag, words
 from .members import chosen
-from .numbers import percent
+from .numbers import counted, percent
 from .resolution import Resolution, resolution
+from .sweep import sweep_of
 from .traces import Figure
 
 # Nothing is fetched: the page may run its own scripts and show its own pictures, no more.
@@ -41,6 +51,7 @@ POLICY = (
 )
 
 
+@one_line
 def write(result: StrPath | xr.Dataset, out: StrPath) -> Path:
     """Write a page about a result: one HTML file that needs no network and no other file.
 
@@ -53,50 +64,34 @@ def write(result: StrPath | xr.Dataset, out: StrPath) -> Path:
 
     Raises:
         SlidewayError: the result cannot be read, or the page cannot be written.
+
+    >>> page = slideway.report.write(example_file, os.path.join(os.path.dirname(example_file), "page.html"))
+    >>> page.read_text(encoding="utf-8")[:15]
+    '<!doctype html>'
     """
+    path = Path(path_text(out, "out"))
     if isinstance(result, xr.Dataset):
         text = html_of(result)
     else:
         with slideway.open(result) as opened:
             text = html_of(opened)
-    path = Path(os.fspath(out))
     try:
-        _replace(path, text)
+        replace(path, text)
     except OSError as error:
         raise SlidewayError(f"{path}: cannot write the report: {error.strerror or error}") from error
     return path
 
 
-def _replace(path: Path, text: str) -> None:
-    """Puts a text in a file that others see old or new, never in part; its unfinished name is this call's own."""
-    descriptor, part = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
-    try:
-        with open(descriptor, "w", encoding="utf-8") as file:
-            file.write(text)
-        os.chmod(part, _usual_mode(path))
-        os.replace(part, path)
-    except BaseException:
-        os.unlink(part)
-        raise
-
-
-def _usual_mode(path: Path) -> int:
-    """Permissions of the file as it is, or of any new one: those of a temporary file are for its owner alone."""
-    if path.exists():
-        return path.stat().st_mode & 0o777
-    mask = os.umask(0)
-    os.umask(mask)
-    return 0o666 & ~mask
-
-
 def html_of(result: xr.Dataset) -> str:
     """The page's text."""
+    result = with_members(result)
     every = columns(result)
     ended = statuses.endings(result)
-    judged = energy.verdict(result, every)
+    audit = audit_of(result, every)
+    judged = audit.verdict
     resolved = resolution(result)
     film = _film(result)
-    figures = _figures(result, every, film)
+    figures = _figures(result, every, film, audit)
     plots = [figure for name, figure in figures.items() if name != "balance"]
     parts = [
         sections.endings_section(result, ended),
@@ -119,7 +114,7 @@ def html_of(result: xr.Dataset) -> str:
         + f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
         + '<meta name="viewport" content="width=device-width, initial-scale=1">'
         + tag("title", words(f"{title} – slideway report"))
-        + tag("style", _asset("page.css"))
+        + tag("style", style_sheet() + _asset("page.css"))
     )
     return "<!doctype html>\n" + tag("html", tag("head", head), tag("body", body), lang="en") + "\n"
 
@@ -138,26 +133,29 @@ def _film(result: xr.Dataset) -> Film | str:
     return seen, animation.frames(result, seen)
 
 
-def _figures(result: xr.Dataset, every: list[Column], film: Film | str) -> dict[str, Figure]:
+def _figures(result: xr.Dataset, every: list[Column], film: Film | str, audit: Audit) -> dict[str, Figure]:
     """All figures that suit the result, in their order on the page."""
     made: list[Figure | None] = []
+    sweep = sweep_of(result)
     if not isinstance(film, str):
         seen, _ = film
         made += figures_series.time_series(result, seen)
-        made += [figures_series.bands(result), figures_series.orbit(result, seen), figures_series.forces(result, seen)]
+        made += [None if sweep else figures_bands.bands(result), figures_series.orbit(result, seen), figures_series.forces(result, seen)]
         made.append(figures_signals.spectra(result, seen))
     if "status" in result:
-        sweep = figures_orbits.bifurcation(result)
-        made += [sweep or figures_orbits.poincare(result), *figures_orbits.exponents(result)]
-    limits = slideway.scene(result).get("study", {}).get("limits", {})
-    terms = energy.balance(result, every)
-    made += [
-        figures_members.mode_shares(every),
-        figures_tolerance.sensitivity(result),
-        figures_tolerance.quantiles(every, limits),
-        figures_members.histograms(every),
-        figures_members.energy_balance(terms) if terms else None,
-    ]
+        map_ = figures_sweep.bifurcation(result, sweep) if sweep else None
+        made += [map_ or figures_orbits.poincare(result), *figures_orbits.exponents(result)]
+    if sweep:
+        made.append(figures_sweep.quantities(result, sweep))
+    else:
+        limits = slideway.scene(result).get("study", {}).get("limits", {})
+        made += [
+            figures_members.mode_shares(every),
+            figures_tolerance.sensitivity(result),
+            figures_tolerance.quantiles(every, limits, ran(result)),
+            figures_members.histograms(every),
+        ]
+    made.append(figures_members.energy_balance(audit.balance, audit.whose) if audit.balance else None)
     return {figure.name: figure for figure in made if figure}
 
 
@@ -177,9 +175,9 @@ def _header(
         cards.append(("none", exponents[0].split(", from")[0], "Chaos", "plots"))
     yields = figures_tolerance.yields(result)
     if yields:
-        *_, share, low, high = yields[-1]
-        interval = f" ({percent(low)} to {percent(high)})" if low == low else ""
-        cards.append(("none", f"{percent(share)}{interval} meet all limits", "Yield", "summary"))
+        _, _, trials, share, low, high = yields[-1]
+        interval = f" ({percent(low, 3)} to {percent(high, 3)})" if low == low else ""
+        cards.append(("none", f"{percent(share, 3)}{interval} of {counted(trials, 'member')} that ran meet all limits", "Yield", "summary"))
     items = [
         tag("li", tag("span", words(about)), tag("a", words(line), href=f"#{target}"), class_=grade)
         for grade, line, about, target in cards

@@ -6,12 +6,13 @@ import math
 
 import xarray as xr
 
-from . import energy, facts, figures_orbits, figures_tolerance, statuses
+from . import energy, facts, figures_orbits, figures_sweep, figures_tolerance, statuses
 from .columns import Column
 from .markup import Section, table, tag, words
 from .markup import facts as fact_list
 from .numbers import number, percent, scaled, unit_words
 from .resolution import Resolution
+from .sweep import sweep_of
 from .traces import Figure
 
 TEXT = 9  # a column beyond the last: no column of the table holds numbers
@@ -65,21 +66,23 @@ def summary_section(result: xr.Dataset, every: list[Column]) -> Section | None:
         body += tag("p", words(" ".join(exponents)))
     limits = figures_tolerance.yields(result)
     if limits:
-        caption = "Yield: members that meet the limits; one that failed meets none"
-        head = ("limit", "met by", "of", "yield", "95 % interval")
+        caption = "Yield: of the members that ran, those that meet the limits; one that failed meets none"
+        head = ("limit", "met by", "that ran", "yield", "95 % interval")
         body += table(head, [_yield_row(*limit) for limit in limits], caption)
     shown = [one for one in every if one.count > 0]
-    if shown:
+    sweep = sweep_of(result)
+    if sweep and shown:
+        caption = f"Quantities of the members that finished: medians of the columns of {sweep.key}"
+        named = ("quantity", "unit", "least", "largest")
+        body += table(named, figures_sweep.column_table(result, sweep), caption, numeric=2)
+    elif shown:
         body += _quantities(shown)
     return Section("summary", "Summary", body) if body else None
 
 
 def _yield_row(name: str, met: int, trials: int, share: float, low: float, high: float) -> tuple[str, ...]:
-    def written(part: float) -> str:
-        return "–" if math.isnan(part) else f"{100 * part:.3g} %"
-
-    interval = "–" if math.isnan(low) else f"{written(low)} to {written(high)}"
-    return name, f"{met:,}", f"{trials:,}", written(share), interval
+    interval = "–" if math.isnan(low) else f"{percent(low, 3)} to {percent(high, 3)}"
+    return name, f"{met:,}", f"{trials:,}", percent(share, 3), interval
 
 
 def _quantities(shown: list[Column]) -> str:

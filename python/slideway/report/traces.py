@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from slideway.palette import class_colours
+
 MOST_POINTS = 5000  # of a trace
 
 Trace = dict[str, Any]
@@ -46,6 +48,17 @@ def packed(values: ArrayLike, kind: str = "f4") -> dict[str, str]:
     """
     array = np.ascontiguousarray(values, dtype=np.dtype(kind).newbyteorder("<"))
     return {"dtype": kind, "bdata": base64.b64encode(array.tobytes()).decode("ascii")}
+
+
+def colour_of(name: str) -> str:
+    """Colour of a quantity by its component, as the plots of slideway.plot have it.
+
+    >>> from slideway.report.traces import colour_of
+    >>> colour_of("mode_time[free]"), colour_of("peak_tilt")
+    ('@free', '@c1')
+    """
+    component = name.rpartition("[")[2].removesuffix("]")
+    return f"@{component}" if component in class_colours else "@c1"
 
 
 def text(words: object) -> str:

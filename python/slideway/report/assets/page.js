@@ -35,7 +35,7 @@ function themed(value) {
 
 const axisStyle = { gridcolor: "@grid", zerolinecolor: "@rule", linecolor: "@rule", automargin: true };
 
-const legend = { orientation: "h", x: 0, y: 1, xanchor: "left", yanchor: "top", yref: "container", bgcolor: "rgba(0,0,0,0)" };
+const legend = { orientation: "h", x: 0, y: 1, xanchor: "left", yanchor: "top", yref: "container", itemsizing: "constant", bgcolor: "rgba(0,0,0,0)" };
 
 function layoutOf(figure, layout) {
   const whole = {

@@ -1,0 +1,169 @@
+"""Figures of the pages: exact, without claims that nobody can make, and readable on a phone."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+import slideway
+import xarray as xr
+from slideway import palette
+from slideway.report.numbers import amount, number, scaled
+
+from .browser import Browser
+from .conftest import Page, unpacked
+
+Pages = Callable[[str], Page]
+Results = Callable[[str], xr.Dataset]
+
+
+def variant(page: Page, figure: str, place: int = 0) -> dict[str, Any]:
+    return page.read.figure(figure)[place]
+
+
+def test_distribution_says_at_a_limit_what_the_file_says(page_of: Pages, result_of: Results) -> None:
+    with result_of("correlations") as result, result.slideway.yields as yields:
+        values = np.sort(result.peak_normal_force.values)
+        share = 100 * float(yields["share"][0])
+    drawn = variant(page_of("correlations"), "quantiles")
+    curve = drawn["data"][0]
+    x, y = unpacked(curve["x"]) * 1e3, unpacked(curve["y"])  # kN
+    assert curve["line"]["shape"] == "hv"
+    np.testing.assert_allclose(x, [values[0], *values], rtol=1e-12)
+    np.testing.assert_allclose(y, 100 * np.arange(65) / 64, rtol=1e-6)
+    assert y[np.searchsorted(x, 1000, side="right") - 1] == pytest.approx(share)
+    assert drawn["layout"]["annotations"][0]["text"] == f"limit (max), kept by {number(share, 3)} %"
+    assert drawn["layout"]["yaxis"]["title"]["text"] == "share of 64 that ran [%]"
+    assert f"{number(share, 3)} % (" in page_of("correlations").read.text  # on top of the page
+    assert "of 64 members that ran meet all limits" in page_of("correlations").read.text
+
+
+def test_long_distributions_are_exact_at_their_limits() -> None:
+    from slideway.report import figures_tolerance
+    from slideway.report.columns import Column
+
+    values = np.random.default_rng(0).lognormal(size=40_001)
+    edge = float(np.sort(values)[12_345]) * (1 + 1e-12)
+    quantiles = {p: float(np.quantile(values, p)) for p in np.linspace(0.1, 0.9, 9)}
+    one = Column("q", "", "1", values.size, 1.0, 1.0, values.min(), values.max(), quantiles, {}, values, None)
+    figure = figures_tolerance.quantiles([one], {"q": {"max": edge}}, 40_001)
+    assert figure is not None
+    curve = figure.variants[0].data[0]
+    x, y = unpacked(curve["x"]), unpacked(curve["y"])
+    assert x.size <= 5004
+    assert y[np.searchsorted(x, edge, side="right") - 1] == pytest.approx(100 * 12_346 / 40_001, rel=1e-6)
+
+
+def test_function_of_statistics_alone_is_a_band(page_of: Pages, result_of: Results) -> None:
+    with result_of("stored") as result, result.slideway.statistics as statistics:
+        below = 100 * np.cumsum(statistics.peak_normal_force_bin_count.values)[:2] / 64
+    low, high = variant(page_of("stored"), "quantiles")["data"][:2]
+    assert high["fill"] == "tonexty"
+    np.testing.assert_allclose(unpacked(low["y"])[:4], [0, 0, below[0], below[0]], rtol=1e-6)
+    np.testing.assert_allclose(unpacked(high["y"])[:4], [below[0], below[0], below[1], below[1]], rtol=1e-6)
+
+
+@pytest.mark.parametrize("name", ["correlations", "tolerance", "stored", "sweep", "columns"])
+def test_error_bars_have_no_caps(name: str, page_of: Pages) -> None:
+    bars = [
+        trace[side]
+        for figure in page_of(name).read.data["figures"].values()
+        for one in figure["variants"]
+        for trace in one["data"]
+        for side in ("error_x", "error_y")
+        if side in trace
+    ]
+    assert bars
+    assert all(bar["width"] == 0 for bar in bars)
+
+
+def test_a_sweep_is_told_column_by_column(page_of: Pages, result_of: Results) -> None:
+    read = page_of("columns").read
+    assert {"columns", "bifurcation", "balance"} <= set(read.data["figures"])
+    assert not {"histograms", "modes", "quantiles", "exponents", "bands"} & set(read.data["figures"])
+    assert "on average of" not in read.text
+    assert "mean" not in " ".join(word for row in read.rows for word in row)
+    with result_of("columns") as result:
+        force = result.peak_normal_force.values.reshape(4, 3)  # columns, starts
+        gaps = result.joint_clearance.values.reshape(4, 3)[:, 0]
+        exponents = np.median(result.lyapunov_exponent.values[:, 0].reshape(4, 3), axis=1)
+    medians = np.median(force, axis=1)
+    factor, unit = scaled(medians.max(), "N")
+    ends = (f"{number(medians[k] * factor)} at {amount(gaps[k], 'm')}" for k in (medians.argmin(), medians.argmax()))
+    assert read.row("peak_normal_force") == ["peak_normal_force", unit, *ends]
+    points, middle = variant(page_of("columns"), "columns")["data"]
+    np.testing.assert_allclose(unpacked(points["y"]), force.ravel() * factor, rtol=1e-6)
+    np.testing.assert_allclose(unpacked(middle["y"]), medians * factor, rtol=1e-6)
+    assert f"between {number(exponents.min())} s⁻¹ at" in read.text
+    assert f"and {number(exponents.max())} s⁻¹ at" in read.text
+
+
+def test_the_audit_of_a_sweep_is_that_of_its_worst_column(page_of: Pages, result_of: Results) -> None:
+    with result_of("columns") as result:
+        loss = (result.friction_loss + result.damping_loss).values.reshape(4, 3).mean(axis=1)
+        work = np.abs(result.crank_work.values.reshape(4, 3).mean(axis=1))
+        worst = np.abs(result.energy_residual.values.reshape(4, 3)).max(axis=1) / np.maximum(loss, work)
+        gap = float(result.joint_clearance.values.reshape(4, 3)[worst.argmax(), 0])
+    text = page_of("columns").read.text
+    assert f"largest share of 4 columns, joint.clearance = {amount(gap, 'm')}" in text
+    assert f"Means over the members with joint.clearance = {amount(gap, 'm')}" in text
+
+
+def test_coarse_samples_are_points_with_a_word(page_of: Pages) -> None:
+    page = page_of("coarse")
+    for name in ("series", "rates"):
+        assert {trace["mode"] for trace in variant(page, name)["data"]} == {"markers"}
+    assert {trace["mode"] for trace in variant(page, "orbit")["data"]} == {"markers"}
+    assert "far coarser than the contacts: samples are points" in page.read.text
+    assert {trace["mode"] for trace in variant(page_of("ensemble"), "series")["data"]} == {"lines"}
+    assert "far coarser" not in page_of("ensemble").read.text
+
+
+def test_colours_of_the_page_are_those_of_the_plots(page_of: Pages) -> None:
+    page = page_of("tolerance")
+    assert palette.style_sheet() in page.html
+    by_name = {one["data"][0]["line"]["color"] for one in page.read.figure("quantiles") if "data" in one}
+    assert {"@c1", "@free", "@point", "@line"} <= by_name
+    total, first = variant(page, "sensitivity")["data"]
+    with_total = slideway.plot.tolerance.colours
+    assert (total["marker"]["color"], first["marker"]["color"]) == ("@c1", "@c2")
+    assert with_total[:2] == palette.colours[:2]
+
+
+PHONE = """
+  const inside = [...document.querySelectorAll("#summary .scroll, #endings .scroll")];
+  const small = [...document.querySelectorAll("#summary td, #summary th, #summary p")].map((one) => one.getBoundingClientRect());
+  return { beyond: Math.max(...inside.map((one) => one.scrollWidth - one.clientWidth)), tables: inside.length,
+           right: Math.max(...small.map((one) => one.right)), left: Math.min(...small.map((one) => one.left)),
+           size: Math.min(...[...document.querySelectorAll("#summary td")].map((one) => parseFloat(getComputedStyle(one).fontSize))),
+           named: getComputedStyle(document.querySelector("#summary td"), "::before").content };
+"""
+
+
+@pytest.mark.parametrize("name", ["tolerance", "ensemble", "columns", "stored", "correlations"])
+def test_the_summary_is_read_on_a_phone_without_scrolling(name: str, page_of: Pages, browser: Browser) -> None:
+    found = browser.look(page_of(name).path, PHONE, width=390).found
+    assert found["tables"] > 0
+    assert found["beyond"] <= 0
+    assert 0 <= found["left"] < found["right"] <= 390
+    assert found["size"] >= 13
+    assert json.loads(found["named"]) in ("unit", "met by")  # the column's name beside the number
+
+
+LEGENDS = """
+  const meets = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1;
+  return [...document.querySelectorAll(".plot")].filter((plot) => {
+    const legend = plot.querySelector(".legend .bg");
+    return legend && [...plot.querySelectorAll(".plot > rect, .bglayer rect, .nsewdrag")].some((area) =>
+      meets(legend.getBoundingClientRect(), area.getBoundingClientRect()));
+  }).map((plot) => plot.id);
+"""
+
+
+@pytest.mark.parametrize("width", [390, 1200])
+@pytest.mark.parametrize("name", ["single", "ensemble", "lyapunov", "poincare", "sweep", "columns", "tolerance", "coarse"])
+def test_legends_stand_outside_the_axes(name: str, width: int, page_of: Pages, browser: Browser) -> None:
+    assert browser.look(page_of(name).path, LEGENDS, width=width).found == []
