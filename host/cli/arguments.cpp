@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -11,7 +12,7 @@
 namespace slideway::cli {
 namespace {
 
-constexpr std::string_view command_names[] = {"run", "check", "probe", "info", "stats", "merge", "report", "list"};
+constexpr std::string_view command_names[] = {"run", "check", "probe", "info", "stats", "merge", "report", "list", "help"};
 
 /// Texts of the options as CLI11 fills them in; checked and turned into arguments afterwards.
 struct Words {
@@ -147,15 +148,29 @@ StatsArguments stats_arguments(Words const& words) {
 void require_known_command(int argc, char const* const* argv) {
     if (argc < 2)
         throw SceneError(
-            "slideway: a command is missing; use run, check, probe, info, stats, merge, report or list (see slideway "
+            "slideway: a command is missing; use run, check, probe, info, stats, merge, report, list or help (see slideway "
             "--help)");
     std::string_view const word = argv[1];
-    if (word == "--help" || word == "-h" || word == "--version") return;
+    if (word == "--help" || word == "-h" || word == "--version" || word == "help") return;
     if (std::find(std::begin(command_names), std::end(command_names), word) != std::end(command_names)) return;
     std::string_view const meant = nearest_name(word, command_names);
     throw SceneError(fmt::format("slideway: there is no command '{}'; {}", word,
-                                 meant.empty() ? "use run, check, probe, info, stats, merge, report or list"
+                                 meant.empty() ? "use run, check, probe, info, stats, merge, report, list or help"
                                                : fmt::format("did you mean {}?", meant)));
+}
+
+/// "; did you mean --resume?" where an option of the command is near enough to one that it does not have.
+std::string option_advice(CLI::App const& command) {
+    std::vector<std::string> names;
+    for (CLI::Option const* const option : command.get_options()) {
+        for (std::string const& name : option->get_lnames()) names.push_back("--" + name);
+    }
+    std::vector<std::string_view> const known(names.begin(), names.end());
+    for (std::string const& word : command.remaining()) {
+        std::string_view const near = word.starts_with("--") ? nearest_name(word.substr(0, word.find('=')), known) : std::string_view();
+        if (!near.empty()) return fmt::format("; did you mean {}?", near);
+    }
+    return fmt::format("; see slideway help {}", command.get_name());
 }
 
 /// A shell's variable that is unset must not become the whole study, or a default.
@@ -252,19 +267,32 @@ Arguments parse_arguments(int argc, char const* const* argv) {
         "The companion is the package slideway of the interpreter that SLIDEWAY_PYTHON names, else of python3;\n"
         "pip install ./python in the source tree installs it.");
 
+    app.add_subcommand("help", "What a command does, and its options: help [COMMAND]");
     CLI::App* const list = app.add_subcommand("list", "Mechanisms, laws, quantities, keys: what a scene may ask for");
     CLI::Option* const json = list->add_flag("--json", words.json, "The keys of a scene as JSON");
     CLI::Option* const schema = list->add_flag("--schema", words.schema, "A JSON Schema of scenes, for editors of TOML")->excludes(json);
     list->add_flag("--markdown", words.markdown, "The keys of a scene as a page in Markdown")->excludes(json)->excludes(schema);
 
+    // `help run` is `run --help`, and `help` alone `--help`.
+    std::vector<std::string> given(argv + 1, argv + argc);
+    if (!given.empty() && given.front() == "help") {
+        given.erase(given.begin());
+        if (!given.empty()) require_known_command(static_cast<int>(given.size()) + 1, argv + 1);
+        given.resize(std::min<std::size_t>(given.size(), 1));
+        given.emplace_back("--help");
+    }
+    std::reverse(given.begin(), given.end());  // as CLI11 wants them
     try {
-        app.parse(argc, argv);
+        app.parse(given);
     } catch (CLI::CallForHelp const&) {
         return TextOnly{app.help()};
     } catch (CLI::CallForAllHelp const&) {
         return TextOnly{app.help("", CLI::AppFormatMode::All)};
     } catch (CLI::CallForVersion const& version) {
         return TextOnly{std::string(version.what()) + "\n"};
+    } catch (CLI::ExtrasError const& error) {
+        auto const commands = app.get_subcommands();
+        throw SceneError("slideway: " + one_line(error.what()) + (commands.empty() ? "" : option_advice(*commands.front())));
     } catch (CLI::ParseError const& error) {
         throw SceneError("slideway: " + one_line(error.what()));
     }

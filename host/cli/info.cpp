@@ -6,6 +6,7 @@
 #include "host/cli/text.hpp"
 #include "host/cli/tolerance_text.hpp"
 #include "host/output/result_reader.hpp"
+#include "host/scene/scene_text.hpp"
 #include "host/study/result_summary.hpp"
 #include "host/study/study_run.hpp"
 #include "host/study/verification.hpp"
@@ -30,7 +31,7 @@ void print_info(InfoArguments const& arguments, ResultReader const& results, std
     print_field("file", arguments.path);
     for (char const* const name : {"title", "created", "version", "commit", "compiler", "flags", "machine", "backend",
                                    "isa", "threads", "seed", "completeness"}) {
-        print_field(name, results.attribute(name));
+        print_field(name, one_line(results.attribute(name)));
     }
     print_field("payload", intact ? fmt::format("{}: matches the data", computed)
                                   : fmt::format("DOES NOT MATCH: the file says {}, its data give {}",

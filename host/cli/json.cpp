@@ -127,7 +127,8 @@ std::string probe_json(Scene const& scene, StateTable const& table, std::vector<
     return text_of(json);
 }
 
-std::string stats_json(StatsArguments const& arguments, std::string const& series, SeriesAnalysis const& a) {
+std::string stats_json(StatsArguments const& arguments, std::string const& series, SeriesAnalysis const& a,
+                       std::vector<std::pair<std::string, std::string>> const& rows) {
     Json json = object("stats");
     json["file"] = arguments.path;
     json["series"] = series;
@@ -145,6 +146,7 @@ std::string stats_json(StatsArguments const& arguments, std::string const& serie
                             {"of_chance", number(a.growth->chance())},
                             {"systematic", number(a.growth->systematic)},
                             {"is_seen", a.growth_is_seen()},
+                            {"is_exponential", a.growth_is_exponential()},
                             {"first_sample", a.growth->window.first},
                             {"last_sample", a.growth->window.last},
                             {"r_squared", number(a.growth->line.r_squared)}};
@@ -152,6 +154,8 @@ std::string stats_json(StatsArguments const& arguments, std::string const& serie
     json["zero_one"] = {{"k", number(a.zero_one.k)}, {"points", a.zero_one.points}, {"stride", a.stride}};
     json["verdict"] = verdict(a);
     json["reservations"] = reservations(a);
+    json["text"] = Json::array();
+    for (auto const& [label, text] : rows) json["text"].push_back({label, text});
     return text_of(json);
 }
 

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "host/cli/commands.hpp"
 #include "host/driver/ensemble.hpp"
@@ -23,6 +25,7 @@ std::string result_json(char const* command, ResultReader const& results, bool i
 std::string stopped_json(std::string const& folder, std::uint64_t left);
 std::string check_json(Scene const& scene, Prediction const& prediction, Backend const& backend);
 std::string probe_json(Scene const& scene, StateTable const& table, std::vector<ProbeResult> const& results);
-std::string stats_json(StatsArguments const& arguments, std::string const& series, SeriesAnalysis const& analysis);
+std::string stats_json(StatsArguments const& arguments, std::string const& series, SeriesAnalysis const& analysis,
+                       std::vector<std::pair<std::string, std::string>> const& rows);
 
 }  // namespace slideway::cli

@@ -58,7 +58,7 @@ int merge(MergeArguments const& arguments) {
         fmt::print("{}", result_json("merge", results, true, nullptr, left));
         return left == 0 ? exit_code::done : exit_code::stopped_early;
     }
-    print_field("scene", scene.title.empty() ? scene_path : fmt::format("{} ({})", scene.title, scene_path));
+    print_field("scene", scene_text(scene, scene_path));
     print_results(replay, scene, results, report);
     fmt::print("\n");
     print_field("results", fmt::format("{}{}; {} is no longer needed", arguments.output,

@@ -160,7 +160,7 @@ std::string kept(std::exception const& error, StudyOptions const& options) {
 /// Rank 0.
 int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& options, StudyRun& run, Ranks& ranks,
          StopRequest const& stop) {
-    if (says_text(arguments)) print_field("scene", scene.title.empty() ? scene.path : fmt::format("{} ({})", scene.title, scene.path));
+    if (says_text(arguments)) print_field("scene", scene_text(scene, scene.path));
     if (run.is_complete()) {
         if (arguments.progress) tell("resuming: {} is complete already\n", options.output);
         return conclude(arguments, scene, options, false, {}, nullptr);

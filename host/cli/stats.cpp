@@ -17,7 +17,8 @@
 namespace slideway::cli {
 namespace {
 
-void row(std::string_view label, std::string_view text) { fmt::print("{:<16} {}\n", label, text); }
+/// What is printed: labels and texts; a row without a label goes on with the one before.
+using Rows = std::vector<std::pair<std::string, std::string>>;
 
 StoredSeries read_series(StatsArguments const& arguments) {
     if (is_netcdf(arguments.path)) {
@@ -57,7 +58,8 @@ std::string found_text(std::optional<std::size_t> samples) {
     return samples ? fmt::format("{}", *samples) : std::string("none");
 }
 
-void print_embedding(SeriesAnalysis const& a, SeriesOptions const& given) {
+void add_embedding(Rows& rows, SeriesAnalysis const& a, SeriesOptions const& given) {
+    auto const row = [&](std::string_view label, std::string text) { rows.emplace_back(label, std::move(text)); };
     row("C-C method",
         fmt::format("first minimum of ΔS {}, first zero of S {}, minimum of S_cor {} samples",
                     found_text(a.choice.first_minimum), found_text(a.choice.first_zero), found_text(a.choice.window)));
@@ -73,7 +75,8 @@ void print_embedding(SeriesAnalysis const& a, SeriesOptions const& given) {
     row("Theiler window", samples_text(a.theiler, a.spacing) + (given.theiler ? ", as given" : ""));
 }
 
-void print_growth(SeriesAnalysis const& a, SeriesOptions const& given) {
+void add_growth(Rows& rows, SeriesAnalysis const& a, SeriesOptions const& given) {
+    auto const row = [&](std::string_view label, std::string text) { rows.emplace_back(label, std::move(text)); };
     if (!a.growth) return row("exponent", "none");
     Growth const& g = *a.growth;
     row("exponent", fmt::format("{:.4g} ± {:.2g} 1/s, {:.3g} ± {:.2g} per average period", g.exponent, g.half_width(),
@@ -125,6 +128,21 @@ SeriesAnalysis analyse(StoredSeries const& series, StatsArguments const& argumen
     }
 }
 
+Rows rows_of(StatsArguments const& arguments, std::string const& series, SeriesAnalysis const& a) {
+    Rows rows;
+    auto const row = [&](std::string_view label, std::string text) { rows.emplace_back(label, std::move(text)); };
+    row("series", fmt::format("{} of {}", series, arguments.path));
+    row("points", fmt::format("{}, every {:.6g} s", a.points, a.spacing));
+    row("average period", fmt::format("{:.4g} s ({:.4g} samples)", a.average_period, a.average_period / a.spacing));
+    add_embedding(rows, a, arguments.options);
+    add_growth(rows, a, arguments.options);
+    std::string const k = std::isnan(a.zero_one.k) ? "none" : fmt::format("K = {:.3f}", a.zero_one.k);
+    row("0-1 test", fmt::format("{} from {} samples, one of every {}", k, a.zero_one.points, a.stride));
+    row("verdict", verdict(a));
+    for (std::string const& line : reservations(a)) row("", "- " + line);
+    return rows;
+}
+
 }  // namespace
 
 int stats(StatsArguments const& arguments) {
@@ -134,20 +152,13 @@ int stats(StatsArguments const& arguments) {
     SeriesAnalysis const a = analyse(series, arguments);
     if (target) target->write(curves_text(a));
 
+    Rows const rows = rows_of(arguments, series.name, a);
     if (arguments.json) {
-        fmt::print("{}", stats_json(arguments, series.name, a));
+        fmt::print("{}", stats_json(arguments, series.name, a, rows));
         return exit_code::done;
     }
-    row("series", fmt::format("{} of {}", series.name, arguments.path));
-    row("points", fmt::format("{}, every {:.6g} s", a.points, a.spacing));
-    row("average period", fmt::format("{:.4g} s ({:.4g} samples)", a.average_period, a.average_period / a.spacing));
-    print_embedding(a, arguments.options);
-    print_growth(a, arguments.options);
-    std::string const k = std::isnan(a.zero_one.k) ? "none" : fmt::format("K = {:.3f}", a.zero_one.k);
-    row("0-1 test", fmt::format("{} from {} samples, one of every {}", k, a.zero_one.points, a.stride));
-    row("verdict", verdict(a));
-    for (std::string const& line : reservations(a)) row("", "- " + line);
-    if (target) row("curves", target->name());
+    for (auto const& [label, text] : rows) fmt::print("{:<16} {}\n", label, text);
+    if (target) fmt::print("{:<16} {}\n", "curves", target->name());
     return exit_code::done;
 }
 

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "host/scene/scene_text.hpp"
+
 namespace slideway::cli {
 
 int exit_code_of(std::exception_ptr error) {
@@ -82,6 +84,10 @@ std::string card_memory_text(Prediction const& prediction) {
 std::string shards_text(Scene const& scene, Prediction const& prediction) {
     if (scene.stores_members()) return "as much again";
     return fmt::format("at most {}", bytes_text(static_cast<double>(prediction.shard_bytes)));
+}
+
+std::string scene_text(Scene const& scene, std::string const& path) {
+    return scene.title.empty() ? path : fmt::format("{} ({})", one_line(scene.title), path);
 }
 
 void print_field(std::string_view label, std::string_view text) { fmt::print("{:<12} {}\n", label, text); }

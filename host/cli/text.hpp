@@ -40,7 +40,10 @@ void print_statuses(std::vector<StatusCount> const& statuses);
 /// Headed table of mean, standard deviation, minimum, median and maximum, one row per column of a quantity.
 void print_quantities(std::vector<QuantitySummary> const& quantities);
 
-/// Writes "label      text", labels in a column.
+/// "Title (scene.toml)", without control characters, which a terminal would obey.
+std::string scene_text(Scene const& scene, std::string const& path);
+
+/// Writes "label      text", labels in a column, on one line.
 void print_field(std::string_view label, std::string_view text);
 
 }  // namespace slideway::cli

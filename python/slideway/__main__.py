@@ -18,8 +18,12 @@ def main(arguments: list[str] | None = None) -> int:
     page = commands.add_parser("report", help="write a page about a result that opens without a network")
     page.add_argument("FILE", help="result file of slideway run")
     page.add_argument("-o", "--output", metavar="OUT.html", help="the page (default: FILE with .html)")
+    page.add_argument("--force", action="store_true", help="replace a page of slideway that is there already")
     given = parser.parse_args(arguments)
     out = given.output or str(Path(given.FILE).with_suffix(".html"))
+    if Path(out).exists() and not given.force:
+        print(f"{out}: is there already; add --force to replace it, or give another name with -o", file=sys.stderr)
+        return FILE_TROUBLE
     try:
         from .report import write
 

@@ -29,6 +29,7 @@ def run(
     progress: bool = True,
     set: Mapping[str, Any] | None = None,  # noqa: A002 (named as the program's --set)
     resume: bool = False,
+    force: bool = False,
     max_hours: float | None = None,
     max_failures: int | str | None = None,
     members: int | tuple[int, int] | None = None,
@@ -47,6 +48,7 @@ def run(
         progress: pass on what the program says of its progress, to stderr; warnings are passed on in any case.
         set: dotted keys and their values, in place of those of the scene: ``{"joint.clearance": "0.2 mm"}``.
         resume: go on with what an earlier run has left beside `output`.
+        force: replace a result of slideway that is there already; any other file is left, and a FileError says so.
         max_hours: stop after this time and keep what is finished.
         max_failures: members that may fail, a number or a share such as "5%" (the program's default: "1%").
         members: run this member alone, or these: (first, last).
@@ -73,7 +75,7 @@ def run(
     options = _options(threads, backend, isa, max_hours, max_failures, members)
     for key, value in _all_overrides(set, overrides).items():
         options += ["--set", f"{key}={to_value(value, key)}"]
-    options += ["--resume"] * bool(resume) + ["--quiet"] * (not progress)
+    options += ["--resume"] * bool(resume) + ["--force"] * bool(force) + ["--quiet"] * (not progress)
     with scene_file(scene) as file:
         result = temporary_path(_stem(file.path) + ".nc") if output is None else arguments.path(output, "output")
         try:

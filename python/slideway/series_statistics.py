@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import json
 import os
-import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +16,6 @@ from .program import call
 from .results import StrPath, file_of
 from .temporary import temporary_folder
 
-_no_growth = ("no exponential growth", "the exponent means little")  # what verdicts say of it
 _options = ("skip", "skip_samples", "max_points", "delay", "dimension", "theiler", "fit", "column", "dt")
 
 
@@ -28,7 +27,7 @@ class SeriesStatistics:
         text: its rows by their labels: "average period", "delay", "0-1 test", "verdict" ...
         time: of the divergence curve [s].
         mean_log_distance: ⟨ln d⟩ of neighbours after that time, natural logarithm of the distance in the series' unit.
-        exponent, error: slope of the fit and its standard error [1/s]; None where there is none.
+        exponent, error: slope of the fit and half its 95 % interval [1/s]; None where there is none.
         fit: first and last sample of the fit.
         growth_is_seen: whether the verdict lets the exponent stand; where it says that no growth is seen, the slope means nothing.
     """
@@ -39,16 +38,7 @@ class SeriesStatistics:
     exponent: float | None
     error: float | None
     fit: tuple[int, int] | None
-
-    @property
-    def growth_is_seen(self) -> bool:
-        """See above.
-
-        >>> slideway.stats(example_file, "y").growth_is_seen
-        False
-        """
-        verdict = self.text.get("verdict", "")
-        return self.exponent is not None and not any(words in verdict for words in _no_growth)
+    growth_is_seen: bool = True
 
 
 @one_line
@@ -71,6 +61,8 @@ def stats(
 
     >>> slideway.stats(example_file, "y").text["0-1 test"]
     'none from ... samples, one of every ...'
+    >>> slideway.stats(example_file, "y").growth_is_seen
+    False
     """
     path = file_of(result)
     if isinstance(result, xr.Dataset):
@@ -91,26 +83,26 @@ def stats(
         arguments += [f"--{option.replace('_', '-')}", str(value)]
     with temporary_folder() as folder:
         curves = os.path.join(folder, "curves.csv")
-        rows = _rows(call(program, [*arguments, "-o", curves]))
+        said = json.loads(call(program, [*arguments, "-o", curves, "--json"]))
         table = np.atleast_1d(np.genfromtxt(curves, delimiter=",", names=True))
     known = np.isfinite(table["mean_log_distance"])
-    growth = re.match(r"(\S+) ± (\S+) 1/s", rows.get("exponent", ""))
-    window = re.match(r"samples (\d+) to (\d+)", rows.get("fit window", ""))
+    growth = said["exponent"]
     return SeriesStatistics(
-        text=rows,
+        text=_rows(said["text"]),
         time=table["time"][known],
         mean_log_distance=table["mean_log_distance"][known],
-        exponent=float(growth[1]) if growth else None,
-        error=float(growth[2]) if growth else None,
-        fit=(int(window[1]), int(window[2])) if window else None,
+        exponent=growth["value"] if growth else None,
+        error=growth["half_width"] if growth else None,
+        fit=(growth["first_sample"], growth["last_sample"]) if growth else None,
+        growth_is_seen=bool(growth and growth["is_exponential"]),
     )
 
 
-def _rows(output: str) -> dict[str, str]:
-    """The program's rows: a label in 16 columns and its text; rows without label go on with the one before."""
+def _rows(pairs: list[list[str]]) -> dict[str, str]:
+    """The program's rows by their labels; rows without a label go on with the one before."""
     rows: dict[str, str] = {}
     label = ""
-    for line in output.splitlines():
-        label = line[:16].strip() or label
-        rows[label] = f"{rows[label]}\n{line[17:].strip()}" if label in rows else line[17:].strip()
+    for own, text in pairs:
+        label = own or label
+        rows[label] = f"{rows[label]}\n{text}" if label in rows else text
     return rows

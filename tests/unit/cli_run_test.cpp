@@ -225,6 +225,18 @@ TEST_F(Run, GoesOnWhereNobodyCanReadWhatItSays) {
     }
 }
 
+TEST_F(Run, SendsNoControlCharactersToATerminal) {
+    std::string scene = small_scene;
+    scene.replace(scene.find("A small ensemble"), 16, "A \\u001b[2Jsmall\\u0007 ensemble");
+    write("s.toml", scene);
+    Outcome const outcome = run_scene({});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    for (std::string const& text : {outcome.out, run({"info", "s.nc"}).out}) {
+        EXPECT_TRUE(std::none_of(text.begin(), text.end(), [](char c) { return c == '\x1b' || c == '\a'; }));
+        EXPECT_NE(text.find("small"), std::string::npos);
+    }
+}
+
 TEST_F(Run, InfoTellsOfItsResults) {
     ASSERT_EQ(run_scene({}).code, 0);
     Outcome const outcome = run({"info", "s.nc", "--scene"});

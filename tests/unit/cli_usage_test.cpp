@@ -22,6 +22,16 @@ TEST_F(Usage, OfCommands) {
     expect_refusal(2, "there is no command 'frobnicate'", {"frobnicate"});
     expect_refusal(2, "SCENE is missing", {"run"});
     expect_refusal(2, "--bogus", {"run", "s.toml", "--bogus"});
+    expect_refusal(2, "did you mean --resume?", {"run", "s.toml", "--resum"});
+    expect_refusal(2, "did you mean --threads?", {"check", "s.toml", "--thread=2"});
+    expect_refusal(2, "see slideway help info", {"info", "s.nc", "--frobnicate"});
+    for (char const* const command : {"run", "check", "probe", "info", "stats", "merge", "report", "list"}) {
+        Outcome const help = run({"help", command});
+        EXPECT_EQ(help.code, 0) << command;
+        EXPECT_EQ(help.out, run({command, "--help"}).out);
+    }
+    EXPECT_EQ(run({"help"}).out, run({"--help"}).out);
+    expect_refusal(2, "did you mean check?", {"help", "chek"});
     expect_refusal(2, "there is no command '--quiet'", {"--quiet", "run", "s.toml"});
     expect_refusal(2, "second", {"run", "s.toml", "second"});
     expect_refusal(2, "FILE", {"info"});

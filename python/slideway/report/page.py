@@ -50,6 +50,9 @@ POLICY = (
     "form-action 'none'"
 )
 
+# By which the program and this package know a page again.
+GENERATOR = '<meta name="generator" content="slideway">'
+
 
 @one_line
 def write(result: StrPath | xr.Dataset, out: StrPath) -> Path:
@@ -57,19 +60,21 @@ def write(result: StrPath | xr.Dataset, out: StrPath) -> Path:
 
     Args:
         result: a file of slideway run, or its Dataset from slideway.open.
-        out: the page; an older one is replaced once the new one is complete.
+        out: the page; an older page of slideway is replaced once the new one is complete, any other file is left.
 
     Returns:
         The path of the page.
 
     Raises:
-        SlidewayError: the result cannot be read, or the page cannot be written.
+        SlidewayError: the result cannot be read, the page cannot be written, or `out` is a file that is no page of slideway.
 
     >>> page = slideway.report.write(example_file, os.path.join(os.path.dirname(example_file), "page.html"))
     >>> page.read_text(encoding="utf-8")[:15]
     '<!doctype html>'
     """
     path = Path(path_text(out, "out"))
+    if not _may_replace(path):
+        raise SlidewayError(f"{path}: is there already, and is no page of slideway; give another name, or remove it")
     if isinstance(result, xr.Dataset):
         text = html_of(result)
     else:
@@ -80,6 +85,15 @@ def write(result: StrPath | xr.Dataset, out: StrPath) -> Path:
     except OSError as error:
         raise SlidewayError(f"{path}: cannot write the report: {error.strerror or error}") from error
     return path
+
+
+def _may_replace(path: Path) -> bool:
+    """Whether there is nothing that could be lost: no file, an empty one, or a page."""
+    if not path.is_file():
+        return True
+    with open(path, encoding="utf-8", errors="replace") as file:
+        head = file.read(1024)
+    return not head or GENERATOR in head
 
 
 def html_of(result: xr.Dataset) -> str:
@@ -111,6 +125,7 @@ def html_of(result: xr.Dataset) -> str:
     )
     head = (
         '<meta charset="utf-8">'
+        + GENERATOR
         + f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
         + '<meta name="viewport" content="width=device-width, initial-scale=1">'
         + tag("title", words(f"{title} – slideway report"))
