@@ -9,6 +9,7 @@
 #include "host/study/orbit_schedule.hpp"
 #include "host/study/prediction.hpp"
 #include "host/study/start_check.hpp"
+#include "host/study/trial.hpp"
 
 namespace slideway::cli {
 namespace {
@@ -71,12 +72,16 @@ std::string range_text(std::string const& least, std::string const& most) {
     return least == most ? least : fmt::format("{} to {}", least, most);
 }
 
-std::string cost_text(Scene const& scene, Prediction const& prediction) {
+std::string cost_text(Scene const& scene, Prediction const& prediction, std::optional<Trial> const& trial) {
     std::string const threads =
         fmt::format("{} thread{}", prediction.busy_threads, prediction.busy_threads == 1 ? "" : "s");
     if (scene.integrator.method == Method::rk4) {
         return fmt::format("{:.0f} steps, all fixed; some {} on {}", prediction.most_steps,
-                           duration_text(prediction.most_seconds), threads);
+                           duration_text(trial ? trial->seconds : prediction.most_seconds), threads);
+    }
+    if (trial) {
+        return fmt::format("about {} on {}, some {:.2g} steps, as {} of its members tell", duration_text(trial->seconds), threads, trial->steps,
+                           trial->members);
     }
     return fmt::format(
         "{} steps, {} on {}; a rough range: all in free flight to all in contact that rings",
@@ -154,8 +159,9 @@ int check(CheckArguments const& arguments) {
         fmt::print("{}", resolved_toml(scene));
         return exit_code::done;
     }
+    std::optional<Trial> const trial = try_members(scene, *choice.backend, threads);
     if (arguments.json) {
-        fmt::print("{}", check_json(scene, prediction, *choice.backend));
+        fmt::print("{}", check_json(scene, prediction, trial, *choice.backend));
         return exit_code::done;
     }
 
@@ -178,7 +184,7 @@ int check(CheckArguments const& arguments) {
     print_field("disk",
                 fmt::format("{} for the result, {} for its shards until it is whole",
                             bytes_text(static_cast<double>(prediction.output_bytes)), shards_text(scene, prediction)));
-    print_field("cost", cost_text(scene, prediction));
+    print_field("cost", cost_text(scene, prediction, trial));
     return exit_code::done;
 }
 

@@ -95,7 +95,7 @@ std::string stopped_json(std::string const& folder, std::uint64_t left) {
     return text_of(json);
 }
 
-std::string check_json(Scene const& scene, Prediction const& prediction, Backend const& backend) {
+std::string check_json(Scene const& scene, Prediction const& prediction, std::optional<Trial> const& trial, Backend const& backend) {
     Json json = object("check");
     json["scene"] = scene.path;
     json["resolved"] = resolved_toml(scene);
@@ -109,6 +109,11 @@ std::string check_json(Scene const& scene, Prediction const& prediction, Backend
     json["shard_bytes"] = prediction.shard_bytes;
     json["steps"] = {{"least", prediction.least_steps}, {"most", prediction.most_steps}};
     json["seconds"] = {{"least", prediction.least_seconds}, {"most", prediction.most_seconds}};
+    if (trial) {
+        json["steps"]["expected"] = trial->steps;
+        json["seconds"]["expected"] = trial->seconds;
+        json["members_tried"] = trial->members;
+    }
     return text_of(json);
 }
 

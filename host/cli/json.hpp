@@ -12,6 +12,7 @@
 #include "host/study/prediction.hpp"
 #include "host/study/probe.hpp"
 #include "host/study/series_analysis.hpp"
+#include "host/study/trial.hpp"
 
 namespace slideway::cli {
 
@@ -23,7 +24,8 @@ std::string result_json(char const* command, ResultReader const& results, bool i
                         std::uint64_t left = 0);
 /// A run that ended before its result.
 std::string stopped_json(std::string const& folder, std::uint64_t left);
-std::string check_json(Scene const& scene, Prediction const& prediction, Backend const& backend);
+/// @param trial nothing where no member was tried
+std::string check_json(Scene const& scene, Prediction const& prediction, std::optional<Trial> const& trial, Backend const& backend);
 std::string probe_json(Scene const& scene, StateTable const& table, std::vector<ProbeResult> const& results);
 std::string stats_json(StatsArguments const& arguments, std::string const& series, SeriesAnalysis const& analysis,
                        std::vector<std::pair<std::string, std::string>> const& rows);
