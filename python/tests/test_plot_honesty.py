@@ -80,18 +80,10 @@ def test_ends_that_are_known_are_drawn(result_of: Result) -> None:
     assert np.isclose([segment[0][0] for segment in bars.get_segments()], float(low)).any()
 
 
-@pytest.mark.parametrize(
-    ("verdict", "drawn"),
-    [
-        ("consistent with chaos, exponent 600 1/s", True),
-        ("irregular, but no exponential growth is seen: noise, sampling too coarse, or too few points", False),
-        ("no sign of chaos: no exponential growth, and the 0–1 test says regular", False),
-        ("undecided: neighbours part, but not along a line; the exponent means little", False),
-    ],
-)
-def test_exponent_is_drawn_where_the_verdict_lets_it(verdict: str, drawn: bool) -> None:
+@pytest.mark.parametrize("drawn", [True, False])
+def test_exponent_is_drawn_where_the_verdict_lets_it(drawn: bool) -> None:
     time = np.arange(30) * 1e-3
-    ax = plot.divergence(slideway.SeriesStatistics({"verdict": verdict}, time, 500 * time - 12, 500.0, 4.0, (1, 9)))
+    ax = plot.divergence(slideway.SeriesStatistics({}, time, 500 * time - 12, 500.0, 4.0, (1, 9), drawn))
     assert len(ax.lines) == 2
     assert ("500" in labels_of(ax)[1]) == drawn
     assert drawn or labels_of(ax)[1] == "no exponential growth is seen"
@@ -101,7 +93,9 @@ def test_exponent_of_a_result_is_that_of_the_verdict(result_of: Result) -> None:
     with result_of("single") as result:
         found = slideway.stats(result, "vy")
         ax = plot.divergence(result, "vy")
-    assert found.growth_is_seen == ("no exponential growth" not in found.text["verdict"])
+    assert found.growth_is_seen == (
+        "no exponential growth" not in found.text["verdict"] and "means little" not in found.text["verdict"]
+    )
     assert any("λ₁" in label for label in labels_of(ax)) == found.growth_is_seen
 
 

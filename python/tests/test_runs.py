@@ -88,10 +88,31 @@ def test_members_run_alone_with_their_inputs() -> None:
     np.testing.assert_array_equal(two.member.values, [1, 2])
 
 
-def test_second_run_to_the_same_file_is_what_is_opened(tmp_path: Path) -> None:
+def test_second_run_to_the_same_file_is_refused_and_what_is_opened_if_forced(tmp_path: Path) -> None:
     first = slideway.run(short, tmp_path / "a.nc", progress=False)
     assert first.sizes["member"] == 3
-    assert slideway.run(short, tmp_path / "a.nc", progress=False, study__members=2).sizes["member"] == 2
+    with pytest.raises(slideway.FileError, match="is there already") as refused:
+        slideway.run(short, tmp_path / "a.nc", progress=False, study__members=2)
+    assert "\n" not in str(refused.value)
+    assert slideway.run(short, tmp_path / "a.nc", progress=False, force=True, study__members=2).sizes["member"] == 2
+    (tmp_path / "notes.nc").write_text("of a year")
+    with pytest.raises(slideway.FileError, match="slideway did not write it"):
+        slideway.run(short, tmp_path / "notes.nc", progress=False, force=True)
+    assert (tmp_path / "notes.nc").read_text() == "of a year"
+
+
+def test_page_replaces_pages_alone(tmp_path: Path) -> None:
+    result = slideway.run(short, tmp_path / "a.nc", progress=False)
+    page, notes = tmp_path / "a.html", tmp_path / "notes.html"
+    slideway.report.write(result, page)
+    slideway.report.write(result, page)
+    notes.write_text("<p>of a year")
+    with pytest.raises(slideway.SlidewayError, match="is no page of slideway"):
+        slideway.report.write(result, notes)
+    assert notes.read_text() == "<p>of a year"
+    for words, code in (([], 4), (["--force"], 0)):
+        command = [sys.executable, "-m", "slideway", "report", str(tmp_path / "a.nc"), "-o", str(page), *words]
+        assert subprocess.run(command, check=False, capture_output=True).returncode == code
 
 
 def test_table_of_a_dictionary_lies_in_the_working_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

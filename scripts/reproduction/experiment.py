@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.axes import Axes
-from slideway.plot.style import colours, finish
+from slideway.palette import colours
+from slideway.plot.style import finish
 from slideway.signals import amplitude_spectrum, even_step, running_integral
 
 from .claims import LAW_WORDS, LAWS, Claim, Finding, claim, growth, said
@@ -168,4 +169,4 @@ def _spectra(bench: Bench, law: str, ax: Axes) -> None:
     ax.set_xscale("log")
     ax.set_ylim(max(top - 110, low - 8), top + 8)
     ax.margins(x=0)
-    finish(ax, "frequency [kHz]", "amplitude [dB re g]", "best")
+    finish(ax, "frequency [kHz]", "amplitude [dB re g]")

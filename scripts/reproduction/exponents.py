@@ -8,7 +8,8 @@ from typing import Union
 import numpy as np
 import slideway
 from matplotlib.axes import Axes
-from slideway.plot.style import colours, finish
+from slideway.palette import colours
+from slideway.plot.style import finish
 
 from .claims import LAW_WORDS, LAWS, UNTOLD, Claim, Finding, Verdict, claim, plus_minus, said
 from .estimates import estimate, share
@@ -254,4 +255,4 @@ def _divergence(series: Series, ax: Axes) -> None:
                 label="line over 80 samples" if number == 0 else None,
             )
     ax.margins(x=0)
-    finish(ax, "time [s]", "mean ln distance", "lower right")
+    finish(ax, "time [s]", "mean ln distance")

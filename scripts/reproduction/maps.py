@@ -7,7 +7,8 @@ from functools import partial
 import numpy as np
 import slideway
 from matplotlib.axes import Axes
-from slideway.plot.style import colours, finish
+from slideway.palette import colours
+from slideway.plot.style import finish
 
 from .claims import LAW_WORDS, LAWS, UNTOLD, Claim, Finding, Verdict, claim, growth, said
 from .estimates import estimate

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import slideway
 from matplotlib.axes import Axes
-from slideway.plot.style import class_colours, finish
+from slideway.palette import class_colours
+from slideway.plot.style import finish
 
 from .claims import LAW_WORDS, LAWS, Claim, Finding, claim, said
 from .estimates import Change, difference, estimate
@@ -117,5 +118,5 @@ def _strip(bench: Bench, law: str, ax: Axes) -> None:
         if here.any():
             ax.plot(time[here], force[here], ".", ms=2.5, color=class_colours[mode], label=mode)
     wide_scale(ax, force[force > 0])
-    finish(ax, "time [s]", "normal force [N]", None)
+    finish(ax, "time [s]", "normal force [N]")
     ax.legend(loc="upper right", markerscale=3, frameon=True, framealpha=0.85, edgecolor="none", fontsize="small")
