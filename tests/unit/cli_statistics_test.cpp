@@ -120,7 +120,7 @@ TEST_F(StatisticsRun, FailedMembersCanBeReplayed) {
 
 TEST_F(StatisticsRun, InfoAndCheckKnowIt) {
     ASSERT_EQ(run_scene("a.nc").code, 0);
-    Outcome const info = run({"info", "a.nc"});
+    Outcome const info = run({"info", "a.nc", "--scene"});
     EXPECT_EQ(info.code, 0) << info.err;
     for (char const* const text : {"matches the data", "finished         400",
                                    "Quantiles are sketched: relative error of at most "
