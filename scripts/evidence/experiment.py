@@ -35,5 +35,3 @@ class Experiment:
 
 
 Build = Callable[[Laboratory, Size, Path], Experiment]
-
-

@@ -163,7 +163,10 @@ LEGENDS = """
 """
 
 
-@pytest.mark.parametrize("width", [390, 1200])
-@pytest.mark.parametrize("name", ["single", "ensemble", "lyapunov", "poincare", "sweep", "columns", "tolerance", "coarse"])
+@pytest.mark.parametrize(
+    ("name", "width"),
+    [("single", 390), ("ensemble", 1200), ("ensemble", 390), ("lyapunov", 1200), ("poincare", 390), ("sweep", 1200), ("columns", 390),
+     ("tolerance", 1200), ("coarse", 390)],
+)
 def test_legends_stand_outside_the_axes(name: str, width: int, page_of: Pages, browser: Browser) -> None:
     assert browser.look(page_of(name).path, LEGENDS, width=width).found == []
