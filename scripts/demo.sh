@@ -9,7 +9,7 @@ build=build/release
 scene=scenes/tolerance_0.1mm.toml
 
 bash scripts/setup.sh
-# For this machine alone: scripts/test.sh adds the other instruction sets.
+# For this machine alone: scripts/test.sh --all-isas adds the other instruction sets.
 cmake --preset release --log-level=WARNING -DSLIDEWAY_ISAS=native
 cmake --build "$build" --parallel "$(nproc)" --target slideway
 
