@@ -3,6 +3,7 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include "host/cli/commands.hpp"
@@ -144,18 +145,22 @@ StatsArguments stats_arguments(Words const& words) {
     return stats;
 }
 
+/// "use run, check, …, list or help"
+std::string known_commands() {
+    return fmt::format("use {} or {}", fmt::join(std::begin(command_names), std::end(command_names) - 1, ", "), *(std::end(command_names) - 1));
+}
+
 /// CLI11's own message for an unknown command names all words behind it, but not what was meant.
 void require_known_command(int argc, char const* const* argv) {
     if (argc < 2)
         throw SceneError(
-            "slideway: a command is missing; use run, check, probe, info, stats, merge, report, list or help (see slideway "
-            "--help)");
+            fmt::format("slideway: a command is missing; {} (see slideway --help)", known_commands()));
     std::string_view const word = argv[1];
-    if (word == "--help" || word == "-h" || word == "--version" || word == "help") return;
+    if (word == "--help" || word == "-h" || word == "--version") return;
     if (std::find(std::begin(command_names), std::end(command_names), word) != std::end(command_names)) return;
     std::string_view const meant = nearest_name(word, command_names);
     throw SceneError(fmt::format("slideway: there is no command '{}'; {}", word,
-                                 meant.empty() ? "use run, check, probe, info, stats, merge, report, list or help"
+                                 meant.empty() ? known_commands()
                                                : fmt::format("did you mean {}?", meant)));
 }
 

@@ -244,7 +244,9 @@ int run(RunArguments const& arguments) {
         // Of a card that lacks the memory this is the last word: nothing is on the disk yet.
         Prediction const prediction = predict(scene, *options.backend, options.threads, options.block_members);
         StudyRun study(scene, options);
-        if (auto const wrong = impossible_starts(scene, best_isa())) tell("warning: {}\n", *wrong);
+        if (!study.is_complete()) {
+            if (auto const wrong = impossible_starts(scene, best_isa())) tell("warning: {}\n", *wrong);
+        }
         warn_of_losses(options, study);
         if (arguments.progress && !study.is_complete()) announce(scene, options, choice.reason, prediction, study);
         invited = true;

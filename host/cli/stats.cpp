@@ -18,7 +18,9 @@ namespace slideway::cli {
 namespace {
 
 /// What is printed: labels and texts; a row without a label goes on with the one before.
-using Rows = std::vector<std::pair<std::string, std::string>>;
+struct Rows : std::vector<std::pair<std::string, std::string>> {
+    void operator()(std::string_view label, std::string text) { emplace_back(label, std::move(text)); }
+};
 
 StoredSeries read_series(StatsArguments const& arguments) {
     if (is_netcdf(arguments.path)) {
@@ -58,8 +60,7 @@ std::string found_text(std::optional<std::size_t> samples) {
     return samples ? fmt::format("{}", *samples) : std::string("none");
 }
 
-void add_embedding(Rows& rows, SeriesAnalysis const& a, SeriesOptions const& given) {
-    auto const row = [&](std::string_view label, std::string text) { rows.emplace_back(label, std::move(text)); };
+void add_embedding(Rows& row, SeriesAnalysis const& a, SeriesOptions const& given) {
     row("C-C method",
         fmt::format("first minimum of ΔS {}, first zero of S {}, minimum of S_cor {} samples",
                     found_text(a.choice.first_minimum), found_text(a.choice.first_zero), found_text(a.choice.window)));
@@ -75,8 +76,7 @@ void add_embedding(Rows& rows, SeriesAnalysis const& a, SeriesOptions const& giv
     row("Theiler window", samples_text(a.theiler, a.spacing) + (given.theiler ? ", as given" : ""));
 }
 
-void add_growth(Rows& rows, SeriesAnalysis const& a, SeriesOptions const& given) {
-    auto const row = [&](std::string_view label, std::string text) { rows.emplace_back(label, std::move(text)); };
+void add_growth(Rows& row, SeriesAnalysis const& a, SeriesOptions const& given) {
     if (!a.growth) return row("exponent", "none");
     Growth const& g = *a.growth;
     row("exponent", fmt::format("{:.4g} ± {:.2g} 1/s, {:.3g} ± {:.2g} per average period", g.exponent, g.half_width(),
@@ -129,18 +129,17 @@ SeriesAnalysis analyse(StoredSeries const& series, StatsArguments const& argumen
 }
 
 Rows rows_of(StatsArguments const& arguments, std::string const& series, SeriesAnalysis const& a) {
-    Rows rows;
-    auto const row = [&](std::string_view label, std::string text) { rows.emplace_back(label, std::move(text)); };
+    Rows row;
     row("series", fmt::format("{} of {}", series, arguments.path));
     row("points", fmt::format("{}, every {:.6g} s", a.points, a.spacing));
     row("average period", fmt::format("{:.4g} s ({:.4g} samples)", a.average_period, a.average_period / a.spacing));
-    add_embedding(rows, a, arguments.options);
-    add_growth(rows, a, arguments.options);
+    add_embedding(row, a, arguments.options);
+    add_growth(row, a, arguments.options);
     std::string const k = std::isnan(a.zero_one.k) ? "none" : fmt::format("K = {:.3f}", a.zero_one.k);
     row("0-1 test", fmt::format("{} from {} samples, one of every {}", k, a.zero_one.points, a.stride));
     row("verdict", verdict(a));
     for (std::string const& line : reservations(a)) row("", "- " + line);
-    return rows;
+    return row;
 }
 
 }  // namespace

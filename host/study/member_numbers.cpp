@@ -92,6 +92,13 @@ WholeColumn whole_of(std::vector<double> const& values) {
     return {summary, cubes / static_cast<double>(summary.count)};
 }
 
+std::vector<std::uint64_t> spread_over(std::uint64_t all, std::uint64_t count) {
+    std::vector<std::uint64_t> members;
+    double const distance = static_cast<double>(all) / static_cast<double>(count);
+    for (std::uint64_t i = 0; i < count; ++i) members.push_back(static_cast<std::uint64_t>(static_cast<double>(i) * distance));
+    return members;
+}
+
 std::vector<double> stored_work(ToleranceMembers const& members) {
     std::vector<double> work = members.column("rhs_evaluations");
     std::vector<double> const jacobians = members.column("jacobian_evaluations");
@@ -99,7 +106,7 @@ std::vector<double> stored_work(ToleranceMembers const& members) {
     return work;
 }
 
-MemberNumbers stored_numbers(ToleranceMembers const& members, Scene const& scene, std::vector<std::size_t> const& rows,
+MemberNumbers stored_numbers(ToleranceMembers const& members, Scene const& scene, std::vector<std::uint64_t> const& rows,
                              std::vector<double> const& work, std::vector<WholeColumn>& whole) {
     MemberNumbers numbers = empty_numbers(scene);
     for (std::size_t const row : rows) numbers.work.push_back(work[row]);

@@ -34,12 +34,15 @@ struct WholeColumn {
 };
 WholeColumn whole_of(std::vector<double> const& values);
 
+/// As many of [0, all) as are asked for, evenly over them: they stand for all.
+std::vector<std::uint64_t> spread_over(std::uint64_t all, std::uint64_t count);
+
 /// Right-hand sides of each member, a Jacobian counting one and a half.
 std::vector<double> stored_work(ToleranceMembers const& members);
 
 /// What a result says of some of its members.  @param rows of the members  @param work of all of them
 /// @param whole where each column goes over all members, but those of how they end
-MemberNumbers stored_numbers(ToleranceMembers const& members, Scene const& scene, std::vector<std::size_t> const& rows,
+MemberNumbers stored_numbers(ToleranceMembers const& members, Scene const& scene, std::vector<std::uint64_t> const& rows,
                              std::vector<double> const& work, std::vector<WholeColumn>& whole);
 
 /// Runs members, and says what they came to in their order.  @param stop may be nullptr

@@ -5,14 +5,15 @@
 
 #include <fmt/format.h>
 
+#include "host/study/member_numbers.hpp"
+
 namespace slideway {
 
 std::optional<std::string> impossible_starts(Scene const& scene, Isa isa) {
     std::uint64_t const all = member_count(scene), looked = std::min(all, most_looked_at);
     std::vector<std::uint64_t> members;
     std::vector<Inputs> inputs;
-    for (std::uint64_t i = 0; i < looked; ++i) {
-        std::uint64_t const member = static_cast<std::uint64_t>(static_cast<double>(i) * static_cast<double>(all) / static_cast<double>(looked));
+    for (std::uint64_t const member : spread_over(all, looked)) {
         Inputs const drawn = member_inputs(scene, member);
         if (defect(drawn, scene.parts)) continue;
         members.push_back(member);

@@ -6,6 +6,7 @@
 #include "host/driver/ensemble.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/ensemble_plan.hpp"
+#include "host/study/member_numbers.hpp"
 #include "host/study/orbit_schedule.hpp"
 #include "host/study/verification.hpp"
 
@@ -21,9 +22,6 @@ constexpr double with_the_check = 1.1;
 std::optional<Trial> try_members(Scene const& scene, Backend const& backend, int threads) {
     if (is_continued(scene) || backend.name() != "cpu") return std::nullopt;
     std::uint64_t const all = member_count(scene), count = std::min(all, most_tried);
-    std::vector<std::uint64_t> members;
-    for (std::uint64_t i = 0; i < count; ++i) members.push_back(i * all / count);
-
     Scene trial = without_series(scene);
     auto const shadows = static_cast<std::uint64_t>(shadow_plan(scene).count);
     trial.integrator.max_steps = std::min(trial.integrator.max_steps, most_steps_of_one / (1 + shadows));
@@ -37,7 +35,7 @@ std::optional<Trial> try_members(Scene const& scene, Backend const& backend, int
             steps += given_up && record.time > 0 ? own * std::max(1.0, end / record.time) : own;
         }
     };
-    EnsemblePlan const plan = ensemble_plan(trial, MemberSet::of(members), backend, threads);
+    EnsemblePlan const plan = ensemble_plan(trial, MemberSet::of(spread_over(all, count)), backend, threads);
     StopRequest const nobody;
     EnsembleTotals const totals = run_ensemble(plan, backend.kernel(trial.parts, plan.request.shadows.count > 0), take, nobody);
 

@@ -17,14 +17,6 @@ constexpr double first_share = 0.8;   // of what is left
 constexpr std::size_t most_members = 16;
 constexpr double steps_beyond = 2;    // how much more than foreseen a check may take
 
-/// Rows of a study, evenly over all of them.
-std::vector<std::size_t> spread_rows(std::uint64_t all, std::uint64_t count) {
-    std::vector<std::size_t> rows;
-    double const distance = static_cast<double>(all) / static_cast<double>(count);
-    for (std::uint64_t i = 0; i < count; ++i) rows.push_back(static_cast<std::size_t>(static_cast<double>(i) * distance));
-    return rows;
-}
-
 std::string remedy(Scene const& scene, Verification const& v) {
     if (scene.integrator.method == Method::rk4) return "use a smaller integrator.step, or method = \"auto\"";
     bool tolerance = false;
@@ -86,8 +78,8 @@ Verification verify(ResultView const& results, Scene const& scene, Backend const
     std::uint64_t const all = stored ? stored->size() : member_count(scene);
     auto const asked = [&] { return std::min<std::uint64_t>(request.members.value_or(most_members), all); };
     auto const choose = [&](std::uint64_t count) {
-        std::vector<std::size_t> const rows = spread_rows(all, count);
-        for (std::size_t const row : rows) v.members.push_back(stored ? stored->number(row) : row);
+        std::vector<std::uint64_t> const rows = spread_over(all, count);
+        for (std::uint64_t const row : rows) v.members.push_back(stored ? stored->number(row) : row);
         return rows;
     };
     auto const run_again = [&](Scene const& check) { return fresh_numbers(check, v.members, backend, request.threads, request.stop); };
