@@ -17,7 +17,7 @@
 #include "bench/engine_flops.hpp"
 #include "bench/machine.hpp"
 #include "bench/median.hpp"
-#include "host/output/run_identity.hpp"
+#include "host/store/run_identity.hpp"
 
 namespace slideway {
 namespace {

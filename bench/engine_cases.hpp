@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "host/backend/backend.hpp"
-#include "host/driver/ensemble.hpp"
+#include "host/run/ensemble.hpp"
 
 namespace slideway {
 

@@ -5,7 +5,7 @@
 #include <cctype>
 #include <fstream>
 
-#include "host/output/provenance.hpp"
+#include "host/store/provenance.hpp"
 
 namespace slideway {
 

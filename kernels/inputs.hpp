@@ -11,7 +11,7 @@
 
 namespace slideway {
 
-/// Marks an input that was not given and follows from others (`complete_inputs` in host/scene fills it).
+/// Marks an input that was not given and follows from others (members/complete_inputs.hpp fills it).
 inline constexpr double follows = std::numeric_limits<double>::quiet_NaN();
 
 /// What moves the slider (docs/model.md 6, 7): the rows of mechanisms/list.hpp.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "host/study/prediction.hpp"
+#include "kernels/members/stiffest_rate.hpp"
 #include "tests/support/ensemble.hpp"
 
 namespace slideway::bench {
@@ -131,7 +132,7 @@ std::vector<Axis> axes(Law law, bool quick) {
 
 double linear_limit(std::vector<Inputs> const& members) {
     double rate = 0;
-    for (auto const& in : members) rate = std::max(rate, stiffest_rate({}, in));
+    for (auto const& in : members) rate = std::max(rate, stiffest_rate(info(Mechanism{}), info(Law{}), in));
     return 2 * std::numbers::sqrt2 / rate;
 }
 

@@ -8,7 +8,7 @@
 
 #include "bench/machine.hpp"
 #include "host/backend/backend.hpp"
-#include "host/scene/descriptors.hpp"
+#include "host/config/descriptors.hpp"
 
 namespace slideway::bench {
 namespace {

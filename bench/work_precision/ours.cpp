@@ -6,7 +6,7 @@
 #include "bench/work_precision/method.hpp"
 #include "bench/work_precision/models_kernel.hpp"
 #include "host/backend/by_isa.hpp"
-#include "host/scene/descriptors.hpp"
+#include "host/config/descriptors.hpp"
 
 namespace slideway {
 SLIDEWAY_BY_ISA(LorenzMembersRun, integrate_lorenz_members)

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "host/backend/backend.hpp"
-#include "host/output/provenance.hpp"
+#include "host/store/provenance.hpp"
 
 namespace slideway::bench {
 namespace {

@@ -54,7 +54,7 @@ class Backend {
 public:
     virtual ~Backend() = default;
     virtual std::string_view name() const = 0;  // "cpu", "cuda": as --backend knows it
-    virtual std::string isa() const = 0;        // "avx512", "sm_90"; see arithmetic_of (host/output/run_identity.hpp)
+    virtual std::string isa() const = 0;        // "avx512", "sm_90"; see arithmetic_of (host/store/run_identity.hpp)
     virtual std::string machine() const = 0;    // "avx512, 8 lanes"; "NVIDIA H100 80GB HBM3, sm_90"
     virtual std::string flags() const = 0;      // compiler flags of the kernels
     /// How many of the threads that a user allows are of use.

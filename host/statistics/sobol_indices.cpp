@@ -7,7 +7,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
-#include "host/scene/sampling.hpp"
+#include "host/sampling/random.hpp"
 #include "host/statistics/exact_sum.hpp"
 #include "host/statistics/summary.hpp"
 

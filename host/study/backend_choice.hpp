@@ -6,7 +6,7 @@
 #include <string>
 
 #include "host/backend/backend.hpp"
-#include "host/scene/scene.hpp"
+#include "host/config/scene.hpp"
 
 namespace slideway {
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/study/state_table.hpp"
+#include "kernels/members/start.hpp"
 
 namespace slideway {
 namespace {
@@ -80,7 +81,7 @@ private:
     void remember(Place& place, std::uint64_t of_member, bool finished, StateNumbers const& state) const {
         place.there = member_inputs(scene_, of_member);
         place.is_known = finished;
-        if (finished) set_start(scene_.parts.mechanism, state, place.there);
+        if (finished) set_start(info(scene_.parts.mechanism), state, place.there);
     }
 
     bool run_column(std::uint64_t column, std::vector<Turn> const& turns, BlockBuffers& buffers,

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "host/backend/backend.hpp"
-#include "host/driver/ensemble.hpp"
-#include "host/scene/scene.hpp"
-#include "host/study/state_numbers.hpp"
+#include "host/config/scene.hpp"
+#include "host/run/ensemble.hpp"
+#include "kernels/members/start.hpp"
 
 namespace slideway {
 

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "host/backend/backend.hpp"
-#include "host/driver/ensemble.hpp"
-#include "host/output/block_statistics.hpp"
-#include "host/output/provenance.hpp"
-#include "host/output/result_layout.hpp"
-#include "host/output/run_identity.hpp"
-#include "host/scene/scene.hpp"
+#include "host/config/scene.hpp"
+#include "host/run/ensemble.hpp"
+#include "host/store/block_statistics.hpp"
+#include "host/store/provenance.hpp"
+#include "host/store/result_layout.hpp"
+#include "host/store/run_identity.hpp"
 
 namespace slideway {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "host/scene/drive_period.hpp"
+#include "host/config/drive_period.hpp"
 
 namespace slideway {
 namespace {

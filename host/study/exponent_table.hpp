@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "host/chaos/exponents.hpp"
-#include "host/driver/block_result.hpp"
-#include "host/output/study_columns.hpp"
-#include "host/scene/scene.hpp"
+#include "host/config/scene.hpp"
+#include "host/run/block_result.hpp"
+#include "host/store/study_columns.hpp"
 #include "host/study/orbit_schedule.hpp"
 
 namespace slideway {

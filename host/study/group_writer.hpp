@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/output/netcdf_file.hpp"
+#include "host/store/netcdf_file.hpp"
 
 namespace slideway {
 

@@ -10,13 +10,13 @@
 
 #include <fmt/format.h>
 
-#include "host/driver/ensemble.hpp"
-#include "host/scene/descriptors.hpp"
+#include "host/config/descriptors.hpp"
+#include "host/run/ensemble.hpp"
 #include "host/study/ensemble_plan.hpp"
 #include "host/study/exponent_table.hpp"
 #include "host/study/orbit_schedule.hpp"
-#include "host/study/state_numbers.hpp"
 #include "host/study/tolerance_policy.hpp"
+#include "kernels/members/start.hpp"
 
 namespace slideway {
 namespace {
@@ -60,7 +60,7 @@ std::vector<EndContacts> end_contacts(Scene const& scene, std::vector<Inputs> in
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         StateNumbers state{};
         std::copy_n(states.data() + i * width, width, state.begin());
-        set_start(mechanism, state, inputs[i]);
+        set_start(info(mechanism), state, inputs[i]);
     }
     std::vector<ProbeResult> results(inputs.size());
     find_instance(best_isa(), scene.parts).probe({inputs.data(), times.data(), inputs.size(), results.data()});

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "host/backend/backend.hpp"
-#include "host/driver/stop.hpp"
-#include "host/scene/scene.hpp"
+#include "host/config/scene.hpp"
+#include "host/run/stop.hpp"
 #include "host/statistics/summary.hpp"
 #include "host/study/tolerance_members.hpp"
 

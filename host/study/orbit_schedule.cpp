@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/scene/drive_period.hpp"
-#include "host/scene/sampling.hpp"
+#include "host/config/drive_period.hpp"
+#include "host/sampling/random.hpp"
 
 namespace slideway {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "host/driver/block_buffers.hpp"
-#include "host/scene/scene.hpp"
+#include "host/config/scene.hpp"
+#include "host/run/block_buffers.hpp"
 
 namespace slideway {
 

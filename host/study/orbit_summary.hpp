@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "host/chaos/exponents.hpp"
-#include "host/output/result_reader.hpp"
 #include "host/statistics/summary.hpp"
+#include "host/store/result_reader.hpp"
 
 namespace slideway {
 

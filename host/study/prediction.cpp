@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/output/shard_store.hpp"
-#include "host/output/shard_writer.hpp"
-#include "host/scene/settings.hpp"
+#include "host/config/settings.hpp"
+#include "host/store/shard_store.hpp"
+#include "host/store/shard_writer.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/ensemble_plan.hpp"
 #include "host/study/orbit_schedule.hpp"
 #include "host/study/study_run.hpp"
+#include "kernels/members/complete_inputs.hpp"
+#include "kernels/members/stiffest_rate.hpp"
 
 namespace slideway {
 namespace {
@@ -75,7 +77,7 @@ StepRange steps_of_member(Scene const& scene) {
         return {steps, steps};
     }
     double const least = end / scene.integrator.max_step + stops;
-    return {least, least + end * stiffest_rate(scene.parts, complete_inputs(scene.inputs)) *
+    return {least, least + end * stiffest_rate(info(scene.parts.mechanism), info(scene.parts.law), complete_inputs(scene.inputs)) *
                                contact_steps(scene.integrator)};
 }
 
@@ -106,27 +108,6 @@ std::uint64_t most_shards(Scene const& scene, MemberSet const& members, Ensemble
 }
 
 }  // namespace
-
-double stiffest_rate(Parts const& parts, Inputs const& in) {
-    if (!info(parts.mechanism).spatial) {
-        double const n = in.hertz_exponent, speed = std::abs(in.crank_speed) * in.crank_length;
-        double const depth = std::pow((n + 1) * in.slider_mass * speed * speed / (4 * in.point_stiffness), 1 / (n + 1));
-        double const stiffness = 2 * n * in.point_stiffness * std::pow(depth, n - 1), arm = in.slider_length / 2;
-        return std::sqrt(stiffness * std::max(1 / in.slider_mass, arm * arm / in.slider_inertia_z));
-    }
-    double const e1 = in.slider_young_modulus, e2 = in.way_young_modulus;
-    double const series = 2 * e1 * e2 / (e1 + e2);
-    auto* const of_law = info(parts.law).face_stiffness;
-    auto const face = [&](double width, double thickness, double rocking_inertia) {
-        double const surface = series * in.slider_length * width / thickness;
-        double const stiffness = of_law != nullptr ? of_law(in, surface) : surface;
-        auto const turning = [&](double length, double inertia) { return stiffness * length * length / (4 * inertia); };
-        return std::max({stiffness / in.slider_mass, turning(in.slider_length, rocking_inertia),
-                         turning(width, in.slider_inertia_x)});
-    };
-    return std::sqrt(std::max(face(in.way_depth, in.thickness_y, in.slider_inertia_z),
-                              face(in.way_width, in.thickness_z, in.slider_inertia_y)));
-}
 
 std::uint64_t statistics_bytes(Scene const& scene, std::uint64_t members) {
     constexpr std::uint64_t bins_and_edges = 129 * sizeof(double), quantiles = 36 * sizeof(double);

@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "host/backend/backend.hpp"
-#include "host/driver/member_set.hpp"
-#include "host/scene/scene.hpp"
+#include "host/config/scene.hpp"
+#include "host/run/member_set.hpp"
 
 namespace slideway {
 
@@ -26,12 +26,6 @@ struct Prediction {
 
     std::uint64_t memory() const { return buffer_bytes + image_bytes + summary_bytes; }
 };
-
-/// Rate Ω [rad/s] of the stiffest motion of a slider that lies on one of its faces: with the stiffness k of the face under the law it moves as a
-/// whole at √(k/M), rocks at √(k (L_k/2)²/I) and rolls at √(k (w/2)²/I) (docs/stability.md).
-/// Of the planar block, whose corners stiffen with depth: at two corners' largest stiffness in an impact at the speed of the crank's pin,
-/// M v²/2 = 2 K δ^(n+1)/(n+1); inputs complete.
-double stiffest_rate(Parts const& parts, Inputs const& inputs);
 
 /// What a scene that keeps statistics needs on the disk: of the result, and at most of its shards.  A column's sketch
 /// is taken to be of 4096 buckets, eight octaves of values, or of as many as there are members; wider scatter needs

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "host/scene/labels.hpp"
+#include "host/config/labels.hpp"
 #include "host/study/result_summary.hpp"
-#include "host/study/state_numbers.hpp"
+#include "kernels/members/start.hpp"
 
 namespace slideway {
 namespace {
@@ -87,7 +87,7 @@ void write_probe_csv(std::ostream& out, StateTable const& table, std::vector<Pro
         line.clear();
         for (std::string const& text : table.parameter_texts[row]) line += text + ',';
         line += fmt::format("{:.17g}", table.times[row]);
-        StateNumbers const state = start_of(table.mechanism, table.inputs[row]);
+        StateNumbers const state = start_of(info(table.mechanism), table.inputs[row]);
         for (int i = 0; i < has.states; ++i) line += fmt::format(",{:.17g}", state[static_cast<std::size_t>(i)]);
         for (auto const& [name, value] : result_columns(table.mechanism, results[row]))
             line += fmt::format(",{:.17g}", value);

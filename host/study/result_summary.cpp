@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "host/output/result_layout.hpp"
-#include "host/output/statistics_merge.hpp"
+#include "host/store/result_layout.hpp"
+#include "host/store/statistics_merge.hpp"
 #include "host/study/tolerance_policy.hpp"
 
 namespace slideway {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "host/output/block_statistics.hpp"
-#include "host/output/result_view.hpp"
 #include "host/statistics/summary.hpp"
+#include "host/store/block_statistics.hpp"
+#include "host/store/result_view.hpp"
 #include "kernels/status.hpp"
 
 namespace slideway {

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "host/base/error.hpp"
 #include "host/chaos/power_spectrum.hpp"
-#include "host/scene/error.hpp"
 
 namespace slideway {
 namespace {

@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "host/output/result_reader.hpp"
-#include "host/scene/csv.hpp"
-#include "host/scene/error.hpp"
+#include "host/base/csv.hpp"
+#include "host/base/error.hpp"
+#include "host/store/result_reader.hpp"
 
 namespace slideway {
 namespace {

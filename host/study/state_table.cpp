@@ -8,10 +8,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/scene/csv.hpp"
-#include "host/scene/labels.hpp"
-#include "host/scene/suggest.hpp"
-#include "host/study/state_numbers.hpp"
+#include "host/base/csv.hpp"
+#include "host/base/suggest.hpp"
+#include "host/config/labels.hpp"
+#include "kernels/members/complete_inputs.hpp"
+#include "kernels/members/start.hpp"
 
 namespace slideway {
 namespace {
@@ -177,7 +178,7 @@ void add_row(StateTable& table, std::vector<Column> const& columns, Scene const&
                         "right angle of 0",
                         state[1]));
     }
-    set_start(parts.mechanism, state, inputs);
+    set_start(info(parts.mechanism), state, inputs);
     inputs = complete_inputs(inputs);
     if (auto const why = defect(inputs, parts)) lines.fail(*why);
     table.inputs.push_back(inputs);

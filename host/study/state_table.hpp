@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/scene/scene.hpp"
+#include "host/config/scene.hpp"
 
 namespace slideway {
 

@@ -1,7 +1,7 @@
 // A tolerance report as groups of a result file.
 #pragma once
 
-#include "host/output/netcdf_file.hpp"
+#include "host/store/netcdf_file.hpp"
 #include "host/study/tolerance_report.hpp"
 
 namespace slideway {

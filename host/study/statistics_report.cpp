@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "host/scene/error.hpp"
+#include "host/base/error.hpp"
 #include "host/study/tolerance_policy.hpp"
 
 namespace slideway {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "host/output/block_statistics.hpp"
+#include "host/store/block_statistics.hpp"
 #include "host/study/tolerance_report.hpp"
 
 namespace slideway {

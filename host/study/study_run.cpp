@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "host/output/durable_file.hpp"
-#include "host/output/result_merge.hpp"
-#include "host/output/result_reader.hpp"
-#include "host/output/statistics_merge.hpp"
-#include "host/scene/fnv1a.hpp"
+#include "host/base/durable_file.hpp"
+#include "host/base/fnv1a.hpp"
+#include "host/store/result_merge.hpp"
+#include "host/store/result_reader.hpp"
+#include "host/store/statistics_merge.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/prediction.hpp"
 #include "host/study/statistics_groups.hpp"

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "host/driver/ranks.hpp"
-#include "host/output/output_target.hpp"
-#include "host/output/shard_claim.hpp"
+#include "host/run/ranks.hpp"
+#include "host/store/output_target.hpp"
+#include "host/store/shard_claim.hpp"
 #include "host/study/ensemble_plan.hpp"
 #include "host/study/tolerance_report.hpp"
 

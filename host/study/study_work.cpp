@@ -3,9 +3,9 @@
 #include <optional>
 #include <unordered_map>
 
-#include "host/output/shard_writer.hpp"
-#include "host/output/statistics_shard.hpp"
-#include "host/scene/labels.hpp"
+#include "host/config/labels.hpp"
+#include "host/store/shard_writer.hpp"
+#include "host/store/statistics_shard.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/exponent_table.hpp"
 #include "host/study/study_run.hpp"

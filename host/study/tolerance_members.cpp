@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "host/scene/error.hpp"
+#include "host/base/error.hpp"
 
 namespace slideway {
 

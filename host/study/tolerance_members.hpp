@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "host/output/result_view.hpp"
-#include "host/scene/design.hpp"
+#include "host/sampling/design.hpp"
+#include "host/store/result_view.hpp"
 #include "host/study/result_summary.hpp"
 #include "kernels/status.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "host/scene/error.hpp"
-#include "host/scene/labels.hpp"
+#include "host/base/error.hpp"
+#include "host/config/labels.hpp"
 
 namespace slideway {
 

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "host/output/statistics_merge.hpp"
-#include "host/scene/error.hpp"
+#include "host/base/error.hpp"
+#include "host/store/statistics_merge.hpp"
 #include "host/study/statistics_report.hpp"
 #include "host/study/tolerance_members.hpp"
 #include "host/study/tolerance_policy.hpp"

@@ -9,15 +9,15 @@
 #include <string>
 #include <vector>
 
-#include "host/driver/ensemble.hpp"
-#include "host/output/result_view.hpp"
-#include "host/scene/scene.hpp"
+#include "host/config/scene.hpp"
+#include "host/run/ensemble.hpp"
 #include "host/statistics/correlation.hpp"
 #include "host/statistics/histogram.hpp"
 #include "host/statistics/proportion.hpp"
 #include "host/statistics/quantile_interval.hpp"
 #include "host/statistics/sobol_indices.hpp"
 #include "host/statistics/summary.hpp"
+#include "host/store/result_view.hpp"
 #include "host/study/result_summary.hpp"
 
 namespace slideway {

@@ -5,8 +5,8 @@
 #include <functional>
 #include <numeric>
 
-#include "host/output/result_layout.hpp"
-#include "host/scene/permutation.hpp"
+#include "host/sampling/permutation.hpp"
+#include "host/store/result_layout.hpp"
 
 namespace slideway {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "host/driver/ensemble.hpp"
+#include "host/run/ensemble.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/ensemble_plan.hpp"
 #include "host/study/member_numbers.hpp"

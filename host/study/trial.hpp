@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "host/backend/backend.hpp"
-#include "host/scene/scene.hpp"
+#include "host/config/scene.hpp"
 
 namespace slideway {
 

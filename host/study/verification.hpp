@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "host/backend/backend.hpp"
-#include "host/driver/stop.hpp"
-#include "host/output/netcdf_file.hpp"
-#include "host/output/result_view.hpp"
-#include "host/scene/scene.hpp"
+#include "host/config/scene.hpp"
+#include "host/run/stop.hpp"
 #include "host/statistics/paired_comparison.hpp"
+#include "host/store/netcdf_file.hpp"
+#include "host/store/result_view.hpp"
 #include "host/study/member_numbers.hpp"
 
 namespace slideway {

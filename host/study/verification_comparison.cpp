@@ -3,9 +3,10 @@
 #include <cmath>
 #include <limits>
 
-#include "host/scene/descriptors.hpp"
+#include "host/config/descriptors.hpp"
 #include "host/study/orbit_schedule.hpp"
 #include "host/study/verification.hpp"
+#include "kernels/members/complete_inputs.hpp"
 
 namespace slideway {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "host/scene/descriptors.hpp"
+#include "host/config/descriptors.hpp"
 #include "host/study/verification.hpp"
 
 namespace slideway {

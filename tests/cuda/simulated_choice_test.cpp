@@ -5,7 +5,7 @@
 
 #include "host/study/backend_choice.hpp"
 #include "tests/cuda/simulated_run.hpp"
-#include "tests/unit/cli_orbits.hpp"
+#include "tests/system/orbits.hpp"
 
 namespace slideway::testing {
 namespace {

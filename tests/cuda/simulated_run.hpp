@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/unit/cli_results.hpp"
+#include "tests/system/results.hpp"
 
 namespace slideway::testing {
 

@@ -1,6 +1,6 @@
 // Every kind of study on a card: the processor's bits, whatever the blocks and workers.
 #include "tests/cuda/simulated_run.hpp"
-#include "tests/unit/cli_orbits.hpp"
+#include "tests/system/orbits.hpp"
 
 namespace slideway::testing {
 namespace {

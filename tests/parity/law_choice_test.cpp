@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/scene/keys.hpp"
+#include "host/config/keys.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"
 #include "kernels/models/every_law.hpp"
 #include "kernels/models/mechanism_model.hpp"

@@ -57,10 +57,10 @@ TEST(Layers, CardsHoldNoPhysicsOfTheirOwn) {
 
 TEST(LayerRules, UpwardIncludeIsFound) {
     EXPECT_EQ(include_violations(including("kernels/laws/line.hpp", "kernels/joint/joint.hpp")).size(), 1u);
-    EXPECT_EQ(include_violations(including("host/scene/scene.cpp", "host/cli/run.hpp")).size(), 1u);
-    EXPECT_EQ(include_violations(including("kernels/integrate.hpp", "host/scene/scene.hpp")).size(), 1u);
+    EXPECT_EQ(include_violations(including("host/config/scene.cpp", "host/commands/run.hpp")).size(), 1u);
+    EXPECT_EQ(include_violations(including("kernels/integrate.hpp", "host/config/scene.hpp")).size(), 1u);
     EXPECT_TRUE(include_violations(including("kernels/joint/joint.hpp", "kernels/laws/line.hpp")).empty());
-    EXPECT_TRUE(include_violations(including("host/cli/run.cpp", "host/scene/scene.hpp")).empty());
+    EXPECT_TRUE(include_violations(including("host/commands/run.cpp", "host/config/scene.hpp")).empty());
 }
 
 TEST(LayerRules, VocabularyIncludesNothingOfOurs) {
@@ -71,7 +71,7 @@ TEST(LayerRules, VocabularyIncludesNothingOfOurs) {
 
 TEST(LayerRules, PlainDataIsForEveryoneAndIncludesPlainDataOnly) {
     EXPECT_TRUE(include_violations(including("kernels/mechanisms/probe.hpp", "kernels/block.hpp")).empty());
-    EXPECT_TRUE(include_violations(including("host/output/writer.cpp", "kernels/observers/quantities.hpp")).empty());
+    EXPECT_TRUE(include_violations(including("host/store/writer.cpp", "kernels/observers/quantities.hpp")).empty());
     EXPECT_TRUE(include_violations(including("kernels/block.hpp", "kernels/status.hpp")).empty());
     EXPECT_EQ(include_violations(including("kernels/block.hpp", "kernels/real.hpp")).size(), 1u);
 }
@@ -81,35 +81,42 @@ TEST(LayerRules, PhysicsIsKnownToTheBackendAlone) {
     EXPECT_EQ(include_violations(including("host/study/ensemble.cpp", "kernels/integrate.hpp")).size(), 1u);
 }
 
+TEST(LayerRules, ClosedFormsAreForTheHostAndOfPlainData) {
+    EXPECT_TRUE(include_violations(including("host/config/keys.cpp", "kernels/members/complete_inputs.hpp")).empty());
+    EXPECT_TRUE(include_violations(including("kernels/members/start.hpp", "kernels/inputs.hpp")).empty());
+    EXPECT_EQ(include_violations(including("kernels/members/start.hpp", "kernels/math/sincos.hpp")).size(), 1u);
+    EXPECT_EQ(include_violations(including("kernels/lanes/roster.hpp", "kernels/members/start.hpp")).size(), 1u);
+}
+
 TEST(LayerRules, OneUnitNamesEveryLawAndMechanism) {
-    EXPECT_TRUE(include_violations(including("host/scene/descriptors.cpp", "kernels/all_laws.hpp")).empty());
-    EXPECT_EQ(include_violations(including("host/scene/keys.cpp", "kernels/all_laws.hpp")).size(), 1u);
+    EXPECT_TRUE(include_violations(including("host/config/descriptors.cpp", "kernels/all_laws.hpp")).empty());
+    EXPECT_EQ(include_violations(including("host/config/keys.cpp", "kernels/all_laws.hpp")).size(), 1u);
     EXPECT_EQ(include_violations(including("kernels/joint/joint.hpp", "kernels/all_mechanisms.hpp")).size(), 1u);
 }
 
 TEST(LayerRules, UnknownPlacesAreFound) {
     EXPECT_EQ(include_violations({"kernels/extras/thing.hpp", ""}).size(), 1u);
-    EXPECT_EQ(include_violations(including("host/cli/run.cpp", "run.hpp")).size(), 1u);
+    EXPECT_EQ(include_violations(including("host/commands/run.cpp", "run.hpp")).size(), 1u);
 }
 
 TEST(LayerRules, CommentedIncludeDoesNotCount) {
-    EXPECT_TRUE(include_violations({"kernels/laws/line.hpp", "// #include \"host/cli/run.hpp\"\n"}).empty());
-    EXPECT_TRUE(include_violations({"kernels/laws/line.hpp", "/*\n#include \"host/cli/run.hpp\"\n*/\n"}).empty());
+    EXPECT_TRUE(include_violations({"kernels/laws/line.hpp", "// #include \"host/commands/run.hpp\"\n"}).empty());
+    EXPECT_TRUE(include_violations({"kernels/laws/line.hpp", "/*\n#include \"host/commands/run.hpp\"\n*/\n"}).empty());
 }
 
 TEST(LayerRules, CircleOfFoldersOfOneRankIsFound) {
-    auto const there = including("host/driver/ensemble.cpp", "host/output/writer.hpp");
-    auto const back = including("host/output/writer.cpp", "host/driver/progress.hpp");
+    auto const there = including("host/run/ensemble.cpp", "host/store/writer.hpp");
+    auto const back = including("host/store/writer.cpp", "host/run/progress.hpp");
     EXPECT_TRUE(circle_violations({there}).empty());
     EXPECT_EQ(circle_violations({there, back}).size(), 2u);
 }
 
 TEST(LayerRules, InstructionSetsAndCudaAreFoundInCodeOnly) {
     EXPECT_EQ(backend_violations({"kernels/math/vec3.hpp", "auto x = _mm256_add_pd(a, b);\n"}).size(), 1u);
-    EXPECT_EQ(backend_violations({"host/driver/run.cpp", "xsimd::batch<double> x;\n"}).size(), 1u);
+    EXPECT_EQ(backend_violations({"host/run/run.cpp", "xsimd::batch<double> x;\n"}).size(), 1u);
     EXPECT_EQ(backend_violations({"kernels/laws/line.hpp", "#ifdef __CUDA_ARCH__\n"}).size(), 1u);
     EXPECT_TRUE(backend_violations({"kernels/laws/line.hpp", "// as xsimd does; __CUDACC__\n"}).empty());
-    EXPECT_TRUE(backend_violations({"host/cli/list.cpp", "print(\"xsimd\");\n"}).empty());
+    EXPECT_TRUE(backend_violations({"host/commands/list.cpp", "print(\"xsimd\");\n"}).empty());
     EXPECT_TRUE(backend_violations({"kernels/real.hpp", "xsimd::batch<double> x;\n"}).empty());
     EXPECT_EQ(backend_violations({"kernels/real.hpp", "_mm_fmadd_pd(a, b, c);\n"}).size(), 1u);
     EXPECT_EQ(backend_violations({"kernels/real.hpp", "vfmaq_f64(a, b, c);\n"}).size(), 1u);

@@ -34,7 +34,7 @@ public:
     std::string objection() const override { return ""; }
 };
 
-std::shared_ptr<slideway::Backend const> open_card(slideway::CardShare const& share) {
+[[maybe_unused]] std::shared_ptr<slideway::Backend const> open_card(slideway::CardShare const& share) {
     if (share.rank == 0) throw slideway::NoDevice("cuda: no card in this module; use --backend cpu");
     if (share.rank == 1) throw slideway::DeviceError("cuda: a broken card; use --backend cpu");
     return std::make_shared<Refusing>();

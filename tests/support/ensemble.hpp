@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "host/backend/backend.hpp"
-#include "host/scene/keys.hpp"
+#include "host/config/keys.hpp"
 #include "kernels/block.hpp"
+#include "kernels/members/complete_inputs.hpp"
 
 namespace slideway::testing {
 

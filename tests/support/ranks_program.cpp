@@ -1,4 +1,4 @@
-// What ranks of a job tell each other, printed by rank 0 for tests/unit/driver_ranks_test.cpp.
+// What ranks of a job tell each other, printed by rank 0 for tests/integration/ranks_test.cpp.
 // ranks_program places N THREADS WANTED | abandon | texts BYTES | failure | waiting | desertion RANK | crowded | deaf |
 // machine
 #include <atomic>
@@ -17,8 +17,8 @@
 
 #include <fmt/format.h>
 
-#include "host/driver/ranks.hpp"
-#include "host/scene/error.hpp"
+#include "host/base/error.hpp"
+#include "host/run/ranks.hpp"
 
 namespace {
 

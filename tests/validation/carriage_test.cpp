@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "host/chaos/power_spectrum.hpp"
-#include "host/scene/scene.hpp"
+#include "host/config/scene.hpp"
+#include "kernels/members/complete_inputs.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/support/ensemble.hpp"
 

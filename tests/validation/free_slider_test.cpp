@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "kernels/members/complete_inputs.hpp"
 #include "tests/support/ensemble.hpp"
 
 namespace slideway {

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "kernels/members/complete_inputs.hpp"
 #include "tests/support/ensemble.hpp"
 
 namespace slideway {

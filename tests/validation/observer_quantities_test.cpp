@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "kernels/members/complete_inputs.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/support/ensemble.hpp"
 

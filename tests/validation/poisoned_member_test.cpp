@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "host/driver/ensemble.hpp"
-#include "host/scene/keys.hpp"
+#include "host/config/keys.hpp"
+#include "host/run/ensemble.hpp"
 #include "tests/support/ensemble.hpp"
 
 namespace slideway {

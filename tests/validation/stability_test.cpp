@@ -7,7 +7,8 @@
 #include <filesystem>
 #include <numbers>
 
-#include "host/scene/scene.hpp"
+#include "host/config/scene.hpp"
+#include "kernels/members/complete_inputs.hpp"
 #include "tests/support/ensemble.hpp"
 
 namespace slideway {

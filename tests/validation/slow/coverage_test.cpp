@@ -20,7 +20,7 @@
 #include "host/statistics/quantile_interval.hpp"
 #include "host/statistics/sobol_indices.hpp"
 #include "host/statistics/summary.hpp"
-#include "tests/unit/scene_samples.hpp"
+#include "tests/unit/sampling/samples.hpp"
 
 namespace slideway::testing {
 namespace {

@@ -1,5 +1,5 @@
-// Every call on files of a small run fails in turn, in every way: the whole sweep of tests/unit/cli_failing_calls_test.
-#include "tests/unit/cli_disk_failures.hpp"
+// Every call on files of a small run fails in turn, in every way: the whole sweep of tests/system/failing_calls_test.
+#include "tests/system/disk_failures.hpp"
 
 namespace slideway::testing {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/unit/cli_kills.hpp"
+#include "tests/system/kills.hpp"
 
 namespace slideway::testing {
 namespace {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "host/study/series_analysis.hpp"
-#include "tests/unit/chaos_series.hpp"
+#include "tests/unit/chaos/series.hpp"
 
 namespace slideway::testing {
 namespace {

@@ -1,0 +1,187 @@
+#include "host/base/durable_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "host/base/error.hpp"
+
+namespace slideway {
+namespace {
+
+[[noreturn]] void fail(std::string const& path, char const* action, int reason) {
+    throw FileError(fmt::format("{}: cannot {}: {}", path, action, std::strerror(reason)));
+}
+
+/// An open file that is closed whatever happens.
+class Descriptor {
+public:
+    Descriptor(std::string const& path, int flags) : path_(path), file_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
+        if (file_ < 0) fail(path_, (flags & O_CREAT) != 0 ? "create" : "open", errno);
+    }
+    ~Descriptor() {
+        if (file_ >= 0) ::close(file_);
+    }
+    Descriptor(Descriptor const&) = delete;
+    Descriptor& operator=(Descriptor const&) = delete;
+    int get() const { return file_; }
+    /// Network file systems tell only here that something was not written.
+    void close() {
+        if (::close(std::exchange(file_, -1)) != 0) fail(path_, "write", errno);
+    }
+
+private:
+    std::string const& path_;
+    int file_;
+};
+
+void write_all(int file, std::span<std::byte const> bytes, std::string const& path) {
+    while (!bytes.empty()) {
+        ssize_t const written = ::write(file, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) fail(path, "write", errno);
+        // Nothing written and no reason given: the next call would say the same for ever.
+        if (written == 0) fail(path, "write", ENOSPC);
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+}
+
+void sync(int file, std::string const& path) {
+    if (::fsync(file) != 0) fail(path, "write to the disk", errno);
+}
+
+/// rename(2), or its form that leaves what is there alone.  @return 0 or the reason why not
+int put_in_place(std::string const& from, std::string const& to, Existing existing) {
+    if (existing == Existing::replaced) return std::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+    // Of file systems that cannot rename so, most can link.
+    if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
+    if (errno != EINVAL && errno != ENOSYS) return errno;
+    if (::link(from.c_str(), to.c_str()) != 0) return errno;
+    return ::unlink(from.c_str()) == 0 ? 0 : errno;
+}
+
+}  // namespace
+
+std::string folder_of(std::string const& path) {
+    std::string const folder = std::filesystem::path(path).parent_path().string();
+    return folder.empty() ? std::string(".") : folder;
+}
+
+namespace {
+
+void sync_folder_for(std::string const& folder, std::string const& path) {
+    Descriptor const file(folder, O_RDONLY | O_DIRECTORY);
+    // Some file systems cannot, and need not.
+    if (::fsync(file.get()) != 0 && errno != EINVAL) fail(path, "write to the disk", errno);
+}
+
+}  // namespace
+
+void sync_folder(std::string const& path) { sync_folder_for(path, path); }
+
+void sync_name(std::string const& path) { sync_folder_for(folder_of(path), path); }
+
+namespace {
+
+void write_file(std::string const& path, int flags, std::span<std::byte const> bytes) {
+    Descriptor file(path, O_WRONLY | O_CREAT | flags);
+    try {
+        write_all(file.get(), bytes, path);
+        sync(file.get(), path);
+        file.close();
+    } catch (...) {
+        ::unlink(path.c_str());
+        throw;
+    }
+}
+
+}  // namespace
+
+void write_new(std::string const& path, std::span<std::byte const> bytes) { write_file(path, O_EXCL, bytes); }
+
+void write_durably(std::string const& path, std::span<std::byte const> bytes) {
+    std::string const temporary = path + ".tmp";
+    write_file(temporary, O_TRUNC, bytes);
+    if (std::rename(temporary.c_str(), path.c_str()) != 0) {
+        int const reason = errno;
+        ::unlink(temporary.c_str());
+        fail(path, "put in place", reason);
+    }
+    sync_name(path);
+}
+
+void write_durably(std::string const& path, std::string_view text) {
+    write_durably(path, std::as_bytes(std::span(text)));
+}
+
+void rename_durably(std::string const& from, std::string const& to, Existing existing) {
+    {
+        Descriptor file(from, O_RDONLY);
+        sync(file.get(), from);
+    }
+    if (int const reason = put_in_place(from, to, existing); reason != 0) {
+        throw FileError(fmt::format("{}: cannot replace: {}; the results are in {}", to, std::strerror(reason), from));
+    }
+    sync_name(to);
+}
+
+bool is_there(std::string const& path) {
+    std::error_code error;
+    auto const kind = std::filesystem::status(path, error).type();
+    if (kind == std::filesystem::file_type::not_found) return false;
+    if (error) fail(path, "look for it", error.value());
+    return true;
+}
+
+std::string in_folder(std::string const& folder, std::string_view name) {
+    return (std::filesystem::path(folder) / name).string();
+}
+
+std::vector<std::byte> read_bytes(std::string const& path) {
+    Descriptor const file(path, O_RDONLY);
+    std::error_code ignored;
+    auto const size = std::filesystem::file_size(path, ignored);
+    // One more than there is: the end then shows without growing.  Pipes and the like have no size.
+    constexpr std::size_t least = 1u << 16;
+    std::vector<std::byte> bytes(ignored ? least : static_cast<std::size_t>(size) + 1);
+    std::size_t used = 0;
+    for (;;) {
+        if (used == bytes.size()) bytes.resize(std::max(2 * used, least));
+        ssize_t const got = ::read(file.get(), bytes.data() + used, bytes.size() - used);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) fail(path, "read", errno);
+        if (got == 0) break;
+        used += static_cast<std::size_t>(got);
+    }
+    bytes.resize(used);
+    return bytes;
+}
+
+std::string read_text(std::string const& path) {
+    std::vector<std::byte> const bytes = read_bytes(path);
+    return {reinterpret_cast<char const*>(bytes.data()), bytes.size()};
+}
+
+LineFile::LineFile(std::string path)
+    : path_(std::move(path)), file_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666)) {
+    if (file_ < 0) fail(path_, "create", errno);
+}
+
+LineFile::~LineFile() { ::close(file_); }
+
+void LineFile::append(std::string line) {
+    line += '\n';
+    write_all(file_, std::as_bytes(std::span(line)), path_);
+    sync(file_, path_);
+}
+
+}  // namespace slideway

@@ -1,0 +1,191 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "host/commands/commands.hpp"
+#include "host/commands/json.hpp"
+#include "host/commands/text.hpp"
+#include "host/run/ensemble.hpp"
+#include "host/study/continued_sweep.hpp"
+#include "host/study/orbit_schedule.hpp"
+#include "host/study/prediction.hpp"
+#include "host/study/start_check.hpp"
+#include "host/study/trial.hpp"
+
+namespace slideway::cli {
+namespace {
+
+/// What damps the contacts; a mechanism with corners has the point law's.
+std::string damping_text(Parts const& parts) {
+    LawInfo const& law = info(parts.law);
+    switch (parts.damping) {
+        case Damping::point:
+            if (!info(parts.mechanism).spatial || has_group(law.groups, KeyGroup::point_damping)) {
+                return "damping of point contacts";
+            }
+            return fmt::format("damping of the {} law", law.name);
+        case Damping::rate:
+            return "damping of point, line and surface contacts";
+        case Damping::restitution:
+            return "restitution";
+    }
+    return "";
+}
+
+void print_parts(Scene const& scene) {
+    MechanismInfo const& mechanism = info(scene.parts.mechanism);
+    std::string in = fmt::format("{} mechanism", mechanism.name), out;
+    auto const sort = [&](bool is_in, std::string_view name) {
+        std::string& list = is_in ? in : out;
+        list += fmt::format("{}{}", list.empty() ? "" : "; ", name);
+    };
+    if (mechanism.spatial) {
+        for (LawInfo const& law : laws()) sort(&law == &info(scene.parts.law), fmt::format("{} law", law.name));
+    } else {
+        sort(true, scene.parts.free_crank ? "free crank" : "driven crank");
+        sort(true, "contact of corners");
+    }
+    sort(true, damping_text(scene.parts));
+    // Which the scene might have had.
+    auto const sort_out = [&](Damping damping, std::string_view name) {
+        bool const may = mechanism.spatial ? info(scene.parts.law).has(damping) : damping == Damping::restitution;
+        if (may && scene.parts.damping != damping) sort(false, name);
+    };
+    sort_out(Damping::rate, "damping of line and surface contacts");
+    sort_out(Damping::restitution, "restitution");
+    sort(scene.parts.friction, "friction");
+    if (mechanism.spatial) sort(scene.parts.misaligned_way, "pose of a misaligned way");
+    sort(!scene.sample_times.empty(), "time series");
+    print_field("parts in", in);
+    print_field("parts out", out);
+
+    std::string asked, left;
+    for (int q = 0; q < quantity_count; ++q) {
+        if (!selects(mechanism.quantities, static_cast<Quantity>(q))) continue;
+        std::string& names = selects(scene.quantities, static_cast<Quantity>(q)) ? asked : left;
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", quantity_table[q].name);
+    }
+    print_field("asked for", asked.empty() ? "no quantity" : asked);
+    print_field("left out", left.empty() ? "no quantity" : left);
+}
+
+std::string range_text(std::string const& least, std::string const& most) {
+    return least == most ? least : fmt::format("{} to {}", least, most);
+}
+
+std::string cost_text(Scene const& scene, Prediction const& prediction, std::optional<Trial> const& trial) {
+    std::string const threads =
+        fmt::format("{} thread{}", prediction.busy_threads, prediction.busy_threads == 1 ? "" : "s");
+    if (scene.integrator.method == Method::rk4) {
+        return fmt::format("{:.0f} steps, all fixed; some {} on {}", prediction.most_steps,
+                           duration_text(trial ? trial->seconds : prediction.most_seconds), threads);
+    }
+    if (trial) {
+        return fmt::format("about {} on {}, some {:.2g} steps, as {} of its members tell", duration_text(trial->seconds), threads, trial->steps,
+                           trial->members);
+    }
+    return fmt::format(
+        "{} steps, {} on {}; a rough range: all in free flight to all in contact that rings",
+        range_text(fmt::format("{:.2g}", prediction.least_steps), fmt::format("{:.2g}", prediction.most_steps)),
+        range_text(duration_text(prediction.least_seconds), duration_text(prediction.most_seconds)), threads);
+}
+
+/// What a study of orbits records of each member.
+void print_orbits(Scene const& scene, OrbitSchedule const& schedule) {
+    if (!schedule.timing) return;
+    if (scene.study == StudyKind::sweep) {
+        print_field("columns", fmt::format("{} values of {}, {} start{} each", scene.chaos.values.size(),
+                                           scene.chaos.parameter->name, scene.members, scene.members == 1 ? "" : "s"));
+    }
+    if (schedule.sections) {
+        print_field("sections", fmt::format("{}{} of each member", schedule.crossings.room > 0 ? "at most " : "",
+                                            schedule.section_rows()));
+    }
+    ShadowPlan const shadows = shadow_plan(scene);
+    if (shadows.count == 0) return;
+    print_field("exponents", fmt::format("{} by as many shadows, rescaled every {:.6g} s", shadows.count,
+                                         schedule.timing(scene.inputs).period));
+}
+
+std::string design_text(Scene const& scene) {
+    Design const& design = scene.design;
+    std::string const name(name_of(design.kind));
+    switch (design.kind) {
+        case DesignKind::mc:
+        case DesignKind::lhs:
+        case DesignKind::sobol:
+            return fmt::format("{}, {} points of {} keys", name, scene.members, scene.variations.size());
+        case DesignKind::saltelli:
+            return fmt::format("{}, {} rows of {} members", name, design.base, scene.variations.size() + 2);
+        case DesignKind::grid:
+            return fmt::format("{}, {} levels", name, fmt::join(design.levels, " x "));
+        case DesignKind::table:
+            return fmt::format("{}, {} of the {} rows of {}", name, scene.members, design.table->rows(),
+                               design.table->path);
+    }
+    return name;
+}
+
+/// How members are spread over what varies, and what they are to meet.
+void print_design(Scene const& scene) {
+    if (!scene.variations.empty()) print_field("design", design_text(scene));
+    if (!scene.design.correlation.variations.empty()) {
+        print_field("correlation", fmt::format("of {} keys", scene.design.correlation.variations.size()));
+    }
+    std::string limited;
+    for (Limit const& limit : scene.limits) {
+        limited += fmt::format("{}{}", limited.empty() ? "" : ", ", limit.name());
+    }
+    if (!limited.empty()) print_field("limits", fmt::format("of {}", limited));
+}
+
+}  // namespace
+
+int check(CheckArguments const& arguments) {
+    Scene const scene = load_scene(arguments.scene);
+    int const threads = arguments.threads.value_or(default_threads());
+    print_warnings(scene);
+    BackendRequest request = arguments.scene.backend;
+    request.threads = threads;
+    BackendChoice const choice =
+        choose_backend(request, scene, place_count(scene, MemberSet(MemberRange{0, member_count(scene)})));
+    Prediction const prediction = predict(scene, *choice.backend, threads);
+
+    if (!arguments.force) {
+        if (auto const wrong = impossible_starts(scene, best_isa()))
+            throw SceneError(fmt::format("{}: {}; change [initial] or [joint], or add --force", scene.path, *wrong));
+    }
+
+    if (arguments.resolved) {
+        fmt::print("{}", resolved_toml(scene));
+        return exit_code::done;
+    }
+    std::optional<Trial> const trial = try_members(scene, *choice.backend, threads);
+    if (arguments.json) {
+        fmt::print("{}", check_json(scene, prediction, trial, *choice.backend));
+        return exit_code::done;
+    }
+
+    fmt::print("# {} is a valid scene.  Resolved, in SI units:\n\n", scene.path);
+    std::string const resolved = resolved_toml(scene);
+    fmt::print("{}{}\n", resolved, resolved.ends_with('\n') ? "" : "\n");
+    print_parts(scene);
+    print_field("kernels", fmt::format("{}, {} threads, blocks of at most {} members", backend_text(*choice.backend),
+                                       choice.backend->workers(threads), prediction.largest_block));
+    if (!choice.reason.empty()) print_field("", choice.reason);
+    OrbitSchedule const schedule = orbit_schedule(scene);
+    print_field("members", fmt::format("{}, each over {:.6g} s", member_count(scene), schedule.end));
+    print_design(scene);
+    print_orbits(scene, schedule);
+    print_field("memory",
+                fmt::format("{} for blocks in work, {} for shards on their way, {} for the statistics at the end{}",
+                            bytes_text(static_cast<double>(prediction.buffer_bytes)),
+                            bytes_text(static_cast<double>(prediction.image_bytes)),
+                            bytes_text(static_cast<double>(prediction.summary_bytes)), card_memory_text(prediction)));
+    print_field("disk",
+                fmt::format("{} for the result, {} for its shards until it is whole",
+                            bytes_text(static_cast<double>(prediction.output_bytes)), shards_text(scene, prediction)));
+    print_field("cost", cost_text(scene, prediction, trial));
+    return exit_code::done;
+}
+
+}  // namespace slideway::cli

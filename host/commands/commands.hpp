@@ -1,0 +1,124 @@
+// The commands: what the user gave, and what runs.  Each returns the process's exit code.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "host/commands/options.hpp"
+#include "host/config/scene.hpp"
+#include "host/study/series_analysis.hpp"
+
+namespace slideway::cli {
+
+namespace exit_code {
+inline constexpr int done = 0;
+inline constexpr int internal_error = 1;  // a defect of slideway itself
+inline constexpr int bad_usage = 2;       // also a bad scene
+inline constexpr int too_many_failures = 3;
+inline constexpr int file_trouble = 4;  // also a lack of memory, and a card that fails
+inline constexpr int stopped_early = 5;
+}  // namespace exit_code
+
+/// What an exception that ends a command makes the exit code.
+int exit_code_of(std::exception_ptr error);
+/// What it makes the line on stderr.
+std::string line_of(std::exception_ptr const& error);
+
+struct SceneArguments {
+    std::string path;
+    Overrides overrides;
+    std::string isa = "auto";
+    BackendRequest backend;
+};
+
+struct RunArguments {
+    SceneArguments scene;
+    std::string output;  // empty: by the scene's name
+    std::optional<int> threads;
+    std::optional<double> max_hours;
+    FailureLimit max_failures;
+    std::optional<MemberRange> members;  // empty: all
+    RunPart part;
+    std::size_t block_members = 0;  // 0: by their cost
+    bool resume = false, force = false;
+    bool progress = true;
+    bool quiet = false;  // no progress, no summary
+    bool json = false;   // an object in place of the summary
+};
+int run(RunArguments const& arguments);
+
+struct CheckArguments {
+    SceneArguments scene;
+    std::optional<int> threads;
+    bool force = false;  // also of starts that no mechanism has
+    bool json = false;
+    bool resolved = false;  // the resolved scene alone, which runs as it is
+};
+int check(CheckArguments const& arguments);
+
+struct ProbeArguments {
+    SceneArguments scene;
+    std::string table;   // empty: the scene's start
+    std::string output;  // empty: stdout
+    bool force = false, json = false;
+};
+int probe(ProbeArguments const& arguments);
+
+struct InfoArguments {
+    std::string path;
+    bool scene = false;  // the scene too
+    bool json = false;
+};
+int info(InfoArguments const& arguments);
+
+struct StatsArguments {
+    std::string path;
+    std::optional<std::string> variable, column;  // of a result, of a table
+    std::optional<std::uint64_t> member;          // of a result; empty: its first
+    std::optional<double> spacing;                // of a table [s]
+    std::optional<double> skip_time;              // transient [s]
+    std::optional<std::size_t> skip_samples;
+    std::optional<std::size_t> max_points;  // behind the transient
+    SeriesOptions options;
+    std::string output;  // empty: no curves
+    bool force = false, json = false;
+};
+int stats(StatsArguments const& arguments);
+
+struct MergeArguments {
+    std::string folder, output;
+    bool force = false, json = false;
+};
+int merge(MergeArguments const& arguments);
+
+struct ReportArguments {
+    std::string path;
+    std::string output;  // empty: the path with .html
+    bool force = false;
+};
+/// Ends as the companion in Python, which writes the page; returns only by an exception.
+int report(ReportArguments const& arguments);
+
+struct ListArguments {
+    enum class Form { text, json, schema, markdown };  // all but the first: of the keys of a scene
+    Form form = Form::text;
+};
+int list(ListArguments const& arguments);
+
+/// Text for stdout and nothing to run: --help, --version.
+struct TextOnly {
+    std::string text;
+};
+
+using Arguments = std::variant<RunArguments, CheckArguments, ProbeArguments, InfoArguments, StatsArguments,
+                               MergeArguments, ReportArguments, ListArguments, TextOnly>;
+
+/// @throws SceneError with one line for a command line that cannot be used.
+Arguments parse_arguments(int argc, char const* const* argv);
+
+}  // namespace slideway::cli

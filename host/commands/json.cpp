@@ -1,0 +1,167 @@
+#include "host/commands/json.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "host/store/payload_hash.hpp"
+#include "host/study/orbit_summary.hpp"
+#include "host/study/result_summary.hpp"
+#include "host/study/verification.hpp"
+#include "kernels/members/start.hpp"
+
+namespace slideway::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has neither NaN nor infinity.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json object(char const* command) { return {{"schema_version", json_version}, {"command", command}}; }
+
+std::string text_of(Json const& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+Json of_summary(Summary const& summary) {
+    return {{"count", summary.count},          {"mean", number(summary.mean)},     {"sd", number(summary.sd)},
+            {"min", number(summary.min)},      {"median", number(summary.median)}, {"max", number(summary.max)}};
+}
+
+Json of_mean(MeanOfMembers const& mean) { return {{"mean", number(mean.mean)}, {"half_width", number(mean.half_width)}}; }
+
+Json of_quantities(ResultReader const& results) {
+    Json list = Json::array();
+    for (QuantitySummary const& quantity : summarise_quantities(results)) {
+        Json one{{"name", quantity.label}, {"unit", quantity.unit}};
+        one.update(of_summary(quantity.values));
+        list.push_back(std::move(one));
+    }
+    return list;
+}
+
+Json of_exponents(ResultReader const& results) {
+    Json list = Json::array();
+    for (ExponentSummary const& one : summarise_exponents(results)) {
+        list.push_back({{"mean", of_mean(one.mean)},
+                        {"second_half", of_mean(one.late)},
+                        {"quantile_05", number(one.low)},
+                        {"quantile_95", number(one.high)},
+                        {"members_positive", one.positive},
+                        {"members_negative", one.negative},
+                        {"members_undecided", one.undecided}});
+    }
+    return list;
+}
+
+}  // namespace
+
+std::string result_json(char const* command, ResultReader const& results, bool intact, EnsembleTotals const* totals, std::uint64_t left) {
+    Json json = object(command);
+    json["file"] = results.path();
+    for (char const* const name : {"title", "created", "version", "commit", "compiler", "flags", "machine", "backend", "isa", "completeness"})
+        json[name] = results.attribute(name);
+    json["payload_hash"] = results.stored_hash();
+    json["intact"] = intact;
+    Json& dimensions = json["dimensions"] = Json::object();
+    for (auto const& dimension : results.dimensions()) dimensions[dimension.name] = dimension.length;
+    Json& statuses = json["statuses"] = Json::object();
+    for (StatusCount const& count : count_statuses(results)) statuses[name_of(count.status)] = count.members;
+    json["members_left"] = left;
+    json["quantities"] = of_quantities(results);
+    if (Json exponents = of_exponents(results); !exponents.empty()) json["exponents"] = std::move(exponents);
+    if (auto const sections = summarise_sections(results)) {
+        json["sections"] = {{"count", sections->sections}, {"members_without", sections->without}, {"beyond_room", sections->beyond}};
+    }
+    if (auto const summary = verification_summary(results)) {
+        json["verification"] = {{"resolution", results.group_attribute(verification_group, "resolution")}, {"summary", *summary}};
+    }
+    if (totals != nullptr) {
+        json["run"] = {{"members", totals->done()},
+                       {"seconds", totals->seconds},
+                       {"steps_accepted", totals->steps_accepted},
+                       {"steps_rejected", totals->steps_rejected},
+                       {"rhs_evaluations", totals->rhs_evaluations},
+                       {"jacobian_evaluations", totals->jacobian_evaluations},
+                       {"lanes_in_use", number(totals->lane_utilisation())}};
+    }
+    return text_of(json);
+}
+
+std::string stopped_json(std::string const& folder, std::uint64_t left) {
+    Json json = object("run");
+    json["shards"] = folder;
+    json["members_left"] = left;
+    return text_of(json);
+}
+
+std::string check_json(Scene const& scene, Prediction const& prediction, std::optional<Trial> const& trial, Backend const& backend) {
+    Json json = object("check");
+    json["scene"] = scene.path;
+    json["resolved"] = resolved_toml(scene);
+    json["warnings"] = scene.warnings;
+    json["members"] = member_count(scene);
+    json["backend"] = backend.name();
+    json["isa"] = backend.isa();
+    json["memory_bytes"] = prediction.memory();
+    json["card_bytes"] = prediction.card_bytes;
+    json["result_bytes"] = prediction.output_bytes;
+    json["shard_bytes"] = prediction.shard_bytes;
+    json["steps"] = {{"least", prediction.least_steps}, {"most", prediction.most_steps}};
+    json["seconds"] = {{"least", prediction.least_seconds}, {"most", prediction.most_seconds}};
+    if (trial) {
+        json["steps"]["expected"] = trial->steps;
+        json["seconds"]["expected"] = trial->seconds;
+        json["members_tried"] = trial->members;
+    }
+    return text_of(json);
+}
+
+std::string probe_json(Scene const& scene, StateTable const& table, std::vector<ProbeResult> const& results) {
+    Json json = object("probe");
+    json["scene"] = scene.path;
+    Json& rows = json["states"] = Json::array();
+    for (std::size_t row = 0; row < results.size(); ++row) {
+        Json one{{"time", table.times[row]}, {"status", name_of(results[row].status)}};
+        MechanismInfo const& has = info(table.mechanism);
+        StateNumbers const state = start_of(info(table.mechanism), table.inputs[row]);
+        for (int i = 0; i < has.states; ++i) one["state"][state_info(has, i).name] = number(state[static_cast<std::size_t>(i)]);
+        for (auto const& [name, value] : result_columns(table.mechanism, results[row])) one["values"][name] = number(value);
+        rows.push_back(std::move(one));
+    }
+    return text_of(json);
+}
+
+std::string stats_json(StatsArguments const& arguments, std::string const& series, SeriesAnalysis const& a,
+                       std::vector<std::pair<std::string, std::string>> const& rows) {
+    Json json = object("stats");
+    json["file"] = arguments.path;
+    json["series"] = series;
+    json["points"] = a.points;
+    json["spacing"] = a.spacing;
+    json["average_period"] = number(a.average_period);
+    json["delay"] = a.delay;
+    json["dimension"] = a.dimension;
+    json["window"] = a.window;
+    json["theiler_window"] = a.theiler;
+    json["exponent"] = nullptr;
+    if (a.growth) {
+        json["exponent"] = {{"value", number(a.growth->exponent)},
+                            {"half_width", number(a.growth->half_width())},
+                            {"of_chance", number(a.growth->chance())},
+                            {"systematic", number(a.growth->systematic)},
+                            {"is_seen", a.growth_is_seen()},
+                            {"is_exponential", a.growth_is_exponential()},
+                            {"first_sample", a.growth->window.first},
+                            {"last_sample", a.growth->window.last},
+                            {"r_squared", number(a.growth->line.r_squared)}};
+    }
+    json["zero_one"] = {{"k", number(a.zero_one.k)}, {"points", a.zero_one.points}, {"stride", a.stride}};
+    json["verdict"] = verdict(a);
+    json["reservations"] = reservations(a);
+    json["text"] = Json::array();
+    for (auto const& [label, text] : rows) json["text"].push_back({label, text});
+    return text_of(json);
+}
+
+}  // namespace slideway::cli

@@ -1,0 +1,33 @@
+// What commands say with --json: one object on stdout, as docs/json.md describes it, of the same values as their text.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/commands/commands.hpp"
+#include "host/run/ensemble.hpp"
+#include "host/store/result_reader.hpp"
+#include "host/study/prediction.hpp"
+#include "host/study/probe.hpp"
+#include "host/study/series_analysis.hpp"
+#include "host/study/trial.hpp"
+
+namespace slideway::cli {
+
+inline constexpr int json_version = 1;
+
+/// Provenance, dimensions, statuses, statistics over the members that finished, exponents, sections and what the check of the resolution found.
+/// @param totals of the run that has just made it, or nullptr  @param left members that have not run
+std::string result_json(char const* command, ResultReader const& results, bool intact, EnsembleTotals const* totals = nullptr,
+                        std::uint64_t left = 0);
+/// A run that ended before its result.
+std::string stopped_json(std::string const& folder, std::uint64_t left);
+/// @param trial nothing where no member was tried
+std::string check_json(Scene const& scene, Prediction const& prediction, std::optional<Trial> const& trial, Backend const& backend);
+std::string probe_json(Scene const& scene, StateTable const& table, std::vector<ProbeResult> const& results);
+std::string stats_json(StatsArguments const& arguments, std::string const& series, SeriesAnalysis const& analysis,
+                       std::vector<std::pair<std::string, std::string>> const& rows);
+
+}  // namespace slideway::cli

@@ -1,0 +1,168 @@
+#include <cmath>
+#include <iterator>
+#include <string>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "host/commands/commands.hpp"
+#include "host/config/key_reference.hpp"
+#include "host/config/labels.hpp"
+#include "host/config/settings.hpp"
+#include "host/sampling/distribution_forms.hpp"
+
+namespace slideway::cli {
+namespace {
+
+/// " (slider_crank, carriage)": the mechanisms that have something, where not all do.
+template <class Has> std::string owners_text(Has has) {
+    std::string names;
+    bool all = true;
+    for (MechanismInfo const& mechanism : mechanisms()) {
+        if (!has(mechanism))
+            all = false;
+        else
+            names += fmt::format("{}{}", names.empty() ? "" : ", ", mechanism.name);
+    }
+    return all ? std::string() : fmt::format(" ({})", names);
+}
+
+/// Their states, and what else comes with every time series.
+void print_mechanisms() {
+    fmt::print("mechanisms (mechanism.kind), with the numbers of their state\n");
+    for (MechanismInfo const& mechanism : mechanisms()) {
+        std::string states, beside;
+        Selection left = mechanism.always;
+        for (int i = 0; i < mechanism.states; ++i) {
+            states += fmt::format("{}{}", i > 0 ? ", " : "", state_info(mechanism, i).name);
+            left &= ~selection_of(mechanism.state[i]);
+        }
+        for (int s = 0; s < series_count; ++s) {
+            if (selects(left, static_cast<Series>(s)))
+                beside += fmt::format("{}{}", beside.empty() ? "" : ", ", series_table[s].name);
+        }
+        fmt::print("  {:<30} {}\n  {:<30} {}{}\n", mechanism.name, mechanism.meaning, "", states,
+                   beside.empty() ? beside : fmt::format("; series have {} too", beside));
+    }
+}
+
+/// In the order of a scene's tables, each with its unit, domain and default, and who knows it where not all do.
+void print_keys() {
+    for (KeyReference const& key : key_references()) {
+        std::string const domain = domain_text(key), owners = owners_text(key);
+        fmt::print("  {:<30} {:<8} {}{}{}{}\n", key.name, key.unit, key.meaning, domain.empty() ? "" : ": " + domain,
+                   key.preset.empty() ? "" : "; default " + key.preset, owners.empty() ? "" : fmt::format(" ({})", owners));
+    }
+}
+
+/// Of `Damping`.
+constexpr std::string_view damping_names[] = {"point", "rate", "restitution"};
+static_assert(std::size(damping_names) == damping_count);
+
+/// Their words, and below these their dampings and what they have of their own.
+void print_laws() {
+    for (LawInfo const& law : laws()) {
+        fmt::print("  {:<30} {}\n", law.name, law.words);
+        std::string dampings;
+        for (int i = 0; i < damping_count; ++i) {
+            bool const has = law.has(static_cast<Damping>(i)) && has_group(law.groups, KeyGroup::point_damping);
+            if (has) dampings += fmt::format("{}{}", dampings.empty() ? "" : ", ", damping_names[i]);
+        }
+        fmt::print("  {:<30} damping: {}\n", "", dampings.empty() ? "its own alone" : dampings);
+        for (Key const& key : law.keys) {
+            fmt::print("  {:<30} {} [{}]: {}\n", "", key.name, key.unit, key.meaning);
+        }
+    }
+}
+
+/// Of `design_names`.
+constexpr std::string_view design_meanings[] = {
+    "every member draws by itself, random numbers of its seed, number and key",
+    "Latin hypercube: of each key, one member in each of as many equally likely parts",
+    "points of a scrambled Sobol sequence, best in powers of two",
+    "study.base rows of Sobol points for sensitivity indices of each key",
+    "every combination of levels of each key (study.levels, or levels = k in study.vary)",
+    "the rows of a CSV file (study.table)",
+};
+static_assert(std::size(design_meanings) == std::size(design_names));
+
+/// What there is behind --backend cuda.
+std::string card_text() {
+    try {
+        return backend_text(*cuda_backend());
+    } catch (DeviceError const& error) {
+        return error.what();
+    }
+}
+
+std::string state_of(Isa isa) {
+    if (!is_built(isa)) return "not in this build";
+    if (!is_supported(isa)) return "not on this machine";
+    std::string const state = isa == best_isa() ? "what auto means on this machine" : "supported";
+    return compiled_isa(isa) == Isa::scalar_libm ? state + "; the C library's fused multiply-add: slow" : state;
+}
+
+}  // namespace
+
+int list(ListArguments const& arguments) {
+    using Form = ListArguments::Form;
+    if (arguments.form != Form::text) {
+        std::string const text = arguments.form == Form::json     ? keys_json()
+                                 : arguments.form == Form::schema ? scene_schema()
+                                                                  : keys_markdown();
+        fmt::print("{}", text);
+        return exit_code::done;
+    }
+    print_mechanisms();
+    fmt::print("\ncontact laws (contact.law){}\n", owners_text([](MechanismInfo const& one) { return one.spatial; }));
+    print_laws();
+    fmt::print(
+        "\ndamping\n"
+        "  point                          contact.eta: point contacts alone\n"
+        "  rate                           contact.chi_line, contact.chi_surface: lines and surfaces too\n"
+        "  restitution                    contact.restitution: replaces both\n");
+    fmt::print("\nintegrators (integrator.method)\n");
+    for (MethodInfo const& method : method_table) fmt::print("  {:<30} {}\n", method.name, method.description);
+    fmt::print(
+        "\nstudies (study.kind)\n"
+        "  ensemble                       every member to the end time, summary statistics\n"
+        "  lyapunov                       the largest Lyapunov exponents of every member, and how they converged\n"
+        "  poincare                       states at a crank angle, or where a state or a gap crosses a level\n"
+        "  sweep                          sections and exponents, column by column, as one key changes\n"
+        "  tolerance                      how quantities scatter with what varies, what drives them, which limits they "
+        "meet\n");
+    fmt::print("\ndistributions (dist in study.vary); arguments in [] may be left out\n");
+    for (DistributionForm const& form : distribution_forms()) {
+        fmt::print("  {:<10} {:<19} {}\n", form.name, listed_arguments(form), form.meaning);
+    }
+    fmt::print("\ndesigns (study.design): how members are spread over what varies\n");
+    for (std::size_t i = 0; i < std::size(design_names); ++i) {
+        fmt::print("  {:<30} {}\n", design_names[i], design_meanings[i]);
+    }
+    fmt::print("\nquantities (study.quantities): one value, or one row of values, per member\n");
+    for (QuantityInfo const& quantity : quantity_table) {
+        Selection const bit = Selection{1} << (&quantity - quantity_table);
+        fmt::print("  {:<30} {:<8} {}{}{}\n", quantity.name, quantity.unit, quantity.long_name,
+                   quantity.dimension ? fmt::format(" (per {})", quantity.dimension) : "",
+                   owners_text([bit](MechanismInfo const& one) { return (one.quantities & bit) != 0; }));
+    }
+    fmt::print("\nseries (study.quantities): values at the sample times; those above come with every time series\n");
+    for (SeriesInfo const& series : series_table) {
+        Selection const bit = Selection{1} << (&series - series_table);
+        fmt::print("  {:<30} {:<8} {}{}\n", series.name, series.unit, series.long_name,
+                   owners_text([bit](MechanismInfo const& one) { return (one.series & bit) != 0; }));
+    }
+    fmt::print("\nkeys of a scene, with their unit, domain and default\n");
+    print_keys();
+    fmt::print("\nbackends (--backend)\n");
+    fmt::print("  {:<30} this machine's processor, with one of its instruction sets\n", "cpu");
+    fmt::print("  {:<30} {}\n", "cuda", card_text());
+    fmt::print("\ninstruction sets (--isa)\n");
+    for (Isa const isa : all_isas()) {
+        fmt::print("  {:<30} {} lane{}, {}\n", name_of(isa), lanes_of(isa), lanes_of(isa) == 1 ? "" : "s",
+                   state_of(isa));
+    }
+    return exit_code::done;
+}
+
+}  // namespace slideway::cli

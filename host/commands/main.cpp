@@ -1,0 +1,67 @@
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "host/commands/commands.hpp"
+
+namespace {
+
+using namespace slideway;
+using namespace slideway::cli;
+
+int dispatch(Arguments const& arguments) {
+    struct Visitor {
+        int operator()(RunArguments const& given) const { return run(given); }
+        int operator()(CheckArguments const& given) const { return check(given); }
+        int operator()(ProbeArguments const& given) const { return probe(given); }
+        int operator()(InfoArguments const& given) const { return info(given); }
+        int operator()(StatsArguments const& given) const { return stats(given); }
+        int operator()(MergeArguments const& given) const { return merge(given); }
+        int operator()(ReportArguments const& given) const { return report(given); }
+        int operator()(ListArguments const& given) const { return list(given); }
+        int operator()(TextOnly const& only) const {
+            fmt::print("{}", only.text);
+            return exit_code::done;
+        }
+    };
+    return std::visit(Visitor{}, arguments);
+}
+
+/// The code counts even where nobody can read the line.
+int complain(int code, std::string_view line) {
+    std::fwrite(line.data(), 1, line.size(), stderr);
+    std::fputc('\n', stderr);
+    return code;
+}
+
+/// HDF5 crashes in its exit handler over a file that it could not write, so there no handlers may run.
+[[noreturn]] void complain_of_file(std::string_view line) {
+    std::fflush(stdout);
+    complain(exit_code::file_trouble, line);
+    std::_Exit(exit_code::file_trouble);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    // A full quota then is an error of the write, not the end of the process.
+    std::signal(SIGXFSZ, SIG_IGN);
+    try {
+        int const code = dispatch(parse_arguments(argc, argv));
+        std::cout.flush();
+        if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout)) {
+            return complain(exit_code::file_trouble, "slideway: cannot write to the standard output");
+        }
+        return code;
+    } catch (FileError const& error) {
+        complain_of_file(error.what());
+    } catch (std::exception const&) {
+        std::exception_ptr const error = std::current_exception();
+        return complain(exit_code_of(error), line_of(error));
+    }
+}

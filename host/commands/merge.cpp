@@ -1,0 +1,72 @@
+#include <filesystem>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "host/base/durable_file.hpp"
+#include "host/commands/commands.hpp"
+#include "host/commands/json.hpp"
+#include "host/commands/run_summary.hpp"
+#include "host/commands/text.hpp"
+#include "host/store/result_merge.hpp"
+#include "host/study/study_run.hpp"
+
+namespace slideway::cli {
+namespace {
+
+/// A result in the place of a shard, or of what tells them, would be the end of the run.
+void require_outside(OutputTarget const& target, std::string const& folder) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(folder_of(target.path()), folder, ignored)) {
+        throw FileError(fmt::format("{}: lies in the folder of the shards; give a name elsewhere with -o", target.name()));
+    }
+}
+
+/// What the manifests list and is what was written.  The rest counts as not run.
+std::vector<Shard> intact_shards(ShardFolder const& folder) {
+    std::vector<DamagedShard> damaged;
+    std::vector<Shard> shards = folder.intact(damaged);
+    for (DamagedShard const& one : damaged) {
+        tell("warning: {}/{}: {}; its members are left out: slideway run --resume runs them again\n",
+                   folder.path(), one.shard.name, one.is_gone ? "is gone" : "is not what was written");
+    }
+    return shards;
+}
+
+}  // namespace
+
+int merge(MergeArguments const& arguments) {
+    ShardFolder const folder(arguments.folder);
+    std::string const made_by = folder.identity().program, here = build_info().text();
+    if (made_by != here) {
+        throw SceneError(fmt::format("{}: its shards were made by {}, this is {}; merge them with the former",
+                                     arguments.folder, made_by, here));
+    }
+    std::string const scene_path = (std::filesystem::path(arguments.folder) / shard_names::identity).string();
+    Scene const scene = scene_of(folder);
+    OutputTarget const target(arguments.output, {inputs_of(scene), arguments.force, is_result_file});
+    require_outside(target, arguments.folder);
+    std::optional<ToleranceReport> report;
+    std::vector<Shard> const shards = intact_shards(folder);
+    std::uint64_t const left =
+        merge_study(scene, folder, shards, shard_origin(folder, shards, scene), target, report);
+
+    RunArguments replay;
+    replay.scene.path = scene_path;
+    ResultReader const results(arguments.output);
+    if (arguments.json) {
+        fmt::print("{}", result_json("merge", results, true, nullptr, left));
+        return left == 0 ? exit_code::done : exit_code::stopped_early;
+    }
+    print_field("scene", scene_text(scene, scene_path));
+    print_results(replay, scene, results, report);
+    fmt::print("\n");
+    print_field("results", fmt::format("{}{}; {} is no longer needed", arguments.output,
+                                       target.replaces() ? " (replaced a former file)" : "", arguments.folder));
+    if (left == 0) return exit_code::done;
+    tell("slideway: {} of {} members have not run; run them and merge again\n", left,
+               folder.identity().members.count());
+    return exit_code::stopped_early;
+}
+
+}  // namespace slideway::cli

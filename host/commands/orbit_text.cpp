@@ -1,0 +1,123 @@
+#include "host/commands/orbit_text.hpp"
+
+#include "host/commands/text.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "host/study/orbit_summary.hpp"
+#include "host/study/verification.hpp"
+
+namespace slideway::cli {
+namespace {
+
+std::string number(double value) { return std::isnan(value) ? std::string("-") : fmt::format("{:.4g}", value); }
+
+void print_history(std::vector<HistoryPoint> const& history) {
+    if (history.empty()) return;
+    std::size_t const shown = std::min<std::size_t>(5, history.size());
+    std::string line;
+    for (std::size_t i = 1; i <= shown; ++i) {
+        HistoryPoint const& point = history[i * history.size() / shown - 1];
+        line += fmt::format("{}{} ± {} after {:.0f}", line.empty() ? "" : ", ", number(point.mean.mean),
+                            number(point.mean.half_width), point.rescalings);
+    }
+    fmt::print("  running mean of the largest [1/s]: {} rescalings\n", line);
+}
+
+std::string text(MeanOfMembers const& mean) {
+    return fmt::format("{} ± {}", number(mean.mean), number(mean.half_width));
+}
+
+/// What makes exponents wrong without a sign in their intervals.
+void print_doubts(ResultReader const& results, ExponentSummary const& largest) {
+    OffsetHealth const health = offset_health(results);
+    if (health.grown > 0.01) {
+        tell("warning: at {:.0f} % of the rescalings an offset had grown to the size of the joint: exponents are "
+                   "too small; "
+                   "rescale oftener (study.rescalings_per_revolution, study.dt) or use a smaller study.d0\n",
+                   100 * health.grown);
+    }
+    if (health.lost > 0.01) {
+        tell("warning: at {:.0f} % of the rescalings an offset had shrunk into rounding: exponents are upper bounds; "
+            "rescale oftener or use a larger study.d0\n",
+            100 * health.lost);
+    }
+    if (largest.mean.mean > largest.mean.half_width && !(largest.late.mean > largest.late.half_width)) {
+        fmt::print("  The second half alone is not above zero: what grew, grew early. Leave out a longer transient.\n");
+    }
+}
+
+/// Columns of a sweep, all of them or every n-th.
+void print_columns(ResultReader const& results) {
+    auto const columns = summarise_columns(results);
+    if (columns.empty()) return;
+    constexpr std::size_t most = 60;
+    std::string const parameter = results.attribute("sweep_parameter");
+    std::size_t const every = (columns.size() + most - 1) / most;
+    fmt::print("\nLargest exponent [1/s] per column, ± the 95 % interval of the mean{}:\n  {:>16}  {:>10}  {:>22}\n",
+               every > 1 ? fmt::format(", every {}th column", every) : "",
+               fmt::format("{} [{}]", parameter, results.unit(parameter)), "finished", "exponent");
+    for (std::size_t i = 0; i < columns.size(); i += every) {
+        SweepColumn const& c = columns[i];
+        fmt::print("  {:>16.6g}  {:>10}  {:>22}\n", c.value, fmt::format("{} of {}", c.finished, c.members),
+                   text(c.exponent));
+    }
+}
+
+}  // namespace
+
+void print_exponents(ResultReader const& results) {
+    auto const exponents = summarise_exponents(results);
+    if (exponents.empty()) return;
+    if (exponents.front().values.count == 0) {
+        fmt::print("\nThere are no exponents: no member finished, or there was nothing to record.\n");
+        return;
+    }
+    if (!results.attribute("sweep_parameter").empty()) {
+        print_columns(results);
+        print_doubts(results, exponents.front());
+        return;
+    }
+    fmt::print("\nLyapunov exponents [1/s] over the members that finished; ± is the 95 % interval of the mean:\n");
+    fmt::print("  {:<8}  {:>22}  {:>10}  {:>10}  {:>10}  {:>10}  {:>10}\n", "exponent", "mean", "sd", "5 %", "median",
+               "95 %", "max");
+    for (std::size_t j = 0; j < exponents.size(); ++j) {
+        ExponentSummary const& e = exponents[j];
+        fmt::print("  {:<8}  {:>22}  {:>10}  {:>10}  {:>10}  {:>10}  {:>10}\n", j + 1, text(e.mean),
+                   number(e.values.sd), number(e.low), number(e.values.median), number(e.high), number(e.values.max));
+    }
+    ExponentSummary const& largest = exponents.front();
+    if (refutes_sign(results)) {
+        fmt::print("  largest: NOT RESOLVED: tighter tolerances do not confirm its sign (see below)\n");
+    } else {
+        fmt::print("  largest: {} members above zero, {} below, {} undecided by their own 95 % intervals\n",
+                   largest.positive, largest.negative, largest.undecided);
+    }
+    fmt::print("  its second half alone: {}\n", text(largest.late));
+    print_history(exponent_history(results));
+    if (results.has("kaplan_yorke_dimension")) {
+        Summary const dimension = summarise(results.values("kaplan_yorke_dimension"));
+        fmt::print("  Kaplan-Yorke dimension of the map over a turn: median {}, {} to {}\n", number(dimension.median),
+                   number(dimension.min), number(dimension.max));
+    }
+    print_doubts(results, largest);
+}
+
+void print_sections(ResultReader const& results) {
+    auto const sections = summarise_sections(results);
+    if (!sections) return;
+    fmt::print("\n");
+    print_field("sections", fmt::format("{} of all members", sections->sections));
+    if (sections->beyond > 0) {
+        tell("warning: {} more crossings are not stored: raise study.max_crossings\n", sections->beyond);
+    }
+    if (sections->without > 0) {
+        tell("warning: {} member{} never crossed the section: look at study.section, or at the orbit\n",
+                   sections->without, sections->without == 1 ? "" : "s");
+    }
+}
+
+}  // namespace slideway::cli

@@ -1,0 +1,111 @@
+#include "host/study/probe.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "host/commands/commands.hpp"
+#include "host/commands/json.hpp"
+#include "host/commands/text.hpp"
+#include "host/config/labels.hpp"
+#include "host/store/output_target.hpp"
+#include "host/study/study_run.hpp"
+#include "kernels/members/start.hpp"
+
+namespace slideway::cli {
+namespace {
+
+StateTable load_table(std::string const& path, Scene const& scene) {
+    std::ifstream in(path);
+    // A folder opens, and only fails to read.
+    if (!in || (in.peek() == std::ifstream::traits_type::eof() && in.bad())) {
+        throw FileError(fmt::format("{}: cannot read: {}", path, std::strerror(errno)));
+    }
+    return read_state_table(in, path, scene);
+}
+
+OutputTarget table_target(ProbeArguments const& arguments, Scene const& scene) {
+    std::vector<std::string> inputs = inputs_of(scene);
+    if (!arguments.table.empty()) inputs.push_back(arguments.table);
+    auto const is_ours = [](std::string const& path) {
+        return begins_with(path, [](std::string_view line) { return line.ends_with(",status"); });
+    };
+    return {arguments.output, {inputs, arguments.force, is_ours}};
+}
+
+std::string table_text(StateTable const& table, std::vector<ProbeResult> const& results) {
+    std::ostringstream out;
+    write_probe_csv(out, table, results);
+    return out.str();
+}
+
+/// Of the eight apices, or of the four corners of a planar slider.
+void print_contacts(MechanismInfo const& mechanism, ProbeResult const& result) {
+    std::size_t const places = mechanism.spatial ? 8 : 4;
+    fmt::print("\n  {:<18}", mechanism.spatial ? "apex" : "corner");
+    for (std::size_t i = 1; i <= places; ++i)
+        fmt::print(" {:>11}", fmt::format("{}{}", mechanism.spatial ? "P" : "C", i));
+    fmt::print("\n");
+    auto const print_row = [places](std::string_view label, double const(&values)[8]) {
+        fmt::print("  {:<18}", label);
+        for (std::size_t i = 0; i < places; ++i) fmt::print(" {:>11.4g}", values[i]);
+        fmt::print("\n");
+    };
+    print_row("penetration Y [m]", result.penetration_y);
+    if (mechanism.spatial) print_row("penetration Z [m]", result.penetration_z);
+    print_row("force Y [N]", result.normal_force_y);
+    if (mechanism.spatial) print_row("force Z [N]", result.normal_force_z);
+    fmt::print("\n");
+}
+
+void print_listing(Scene const& scene, StateTable const& table, ProbeResult const& result, Isa isa) {
+    print_field("scene", fmt::format("{} at t = 0, computed with {}", scene.path, name_of(isa)));
+    print_field("status", name_of(result.status));
+    MechanismInfo const& has = info(table.mechanism);
+    int const width = has.spatial ? 8 : 22;  // of the longest name
+    fmt::print("\n  {:<{}} {:<8} {:>24} {:>24}\n", "state", width, "unit", "value", "derivative");
+    StateNumbers const state = start_of(info(table.mechanism), table.inputs[0]);
+    for (int i = 0; i < has.states; ++i) {
+        SeriesInfo const& entry = state_info(has, i);
+        fmt::print("  {:<{}} {:<8} {:>24.16g} {:>24.16g}\n", entry.name, width, entry.unit,
+                   state[static_cast<std::size_t>(i)], result.derivative[i]);
+    }
+    print_contacts(has, result);
+    print_field("mode", fmt::format("{} surfaces, {} lines, {} points", result.surfaces, result.lines, result.points));
+    print_field("energy",
+                fmt::format("{:.10g} J, of it {:.10g} J in the contacts", result.energy, result.contact_potential));
+    print_field("power", fmt::format("{:.10g} W drive, {:.10g} W friction, {:.10g} W damping", result.power_crank,
+                                     result.power_friction, result.power_damping));
+    if (!selects(has.series, Series::crank_torque)) return;
+    print_field("crank torque",
+                fmt::format("{:.10g} N m, {}", result.crank_torque,
+                            has.spatial ? "without the crank's own weight" : "the crank's own weight included"));
+}
+
+}  // namespace
+
+int probe(ProbeArguments const& arguments) {
+    Isa const isa = parse_isa(arguments.scene.isa);
+    Scene const scene = load_scene(arguments.scene);
+    std::optional<OutputTarget> const target =
+        arguments.output.empty() ? std::nullopt : std::optional(table_target(arguments, scene));
+    StateTable const table = arguments.table.empty() ? start_state(scene) : load_table(arguments.table, scene);
+    std::vector<ProbeResult> const results = slideway::probe(table, isa);
+    if (target) target->write(table_text(table, results));
+    if (arguments.json)
+        fmt::print("{}", probe_json(scene, table, results));
+    else if (target)
+        return exit_code::done;
+    else if (!arguments.table.empty())
+        write_probe_csv(std::cout, table, results);
+    else
+        print_listing(scene, table, results[0], isa);
+    return exit_code::done;
+}
+
+}  // namespace slideway::cli

@@ -1,0 +1,271 @@
+#include <exception>
+#include <filesystem>
+#include <span>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "host/base/fnv1a.hpp"
+#include "host/commands/commands.hpp"
+#include "host/commands/json.hpp"
+#include "host/commands/run_summary.hpp"
+#include "host/commands/text.hpp"
+#include "host/study/continued_sweep.hpp"
+#include "host/study/prediction.hpp"
+#include "host/study/start_check.hpp"
+
+namespace slideway::cli {
+namespace {
+
+/// Of the overrides, so that runs of one scene that differ in them have names of their own: ".contact.law=conservative"; a checksum where
+/// that would be no good name.
+std::string words_of(Overrides const& overrides) {
+    constexpr std::size_t longest = 40;
+    constexpr std::string_view good = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.";
+    std::string words;
+    for (auto const& [key, value] : overrides) words += fmt::format(".{}={}", key, value);
+    if (words.size() <= longest && words.find_first_not_of(good) == words.npos) return words;
+    return fmt::format(".set-{:08x}", static_cast<std::uint32_t>(fnv1a(std::as_bytes(std::span(words)))));
+}
+
+std::string default_output(RunArguments const& arguments) {
+    std::string const stem = std::filesystem::path(arguments.scene.path).stem().string() + words_of(arguments.scene.overrides);
+    if (!arguments.members) return stem + ".nc";
+    // A replay must not replace the ensemble that it looks into.
+    auto const [first, count] = *arguments.members;
+    return count == 1 ? fmt::format("{}_member_{}.nc", stem, first)
+                      : fmt::format("{}_members_{}-{}.nc", stem, first, first + count - 1);
+}
+
+MemberRange member_range(RunArguments const& arguments, Scene const& scene) {
+    std::uint64_t const members = member_count(scene);
+    if (!arguments.members) return {0, members};
+    MemberRange const range = *arguments.members;
+    if (range.count > members || range.first > members - range.count) {
+        std::string const asked = range.count == 1
+                                      ? fmt::format("--member {}", range.first)
+                                      : fmt::format("--members {}..{}", range.first, range.first + range.count - 1);
+        throw SceneError(fmt::format("{}: {} has members 0 to {}", asked, scene.path, members - 1));
+    }
+    return range;
+}
+
+StudyOptions study_options(RunArguments const& arguments, Scene const& scene) {
+    StudyOptions options;
+    options.range = member_range(arguments, scene);
+    options.output = arguments.output.empty() ? default_output(arguments) : arguments.output;
+    options.part = arguments.part;
+    options.threads = arguments.threads.value_or(default_threads());
+    options.block_members = arguments.block_members;
+    options.resume = arguments.resume;
+    options.force = arguments.force;
+    options.progress = Progress::style_for(stderr, !arguments.progress);
+    return options;
+}
+
+BackendChoice chosen_backend(RunArguments const& arguments, Scene const& scene, StudyOptions const& options,
+                             Ranks const& ranks) {
+    BackendRequest request = arguments.scene.backend;
+    request.threads = options.threads;
+    request.block_members = options.block_members;
+    request.share = {ranks.local_rank(), ranks.local_count()};
+    MemberSet const members = members_of_part(scene, options.part, MemberSet(options.range));
+    return choose_backend(request, scene, place_count(scene, members));
+}
+
+/// Results that there were, and that must be computed again.
+void warn_of_losses(StudyOptions const& options, StudyRun const& run) {
+    for (DamagedShard const& damaged : run.damaged()) {
+        std::string const& name = damaged.shard.name;
+        tell("warning: {}/{}: {}; its members run again\n", shard_folder_of(options.output), name,
+                   damaged.is_gone
+                       ? std::string("is gone")
+                       : fmt::format("is not what was written and is now {}{}", shard_names::damaged, name));
+    }
+    if (options.resume && !run.is_complete() && run.work().before == 0 && run.target().replaces()) {
+        tell("warning: {}: holds a part of this run, but its shards are gone; all members run again\n",
+                   options.output);
+    }
+}
+
+/// Before the start: what it will take, and what there is already.
+void announce(Scene const& scene, StudyOptions const& options, std::string const& reason, Prediction const& prediction,
+              StudyRun const& run) {
+    StudyWork const& work = run.work();
+    if (work.before > 0) {
+        tell("resuming: {} of {} members are done\n", work.before, work.before + work.todo.count());
+    }
+    tell("backend {}{}{}\n", backend_text(*options.backend), reason.empty() ? "" : ": ", reason);
+    tell("memory {}{}, disk {} and {} for the shards until the end\n",
+               bytes_text(static_cast<double>(prediction.memory())), card_memory_text(prediction),
+               bytes_text(static_cast<double>(prediction.output_bytes)), shards_text(scene, prediction));
+}
+
+bool says_text(RunArguments const& arguments) { return !arguments.quiet && !arguments.json; }
+
+int end_stopped(StudyOptions const& options, std::string_view why, std::uint64_t left) {
+    std::string const folder = shard_folder_of(options.output);
+    tell("slideway: stopped early{}: {} members have not run; those that did are kept in {}: add --resume to go on, or "
+        "make a file of them with slideway merge\n",
+        why, left, folder);
+    return exit_code::stopped_early;
+}
+
+int end_unmerged(StudyOptions const& options) {
+    tell("slideway: stopped early (signal): all members have run, and are kept in {}: add --resume to merge them\n",
+        shard_folder_of(options.output));
+    return exit_code::stopped_early;
+}
+
+/// Where members are left, or wait for those of other parts.
+int end_with_shards(RunArguments const& arguments, StudyOptions const& options, EnsembleTotals const& totals, std::uint64_t left) {
+    std::string const folder = shard_folder_of(options.output);
+    if (arguments.json) fmt::print("{}", stopped_json(folder, left));
+    if (left == 0) {
+        if (says_text(arguments)) print_field("results", fmt::format("part {} is done, in {}; slideway merge makes one file of all parts",
+                                           options.part.name(), folder));
+        return exit_code::done;
+    }
+    std::string const why = totals.stopped == StopReason::signal       ? " (signal)"
+                            : totals.stopped == StopReason::time_limit ? " (--max-hours)"
+                                                                       : "";
+    return end_stopped(options, why, left);
+}
+
+/// @param totals of what has just run, or nullptr
+int conclude(RunArguments const& arguments, Scene const& scene, StudyOptions const& options, bool replaced,
+             std::optional<ToleranceReport> report, EnsembleTotals const* totals) {
+    ResultReader const results(options.output);
+    if (arguments.json) {
+        fmt::print("{}", result_json("run", results, true, totals));
+    } else if (!arguments.quiet) {
+        if (!report && asks_for_report(scene)) report = tolerance_report(results, scene, {options.threads});
+        print_results(arguments, scene, results, report);
+        fmt::print("\n");
+        print_field("results", fmt::format("{}{}", options.output, replaced ? " (replaced a former file)" : ""));
+    }
+    if (!says_text(arguments)) warn_of_results(results);
+    std::uint64_t const failed = failed_count(results), members = options.range.count;
+    if (!arguments.max_failures.exceeded(failed, members)) return exit_code::done;
+    tell("slideway: {} of {} members failed, more than --max-failures {}\n", failed, members,
+               arguments.max_failures.text());
+    return exit_code::too_many_failures;
+}
+
+std::string kept(std::exception const& error, StudyOptions const& options) {
+    return fmt::format("{}; what is finished is kept in {}: add --resume to go on", error.what(),
+                       shard_folder_of(options.output));
+}
+
+/// Rank 0.
+int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& options, StudyRun& run, Ranks& ranks,
+         StopRequest const& stop) {
+    if (says_text(arguments)) print_field("scene", scene_text(scene, scene.path));
+    if (run.is_complete()) {
+        if (arguments.progress) tell("resuming: {} is complete already\n", options.output);
+        return conclude(arguments, scene, options, false, {}, nullptr);
+    }
+    std::optional<ToleranceReport> report;
+    EnsembleTotals done;
+    try {
+        EnsembleTotals const totals = run_work(scene, options, run.work(), ranks, stop);
+        if (says_text(arguments)) print_throughput(scene, options, totals, ranks.count());
+        std::uint64_t const left = run.left();
+        if (left > 0 || options.part.of_array) return end_with_shards(arguments, options, totals, left);
+        done = totals;
+        if (!run.merge(stop, report)) return end_unmerged(options);
+    } catch (FileError const& error) {
+        throw FileError(kept(error, options));
+    } catch (DeviceError const& error) {
+        throw DeviceError(kept(error, options));
+    }
+    int const code = conclude(arguments, scene, options, run.target().replaces(), std::move(report), &done);
+    run.remove_shards();
+    return code;
+}
+
+/// What rank 0 tells the others before they begin: "avx2 48 0-15,40-63"; empty if there is nothing to do.
+std::string invitation(StudyRun const& run, Backend const& backend) {
+    if (run.is_complete()) return {};
+    return fmt::format("{} {} {}", backend.isa(), run.work().before, run.work().todo.text());
+}
+
+/// Machines may differ, and bits may not.  @param leader instruction set of rank 0
+std::shared_ptr<Backend const> backend_beside(std::string const& leader, std::shared_ptr<Backend const> own) {
+    if (arithmetic_of(own->isa()) == arithmetic_of(leader)) return own;
+    for (Isa const isa : all_isas()) {
+        if (name_of(isa) == leader && is_supported(isa)) return cpu_backend(isa);
+    }
+    throw SceneError(fmt::format(
+        "slideway: rank 0 computes with {} and this machine has but {}, whose results have other bits; start ranks on "
+        "machines that are alike, or add --backend cpu",
+        leader, own->isa()));
+}
+
+/// Rank 0 alone ends with the code of the run: mpirun kills the ranks that are left when one of them ends with another than 0, and
+/// rank 0 has still to say why.
+int await_end(Ranks& ranks) {
+    ranks.agree(0);
+    return exit_code::done;
+}
+
+/// The other ranks: they only compute.
+int help(RunArguments const& arguments, Ranks& ranks, StopRequest const& stop) {
+    std::string const invited = ranks.broadcast({});
+    if (invited.empty()) return await_end(ranks);
+    std::istringstream words(invited);
+    std::string leader, todo;
+    StudyWork work;
+    words >> leader >> work.before >> todo;
+    work.todo = MemberSet::parse(todo).value();
+    Scene const scene = load_scene(arguments.scene);
+    StudyOptions options = study_options(arguments, scene);
+    options.backend = backend_beside(leader, chosen_backend(arguments, scene, options, ranks).backend);
+    options.progress = Progress::Style::none;
+    run_work(scene, options, work, ranks, stop);
+    return await_end(ranks);
+}
+
+}  // namespace
+
+int run(RunArguments const& arguments) {
+    std::unique_ptr<Ranks> const ranks = Ranks::join();
+    StopRequest stop;
+    if (arguments.max_hours) stop.stop_after(std::chrono::duration<double, std::ratio<3600>>(*arguments.max_hours));
+    SignalScope const signals(stop);
+    bool invited = ranks->rank() > 0;
+    try {
+        if (ranks->rank() > 0) return help(arguments, *ranks, stop);
+        Scene const scene = load_scene(arguments.scene);
+        print_warnings(scene);
+        StudyOptions options = study_options(arguments, scene);
+        BackendChoice const choice = chosen_backend(arguments, scene, options, *ranks);
+        options.backend = choice.backend;
+        // Of a card that lacks the memory this is the last word: nothing is on the disk yet.
+        Prediction const prediction = predict(scene, *options.backend, options.threads, options.block_members);
+        StudyRun study(scene, options);
+        if (!study.is_complete()) {
+            if (auto const wrong = impossible_starts(scene, best_isa())) tell("warning: {}\n", *wrong);
+        }
+        warn_of_losses(options, study);
+        if (arguments.progress && !study.is_complete()) announce(scene, options, choice.reason, prediction, study);
+        invited = true;
+        ranks->broadcast(invitation(study, *options.backend));
+        return ranks->agree(lead(arguments, scene, options, study, *ranks, stop));
+    } catch (...) {
+        std::exception_ptr const error = std::current_exception();
+        if (ranks->is_in_round()) {
+            // The others are at work, and hear nothing but the end of the job.
+            std::fflush(stdout);
+            tell("{}\n", line_of(error));
+            ranks->abort(exit_code_of(error));
+        }
+        if (ranks->rank() > 0) throw;
+        // The others wait for what rank 0 says.
+        if (!invited) ranks->broadcast({});
+        ranks->agree(exit_code_of(error));
+        throw;
+    }
+}
+
+}  // namespace slideway::cli

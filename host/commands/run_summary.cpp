@@ -1,0 +1,225 @@
+#include "host/commands/run_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "host/commands/orbit_text.hpp"
+#include "host/commands/text.hpp"
+#include "host/commands/tolerance_text.hpp"
+#include "host/config/drive_period.hpp"
+#include "host/store/run_identity.hpp"
+#include "host/study/orbit_schedule.hpp"
+#include "host/study/verification.hpp"
+
+namespace slideway::cli {
+namespace {
+
+/// How many members ended how, as the result file has it.
+class EndedMembers {
+public:
+    explicit EndedMembers(ResultReader const& results) : counts_(count_statuses(results)) {}
+    std::uint64_t count(Status status) const {
+        for (StatusCount const& count : counts_) {
+            if (count.status == status) return count.members;
+        }
+        return 0;
+    }
+    std::uint64_t failed() const {
+        std::uint64_t sum = 0;
+        for (StatusCount const& count : counts_) {
+            if (count.status != Status::finished && count.status != Status::not_run) sum += count.members;
+        }
+        return sum;
+    }
+
+private:
+    std::vector<StatusCount> const counts_;
+};
+
+/// Options with which a member has the bits that it has in a result.
+std::string_view replay_backend(std::string_view isa) {
+    auto const& isas = all_isas();
+    bool const is_processor = std::any_of(isas.begin(), isas.end(), [&](Isa one) { return name_of(one) == isa; });
+    if (is_processor) return "--isa ";
+    // A card that rounds as the processor does is no better to look at a single member.
+    return arithmetic_of(isa) == arithmetic_of("avx2") ? "--backend cpu" : "--backend cuda";
+}
+
+std::string replay_command(RunArguments const& arguments, Scene const& scene, std::string_view isa,
+                           std::uint64_t member) {
+    std::string command = "slideway run " + shell_quoted(arguments.scene.path);
+    for (auto const& [key, value] : arguments.scene.overrides) command += " --set " + shell_quoted(key + "=" + value);
+    // Without a row of its own there is nothing to look at.
+    if (!scene.stores_members()) command += " --set study.store=members";
+    std::string_view const backend = replay_backend(isa);
+    return command + fmt::format(" {}{} --member {}", backend, backend.ends_with(' ') ? isa : "", member);
+}
+
+std::string_view advice_on(Method method) {
+    switch (method) {
+        case Method::rk4:
+            return "use a smaller integrator.step, or method = \"auto\"";
+        case Method::ros34pw2:
+            return "it is for lasting contact alone; use method = \"auto\" where there are impacts";
+        default:
+            return "use smaller rtol and atol";
+    }
+}
+
+/// What became of members whose method left its stable range, and the way out (docs/stability.md).
+void print_instability(Scene const& scene, EndedMembers const& ended) {
+    Method const method = scene.integrator.method;
+    std::uint64_t const unstable = ended.count(Status::unstable);
+    // A step beyond the limit throws the slider out of its joint, if it does not end in infinity.
+    std::uint64_t const broken =
+        method == Method::rk4
+            ? ended.count(Status::nonfinite) + ended.count(Status::geometry) + ended.count(Status::contact_domain)
+            : 0;
+    if (unstable + broken == 0) return;
+    std::string const name = method == Method::rk4
+                                 ? fmt::format("rk4 with a step of {:.3g} s", scene.integrator.fixed_step)
+                                 : std::string(name_of(method));
+    std::string what;
+    if (unstable > 0) what = fmt::format("{} unstable by the energy audit", unstable);
+    if (broken > 0) what += fmt::format("{}{} broke down", what.empty() ? "" : ", ", broken);
+    fmt::print("\n{} failed in {} member{} ({}): {}.\n", name, unstable + broken, unstable + broken == 1 ? "" : "s",
+               what, advice_on(method));
+}
+
+/// Members that spent their steps before their end.
+void print_spent(Scene const& scene, EndedMembers const& ended) {
+    std::uint64_t const spent = ended.count(Status::max_steps);
+    if (spent == 0) return;
+    bool const pair = scene.integrator.method == Method::dopri5 || scene.integrator.method == Method::bs32;
+    fmt::print(
+        "\n{} member{} spent integrator.max_steps = {}: try a larger one, {}looser rtol and atol, or look at one "
+        "with --member K.\n",
+        spent, spent == 1 ? "" : "s", scene.integrator.max_steps, pair ? "method = \"auto\", " : "");
+}
+
+void print_failures(RunArguments const& arguments, Scene const& scene, EndedMembers const& ended,
+                    ResultReader const& results) {
+    if (ended.failed() == 0) return;
+    constexpr std::size_t listed = 5;
+    auto const failed = failed_members(results, listed);
+    fmt::print("\n{} failed member{}{}:\n", ended.failed(), ended.failed() == 1 ? "" : "s",
+               ended.failed() > listed ? fmt::format(", the first {}", listed) : "");
+    for (FailedMember const& member : failed) {
+        fmt::print("  member {}: {}", member.member, name_of(member.status));
+        auto const why = defect(member_inputs(scene, member.member), scene.parts);
+        if (why)
+            fmt::print(": {}", *why);
+        else
+            fmt::print(" at t = {:.6g} s", member.time);
+        fmt::print("\n    {}\n", replay_command(arguments, scene, results.attribute("isa"), member.member));
+    }
+}
+
+/// A law makes energy where its modes switch (model.md 8); a reader of results has to know how much.
+void print_energy_made(Scene const& scene, EndedMembers const& ended, std::vector<QuantitySummary> const& quantities) {
+    if (!makes_energy(scene.parts)) return;
+    LawInfo const& law = info(scene.parts.law);
+    auto const mean_of = [&](std::string_view label) -> QuantitySummary const* {
+        for (QuantitySummary const& quantity : quantities) {
+            if (quantity.label == label && quantity.values.count > 0) return &quantity;
+        }
+        return nullptr;
+    };
+    QuantitySummary const* const residual = mean_of("energy_residual");
+    if (residual == nullptr) return;
+    double const made = residual->values.mean;
+    // Where the method may have failed the law is not to blame alone.
+    Method const method = scene.integrator.method;
+    bool const doubtful = is_always_audited(method) || ended.count(Status::unstable) > 0;
+    std::string const cause =
+        doubtful ? fmt::format("The {} law's mode switching and the errors of {} together", law.name, name_of(method))
+                 : fmt::format("Mode switching of the {} law", law.name);
+    fmt::print("\n{} made {:.3g} J of energy per member on average", cause, made);
+    QuantitySummary const* const work = mean_of("crank_work");
+    if (work != nullptr && work->values.mean != 0) {
+        fmt::print(", {:.3g} % of the {}'s work of {:.3g} J", 100 * made / std::abs(work->values.mean),
+                   counts_for(*find_key("mechanism.rod_length"), scene.parts.mechanism) ? "crank" : "drive", work->values.mean);
+    }
+    if (doubtful) {
+        fmt::print("; {} tells them apart",
+                   is_always_audited(method) ? "method = \"auto\"" : "a smaller rtol and atol");
+    }
+    fmt::print(".\n");
+}
+
+/// Whether the numbers above are the integration's: to stdout beside them, and where they are, to stderr.
+void print_verification(ResultReader const& results) {
+    auto const summary = verification_summary(results);
+    if (!summary) return;
+    fmt::print("\n{}\n", *summary);
+    warn_of_results(results);
+}
+
+double sum_of(ResultReader const& results, std::string const& variable) {
+    double sum = 0;
+    for (double const value : results.values(variable)) {
+        if (!std::isnan(value)) sum += value;  // of members that were not run
+    }
+    return sum;
+}
+
+}  // namespace
+
+std::uint64_t failed_count(ResultReader const& results) { return EndedMembers(results).failed(); }
+
+void warn_of_results(ResultReader const& results) {
+    auto const summary = verification_summary(results);
+    if (summary && summary->starts_with("NOT")) tell("warning: {}\n", summary->substr(0, summary->find('\n')));
+}
+
+void print_throughput(Scene const& scene, StudyOptions const& options, EnsembleTotals const& totals, int ranks) {
+    double const rate = totals.seconds > 0 ? static_cast<double>(totals.done()) / totals.seconds : 0.0;
+    OrbitSchedule const schedule = orbit_schedule(scene);
+    double const turns = schedule.timing ? schedule.end / drive_period(scene.parts, scene.inputs) : 0;
+    print_field("throughput",
+                fmt::format("{:.4g} members/s, {}{} wall time ({}{} threads, {})", rate,
+                            turns > 0 ? fmt::format("{:.4g} members x revolutions/s, ", rate * turns) : "",
+                            duration_text(totals.seconds), ranks > 1 ? fmt::format("{} ranks of ", ranks) : "",
+                            options.backend->workers(options.threads), options.backend->machine()));
+    // Of a card's lanes nobody knows.
+    if (options.backend->name() == "cpu") {
+        print_field("lanes in use", fmt::format("{:.1f} %", 100 * totals.lane_utilisation()));
+    }
+}
+
+void print_results(RunArguments const& arguments, Scene const& scene, ResultReader const& results,
+                   std::optional<ToleranceReport> const& report) {
+    auto const quantities = summarise_quantities(results);
+    EndedMembers const ended(results);
+    std::uint64_t members = 0;
+    for (StatusCount const& count : count_statuses(results)) members += count.members;
+    print_field("members", fmt::format("{}", members));
+    print_statuses(count_statuses(results));
+    print_field("steps", fmt::format("{:.0f} accepted ({:.0f} by the stiff method), {:.0f} rejected",
+                                     sum_of(results, "steps_accepted"), sum_of(results, "stiff_steps"),
+                                     sum_of(results, "steps_rejected")));
+    print_field("evaluations",
+                fmt::format("{:.0f} right-hand sides, {:.0f} Jacobians", sum_of(results, "rhs_evaluations"),
+                            sum_of(results, "jacobian_evaluations")));
+    if (report)
+        print_tolerance(*report);
+    else
+        print_quantities(quantities);
+    if (!quantities.empty() && std::isfinite(drive_period(scene.parts, scene.inputs))) {
+        fmt::print("  (over the whole run, its transient included)\n");
+    }
+    print_exponents(results);
+    print_sections(results);
+    print_verification(results);
+    print_energy_made(scene, ended, quantities);
+    print_instability(scene, ended);
+    print_spent(scene, ended);
+    print_failures(arguments, scene, ended, results);
+    if (!scene.stores_members()) {
+        fmt::print("\nMembers are not stored; a single one can be had with --member K --set study.store=members.\n");
+    }
+}
+
+}  // namespace slideway::cli

@@ -1,0 +1,49 @@
+// Pieces of text that several commands print to stdout.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "host/commands/commands.hpp"
+#include "host/study/prediction.hpp"
+#include "host/study/result_summary.hpp"
+
+namespace slideway::cli {
+
+/// Reads the scene of a command line.  @throws SceneError, also when the file is missing.
+Scene load_scene(SceneArguments const& arguments);
+
+/// To stderr: what the scene gives and does not use.
+void print_warnings(Scene const& scene);
+
+/// To stderr.  Where that cannot be written, nobody is there to read it, and the command goes on: never an exception.
+void tell_text(std::string const& text) noexcept;
+template <class... Values> void tell(fmt::format_string<Values...> format, Values&&... values) {
+    tell_text(fmt::format(format, std::forward<Values>(values)...));
+}
+
+std::string bytes_text(double bytes);       // "1.5 MB"
+std::string duration_text(double seconds);  // "8.2 s", "3 min 20 s", "2.4 h"
+
+/// ", 3.1 GB on the card"; "" without one.
+std::string card_memory_text(Prediction const& prediction);
+/// "as much again", or a bound for those of statistics.
+std::string shards_text(Scene const& scene, Prediction const& prediction);
+
+/// Lines `  finished  1000`.
+void print_statuses(std::vector<StatusCount> const& statuses);
+
+/// Headed table of mean, standard deviation, minimum, median and maximum, one row per column of a quantity.
+void print_quantities(std::vector<QuantitySummary> const& quantities);
+
+/// "Title (scene.toml)", without control characters, which a terminal would obey.
+std::string scene_text(Scene const& scene, std::string const& path);
+
+/// Writes "label      text", labels in a column, on one line.
+void print_field(std::string_view label, std::string_view text);
+
+}  // namespace slideway::cli

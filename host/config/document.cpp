@@ -1,0 +1,232 @@
+#include "host/config/document.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "host/config/scene_text.hpp"
+#include "host/config/settings.hpp"
+
+// toml++ asserts that "[" is followed by a key, and with NDEBUG has clang assume it, ahead of the code that reports the
+// error.  A damaged file must be refused in every build: the assertions are left out and nothing is assumed.
+#undef NDEBUG
+#define TOML_ASSERT(condition) static_assert(true)
+#include <toml++/toml.h>
+
+namespace slideway {
+namespace {
+
+constexpr int deepest = 10;  // levels; a scene has five: study.vary.joint.clearance.low
+
+struct Origin {
+    std::string path;    // of the file, or empty
+    std::string option;  // "--set key=value", or empty
+    int order = 0;
+};
+
+struct Placed {
+    toml::source_position position;
+    Node node;
+};
+
+Node convert(toml::node const& from, std::string key, std::string name, toml::source_position at, Origin const& origin,
+             int depth = 0) {
+    Node node;
+    node.key = std::move(key);
+    node.name = std::move(name);
+    node.order = origin.order;
+    node.line = origin.order == 0 ? std::max(1, static_cast<int>(at.line)) : 0;
+    node.where = origin.order == 0 ? fmt::format("{}:{}", origin.path, node.line) : origin.option;
+    if (depth > deepest) {
+        throw SceneError(fmt::format("{}: {} is no key of a scene (it nests deeper than {} levels); remove it",
+                                     node.where, one_line(node.name), deepest));
+    }
+    using Type = Node::Type;
+    if (auto const* table = from.as_table()) {
+        node.type = Type::table;
+        node.inline_table = table->is_inline();
+        std::vector<Placed> placed;
+        for (auto const& [child_key, child] : *table) {
+            std::string child_part = unshielded(child_key.str());
+            std::string child_name = node.name.empty() ? child_part : fmt::format("{}.{}", node.name, child_part);
+            // toml++ sorts by name; the position of the key restores the order of the file.
+            auto const position = child_key.source().begin;
+            placed.push_back(
+                {position, convert(child, std::move(child_part), std::move(child_name), position, origin, depth + 1)});
+        }
+        std::stable_sort(placed.begin(), placed.end(), [](Placed const& a, Placed const& b) {
+            return a.position.line != b.position.line ? a.position.line < b.position.line
+                                                      : a.position.column < b.position.column;
+        });
+        for (Placed& child : placed) node.children.push_back(std::move(child.node));
+    } else if (auto const* array = from.as_array()) {
+        node.type = Type::array;
+        for (auto const& child : *array) {
+            node.children.push_back(convert(child, {}, node.name, child.source().begin, origin, depth + 1));
+        }
+    } else if (auto const* boolean = from.as_boolean()) {
+        node.type = Type::boolean;
+        node.boolean = boolean->get();
+    } else if (auto const* integer = from.as_integer()) {
+        node.type = Type::integer;
+        node.integer = integer->get();
+    } else if (auto const* real = from.as_floating_point()) {
+        node.type = Type::real;
+        node.real = real->get();
+    } else if (auto const* text = from.as_string()) {
+        node.type = Type::text;
+        node.text = unshielded(text->get());
+    } else {
+        node.type = Type::other;  // dates and times
+    }
+    return node;
+}
+
+Node parse_text(std::string const& text, std::string const& path) {
+    check_scene_text(text, path);
+    try {
+        return convert(toml::parse(shielded(text)), {}, {}, {1, 1}, {path, {}, 0});
+    } catch (toml::parse_error const& error) {
+        throw SceneError(fmt::format("{}:{}: not TOML ({}); correct the line", path,
+                                     std::max(1, static_cast<int>(error.source().begin.line)),
+                                     one_line(unshielded(error.description()))));
+    }
+}
+
+/// One number and nothing else, as from_chars reads it: 5., .5, 007, which TOML does not.
+bool is_number(std::string_view text, double& value) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    auto const [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return problem == std::errc() && end == text.data() + text.size();
+}
+
+/// The innermost single child: the value that "a.b.c = value" names.
+bool names_one_value(Node const& root) {
+    Node const* node = &root;
+    while (node->is_table() && !node->inline_table) {
+        if (node->children.size() != 1) return false;
+        node = &node->children.front();
+    }
+    return true;
+}
+
+/// "key = value" as a tree with one leaf; nothing where it is no TOML.
+std::optional<Node> parse_pair(std::string const& key, std::string const& value, Origin const& origin) {
+    std::string const text = fmt::format("{} = {}", key, value);
+    try {
+        Node node = convert(toml::parse(shielded(text)), {}, {}, {}, origin);
+        if (names_one_value(node)) return node;
+    } catch (toml::parse_error const&) {  // nothing, as promised
+    }
+    return std::nullopt;
+}
+
+Node parse_override(std::string const& key, std::string const& value, int order) {
+    constexpr std::size_t longest_option = 4096;
+    Origin const origin{{}, fmt::format("--set {}={}", one_line(key), one_line(value)), order};
+    if (key.find_first_of("\r\n=#") == std::string::npos && key.size() <= longest_option) {
+        if (value.size() <= longest_option) {
+            if (auto node = parse_pair(key, value, origin)) return *node;
+        }
+        double number = 0;
+        std::string const literal = is_number(value, number) ? fmt::format("{}", number) : toml_string(value);
+        if (auto node = parse_pair(key, literal, origin)) return *node;
+    }
+    throw SceneError(
+        fmt::format("{}: no key=value (the part before = must be a dotted key); "
+                    "write for example --set joint.clearance=\"0.1 mm\"",
+                    origin.option));
+}
+
+/// What an override of a key makes void in the file: keys that say the same in other words.
+std::vector<std::string_view> rivals_of(std::string_view name) {
+    std::vector<std::string_view> result;
+    // The numbers of the physics have but this one.
+    if (name == "contact.restitution") result = {"contact.eta", "contact.chi_line", "contact.chi_surface"};
+    auto const row = std::ranges::find(settings(), name, &Setting::name);
+    if (row != settings().end()) std::ranges::copy_if(row->rivals, std::back_inserter(result), [](auto rival) { return !rival.empty(); });
+    for (Key const& twin : twin_keys()) {
+        if (twin.name != name) continue;
+        for (Key const& single : keys()) {
+            if (single.overlaps(twin)) result.push_back(single.name);
+        }
+    }
+    return result;
+}
+
+void lay_over(Node& base, Node const& over) {
+    for (Node const& child : over.children) {
+        for (std::string_view const rival : rivals_of(child.name)) {
+            std::erase_if(base.children, [&](Node const& node) { return node.name == rival; });
+        }
+        auto const found = std::find_if(base.children.begin(), base.children.end(),
+                                        [&](Node const& node) { return node.key == child.key; });
+        if (found == base.children.end()) {
+            base.children.push_back(child);
+        } else if (child.is_table() && !child.inline_table && found->is_table()) {
+            lay_over(*found, child);
+        } else {
+            *found = child;
+        }
+    }
+}
+
+}  // namespace
+
+Node const* Node::find(std::string_view child) const {
+    for (Node const& node : children) {
+        if (is_table() && node.key == child) return &node;
+    }
+    return nullptr;
+}
+
+Node const* Node::find_path(std::string_view dotted) const {
+    Node const* node = this;
+    while (node != nullptr) {
+        auto const dot = dotted.find('.');
+        node = node->find(dotted.substr(0, dot));
+        if (dot == std::string_view::npos) break;
+        dotted.remove_prefix(dot + 1);
+    }
+    return node;
+}
+
+Node read_document(std::string const& text, std::string const& path, Overrides const& overrides) {
+    Node root = parse_text(text, path);
+    int order = 0;
+    for (auto const& [key, value] : overrides) lay_over(root, parse_override(key, value, ++order));
+    return root;
+}
+
+void refuse(Node const& node, std::string_view shown, Problem const& problem) {
+    throw SceneError(
+        fmt::format("{}: {} is {} ({}); {}", node.where, one_line(node.name), shown, problem.reason, problem.advice));
+}
+
+void refuse(Node const& node, Problem const& problem) { refuse(node, shown_value(node), problem); }
+
+std::string shown_value(Node const& node) {
+    switch (node.type) {
+        case Node::Type::boolean:
+            return node.boolean ? "true" : "false";
+        case Node::Type::integer:
+            return fmt::format("{}", node.integer);
+        case Node::Type::real:
+            return fmt::format("{}", node.real);
+        case Node::Type::text:
+            return fmt::format("\"{}\"", one_line(node.text));
+        case Node::Type::array:
+            return "a list";
+        case Node::Type::table:
+            return "a table";
+        case Node::Type::other:
+            break;
+    }
+    return "a date or time";
+}
+
+}  // namespace slideway

@@ -1,0 +1,48 @@
+// A scene file as a tree of values that know where they stand, with the --set options laid over it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/config/rules.hpp"
+#include "host/config/scene.hpp"
+
+namespace slideway {
+
+struct Node {
+    enum class Type { boolean, integer, real, text, array, table, other };
+
+    std::string key;              // last part of the name
+    std::string name;             // dotted
+    std::string where;            // "scenes/a.toml:12" or "--set joint.clearance=0.1 mm"
+    int line = 0;                 // in the file; 0 for --set
+    int order = 0;                // 0 for the file, i for the i-th --set
+    Type type = Type::table;
+    bool inline_table = false;    // {…}: one value, which --set replaces as a whole
+    bool boolean = false;
+    std::int64_t integer = 0;
+    double real = 0;
+    std::string text;
+    std::vector<Node> children;   // of a table or an array, in the order of the file
+
+    bool is_table() const { return type == Type::table; }
+    Node const* find(std::string_view child) const;
+    /// By dotted parts that hold no dots themselves: find_path("study.members").
+    Node const* find_path(std::string_view dotted) const;
+};
+
+/// Parses a scene and lays the overrides over it.  The root is a table named "".
+/// @throws SceneError where the text is no TOML or an override is no key=value.
+Node read_document(std::string const& text, std::string const& path, Overrides const& overrides);
+
+/// "joint.clearance is 0 m (the joint needs a gap); use a value > 0", behind the node's position.
+[[noreturn]] void refuse(Node const& node, std::string_view shown, Problem const& problem);
+/// The same with the node's value shown as it was written.
+[[noreturn]] void refuse(Node const& node, Problem const& problem);
+
+/// The value of a node for a message: short, on one line.
+std::string shown_value(Node const& node);
+
+}  // namespace slideway

@@ -1,0 +1,220 @@
+#include "host/config/key_reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+
+namespace slideway {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Type = Setting::Type;
+
+/// Names of those of a list that know a key; none where all do.
+template <class Infos, class Knows> std::vector<std::string_view> owners(Infos const& infos, Knows knows) {
+    std::vector<std::string_view> names;
+    for (std::size_t i = 0; i < std::size(infos); ++i) {
+        if (knows(i)) names.push_back(infos[i]);
+    }
+    if (names.size() == std::size(infos)) names.clear();
+    return names;
+}
+
+std::vector<std::string_view> method_names() {
+    std::vector<std::string_view> names;
+    for (MethodInfo const& method : method_table) names.emplace_back(method.name);
+    return names;
+}
+
+KeyReference reference_of(Setting const& row) {
+    KeyReference key{.name = row.name, .unit = row.unit, .meaning = row.meaning, .type = row.type, .range = row.range, .choices = {},
+                     .preset = preset_text(row), .mechanisms = {}, .laws = {}, .studies = {}, .methods = {}};
+    if (row.type == Type::count) key.range = {static_cast<double>(row.least), static_cast<double>(row.most)};
+    key.choices.assign(row.choices.begin(), row.choices.end());
+    key.studies = owners(study_kind_names, [&](std::size_t i) { return (row.studies & set_of(static_cast<StudyKind>(i))) != 0; });
+    key.methods = owners(method_names(), [&](std::size_t i) { return (row.methods & set_of(static_cast<Method>(i))) != 0; });
+    bool const of_free_cranks = row.name == "mechanism.crank", of_faces = row.of_faces || row.name == "contact.law";
+    key.mechanisms = owners(mechanism_names(), [&](std::size_t i) {
+        return (!of_faces || mechanisms()[i].spatial) && (!of_free_cranks || mechanisms()[i].free_crank);
+    });
+    return key;
+}
+
+KeyReference reference_of(Key const& of) {
+    KeyReference key{.name = of.name, .unit = of.unit, .meaning = of.meaning, .type = Type::number, .range = range_of(of.rule), .choices = {},
+                     .preset = {}, .mechanisms = {}, .laws = {}, .studies = {}, .methods = {}};
+    key.preset = of.member == &Inputs::restitution ? "" : std::isnan(of.preset) ? "follows from others" : fmt::format("{:.10g}", of.preset);
+    key.mechanisms = owners(mechanism_names(), [&](std::size_t i) { return counts_for(of, static_cast<Mechanism>(i)); });
+    key.laws = owners(law_names(), [&](std::size_t i) {
+        Parts parts;
+        parts.law = static_cast<Law>(i);
+        return counts_for(of, parts) || !counts_for(of, parts.mechanism);
+    });
+    return key;
+}
+
+std::string_view table_of(KeyReference const& key) {
+    auto const dot = key.name.find('.');
+    return dot == key.name.npos ? std::string_view() : key.name.substr(0, dot);
+}
+
+void put_range(Json& to, Range const& range, char const* least, char const* above, char const* most) {
+    if (std::isfinite(range.low)) to[range.low_included ? least : above] = range.low;
+    if (std::isfinite(range.high)) to[most] = range.high;
+}
+
+Json number_schema(KeyReference const& key) {
+    Json number{{"type", "number"}};
+    put_range(number, key.range, "minimum", "exclusiveMinimum", "maximum");
+    // UDUNITS-2 is no regular expression: a number and something behind it, which is not a number again.
+    char const* const with_unit = "^\\s*[+-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?\\s*([^-+.,0-9\\s].*)?$";
+    return {{"anyOf", Json::array({number, Json{{"type", "string"}, {"pattern", with_unit}}})}};
+}
+
+Json value_schema(KeyReference const& key) {
+    switch (key.type) {
+        case Type::truth: return {{"type", "boolean"}};
+        case Type::count: {
+            Json count{{"type", "integer"}};
+            put_range(count, key.range, "minimum", "exclusiveMinimum", "maximum");
+            return count;
+        }
+        case Type::number: return number_schema(key);
+        case Type::choice: return {{"enum", key.choices}};
+        case Type::text: return {{"type", "string"}};
+        case Type::list: return {{"type", "array"}};
+        case Type::table: return {{"type", "object"}};
+    }
+    return Json::object();
+}
+
+}  // namespace
+
+Range range_of(Rule rule) {
+    switch (rule) {
+        case Rule::any: return {};
+        case Rule::positive:
+        case Rule::gap: return {.low = 0, .low_included = false};
+        case Rule::not_negative: return {.low = 0};
+        case Rule::unit_interval: return {0, 1};
+        case Rule::half_open_unit: return {0, 1, false};
+        case Rule::poisson_ratio: return {-1, 0.5, false};
+        case Rule::hertz_exponent: return {1, 3};
+        case Rule::right_angle: return {-std::numbers::pi / 2, std::numbers::pi / 2};
+    }
+    return {};
+}
+
+std::string_view name_of(Type type) {
+    static constexpr std::string_view names[] = {"boolean", "integer", "number", "choice", "text", "list", "table"};
+    return names[static_cast<int>(type)];
+}
+
+std::string domain_text(KeyReference const& key) {
+    if (!key.choices.empty()) return fmt::format("{}", fmt::join(key.choices, ", "));
+    std::string text;
+    if (std::isfinite(key.range.low)) text = fmt::format("{} {:.10g}", key.range.low_included ? "≥" : ">", key.range.low);
+    // Of what only keeps integers apart nobody asks.
+    if (std::isfinite(key.range.high) && key.range.high < 1e18) text += fmt::format("{}≤ {:.10g}", text.empty() ? "" : ", ", key.range.high);
+    return text;
+}
+
+std::string owners_text(KeyReference const& key) {
+    std::string text;
+    auto const add = [&](char const* what, std::vector<std::string_view> const& names) {
+        if (!names.empty()) text += fmt::format("{}{}{}", text.empty() ? "" : "; ", what, fmt::join(names, ", "));
+    };
+    add("", key.mechanisms);
+    add("law ", key.laws);
+    add("", key.studies);
+    add("", key.methods);
+    return text;
+}
+
+std::vector<KeyReference> key_references(Settings rows) {
+    std::vector<KeyReference> all;
+    for (Setting const& row : rows) all.push_back(reference_of(row));
+    for (auto const table : {keys(), twin_keys()}) {
+        for (Key const& key : table) all.push_back(reference_of(key));
+    }
+    std::vector<std::string_view> tables;
+    auto const place = [&](KeyReference const& key) { return std::ranges::find(tables, table_of(key)) - tables.begin(); };
+    for (std::string_view const table : {"", "mechanism", "joint", "way", "contact", "friction", "initial", "integrator", "study"})
+        tables.push_back(table);
+    std::ranges::stable_sort(all, {}, place);
+    return all;
+}
+
+std::string keys_json(std::vector<KeyReference> const& keys) {
+    Json list = Json::array();
+    for (KeyReference const& key : keys) {
+        Json one{{"name", key.name}, {"type", name_of(key.type)}};
+        if (!key.unit.empty()) one["unit"] = key.unit;
+        put_range(one, key.range, "minimum", "exclusive_minimum", "maximum");
+        if (!key.choices.empty()) one["choices"] = key.choices;
+        if (!key.preset.empty()) one["default"] = key.preset;
+        for (auto const& [what, names] : {std::pair{"mechanisms", &key.mechanisms}, {"laws", &key.laws}, {"studies", &key.studies}, {"methods", &key.methods}}) {
+            if (!names->empty()) one[what] = *names;
+        }
+        one["meaning"] = key.meaning;
+        list.push_back(std::move(one));
+    }
+    return Json{{"schema_version", 1}, {"keys", std::move(list)}}.dump(2) + "\n";
+}
+
+std::string scene_schema(std::vector<KeyReference> const& keys) {
+    Json properties = Json::object();
+    for (KeyReference const& key : keys) {
+        Json value = value_schema(key);
+        std::string const unit = key.unit.empty() || key.unit == "1" ? std::string() : fmt::format(" [{}]", key.unit);
+        std::string const owners = owners_text(key);
+        value["description"] = fmt::format("{}{}{}{}", key.meaning, unit, key.preset.empty() ? "" : "; default " + key.preset,
+                                           owners.empty() ? "" : fmt::format(" ({})", owners));
+        if (table_of(key).empty()) {
+            properties[std::string(key.name)] = std::move(value);
+            continue;
+        }
+        Json& table = properties[std::string(table_of(key))];
+        table["type"] = "object";
+        table["additionalProperties"] = false;
+        table["properties"][std::string(key.name.substr(key.name.find('.') + 1))] = std::move(value);
+    }
+    Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
+                {"title", "Scene of slideway"},
+                {"type", "object"},
+                {"required", {"schema"}},
+                {"additionalProperties", false},
+                {"properties", std::move(properties)}};
+    return schema.dump(2) + "\n";
+}
+
+std::string keys_markdown(std::vector<KeyReference> const& keys) {
+    std::string text =
+        "# Keys of a scene\n\nAll of them, as `slideway list --markdown` writes this page; `slideway list --json` gives the same to programs, and "
+        "`slideway list --schema` a JSON Schema to editors of TOML\n(put `#:schema scene.schema.json` into a scene's first line for Taplo and Even Better "
+        "TOML). Numbers are in SI units, or texts with a unit: `\"0.1 mm\"`, `\"30 rpm\"`.\n";
+    std::string_view table = "none yet";
+    for (KeyReference const& key : keys) {
+        if (table_of(key) != table) {
+            table = table_of(key);
+            text += table.empty() ? "\n## At the top\n" : fmt::format("\n## [{}]\n", table);
+            text += "| key | type | unit | domain | default | what it is | of |\n|---|---|---|---|---|---|---|\n";
+        }
+        auto const cell = [](std::string_view words) {
+            std::string safe;
+            for (char const c : words) safe += c == '|' ? std::string("\\|") : std::string(1, c);
+            return safe;
+        };
+        text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", key.name.substr(key.name.find('.') + 1), name_of(key.type),
+                            key.unit == "1" ? "" : key.unit, cell(domain_text(key)), cell(key.preset), cell(key.meaning), owners_text(key));
+    }
+    return text;
+}
+
+}  // namespace slideway

@@ -1,0 +1,159 @@
+#include "host/config/keys.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "host/config/rules.hpp"
+#include "kernels/members/complete_inputs.hpp"
+
+namespace slideway {
+namespace {
+
+constexpr Key double_keys[] = {
+    {"joint.clearance", &Inputs::clearance_y, "m", Rule::gap, KeyGroup::slider, "clearance per side", 1e-4,
+     &Inputs::clearance_z},
+    {"contact.young_modulus", &Inputs::slider_young_modulus, "Pa", Rule::positive, KeyGroup::elastic,
+     "modulus of both bodies", 2.07e11, &Inputs::way_young_modulus},
+};
+
+}  // namespace
+
+std::span<Key const> keys() {
+    static std::vector<Key> const all = [] {
+        std::vector<Key> keys;
+        for (Key const& key : input_keys) {
+            keys.push_back(key);
+            if (key.member != &Inputs::restitution) continue;  // the last of contacts
+            for (LawInfo const& law : laws()) keys.insert(keys.end(), law.keys.begin(), law.keys.end());
+        }
+        return keys;
+    }();
+    return all;
+}
+std::span<Key const> twin_keys() { return double_keys; }
+
+bool counts_for(Key const& key, Mechanism mechanism) {
+    MechanismInfo const& of = info(mechanism);
+    bool const of_contacts = key.group == KeyGroup::law || has_group(contact_groups, key.group);
+    return has_group(of.keys, key.group) || (of.spatial && of_contacts);
+}
+
+bool counts_for(Key const& key, Parts const& parts) {
+    if (!counts_for(key, parts.mechanism)) return false;
+    if (!info(parts.mechanism).spatial) return true;
+    LawInfo const& law = info(parts.law);
+    if (key.group == KeyGroup::law) return std::ranges::find(law.keys, key.name, &Key::name) != law.keys.end();
+    return !has_group(contact_groups, key.group) || has_group(law.groups, key.group);
+}
+
+Key const* find_key(std::string_view dotted_name) {
+    for (auto const table : {keys(), twin_keys()}) {
+        for (Key const& key : table) {
+            if (key.name == dotted_name) return &key;
+        }
+    }
+    return nullptr;
+}
+
+void require_part(Parts& parts, Key const& key) {
+    if (key.name.starts_with("way.")) parts.misaligned_way = true;
+    if (key.name.starts_with("friction.")) parts.friction = true;
+    if (key.name.starts_with("contact.chi_") && parts.damping == Damping::point) parts.damping = Damping::rate;
+    if (key.name == "contact.restitution") parts.damping = Damping::restitution;
+}
+
+Inputs with_presets(Inputs inputs, Law law) {
+    for (Key const& key : info(law).keys) key.set(inputs, key.preset);
+    return inputs;
+}
+
+std::string with_unit(double value, std::string_view unit) {
+    return unit == "1" ? fmt::format("{}", value) : fmt::format("{} {}", value, unit);
+}
+
+std::optional<Problem> broken_rule(Key const& key, double value) {
+    if (!std::isfinite(value)) return Problem{"not a finite number", "use a finite number"};
+    auto const must_be = [&](std::string_view range) {
+        return fmt::format("the {} must be {}", key.meaning, range);
+    };
+    switch (key.rule) {
+    case Rule::any: break;
+    case Rule::positive:
+        if (!(value > 0)) return Problem{must_be("positive"), "use a value > 0"};
+        break;
+    case Rule::not_negative:
+        if (!(value >= 0)) return Problem{must_be("zero or positive"), "use a value >= 0"};
+        break;
+    case Rule::gap:
+        if (!(value > 0)) return Problem{"the joint needs a gap", "use a value > 0"};
+        break;
+    case Rule::unit_interval:
+        if (!(value >= 0 && value <= 1)) return Problem{must_be("in [0, 1]"), "use a value from 0 to 1"};
+        break;
+    case Rule::half_open_unit:
+        if (!(value > 0 && value <= 1)) return Problem{must_be("in (0, 1]"), "use a value > 0 and <= 1"};
+        break;
+    case Rule::poisson_ratio:
+        if (!(value > -1 && value <= 0.5)) {
+            return Problem{"no isotropic solid has it", "use a value > -1 and <= 0.5"};
+        }
+        break;
+    case Rule::hertz_exponent:
+        if (!(value >= 1 && value <= 3)) return Problem{must_be("in [1, 3]"), "use a value from 1 to 3"};
+        break;
+    case Rule::right_angle:
+        if (!(std::abs(value) <= std::numbers::pi / 2)) {
+            return Problem{must_be("in [-90, 90] degrees"), "use a value from -90 deg to 90 deg"};
+        }
+        break;
+    }
+    return std::nullopt;
+}
+
+std::optional<Defect> find_defect(Inputs const& inputs, Parts const& parts) {
+    Inputs const in = complete_inputs(inputs);
+    for (Key const& key : keys()) {
+        if (!counts_for(key, parts)) continue;
+        // A number of the law that it takes from others.
+        if (key.group == KeyGroup::law && std::isnan(key.preset) && std::isnan(key.get(in))) continue;
+        if (auto problem = broken_rule(key, key.get(in))) return Defect{&key, nullptr, key.get(in), *problem};
+    }
+    auto const clash = [&](std::string_view name, std::string_view other, std::string reason, std::string advice) {
+        Key const* const key = find_key(name);
+        return Defect{key, find_key(other), key->get(in), {std::move(reason), std::move(advice)}};
+    };
+    bool const has_crank = counts_for(*find_key("mechanism.rod_length"), parts.mechanism);
+    if (has_crank && in.crank_speed != 0 && in.rod_length <= in.crank_length) {
+        return clash("mechanism.rod_length", "mechanism.crank_length",
+                     fmt::format("the crank of {} m cannot turn fully", in.crank_length),
+                     "use a rod longer than the crank, or crank_speed = 0");
+    }
+    // The planar mechanism starts with the rod's angle, which follows from y.
+    if (has_crank && !info(parts.mechanism).spatial &&
+        !(std::abs(in.y - in.crank_length * std::sin(in.start_angle)) < in.rod_length)) {
+        return clash("initial.y", "mechanism.start_angle",
+                     fmt::format("the rod of {} m does not reach it from a crank at {} rad", in.rod_length,
+                                 in.start_angle),
+                     "use a value near 0");
+    }
+    if (in.friction_slip_speed <= in.friction_stick_speed) {
+        return clash("friction.slip_speed", "friction.stick_speed",
+                     fmt::format("not above friction.stick_speed, {} m/s", in.friction_stick_speed),
+                     "use a slip_speed > stick_speed");
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> defect(Inputs const& inputs, Parts const& parts) {
+    auto const found = find_defect(inputs, parts);
+    if (!found) return std::nullopt;
+    return fmt::format("{} is {} ({}); {}", found->key->name, with_unit(found->value, found->key->unit),
+                       found->problem.reason, found->problem.advice);
+}
+
+}  // namespace slideway

@@ -1,0 +1,39 @@
+// Every numeric key of a scene's physics in one table: reading, --set, [study.vary], probe columns, the resolved
+// scene and the variables of result files all go by it.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "host/config/descriptors.hpp"
+#include "kernels/inputs.hpp"
+
+namespace slideway {
+
+/// Whether a key means anything for a mechanism, whatever its law.
+bool counts_for(Key const& key, Mechanism mechanism);
+/// The same with the scene's law.
+bool counts_for(Key const& key, Parts const& parts);
+
+/// One key per input, in the order of `Inputs`, and what the laws have of their own.
+std::span<Key const> keys();
+/// The keys that set two inputs at once: joint.clearance, contact.young_modulus.
+std::span<Key const> twin_keys();
+/// Any of both; nullptr when there is none.
+Key const* find_key(std::string_view dotted_name);
+
+/// Puts in the kernel part that `key` needs if it is to differ from its default or between members: the way's pose
+/// for way.*, the rates for contact.chi_*, restitution for contact.restitution, friction for friction.*.
+/// @param key that counts for the parts
+void require_part(Parts& parts, Key const& key);
+
+/// The inputs with what a law has of its own as it is when nobody gives it.
+Inputs with_presets(Inputs inputs, Law law);
+
+/// Why a set of inputs cannot be used, in words ("joint.clearance_y is 0 m (the joint needs a gap); use a value > 0"),
+/// or nothing.  Checks every key's rule and those between keys of the mechanism (slip_speed > stick_speed …).
+std::optional<std::string> defect(Inputs const& inputs, Parts const& parts = {});
+
+}  // namespace slideway

@@ -1,0 +1,167 @@
+#include "host/config/reader.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "host/base/suggest.hpp"
+#include "host/config/scene_text.hpp"
+#include "host/config/settings.hpp"
+#include "host/config/values.hpp"
+
+namespace slideway {
+namespace {
+
+/// Tables of a scene, by the names of its keys.
+std::vector<std::string_view> table_names() {
+    std::vector<std::string_view> names;
+    auto const add = [&](std::string_view name) {
+        auto const dot = name.find('.');
+        if (dot != name.npos && std::ranges::find(names, name.substr(0, dot)) == names.end()) names.push_back(name.substr(0, dot));
+    };
+    for (Setting const& one : settings()) add(one.name);
+    for (Key const& key : keys()) add(key.name);
+    return names;
+}
+
+std::vector<std::string_view> known_names() {
+    std::vector<std::string_view> names;
+    for (Setting const& one : settings()) names.push_back(one.name);
+    for (auto const table : {keys(), twin_keys()}) {
+        for (Key const& key : table) names.push_back(key.name);
+    }
+    return names;
+}
+
+bool contains(std::span<std::string_view const> names, std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void check_known(Node const& root) {
+    auto const tables = table_names(), keys = known_names();
+    std::vector<std::string_view> all = keys;
+    all.insert(all.end(), tables.begin(), tables.end());
+    for (Node const& node : root.children) {
+        if (contains(tables, node.key)) {
+            if (!node.is_table()) {
+                refuse(node, {"it must be a table", fmt::format("write [{}] and its keys below", node.key)});
+            }
+            for (Node const& child : node.children) {
+                if (child.key.find('.') != std::string::npos || !contains(all, child.name)) {
+                    refuse_unknown(child, "key", all);
+                }
+            }
+        } else if (node.key.find('.') != std::string::npos || !contains(keys, node.key)) {
+            if (node.is_table()) refuse_unknown(node, "table", tables);
+            refuse_unknown(node, "key", all);
+        }
+    }
+}
+
+void check_schema(Node const& root) {
+    Node const* const schema = root.find("schema");
+    if (schema == nullptr) {
+        throw SceneError(
+            fmt::format("{}: schema is missing (it says which format the scene is written in); "
+                        "add the line schema = 1 at the top",
+                        root.where));
+    }
+    if (schema->type != Node::Type::integer || schema->integer != 1) {
+        refuse(*schema, {"this version of slideway reads schema 1", "write schema = 1"});
+    }
+}
+
+/// The node to blame for a key's value: its own, that of a key which sets it too, or the whole scene.
+Node const* find_given(std::vector<GivenKey> const& given, Key const* key) {
+    Node const* found = nullptr;
+    for (GivenKey const& entry : given) {
+        if (key != nullptr && entry.key->overlaps(*key)) found = entry.node;  // the last one took effect
+    }
+    return found;
+}
+
+void check_inputs(Node const& root, Scene const& scene) {
+    auto const found = find_defect(scene.inputs, scene.parts);
+    if (!found) return;
+    auto const given = given_keys(root);
+    Node const* node = find_given(given, found->key);
+    if (node == nullptr) node = find_given(given, found->other);
+    throw SceneError(fmt::format("{}: {}", node != nullptr ? node->where : root.where,
+                                 defect(scene.inputs, scene.parts).value_or("")));
+}
+
+}  // namespace
+
+void read_bound(Node const& root, std::string_view table, Scene& scene, Settings rows) {
+    for (Setting const& row : rows) {
+        Node const* const node = row.is_bound() && row.table() == table ? root.find_path(row.name) : nullptr;
+        if (node == nullptr) continue;
+        if (row.number != nullptr) row.number(scene) = read_number(*node, row);
+        if (row.count != nullptr) row.count(scene) = read_count(*node, row);
+        if (row.truth != nullptr) row.truth(scene) = read_boolean(*node);
+    }
+}
+
+void refuse_both(Node const& root, std::string_view first, std::string_view second) {
+    Node const* const a = root.find_path(first);
+    Node const* const b = root.find_path(second);
+    if (a == nullptr || b == nullptr) return;
+    bool const a_is_later = a->order != b->order ? a->order > b->order : a->line > b->line;
+    refuse(a_is_later ? *a : *b, {fmt::format("{} says it too", a_is_later ? second : first), "remove one of the two"});
+}
+
+void refuse_study(Node const& root, Node const* node, std::string_view key, Problem const& problem) {
+    if (node != nullptr) refuse(*node, problem);
+    Node const& kind = *root.find_path("study.kind");
+    throw SceneError(fmt::format("{}: {} is not given ({}); {}", kind.where, key, problem.reason, problem.advice));
+}
+
+void refuse_meaningless(std::string_view where, std::string_view name, Mechanism mechanism) {
+    throw SceneError(
+        fmt::format("{}: {} has no meaning for kind = \"{}\"; remove it", where, name, info(mechanism).name));
+}
+
+void refuse_strange(Node const& node, Law law) {
+    refuse(node, {fmt::format("contact.law \"{}\" does not know it", info(law).name), "remove it"});
+}
+
+void refuse_foreign_quantity(Node const& node, std::string_view name, Mechanism mechanism) {
+    throw SceneError(
+        fmt::format("{}: {} is no quantity of a {}; see `slideway list`", node.where, name, info(mechanism).name));
+}
+
+void refuse_missing(Node const& asking, std::string_view key, std::string_view why, std::string_view advice) {
+    throw SceneError(fmt::format("{}: {} is missing ({}); {}", asking.where, key, why, advice));
+}
+
+void refuse_unknown(Node const& node, std::string_view what, std::span<std::string_view const> known) {
+    std::string_view const near = nearest_name(node.name, known);
+    std::string const advice = near.empty()        ? std::string("remove it, or see `slideway list`")
+                               : near == node.name ? std::string("write it without quotes")
+                                                   : fmt::format("did you mean {}?", near);
+    throw SceneError(fmt::format("{}: {} is no {} of a scene (mistyped, it would have no effect); {}", node.where,
+                                 one_line(node.name), what, advice));
+}
+
+Scene read_scene(std::string const& path, Overrides const& overrides) {
+    return parse_scene(read_scene_text(path), path, overrides);
+}
+
+Scene parse_scene(std::string const& text, std::string const& name, Overrides const& overrides) {
+    Node const root = read_document(text, name, overrides);
+    check_known(root);
+    check_schema(root);
+    Scene scene;
+    scene.path = name;
+    if (Node const* const title = root.find("title")) scene.title = read_text_value(*title);
+    read_physics(root, scene);
+    check_inputs(root, scene);
+    read_variations(root, scene);
+    read_study(root, scene);
+    read_integrator(root, scene);
+    read_recording(root, scene);
+    prepare_sampler(scene);
+    return scene;
+}
+
+}  // namespace slideway

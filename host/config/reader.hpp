@@ -1,0 +1,109 @@
+// The parts of `read_scene`, in the order they run.
+#pragma once
+
+#include "host/config/document.hpp"
+#include "host/config/scene.hpp"
+#include "host/config/settings.hpp"
+
+namespace slideway {
+
+/// A node that holds a numeric key of the physics.
+struct GivenKey {
+    Key const* key;
+    Node const* node;
+};
+/// In the order in which they take effect: those of the file, then the options.
+std::vector<GivenKey> given_keys(Node const& root);
+
+/// Numeric keys, law, damping, friction and way pose; everything of Scene::inputs and Scene::parts but [study.vary].
+void read_physics(Node const& root, Scene& scene);
+/// [study.vary]; adds the kernel parts that the varied keys need.
+void read_variations(Node const& root, Scene& scene);
+/// An entry of [study.vary].
+struct VariedNode {
+    std::string name;  // dotted key
+    Node const* node;
+};
+/// In the order of Scene::variations.
+std::vector<VariedNode> varied_nodes(Node const& root);
+/// How a key scatters; every value that it bounds meets the key's rule.  Leaves `levels` to the design.
+Distribution read_distribution(Node const& node, Key const& key);
+/// Which study, of how many members, and what it is asked for; adds the kernel parts that a swept key needs.
+void read_study(Node const& root, Scene& scene);
+/// How the members are spread: Scene::design, and how many members follow from it; needs the study and what varies.
+void read_design(Node const& root, Scene& scene);
+/// study.table: Scene::design.table and a variation for each of its columns.
+void read_member_table(Node const& node, Node const& root, Scene& scene);
+/// [study.correlation]; needs the design.
+void read_correlation(Node const& root, Scene& scene);
+/// [study.limits]; adds their quantities to those asked for.
+void read_limits(Node const& root, Scene& scene);
+/// study.store; needs the design, the samples and the quantities.
+void read_store(Node const& root, Scene& scene);
+/// The keys of a study of orbits: Scene::chaos.
+void read_chaos(Node const& root, Scene& scene);
+/// Where the sections of a poincare or sweep are taken.
+void read_section(Node const& root, Scene& scene);
+/// What a sweep sweeps, through which values.
+void read_sweep(Node const& root, Scene& scene);
+/// What a sweep asks of the lengths of time.
+void check_columns(Node const& root, Scene const& scene);
+/// [integrator]; needs the period of the drive and the study.
+void read_integrator(Node const& root, Scene& scene);
+/// Until when, and what of [study] is recorded on the way; needs everything above.
+void read_recording(Node const& root, Scene& scene);
+
+/// Whether a varied or swept key counts beside the scene's other ones.  @throws SceneError at `node`, or at a key that
+/// it replaces
+void check_counts(Node const& root, Node const& node, Key const& key, Scene const& scene);
+/// What to write instead of a name that is no numeric key of the physics.
+std::string key_advice(std::string_view name);
+/// Periods of the drive that members may have [s]; the most is infinite where a limit lets it stand still.
+struct PeriodRange {
+    double least, most;
+    Key const* varied;  // why they may differ between members; nullptr: they do not
+};
+PeriodRange drive_periods(Scene const& scene);
+
+/// The least reversal_time that members of a carriage may have [s], > 0.
+double shortest_reversal(Scene const& scene);
+
+/// Refuses a key, or a table, that does not count for the scene's mechanism, at a position.
+[[noreturn]] void refuse_meaningless(std::string_view where, std::string_view name, Mechanism mechanism);
+/// Refuses a key that the scene's law does not know.
+[[noreturn]] void refuse_strange(Node const& node, Law law);
+/// Refuses a quantity or a series that the scene's mechanism does not have.
+[[noreturn]] void refuse_foreign_quantity(Node const& node, std::string_view name, Mechanism mechanism);
+
+/// How long the members of a study of orbits run [s], and how often their steps end at known times.
+struct RunLength {
+    double seconds;  // of the scene's own member
+    double longest;
+    double stops;
+};
+RunLength run_length(Scene const& scene);
+
+/// Most numbers of one kind in a result file, 80 GB.
+inline constexpr double most_values = 1e10;
+
+/// `count` times from 0 to end_time, both included; count is 0 or at least 2.
+std::vector<double> uniform_times(double end_time, std::size_t count);
+
+/// What is given of the bound settings of a table.
+void read_bound(Node const& root, std::string_view table, Scene& scene, Settings rows = settings());
+
+/// Refuses the later one of two keys that say the same, if both are given.
+void refuse_both(Node const& root, std::string_view first, std::string_view second);
+
+/// Refuses what is given, or the study whose default it is; `key` is the dotted name.
+[[noreturn]] void refuse_study(Node const& root, Node const* given, std::string_view key, Problem const& problem);
+
+/// Refuses a node that no part of the scene reads.
+[[noreturn]] void refuse_unknown(Node const& node, std::string_view what, std::span<std::string_view const> known);
+
+/// Refuses what asks for a key that is not there:
+/// "study.points is missing (how many columns there are); add points = 50".
+[[noreturn]] void refuse_missing(Node const& asking, std::string_view key, std::string_view why,
+                                 std::string_view advice);
+
+}  // namespace slideway

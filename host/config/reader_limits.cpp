@@ -1,0 +1,94 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "host/config/labels.hpp"
+#include "host/config/reader.hpp"
+#include "host/config/scene_text.hpp"
+#include "host/config/values.hpp"
+
+namespace slideway {
+namespace {
+
+struct LimitedQuantity {
+    Quantity quantity;
+    std::string label;
+};
+
+[[noreturn]] void refuse_name(Node const& node, std::string const& why, std::string const& advice) {
+    throw SceneError(fmt::format("{}: {} cannot be limited ({}); {}", node.where, one_line(node.name), why, advice));
+}
+
+/// Of "mode_time[free]" or "peak_normal_force".
+LimitedQuantity read_name(Node const& node, Mechanism mechanism) {
+    std::string_view const name = node.key;
+    auto const bracket = name.find('[');
+    std::string_view const quantity = name.substr(0, bracket);
+    std::vector<std::string_view> names;
+    for (QuantityInfo const& info : quantity_table) names.emplace_back(info.name);
+    auto const found = std::find(names.begin(), names.end(), quantity);
+    if (found == names.end()) {
+        auto const of_series = [&](SeriesInfo const& info) { return quantity == info.name; };
+        bool const series = std::any_of(std::begin(series_table), std::end(series_table), of_series);
+        refuse_name(node, series ? "it is a time series" : "there is no such quantity",
+                    series ? std::string("limit a quantity, see `slideway list`") : choice_advice(quantity, names));
+    }
+    auto const index = found - names.begin();
+    if (!selects(info(mechanism).quantities, static_cast<Quantity>(index))) {
+        refuse_foreign_quantity(node, quantity, mechanism);
+    }
+    QuantityInfo const& info = quantity_table[index];
+    if (info.dimension == nullptr) {
+        if (bracket != name.npos) refuse_name(node, "it is one number", fmt::format("write \"{}\"", quantity));
+        return {static_cast<Quantity>(index), {}};
+    }
+    auto const labels = labels_of(info.dimension);
+    std::string const advice =
+        fmt::format("write \"{}[{}]\", one of {}", quantity, labels.front(), fmt::join(labels, ", "));
+    if (bracket == name.npos) refuse_name(node, fmt::format("it has a value for each {}", info.dimension), advice);
+    std::string_view label = name.substr(bracket + 1);
+    bool const closed = label.ends_with(']');
+    if (closed) label.remove_suffix(1);
+    if (!closed || std::find(labels.begin(), labels.end(), label) == labels.end()) {
+        refuse_name(node, fmt::format("there is no such {}", info.dimension), advice);
+    }
+    return {static_cast<Quantity>(index), std::string(label)};
+}
+
+Limit read_limit(Node const& node, LimitedQuantity const& limited) {
+    constexpr std::string_view example = "{ min = 0, max = 1 }, or one of the two";
+    if (!node.is_table()) refuse(node, {"not a limit", fmt::format("write for example {}", example)});
+    for (Node const& child : node.children) {
+        if (child.key != "min" && child.key != "max") refuse(child, {"no argument of a limit", "use min, max"});
+    }
+    QuantityInfo const& info = quantity_table[static_cast<int>(limited.quantity)];
+    Node const *const low = node.find("min"), *const high = node.find("max");
+    if (low == nullptr && high == nullptr) {
+        throw SceneError(fmt::format("{}: {} has neither min nor max (it would be met always); write for example {}",
+                                     node.where, one_line(node.name), example));
+    }
+    Limit limit{info.name, limited.label};
+    if (low != nullptr) limit.low = read_number(*low, info.unit);
+    if (high != nullptr) limit.high = read_number(*high, info.unit);
+    if (limit.low > limit.high) {
+        refuse(*high, with_unit(limit.high, info.unit),
+               {fmt::format("below min, {}", with_unit(limit.low, info.unit)), "use min <= max"});
+    }
+    return limit;
+}
+
+}  // namespace
+
+void read_limits(Node const& root, Scene& scene) {
+    Node const* const table = root.find_path("study.limits");
+    if (table == nullptr) return;
+    if (!table->is_table()) refuse(*table, {"it must be a table", "write [study.limits] and its quantities below"});
+    for (Node const& node : table->children) {
+        LimitedQuantity const limited = read_name(node, scene.parts.mechanism);
+        scene.limits.push_back(read_limit(node, limited));
+        scene.quantities |= selection_of(limited.quantity);
+    }
+}
+
+}  // namespace slideway

@@ -1,0 +1,204 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "host/config/drive_period.hpp"
+#include "host/config/reader.hpp"
+#include "host/config/values.hpp"
+
+namespace slideway {
+namespace {
+
+/// Of a slider at rest velocities are small: atol alone holds its ringing. At the size of rtol an explicit pair at its limit of stability puts as
+/// much energy into it as damping takes, and it never comes to rest (docs/integrators.md).
+constexpr double atol_per_rtol = 0.1;
+
+void check_rivals(std::vector<GivenKey> const& given) {
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        for (std::size_t j = i + 1; j < given.size(); ++j) {
+            // An option may refine what the file says in general: the later one takes effect.
+            bool const both_in_file = given[i].node->order == 0 && given[j].node->order == 0;
+            if (both_in_file && given[i].key->overlaps(*given[j].key)) {
+                refuse(*given[j].node,
+                       {fmt::format("{} in line {} sets it too", given[i].key->name, given[i].node->line),
+                        "remove one of the two"});
+            }
+        }
+    }
+}
+
+void check_restitution(Node const& root) {
+    for (std::string_view const name : {"contact.eta", "contact.chi_line", "contact.chi_surface"}) {
+        if (Node const* const node = root.find_path(name)) {
+            refuse(*node, {"contact.restitution replaces it", "remove one of the two"});
+        }
+    }
+}
+
+/// Which mechanism, and that nothing is given that does not count for it.
+void read_mechanism(Node const& root, Parts& parts) {
+    if (Node const* const kind = root.find_path("mechanism.kind")) {
+        parts.mechanism =
+            static_cast<Mechanism>(read_choice(*kind, setting("mechanism.kind")));
+    }
+    for (auto const& [key, node] : given_keys(root)) {
+        if (!counts_for(*key, parts.mechanism)) refuse_meaningless(node->where, node->name, parts.mechanism);
+    }
+    auto const refuse_given = [&](std::string_view name) {
+        Node const* const node = root.find_path(name);
+        if (node != nullptr) refuse_meaningless(node->where, node->name, parts.mechanism);
+    };
+    if (!info(parts.mechanism).free_crank) {
+        refuse_given("mechanism.crank");
+    } else if (Node const* const crank = root.find_path("mechanism.crank")) {
+        parts.free_crank = read_choice(*crank, setting("mechanism.crank")) == 1;
+    }
+    if (info(parts.mechanism).spatial) return;
+    refuse_given("contact.law");
+    refuse_given("way");
+}
+
+/// Modes are what a law switches between; the other parts have none, or no steps that could end there.
+void check_located_modes(Node const& node, Scene const& scene) {
+    if (!info(scene.parts.mechanism).spatial) {
+        refuse(node, {fmt::format("nothing switches in a {}", info(scene.parts.mechanism).name), "remove it"});
+    }
+    if (!info(scene.parts.law).switches) {
+        refuse(node, {fmt::format("contact.law \"{}\" has no modes to switch between", info(scene.parts.law).name), "remove it"});
+    }
+    if (scene.parts.damping == Damping::restitution) {
+        refuse(node, {"contact.restitution ends steps at its touches already", "remove one of the two"});
+    }
+    if (scene.integrator.method == Method::ros34pw2 || scene.integrator.method == Method::rk4) {
+        refuse(node, {fmt::format("{} cannot end its steps there", name_of(scene.integrator.method)),
+                      "use method \"auto\", \"dopri5\" or \"bs32\""});
+    }
+}
+
+void read_located_modes(Node const& root, Scene& scene) {
+    IntegratorSettings& settings = scene.integrator;
+    Node const* const node = root.find_path("integrator.locate_modes");
+    bool const switches = makes_energy(scene.parts) && scene.parts.damping != Damping::restitution;
+    bool const orbits = !runs_to_end(scene.study), neighbours = scene.chaos.exponents > 0;
+    bool const can = has_effect(setting("integrator.locate_modes"), settings.method, info(scene.parts.mechanism));
+    // Long orbits under the law that switches take half the steps so, and neighbours need it.
+    if (node == nullptr) settings.locate_modes = switches && orbits && can;
+    if (node != nullptr && settings.locate_modes) check_located_modes(*node, scene);
+    if (!switches || !neighbours || settings.locate_modes) return;
+    // In trials exponents came out up to half as large again.
+    scene.warnings.push_back(
+        fmt::format("{}: steps leap over mode switches of contact.law \"{}\" and miss how they separate neighbours, "
+                    "so that exponents come out wrong; {}",
+                    can ? std::string("integrator.locate_modes is false")
+                        : fmt::format("integrator.method is {}", name_of(settings.method)),
+                    info(scene.parts.law).name,
+                    can ? "leave it out" : "use method \"auto\", \"dopri5\" or \"bs32\""));
+}
+
+void warn_of_idle_keys(Node const& table, Scene& scene) {
+    for (Node const& node : table.children) {
+        if (has_effect(setting(node.name), scene.integrator.method, info(scene.parts.mechanism))) continue;
+        // Said to be off where it cannot be on, it is as it was asked for.
+        if (node.key == "locate_modes") continue;
+        bool const of_method = std::ranges::none_of(mechanisms(), [&](MechanismInfo const& one) {
+            return has_effect(setting(node.name), scene.integrator.method, one);
+        });
+        scene.warnings.push_back(
+            of_method ? fmt::format("{} has no effect with method {}", node.name, name_of(scene.integrator.method))
+                      : fmt::format("{} has no effect on a {}", node.name, info(scene.parts.mechanism).name));
+    }
+}
+
+}  // namespace
+
+std::vector<GivenKey> given_keys(Node const& root) {
+    std::vector<GivenKey> given;
+    for (Node const& table : root.children) {
+        for (Node const& node : table.children) {
+            if (Key const* const key = find_key(node.name)) given.push_back({key, &node});
+        }
+    }
+    std::stable_sort(given.begin(), given.end(),
+                     [](GivenKey const& a, GivenKey const& b) { return a.node->order < b.node->order; });
+    return given;
+}
+
+void read_physics(Node const& root, Scene& scene) {
+    read_mechanism(root, scene.parts);
+    Node const* const law = root.find_path("contact.law");
+    if (law != nullptr) scene.parts.law = static_cast<Law>(read_choice(*law, setting("contact.law")));
+    scene.inputs = with_presets(scene.inputs, scene.parts.law);
+    auto const given = given_keys(root);
+    bool restitution = false;
+    for (auto const& [key, node] : given) {
+        if (!counts_for(*key, scene.parts)) {
+            // An option may choose another law than the file, which has the keys of its own.
+            bool const of_another = law != nullptr && law->order > 0 && node->order == 0;
+            if (!of_another) refuse_strange(*node, scene.parts.law);
+            scene.warnings.push_back(fmt::format("{}: {} has no effect, for contact.law \"{}\" does not know it",
+                                                 node->where, node->name, info(scene.parts.law).name));
+            continue;
+        }
+        key->set(scene.inputs, read_number(*node, *key));
+        restitution = restitution || key->member == &Inputs::restitution;
+    }
+    check_rivals(given);
+    if (restitution) check_restitution(root);
+
+    if (restitution) {
+        scene.parts.damping = Damping::restitution;
+    } else if (scene.inputs.chi_line != 0 || scene.inputs.chi_surface != 0) {
+        scene.parts.damping = Damping::rate;
+    }
+    scene.parts.misaligned_way = root.find("way") != nullptr;
+    scene.parts.friction = root.find("friction") != nullptr;
+    if (Node const* const enabled = root.find_path("friction.enabled")) scene.parts.friction = read_boolean(*enabled);
+}
+
+void read_integrator(Node const& root, Scene& scene) {
+    IntegratorSettings& settings = scene.integrator;
+    read_bound(root, "integrator", scene);
+    if (Node const* const node = root.find_path("integrator.method")) {
+        settings.method = static_cast<Method>(read_choice(*node, setting("integrator.method")));
+    }
+    if (settings.method == Method::ros34pw2 && !info(scene.parts.mechanism).spatial) {
+        refuse(*root.find_path("integrator.method"),
+               {fmt::format("the method has no Jacobian of a {}", info(scene.parts.mechanism).name),
+                "use method \"auto\", \"dopri5\", \"bs32\" or \"rk4\""});
+    }
+    Node const* const step = root.find_path("integrator.step");
+    if (settings.method == Method::rk4 && step == nullptr) {
+        refuse(*root.find_path("integrator.method"), {"the method has no step control", "give integrator.step"});
+    }
+    if (settings.method == Method::rk4 && scene.parts.damping == Damping::restitution) {
+        refuse(*root.find_path("integrator.method"),
+               {"contact.restitution wants the speed at each touch, where the method's steps do not end",
+                "use method \"auto\", \"dopri5\", \"bs32\" or \"ros34pw2\""});
+    }
+    read_located_modes(root, scene);
+    auto const is_given = [&](std::string_view name) { return root.find_path(name) != nullptr; };
+    if (!is_given("integrator.atol")) settings.atol = atol_per_rtol * settings.rtol;
+    // A sweep goes by its fastest drive, a free crank by the speed that it starts with.
+    Parts driven = scene.parts;
+    driven.free_crank = false;
+    double const period =
+        scene.study == StudyKind::sweep ? drive_periods(scene).least : drive_period(driven, scene.inputs);
+    // A step may not leap over an impact: between two of them the slider flies for milliseconds.
+    constexpr double longest_step = 1e-3;
+    double max_step = std::min(longest_step, period / 2000);
+    // Nor over a carriage's reversal, which accelerates it for a small part of its period.
+    bool const reverses = info(scene.parts.mechanism).drive == DriveKind::carriage;
+    double const reversal = reverses ? shortest_reversal(scene) / 20 : max_step;
+    max_step = std::min(max_step, reversal);
+    if (!is_given("integrator.max_step")) settings.max_step = max_step;
+    // The stiff method runs in lasting contact alone, where nothing is to be leapt over.
+    double const stiff_step = reverses ? std::min(10 * settings.max_step, reversal) : 10 * settings.max_step;
+    if (!is_given("integrator.stiff_max_step")) settings.stiff_max_step = stiff_step;
+    if (Node const* const table = root.find("integrator")) warn_of_idle_keys(*table, scene);
+}
+
+}  // namespace slideway

@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "host/base/suggest.hpp"
+#include "host/config/drive_period.hpp"
+#include "host/config/labels.hpp"
+#include "host/config/reader.hpp"
+#include "host/config/values.hpp"
+
+namespace slideway {
+namespace {
+
+constexpr int apices = 8;
+
+void read_phase(Node const& root, Scene& scene) {
+    Node const* const node = root.find_path("study.phase");
+    if (node != nullptr) scene.chaos.section.level = read_number(*node, "rad");
+    if (std::isfinite(drive_period(scene.parts, scene.inputs))) return;
+    refuse_study(root, node, "study.phase",
+                 {fmt::format("{}, so no crank angle comes round", why_no_period(scene.parts)),
+                  scene.study != StudyKind::sweep ? "give study.section"
+                  : scene.parts.free_crank        ? "use crank = \"driven\""
+                                                  : "give the crank a speed"});
+}
+
+/// Names of what a section may be taken of: states, then gaps.
+std::vector<std::string> surface_names(MechanismInfo const& mechanism) {
+    std::vector<std::string> names;
+    for (int i = 0; i < mechanism.states; ++i) names.emplace_back(state_info(mechanism, i).name);
+    if (!mechanism.spatial) return names;
+    for (char const* const face : {"gap_y", "gap_z"}) {
+        for (int apex = 1; apex <= apices; ++apex) names.push_back(fmt::format("{}[P{}]", face, apex));
+    }
+    return names;
+}
+
+void read_section_table(Node const& table, Scene& scene) {
+    SectionSurface& section = scene.chaos.section;
+    MechanismInfo const& mechanism = info(scene.parts.mechanism);
+    constexpr std::string_view example = "{ on = \"vy\", value = \"0 mm/s\", direction = \"rising\" }";
+    if (!table.is_table()) refuse(table, {"not a section", fmt::format("write for example {}", example)});
+    for (Node const& node : table.children) {
+        if (node.key != "on" && node.key != "value" && node.key != "direction") {
+            refuse(node, {"no argument of a section", "use on, value, direction"});
+        }
+    }
+    Node const* const on = table.find("on");
+    if (on == nullptr) {
+        throw SceneError(fmt::format("{}: study.section has no on (what crosses the section); write for example {}",
+                                     table.where, example));
+    }
+    std::string const& name = read_text_value(*on);
+    auto const known = surface_names(mechanism);
+    auto const found = std::find(known.begin(), known.end(), name);
+    if (found == known.end()) {
+        std::vector<std::string_view> const names(known.begin(), known.end());
+        std::string_view const near = nearest_name(name, names);
+        auto const states = std::span(known).first(static_cast<std::size_t>(mechanism.states));
+        refuse(*on,
+               {mechanism.spatial ? "neither a state nor a gap" : "no state of it",
+                near.empty() ? fmt::format("use one of {}{}", fmt::join(states, ", "),
+                                           mechanism.spatial ? ", gap_y[P1] to gap_y[P8], gap_z[P1] to gap_z[P8]" : "")
+                             : fmt::format("did you mean \"{}\"?", near)});
+    }
+    int const index = static_cast<int>(found - known.begin());
+    using On = SectionSurface::On;
+    int const states = mechanism.states;
+    section.on = index < states ? On::state : index < states + apices ? On::gap_y : On::gap_z;
+    section.index = index < states ? index : (index - states) % apices;
+    if (Node const* const value = table.find("value")) {
+        section.level = read_number(*value, section_unit(section, scene.parts.mechanism));
+    }
+    if (Node const* const direction = table.find("direction")) {
+        section.direction =
+            static_cast<CrossingDirection>(read_choice(*direction, "direction", crossing_direction_names));
+    }
+}
+
+}  // namespace
+
+std::string_view section_unit(SectionSurface const& section, Mechanism mechanism) {
+    switch (section.on) {
+        case SectionSurface::On::phase:
+            return "rad";
+        case SectionSurface::On::state: {
+            SeriesInfo const& state = state_info(info(mechanism), section.index);
+            Key const* const key = find_key(fmt::format("initial.{}", state.name));
+            return key != nullptr ? key->unit : state.unit;
+        }
+        default:
+            return "m";
+    }
+}
+
+void read_section(Node const& root, Scene& scene) {
+    refuse_both(root, "study.phase", "study.section");
+    Node const* const table = root.find_path("study.section");
+    Node const* const crossings = root.find_path("study.max_crossings");
+    if (table == nullptr) {
+        if (crossings != nullptr) {
+            refuse(*crossings, {"a crank angle comes once a revolution", "remove it, or give study.section"});
+        }
+        return read_phase(root, scene);
+    }
+    read_section_table(*table, scene);
+    if (crossings != nullptr) {
+        scene.chaos.max_crossings = read_count(*crossings, setting("study.max_crossings"));
+    }
+}
+
+}  // namespace slideway

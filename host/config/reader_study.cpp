@@ -1,0 +1,234 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "host/config/drive_period.hpp"
+#include "host/config/reader.hpp"
+#include "host/config/settings.hpp"
+#include "host/config/values.hpp"
+
+namespace slideway {
+namespace {
+
+/// Of one member: they stay in memory while it runs.
+std::uint64_t most_samples() { return setting("study.samples").most; }
+
+struct EndTime {
+    double seconds;
+    double revolutions;  // NaN where there are none
+};
+
+EndTime read_end_time(Node const& root, Scene const& scene) {
+    refuse_both(root, "study.revolutions", "study.duration");
+    double const turn = drive_period(scene.parts, scene.inputs);
+    bool const turns = std::isfinite(turn);
+    if (Node const* const node = root.find_path("study.duration")) {
+        double const seconds = read_number(*node, setting("study.duration"));
+        return {seconds, turns ? seconds / turn : NAN};
+    }
+    Node const* const node = root.find_path("study.revolutions");
+    if (!turns) {
+        if (node != nullptr) {
+            refuse(*node, {fmt::format("{}, so there are no revolutions", why_no_period(scene.parts)),
+                           "use study.duration instead"});
+        }
+        return {1, NAN};
+    }
+    double const revolutions =
+        node != nullptr ? read_number(*node, setting("study.revolutions")) : 1;
+    double const seconds = revolutions * turn;
+    if (!(seconds > 0 && seconds <= longest_time)) {
+        std::string const reason = fmt::format("it lasts {} s, with {} s for each", seconds, turn);
+        std::string const advice = fmt::format("stay below {} s", longest_time);
+        if (node != nullptr) refuse(*node, {reason, advice});
+        throw SceneError(fmt::format("{}: study.revolutions is 1 ({}); {}", root.where, reason, advice));
+    }
+    return {seconds, revolutions};
+}
+
+/// The node that asks for a time series, and how many times it has.
+struct Sampling {
+    Node const* node = nullptr;
+    std::size_t count = 0;
+};
+
+Sampling read_sampling(Node const& root, Scene const& scene, EndTime const& end) {
+    refuse_both(root, "study.samples_per_revolution", "study.samples");
+    if (Node const* const node = root.find_path("study.samples")) {
+        std::uint64_t const count = read_count(*node, setting("study.samples"));
+        if (count == 1) refuse(*node, {"the first and the last time are both stored", "use 0 or at least 2"});
+        return {node, count};
+    }
+    Node const* const node = root.find_path("study.samples_per_revolution");
+    if (node == nullptr) return {};
+    std::uint64_t const per_turn = read_count(*node, setting("study.samples_per_revolution"));
+    if (per_turn == 0) return {node, 0};
+    if (std::isnan(end.revolutions)) {
+        refuse(*node, {fmt::format("{}, so there are no revolutions", why_no_period(scene.parts)),
+                       "use study.samples instead"});
+    }
+    double const intervals = std::max(1.0, std::round(static_cast<double>(per_turn) * end.revolutions));
+    if (intervals >= static_cast<double>(most_samples())) {
+        refuse(*node, {fmt::format("that makes {} samples of each member", intervals + 1),
+                       fmt::format("ask for at most {}", most_samples())});
+    }
+    return {node, static_cast<std::size_t>(intervals) + 1};
+}
+
+std::vector<std::string_view> quantity_names() {
+    std::vector<std::string_view> names;
+    for (QuantityInfo const& info : quantity_table) names.emplace_back(info.name);
+    for (SeriesInfo const& info : series_table) names.emplace_back(info.name);
+    return names;
+}
+
+void read_quantities(Node const& list, Scene& scene) {
+    if (list.type != Node::Type::array) {
+        refuse(list, {"not a list of names", "write for example [\"peak_normal_force\", \"energy_residual\"]"});
+    }
+    auto const names = quantity_names();
+    for (Node const& node : list.children) {
+        std::size_t const index = read_choice(node, "quantity", names);
+        MechanismInfo const& has = info(scene.parts.mechanism);
+        bool const known = index < std::size_t{quantity_count}
+                               ? selects(has.quantities, static_cast<Quantity>(index))
+                               : selects(has.series, static_cast<Series>(index - quantity_count));
+        if (!known) refuse_foreign_quantity(node, names[index], scene.parts.mechanism);
+        if (index == std::size_t{static_cast<int>(Quantity::switching_energy)} && makes_energy(scene.parts) &&
+            !scene.integrator.locate_modes) {
+            refuse(node, {"it is known where steps end at the switches, and here they leap over them", "set integrator.locate_modes = true"});
+        }
+        if (index < std::size_t{quantity_count}) {
+            scene.quantities |= Selection{1} << index;
+            continue;
+        }
+        if (scene.sample_times.empty()) {
+            refuse(node, {"it is a time series and the study stores none",
+                          scene.study == StudyKind::ensemble ? "set study.samples_per_revolution or study.samples"
+                                                             : "remove it, or use kind = \"ensemble\""});
+        }
+        scene.series |= Selection{1} << (index - quantity_count);
+    }
+}
+
+void check_size(Sampling const& sampling, Scene const& scene) {
+    double const values = static_cast<double>(scene.members) * static_cast<double>(scene.sample_times.size()) *
+                          std::popcount(scene.series);
+    if (values > most_values) {
+        refuse(*sampling.node,
+               {fmt::format("the time series of {} members would hold {:.3g} numbers", scene.members, values),
+                fmt::format("ask for fewer samples, members or series, at most {:g} numbers", most_values)});
+    }
+}
+
+/// Settled contact asks an explicit method for some 0.5 million steps a second; a member that wants twenty times that is
+/// hopeless and should not hold a lane for minutes.
+std::uint64_t default_max_steps(RunLength const& length, double max_step) {
+    constexpr double start = 1e7, per_second = 1e7, largest = most_steps;
+    double const steps = start + per_second * length.longest + 2 * (length.longest / max_step + length.stops);
+    return static_cast<std::uint64_t>(std::min(steps, largest));
+}
+
+/// Fixed steps are known beforehand, but for what the rounding of the time adds to very many.
+void read_max_steps_of_fixed(Node const& root, IntegratorSettings& settings, RunLength const& length) {
+    IntegratorSettings longest = settings;
+    longest.end_time = length.longest;
+    double const steps = fixed_steps(longest) + length.stops, enough = 1000 + std::ceil(1.001 * steps);
+    if (!(enough <= static_cast<double>(most_steps))) {
+        refuse(*root.find_path("integrator.step"),
+               {fmt::format("that makes {:.3g} steps", steps), "use a larger one, or method \"auto\""});
+    }
+    Node const* const node = root.find_path("integrator.max_steps");
+    if (node == nullptr) {
+        settings.max_steps = static_cast<std::uint64_t>(enough);
+    } else if (static_cast<double>(settings.max_steps) < steps) {
+        refuse(*node, {fmt::format("the fixed steps are {:.0f}", steps),
+                       fmt::format("use a value >= {:.0f}, or a larger integrator.step", steps)});
+    }
+}
+
+/// Why a study has no such key, where there is more to say than that.
+Problem foreign_key(Setting const& key, StudyKind kind) {
+    bool const sweep = kind == StudyKind::sweep;
+    if (key.name.starts_with("study.samples")) {
+        return {fmt::format("kind = \"{}\" stores no time series", name_of(kind)),
+                "remove it, or use kind = \"ensemble\""};
+    }
+    if (sweep && key.name == "study.duration") return {"a sweep records whole revolutions", "use study.revolutions"};
+    if (sweep && key.name == "study.section") return {"a sweep takes its sections at a crank angle", "use study.phase"};
+    if (sweep && key.name == "study.dt") {
+        return {"rescalings of a sweep fall on its sections", "use study.rescalings_per_revolution"};
+    }
+    std::string owners;
+    for (int i = 0; i < static_cast<int>(std::size(study_kind_names)); ++i) {
+        if ((key.studies & set_of(static_cast<StudyKind>(i))) == 0) continue;
+        owners += fmt::format("{}\"{}\"", owners.empty() ? "" : " or ", study_kind_names[i]);
+    }
+    return {fmt::format("it has no effect with kind = \"{}\"", name_of(kind)),
+            fmt::format("remove it, or use kind = {}", owners)};
+}
+
+void refuse_foreign_keys(Node const& table, StudyKind kind) {
+    for (Node const& node : table.children) {
+        for (Setting const& key : settings()) {
+            if (key.name == node.name && (key.studies & set_of(kind)) == 0) refuse(node, foreign_key(key, kind));
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<double> uniform_times(double end_time, std::size_t count) {
+    std::vector<double> times(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        times[i] = end_time * static_cast<double>(i) / static_cast<double>(count - 1);
+    }
+    if (count > 0) times.back() = end_time;
+    return times;
+}
+
+void read_study(Node const& root, Scene& scene) {
+    if (Node const* const kind = root.find_path("study.kind")) {
+        scene.study = static_cast<StudyKind>(read_choice(*kind, setting("study.kind")));
+    }
+    if (Node const* const table = root.find("study")) refuse_foreign_keys(*table, scene.study);
+    read_bound(root, "study", scene);
+    if (Node const* const node = root.find_path("study.verify")) scene.verify = read_count(*node, setting("study.verify"));
+    read_design(root, scene);
+    if (scene.study == StudyKind::sweep) read_sweep(root, scene);
+    if (!runs_to_end(scene.study)) read_chaos(root, scene);
+}
+
+void read_recording(Node const& root, Scene& scene) {
+    bool const samples = runs_to_end(scene.study);
+    EndTime const end = samples ? read_end_time(root, scene) : EndTime{run_length(scene).seconds, NAN};
+    RunLength const length = samples ? RunLength{end.seconds, end.seconds, 0} : run_length(scene);
+    scene.integrator.end_time = end.seconds;
+    if (scene.integrator.method == Method::rk4) {
+        read_max_steps_of_fixed(root, scene.integrator, length);
+    } else if (root.find_path("integrator.max_steps") == nullptr) {
+        scene.integrator.max_steps = default_max_steps(length, scene.integrator.max_step);
+    }
+    Sampling const sampling = samples ? read_sampling(root, scene, end) : Sampling{};
+    scene.sample_times = uniform_times(end.seconds, sampling.count);
+    if (!scene.sample_times.empty()) scene.series = info(scene.parts.mechanism).always;
+    if (Node const* const list = root.find_path("study.quantities")) read_quantities(*list, scene);
+    read_limits(root, scene);
+    if (scene.study == StudyKind::tolerance && scene.quantities == 0) {
+        Node const* const list = root.find_path("study.quantities");
+        refuse_missing(list != nullptr ? *list : *root.find_path("study.kind"), "a quantity",
+                       "a tolerance study tells how quantities scatter",
+                       "add quantities = [\"peak_normal_force\", \"friction_loss\"], or see `slideway list`");
+    }
+    // The audit runs anyway, and whoever takes such a method should see what it says.
+    if (is_always_audited(scene.integrator.method)) scene.quantities |= selection_of(Quantity::energy_residual);
+    check_size(sampling, scene);
+    read_store(root, scene);
+}
+
+}  // namespace slideway

@@ -1,0 +1,153 @@
+// study.table: one member a row, as measured or as drawn elsewhere.
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "host/base/csv.hpp"
+#include "host/base/fnv1a.hpp"
+#include "host/config/reader.hpp"
+#include "host/config/scene_text.hpp"
+#include "host/config/units.hpp"
+#include "host/config/values.hpp"
+
+namespace slideway {
+namespace {
+
+struct Column {
+    Key const* key;
+    UnitFactor factor;
+    std::string unit;  // of its numbers
+};
+
+std::string read_bytes(Node const& node, std::string const& path) {
+    constexpr std::size_t largest = std::size_t{1} << 28;  // keeps devices from filling the memory
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) refuse(node, {"it is a directory", "name a file in it"});
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    std::string bytes;
+    std::string part(std::size_t{1} << 16, '\0');
+    while (file && bytes.size() <= largest) {
+        file.read(part.data(), static_cast<std::streamsize>(part.size()));
+        bytes.append(part, 0, static_cast<std::size_t>(file.gcount()));
+    }
+    if (bytes.size() > largest) refuse(node, {"it is larger than 256 MiB", "name a table, which is text"});
+    if (!file.eof()) {
+        refuse(node, {fmt::format("{} cannot be read: {}", one_line(path),
+                                  errno != 0 ? std::strerror(errno) : "it does not open"),
+                      "check the path, from the scene's folder on"});
+    }
+    return bytes;
+}
+
+/// A field of the table for messages: `members.csv:3: name is "text" (…); …`.
+Node field_node(CsvReader const& table, std::string name, std::string text) {
+    Node node;
+    node.name = std::move(name);
+    node.where = table.where();
+    node.line = table.line();
+    node.type = Node::Type::text;
+    node.text = std::move(text);
+    return node;
+}
+
+/// "joint.clearance [mm]": the key, and how its numbers become SI ones.
+Column read_column(Node const& node) {
+    auto const bracket = node.text.find('[');
+    std::string const name(trimmed(std::string_view(node.text).substr(0, bracket)));
+    Column column{find_key(name), UnitFactor(1), {}};
+    if (column.key == nullptr) refuse(node, {"only numeric keys of the physics can be columns", key_advice(name)});
+    column.unit = column.key->unit;
+    if (bracket == node.text.npos) return column;
+    if (!node.text.ends_with(']')) {
+        refuse(node, {"its unit has no end", fmt::format("write \"{} [{}]\"", name, column.key->unit)});
+    }
+    column.unit = trimmed(std::string_view(node.text).substr(bracket + 1, node.text.size() - bracket - 2));
+    auto const factor = unit_factor(column.unit, column.key->unit);
+    if (auto const* problem = std::get_if<Problem>(&factor)) refuse(node, *problem);
+    column.factor = std::get<UnitFactor>(factor);
+    return column;
+}
+
+/// Adds a variation for each column of the header.
+std::vector<Column> read_header(CsvReader const& table, Node const& root, Scene& scene) {
+    auto const given = given_keys(root);
+    std::vector<Column> columns;
+    for (std::string const& field : table.fields()) {
+        Node const node = field_node(table, fmt::format("column {}", columns.size() + 1), field);
+        Column const column = read_column(node);
+        for (Variation const& other : scene.variations) {
+            if (!other.key->overlaps(*column.key)) continue;
+            bool const drawn = other.column == Variation::no_column;
+            refuse(node, {drawn ? fmt::format("study.vary.{} varies the same", other.key->name)
+                                : fmt::format("column {} has the same", other.column + 1),
+                          "remove one of the two"});
+        }
+        for (GivenKey const& option : given) {
+            if (option.node->order == 0 || !option.key->overlaps(*column.key)) continue;
+            refuse(*option.node, {"study.table has it for every member, so this has no effect", "change the table"});
+        }
+        check_counts(root, node, *column.key, scene);
+        require_part(scene.parts, *column.key);
+        scene.variations.push_back({column.key, {}, table.line(), columns.size()});
+        columns.push_back(column);
+    }
+    return columns;
+}
+
+void read_row(CsvReader const& table, std::vector<Column> const& columns, std::vector<double>& values) {
+    if (table.fields().size() != columns.size()) {
+        table.fail(fmt::format("the row has {} fields (the header has {} columns); write one number for each column",
+                               table.fields().size(), columns.size()));
+    }
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        std::string_view text = table.fields()[i];
+        double value = 0;
+        if (!read_plain_number(text, value)) {
+            Column const& column = columns[i];
+            refuse(
+                field_node(table, std::string(column.key->name), std::string(text)),
+                {"not a number", column.unit == "1" ? "use a number"
+                                                    : fmt::format("use a number of {} without its unit", column.unit)});
+        }
+        if (text.starts_with('+')) text.remove_prefix(1);
+        values.push_back(columns[i].factor(text, value));
+    }
+}
+
+}  // namespace
+
+void read_member_table(Node const& node, Node const& root, Scene& scene) {
+    std::string const& given = read_text_value(node);
+    if (given.empty()) refuse(node, {"no file has this name", "write for example \"members.csv\""});
+    auto const path = (std::filesystem::path(scene.path).parent_path() / given).lexically_normal();
+    std::string bytes = read_bytes(node, path.string());
+
+    auto table = std::make_shared<MemberTable>();
+    table->path = std::filesystem::absolute(path).lexically_normal().string();
+    table->checksum = fnv1a(bytes);
+    std::istringstream in(std::move(bytes));
+    CsvReader rows(in, one_line(path.string()));
+    if (!rows.next())
+        rows.fail("the table is empty (it needs a header and a row); write keys like joint.clearance above");
+    std::vector<Column> const columns = read_header(rows, root, scene);
+    table->columns = columns.size();
+    while (rows.next()) read_row(rows, columns, table->values);
+    if (table->rows() == 0) rows.fail("the table has a header but no row (a row is a member); add one");
+
+    std::uint64_t const members = table->rows();
+    Node const* const count = root.find_path("study.members");
+    if (count == nullptr) scene.members = members;
+    if (scene.members > members) {
+        refuse(*count, {fmt::format("study.table has {} rows", members),
+                        fmt::format("use a value <= {}, or leave it out", members)});
+    }
+    scene.design.table = std::move(table);
+}
+
+}  // namespace slideway

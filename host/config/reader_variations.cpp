@@ -1,0 +1,105 @@
+#include <fmt/format.h>
+
+#include "host/base/suggest.hpp"
+#include "host/config/reader.hpp"
+#include "host/config/scene_text.hpp"
+#include "host/config/values.hpp"
+
+namespace slideway {
+namespace {
+
+Variation read_variation(Node const& node, std::string_view name) {
+    Key const* const key = find_key(name);
+    if (key == nullptr) {
+        throw SceneError(fmt::format("{}: {} cannot vary (only numeric keys of the physics can); {}", node.where,
+                                     one_line(node.name), key_advice(name)));
+    }
+    return {key, read_distribution(node, *key), node.line};
+}
+
+/// "joint.clearance" = {…} and joint.clearance = {…} mean the same: tables of nothing but tables are descended into.
+void collect_variations(Node const& table, std::string const& prefix, std::vector<VariedNode>& found) {
+    for (Node const& node : table.children) {
+        bool group = node.is_table() && !node.children.empty();
+        for (Node const& child : node.children) group = group && child.is_table();
+        std::string const name = prefix + node.key;
+        if (group) {
+            collect_variations(node, name + ".", found);
+        } else {
+            found.push_back({name, &node});
+        }
+    }
+}
+
+void check_clashes(Node const& root, VariedNode const& entry, Scene const& scene, Variation const& variation) {
+    for (Variation const& other : scene.variations) {
+        if (other.key->overlaps(*variation.key)) {
+            refuse(*entry.node,
+                   {fmt::format("study.vary.{} varies the same", other.key->name), "remove one of the two"});
+        }
+    }
+    for (GivenKey const& given : given_keys(root)) {
+        if (given.node->order > 0 && given.key->overlaps(*variation.key)) {
+            refuse(*given.node,
+                   {"[study.vary] draws it for every member, so this has no effect",
+                    fmt::format("use --set 'study.vary.\"{}\"={{dist=\"const\", value=...}}'", variation.key->name)});
+        }
+    }
+    check_counts(root, *entry.node, *variation.key, scene);
+}
+
+}  // namespace
+
+std::string key_advice(std::string_view name) {
+    std::vector<std::string_view> names;
+    for (auto const table : {keys(), twin_keys()}) {
+        for (Key const& known : table) names.push_back(known.name);
+    }
+    std::string_view const near = nearest_name(name, names);
+    return near.empty() ? std::string("use a dotted key like \"joint.clearance\"")
+                        : fmt::format("did you mean \"{}\"?", near);
+}
+
+void check_counts(Node const& root, Node const& node, Key const& key, Scene const& scene) {
+    std::string_view const name = key.name;
+    if (!counts_for(key, scene.parts.mechanism)) refuse_meaningless(node.where, name, scene.parts.mechanism);
+    if (!counts_for(key, scene.parts)) refuse_strange(node, scene.parts.law);
+    if (name.starts_with("friction.") && !scene.parts.friction) {
+        refuse(node, {"friction is off", "add a [friction] table"});
+    }
+    bool const rate = name == "contact.eta" || name.starts_with("contact.chi_");
+    if (rate && scene.parts.damping == Damping::restitution) {
+        refuse(node, {"contact.restitution replaces it", "remove one of the two"});
+    }
+    if (name != "contact.restitution") return;
+    for (std::string_view const replaced : {"contact.eta", "contact.chi_line", "contact.chi_surface"}) {
+        if (Node const* const given = root.find_path(replaced)) {
+            refuse(*given, {"contact.restitution is varied and replaces it", "remove one of the two"});
+        }
+        for (Variation const& other : scene.variations) {
+            if (other.key->name == replaced) {
+                refuse(node, {fmt::format("it replaces {}, which varies too", replaced), "remove one of the two"});
+            }
+        }
+    }
+}
+
+std::vector<VariedNode> varied_nodes(Node const& root) {
+    Node const* const table = root.find_path("study.vary");
+    if (table == nullptr) return {};
+    if (!table->is_table()) refuse(*table, {"it must be a table", "write [study.vary] and its keys below"});
+    std::vector<VariedNode> entries;
+    collect_variations(*table, "", entries);
+    return entries;
+}
+
+void read_variations(Node const& root, Scene& scene) {
+    for (VariedNode const& entry : varied_nodes(root)) {
+        Variation const variation = read_variation(*entry.node, entry.name);
+        check_clashes(root, entry, scene, variation);
+        require_part(scene.parts, *variation.key);
+        scene.variations.push_back(variation);
+    }
+}
+
+}  // namespace slideway

@@ -1,0 +1,161 @@
+// A scene as TOML with every key in SI units.  Numbers are the shortest that read back to the same double.
+#include <cmath>
+#include <iterator>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "host/config/labels.hpp"
+#include "host/config/resolved_members.hpp"
+#include "host/config/scene.hpp"
+#include "host/config/scene_text.hpp"
+#include "host/config/settings.hpp"
+#include "kernels/members/complete_inputs.hpp"
+
+namespace slideway {
+namespace {
+
+bool is_written(Key const& key, Parts const& parts) {
+    if (!counts_for(key, parts)) return false;
+    bool const restitution = parts.damping == Damping::restitution;
+    if (key.name.starts_with("way.")) return parts.misaligned_way;
+    if (key.name == "contact.restitution") return restitution;
+    if (key.name == "contact.eta" || key.name.starts_with("contact.chi_")) return !restitution;
+    return true;
+}
+
+/// Keys of one table; what follows from other keys is a comment, so that it still follows when they vary.
+std::string physics_table(Scene const& scene, Inputs const& complete, std::string_view table, std::string_view first) {
+    std::string text = fmt::format("\n[{}]\n{}", table, first);
+    for (Key const& key : keys()) {
+        auto const dot = key.name.find('.');
+        if (key.name.substr(0, dot) != table || !is_written(key, scene.parts)) continue;
+        std::string_view const name = key.name.substr(dot + 1);
+        std::string_view const unit = key.unit == "1" ? "" : key.unit;
+        if (std::isnan(key.get(complete))) {
+            text += fmt::format("# {} follows from other keys\n", name);
+        } else if (std::isnan(key.get(scene.inputs))) {
+            text += fmt::format("# {} = {}  # {}{}follows from other keys\n", name, toml_number(key.get(complete)),
+                                unit, unit.empty() ? "" : ", ");
+        } else if (unit.empty()) {
+            text += fmt::format("{} = {}\n", name, toml_number(key.get(scene.inputs)));
+        } else {
+            text += fmt::format("{} = {}  # {}\n", name, toml_number(key.get(scene.inputs)), unit);
+        }
+    }
+    return text;
+}
+
+std::string quantities_text(Scene const& scene) {
+    std::string text;
+    auto const add = [&](std::string_view name) { text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name); };
+    for (int i = 0; i < quantity_count; ++i) {
+        if (selects(scene.quantities, static_cast<Quantity>(i))) add(quantity_table[i].name);
+    }
+    Selection const asked = scene.series & ~info(scene.parts.mechanism).always;
+    for (int i = 0; i < series_count; ++i) {
+        if (selects(asked, static_cast<Series>(i))) add(series_table[i].name);
+    }
+    return text;
+}
+
+/// Of a bound setting: "max_step = 0.001  # s".
+std::string line_of(Setting const& row, Scene const& scene) {
+    bool const plain = row.unit.empty() || row.unit == "1";
+    return fmt::format("{} = {}{}{}\n", row.key(), value_text(row, scene), plain ? "" : "  # ", plain ? "" : row.unit);
+}
+
+/// Only what counts with the scene's method.
+std::string integrator_table(Scene const& scene, MechanismInfo const& mechanism) {
+    std::string text = fmt::format("\n[integrator]\nmethod = \"{}\"\n", name_of(scene.integrator.method));
+    for (Setting const& row : settings()) {
+        if (row.table() == "integrator" && row.is_bound() && has_effect(row, scene.integrator.method, mechanism)) text += line_of(row, scene);
+    }
+    return text;
+}
+
+std::string span_line(Span const& span, std::string_view turns, std::string_view time) {
+    return span.revolutions ? fmt::format("{} = {}\n", turns, toml_number(span.value))
+                            : fmt::format("{} = {}  # s\n", time, toml_number(span.value));
+}
+
+std::string section_line(SectionSurface const& section, Mechanism mechanism) {
+    using On = SectionSurface::On;
+    if (section.on == On::phase) return fmt::format("phase = {}  # rad\n", toml_number(section.level));
+    std::string const on = section.on == On::state
+                               ? std::string(state_info(info(mechanism), section.index).name)
+                               : fmt::format("{}[P{}]", section.on == On::gap_y ? "gap_y" : "gap_z", section.index + 1);
+    return fmt::format("section = {{ on = \"{}\", value = {}, direction = \"{}\" }}  # {}\n", on,
+                       toml_number(section.level), name_of(section.direction), section_unit(section, mechanism));
+}
+
+std::string neighbours_text(ChaosSettings const& chaos) {
+    std::string text = fmt::format("exponents = {}\n", chaos.exponents);
+    if (chaos.exponents == 0) return text;
+    text += fmt::format("d0 = {}\n", toml_number(chaos.d0));
+    if (chaos.exponents == 1) {
+        text += fmt::format("d0_lower = {}\nd0_upper = {}\n", toml_number(chaos.d0_lower), toml_number(chaos.d0_upper));
+    }
+    if (!chaos.dt.revolutions) return text + fmt::format("dt = {}  # s\n", toml_number(chaos.dt.value));
+    return text + fmt::format("rescalings_per_revolution = {:.0f}\n", std::round(1 / chaos.dt.value));
+}
+
+std::string sweep_text(ChaosSettings const& chaos) {
+    std::string text = fmt::format("parameter = \"{}\"\nvalues = [", chaos.parameter->name);
+    // Lines of a scene have a longest length.
+    for (double const value : chaos.values) text += fmt::format("\n    {},", toml_number(value));
+    std::string_view const unit = chaos.parameter->unit;
+    text += fmt::format("\n]{}{}\n", unit == "1" ? "" : "  # ", unit == "1" ? "" : unit);
+    return text + fmt::format("start = \"{}\"\n", setting("study.start").choices[chaos.continued ? 1 : 0]);
+}
+
+/// Only what counts in the scene's study.
+std::string study_table(Scene const& scene) {
+    ChaosSettings const& chaos = scene.chaos;
+    std::string text = fmt::format("\n[study]\nkind = \"{}\"\n", name_of(scene.study));
+    for (Setting const& row : settings()) {
+        if (row.table() == "study" && row.is_bound() && (row.studies & set_of(scene.study)) != 0) text += line_of(row, scene);
+    }
+    if (runs_to_end(scene.study)) {
+        text += fmt::format("duration = {}  # s\nsamples = {}\n", toml_number(scene.integrator.end_time),
+                            scene.sample_times.size());
+    } else {
+        text += span_line(chaos.transient, "transient_revolutions", "Ttr");
+        text += span_line(chaos.span, "revolutions", "duration");
+    }
+    if (scene.verify) text += fmt::format("verify = {}\n", *scene.verify);
+    if (!scene.stores_members()) text += fmt::format("store = \"{}\"\n", name_of(scene.store));
+    if (scene.study == StudyKind::sweep) text += sweep_text(chaos);
+    if (scene.study == StudyKind::poincare || scene.study == StudyKind::sweep)
+        text += section_line(chaos.section, scene.parts.mechanism);
+    if (chaos.section.on != SectionSurface::On::phase) text += fmt::format("max_crossings = {}\n", chaos.max_crossings);
+    if (scene.study == StudyKind::lyapunov || scene.study == StudyKind::sweep) text += neighbours_text(chaos);
+    if (scene.study == StudyKind::lyapunov) text += fmt::format("history = {}\n", chaos.history);
+    return text + fmt::format("quantities = [{}]\n", quantities_text(scene)) + design_text(scene);
+}
+
+}  // namespace
+
+std::string resolved_toml(Scene const& scene) {
+    Inputs const complete = complete_inputs(scene.inputs);
+    std::string text = fmt::format("schema = 1\ntitle = {}\n", toml_string(scene.title));
+    MechanismInfo const& mechanism = info(scene.parts.mechanism);
+    std::string kind = fmt::format("kind = \"{}\"\n", mechanism.name);
+    if (mechanism.free_crank) {
+        kind += fmt::format("crank = \"{}\"\n", scene.parts.free_crank ? "free" : "driven");
+    }
+    text += physics_table(scene, complete, "mechanism", kind);
+    text += physics_table(scene, complete, "joint", "");
+    if (scene.parts.misaligned_way) text += physics_table(scene, complete, "way", "");
+    text += physics_table(scene, complete, "contact",
+                          mechanism.spatial
+                              ? fmt::format("law = \"{}\"\n", info(scene.parts.law).name)
+                              : std::string());
+    text += physics_table(scene, complete, "friction", fmt::format("enabled = {}\n", scene.parts.friction));
+    text += physics_table(scene, complete, "initial", "");
+    text += integrator_table(scene, mechanism);
+    text += study_table(scene);
+    return text + members_text(scene);
+}
+
+}  // namespace slideway

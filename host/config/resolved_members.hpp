@@ -1,0 +1,18 @@
+// The parts of a resolved scene that say what varies, how members are spread, and what limits they are to meet.
+#pragma once
+
+#include <string>
+
+#include "host/config/scene.hpp"
+
+namespace slideway {
+
+/// The shortest text that TOML reads back to the same double.
+std::string toml_number(double value);
+
+/// Lines of [study]: design, base, table.
+std::string design_text(Scene const& scene);
+/// [study.vary], [study.correlation] and [study.limits], where the scene has them.
+std::string members_text(Scene const& scene);
+
+}  // namespace slideway

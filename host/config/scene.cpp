@@ -1,0 +1,55 @@
+#include "host/config/scene.hpp"
+
+#include <stdexcept>
+
+#include "kernels/members/complete_inputs.hpp"
+
+namespace slideway {
+namespace {
+
+/// Values of all variations.
+std::vector<double> draw_values(Scene const& scene, std::uint64_t member) {
+    std::vector<double> values(scene.variations.size());
+    if (scene.sampler != nullptr) {
+        scene.sampler->draw(member, values);
+    } else {
+        Sampler(scene.design, scene.variations, scene.seed, scene.members).draw(member, values);
+    }
+    return values;
+}
+
+}  // namespace
+
+void prepare_sampler(Scene& scene) {
+    try {
+        scene.sampler = std::make_shared<Sampler const>(scene.design, scene.variations, scene.seed, scene.members);
+    } catch (SceneError const& error) {
+        throw SceneError(scene.path + ": " + error.what());
+    }
+}
+
+double draw(Scene const& scene, Variation const& variation, std::uint64_t member) {
+    auto const values = draw_values(scene, member);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (scene.variations[i].key == variation.key) return values[i];
+    }
+    throw std::invalid_argument("draw: the scene does not vary this key");
+}
+
+std::uint64_t member_count(Scene const& scene) {
+    return scene.study == StudyKind::sweep ? scene.members * scene.chaos.values.size() : scene.members;
+}
+
+Inputs member_inputs(Scene const& scene, std::uint64_t member) {
+    Inputs inputs = scene.inputs;
+    std::uint64_t start = member;
+    if (scene.study == StudyKind::sweep) {
+        start = member % scene.members;
+        scene.chaos.parameter->set(inputs, scene.chaos.values.at(static_cast<std::size_t>(member / scene.members)));
+    }
+    auto const values = draw_values(scene, start);
+    for (std::size_t i = 0; i < values.size(); ++i) scene.variations[i].key->set(inputs, values[i]);
+    return complete_inputs(inputs);
+}
+
+}  // namespace slideway

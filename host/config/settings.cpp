@@ -1,0 +1,189 @@
+#include "host/config/settings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "host/config/resolved_members.hpp"
+
+namespace slideway {
+namespace {
+
+using Type = Setting::Type;
+using namespace study_sets;
+
+constexpr std::string_view crank_names[] = {"driven", "free"};
+constexpr std::string_view spacing_names[] = {"linear", "log"};
+constexpr std::string_view start_names[] = {"fresh", "continue"};
+constexpr auto method_names = [] {
+    std::array<std::string_view, method_count> names;
+    for (std::size_t i = 0; i < names.size(); ++i) names[i] = method_table[i].name;
+    return names;
+}();
+
+// Below some 50 roundings of a double the error estimate is noise.
+constexpr Range relative_tolerance{1e-14, 0.1}, absolute_tolerance{0, 0.1, false};
+constexpr Range time_of_steps{.low = 0, .low_included = false}, length_of_time{0, longest_time, false};
+// Distances of some 1e-15 are rounding, and at 1 an offset is as large as the joint.
+constexpr Range distance{1e-11, 1e-2}, bound_of_distance{1e-14, 1};
+constexpr StudySet with_exponents = lyapunov | sweep;
+
+template <double IntegratorSettings::*member> double& of_integrator(Scene& scene) { return scene.integrator.*member; }
+
+}  // namespace
+
+Settings settings() {
+    static Setting const rows[] = {
+        {.name = "schema", .type = Type::count, .unit = "1", .meaning = "format of the scene", .preset = "-", .least = 1, .most = 1},
+        {.name = "title", .type = Type::text, .unit = "", .meaning = "one line for pages and summaries", .preset = "-"},
+        {.name = "mechanism.kind", .type = Type::choice, .unit = "", .meaning = "which mechanism", .preset = "slider_crank",
+         .what = "mechanism", .choices = mechanism_names()},
+        {.name = "mechanism.crank", .type = Type::choice, .unit = "", .meaning = "whether a planar crank is driven, or free from its start on",
+         .preset = "driven", .what = "crank", .choices = crank_names},
+        {.name = "contact.law", .type = Type::choice, .unit = "", .meaning = "contact law", .preset = "paper", .what = "contact law",
+         .choices = law_names()},
+        {.name = "friction.enabled", .type = Type::truth, .unit = "", .meaning = "whether there is friction",
+         .preset = "true where there is [friction], else false"},
+        {.name = "integrator.method", .type = Type::choice, .unit = "", .meaning = "integration method", .preset = "auto", .what = "method",
+         .choices = method_names},
+        {.name = "integrator.rtol", .type = Type::number, .unit = "1", .meaning = "tolerance of a step's error, relative to the state", .preset = "",
+         .what = "relative tolerance", .range = relative_tolerance, .methods = method_sets::controlled,
+         .number = of_integrator<&IntegratorSettings::rtol>},
+        {.name = "integrator.atol", .type = Type::number, .unit = "1",
+         .meaning = "the same relative to the joint's scales: clearance, clearance·ω, tilt 2c/L, tilt·ω", .preset = "rtol/10",
+         .what = "absolute tolerance", .range = absolute_tolerance, .methods = method_sets::controlled,
+         .number = of_integrator<&IntegratorSettings::atol>},
+        {.name = "integrator.max_step", .type = Type::number, .unit = "s", .meaning = "largest step of the explicit methods",
+         .preset = "1 ms, or a 2000th of the drive's period, or a 20th of a reversal", .what = "largest step", .range = time_of_steps,
+         .methods = method_sets::controlled, .number = of_integrator<&IntegratorSettings::max_step>},
+        {.name = "integrator.stiff_max_step", .type = Type::number, .unit = "s", .meaning = "largest step of the stiff method",
+         .preset = "10 max_step", .what = "largest step", .range = time_of_steps, .methods = method_sets::stiff, .of_faces = true,
+         .number = of_integrator<&IntegratorSettings::stiff_max_step>},
+        {.name = "integrator.stiff_tolerance", .type = Type::number, .unit = "1",
+         .meaning = "least tolerance of the ringing that the stiff method damps", .preset = "", .what = "least tolerance of ringing",
+         .range = relative_tolerance, .methods = method_sets::stiff, .of_faces = true,
+         .number = of_integrator<&IntegratorSettings::stiff_tolerance>},
+        {.name = "integrator.step", .type = Type::number, .unit = "s", .meaning = "the fixed step of rk4", .preset = "-", .what = "fixed step",
+         .range = time_of_steps, .methods = method_sets::fixed, .number = of_integrator<&IntegratorSettings::fixed_step>},
+        {.name = "integrator.locate_modes", .type = Type::truth, .unit = "",
+         .meaning = "end steps where the contact mode switches, under a law that switches",
+         .preset = "true for lyapunov, poincare and sweep under a law that switches, else false", .methods = method_sets::explicit_pairs,
+         .of_faces = true, .truth = [](Scene& scene) -> bool& { return scene.integrator.locate_modes; }},
+        {.name = "integrator.max_steps", .type = Type::count, .unit = "1", .meaning = "most steps of a member, tried ones included",
+         .preset = "1e7, and as many for each second", .what = "number of steps", .least = 1, .most = most_steps,
+         .count = [](Scene& scene) -> std::uint64_t& { return scene.integrator.max_steps; }},
+        {.name = "study.kind", .type = Type::choice, .unit = "", .meaning = "which study", .preset = "ensemble", .what = "study",
+         .choices = study_kind_names},
+        {.name = "study.members", .type = Type::count, .unit = "1", .meaning = "members; sweep: starts per column", .preset = "",
+         .what = "number of members", .least = 1, .most = most_members, .count = [](Scene& scene) -> std::uint64_t& { return scene.members; }},
+        {.name = "study.seed", .type = Type::count, .unit = "1", .meaning = "seed of what [study.vary] draws", .preset = "", .what = "seed",
+         .count = [](Scene& scene) -> std::uint64_t& { return scene.seed; }},
+        {.name = "study.verify", .type = Type::count, .unit = "1",
+         .meaning = "members that run again with a hundredth of the tolerance and by another method, to check what the study says; 0 for none",
+         .preset = "as many as a tenth of the study's work allows, at most 16", .what = "number of members that run again", .most = 1'000'000},
+        {.name = "study.revolutions", .type = Type::number, .unit = "1",
+         .meaning = "revolutions of the crank that are recorded, or ways of a carriage there and back",
+         .preset = "1; lyapunov 10, poincare 150, sweep 50", .what = "number of revolutions", .range = length_of_time,
+         .rivals = {"study.duration"}},
+        {.name = "study.duration", .type = Type::number, .unit = "s", .meaning = "time that is recorded, in place of study.revolutions", .preset = "-", .studies = all & ~sweep,
+         .what = "duration", .range = length_of_time, .rivals = {"study.revolutions"}},
+        {.name = "study.samples_per_revolution", .type = Type::count, .unit = "1", .meaning = "samples of the time series in a revolution, 0 for none",
+         .preset = "0", .studies = to_end, .what = "number of samples per revolution", .most = 1'000'000, .rivals = {"study.samples"}},
+        {.name = "study.samples", .type = Type::count, .unit = "1", .meaning = "samples in all, first and last included, in place of study.samples_per_revolution", .preset = "-",
+         .studies = to_end, .what = "number of samples", .most = 1'000'000, .rivals = {"study.samples_per_revolution"}},
+        {.name = "study.quantities", .type = Type::list, .unit = "", .meaning = "names of quantities and, with samples, series", .preset = "[]"},
+        {.name = "study.transient_revolutions", .type = Type::number, .unit = "1", .meaning = "revolutions that are left out before the recorded ones", .preset = "20; lyapunov 2",
+         .studies = chaos, .what = "number of revolutions", .range = {0, longest_time}, .rivals = {"study.Ttr"}},
+        {.name = "study.Ttr", .type = Type::number, .unit = "s", .meaning = "time that is left out, in place of study.transient_revolutions", .preset = "-", .studies = chaos, .what = "transient",
+         .range = {0, longest_time}, .rivals = {"study.transient_revolutions"}},
+        {.name = "study.phase", .type = Type::number, .unit = "rad", .meaning = "crank angle of the sections, or phase of a carriage",
+         .preset = "0", .studies = poincare | sweep, .rivals = {"study.section"}},
+        {.name = "study.section", .type = Type::table, .unit = "",
+         .meaning = "{ on = \"vy\", value = \"0 mm/s\", direction = \"rising\" }: a state, or in space a gap like gap_y[P1]; rising, falling, both",
+         .preset = "-", .studies = poincare, .rivals = {"study.phase"}},
+        {.name = "study.max_crossings", .type = Type::count, .unit = "1", .meaning = "most crossings of study.section that are recorded of a member",
+         .preset = "1000", .studies = poincare, .what = "number of crossings", .least = 1, .most = 1'000'000},
+        {.name = "study.exponents", .type = Type::count, .unit = "1", .meaning = "how many Lyapunov exponents, sweep: 0 for none", .preset = "1",
+         .studies = with_exponents, .what = "number of exponents", .most = most_shadows},
+        {.name = "study.d0", .type = Type::number, .unit = "1", .meaning = "distance of neighbours, in the scales of atol", .preset = "1e-6",
+         .studies = with_exponents, .what = "distance of neighbours", .range = distance},
+        {.name = "study.d0_lower", .type = Type::number, .unit = "1", .meaning = "below it a single neighbour is rescaled", .preset = "0.3 d0",
+         .studies = with_exponents, .what = "least distance", .range = bound_of_distance},
+        {.name = "study.d0_upper", .type = Type::number, .unit = "1", .meaning = "above it a single neighbour is rescaled", .preset = "3 d0",
+         .studies = with_exponents, .what = "largest distance", .range = bound_of_distance},
+        {.name = "study.rescalings_per_revolution", .type = Type::count, .unit = "1", .meaning = "how often neighbours are rescaled in a revolution",
+         .preset = "2000", .studies = with_exponents, .what = "number of rescalings per revolution", .least = 1, .most = 1'000'000,
+         .rivals = {"study.dt"}},
+        {.name = "study.dt", .type = Type::number, .unit = "s", .meaning = "time between rescalings, in place of study.rescalings_per_revolution", .preset = "-", .studies = lyapunov,
+         .what = "time between rescalings", .range = length_of_time, .rivals = {"study.rescalings_per_revolution"}},
+        {.name = "study.history", .type = Type::count, .unit = "1", .meaning = "points of the convergence history, 0 for none", .preset = "100",
+         .studies = lyapunov, .what = "number of points", .most = 10'000'000},
+        {.name = "study.parameter", .type = Type::text, .unit = "", .meaning = "the key that changes from column to column", .preset = "-",
+         .studies = sweep},
+        {.name = "study.values", .type = Type::list, .unit = "", .meaning = "values of the parameter, a column each", .preset = "-", .studies = sweep,
+         .rivals = {"study.from", "study.to", "study.points", "study.spacing"}},
+        {.name = "study.from", .type = Type::number, .unit = "", .meaning = "first value of the parameter, in place of study.values", .preset = "-", .studies = sweep,
+         .rivals = {"study.values"}},
+        {.name = "study.to", .type = Type::number, .unit = "", .meaning = "last value of the parameter", .preset = "-", .studies = sweep,
+         .rivals = {"study.values"}},
+        {.name = "study.points", .type = Type::count, .unit = "1", .meaning = "how many values there are from the first to the last", .preset = "-", .studies = sweep,
+         .what = "number of columns", .least = 2, .most = 10'000, .rivals = {"study.values"}},
+        {.name = "study.spacing", .type = Type::choice, .unit = "", .meaning = "how these values are spaced", .preset = "linear", .studies = sweep, .what = "spacing",
+         .choices = spacing_names},
+        {.name = "study.start", .type = Type::choice, .unit = "",
+         .meaning = "where a column starts: fresh, or from the last states of the one before", .preset = "fresh", .studies = sweep, .what = "start",
+         .choices = start_names},
+        {.name = "study.design", .type = Type::choice, .unit = "", .meaning = "how the members are spread over what varies",
+         .preset = "mc", .what = "design", .choices = design_names},
+        {.name = "study.base", .type = Type::count, .unit = "1", .meaning = "rows of saltelli, a power of two; members = base (keys that vary + 2)",
+         .preset = "-", .studies = to_end, .what = "number of rows", .least = 2, .most = most_members, .rivals = {"study.members"}},
+        {.name = "study.levels", .type = Type::count, .unit = "1",
+         .meaning = "grid: levels of each key that has no levels = k of its own in [study.vary]", .preset = "-", .studies = all & ~sweep,
+         .what = "number of levels", .least = 1, .most = most_members, .rivals = {"study.members"}},
+        {.name = "study.table", .type = Type::text, .unit = "",
+         .meaning = "file of the table, beside the scene: dotted keys, [unit] behind them, above a row for each member", .preset = "-",
+         .studies = all & ~sweep},
+        {.name = "study.store", .type = Type::choice, .unit = "",
+         .meaning = "what the result keeps: members, or counts, moments and sketched quantiles in place of them", .preset = "members",
+         .studies = to_end, .what = "store", .choices = store_names},
+        {.name = "study.vary", .type = Type::table, .unit = "", .meaning = "how numeric keys scatter over the members", .preset = "-"},
+        {.name = "study.correlation", .type = Type::table, .unit = "",
+         .meaning = "{ keys = [\"joint.clearance_y\", ...], matrix = [[1, 0.5], [0.5, 1]] } of keys that vary", .preset = "-"},
+        {.name = "study.limits", .type = Type::table, .unit = "",
+         .meaning = "{ min = ..., max = ... } of a quantity, \"mode_time[free]\" where it has several values", .preset = "-", .studies = to_end},
+    };
+    return rows;
+}
+
+Setting const& setting(std::string_view name, Settings rows) {
+    auto const found = std::ranges::find(rows, name, &Setting::name);
+    if (found == rows.end()) throw std::logic_error(fmt::format("there is no setting {}", name));
+    return *found;
+}
+
+bool has_effect(Setting const& setting, Method method, MechanismInfo const& mechanism) {
+    return (setting.methods & set_of(method)) != 0 && (mechanism.spatial || !setting.of_faces);
+}
+
+std::string value_text(Setting const& setting, Scene const& scene) {
+    // The accessors are of a scene that is read, too.
+    auto& of = const_cast<Scene&>(scene);
+    if (setting.number != nullptr) return toml_number(setting.number(of));
+    if (setting.count != nullptr) return fmt::format("{}", setting.count(of));
+    return setting.truth(of) ? "true" : "false";
+}
+
+std::string preset_text(Setting const& setting) {
+    if (setting.preset.empty()) return value_text(setting, Scene{});
+    return setting.preset == "-" ? std::string() : std::string(setting.preset);
+}
+
+double fixed_steps(IntegratorSettings const& settings) {
+    // The kernels stretch the last step by up to a millionth rather than leave a crumb.
+    return std::max(1.0, std::ceil(settings.end_time / settings.fixed_step - 1e-6));
+}
+
+}  // namespace slideway

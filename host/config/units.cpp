@@ -1,0 +1,242 @@
+#include "host/config/units.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include <fmt/format.h>
+#include <udunits2.h>
+
+#include "host/base/error.hpp"
+
+namespace slideway {
+namespace {
+
+using Unit = std::unique_ptr<ut_unit, decltype(&ut_free)>;
+
+/// Powers of the basic units, the radian among them.
+struct Signature {
+    std::map<std::string, int> powers;
+    bool proportional = true;  // no origin, no logarithm
+    friend bool operator==(Signature const&, Signature const&) = default;
+};
+
+ut_status add_basic(ut_unit const* unit, void* signature) {
+    char const* const name = ut_get_name(unit, UT_ASCII);
+    static_cast<Signature*>(signature)->powers[name != nullptr ? name : "?"] += 1;
+    return UT_SUCCESS;
+}
+ut_status add_product(ut_unit const*, int count, ut_unit const* const* basics, int const* powers, void* signature) {
+    for (int i = 0; i < count; ++i) {
+        if (powers[i] == 0) continue;
+        char const* const name = ut_get_name(basics[i], UT_ASCII);
+        static_cast<Signature*>(signature)->powers[name != nullptr ? name : "?"] += powers[i];
+    }
+    return UT_SUCCESS;
+}
+ut_status add_scaled(ut_unit const*, double scale, ut_unit const* underlying, double origin, void* signature);
+ut_status add_timestamp(ut_unit const*, ut_unit const*, double, void* signature) {
+    static_cast<Signature*>(signature)->proportional = false;
+    return UT_SUCCESS;
+}
+ut_status add_logarithm(ut_unit const*, double, ut_unit const*, void* signature) {
+    static_cast<Signature*>(signature)->proportional = false;
+    return UT_SUCCESS;
+}
+constexpr ut_visitor signature_visitor{add_basic, add_product, add_scaled, add_timestamp, add_logarithm};
+
+ut_status add_scaled(ut_unit const*, double, ut_unit const* underlying, double origin, void* signature) {
+    if (origin != 0) static_cast<Signature*>(signature)->proportional = false;
+    return ut_accept_visitor(underlying, &signature_visitor, signature);
+}
+
+Signature signature_of(Unit const& unit) {
+    Signature signature;
+    if (ut_accept_visitor(unit.get(), &signature_visitor, &signature) != UT_SUCCESS) signature.proportional = false;
+    return signature;
+}
+
+/// The one unit system of the process.  UDUNITS-2 keeps a status and a parser in static variables: hold `mutex`.
+class UnitSystem {
+public:
+    std::mutex mutex;
+
+    UnitSystem() {
+        ut_set_error_message_handler(ut_ignore);  // by default it writes to stderr
+        system_ = ut_read_xml(nullptr);
+        if (system_ == nullptr) {
+            throw FileError("the units database of UDUNITS-2 cannot be read; install the package libudunits2-data");
+        }
+        add_symbol("deg", "degree");
+        add_symbol("rev", "revolution");
+    }
+    ~UnitSystem() { ut_free_system(system_); }
+    UnitSystem(UnitSystem const&) = delete;
+    UnitSystem& operator=(UnitSystem const&) = delete;
+
+    Unit parse(std::string const& text) const { return {ut_parse(system_, text.c_str(), UT_UTF8), ut_free}; }
+
+private:
+    void add_symbol(char const* symbol, char const* name) {
+        Unit const unit = parse(name);
+        if (unit) ut_map_symbol_to_unit(symbol, UT_ASCII, unit.get());
+    }
+    ut_system* system_ = nullptr;
+};
+
+UnitSystem& unit_system() {
+    static UnitSystem system;
+    return system;
+}
+
+struct Factor {
+    double value = 1;
+    std::optional<Problem> problem;
+};
+
+std::string example_of(std::string_view unit) {
+    static std::map<std::string_view, std::string_view> const examples = {
+        {"m", "mm"}, {"rad", "deg"}, {"rad/s", "rpm or deg/s"}, {"m/s", "mm/s"}, {"Pa", "GPa"},
+        {"kg", "g"}, {"s", "ms"},
+    };
+    auto const found = examples.find(unit);
+    return found == examples.end() ? fmt::format("use a unit like {}", unit)
+                                   : fmt::format("use a unit like {} or {}", unit, found->second);
+}
+
+Factor factor_of(std::string const& given, std::string_view unit) {
+    std::string const advice = unit == "1" ? "use a plain number" : example_of(unit);
+    std::string const wanted = unit == "1" ? "a plain number" : std::string(unit);
+    UnitSystem& system = unit_system();
+    std::scoped_lock const lock(system.mutex);
+    Unit const from = system.parse(given);
+    if (!from) return {1, Problem{fmt::format("UDUNITS-2 knows no unit \"{}\"", given), advice}};
+    Unit const to = system.parse(std::string(unit));
+    Signature const signature = signature_of(from);
+    if (!signature.proportional || signature != signature_of(to)) {
+        return {1, Problem{fmt::format("the unit \"{}\" does not convert to {}", given, wanted), advice}};
+    }
+    std::unique_ptr<cv_converter, decltype(&cv_free)> const converter(ut_get_converter(from.get(), to.get()), cv_free);
+    double const value = converter ? cv_convert_double(converter.get(), 1.0) : NAN;
+    if (!(value > 0) || !std::isfinite(value)) {
+        return {1, Problem{fmt::format("the unit \"{}\" does not convert to {}", given, wanted), advice}};
+    }
+    return {value, std::nullopt};
+}
+
+/// number · 10^shift, rounded once.
+double shifted(std::string_view number, int shift) {
+    auto const e = number.find_first_of("eE");
+    std::string_view const mantissa = number.substr(0, e);
+    int exponent = 0;
+    if (e != std::string_view::npos) {
+        std::string_view digits = number.substr(e + 1);
+        if (digits.starts_with('+')) digits.remove_prefix(1);
+        std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
+    }
+    std::string const text = fmt::format("{}e{}", mantissa, exponent + shift);
+    double value = NAN;  // stays where the result is beyond double
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return value;
+}
+
+double scaled(std::string_view number, double value, double factor) {
+    int const shift = static_cast<int>(std::lround(std::log10(factor)));
+    bool const power_of_ten = std::abs(factor * std::pow(10.0, -shift) - 1) < 1e-14;
+    return power_of_ten ? shifted(number, shift) : value * factor;
+}
+
+constexpr std::size_t longest_unit = 100;
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// UDUNITS-2 takes numbers in a unit for factors: "1 500 rpm" would be 500 rpm.  Digits are welcome in exponents alone, behind the letter
+/// or the sign of power that they belong to: "m2", "s-1", "m^2", "m**-2".
+bool has_factor(std::string_view unit) {
+    if (unit.starts_with("1/")) unit.remove_prefix(2);
+    for (std::size_t i = 0; i < unit.size(); ++i) {
+        if (!is_digit(unit[i])) continue;
+        std::size_t before = i;
+        if (before > 0 && (unit[before - 1] == '-' || unit[before - 1] == '+')) --before;
+        bool const power = before > 0 && (unit[before - 1] == '^' || (before > 1 && unit.substr(before - 2, 2) == "**"));
+        auto const letter = before > 0 ? static_cast<unsigned char>(unit[before - 1]) : 0;
+        if (!power && !std::isalpha(letter) && letter < 0x80) return true;
+        while (i < unit.size() && is_digit(unit[i])) ++i;
+    }
+    return false;
+}
+
+bool is_unit_text(std::string_view text) {
+    constexpr std::string_view never_first = "+-.,";
+    return text.size() <= longest_unit && text.find('\0') == std::string_view::npos && !has_factor(text) &&
+           (text.empty() || never_first.find(text.front()) == text.npos);
+}
+
+/// What was meant by digits behind a number: "1 500 rpm", "1,5 mm".
+std::string meant(std::string_view number, std::string_view rest) {
+    auto const digits = std::find_if_not(rest.begin() + (rest.front() == ',' ? 1 : 0), rest.end(), is_digit);
+    auto const count = digits - rest.begin();
+    if (rest.front() == ',' && count > 1) return fmt::format("write a point: \"{}.{}\"", number, rest.substr(1));
+    if (count == 3 && digits != rest.end()) return fmt::format("write \"{}{}\"", number, rest);
+    return "write one number and its unit";
+}
+
+}  // namespace
+
+double UnitFactor::operator()(std::string_view number, double value) const {
+    if (factor_ == 1 || !std::isfinite(value)) return value;
+    double const si = scaled(number, value, factor_);
+    return std::isnan(si) ? value * factor_ : si;  // beyond the range of double: infinite or zero
+}
+
+std::variant<UnitFactor, Problem> unit_factor(std::string_view given, std::string_view unit) {
+    if (!is_unit_text(given)) {
+        return Problem{"it is no unit", unit == "1" ? std::string("use a plain number") : example_of(unit)};
+    }
+    Factor const factor = factor_of(std::string(given), unit);
+    if (factor.problem) return *factor.problem;
+    return UnitFactor(factor.value);
+}
+
+std::variant<double, Problem> to_si(std::string_view text, std::string_view unit) {
+    constexpr std::string_view blanks = " \t";
+    std::string const example =
+        unit == "1" ? "use a plain number like 0.5" : fmt::format("use a text like \"1 {}\"", unit);
+    text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+    text = text.substr(0, text.find_last_not_of(blanks) + 1);
+    if (text.starts_with('+')) text.remove_prefix(1);
+
+    double value = 0;
+    auto const [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (problem == std::errc::result_out_of_range) {
+        return Problem{"beyond the range of double", "use a number between 1e-307 and 1e308"};
+    }
+    if (problem != std::errc()) return Problem{"it does not begin with a number", example};
+    if (!std::isfinite(value)) return Problem{"not a finite number", "use a finite number"};
+
+    std::string_view const number = text.substr(0, static_cast<std::size_t>(end - text.data()));
+    std::string_view rest = text.substr(number.size());
+    rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
+    if (rest.empty()) {
+        if (unit == "1") return value;
+        return Problem{"a text needs a unit",
+                       fmt::format("write the unit, \"{} {}\", or the number without quotes", number, unit)};
+    }
+    if (!is_unit_text(rest)) {
+        return Problem{fmt::format("what follows the number {} is no unit", number), meant(number, rest)};
+    }
+    Factor const factor = factor_of(std::string(rest), unit);
+    if (factor.problem) return *factor.problem;
+    double const si = scaled(number, value, factor.value);
+    if (!std::isfinite(si)) {
+        return Problem{fmt::format("beyond the range of double in {}", unit), "use another number"};
+    }
+    return si;
+}
+
+}  // namespace slideway

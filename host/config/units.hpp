@@ -1,0 +1,33 @@
+// Numbers with units, by UDUNITS-2.
+#pragma once
+
+#include <string_view>
+#include <variant>
+
+#include "host/config/rules.hpp"
+
+namespace slideway {
+
+/// The value of `text` ("0.1 mm", "30 rpm") in the SI unit `unit`, or why it has none.
+///
+/// Stricter than UDUNITS-2, which takes the radian for the number 1: angles count as a dimension here, so that
+/// "5 Hz" is no angular speed and "3 rad" no plain number.  Units with an origin or a logarithm are refused.  `deg` and
+/// `rev` are added to the units of UDUNITS-2.  A text without a unit is good for unit "1" alone.  A factor
+/// that is a power of ten moves the decimal point, so that "0.1 mm" and 1e-4 have the same bits.  Thread-safe.
+/// @throws FileError when UDUNITS-2's database is not installed.
+std::variant<double, Problem> to_si(std::string_view text, std::string_view unit);
+
+/// From one unit to an SI unit, found once for many numbers; the bits are those of `to_si`.
+class UnitFactor {
+public:
+    explicit UnitFactor(double factor) : factor_(factor) {}
+    /// @param number its decimal digits without a leading +, @param value the same as a double; in SI units
+    double operator()(std::string_view number, double value) const;
+
+private:
+    double factor_;
+};
+/// The factor from `given` ("mm") to the SI unit `unit`, or why there is none.  @throws FileError as `to_si`
+std::variant<UnitFactor, Problem> unit_factor(std::string_view given, std::string_view unit);
+
+}  // namespace slideway

@@ -1,0 +1,66 @@
+// Runs an ensemble: blocks of members over threads, results to a sink.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "host/backend/backend.hpp"
+#include "host/run/block_buffers.hpp"
+#include "host/run/block_result.hpp"
+#include "host/run/block_sizes.hpp"
+#include "host/run/member_queue.hpp"
+#include "host/run/member_set.hpp"
+#include "host/run/progress.hpp"
+#include "host/run/stop.hpp"
+
+namespace slideway {
+
+/// Hands a block's results on.  @return whether to go on: false once the run has failed.
+using BlockEmit = std::function<bool(BlockBuffers const&)>;
+
+/// What a worker does with the places of the run that it took; what it emits need not be one block.
+using BlockProgram =
+    std::function<void(BlockBuffers& buffers, std::span<std::uint64_t const> places, BlockEmit const& emit)>;
+
+struct EnsemblePlan {
+    MemberSet members;  // what is to run; with a program: its places
+    BlockSizes blocks;
+    int threads = 1;
+    int workers = 1;  // threads of all ranks
+    BlockRequest request;
+    MemberSource source;
+    BlockProgram program;  // empty: integrates the members it took
+};
+
+/// What a run came to.  Sums of whole numbers, so the same for every order of the blocks.
+struct EnsembleTotals {
+    std::array<std::uint64_t, status_count> ended{};  // by status
+    std::uint64_t steps_accepted = 0, steps_rejected = 0, stiff_steps = 0;
+    std::uint64_t rhs_evaluations = 0, jacobian_evaluations = 0;
+    std::uint64_t lane_steps_executed = 0, lane_steps_useful = 0;
+    double seconds = 0;                     // wall time
+    StopReason stopped = StopReason::none;  // whatever was still to do
+
+    std::uint64_t done() const;                               // members that ended, well or not
+    std::uint64_t failed() const;                             // otherwise than finished
+    double lane_utilisation() const;                          // useful / executed lane steps; 1 if there were none
+    EnsembleTotals& operator+=(EnsembleTotals const& other);  // of another rank; seconds too
+};
+
+/// Threads that this process may use at once (OMP_NUM_THREADS, else the processors it may run on).
+int default_threads();
+
+/// Integrates the members of the plan, or those that were handed out before `stop` said to end.  A member's result depends neither on
+/// the threads nor on the blocks.  `progress` may be nullptr.
+/// @throws what the sink, the kernel or the member source throws first; the queue is then abandoned, and the blocks in work end soon:
+/// what of them is finished goes to the sink, unless that has failed.
+EnsembleTotals run_ensemble(EnsemblePlan const& plan, MemberQueue& queue, BlockKernel const& kernel,
+                            BlockSink const& sink, StopRequest const& stop, Progress* progress = nullptr);
+
+/// The same by this process alone.
+EnsembleTotals run_ensemble(EnsemblePlan const& plan, BlockKernel const& kernel, BlockSink const& sink,
+                            StopRequest const& stop, Progress* progress = nullptr);
+
+}  // namespace slideway

@@ -1,0 +1,43 @@
+// The processes that share a run: one, or those that mpirun started, if MPI was there when slideway was configured.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/run/member_queue.hpp"
+
+namespace slideway {
+
+/// Calls are made by one thread; `share`'s queue may be used by any.
+class Ranks {
+public:
+    /// Joins the others where mpirun or srun started this process; alone otherwise, without a call of MPI.
+    static std::unique_ptr<Ranks> join();
+    virtual ~Ranks() = default;
+
+    virtual int rank() const = 0;
+    virtual int count() const = 0;
+    /// Among those of this machine.
+    virtual int local_rank() const = 0;
+    virtual int local_count() const = 0;
+    /// What rank 0 gives, at every rank.
+    virtual std::string broadcast(std::string bytes) = 0;
+    /// One queue for all ranks.  @param on_finished at rank 0: members that other ranks report as finished; from another thread.
+    virtual std::unique_ptr<MemberQueue> share(std::uint64_t places,
+                                               std::function<void(std::uint64_t)> on_finished) = 0;
+    /// What every rank gives, by rank, at rank 0; nothing elsewhere.  Ends the queue of `share`: it waits, without load, for the
+    /// ranks that still work.
+    virtual std::vector<std::string> gather(std::string bytes) = 0;
+    /// The exit code that rank 0 gives, at every rank, waiting without load.
+    virtual int agree(int code) = 0;
+    /// Whether others may be at work, from a `broadcast` that says something, or `share`, to the end of `gather`: a rank that fails
+    /// then cannot `agree` with them, for they wait for other words.
+    virtual bool is_in_round() const = 0;
+    /// Ends the processes of all ranks, with this exit code where the launcher passes it on.  Does not return.
+    [[noreturn]] virtual void abort(int code) = 0;
+};
+
+}  // namespace slideway

@@ -1,0 +1,42 @@
+#include "host/run/stop.hpp"
+
+namespace slideway {
+namespace {
+
+std::atomic<StopRequest*> target = nullptr;
+
+void on_signal(int) {
+    if (StopRequest* const stop = target.load()) stop->request();
+}
+
+}  // namespace
+
+void StopRequest::stop_after(std::chrono::duration<double> limit) {
+    auto const now = Clock::now();
+    // A limit beyond the clock's range is no limit.
+    if (limit < std::chrono::duration<double>(Clock::time_point::max() - now))
+        deadline_ = now + std::chrono::duration_cast<Clock::duration>(limit);
+}
+
+StopReason StopRequest::reason() const noexcept {
+    if (requested_.load(std::memory_order_relaxed)) return StopReason::signal;
+    return Clock::now() >= deadline_ ? StopReason::time_limit : StopReason::none;
+}
+
+SignalScope::SignalScope(StopRequest& stop) {
+    target.store(&stop);
+    struct sigaction action = {};
+    action.sa_handler = on_signal;
+    sigemptyset(&action.sa_mask);
+    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+    sigaction(SIGINT, &action, &old_interrupt_);
+    sigaction(SIGTERM, &action, &old_terminate_);
+}
+
+SignalScope::~SignalScope() {
+    sigaction(SIGINT, &old_interrupt_, nullptr);
+    sigaction(SIGTERM, &old_terminate_, nullptr);
+    target.store(nullptr);
+}
+
+}  // namespace slideway

@@ -1,0 +1,234 @@
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "host/base/error.hpp"
+#include "host/sampling/copula.hpp"
+#include "host/sampling/design.hpp"
+#include "host/sampling/permutation.hpp"
+#include "host/sampling/random.hpp"
+#include "host/sampling/sobol_points.hpp"
+
+namespace slideway {
+
+struct Sampler::Plan {
+    DesignKind kind;
+    std::uint64_t members;
+    std::vector<Variation> variations;
+    std::vector<StreamKey> keys;         // [variations]
+    std::vector<Permutation> orders;     // lhs, [variations]
+    std::vector<SobolAxis> axes;         // sobol [variations], saltelli [2][variations]: A, B
+    std::vector<std::uint64_t> levels;   // grid, [variations]
+    std::vector<std::uint64_t> strides;  // grid, [variations]: members between two levels
+    std::shared_ptr<MemberTable const> table;
+    std::vector<std::size_t> correlated;  // indices of variations
+    std::vector<char> is_correlated;      // [variations]
+    std::vector<double> factor;           // [correlated][correlated], lower triangular
+
+    void check_member(std::uint64_t member) const;
+    double fraction(std::size_t variation, std::uint64_t member) const;
+    double value(std::size_t variation, std::uint64_t member) const;
+    void correlate(std::uint64_t member, std::span<double> values) const;
+};
+
+namespace {
+
+[[noreturn]] void refuse_design(DesignKind kind, std::string const& why, std::string const& advice) {
+    throw SceneError(fmt::format("study.design is \"{}\" ({}); {}", name_of(kind), why, advice));
+}
+
+[[noreturn]] void refuse_members(std::uint64_t members, std::string const& why, std::string const& advice) {
+    throw SceneError(fmt::format("study.members is {} ({}); {}", members, why, advice));
+}
+
+/// Directions for `axes` dimensions of each variation.
+std::vector<SobolAxis::Directions> directions_for(DesignKind kind, std::size_t variations, std::size_t axes) {
+    if (variations * axes > sobol_dimensions()) {
+        refuse_design(kind,
+                      fmt::format("{} variations are more than the {} that there are direction numbers for", variations,
+                                  sobol_dimensions() / axes),
+                      "use \"lhs\" or \"mc\"");
+    }
+    return sobol_directions(variations * axes);
+}
+
+/// Members between two levels of each variation, the last one's next to each other.
+std::vector<std::uint64_t> grid_strides(std::span<Variation const> variations, std::span<std::uint64_t const> levels,
+                                        std::uint64_t members) {
+    if (levels.size() != variations.size()) {
+        refuse_design(DesignKind::grid, fmt::format("{} levels for {} variations", levels.size(), variations.size()),
+                      "give each variation its levels");
+    }
+    std::vector<std::uint64_t> strides(levels.size());
+    std::uint64_t product = 1;
+    for (std::size_t i = levels.size(); i-- > 0;) {
+        Distribution const& distribution = variations[i].distribution;
+        std::string const name(variations[i].key->name);
+        if (levels[i] == 0 || product > std::numeric_limits<std::uint64_t>::max() / levels[i]) {
+            refuse_design(DesignKind::grid, fmt::format("{} has {} levels", name, levels[i]),
+                          "use at least 1, and fewer than 2^64 combinations");
+        }
+        if (distribution.kind == Distribution::Kind::values && levels[i] != distribution.list.size()) {
+            refuse_design(DesignKind::grid,
+                          fmt::format("{} has {} levels and {} values", name, levels[i], distribution.list.size()),
+                          "use as many levels as values");
+        }
+        strides[i] = product;
+        product *= levels[i];
+    }
+    if (members != product) {
+        refuse_members(members, fmt::format("the grid has {} combinations of levels", product), "use that number");
+    }
+    return strides;
+}
+
+void check_table(Design const& design, std::span<Variation const> variations, std::uint64_t members) {
+    if (design.table == nullptr) refuse_design(design.kind, "there is no table", "give study.table");
+    if (members > design.table->rows()) {
+        refuse_members(members, fmt::format("{} has {} rows", design.table->path, design.table->rows()),
+                       "use at most that number");
+    }
+    for (Variation const& variation : variations) {
+        if (variation.column != Variation::no_column && variation.column >= design.table->columns) {
+            refuse_design(design.kind, fmt::format("{} has no column for {}", design.table->path, variation.key->name),
+                          "add the column");
+        }
+    }
+}
+
+void check_correlation(Design const& design, std::span<Variation const> variations) {
+    if (design.kind == DesignKind::saltelli || design.kind == DesignKind::grid) {
+        refuse_design(design.kind, "its members do not follow study.correlation",
+                      "remove the correlation, or use \"mc\", \"lhs\" or \"sobol\"");
+    }
+    std::vector<char> seen(variations.size());
+    for (std::size_t const index : design.correlation.variations) {
+        if (index >= variations.size() || seen[index] != 0) {
+            throw SceneError("study.correlation names a key that does not vary, or names it twice; remove it");
+        }
+        seen[index] = 1;
+        if (design.kind == DesignKind::table && variations[index].column != Variation::no_column) {
+            throw SceneError(
+                fmt::format("study.correlation names {} (a column of the table says its values); remove it",
+                            variations[index].key->name));
+        }
+    }
+}
+
+}  // namespace
+
+Sampler::Sampler(Design const& design, std::span<Variation const> variations, std::uint64_t seed,
+                 std::uint64_t members) {
+    auto const plan = std::make_shared<Plan>();
+    std::size_t const n = variations.size();
+    plan->kind = design.kind;
+    plan->members = members;
+    plan->variations.assign(variations.begin(), variations.end());
+    for (Variation const& variation : variations) plan->keys.push_back({seed, name_hash(variation.key->name)});
+    switch (design.kind) {
+        case DesignKind::mc:
+            break;
+        case DesignKind::lhs:
+            for (StreamKey const& key : plan->keys) plan->orders.emplace_back(members, key);
+            break;
+        case DesignKind::saltelli:
+            if (members != design.base * (n + 2)) {
+                refuse_members(
+                    members,
+                    fmt::format("{} rows of {} variations are {} members", design.base, n, design.base * (n + 2)),
+                    "use that number");
+            }
+            [[fallthrough]];
+        case DesignKind::sobol: {
+            bool const both = design.kind == DesignKind::saltelli;
+            auto const directions = directions_for(design.kind, n, both ? 2 : 1);
+            for (std::size_t axis = 0; axis < directions.size(); ++axis) {
+                Stream const stream = axis < n ? Stream::scramble : Stream::second_scramble;
+                plan->axes.emplace_back(directions[axis], plan->keys[axis % n], stream);
+            }
+            break;
+        }
+        case DesignKind::grid:
+            plan->strides = grid_strides(variations, design.levels, members);
+            plan->levels = design.levels;
+            break;
+        case DesignKind::table:
+            check_table(design, variations, members);
+            plan->table = design.table;
+            break;
+    }
+    plan->is_correlated.resize(n);
+    if (!design.correlation.variations.empty()) {
+        check_correlation(design, variations);
+        plan->correlated = design.correlation.variations;
+        for (std::size_t const index : plan->correlated) plan->is_correlated[index] = 1;
+        plan->factor = cholesky_factor(design.correlation.matrix, plan->correlated.size());
+    }
+    plan_ = plan;
+}
+
+void Sampler::Plan::check_member(std::uint64_t member) const {
+    bool const endless = kind == DesignKind::mc || kind == DesignKind::sobol;
+    if (!endless && member >= members) throw std::out_of_range("Sampler: the design has no such member");
+}
+
+/// u of a variation, in (0, 1).
+double Sampler::Plan::fraction(std::size_t variation, std::uint64_t member) const {
+    switch (kind) {
+        case DesignKind::lhs: {
+            // Rounding must not take the last stratum to 1, where quantiles may be infinite.
+            double const place =
+                static_cast<double>(orders[variation](member)) + keys[variation].uniform(Stream::jitter, member);
+            return std::clamp(place / static_cast<double>(members), 0x1p-53, 1 - 0x1p-53);
+        }
+        case DesignKind::sobol:
+            return axes[variation](member);
+        case DesignKind::saltelli: {
+            std::size_t const n = variations.size();
+            std::uint64_t const part = member % (n + 2);
+            bool const second = part == 1 || part == 2 + variation;
+            return axes[second ? n + variation : variation](member / (n + 2));
+        }
+        case DesignKind::grid: {
+            std::uint64_t const level = member / strides[variation] % levels[variation];
+            return (static_cast<double>(level) + 0.5) / static_cast<double>(levels[variation]);
+        }
+        case DesignKind::mc:
+        case DesignKind::table:
+            break;
+    }
+    return keys[variation].uniform(Stream::value, member);
+}
+
+double Sampler::Plan::value(std::size_t variation, std::uint64_t member) const {
+    Variation const& varied = variations[variation];
+    if (kind == DesignKind::table && varied.column != Variation::no_column) {
+        return table->values[member * table->columns + varied.column];
+    }
+    return varied.distribution.quantile(fraction(variation, member));
+}
+
+/// z = L Φ⁻¹(u), each row in place from the last to the first: row i needs the Φ⁻¹ of rows 0 … i only.
+void Sampler::Plan::correlate(std::uint64_t member, std::span<double> values) const {
+    std::size_t const n = correlated.size();
+    for (std::size_t const index : correlated) values[index] = standard_normal_quantile(fraction(index, member));
+    for (std::size_t row = n; row-- > 0;) {
+        double z = 0;
+        for (std::size_t column = 0; column <= row; ++column)
+            z += factor[row * n + column] * values[correlated[column]];
+        values[correlated[row]] = variations[correlated[row]].distribution.from_standard_normal(z);
+    }
+}
+
+void Sampler::draw(std::uint64_t member, std::span<double> values) const {
+    if (values.size() != plan_->variations.size()) throw std::invalid_argument("Sampler: one value per variation");
+    plan_->check_member(member);
+    plan_->correlate(member, values);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (plan_->is_correlated[i] == 0) values[i] = plan_->value(i, member);
+    }
+}
+
+}  // namespace slideway

@@ -1,0 +1,155 @@
+#include "host/store/block_statistics.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "host/base/byte_stream.hpp"
+#include "host/config/labels.hpp"
+
+namespace slideway {
+namespace {
+
+constexpr std::uint64_t magic = 0x31746174736b6c73;  // "slkstat1": the last letter is the version
+
+/// Place of what a limit is of in a member's row of all quantities.
+std::size_t column_of(Limit const& limit, Selection quantities) {
+    for (int q = 0; q < quantity_count; ++q) {
+        QuantityInfo const& info = quantity_table[q];
+        if (limit.quantity != info.name || !selects(quantities, static_cast<Quantity>(q))) continue;
+        auto const first = static_cast<std::size_t>(quantity_column(static_cast<Quantity>(q)));
+        if (info.dimension == nullptr) return first;
+        auto const labels = labels_of(info.dimension);
+        auto const found = std::find(labels.begin(), labels.end(), limit.label);
+        if (found != labels.end()) return first + static_cast<std::size_t>(found - labels.begin());
+    }
+    throw std::invalid_argument("no quantity of the statistics: " + limit.name());
+}
+
+}  // namespace
+
+std::vector<std::size_t> selected_columns(Selection quantities) {
+    std::vector<std::size_t> columns;
+    for (int q = 0; q < quantity_count; ++q) {
+        if (!selects(quantities, static_cast<Quantity>(q))) continue;
+        for (int i = 0; i < quantity_table[q].columns; ++i)
+            columns.push_back(static_cast<std::size_t>(quantity_column(static_cast<Quantity>(q)) + i));
+    }
+    return columns;
+}
+
+BlockStatistics::BlockStatistics(StatisticsPlan const& plan)
+    : columns_(selected_columns(plan.quantities).size()), met_(plan.limits.size()) {}
+
+void BlockStatistics::add(BlockResult const& block, StatisticsPlan const& plan) {
+    std::vector<std::size_t> const places = selected_columns(plan.quantities);
+    std::vector<std::size_t> limited;
+    for (Limit const& limit : plan.limits) limited.push_back(column_of(limit, plan.quantities));
+    for (std::size_t i = 0; i < block.records.size(); ++i) {
+        MemberRecord const& record = block.records[i];
+        if (record.status == Status::not_run) continue;
+        members_.add({block.members[i], 1});
+        ++ended_[static_cast<std::size_t>(record.status)];
+        for (std::size_t k = 0; k < work_.size(); ++k) work_[k] += record.*work_table[k].of;
+        if (record.status != Status::finished) {
+            failed_.push_back({block.members[i], record.status, record.time});
+            continue;
+        }
+        auto const row = block.quantities.subspan(i * quantity_columns, quantity_columns);
+        for (std::size_t k = 0; k < places.size(); ++k) columns_[k].add(row[places[k]]);
+        bool all = !limited.empty();
+        for (std::size_t k = 0; k < limited.size(); ++k) {
+            double const value = row[limited[k]];
+            bool const within = plan.limits[k].low <= value && value <= plan.limits[k].high;  // not of NaN
+            met_[k] += within;
+            all = all && within;
+        }
+        all_met_ += all;
+    }
+    std::sort(failed_.begin(), failed_.end(), [](auto const& a, auto const& b) { return a.member < b.member; });
+    if (failed_.size() > most_failed) failed_.resize(most_failed);
+}
+
+void BlockStatistics::merge(BlockStatistics const& other) {
+    if (other.columns_.size() != columns_.size() || other.met_.size() != met_.size()) {
+        throw FileError(fmt::format("cannot merge statistics of {} columns and {} limits with those of {} and {}",
+                                    columns_.size(), met_.size(), other.columns_.size(), other.met_.size()));
+    }
+    if (MemberSet const both = members_.common(other.members_); !both.empty()) {
+        throw FileError(fmt::format("cannot merge statistics: both hold the members {}", both.text()));
+    }
+    members_.add(other.members_);
+    for (std::size_t i = 0; i < ended_.size(); ++i) ended_[i] += other.ended_[i];
+    for (std::size_t i = 0; i < work_.size(); ++i) work_[i] += other.work_[i];
+    for (std::size_t i = 0; i < columns_.size(); ++i) columns_[i].merge(other.columns_[i]);
+    for (std::size_t i = 0; i < met_.size(); ++i) met_[i] += other.met_[i];
+    all_met_ += other.all_met_;
+    std::vector<FailedMember> failed;
+    std::merge(failed_.begin(), failed_.end(), other.failed_.begin(), other.failed_.end(), std::back_inserter(failed),
+               [](auto const& a, auto const& b) { return a.member < b.member; });
+    if (failed.size() > most_failed) failed.resize(most_failed);
+    failed_ = std::move(failed);
+}
+
+std::vector<std::byte> BlockStatistics::bytes() const {
+    ByteWriter out;
+    out.put(magic);
+    out.put(std::uint64_t{members_.ranges().size()});
+    for (MemberRange const& range : members_.ranges()) {
+        out.put(range.first);
+        out.put(range.count);
+    }
+    for (std::uint64_t const count : ended_) out.put(count);
+    for (std::uint64_t const count : work_) out.put(count);
+    out.put(std::uint64_t{met_.size()});
+    for (std::uint64_t const count : met_) out.put(count);
+    out.put(all_met_);
+    out.put(std::uint64_t{failed_.size()});
+    for (FailedMember const& member : failed_) {
+        out.put(member.member);
+        out.put(static_cast<std::uint64_t>(member.status));
+        out.put(member.time);
+    }
+    out.put(std::uint64_t{columns_.size()});
+    for (ColumnAccumulator const& column : columns_) out.put(column.bytes());
+    return out.take();
+}
+
+BlockStatistics BlockStatistics::parse(std::span<std::byte const> bytes, std::string const& name) {
+    ByteReader in(bytes, name);
+    constexpr std::size_t word = sizeof(std::uint64_t);
+    BlockStatistics read;
+    if (in.word() != magic) in.fail("they are of another version");
+    for (std::size_t n = in.count(2 * word), i = 0; i < n; ++i) {
+        std::uint64_t const first = in.word(), count = in.word();
+        if (count == 0 || first + count < first) in.fail("a range of members is none");
+        read.members_.add({first, count});
+    }
+    std::uint64_t ended = 0;
+    for (std::uint64_t& count : read.ended_) ended += count = in.word();
+    if (ended != read.members_.count()) in.fail("its statuses do not add up");
+    for (std::uint64_t& count : read.work_) count = in.word();
+    read.met_.resize(in.count(word));
+    for (std::uint64_t& count : read.met_) count = in.word();
+    read.all_met_ = in.word();
+    read.failed_.resize(in.count(3 * word));
+    for (FailedMember& member : read.failed_) {
+        member.member = in.word();
+        std::uint64_t const status = in.word();
+        if (status >= status_count) in.fail("a status is none");
+        member.status = static_cast<Status>(status);
+        member.time = in.real();
+    }
+    for (std::size_t n = in.count(word), i = 0; i < n; ++i) {
+        auto column = ColumnAccumulator::from_bytes(in.block());
+        if (!column) in.fail("a column is none");
+        if (column->count() + column->missing() != read.ended(Status::finished)) in.fail("a column does not add up");
+        read.columns_.push_back(std::move(*column));
+    }
+    in.end();
+    return read;
+}
+
+}  // namespace slideway

@@ -1,0 +1,84 @@
+// What members come to together, where none of them is stored.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/run/block_result.hpp"
+#include "host/run/member_set.hpp"
+#include "host/sampling/design.hpp"
+#include "host/statistics/column_accumulator.hpp"
+#include "host/store/work_table.hpp"
+#include "kernels/block.hpp"
+
+namespace slideway {
+
+/// Which numbers of a member count, and where.
+struct StatisticsPlan {
+    Selection quantities = 0;
+    std::vector<Limit> limits;
+};
+
+/// Columns of the selected quantities, as places in a member's row of all, in the order of the quantity table.
+std::vector<std::size_t> selected_columns(Selection quantities);
+
+/// A member that ran and did not finish.
+struct FailedMember {
+    std::uint64_t member;
+    Status status;
+    double time;  // [s] where it ended
+};
+
+/// Counts, exact sums, sketches and the first failures of a set of members.  All of it is the same to the last bit in
+/// whichever order the members come and however they are divided into parts.
+///
+/// Whom the numbers are of is the policy of a tolerance report: the columns are of members that finished; a member that
+/// failed meets no limit, and neither does NaN.
+class BlockStatistics {
+public:
+    static constexpr std::size_t most_failed = 100;  // members that are kept by number, the lowest
+
+    /// Of no members.
+    explicit BlockStatistics(StatisticsPlan const& plan);
+
+    /// The members of a block that have ended; none of them may be in here already.
+    /// @throws std::invalid_argument if a limit is of a quantity that is not selected.
+    void add(BlockResult const& block, StatisticsPlan const& plan);
+    /// @throws FileError if the other's columns or limits are not as many, or members are in both.
+    void merge(BlockStatistics const& other);
+
+    MemberSet const& members() const { return members_; }
+    std::uint64_t ended(Status status) const { return ended_[static_cast<std::size_t>(status)]; }
+    /// Of `selected_columns`.
+    std::span<ColumnAccumulator const> columns() const { return columns_; }
+    /// Members that meet each limit; all of them.
+    std::span<std::uint64_t const> met() const { return met_; }
+    std::uint64_t all_met() const { return all_met_; }
+    std::span<FailedMember const> failed() const { return failed_; }
+
+    /// Of all members, in the order of work_table.
+    std::span<std::uint64_t const> work() const { return work_; }
+
+    /// A magic word with a version, then little-endian numbers; the same for the same members, however they came
+    /// together.
+    std::vector<std::byte> bytes() const;
+    /// @param name of what they are from, for messages.  @throws FileError if they are not those of statistics.
+    static BlockStatistics parse(std::span<std::byte const> bytes, std::string const& name);
+
+private:
+    BlockStatistics() = default;
+
+    MemberSet members_;
+    std::array<std::uint64_t, status_count> ended_{};
+    std::array<std::uint64_t, work_table.size()> work_{};
+    std::vector<ColumnAccumulator> columns_;
+    std::vector<std::uint64_t> met_;
+    std::uint64_t all_met_ = 0;
+    std::vector<FailedMember> failed_;  // ascending
+};
+
+}  // namespace slideway

@@ -1,0 +1,306 @@
+#include "host/store/netcdf_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+#include <hdf5.h>
+#include <netcdf.h>
+#include <netcdf_mem.h>
+
+#include "host/base/error.hpp"
+
+namespace slideway {
+
+static_assert(NetcdfFile::unlimited == NC_UNLIMITED);
+namespace {
+
+constexpr int closed = -1;
+
+[[noreturn]] void fail(std::string const& path, std::string_view action, int code) {
+    throw FileError(fmt::format("{}: cannot {}: {}", path, action, nc_strerror(code)));
+}
+
+int variable_or_global(int variable) { return variable == NetcdfFile::global ? NC_GLOBAL : variable; }
+
+/// netCDF asks HDF5 for attributes that need not be there, and silences its complaints in the first thread alone.
+void silence_hdf5() {
+    thread_local herr_t const silent = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    static_cast<void>(silent);
+}
+
+/// Where an HDF5 file in memory ends: the memory grows by 64 KiB at a time, and what lies behind the end is empty.  The
+/// superblock says it (HDF5 File Format Specification 3.0, II.A), in another place since version 2.
+std::size_t end_of_file(std::span<std::byte const> image) {
+    constexpr std::size_t version_at = 8, size_of_superblock = 48;
+    if (image.size() < size_of_superblock) return image.size();
+    bool const is_old = std::to_integer<int>(image[version_at]) < 2;
+    if (std::to_integer<int>(image[is_old ? 13 : 9]) != 8) return image.size();  // bytes of an address
+    std::uint64_t end = 0;
+    for (std::size_t i = 8; i-- > 0;) end = end << 8 | std::to_integer<std::uint64_t>(image[(is_old ? 40 : 28) + i]);
+    return static_cast<std::size_t>(std::min<std::uint64_t>(end, image.size()));
+}
+
+nc_type type_of(NetcdfFile::Type type) {
+    switch (type) {
+        case NetcdfFile::Type::int8:
+            return NC_BYTE;
+        case NetcdfFile::Type::int32:
+            return NC_INT;
+        case NetcdfFile::Type::float64:
+            return NC_DOUBLE;
+        case NetcdfFile::Type::text:
+            break;
+    }
+    return NC_CHAR;
+}
+
+}  // namespace
+
+std::size_t NetcdfFile::size_of(Type type) {
+    switch (type) {
+        case Type::int32:
+            return 4;
+        case Type::float64:
+            return 8;
+        default:
+            return 1;
+    }
+}
+
+std::size_t NetcdfFile::Variable::size() const {
+    return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+}
+
+void NetcdfFile::require(int code, std::string_view action) const {
+    if (code != NC_NOERR) fail(path_, action, code);
+}
+
+NetcdfFile NetcdfFile::create(std::string const& path) {
+    silence_hdf5();
+    int id = closed;
+    if (int const code = nc_create(path.c_str(), NC_NOCLOBBER | NC_NETCDF4, &id); code != NC_NOERR) {
+        fail(path, "create", code);
+    }
+    return {path, id, Kind::written};
+}
+
+NetcdfFile NetcdfFile::open(std::string const& path) {
+    silence_hdf5();
+    int id = closed;
+    int const code = nc_open(path.c_str(), NC_NOWRITE, &id);
+    if (code == NC_ENOTNC) throw FileError(path + ": is no netCDF file; give a result of slideway run");
+    if (code != NC_NOERR) fail(path, "open", code);
+    return {path, id};
+}
+
+NetcdfFile NetcdfFile::create_in_memory(std::string const& name) {
+    silence_hdf5();
+    int id = closed;
+    constexpr std::size_t first_size = 1 << 16;  // netCDF takes no less
+    if (int const code = nc_create_mem(name.c_str(), NC_NETCDF4, first_size, &id); code != NC_NOERR) {
+        fail(name, "create", code);
+    }
+    return {name, id};
+}
+
+std::vector<std::byte> NetcdfFile::close_to_bytes() {
+    NC_memio memory{};
+    require(nc_close_memio(std::exchange(id_, closed), &memory), "close");
+    auto const* const begin = static_cast<std::byte const*>(memory.memory);
+    std::vector<std::byte> bytes(begin, begin + end_of_file({begin, memory.size}));
+    std::free(memory.memory);
+    return bytes;
+}
+
+NetcdfFile NetcdfFile::open_in_memory(std::string const& name, std::span<std::byte const> bytes) {
+    silence_hdf5();
+    int id = closed;
+    // It only reads.
+    auto* const memory = const_cast<std::byte*>(bytes.data());
+    if (int const code = nc_open_mem(name.c_str(), NC_NOWRITE, bytes.size(), memory, &id); code != NC_NOERR) {
+        fail(name, "open", code);
+    }
+    return {name, id};
+}
+
+NetcdfFile::NetcdfFile(NetcdfFile&& other) noexcept
+    : path_(std::move(other.path_)), id_(std::exchange(other.id_, closed)), kind_(other.kind_) {}
+
+NetcdfFile::~NetcdfFile() {
+    if (id_ == closed || kind_ == Kind::group) return;
+    bool ignored = false;
+    close_with_reason(ignored);
+}
+
+/// netCDF 4.9 crashes over a file whose last write fails as HDF5 closes it.  With a handle of our own HDF5 closes it for us, and
+/// says so.  Where there is no handle to be had, netCDF's word is all there is.
+int NetcdfFile::close_with_reason(bool& hdf5_failed) noexcept {
+    hid_t const own = kind_ == Kind::written ? H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT) : H5I_INVALID_HID;
+    int const code = nc_close(std::exchange(id_, closed));
+    hdf5_failed = own >= 0 && H5Fclose(own) < 0;
+    return code;
+}
+
+void NetcdfFile::close() {
+    bool hdf5_failed = false;
+    int const code = close_with_reason(hdf5_failed);
+    int const reason = errno;
+    require(code, "close");
+    if (hdf5_failed) throw FileError(fmt::format("{}: cannot write its end: {}", path_, std::strerror(reason)));
+}
+
+int NetcdfFile::add_dimension(std::string const& name, std::size_t length) {
+    int dimension = 0;
+    require(nc_def_dim(id_, name.c_str(), length, &dimension), "define dimension " + name);
+    return dimension;
+}
+
+int NetcdfFile::add_variable(std::string const& name, Type type, std::span<int const> dimensions, bool fill) {
+    int variable = 0;
+    require(
+        nc_def_var(id_, name.c_str(), type_of(type), static_cast<int>(dimensions.size()), dimensions.data(), &variable),
+        "define variable " + name);
+    double const nan = std::numeric_limits<double>::quiet_NaN();
+    require(fill ? nc_def_var_fill(id_, variable, NC_FILL, &nan) : nc_def_var_fill(id_, variable, NC_NOFILL, nullptr),
+            "define variable " + name);
+    return variable;
+}
+
+void NetcdfFile::put_text(int variable, std::string const& name, std::string_view value) {
+    // netCDF marks texts as ASCII; only its strings are UTF-8 to other readers.
+    bool const ascii =
+        std::all_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+    std::string const text(value);
+    char const* string = text.c_str();
+    int const code = ascii
+                         ? nc_put_att_text(id_, variable_or_global(variable), name.c_str(), value.size(), value.data())
+                         : nc_put_att_string(id_, variable_or_global(variable), name.c_str(), 1, &string);
+    require(code, "write attribute " + name);
+}
+
+void NetcdfFile::put_number(int variable, std::string const& name, double value) {
+    require(nc_put_att_double(id_, variable_or_global(variable), name.c_str(), NC_DOUBLE, 1, &value),
+            "write attribute " + name);
+}
+
+void NetcdfFile::put_number(int variable, std::string const& name, int value) {
+    require(nc_put_att_int(id_, variable_or_global(variable), name.c_str(), NC_INT, 1, &value),
+            "write attribute " + name);
+}
+
+void NetcdfFile::put_bytes(int variable, std::string const& name, std::span<signed char const> values) {
+    require(nc_put_att_schar(id_, variable_or_global(variable), name.c_str(), NC_BYTE, values.size(), values.data()),
+            "write attribute " + name);
+}
+
+void NetcdfFile::flush() { require(nc_sync(id_), "write (disk full?)"); }
+
+void NetcdfFile::end_definitions() { require(nc_enddef(id_), "write the header"); }
+
+void NetcdfFile::write(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count,
+                       void const* values) {
+    require(nc_put_vara(id_, variable, start.data(), count.data(), values), "write (disk full?)");
+}
+
+void NetcdfFile::read(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count,
+                      void* values) const {
+    require(nc_get_vara(id_, variable, start.data(), count.data(), values), "read");
+}
+
+std::vector<NetcdfFile::Dimension> NetcdfFile::dimensions() const {
+    int count = 0;
+    require(nc_inq_ndims(id_, &count), "read the header");
+    std::vector<Dimension> dimensions;
+    // Numbers of dimensions go through the whole file: those of a group need not start at 0.
+    std::vector<int> ids(static_cast<std::size_t>(count));
+    require(nc_inq_dimids(id_, &count, ids.data(), 0), "read the header");
+    for (int const id : ids) {
+        char name[NC_MAX_NAME + 1];
+        std::size_t length = 0;
+        require(nc_inq_dim(id_, id, name, &length), "read the header");
+        dimensions.push_back({name, length});
+    }
+    return dimensions;
+}
+
+std::vector<NetcdfFile::Variable> NetcdfFile::variables() const {
+    int count = 0;
+    require(nc_inq_nvars(id_, &count), "read the header");
+    std::vector<Variable> variables;
+    for (int i = 0; i < count; ++i) {
+        char name[NC_MAX_NAME + 1];
+        nc_type type = NC_NAT;
+        int rank = 0;
+        int dimensions[NC_MAX_VAR_DIMS];
+        require(nc_inq_var(id_, i, name, &type, &rank, dimensions, nullptr), "read the header");
+        Variable variable{i, name, Type::text, {}};
+        switch (type) {
+            case NC_BYTE:
+                variable.type = Type::int8;
+                break;
+            case NC_INT:
+                variable.type = Type::int32;
+                break;
+            case NC_DOUBLE:
+                variable.type = Type::float64;
+                break;
+            case NC_CHAR:
+                break;
+            default:
+                continue;  // not a type that slideway writes
+        }
+        for (int d = 0; d < rank; ++d) {
+            std::size_t length = 0;
+            require(nc_inq_dimlen(id_, dimensions[d], &length), "read the header");
+            variable.shape.push_back(length);
+        }
+        variables.push_back(std::move(variable));
+    }
+    return variables;
+}
+
+std::string NetcdfFile::first_dimension(Variable const& variable) const {
+    if (variable.shape.empty()) return {};
+    int dimensions[NC_MAX_VAR_DIMS];
+    char name[NC_MAX_NAME + 1];
+    require(nc_inq_vardimid(id_, variable.id, dimensions), "read the header");
+    require(nc_inq_dimname(id_, dimensions[0], name), "read the header");
+    return name;
+}
+
+std::string NetcdfFile::text(int variable, std::string const& name) const {
+    std::size_t length = 0;
+    nc_type type = NC_NAT;
+    int const where = variable_or_global(variable);
+    if (nc_inq_att(id_, where, name.c_str(), &type, &length) != NC_NOERR) return {};
+    if (type == NC_STRING && length == 1) {
+        char* string = nullptr;
+        require(nc_get_att_string(id_, where, name.c_str(), &string), "read attribute " + name);
+        std::string const value = string != nullptr ? string : "";
+        nc_free_string(1, &string);
+        return value;
+    }
+    if (type != NC_CHAR) return {};
+    std::string value(length, '\0');
+    require(nc_get_att_text(id_, where, name.c_str(), value.data()), "read attribute " + name);
+    return value;
+}
+
+bool NetcdfFile::number(int variable, std::string const& name, double& value) const {
+    std::size_t length = 0;
+    nc_type type = NC_NAT;
+    int const where = variable_or_global(variable);
+    if (nc_inq_att(id_, where, name.c_str(), &type, &length) != NC_NOERR || type == NC_CHAR || length != 1)
+        return false;
+    return nc_get_att_double(id_, where, name.c_str(), &value) == NC_NOERR;
+}
+
+}  // namespace slideway

@@ -1,0 +1,101 @@
+#include "host/store/output_target.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "host/base/error.hpp"
+#include "host/store/result_reader.hpp"
+
+namespace slideway {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a chain of links ends at, there or not.
+std::string followed(std::string const& path) {
+    constexpr int most = 40;  // as Linux
+    fs::path place = path;
+    std::error_code ignored;
+    for (int links = 0; fs::is_symlink(place, ignored); ++links) {
+        if (links == most) throw FileError(path + ": is a link that leads to itself; give another name with -o");
+        fs::path const next = fs::read_symlink(place, ignored);
+        place = next.is_absolute() ? next : place.parent_path() / next;
+    }
+    return place.string();
+}
+
+/// Before a library tries: its reasons for a folder ("HDF error") tell nobody what to do.
+void require_writable_place(std::string const& name, std::string const& path) {
+    std::error_code ignored;
+    if (name.empty()) throw FileError("-o: the name of the file is empty; give one");
+    if (fs::is_directory(path, ignored)) throw FileError(name + ": is a folder; give a file name with -o");
+    std::string const folder = folder_of(path);
+    if (!fs::is_directory(folder, ignored)) {
+        throw FileError(fmt::format("{}: cannot create: there is no folder '{}'", name, folder));
+    }
+    // The renaming at the end would put a file in the place of /dev/null.
+    if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
+        throw FileError(name + ": is a device or a pipe; give the name of a file with -o");
+    }
+}
+
+bool is_empty(std::string const& path) {
+    std::error_code ignored;
+    return fs::file_size(path, ignored) == 0;
+}
+
+}  // namespace
+
+OutputTarget::OutputTarget(std::string const& path, OutputRules const& rules) : name_(path), path_(followed(path)) {
+    require_writable_place(name_, path_);
+    for (std::string const& input : rules.inputs) {
+        std::error_code ignored;
+        // Hard links are the same file, too.
+        if (fs::equivalent(path_, input, ignored)) {
+            throw FileError(fmt::format("{}: is what this command reads; give another name with -o", name_));
+        }
+    }
+    replaces_ = is_there(path_);
+    if (!replaces_) return;
+    if (!rules.force) throw FileError(fmt::format("{}: is there already; {}", name_, rules.instead));
+    if (is_empty(path_) || rules.is_ours(path_)) return;
+    throw FileError(fmt::format("{}: is there already, and slideway did not write it: --force does not replace it; give another name with -o, "
+                                "or remove it",
+                                name_));
+}
+
+void OutputTarget::write(std::string_view text) const {
+    // Nobody else's file has this name, and no other process writes it.
+    std::string const part = fmt::format("{}.{}.part", path_, ::getpid());
+    write_new(part, std::as_bytes(std::span(text)));
+    try {
+        rename_durably(part, path_, existing());
+    } catch (...) {
+        std::remove(part.c_str());
+        throw;
+    }
+}
+
+bool is_result_file(std::string const& path) {
+    try {
+        ResultReader const opened(path);
+        return true;
+    } catch (FileError const&) {
+        return false;
+    }
+}
+
+bool begins_with(std::string const& path, std::function<bool(std::string_view line)> const& condition) {
+    std::ifstream in(path, std::ios::binary);
+    std::string line;
+    return std::getline(in, line) && condition(line);
+}
+
+}  // namespace slideway

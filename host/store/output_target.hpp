@@ -1,0 +1,51 @@
+// A file that a command writes, and what it must not destroy.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "host/base/durable_file.hpp"
+
+namespace slideway {
+
+/// What may be lost by writing a file: nothing that is there, unless the user says so; then only what slideway wrote; inputs never.
+struct OutputRules {
+    std::span<std::string const> inputs;  // files that the command reads; those that do not exist do not count
+    bool force = false;                   // --force
+    /// Whether a file is one of slideway's, of the kind that the command writes.
+    std::function<bool(std::string const& path)> is_ours;
+    char const* instead = "add --force to replace it, or give another name with -o";  // where one is there, and not forced
+};
+
+/// Where a command writes, found out before anything is computed.
+class OutputTarget {
+public:
+    /// @throws FileError: `path` is empty, a folder, a device or a pipe, lies in no folder or is a link to itself; it is an input; there is
+    /// a file, and it is not forced, or is none of slideway's
+    OutputTarget(std::string const& path, OutputRules const& rules);
+
+    /// As the user gave it.
+    std::string const& name() const { return name_; }
+    /// Where it is: links followed.
+    std::string const& path() const { return path_; }
+    /// Whether there was one, which may be replaced.
+    bool replaces() const { return replaces_; }
+    /// What becomes of one that has come there since.
+    Existing existing() const { return replaces_ ? Existing::replaced : Existing::kept; }
+
+    /// Writes a text, by a file beside it, fsync, rename, fsync of the folder.  @throws FileError; nothing has changed then
+    void write(std::string_view text) const;
+
+private:
+    std::string name_, path_;
+    bool replaces_ = false;
+};
+
+/// For `OutputRules::is_ours`: a finished result file; an empty file holds nothing that could be lost.
+bool is_result_file(std::string const& path);
+/// A text whose first line satisfies a condition.
+bool begins_with(std::string const& path, std::function<bool(std::string_view line)> const& condition);
+
+}  // namespace slideway

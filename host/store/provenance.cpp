@@ -1,0 +1,82 @@
+#include "host/store/provenance.hpp"
+
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include <fmt/chrono.h>
+
+#include "host/backend/commit.hpp"
+#include "host/base/error.hpp"
+#include "host/base/fnv1a.hpp"
+
+namespace slideway {
+
+namespace {
+
+/// The first value of a key of /proc/cpuinfo; "unknown" without it.
+std::string cpu_info(std::string const& key) {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        auto const colon = line.find(": ");
+        if (colon != std::string::npos && line.substr(0, line.find_last_not_of(" \t", colon - 1) + 1) == key) {
+            return line.substr(colon + 2);
+        }
+    }
+    return "unknown";
+}
+
+/// Piece by piece: a program is larger than many a run.
+std::uint64_t checksum_of(std::string const& program) {
+    std::ifstream file(program, std::ios::binary);
+    Fnv1a hash;
+    std::vector<char> piece(1 << 16);
+    while (file) {
+        file.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+        hash.add(std::string_view(piece.data(), static_cast<std::size_t>(file.gcount())));
+    }
+    if (!file.eof()) throw FileError(fmt::format("{}: cannot be read", program));
+    return hash.value();
+}
+
+}  // namespace
+
+std::string build_of(std::string const& commit, std::string const& program) {
+    if (!commit.ends_with("-dirty") && commit != "unknown") return commit;
+    return fmt::format("{}-{:016x}", commit, checksum_of(program));
+}
+
+BuildInfo const& build_info() {
+    static BuildInfo const info{SLIDEWAY_VERSION, build_of(SLIDEWAY_COMMIT, "/proc/self/exe"), SLIDEWAY_COMPILER};
+    return info;
+}
+
+std::string BuildInfo::text() const { return fmt::format("slideway {}, commit {}, {}", version, commit, compiler); }
+
+std::string cpu_name() {
+    return fmt::format("{}, family {} model {}", cpu_info("model name"), cpu_info("cpu family"), cpu_info("model"));
+}
+
+std::string machine_name() { return fmt::format("{} ({} threads)", cpu_name(), std::thread::hardware_concurrency()); }
+
+std::string creation_time() {
+    std::time_t seconds = std::time(nullptr);
+    if (char const* const text = std::getenv("SOURCE_DATE_EPOCH")) {
+        std::time_t given = 0;
+        char const* const end = text + std::strlen(text);
+        auto const [stop, error] = std::from_chars(text, end, given);
+        // Beyond the year 9999 ISO 8601 needs an agreement that nobody made.
+        if (error == std::errc{} && stop == end && given >= 0 && given < 253402300800) seconds = given;
+    }
+    std::tm utc{};
+    gmtime_r(&seconds, &utc);
+    return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", utc);
+}
+
+}  // namespace slideway

@@ -1,0 +1,245 @@
+#include "host/store/result_definition.hpp"
+
+#include <array>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "host/base/error.hpp"
+#include "host/store/label_axes.hpp"
+#include "host/store/work_table.hpp"
+
+namespace slideway {
+namespace {
+
+using Type = NetcdfFile::Type;
+
+}  // namespace
+
+void put_provenance(NetcdfFile& file, Provenance const& provenance) {
+    BuildInfo const& build = build_info();
+    auto const attribute = [&](char const* name, std::string const& value) {
+        file.put_text(NetcdfFile::global, name, value);
+    };
+    attribute("Conventions", "CF-1.8");
+    attribute("title", provenance.title);
+    attribute("source", "slideway " + build.version);
+    attribute("version", build.version);
+    attribute("commit", build.commit);
+    attribute("compiler", build.compiler);
+    attribute("flags", provenance.flags);
+    attribute("backend", provenance.backend);
+    attribute("isa", provenance.isa);
+    attribute("machine", machine_name());
+    file.put_number(NetcdfFile::global, "threads", provenance.threads);
+    attribute("seed", fmt::format("{}", provenance.seed));  // CF-1.8 has no 64-bit integers
+    attribute("created", creation_time());
+    attribute("scene", provenance.scene);
+    // For readers that know no mechanism or law by its name.
+    attribute("mechanism_meaning", provenance.mechanism);
+    if (provenance.law.empty()) return;
+    attribute("contact_law_meaning", provenance.law);
+    file.put_number(NetcdfFile::global, "contact_law_switches", provenance.law_switches ? 1 : 0);
+}
+
+void put_status_flags(NetcdfFile& file, int variable) {
+    std::vector<signed char> values{static_cast<signed char>(Status::not_run)};
+    std::string meanings = "not_run";
+    for (int status = 0; status < status_count; ++status) {
+        values.push_back(static_cast<signed char>(status));
+        meanings += fmt::format(" {}", status_names[status]);
+    }
+    file.put_bytes(variable, "flag_values", values);
+    file.put_text(variable, "flag_meanings", meanings);
+}
+
+namespace {
+
+/// Defines what a layout has, in an order that never changes: files of the same numbers have the same bytes.
+class ResultDefiner {
+public:
+    ResultDefiner(NetcdfFile& file, ResultLayout const& layout) : file_(file), layout_(layout), labels_(file) {}
+    ResultVariables define();
+
+private:
+    void define_coordinates();
+    void define_members();
+    void define_quantities();
+    void define_series();
+    void define_study();
+    void define_sections();
+    void describe(int variable, std::string const& unit, std::string const& long_name);
+    int member_variable(std::string const& name, std::string const& unit, std::string const& long_name);
+    void write_coordinates();
+
+    NetcdfFile& file_;
+    ResultLayout const& layout_;
+    ResultVariables ids_;
+    int member_dimension_ = 0, sample_dimension_ = 0;
+    LabelAxes labels_;
+    std::vector<int> axes_;  // of the study
+};
+
+void ResultDefiner::describe(int variable, std::string const& unit, std::string const& long_name) {
+    file_.put_text(variable, "units", unit);
+    file_.put_text(variable, "long_name", long_name);
+}
+
+int ResultDefiner::member_variable(std::string const& name, std::string const& unit, std::string const& long_name) {
+    int const variable = file_.add_variable(name, Type::float64, std::array{member_dimension_}, true);
+    describe(variable, unit, long_name);
+    return variable;
+}
+
+void ResultDefiner::define_coordinates() {
+    member_dimension_ = file_.add_dimension("member", static_cast<std::size_t>(layout_.members.count()));
+    ids_.member = file_.add_variable("member", Type::int32, std::array{member_dimension_});
+    describe(ids_.member, "1", "number of the member in the scene's ensemble");
+    if (layout_.sample_times.empty()) return;
+    sample_dimension_ = file_.add_dimension("sample", layout_.sample_times.size());
+    ids_.time = file_.add_variable("time", Type::float64, std::array{sample_dimension_});
+    describe(ids_.time, "s", "time since the start of the run");
+}
+
+void ResultDefiner::define_members() {
+    ids_.status = file_.add_variable("status", Type::int8, std::array{member_dimension_});
+    file_.put_text(ids_.status, "long_name", "how the member ended");
+    put_status_flags(file_, ids_.status);
+
+    // Counts can pass 2^31 and CF-1.8 has no wider integers; a double holds them exactly up to 2^53.
+    for (WorkCounter const& counter : work_table) {
+        ids_.work.push_back(member_variable(counter.name, "1", counter.meaning));
+    }
+    ids_.end_time = member_variable("end_time", "s", "time at which the member ended");
+    for (std::size_t i = 0; i < layout_.states(); ++i) {
+        SeriesInfo const& state = state_info(info(layout_.mechanism), i);
+        ids_.final_states.push_back(member_variable(fmt::format("final_{}", state.name), state.unit,
+                                                    fmt::format("{} at end_time", state.long_name)));
+    }
+    for (ParameterColumn const& parameter : layout_.parameters) {
+        ids_.parameters.push_back(member_variable(parameter.name, parameter.unit, parameter.long_name));
+    }
+}
+
+void ResultDefiner::define_quantities() {
+    for (int q = 0; q < quantity_count; ++q) {
+        if (!selects(layout_.quantities, static_cast<Quantity>(q))) continue;
+        QuantityInfo const& info = quantity_table[q];
+        int const first_column = quantity_column(static_cast<Quantity>(q));
+        if (info.dimension == nullptr) {
+            ids_.quantities.push_back({member_variable(info.name, info.unit, info.long_name), first_column, 1});
+            continue;
+        }
+        LabelAxes::Axis const& axis = labels_.axis(info.dimension);
+        int const variable =
+            file_.add_variable(info.name, Type::float64, std::array{member_dimension_, axis.dimension}, true);
+        describe(variable, info.unit, info.long_name);
+        file_.put_text(variable, "coordinates", axis.label_name);
+        ids_.quantities.push_back({variable, first_column, info.columns});
+    }
+}
+
+void ResultDefiner::define_series() {
+    if (layout_.sample_times.empty()) return;
+    for (int s = 0; s < series_count; ++s) {
+        if (!selects(layout_.series, static_cast<Series>(s))) continue;
+        int const variable = file_.add_variable(series_table[s].name, Type::float64,
+                                                std::array{member_dimension_, sample_dimension_}, true);
+        describe(variable, series_table[s].unit, series_table[s].long_name);
+        file_.put_text(variable, "coordinates", "time");
+        ids_.series.push_back(variable);
+    }
+}
+
+void ResultDefiner::define_study() {
+    std::map<std::string, int> dimensions;
+    for (StudyAxis const& axis : layout_.study.axes) {
+        int const dimension = file_.add_dimension(axis.name, axis.values.size());
+        dimensions[axis.name] = dimension;
+        axes_.push_back(file_.add_variable(axis.name, Type::float64, std::array{dimension}));
+        describe(axes_.back(), axis.unit, axis.long_name);
+    }
+    for (StudyColumn const& column : layout_.study.columns) {
+        std::vector<int> shape{member_dimension_};
+        for (std::string const& axis : column.axes) shape.push_back(dimensions.at(axis));
+        ids_.study.push_back(file_.add_variable(column.name, Type::float64, shape, true));
+        describe(ids_.study.back(), column.unit, column.long_name);
+    }
+}
+
+/// CF-1.8, 9.3.3: contiguous ragged arrays.
+void ResultDefiner::define_sections() {
+    if (layout_.sections == 0) return;
+    // A dimension of no length is one without limit to netCDF.
+    int const dimension = file_.add_dimension("section", static_cast<std::size_t>(layout_.section_rows));
+    ids_.section_count = file_.add_variable("section_count", Type::int32, std::array{member_dimension_});
+    describe(ids_.section_count, "1", "sections of the member");
+    file_.put_text(ids_.section_count, "sample_dimension", "section");
+    if (layout_.crossings) {
+        ids_.section_crossings = file_.add_variable("section_crossings", Type::int32, std::array{member_dimension_});
+        describe(ids_.section_crossings, "1", "crossings of the section, also those beyond study.max_crossings");
+    }
+    auto const add = [&](std::string const& name, std::string const& unit, std::string const& long_name) {
+        ids_.section_columns.push_back(file_.add_variable(name, Type::float64, std::array{dimension}));
+        describe(ids_.section_columns.back(), unit, long_name);
+    };
+    add("section_time", "s", "time of the section since the start of the run");
+    for (std::size_t i = 0; i < layout_.states(); ++i) {
+        SeriesInfo const& state = state_info(info(layout_.mechanism), i);
+        add(std::string("section_") + state.name, state.unit, std::string(state.long_name) + " at the section");
+    }
+}
+
+void ResultDefiner::write_coordinates() {
+    std::size_t const origin[2] = {0, 0};
+    constexpr std::uint64_t at_once = 1 << 18;
+    for (std::uint64_t first = 0; first < layout_.members.count(); first += at_once) {
+        std::vector<std::uint64_t> const members = layout_.members.members(first, at_once);
+        std::vector<int> const numbers(members.begin(), members.end()), none(members.size(), 0);
+        std::vector<signed char> const not_run(members.size(), static_cast<signed char>(Status::not_run));
+        std::size_t const start[1] = {static_cast<std::size_t>(first)}, count[1] = {members.size()};
+        file_.write(ids_.member, start, count, numbers.data());
+        file_.write(ids_.status, start, count, not_run.data());
+        for (int const variable : {ids_.section_count, ids_.section_crossings}) {
+            if (variable >= 0) file_.write(variable, start, count, none.data());
+        }
+    }
+    if (!layout_.sample_times.empty()) {
+        std::size_t const all_samples[1] = {layout_.sample_times.size()};
+        file_.write(ids_.time, {origin, 1}, all_samples, layout_.sample_times.data());
+    }
+    labels_.write();
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        auto const& values = layout_.study.axes[i].values;
+        file_.write(axes_[i], std::array{std::size_t{0}}, std::array{values.size()}, values.data());
+    }
+}
+
+ResultVariables ResultDefiner::define() {
+    define_coordinates();
+    define_members();
+    define_quantities();
+    define_series();
+    define_study();
+    define_sections();
+    file_.end_definitions();
+    write_coordinates();
+    return ids_;
+}
+
+}  // namespace
+
+ResultVariables define_result(NetcdfFile& file, ResultLayout const& layout, Provenance const& provenance) {
+    constexpr std::uint64_t largest = std::numeric_limits<int>::max();
+    if (!layout.members.empty() && layout.members.ranges().back().end() > largest) {
+        throw FileError(fmt::format("{}: cannot number members beyond {}", file.path(), largest));
+    }
+    put_provenance(file, provenance);
+    if (!layout.sweep.empty()) file.put_text(NetcdfFile::global, "sweep_parameter", layout.sweep);
+    return ResultDefiner(file, layout).define();
+}
+
+}  // namespace slideway

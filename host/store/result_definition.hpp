@@ -1,0 +1,37 @@
+// The variables of a result file (NetCDF-4, CF-1.8): that of a whole run and that of a shard are defined alike.
+#pragma once
+
+#include <vector>
+
+#include "host/store/netcdf_file.hpp"
+#include "host/store/provenance.hpp"
+#include "host/store/result_layout.hpp"
+
+namespace slideway {
+
+/// Their numbers in the file.
+struct ResultVariables {
+    struct Quantity {
+        int id;
+        int first_column, columns;
+    };
+    int member = -1, status = -1, time = -1;
+    int end_time = -1;
+    std::vector<int> work;  // of the work_table
+    std::vector<int> final_states, parameters, series;
+    std::vector<Quantity> quantities;
+    std::vector<int> study;  // the columns of the layout's study
+    int section_count = -1, section_crossings = -1;
+    std::vector<int> section_columns;
+};
+
+/// Defines and describes the variables, and writes what is known before any member is: coordinates, members' numbers, and for each member
+/// that it was not run.  @throws FileError, also if the members do not fit the file's 32-bit numbers.
+ResultVariables define_result(NetcdfFile& file, ResultLayout const& layout, Provenance const& provenance);
+
+/// Attributes that say where a result comes from.
+void put_provenance(NetcdfFile& file, Provenance const& provenance);
+/// `flag_values` and `flag_meanings` of a variable that holds statuses.
+void put_status_flags(NetcdfFile& file, int variable);
+
+}  // namespace slideway

@@ -1,0 +1,49 @@
+// Which variables a result file has, in which order.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/config/labels.hpp"
+#include "host/run/member_set.hpp"
+#include "host/store/provenance.hpp"
+#include "host/store/study_columns.hpp"
+#include "kernels/block.hpp"
+
+namespace slideway {
+
+/// A varied input: its dotted key with underscores for dots.
+struct ParameterColumn {
+    std::string name;
+    std::string unit;
+    std::string long_name;
+    double Inputs::*member;
+};
+
+/// A dotted key as the name of a variable: underscores for dots.
+std::string variable_name(std::string_view key);
+
+struct ResultLayout {
+    MemberSet members;
+    Mechanism mechanism = Mechanism::slider_crank;  // whose states are stored
+    std::vector<double> sample_times;               // empty: no time series
+    Selection quantities = 0;
+    Selection series = 0;
+    std::vector<ParameterColumn> parameters;
+    std::size_t sections = 0;        // of a member, at most; 0: none are stored
+    std::uint64_t section_rows = 0;  // of all members
+    bool crossings = false;          // of a surface, not of a crank angle
+    std::string sweep;               // name of the parameter column that a sweep goes by; "": no sweep
+    StudyTable study;                // what the study concludes of each member
+
+    std::size_t states() const { return static_cast<std::size_t>(info(mechanism).states); }
+};
+
+/// Bytes of data in the file.
+std::uint64_t payload_bytes(ResultLayout const& layout);
+/// Bytes beside the data, at most: descriptions of the variables, and the scene as text.  A shard has them too.
+std::uint64_t header_bytes(ResultLayout const& layout, Provenance const& provenance);
+
+}  // namespace slideway

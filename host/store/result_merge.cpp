@@ -1,0 +1,225 @@
+#include "host/store/result_merge.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "host/base/durable_file.hpp"
+#include "host/base/error.hpp"
+#include "host/base/file_lock.hpp"
+#include "host/store/payload_hash.hpp"
+#include "host/store/result_definition.hpp"
+
+namespace slideway {
+namespace {
+
+using Variables = std::map<std::string, NetcdfFile::Variable>;
+
+/// Rows [row, row + count) of a shard belong at `place` and after it.
+struct Run {
+    std::size_t row, count, place;
+};
+
+Variables variables_of(NetcdfFile const& file) {
+    Variables variables;
+    for (NetcdfFile::Variable& variable : file.variables()) variables.emplace(variable.name, std::move(variable));
+    return variables;
+}
+
+std::vector<int> integers(NetcdfFile const& file, NetcdfFile::Variable const& variable) {
+    std::vector<int> values(variable.size());
+    if (!values.empty()) file.read(variable.id, std::vector<std::size_t>(1, 0), variable.shape, values.data());
+    return values;
+}
+
+/// Where the members of a shard belong among those of the run.
+std::vector<Run> member_runs(MemberSet const& shard, MemberSet const& all) {
+    std::vector<Run> runs;
+    std::size_t row = 0;
+    for (MemberRange const& range : shard.ranges()) {
+        auto const count = static_cast<std::size_t>(range.count);
+        // A range of a shard lies within one of the run: it was drawn from it.
+        runs.push_back({row, count, static_cast<std::size_t>(all.place(range.first))});
+        row += count;
+    }
+    return runs;
+}
+
+/// Where the section rows of each member begin, by place; one more entry is the end.
+class SectionPlaces {
+public:
+    SectionPlaces(ShardFolder const& folder, std::vector<Shard> const& shards, MemberSet const& all)
+        : begin_(static_cast<std::size_t>(all.count()) + 1, 0) {
+        for (Shard const& shard : shards) {
+            std::vector<std::byte> const bytes = folder.read(shard);
+            NetcdfFile const file = NetcdfFile::open_in_memory(shard.name, bytes);
+            std::vector<int> const counts = integers(file, variables_of(file).at("section_count"));
+            for (Run const& run : member_runs(shard.members, all)) {
+                for (std::size_t i = 0; i < run.count; ++i)
+                    begin_[run.place + i + 1] = static_cast<std::uint64_t>(counts[run.row + i]);
+            }
+        }
+        for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+    }
+    std::uint64_t rows() const { return begin_.back(); }
+    /// The rows of a run of members.
+    std::size_t begin(Run const& run) const { return static_cast<std::size_t>(begin_[run.place]); }
+    std::size_t count(Run const& run) const {
+        return static_cast<std::size_t>(begin_[run.place + run.count] - begin_[run.place]);
+    }
+
+private:
+    std::vector<std::uint64_t> begin_;
+};
+
+/// Copies the rows of one shard into the file of all.
+class ShardCopy {
+public:
+    ShardCopy(NetcdfFile& to, Variables const& variables) : to_(to), variables_(variables) {}
+
+    void copy(NetcdfFile const& from, std::vector<Run> const& members, SectionPlaces const* sections) {
+        std::vector<Run> rows;
+        std::size_t row = 0;
+        for (Run const& run : members) {
+            if (sections == nullptr) break;
+            rows.push_back({row, sections->count(run), sections->begin(run)});
+            row += rows.back().count;
+        }
+        for (NetcdfFile::Variable const& variable : from.variables()) {
+            std::string const dimension = from.first_dimension(variable);
+            if (dimension == "member") copy_rows(from, variable, members);
+            if (dimension == "section") copy_rows(from, variable, rows);
+        }
+    }
+
+private:
+    void copy_rows(NetcdfFile const& from, NetcdfFile::Variable const& variable, std::vector<Run> const& runs) {
+        NetcdfFile::Variable const& target = variables_.at(variable.name);
+        if (variable.size() == 0) return;
+        std::size_t const row_bytes = variable.size() / variable.shape[0] * NetcdfFile::size_of(variable.type);
+        buffer_.resize(variable.shape[0] * row_bytes);
+        std::vector<std::size_t> start(variable.shape.size(), 0), count = variable.shape;
+        from.read(variable.id, start, count, buffer_.data());
+        for (Run const& run : runs) {
+            if (run.count == 0) continue;
+            start[0] = run.place;
+            count[0] = run.count;
+            to_.write(target.id, start, count, buffer_.data() + run.row * row_bytes);
+        }
+    }
+
+    NetcdfFile& to_;
+    Variables const& variables_;
+    std::vector<std::byte> buffer_;
+};
+
+/// The first value makes HDF5 allocate a variable's storage and fill it with NaN: a full disk so shows before the shards are read.
+void reserve_space(NetcdfFile& file) {
+    double const nan = std::numeric_limits<double>::quiet_NaN();
+    for (NetcdfFile::Variable const& variable : file.variables()) {
+        if (variable.type != NetcdfFile::Type::float64 || variable.size() == 0) continue;
+        std::string const dimension = file.first_dimension(variable);
+        if (dimension != "member" && dimension != "section") continue;
+        std::size_t const rank = variable.shape.size();
+        file.write(variable.id, std::vector<std::size_t>(rank, 0), std::vector<std::size_t>(rank, 1), &nan);
+    }
+}
+
+void write_merged(NetcdfFile& file, ShardFolder const& folder, std::vector<Shard> const& shards, ResultMerge& merge) {
+    std::optional<SectionPlaces> sections;
+    if (merge.layout.sections > 0) {
+        sections.emplace(folder, shards, merge.layout.members);
+        merge.layout.section_rows = sections->rows();
+    }
+    define_result(file, merge.layout, merge.provenance);
+    reserve_space(file);
+    Variables const variables = variables_of(file);
+    ShardCopy shard_copy(file, variables);
+    for (Shard const& shard : shards) {
+        if (merge.pause) merge.pause();
+        std::vector<std::byte> const bytes = folder.read(shard);
+        NetcdfFile const from = NetcdfFile::open_in_memory(shard.name, bytes);
+        shard_copy.copy(from, member_runs(shard.members, merge.layout.members), sections ? &*sections : nullptr);
+    }
+    if (merge.pause) merge.pause();
+    if (merge.conclude) merge.conclude(file);
+    if (merge.pause) merge.pause();
+}
+
+/// HDF5 may be told that a write failed, try again as it closes, and say nothing: what counts is what can be read.
+void require_sound(std::string const& part) {
+    NetcdfFile const file = NetcdfFile::open(part);
+    if (payload_hash(file) != file.text(NetcdfFile::global, "payload_hash")) {
+        throw FileError(part + ": does not hold what was written to it");
+    }
+}
+
+std::string lock_file_of(std::string const& path) { return path + ".part.lock"; }
+
+/// The right to write the file: HDF5's own locks may be switched off, and it takes them only once the file is emptied.
+FileLock lock_of(std::string const& path) {
+    return {lock_file_of(path), FileLock::Kind::alone, FileLock::Wait::no,
+            path + ": another process is writing it; wait for its end or give another name with -o"};
+}
+
+/// @param left whether a merge was killed here: whose part it is then is known
+void remove_part(std::string const& part, bool left) {
+    if (!is_there(part)) return;
+    if (!left) throw FileError(part + ": is in the way, and no merge left it; remove it, or give another name with -o");
+    if (std::remove(part.c_str()) != 0) throw FileError(fmt::format("{}: cannot remove: {}", part, std::strerror(errno)));
+}
+
+void write_part(std::string const& part, std::string const& completeness,
+                std::function<void(NetcdfFile& file)> const& write) {
+    try {
+        NetcdfFile file = NetcdfFile::create(part);
+        write(file);
+        file.put_text(NetcdfFile::global, "completeness", completeness);
+        file.flush();
+        file.put_text(NetcdfFile::global, "payload_hash", payload_hash(file));
+        file.close();
+        require_sound(part);
+    } catch (...) {
+        std::remove(part.c_str());
+        throw;
+    }
+}
+
+}  // namespace
+
+void write_result(std::string const& path, std::string const& completeness,
+                  std::function<void(NetcdfFile& file)> const& write, Existing existing) {
+    std::string const part = path + ".part", lock_file = lock_file_of(path);
+    bool const left = is_there(lock_file);
+    FileLock lock = lock_of(path);
+    bool ours = false;
+    try {
+        remove_part(part, left);
+        ours = true;
+        write_part(part, completeness, write);
+        rename_durably(part, path, existing);
+    } catch (...) {
+        // Beside a part that stays, the lock says whose it is.
+        std::error_code ignored;
+        if (!ours || !std::filesystem::exists(part, ignored)) std::remove(lock_file.c_str());
+        throw;
+    }
+    lock.remove();
+}
+
+void remove_merge_lock(std::string const& path) {
+    if (is_there(lock_file_of(path))) lock_of(path).remove();
+}
+
+void merge_shards(ShardFolder const& folder, std::vector<Shard> const& shards, ResultMerge merge,
+                  std::string const& path) {
+    write_result(path, merge.completeness, [&](NetcdfFile& file) { write_merged(file, folder, shards, merge); }, merge.existing);
+}
+
+}  // namespace slideway

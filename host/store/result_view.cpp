@@ -1,0 +1,98 @@
+#include "host/store/result_view.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "host/base/error.hpp"
+
+namespace slideway {
+namespace {
+
+template <class T> std::vector<double> read_as(NetcdfFile const& file, NetcdfFile::Variable const& variable) {
+    std::vector<T> values(variable.size());
+    std::vector<std::size_t> const start(variable.shape.size(), 0);
+    if (!values.empty()) file.read(variable.id, start, variable.shape, values.data());
+    return {values.begin(), values.end()};
+}
+
+/// As text, also a number.
+std::string text_of(NetcdfFile const& file, std::string const& attribute) {
+    double number = 0;
+    if (file.number(NetcdfFile::global, attribute, number)) return fmt::format("{}", number);
+    return file.text(NetcdfFile::global, attribute);
+}
+
+}  // namespace
+
+ResultView::ResultView(NetcdfFile const& file) : file_(&file), variables_(file.variables()) {
+    std::string const name = stores_members() ? "status" : "status_count";
+    auto const is_status = [&](NetcdfFile::Variable const& variable) {
+        return variable.name == name && variable.shape.size() == 1;
+    };
+    if (!std::any_of(variables_.begin(), variables_.end(), is_status)) {
+        throw FileError(file.path() + ": is a netCDF file, but not a result of slideway");
+    }
+}
+
+NetcdfFile::Variable const& ResultView::find(std::string const& variable) const {
+    auto const found = std::find_if(variables_.begin(), variables_.end(),
+                                    [&](NetcdfFile::Variable const& candidate) { return candidate.name == variable; });
+    if (found == variables_.end()) throw FileError(fmt::format("{}: has no variable {}", file_->path(), variable));
+    return *found;
+}
+
+std::string ResultView::attribute(std::string const& name) const { return text_of(*file_, name); }
+
+std::string ResultView::group_attribute(std::string const& group, std::string const& name) const {
+    if (!file_->has_group(group)) return {};
+    return text_of(file_->group(group), name);
+}
+
+bool ResultView::has(std::string const& variable) const {
+    return std::any_of(variables_.begin(), variables_.end(),
+                       [&](NetcdfFile::Variable const& candidate) { return candidate.name == variable; });
+}
+
+std::vector<std::string> ResultView::variable_names() const {
+    std::vector<std::string> names;
+    for (NetcdfFile::Variable const& variable : variables_) names.push_back(variable.name);
+    return names;
+}
+
+std::string ResultView::unit(std::string const& variable) const { return file_->text(find(variable).id, "units"); }
+
+std::string ResultView::long_name(std::string const& variable) const {
+    return file_->text(find(variable).id, "long_name");
+}
+
+std::vector<std::size_t> ResultView::shape(std::string const& variable) const { return find(variable).shape; }
+
+std::vector<double> ResultView::values(std::string const& variable) const {
+    NetcdfFile::Variable const& found = find(variable);
+    switch (found.type) {
+        case NetcdfFile::Type::int8:
+            return read_as<signed char>(*file_, found);
+        case NetcdfFile::Type::int32:
+            return read_as<int>(*file_, found);
+        case NetcdfFile::Type::float64:
+            return read_as<double>(*file_, found);
+        case NetcdfFile::Type::text:
+            break;
+    }
+    throw FileError(fmt::format("{}: {} is no number", file_->path(), variable));
+}
+
+std::vector<double> ResultView::column(std::string const& variable, std::size_t index) const {
+    NetcdfFile::Variable const& found = find(variable);
+    std::size_t const rank = found.shape.size();
+    if (found.type != NetcdfFile::Type::float64 || rank < 1 || rank > 2 || index >= (rank == 2 ? found.shape[1] : 1)) {
+        throw FileError(fmt::format("{}: {} has no column {}", file_->path(), variable, index));
+    }
+    std::vector<double> values(found.shape[0]);
+    std::size_t const start[2] = {0, index}, count[2] = {found.shape[0], 1};
+    if (!values.empty()) file_->read(found.id, {start, rank}, {count, rank}, values.data());
+    return values;
+}
+
+}  // namespace slideway

@@ -1,0 +1,42 @@
+// Reads the variables of a result.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/store/netcdf_file.hpp"
+
+namespace slideway {
+
+/// Reads a result through a file that somebody else keeps open; also one that is still being written.  The variables
+/// are those defined when the view was made.  The file must not be moved or closed while the view is in use.
+class ResultView {
+public:
+    /// @throws FileError if the file has no `status` of members and no counts of them, so is no result of slideway.
+    explicit ResultView(NetcdfFile const& file);
+
+    std::vector<NetcdfFile::Dimension> dimensions() const { return file_->dimensions(); }
+    /// Whether the members are there, or what they come to together (`store` is "statistics").
+    bool stores_members() const { return attribute("store") != "statistics"; }
+    std::string attribute(std::string const& name) const;  // as text, also numbers; "" when there is none
+    std::string group_attribute(std::string const& group, std::string const& name) const;  // "" when there is none
+    bool has(std::string const& variable) const;
+    std::vector<std::string> variable_names() const;
+    std::string unit(std::string const& variable) const;
+    std::string long_name(std::string const& variable) const;
+    /// All values in C order.  @throws FileError if there is no such variable or it is not a number.
+    std::vector<double> values(std::string const& variable) const;
+    /// Of a float64 variable of one dimension, or of two, its column: the values along the first dimension.
+    /// @throws FileError if there is no such variable or column.
+    std::vector<double> column(std::string const& variable, std::size_t index) const;
+    std::vector<std::size_t> shape(std::string const& variable) const;
+    std::string const& path() const { return file_->path(); }
+
+private:
+    NetcdfFile::Variable const& find(std::string const& variable) const;
+
+    NetcdfFile const* file_;
+    std::vector<NetcdfFile::Variable> variables_;
+};
+
+}  // namespace slideway

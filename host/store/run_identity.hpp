@@ -1,0 +1,40 @@
+// What a run computes, and whether another one computes the same.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "host/run/member_set.hpp"
+
+namespace slideway {
+
+/// What a run computes, and with which program: two runs whose identities agree give every member the same bits.
+struct RunIdentity {
+    std::string program;     // version, commit and compiler
+    std::string arithmetic;  // `arithmetic_of` the instruction set
+    MemberSet members;       // of the whole run, also where parts of it run elsewhere
+    std::string scene;       // resolved, as TOML, `portable_scene`
+    std::string table = {};  // `table_of` the scene before, "" without one: where it lay is no part of what is computed
+
+    /// In words, or "": "joint.clearance was 0.0001, is 0.0002".  @param earlier what is continued
+    std::string difference(RunIdentity const& earlier) const;
+};
+
+/// "fused" where a multiplication and an addition that the kernels name are rounded once, "contracted" where the compiler joined others
+/// too; by the name of an instruction set.  Only a build that asks for it contracts those of cards ("sm_90-fmad"): all others agree,
+/// processors and cards.
+std::string arithmetic_of(std::string_view isa);
+
+/// The path of the file of study.table in a resolved scene, quoted as it is there; "" without one.
+std::string table_of(std::string const& scene);
+/// A resolved scene with another path there.  The comment beside it, with rows and checksum of the table, stays.
+std::string with_table(std::string const& scene, std::string_view quoted);
+/// The scene with a table beside it, wherever that lay: what a study that was moved has in common with the former.
+std::string portable_scene(std::string const& scene);
+
+/// A scene file that starts with the rest as comments.
+std::string identity_text(RunIdentity const& identity);
+/// The other way.  @param path of the text, for messages.  @throws FileError if it is no such text.
+RunIdentity parse_identity(std::string const& text, std::string const& path);
+
+}  // namespace slideway

@@ -1,0 +1,234 @@
+#include "host/store/shard_claim.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "host/base/durable_file.hpp"
+#include "host/base/error.hpp"
+
+namespace slideway {
+namespace {
+
+using Kind = FileLock::Kind;
+using Wait = FileLock::Wait;
+
+constexpr std::string_view begin_suffix = "-begin", division_mark = "-of-";
+
+std::string lock_of(std::string const& folder, std::string_view suffix = {}) {
+    return in_folder(folder, fmt::format("{}{}", shard_names::lock, suffix));
+}
+
+/// What a second run hears.
+std::string of_rival(std::string const& folder) {
+    return fmt::format("{}: another run is writing here; wait for its end or give another name with -o", folder);
+}
+
+void remove_file(std::string const& folder, std::string_view name) {
+    std::string const path = in_folder(folder, name);
+    if (unlink(path.c_str()) != 0 && errno != ENOENT) {
+        throw FileError(fmt::format("{}: cannot remove: {}", path, std::strerror(errno)));
+    }
+}
+
+/// "-of-8" of a part "3-of-8" or of its lock.
+std::string_view division_of(std::string_view name) {
+    auto const at = name.rfind(division_mark);
+    return at == name.npos ? std::string_view() : name.substr(at);
+}
+
+void make_folder(std::string const& folder) {
+    if (mkdir(folder.c_str(), 0777) == 0) {
+        sync_name(folder);
+    } else if (errno != EEXIST) {
+        throw FileError(fmt::format("{}: cannot create the folder: {}", folder, std::strerror(errno)));
+    }
+}
+
+/// Makes the folder, again if another run removes it meanwhile, and holds the right to begin in it.
+std::unique_ptr<FileLock> make_and_lock(std::string const& folder) {
+    for (;;) {
+        make_folder(folder);
+        try {
+            return std::make_unique<FileLock>(lock_of(folder, begin_suffix), Kind::alone, Wait::yes);
+        } catch (FileError const&) {
+            if (is_there(folder)) throw;
+        }
+    }
+}
+
+bool holds(std::string const& folder, ShardFile kind) {
+    for (std::string const& name : names_in(folder)) {
+        if (kind_of(name) == kind) return true;
+    }
+    return false;
+}
+
+/// Whether somebody began to remove the folder.
+bool is_finished(std::string const& folder) { return is_there(in_folder(folder, shard_names::finished)); }
+
+/// What a process left that was killed in `remove_folder`; of its last steps only locks, or nothing.
+bool is_remains(std::string const& folder) {
+    if (ShardFolder::exists(folder)) return false;
+    if (is_finished(folder)) return true;
+    return names_in(folder).empty() || (holds(folder, ShardFile::lock) && !holds(folder, ShardFile::content));
+}
+
+std::string count_text(std::uint64_t members) {
+    return fmt::format("{} finished member{}", members, members == 1 ? "" : "s");
+}
+
+}  // namespace
+
+ShardClaim::ShardClaim(std::string folder, Wanted const& wanted) : folder_(std::move(folder)) {
+    // Parts begin one after another: the first writes the identity.
+    auto const begins = make_and_lock(folder_);
+    bool const is_whole = wanted.part.empty();
+    whole_.emplace(lock_of(folder_), is_whole ? Kind::alone : Kind::shared, Wait::no, of_rival(folder_));
+    if (!is_whole) {
+        part_.emplace(lock_of(folder_, "-" + wanted.part), Kind::alone, Wait::no, of_rival(folder_));
+        require_one_division(wanted.part);
+    }
+    begin(wanted);
+}
+
+ShardClaim::ShardClaim(std::string folder) : folder_(std::move(folder)) {
+    whole_.emplace(lock_of(folder_), Kind::alone, Wait::no, of_rival(folder_));
+}
+
+/// Parts of another division have members in common with this one.
+void ShardClaim::require_one_division(std::string const& part) const {
+    for (std::string const& name : names_in(folder_)) {
+        if (kind_of(name) != ShardFile::lock || division_of(name).empty()) continue;
+        if (division_of(name) == division_of(part)) continue;
+        std::string const other = name.substr(shard_names::lock.size() + 1);
+        FileLock const probe(
+            in_folder(folder_, name), Kind::shared, Wait::no,
+            fmt::format("{}: part {} of another division is at work here, this is part {}; wait for its "
+                        "end or divide the run alike",
+                        folder_, other, part));
+    }
+}
+
+void ShardClaim::begin(Wanted const& wanted) {
+    std::string changed;
+    if (ShardFolder::exists(folder_)) {
+        ShardFolder const folder(folder_);
+        std::vector<DamagedShard> damaged;
+        MemberSet const found = members_of(folder.intact(damaged));
+        changed = wanted.identity.difference(folder.identity());
+        if (!changed.empty() && !found.empty()) {
+            throw SceneError(
+                fmt::format("{}: {}holds {} of another run ({}); give another name with -o, or remove the folder",
+                            folder_, wanted.resume ? "cannot resume: it " : "", count_text(found.count()), changed));
+        }
+        done_ = found.common(wanted.mine);
+        if (!done_.empty() && !wanted.resume) {
+            throw SceneError(
+                fmt::format("{}: holds {} of this run; add --resume to go on with it, or remove the folder", folder_,
+                            count_text(done_.count())));
+        }
+        if (changed.empty()) {
+            put_aside(damaged, wanted.mine);
+            write_companion(wanted);
+            return;
+        }
+        require_alone(wanted);
+    } else if (!is_finished(folder_) && holds(folder_, ShardFile::content)) {
+        throw SceneError(
+            fmt::format("{}: holds shards but no {}, which says what they belong to; give another name with -o, or "
+                        "remove the folder",
+                        folder_, shard_names::identity));
+    }
+    take_over(wanted);
+}
+
+/// A folder of nobody, of a run that finished nothing, or the remains of one whose result stands.
+void ShardClaim::take_over(Wanted const& wanted) {
+    remove_content();
+    if (is_finished(folder_)) {
+        // Last, also after a power loss: without it the rest would be anybody's.
+        sync_folder(folder_);
+        remove_file(folder_, shard_names::finished);
+    }
+    write_durably(in_folder(folder_, shard_names::identity), identity_text(wanted.identity));
+    write_companion(wanted);
+}
+
+/// After the identity, so that it is never anybody's; one that a killed process had not written yet is written now.
+void ShardClaim::write_companion(Wanted const& wanted) const {
+    if (!wanted.companion) return;
+    std::string const path = in_folder(folder_, wanted.companion->name);
+    if (!is_there(path) || read_bytes(path) != wanted.companion->bytes) write_durably(path, wanted.companion->bytes);
+}
+
+/// What is damaged must not stand in the way of its successor, but may be worth a look.  Other parts see to theirs.
+void ShardClaim::put_aside(std::vector<DamagedShard> const& damaged, MemberSet const& mine) {
+    for (DamagedShard const& one : damaged) {
+        if (!one.shard.members.overlaps(mine)) continue;
+        std::string const path = in_folder(folder_, one.shard.name);
+        std::string const aside = in_folder(folder_, fmt::format("{}{}", shard_names::damaged, one.shard.name));
+        if (!one.is_gone && std::rename(path.c_str(), aside.c_str()) != 0) {
+            throw FileError(fmt::format("{}: cannot rename: {}", path, std::strerror(errno)));
+        }
+        damaged_.push_back(one);
+    }
+}
+
+/// A part of another run that is at work has finished nothing yet, but will.
+void ShardClaim::require_alone(Wanted const& wanted) {
+    if (wanted.part.empty()) return;
+    // Nobody can begin meanwhile.
+    whole_->change(Kind::alone, of_rival(folder_));
+    whole_->change(Kind::shared, of_rival(folder_));
+}
+
+void ShardClaim::remove_content() {
+    for (std::string const& name : names_in(folder_)) {
+        if (kind_of(name) == ShardFile::content) remove_file(folder_, name);
+    }
+}
+
+void ShardClaim::remove_folder() {
+    // Nobody begins meanwhile: whoever waits finds the lock's file gone then, and makes a new one.
+    FileLock begins(lock_of(folder_, begin_suffix), Kind::alone, Wait::yes);
+    // First, so that whoever finds what a killed process left knows that it may go.
+    if (ShardFolder::exists(folder_)) {
+        std::string const identity = in_folder(folder_, shard_names::identity);
+        if (std::rename(identity.c_str(), in_folder(folder_, shard_names::finished).c_str()) != 0) {
+            throw FileError(fmt::format("{}: cannot rename: {}", identity, std::strerror(errno)));
+        }
+        sync_folder(folder_);
+    }
+    remove_content();
+    sync_folder(folder_);
+    for (ShardFile const kind : {ShardFile::identity, ShardFile::lock}) {
+        for (std::string const& name : names_in(folder_)) {
+            if (kind_of(name) == kind) remove_file(folder_, name);
+        }
+    }
+    // ENOTDIR: a link to a folder, which somebody made elsewhere for this.
+    if (rmdir(folder_.c_str()) != 0 && errno != ENOTEMPTY && errno != EEXIST && errno != ENOTDIR) {
+        throw FileError(fmt::format("{}: cannot remove the folder: {}", folder_, std::strerror(errno)));
+    }
+}
+
+void ShardClaim::remove_remains(std::string const& folder) {
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(folder, ignored)) return;
+    if (!is_remains(folder)) return;
+    ShardClaim claim(folder);
+    // Another process may have begun anew meanwhile.
+    if (is_remains(folder)) claim.remove_folder();
+}
+
+}  // namespace slideway

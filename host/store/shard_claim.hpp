@@ -1,0 +1,63 @@
+// The right to write into a folder of shards.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/base/file_lock.hpp"
+#include "host/store/shard_folder.hpp"
+
+namespace slideway {
+
+/// Held by the process that runs the whole, or by each of those that run a part of it, which write side by side.
+class ShardClaim {
+public:
+    /// A file that the identity's scene names, kept beside it.
+    struct Companion {
+        std::string name;  // one that `is_ours`
+        std::vector<std::byte> bytes;
+    };
+    struct Wanted {
+        RunIdentity identity;
+        MemberSet mine;    // what this process, with its ranks, is to run
+        std::string part;  // "3-of-8"; "" for the whole run
+        bool resume = false;
+        std::optional<Companion> companion = std::nullopt;
+    };
+    /// Makes the folder or goes on with it.  @throws SceneError if it holds finished members of another identity, or of these and
+    /// `resume` is not set, or shards of which nothing says what they belong to; FileError if another process works on them.
+    ShardClaim(std::string folder, Wanted const& wanted);
+    ShardClaim(ShardClaim const&) = delete;
+    ShardClaim& operator=(ShardClaim const&) = delete;
+
+    /// Of `mine`, finished before.
+    MemberSet const& done() const { return done_; }
+    /// Shards that are not what was written: they were put aside, and their members are to run again.
+    std::vector<DamagedShard> const& damaged() const { return damaged_; }
+
+    /// When the result stands elsewhere: removes what belongs to the run.  What is not ours stays, and so does the folder then; a
+    /// folder that OUT.nc.shards is but a link to stays too, empty.  @throws FileError
+    void remove_folder();
+    /// Ends what a process that was killed in `remove_folder` began.  @throws FileError, also if another process works there
+    static void remove_remains(std::string const& folder);
+
+private:
+    /// Of a folder without identity, to clear it.
+    explicit ShardClaim(std::string folder);
+    void begin(Wanted const& wanted);
+    void require_alone(Wanted const& wanted);
+    void require_one_division(std::string const& part) const;
+    void put_aside(std::vector<DamagedShard> const& damaged, MemberSet const& mine);
+    void take_over(Wanted const& wanted);
+    void write_companion(Wanted const& wanted) const;
+    void remove_content();
+
+    std::string const folder_;
+    std::optional<FileLock> whole_, part_;
+    MemberSet done_;
+    std::vector<DamagedShard> damaged_;
+};
+
+}  // namespace slideway

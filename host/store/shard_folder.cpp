@@ -1,0 +1,172 @@
+#include "host/store/shard_folder.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <sstream>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "host/base/durable_file.hpp"
+#include "host/base/error.hpp"
+#include "host/base/fnv1a.hpp"
+
+namespace slideway {
+namespace fs = std::filesystem;
+namespace {
+
+template <class T> bool read_whole(std::string_view word, T& value, int base = 10) {
+    auto const [end, error] = std::from_chars(word.data(), word.data() + word.size(), value, base);
+    return error == std::errc{} && end == word.data() + word.size();
+}
+
+/// Lines of a manifest that are whole.
+void read_manifest(std::string const& path, std::vector<Shard>& shards) {
+    std::istringstream lines(read_text(path));
+    for (std::string line; std::getline(lines, line);) {
+        auto const space = line.rfind(' ');
+        std::uint64_t own = 0;
+        if (space == line.npos || !read_whole(std::string_view(line).substr(space + 1), own, 16)) continue;
+        line.resize(space);
+        if (own != fnv1a(line)) continue;
+        std::istringstream words(line);
+        Shard shard{};
+        std::string checksum, members;
+        words >> shard.name >> shard.bytes >> checksum >> members;
+        auto const set = MemberSet::parse(members);
+        if (!words || !set || !read_whole(std::string_view(checksum), shard.checksum, 16)) continue;
+        shard.members = *set;
+        shards.push_back(std::move(shard));
+    }
+}
+
+}  // namespace
+
+std::string manifest_name(int number) { return fmt::format("{}{:06}.txt", shard_names::manifest, number); }
+
+std::string manifest_line(Shard const& shard) {
+    std::string const line =
+        fmt::format("{} {} {:016x} {}", shard.name, shard.bytes, shard.checksum, shard.members.text());
+    return fmt::format("{} {:016x}", line, fnv1a(line));
+}
+
+std::vector<std::string> names_in(std::string const& folder) {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        names.push_back(entry->path().filename().string());
+    }
+    if (error) throw FileError(fmt::format("{}: cannot read the folder: {}", folder, error.message()));
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+bool ShardFolder::exists(std::string const& path) { return is_there(in_folder(path, shard_names::identity)); }
+
+ShardFolder::ShardFolder(std::string path) : path_(std::move(path)) {
+    if (!exists(path_))
+        throw FileError(path_ + ": is no folder of shards; give the folder that a run left, OUT.nc.shards");
+    std::string const file = in_folder(path_, shard_names::identity);
+    identity_ = parse_identity(read_text(file), file);
+}
+
+namespace {
+
+/// A shard that was damaged once, and whose members ran again, may be listed beside its successors: the later line counts.
+std::vector<Shard> without_repeats(std::vector<Shard> shards) {
+    std::reverse(shards.begin(), shards.end());
+    std::vector<Shard> kept;
+    MemberSet done;
+    for (Shard& shard : shards) {
+        if (done.overlaps(shard.members)) continue;
+        done.add(shard.members);
+        kept.push_back(std::move(shard));
+    }
+    std::sort(kept.begin(), kept.end(), [](Shard const& a, Shard const& b) {
+        return a.members.ranges().front().first < b.members.ranges().front().first;
+    });
+    return kept;
+}
+
+bool is_what_was_written(std::vector<std::byte> const& bytes, Shard const& shard) {
+    return bytes.size() == shard.bytes && fnv1a(bytes) == shard.checksum;
+}
+
+/// Only a file that is gone or holds something else is damaged: whoever may not open it now may find it whole later.
+bool read_intact(std::string const& folder, Shard const& shard, bool& is_gone) {
+    std::string const path = in_folder(folder, shard.name);
+    is_gone = !is_there(path);
+    if (is_gone) return false;
+    try {
+        return is_what_was_written(read_bytes(path), shard);
+    } catch (FileError const&) {
+        // Another part joins its shards of statistics, and removes them, at any time.
+        is_gone = !is_there(path);
+        if (!is_gone) throw;
+        return false;
+    }
+}
+
+}  // namespace
+
+std::vector<Shard> ShardFolder::all() const {
+    std::vector<Shard> shards;
+    for (std::string const& name : names_in(path_)) {
+        if (name.starts_with(shard_names::manifest)) read_manifest(in_folder(path_, name), shards);
+    }
+    return shards;
+}
+
+std::vector<Shard> ShardFolder::listed() const {
+    std::vector<Shard> shards = all();
+    std::erase_if(shards, [&](Shard const& shard) {
+        std::string const file = in_folder(path_, shard.name);
+        std::error_code error;
+        auto const size = fs::file_size(file, error);
+        if (error == std::errc::no_such_file_or_directory) return true;
+        if (error) throw FileError(fmt::format("{}: cannot read: {}", file, error.message()));
+        return size != shard.bytes;
+    });
+    return without_repeats(std::move(shards));
+}
+
+std::vector<Shard> ShardFolder::intact(std::vector<DamagedShard>& damaged) const {
+    std::vector<Shard> whole;
+    std::vector<DamagedShard> broken;
+    for (Shard& shard : all()) {
+        bool is_gone = false;
+        if (read_intact(path_, shard, is_gone))
+            whole.push_back(std::move(shard));
+        else
+            broken.push_back({std::move(shard), is_gone});
+    }
+    whole = without_repeats(std::move(whole));
+    MemberSet const done = members_of(whole);
+    for (DamagedShard& one : broken) {
+        // The line of a shard outlives it: its successor may have its name.
+        auto const has_its_name = [&](Shard const& other) { return other.name == one.shard.name; };
+        if (std::any_of(whole.begin(), whole.end(), has_its_name)) continue;
+        auto const was_found = [&](DamagedShard const& other) { return has_its_name(other.shard); };
+        if (std::any_of(damaged.begin(), damaged.end(), was_found)) continue;
+        if (!one.shard.members.without(done).empty()) damaged.push_back(std::move(one));
+    }
+    return whole;
+}
+
+std::vector<std::byte> read_shard(std::string const& folder, Shard const& shard) {
+    std::string const path = in_folder(folder, shard.name);
+    std::vector<std::byte> bytes = read_bytes(path);
+    if (!is_what_was_written(bytes, shard)) {
+        throw FileError(path + ": is not what was written (its checksum differs)");
+    }
+    return bytes;
+}
+
+MemberSet members_of(std::vector<Shard> const& shards) {
+    MemberSet members;
+    for (Shard const& shard : shards) members.add(shard.members);
+    return members;
+}
+
+}  // namespace slideway

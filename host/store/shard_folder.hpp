@@ -1,0 +1,78 @@
+// Where a run keeps what is finished until all of it is: immutable shards and what they belong to.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/run/member_set.hpp"
+#include "host/store/run_identity.hpp"
+#include "host/store/shard_names.hpp"
+
+namespace slideway {
+
+/// A result file of some members of the run, or their statistics.  It never changes.
+struct Shard {
+    std::string name;  // in the folder
+    std::uint64_t bytes;
+    std::uint64_t checksum;  // Fnv1a of the file
+    MemberSet members;
+};
+
+/// One that is not what was written, and so does not count.
+struct DamagedShard {
+    Shard shard;
+    bool is_gone;  // there is no such file
+};
+
+/// One shard.  @throws FileError if the file is not what the manifest says.
+std::vector<std::byte> read_shard(std::string const& folder, Shard const& shard);
+
+/// `run.toml`    the identity: a scene file, with the rest as comments
+/// `members-*.nc`    the shards, or `statistics-*.bin` where members are not stored
+/// `manifest-*.txt`  one line per shard, written once the shard is on the disk; each line has a checksum of its own, so that a
+///                   torn one is told.  Every process that writes has a manifest of its own.
+/// `damaged-*`   shards that were not what had been written, put aside
+/// `table.csv`   a copy of the study's table of members, if it has one
+/// `finished.toml`   the identity once the result stands elsewhere: the rest is to be removed
+/// `lock*`       held by the processes that write
+class ShardFolder {
+public:
+    /// An existing one, to read.  @throws FileError if it is none.
+    explicit ShardFolder(std::string path);
+
+    /// Whether there is such a folder with an identity.  @throws FileError if that cannot be told
+    static bool exists(std::string const& path);
+
+    std::string const& path() const { return path_; }
+    RunIdentity const& identity() const { return identity_; }
+    /// What the manifests list, by first member; `read` tells whether a file is what it was.  @throws FileError if a file
+    /// cannot be looked at
+    std::vector<Shard> listed() const;
+    /// Those that are: reads them all.  @param damaged the others, but for those whose members or whose name another one
+    /// has by now  @throws FileError if one cannot be read, which says nothing of what it holds
+    std::vector<Shard> intact(std::vector<DamagedShard>& damaged) const;
+    /// @throws FileError if the file is not what the manifest says.
+    std::vector<std::byte> read(Shard const& shard) const { return read_shard(path_, shard); }
+
+private:
+    std::vector<Shard> all() const;
+
+    std::string path_;
+    RunIdentity identity_;
+};
+
+/// Names of the files in a folder, sorted.  @throws FileError
+std::vector<std::string> names_in(std::string const& folder);
+
+/// Members of shards together.
+MemberSet members_of(std::vector<Shard> const& shards);
+
+std::string manifest_name(int number);
+/// Without its end.
+std::string manifest_line(Shard const& shard);
+
+}  // namespace slideway

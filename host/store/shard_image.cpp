@@ -1,0 +1,160 @@
+#include "host/store/shard_image.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "host/store/payload_hash.hpp"
+#include "host/store/result_definition.hpp"
+#include "host/store/work_table.hpp"
+
+namespace slideway {
+namespace {
+
+/// The sections that a member of a block reached: [sections][1 + states].
+std::span<double const> sections_of(BlockResult const& block, std::size_t row) {
+    std::size_t const width = block.sections.size() / block.members.size();
+    auto const room = block.sections.subspan(row * width, width);
+    std::size_t reached = 0;
+    while (reached < width && !std::isnan(room[reached])) reached += section_columns(block.states());
+    return room.first(reached);
+}
+
+/// Rows of a block, picked out of its arrays and written as whole variables.
+class BlockRows {
+public:
+    BlockRows(NetcdfFile& file, ResultLayout const& layout, ResultVariables const& ids, BlockResult const& block,
+              std::vector<std::size_t> const& rows)
+        : file_(file), layout_(layout), ids_(ids), block_(block), rows_(rows) {}
+
+    void write(StudyValues const& study) {
+        write_records();
+        write_states();
+        write_quantities();
+        write_series();
+        for (std::size_t i = 0; i < ids_.study.size(); ++i) {
+            StudyColumn const& column = layout_.study.columns[i];
+            write_rows(ids_.study[i], study[i], layout_.study.width(column), layout_.study.shape(column));
+        }
+        if (layout_.sections > 0) write_sections();
+    }
+
+private:
+    std::size_t members() const { return block_.members.size(); }
+
+    template <class T, class ValueOf> void write_each(int variable, ValueOf value_of) {
+        std::vector<T> column;
+        for (std::size_t const row : rows_) column.push_back(static_cast<T>(value_of(row)));
+        file_.write(variable, std::array{std::size_t{0}}, std::array{column.size()}, column.data());
+    }
+
+    /// @param values [members][width] of the block.  @param shape of one member's
+    void write_rows(int variable, std::span<double const> values, std::size_t width, std::vector<std::size_t> shape) {
+        std::vector<double> picked;
+        picked.reserve(rows_.size() * width);
+        for (std::size_t const row : rows_) {
+            auto const of_member = values.subspan(row * width, width);
+            picked.insert(picked.end(), of_member.begin(), of_member.end());
+        }
+        shape.insert(shape.begin(), rows_.size());
+        file_.write(variable, std::vector<std::size_t>(shape.size(), 0), shape, picked.data());
+    }
+
+    void write_records() {
+        auto const& records = block_.records;
+        write_each<signed char>(ids_.status, [&](std::size_t i) { return records[i].status; });
+        for (std::size_t k = 0; k < ids_.work.size(); ++k) {
+            write_each<double>(ids_.work[k], [&](std::size_t i) { return records[i].*work_table[k].of; });
+        }
+        write_each<double>(ids_.end_time, [&](std::size_t i) { return records[i].time; });
+    }
+
+    void write_states() {
+        for (std::size_t k = 0; k < ids_.final_states.size(); ++k) {
+            write_each<double>(ids_.final_states[k],
+                               [&](std::size_t i) { return block_.final_states[i * block_.states() + k]; });
+        }
+        for (std::size_t k = 0; k < ids_.parameters.size(); ++k) {
+            write_each<double>(ids_.parameters[k],
+                               [&](std::size_t i) { return block_.inputs[i].*layout_.parameters[k].member; });
+        }
+    }
+
+    void write_quantities() {
+        for (ResultVariables::Quantity const& quantity : ids_.quantities) {
+            auto const columns = static_cast<std::size_t>(quantity.columns);
+            auto const first = static_cast<std::size_t>(quantity.first_column);
+            std::vector<double> values;
+            for (std::size_t i = 0; i < members(); ++i) {
+                auto const of_member = block_.quantities.subspan(i * quantity_columns + first, columns);
+                values.insert(values.end(), of_member.begin(), of_member.end());
+            }
+            write_rows(quantity.id, values, columns, columns > 1 ? std::vector{columns} : std::vector<std::size_t>{});
+        }
+    }
+
+    void write_series() {
+        std::size_t const samples = layout_.sample_times.size();
+        for (std::size_t k = 0; k < ids_.series.size(); ++k) {
+            write_rows(ids_.series[k], block_.series.subspan(k * members() * samples, members() * samples), samples,
+                       {samples});
+        }
+    }
+
+    void write_sections() {
+        std::vector<int> counts;
+        std::size_t const width = section_columns(block_.states());
+        std::vector<std::vector<double>> columns(width);
+        for (std::size_t const row : rows_) {
+            auto const sections = sections_of(block_, row);
+            for (std::size_t i = 0; i < sections.size(); ++i) columns[i % width].push_back(sections[i]);
+            int const count = static_cast<int>(sections.size() / width);
+            counts.push_back(count);
+        }
+        file_.write(ids_.section_count, std::array{std::size_t{0}}, std::array{counts.size()}, counts.data());
+        if (ids_.section_crossings >= 0) {
+            constexpr std::uint64_t largest = std::numeric_limits<int>::max();
+            write_each<int>(ids_.section_crossings,
+                            [&](std::size_t i) { return std::min(block_.records[i].crossings, largest); });
+        }
+        if (columns[0].empty()) return;
+        for (std::size_t j = 0; j < width; ++j) {
+            file_.write(ids_.section_columns[j], std::array{std::size_t{0}}, std::array{columns[j].size()},
+                        columns[j].data());
+        }
+    }
+
+    NetcdfFile& file_;
+    ResultLayout const& layout_;
+    ResultVariables const& ids_;
+    BlockResult const& block_;
+    std::vector<std::size_t> const& rows_;
+};
+
+}  // namespace
+
+ShardImage shard_image(std::string const& name, ResultLayout layout, Provenance const& provenance,
+                       BlockResult const& block, StudyValues const& study) {
+    std::vector<std::size_t> rows;
+    ShardImage image;
+    for (std::size_t i = 0; i < block.records.size(); ++i) {
+        if (block.records[i].status == Status::not_run) continue;
+        rows.push_back(i);
+        image.members.add({block.members[i], 1});
+    }
+    if (rows.empty()) return image;
+    layout.members = image.members;
+    for (std::size_t i = 0; i < rows.size() && layout.sections > 0; ++i) {
+        layout.section_rows += sections_of(block, rows[i]).size() / section_columns(block.states());
+    }
+    NetcdfFile file = NetcdfFile::create_in_memory(name);
+    ResultVariables const ids = define_result(file, layout, provenance);
+    BlockRows(file, layout, ids, block, rows).write(study);
+    file.put_text(NetcdfFile::global, "completeness", "shard");
+    file.put_text(NetcdfFile::global, "payload_hash", payload_hash(file));
+    image.bytes = file.close_to_bytes();
+    return image;
+}
+
+}  // namespace slideway

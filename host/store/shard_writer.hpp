@@ -1,0 +1,53 @@
+// Brings finished blocks to the disk while the next ones are computed.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "host/run/block_result.hpp"
+#include "host/store/block_copy.hpp"
+#include "host/store/shard_image.hpp"
+#include "host/store/shard_store.hpp"
+
+namespace slideway {
+
+/// A thread of its own makes the images of blocks and waits for the disk; computing waits only where that is slower.
+/// At most `most_waiting` blocks wait, beside the one that the thread works on: what does is lost with the process.
+class ShardWriter {
+public:
+    static constexpr std::size_t most_waiting = 2;
+
+    /// @param form what a block becomes; of no members if none have ended; called by the
+    /// thread, and while it runs nobody else may use netCDF.  @param join of the store; empty: shards
+    /// stay as they are.
+    ShardWriter(std::string folder, std::function<ShardImage(BlockResult const&)> form, ShardJoin join = {});
+    /// Waits for what `write` was given; an error then has nobody to hear it: call `finish`.
+    ~ShardWriter();
+    ShardWriter(ShardWriter const&) = delete;
+    ShardWriter& operator=(ShardWriter const&) = delete;
+
+    /// Takes a copy.  One call at a time.  @throws FileError, also of an earlier block.
+    void write(BlockResult const& block);
+    /// Waits until everything is on the disk.  @throws FileError
+    void finish();
+
+private:
+    void put_all();
+    void stop();
+
+    std::function<ShardImage(BlockResult const&)> const form_;
+    ShardStore store_;  // the thread's
+    std::mutex mutex_;  // guards the three below
+    std::deque<BlockCopy> waiting_;
+    bool ended_ = false;
+    std::exception_ptr failure_;
+    std::condition_variable changed_;
+    std::thread thread_;
+};
+
+}  // namespace slideway

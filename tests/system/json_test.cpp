@@ -1,0 +1,122 @@
+// What commands say to programs, beside what files and pages say.
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/system/small_run.hpp"
+
+namespace slideway::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+class JsonOutput : public SmallRun {
+protected:
+    Json of(std::vector<std::string> words, int code = 0) const {
+        words.emplace_back("--json");
+        Outcome const outcome = run(std::move(words));
+        EXPECT_EQ(outcome.code, code) << outcome.err;
+        Json const json = Json::parse(outcome.out);
+        EXPECT_EQ(json["schema_version"], 1);
+        return json;
+    }
+};
+
+TEST_F(JsonOutput, OfARunAndOfItsFileAreOneButForTheRun) {
+    Json made = of({"run", "s.toml", "--no-progress", "-o", "o.nc"});
+    EXPECT_EQ(made["run"]["members"], 37);
+    EXPECT_GT(made["run"]["seconds"], 0);
+    EXPECT_EQ(made["command"], "run");
+    made.erase("run");
+    Json const told = of({"info", "o.nc"});
+    made["command"] = "info";
+    EXPECT_EQ(made, told);
+
+    ResultReader const file = results("o.nc");
+    EXPECT_EQ(told["payload_hash"], file.stored_hash());
+    EXPECT_EQ(told["statuses"], (Json{{"finished", 37}}));
+    EXPECT_EQ(told["dimensions"]["member"], 37);
+    double sum = 0;
+    for (double const value : file.values("crank_work")) sum += value;
+    auto const& quantities = told["quantities"];
+    auto const work = std::find_if(quantities.begin(), quantities.end(), [](Json const& one) { return one["name"] == "crank_work"; });
+    ASSERT_NE(work, quantities.end());
+    EXPECT_EQ((*work)["unit"], "J");
+    EXPECT_NEAR((*work)["mean"].get<double>(), sum / 37, 1e-12 * std::abs(sum));
+    EXPECT_EQ(told["verification"]["resolution"], "not_checked");
+}
+
+TEST_F(JsonOutput, SaysWhatIsLeft) {
+    Json const part = of({"run", "s.toml", "--no-progress", "-o", "p.nc", "--shard", "1/2"});
+    EXPECT_EQ(part["shards"], "p.nc.shards");
+    Json const merged = of({"merge", "p.nc.shards", "-o", "p.nc"}, 5);
+    EXPECT_EQ(merged["members_left"], 18);
+    EXPECT_EQ(merged["statuses"]["not_run"], 18);
+}
+
+TEST_F(JsonOutput, HasNullWhereThereIsNoNumber) {
+    Json const one = of({"run", "s.toml", "--no-progress", "-o", "one.nc", "--member", "3"});
+    EXPECT_TRUE(one["quantities"][0]["sd"].is_null());
+    EXPECT_FALSE(one["quantities"][0]["mean"].is_null());
+}
+
+TEST_F(JsonOutput, OfACheckHasASceneThatRuns) {
+    Json const json = of({"check", "s.toml"});
+    EXPECT_EQ(json["members"], 37);
+    EXPECT_GT(json["memory_bytes"], 0);
+    Outcome const resolved = run({"check", "s.toml", "--resolved"});
+    EXPECT_EQ(resolved.out, json["resolved"]);
+    write("r.toml", resolved.out);
+    EXPECT_EQ(run({"run", "r.toml", "--no-progress", "-o", "r.nc"}).code, 0);
+    EXPECT_EQ(run({"run", "s.toml", "--no-progress", "-o", "o.nc"}).code, 0);
+    EXPECT_EQ(hash_of("r.nc"), hash_of("o.nc"));
+}
+
+TEST_F(JsonOutput, OfAProbeAreItsTable) {
+    Json const json = of({"probe", "s.toml"});
+    EXPECT_EQ(run({"probe", "s.toml", "-o", "p.csv"}).code, 0);
+    std::istringstream table(file_text(path("p.csv")));
+    std::string header, row;
+    std::getline(table, header);
+    std::getline(table, row);
+    std::istringstream names(header), values(row);
+    int compared = 0;
+    for (std::string name, value; std::getline(names, name, ',') && std::getline(values, value, ',');) {
+        Json const& of_state = json["states"][0];
+        Json const& place = of_state["values"].contains(name) ? of_state["values"] : of_state["state"];
+        if (!place.contains(name)) continue;
+        EXPECT_EQ(place[name].get<double>(), std::stod(value)) << name;
+        ++compared;
+    }
+    EXPECT_GT(compared, 40);
+    EXPECT_EQ(json["states"][0]["status"], "finished");
+}
+
+TEST_F(JsonOutput, OfStatisticsIsWhatTheTextSays) {
+    std::string series = "x\n";
+    for (int i = 0; i < 600; ++i) series += std::to_string(std::sin(0.3 * i)) + "\n";
+    write("series.csv", series);
+    Json const json = of({"stats", "series.csv", "--dt", "0.01"});
+    std::string const text = run({"stats", "series.csv", "--dt", "0.01"}).out;
+    EXPECT_EQ(json["points"], 600);
+    EXPECT_NE(text.find(json["verdict"].get<std::string>()), std::string::npos);
+    EXPECT_NEAR(json["average_period"].get<double>(), 0.01 * 2 * M_PI / 0.3, 1e-3);
+    EXPECT_EQ(json["zero_one"]["k"].is_null(), text.find("0-1 test         none") != std::string::npos);
+}
+
+TEST_F(JsonOutput, IsAllThereIs) {
+    // One object, and what is wrong still goes to stderr in one line.
+    expect_refusal(4, "missing.nc", {"info", "missing.nc", "--json"});
+    expect_refusal(2, "joint.clearance", {"check", "s.toml", "--json", "--set", "joint.clearance=-1"});
+}
+
+TEST_F(JsonOutput, QuietRunsSayNothing) {
+    Outcome const outcome = run({"run", "s.toml", "--quiet", "-o", "q.nc"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_EQ(results("q.nc").values("status").size(), 37u);
+}
+
+}  // namespace
+}  // namespace slideway::testing

@@ -1,0 +1,104 @@
+#include "tests/system/process.hpp"
+
+#include <sstream>
+
+#include "host/backend/backend.hpp"
+#include "tests/oracle/golden_table.hpp"
+
+namespace slideway::testing {
+namespace {
+
+std::filesystem::path golden_file(std::string const& name) {
+    return std::filesystem::path(SLIDEWAY_TEST_DATA) / "golden" / name;
+}
+
+std::string first_line(std::string const& text) { return text.substr(0, text.find('\n')); }
+
+class Probe : public Program {
+protected:
+    Probe() { write("s.toml", "schema = 1\n[friction]\n[initial]\nz = \"0.01 mm\"\n"); }
+};
+
+class GoldenTable : public Program, public ::testing::WithParamInterface<std::tuple<std::string, Isa>> {};
+
+TEST_P(GoldenTable, IsMetInEveryColumn) {
+    auto const [name, isa] = GetParam();
+    if (!is_supported(isa)) GTEST_SKIP() << "not on this machine";
+    std::string const scene = std::string(SLIDEWAY_SCENES) + "/slider_crank_0.1mm.toml";
+    Outcome const outcome =
+        run({"probe", scene, "--csv", golden_file(name).string(), "-o", "got.csv", "--isa", std::string(name_of(isa))});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(first_line(file_text(path("got.csv"))), first_line(file_text(golden_file(name))) + ",status");
+    auto const reference = golden::Table::read(golden_file(name)), got = golden::Table::read(path("got.csv"));
+    auto const difference = golden::worst_difference(reference, got);
+    EXPECT_LE(difference.value, 2e-8) << difference.where;  // model.md 11
+}
+
+INSTANTIATE_TEST_SUITE_P(Probe, GoldenTable,
+                         ::testing::Combine(::testing::Values("rhs_paper.csv", "rhs_conservative.csv",
+                                                              "rhs_parameters.csv", "rhs_kelvin_voigt.csv",
+                                                              "rhs_kelvin_voigt_parameters.csv"),
+                                            ::testing::ValuesIn(built_isas())),
+                         [](auto const& info) {
+                             std::string const& name = std::get<0>(info.param);
+                             return name.substr(4, name.size() - 8) + "_" +
+                                    std::string(name_of(std::get<1>(info.param)));
+                         });
+
+TEST_F(Probe, OfAShuffledTableGivesTheSameRows) {
+    // The same rows with the columns reversed and a column of no meaning: every row keeps its numbers.
+    std::istringstream in(file_text(golden_file("rhs_paper.csv")));
+    std::string line, reversed, plain;
+    for (int row = 0; row < 12 && std::getline(in, line); ++row) {
+        plain += line + "\n";
+        std::string turned = row == 0 ? "remark" : "text";
+        for (std::size_t end = line.size(); end != line.npos;) {
+            auto const comma = line.rfind(',', end - 1);
+            turned += ',';
+            turned.append(line, comma + 1, end - comma - 1);  // npos + 1 is 0
+            end = comma;
+        }
+        reversed += turned + "\n";
+    }
+    write("plain.csv", plain);
+    write("reversed.csv", reversed);
+    ASSERT_EQ(run({"probe", "s.toml", "--csv", "plain.csv", "-o", "a.csv"}).code, 0);
+    ASSERT_EQ(run({"probe", "s.toml", "--csv", "reversed.csv", "-o", "b.csv"}).code, 0);
+    auto const a = golden::Table::read(path("a.csv")), b = golden::Table::read(path("b.csv"));
+    ASSERT_EQ(a.rows(), 11u);
+    ASSERT_EQ(b.rows(), 11u);
+    for (std::string const& column : a.columns()) {
+        for (std::size_t row = 0; row < a.rows(); ++row) EXPECT_EQ(a.text(row, column), b.text(row, column)) << column;
+    }
+}
+
+TEST_F(Probe, OfASceneShowsItsStart) {
+    Outcome const listing = run({"probe", "s.toml"});
+    EXPECT_EQ(listing.code, 0) << listing.err;
+    for (char const* const word : {"finished", "penetration Y", "0 surfaces, 0 lines, 0 points", "crank torque"}) {
+        EXPECT_NE(listing.out.find(word), std::string::npos) << word;
+    }
+    ASSERT_EQ(run({"probe", "s.toml", "-o", "start.csv"}).code, 0);
+    auto const start = golden::Table::read(path("start.csv"));
+    ASSERT_EQ(start.rows(), 1u);
+    EXPECT_EQ(start.number(0, "z"), 1e-5);
+    EXPECT_EQ(start.text(0, "status"), "finished");
+    // Centred in Y: every apex is a clearance away from its face; off by 0.01 mm in Z.
+    EXPECT_NEAR(start.number(0, "pen_y_P1"), -1e-4, 1e-16);
+    EXPECT_NEAR(start.number(0, "pen_z_P1"), -1.1e-4, 1e-16);
+    EXPECT_NEAR(start.number(0, "pen_z_P3"), -0.9e-4, 1e-16);
+}
+
+TEST_F(Probe, NamesTheCellThatIsWrong) {
+    std::string const header = "t,y,z,vy,vz,roll,yaw,pitch,wx,wy,wz\n";
+    write("cell.csv", header + "0,0,0,0,0,0,0,0,0,0,abc\n");
+    expect_refusal(2, "cell.csv:2: column wz: 'abc' is no number", {"probe", "s.toml", "--csv", "cell.csv"});
+    write("ragged.csv", header + "0,0\n");
+    expect_refusal(2, "ragged.csv:2: the row has 2 columns", {"probe", "s.toml", "--csv", "ragged.csv"});
+    write("empty.csv", "");
+    expect_refusal(2, "empty.csv:1: the table is empty", {"probe", "s.toml", "--csv", "empty.csv"});
+    expect_refusal(4, "cannot read", {"probe", "s.toml", "--csv", "."});
+}
+
+}  // namespace
+}  // namespace slideway::testing

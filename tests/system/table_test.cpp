@@ -1,0 +1,115 @@
+// Studies of a table of members, moved and merged where the table is out of reach.
+#include <algorithm>
+
+#include "host/store/result_reader.hpp"
+#include "tests/system/process.hpp"
+
+namespace slideway::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char const* scene = R"(
+schema = 1
+[contact]
+law = "conservative"
+[study]
+duration = "2 ms"
+samples = 3
+design = "table"
+table = "rows.csv"
+)";
+
+class TableRun : public Program {
+protected:
+    TableRun() {
+        fs::create_directories(path("a"));
+        write("a/s.toml", scene);
+        write_rows("a/rows.csv");
+    }
+    /// y of member m is (m - 8)/100 mm, but for the last one.
+    void write_rows(std::string const& name, double last = 0.07) const {
+        std::string text = "initial.y [mm]\n";
+        for (int m = 0; m < 15; ++m) text += fmt::format("{}\n", (m - 8) / 100.0);
+        write(name, text + fmt::format("{}\n", last));
+    }
+    Outcome run_in(std::string const& folder, std::vector<std::string> options = {}) const {
+        options.insert(options.begin(), {"run", folder + "/s.toml", "--no-progress", "--threads", "2", "--block-members", "4",
+                                         "-o", folder + "/s.nc"});
+        return run(std::move(options));
+    }
+    /// All members but those of the second shard.
+    void leave_shards() const {
+        ASSERT_EQ(run_in("a", {"--shard", "1/1"}).code, 0);
+        ASSERT_TRUE(fs::remove(path("a/s.nc.shards/members-0000000004.nc")));
+    }
+    std::string hash_of(std::string const& name) const {
+        ResultReader const file(path(name).string());
+        EXPECT_EQ(file.stored_hash(), file.computed_hash()) << name;
+        return file.computed_hash();
+    }
+    std::string whole_hash() const {
+        EXPECT_EQ(run_in("a").code, 0);
+        std::string const hash = hash_of("a/s.nc");
+        fs::remove(path("a/s.nc"));
+        return hash;
+    }
+};
+
+TEST_F(TableRun, GoesOnWhereItsFolderWasMoved) {
+    std::string const hash = whole_hash();
+    leave_shards();
+    fs::rename(path("a"), path("b"));
+    Outcome const outcome = run_in("b", {"--resume"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(hash_of("b/s.nc"), hash);
+    EXPECT_EQ(ResultReader(path("b/s.nc").string()).values("initial_y")[15], 0.07e-3);
+    EXPECT_FALSE(fs::exists(path("b/s.nc.shards")));
+    // So is a result that is complete.
+    fs::rename(path("b"), path("c"));
+    EXPECT_EQ(run_in("c", {"--resume"}).code, 0);
+    Outcome const complete = run({"run", "c/s.toml", "-o", "c/s.nc", "--resume"});
+    EXPECT_EQ(complete.err, "resuming: c/s.nc is complete already\n");
+}
+
+TEST_F(TableRun, IsMergedWithoutTheTable) {
+    std::string const hash = whole_hash();
+    std::string const table = fs::canonical(path("a")) / "rows.csv";
+    ASSERT_EQ(run_in("a", {"--shard", "1/1"}).code, 0);
+    fs::rename(path("a/s.nc.shards"), path("shards"));
+    fs::remove_all(path("a"));
+    Outcome const outcome = run({"merge", "shards", "-o", "m.nc"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(hash_of("m.nc"), hash);
+    // The file says where the table was, as that of a run does.
+    std::string const said = ResultReader(path("m.nc").string()).attribute("scene");
+    EXPECT_NE(said.find("\ntable = \"" + table + "\"  # 16 rows"), said.npos) << said;
+}
+
+TEST_F(TableRun, WithAnotherTableIsRefused) {
+    leave_shards();
+    write_rows("a/rows.csv", 0.071);
+    expect_refusal(2, "holds 12 finished members of another run (study.table was 16 rows, FNV-1a ",
+                   {"run", "a/s.toml", "-o", "a/s.nc", "--resume"});
+    write_rows("a/rows.csv");
+    ASSERT_EQ(run_in("a", {"--resume"}).code, 0);
+    write_rows("a/rows.csv", 0.071);
+    expect_refusal(2, "it is the result of another run (study.table was 16 rows, FNV-1a ",
+                   {"run", "a/s.toml", "-o", "a/s.nc", "--resume"});
+}
+
+TEST_F(TableRun, IsNotMergedWithAnotherTableInPlaceOfTheCopy) {
+    leave_shards();
+    EXPECT_EQ(file_text(path("a/s.nc.shards/table.csv")), file_text(path("a/rows.csv")));
+    write_rows("a/s.nc.shards/table.csv", 0.071);
+    expect_refusal(4, "a/s.nc.shards/table.csv: is not the table of this run (its checksum differs)",
+                   {"merge", "a/s.nc.shards", "-o", "m.nc"});
+    fs::remove(path("a/s.nc.shards/table.csv"));
+    expect_refusal(2, "a/s.nc.shards/table.csv cannot be read", {"merge", "a/s.nc.shards", "-o", "m.nc"});
+    // Whoever goes on has the table, and puts it there again.
+    EXPECT_EQ(run_in("a", {"--resume", "--shard", "1/1"}).code, 0);
+    EXPECT_EQ(run({"merge", "a/s.nc.shards", "-o", "m.nc"}).code, 0);
+}
+
+}  // namespace
+}  // namespace slideway::testing

@@ -1,0 +1,78 @@
+// What a run says of its own numbers.
+#include "tests/system/small_run.hpp"
+
+namespace slideway::testing {
+namespace {
+
+class VerifiedRun : public SmallRun {
+protected:
+    Outcome verified(std::vector<std::string> options) const {
+        options.insert(options.begin(), {"run", "s.toml", "--no-progress", "--verify", "-o", "o.nc"});
+        return run(std::move(options));
+    }
+    std::string of_group(char const* attribute) const { return results("o.nc").group_attribute("verification", attribute); }
+};
+
+/// A tolerance that keeps resting contacts ringing.
+std::vector<std::string> const coarse{"--set", "integrator.method=dopri5", "--set", "integrator.rtol=1e-3", "--set", "contact.law=conservative",
+                                      "--set", "study.duration=0.15 s", "--set", R"(study.quantities=["rms_acceleration","mode_time"])"};
+
+TEST_F(VerifiedRun, OfAFallInFreeFlightIsResolved) {
+    Outcome const outcome = verified({"--set", "study.duration=1 ms"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("\nresolved: 16 members again by auto at rtol 1e-08"), std::string::npos) << outcome.out;
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_EQ(of_group("resolution"), "resolved");
+    EXPECT_NE(run({"info", "o.nc"}).out.find("\nresolved: 16 members again"), std::string::npos);
+}
+
+TEST_F(VerifiedRun, WithContactsThatRingByItsToleranceIsNot) {
+    Outcome const outcome = verified(coarse);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("\nNOT RESOLVED by dopri5 at rtol 1e-03: 16 members again"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.err.find("warning: NOT RESOLVED"), std::string::npos) << outcome.err;
+    EXPECT_EQ(of_group("resolution"), "not_resolved");
+}
+
+TEST_F(VerifiedRun, HasThePayloadOfAnUncheckedOne) {
+    ASSERT_EQ(verified({}).code, 0);
+    ASSERT_EQ(run_scene({"--set", "study.verify=0", "-o", "p.nc"}).code, 0);
+    EXPECT_EQ(hash_of("o.nc"), hash_of("p.nc"));
+    EXPECT_EQ(run({"info", "o.nc"}).code, 0);
+}
+
+TEST_F(VerifiedRun, UnaskedTakesAtMostATenthOfTheWork) {
+    // 37 members leave no room for as many as it needs.
+    Outcome const outcome = run_scene({"-o", "o.nc"});
+    EXPECT_NE(outcome.out.find("not checked against tighter tolerances: it would take some"), std::string::npos) << outcome.out;
+    EXPECT_EQ(of_group("resolution"), "not_checked");
+
+    ASSERT_EQ(run_scene({"-o", "many.nc", "--set", "study.members=1000", "--set", "study.samples=0"}).code, 0);
+    ResultReader const file = results("many.nc");
+    EXPECT_EQ(file.group_attribute("verification", "resolution"), "resolved") << file.group_attribute("verification", "summary");
+    double const share = std::stod(file.group_attribute("verification", "share_of_work"));
+    EXPECT_GT(share, 0);
+    EXPECT_LE(share, 0.1);
+}
+
+TEST_F(VerifiedRun, OfStatisticsAloneIsCheckedToo) {
+    ASSERT_EQ(run_scene({"-o", "o.nc", "--set", "study.members=1000", "--set", "study.samples=0", "--set", "study.store=statistics"}).code, 0);
+    EXPECT_EQ(of_group("resolution"), "resolved") << of_group("summary");
+}
+
+TEST_F(VerifiedRun, GoesOnAfterItsEnd) {
+    ASSERT_EQ(run_scene({"-o", "whole.nc", "--set", "study.members=1000", "--set", "study.samples=0"}).code, 0);
+    ASSERT_EQ(run_scene({"-o", "o.nc", "--set", "study.members=1000", "--set", "study.samples=0", "--shard", "1/2"}).code, 0);
+    ASSERT_EQ(run_scene({"-o", "o.nc", "--set", "study.members=1000", "--set", "study.samples=0", "--resume"}).code, 0);
+    EXPECT_EQ(hash_of("o.nc"), hash_of("whole.nc"));
+    EXPECT_EQ(of_group("summary"), results("whole.nc").group_attribute("verification", "summary"));
+}
+
+TEST_F(VerifiedRun, IsAskedForByTheScene) {
+    ASSERT_EQ(run_scene({"-o", "o.nc", "--set", "study.verify=6", "--set", "study.duration=1 ms"}).code, 0);
+    EXPECT_NE(of_group("summary").find("resolved: 6 members again"), std::string::npos) << of_group("summary");
+    expect_refusal(2, "study.verify", {"run", "s.toml", "--no-progress", "--set", "study.verify=-1"});
+}
+
+}  // namespace
+}  // namespace slideway::testing

@@ -1,0 +1,145 @@
+// The keys of a scene that choose the method and its steps.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "host/config/settings.hpp"
+#include "tests/support/scene_fixture.hpp"
+
+namespace slideway {
+namespace {
+
+using testing::contains;
+using testing::error_of;
+using testing::scene_of;
+
+IntegratorSettings settings_of(std::string const& lines) {
+    return scene_of("schema = 1\n[integrator]\n" + lines).integrator;
+}
+std::string refusal_of(std::string const& lines) { return error_of("schema = 1\n[integrator]\n" + lines); }
+
+TEST(SceneMethods, EveryNameIsItsMethod) {
+    for (int i = 0; i < method_count; ++i) {
+        auto const method = static_cast<Method>(i);
+        auto const text = fmt::format("method = \"{}\"\nstep = \"2 us\"", name_of(method));
+        EXPECT_EQ(settings_of(text).method, method);
+        EXPECT_EQ(settings_of(text).fixed_step, 2e-6);
+    }
+    EXPECT_EQ(settings_of("").method, Method::automatic);
+}
+
+TEST(SceneMethods, FixedStepsNeedAStep) {
+    EXPECT_EQ(refusal_of("method = \"rk4\""),
+              "scene.toml:3: integrator.method is \"rk4\" (the method has no step control); give integrator.step");
+    EXPECT_EQ(refusal_of("method = \"rk4\"\nstep = 1e-6"), "");
+    EXPECT_EQ(refusal_of("method = \"bs32\""), "");
+}
+
+TEST(SceneMethods, FixedStepsFindNoTouchesForRestitution) {
+    EXPECT_EQ(refusal_of("method = \"rk4\"\nstep = 1e-6\n[contact]\nrestitution = 0.5"),
+              "scene.toml:3: integrator.method is \"rk4\" (contact.restitution wants the speed at each touch, where "
+              "the method's steps do "
+              "not end); use method \"auto\", \"dopri5\", \"bs32\" or \"ros34pw2\"");
+    EXPECT_EQ(refusal_of("method = \"dopri5\"\n[contact]\nrestitution = 0.5"), "");
+}
+
+TEST(SceneMethods, StepsAndTolerancesAreNotEverything) {
+    for (char const* key : {"step", "max_step", "stiff_max_step"}) {
+        for (char const* value : {"0", "-1e-6", "nan", "\"1 kg\""}) {
+            EXPECT_TRUE(contains(refusal_of(fmt::format("{} = {}", key, value)), fmt::format("integrator.{}", key)))
+                << key << " = " << value;
+        }
+        EXPECT_EQ(refusal_of(fmt::format("{} = \"1 us\"", key)), "");
+    }
+    for (char const* value : {"0", "1e-15", "0.2", "-1", "nan"}) {
+        EXPECT_TRUE(contains(refusal_of(fmt::format("stiff_tolerance = {}", value)), "integrator.stiff_tolerance"))
+            << value;
+    }
+    EXPECT_EQ(settings_of("stiff_tolerance = 3e-6").stiff_tolerance, 3e-6);
+}
+
+TEST(SceneMethods, StiffStepsAreTenOfTheOthersUnlessGiven) {
+    EXPECT_DOUBLE_EQ(settings_of("max_step = \"0.2 ms\"").stiff_max_step, 2e-3);
+    EXPECT_DOUBLE_EQ(settings_of("max_step = \"0.2 ms\"\nstiff_max_step = \"1 ms\"").stiff_max_step, 1e-3);
+    EXPECT_DOUBLE_EQ(settings_of("").stiff_max_step, 10 * settings_of("").max_step);
+}
+
+TEST(SceneMethods, ReadBackFromTheResolvedScene) {
+    for (char const* lines : {"method = \"rk4\"\nstep = \"3 us\"", "method = \"auto\"\nstiff_tolerance = 1e-6",
+                              "method = \"ros34pw2\"\nstiff_max_step = \"5 ms\""}) {
+        auto const first = settings_of(lines);
+        auto const again =
+            scene_of(resolved_toml(scene_of("schema = 1\n[integrator]\n" + std::string(lines)))).integrator;
+        EXPECT_EQ(again.method, first.method);
+        EXPECT_EQ(again.fixed_step, first.fixed_step);
+        EXPECT_EQ(again.stiff_max_step, first.stiff_max_step);
+        EXPECT_EQ(again.stiff_tolerance, first.stiff_tolerance);
+    }
+    EXPECT_FALSE(contains(resolved_toml(scene_of("schema = 1")), "\nstep = ")) << "nothing to say without one";
+}
+
+TEST(SceneMethods, FixedStepsAreAllowedAsManyAsTheyAre) {
+    std::string const scene = "method = \"rk4\"\nstep = 1e-9\n{}[study]\nduration = 0.1";
+    auto const with = [&](std::string const& line) { return fmt::format(fmt::runtime(scene), line); };
+    std::uint64_t const allowed = settings_of(with("")).max_steps;
+    EXPECT_GE(allowed, 100'000'000u);
+    EXPECT_LE(allowed, 101'000'000u);
+    EXPECT_EQ(settings_of(with("max_steps = 100000000\n")).max_steps, 100'000'000u);
+    EXPECT_EQ(refusal_of(with("max_steps = 99999999\n")),
+              "scene.toml:5: integrator.max_steps is 99999999 (the fixed steps are 100000000); use a value >= "
+              "100000000, or a larger integrator.step");
+    EXPECT_EQ(refusal_of("method = \"auto\"\nmax_steps = 10\n[study]\nduration = 0.1"), "");
+}
+
+TEST(SceneMethods, StepsThatNobodyCanWaitForAreRefused) {
+    EXPECT_EQ(
+        refusal_of("method = \"rk4\"\nstep = 1e-300\n[study]\nduration = 1"),
+        "scene.toml:4: integrator.step is 1e-300 (that makes 1e+300 steps); use a larger one, or method \"auto\"");
+    EXPECT_TRUE(contains(refusal_of("method = \"rk4\"\nstep = 5e-324"), "(that makes inf steps)"));
+}
+
+TEST(SceneMethods, CountsFixedStepsAsTheKernelsDo) {
+    auto const steps = [](double end_time, double step) {
+        IntegratorSettings settings;
+        settings.end_time = end_time;
+        settings.fixed_step = step;
+        return fixed_steps(settings);
+    };
+    EXPECT_EQ(steps(0.1, 1e-9), 1e8);
+    EXPECT_EQ(steps(1, 0.3), 4);
+    EXPECT_EQ(steps(1, 1.0 / 3), 3);
+    EXPECT_EQ(steps(0.9000000001, 0.3), 3) << "the last step stretches by a millionth";
+    EXPECT_EQ(steps(1e-9, 1), 1);
+}
+
+TEST(SceneMethods, WarnOfKeysWithoutEffect) {
+    struct Case {
+        char const *key, *methods;  // with which it has an effect
+    };
+    for (auto const& [key, methods] :
+         {Case{"step", "rk4"}, Case{"rtol", "auto dopri5 bs32 ros34pw2"}, Case{"atol", "auto dopri5 bs32 ros34pw2"},
+          Case{"max_step", "auto dopri5 bs32 ros34pw2"}, Case{"stiff_max_step", "auto ros34pw2"},
+          Case{"stiff_tolerance", "auto ros34pw2"}}) {
+        for (MethodInfo const& method : method_table) {
+            std::string const fixed = std::string_view(method.name) == "rk4" ? "step = 1e-5\n" : "";
+            std::string const line = std::string_view(key) == "step" ? "step = 1e-5\n" : fixed + key + " = 1e-5\n";
+            Scene const scene =
+                scene_of(fmt::format("schema = 1\n[integrator]\nmethod = \"{}\"\n{}", method.name, line));
+            bool const counts = contains(methods, method.name);
+            std::vector<std::string> expected;
+            if (!counts)
+                expected.push_back(fmt::format("integrator.{} has no effect with method {}", key, method.name));
+            EXPECT_EQ(scene.warnings, expected);
+            // The resolved scene says what counts, no more; so it reads back without a warning.
+            std::string const resolved = resolved_toml(scene);
+            EXPECT_EQ(contains(resolved, fmt::format("\n{} = ", key)), counts) << key << " " << method.name;
+            EXPECT_TRUE(scene_of(resolved).warnings.empty());
+        }
+    }
+    EXPECT_TRUE(scene_of("schema = 1").warnings.empty());
+}
+
+}  // namespace
+}  // namespace slideway

@@ -1,0 +1,113 @@
+// Every number that the kernels of the mechanisms beside the slider-crank give of a state, held against the oracle.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "host/backend/backend.hpp"
+#include "tests/oracle/names.hpp"
+#include "tests/oracle/planar.hpp"
+#include "tests/oracle/random_states.hpp"
+#include "tests/unit/kernels/oracle_comparison.hpp"
+
+namespace slideway {
+namespace {
+
+using testing::compare_probe;
+using testing::Comparison;
+
+auto const isas = ::testing::ValuesIn(built_isas());
+
+/// Of eight apices, but for the slider-crank (kernel_oracle_test.cpp).
+std::vector<Mechanism> sliders_without_a_rod() {
+    auto list = oracle::spatial_mechanisms();
+    std::erase(list, Mechanism::slider_crank);
+    return list;
+}
+
+class SlidersAgainstOracle : public ::testing::TestWithParam<std::tuple<Mechanism, Law, Isa>> {};
+
+TEST_P(SlidersAgainstOracle, AgreeOnThousandsOfStates) {
+    auto const [mechanism, law, isa] = GetParam();
+    if (!is_supported(isa)) GTEST_SKIP() << "this machine lacks " << name_of(isa);
+    auto const cases = oracle::make_cases(20200104, 1200, mechanism, law);  // 100 of each combination of parts
+    int compared = 0;
+    for (std::size_t i = 0; i < cases.size() && !HasFailure(); ++i)
+        compared += compare_probe(isa, cases[i], "case " + std::to_string(i));
+    EXPECT_GT(compared, 1100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Isas, SlidersAgainstOracle,
+                         ::testing::Combine(::testing::ValuesIn(sliders_without_a_rod()),
+                                            ::testing::ValuesIn(oracle::every_law()), isas),
+                         [](auto const& p) {
+                             return oracle::name_of(std::get<0>(p.param)) + "_" +
+                                    oracle::name_of(std::get<1>(p.param)) + "_" +
+                                    std::string(name_of(std::get<2>(p.param)));
+                         });
+
+/// As the kernels have them: numbers in double.
+std::array<double, 4> in_double(oracle::Corners const& values) {
+    std::array<double, 4> result;
+    std::transform(values.begin(), values.end(), result.begin(), [](long double v) { return static_cast<double>(v); });
+    return result;
+}
+
+void compare_planar_probe(Isa isa, oracle::PlanarCase const& c, std::string const& what) {
+    // The probe's impact speeds are their start value.
+    Inputs const& in = c.inputs;
+    auto const start = oracle::planar_start(in);
+    auto const r = oracle::PlanarMechanism(in, c.parts).at(start);
+    double const now = 0;  // a driven crank is at its start angle, which the state of the inputs has
+    ProbeResult p;
+    find_instance(isa, c.parts).probe({&in, &now, 1, &p});
+    EXPECT_EQ(p.status, Status::finished) << what;
+    EXPECT_EQ(p.surfaces, r.surfaces) << what;
+    EXPECT_EQ(p.points, r.points) << what;
+    EXPECT_EQ(p.lines, 0) << what;
+
+    Comparison compare(what);
+    double load = 0;
+    for (long double const force : r.force) load += static_cast<double>(force);
+    double const weight = (in.crank_mass + in.rod_mass + in.slider_mass) * in.gravity;
+    double const reach = in.crank_length + in.rod_length;
+    double const lightest = std::min(in.rod_inertia, in.slider_mass * in.rod_length * in.rod_length);
+    compare.group("angle rates", r.derivative.data(), p.derivative, 3);
+    compare.group("angular accelerations of the links", r.derivative.data() + 3, p.derivative + 3, 2,
+                  load * in.rod_length / lightest);
+    compare.value("angular acceleration of the block", static_cast<double>(r.derivative[5]), p.derivative[5],
+                  load * in.slider_length / in.slider_inertia_z);
+    compare.group("penetrations", in_double(r.depth), p.penetration_y, 4);
+    compare.group("forces", in_double(r.force), p.normal_force_y, 4);
+    long double const powers[] = {r.power_drive, r.power_friction, r.power_damping};
+    double const got[] = {p.power_crank, p.power_friction, p.power_damping};
+    // A rate of penetration is a small difference of velocities, each of which is rounded.
+    double const pin_speed = in.crank_length * std::abs(in.crank_speed);
+    double const speed =
+        pin_speed + in.rod_length * std::abs(static_cast<double>(start[4])) + in.slider_length * std::abs(in.wz);
+    compare.group("powers", powers, got, 3,
+                  1e-6 * load * speed + (c.parts.free_crank ? 0 : (load + weight) * pin_speed));
+    compare.value("energy", static_cast<double>(r.energy), p.energy, weight * reach);
+    compare.value("potential", static_cast<double>(r.contact_potential), p.contact_potential);
+    compare.value("drive torque", static_cast<double>(r.drive_torque), p.crank_torque,
+                  c.parts.free_crank ? 0 : (load + weight) * in.crank_length);
+}
+
+class PlanarKernelsAgainstOracle : public ::testing::TestWithParam<Isa> {};
+
+TEST_P(PlanarKernelsAgainstOracle, AgreeOnThousandsOfStates) {
+    if (!is_supported(GetParam())) GTEST_SKIP() << "this machine lacks " << name_of(GetParam());
+    auto const cases = oracle::make_planar_cases(20101, 2400);
+    for (std::size_t i = 0; i < cases.size() && !HasFailure(); ++i)
+        compare_planar_probe(GetParam(), cases[i], "case " + std::to_string(i));
+}
+
+INSTANTIATE_TEST_SUITE_P(Isas, PlanarKernelsAgainstOracle, isas,
+                         [](auto const& p) { return std::string(name_of(p.param)); });
+
+}  // namespace
+}  // namespace slideway

@@ -1,0 +1,75 @@
+#include "host/study/series_file.hpp"
+
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "host/base/error.hpp"
+
+namespace slideway::testing {
+namespace {
+
+using Values = std::vector<double>;
+
+StoredSeries read(std::string const& text, std::string const& column = "", std::optional<double> spacing = {}) {
+    std::istringstream in(text);
+    return read_csv_series(in, "a.csv", column, spacing);
+}
+
+void expect_refusal(std::string const& text, std::string const& column, std::string const& part) {
+    try {
+        read(text, column);
+        ADD_FAILURE() << "no refusal: " << part;
+    } catch (SceneError const& error) {
+        EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+}
+
+TEST(SeriesFile, TakesTheLastColumnThatIsNotTheTime) {
+    StoredSeries const series = read("t,y,z\n0,1,4\n0.5,2,5\n1,3,6\n");
+    EXPECT_EQ(series.values, (Values{4, 5, 6}));
+    EXPECT_EQ(series.name, "z");
+    EXPECT_DOUBLE_EQ(series.spacing, 0.5);
+    EXPECT_EQ(read("y,time\n7,0\n8,2\n").values, (Values{7, 8}));
+}
+
+TEST(SeriesFile, TakesTheColumnAskedFor) {
+    EXPECT_EQ(read("t,y,z\n0,1,4\n0.5,2,5\n", "y").values, (Values{1, 2}));
+    EXPECT_EQ(read("t,y,z\n0,1,4\n0.5,2,5\n", "2").values, (Values{1, 2}));
+    StoredSeries const series = read("1,4\n2,5\n", "1", 0.1);
+    EXPECT_EQ(series.values, (Values{1, 2}));
+    EXPECT_EQ(series.name, "column 1");
+    EXPECT_EQ(series.spacing, 0.1);
+}
+
+TEST(SeriesFile, ReadsTheUsualWaysToWriteATable) {
+    for (char const* const text : {"1;4\n2;5\n", "1\t4\r\n2\t5\r\n", "  1   4\n\n  2 +5\n", "# a comment\n1, 4\n2, 5",
+                                   "\xEF\xBB\xBF\"a\",\"b\"\n1,4e0\n2,5\n", "1.5\n4\n5\n"}) {
+        Values values = read(text, "", 1.0).values;
+        if (values.size() == 3) values.erase(values.begin());
+        EXPECT_EQ(values, (Values{4, 5})) << text;
+    }
+    EXPECT_EQ(read("\"t\",\"b b\"\n1,4\n2,5\n").name, "b b");
+}
+
+TEST(SeriesFile, RefusesWhatIsNoSeries) {
+    expect_refusal("", "", "a.csv:1: the table is empty");
+    expect_refusal("t,y\n", "", "a.csv:1: the table has a header but no row");
+    expect_refusal("t,y\n0,1\n1\n", "", "a.csv:3: the row has 1 cells, the first line 2");
+    expect_refusal("t,y\n0,1\n1,2\n", "w", "there is no column 'w'; give one of t, y, or a number from 1 to 2");
+    expect_refusal("t,y\n0,1\n1,2\n", "3", "there is no column '3'");
+    expect_refusal("x,y\n0,1\n1,2\n", "", "has no column time or t; give --dt SECONDS");
+    expect_refusal("t,y\n0,1\n1,2\n3,3\n", "", "not equally spaced");
+    expect_refusal("t,y\n0,1\n0,2\n0,3\n", "", "not equally spaced");
+}
+
+TEST(SeriesFile, TimesMayBeRounded) {
+    // A third of a second, written with three digits.
+    EXPECT_NEAR(*equal_spacing({0, 0.333, 0.667, 1}), 1.0 / 3, 1e-3);
+    EXPECT_EQ(equal_spacing({0, 0.3, 0.667, 1}), std::nullopt);
+    EXPECT_EQ(equal_spacing({1}), std::nullopt);
+    EXPECT_EQ(equal_spacing({2, 1, 0}), std::nullopt);
+}
+
+}  // namespace
+}  // namespace slideway::testing
