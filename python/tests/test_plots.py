@@ -161,8 +161,29 @@ def test_exponent_history_ends_at_the_exponents(result_of: Result, ax: Axes) -> 
     assert ax.lines[-1].get_xdata()[-1] == pytest.approx(1e3 * float(result.lyapunov_time[2]), rel=1e-6)  # ms
 
 
+def test_exponent_histogram_of_a_sweep_averages_over_no_column(ax: Axes) -> None:
+    result = slideway.example().copy(deep=True)
+    name = str(result.attrs["sweep_parameter"])
+    columns = np.unique(result[name])
+    assert len(columns) > 1
+    plot.exponent_histogram(result, ax=ax)
+    labels = [text.get_text() for text in ax.get_legend().get_texts()]
+    values = result["lyapunov_exponent"].isel(exponent=0)
+    for value, said in zip(columns, labels, strict=True):
+        own = values[(result[name] == value).values].values
+        own = own[np.isfinite(own)]
+        assert said.startswith(f"{1e6 * value:.4g} µm: ")
+        assert f"{own.size} members" in said or "one member" in said
+        assert any(np.isclose(line.get_xdata()[0], own.mean()) for line in ax.lines)
+    many = result.isel(member=np.zeros(9, dtype=int)).assign_coords(member=np.arange(9))
+    many[name] = ("member", np.linspace(1e-4, 2e-4, 9), result[name].attrs)
+    with pytest.raises(slideway.SlidewayError, match="9 columns"):
+        plot.exponent_histogram(many)
+
+
 def test_exponent_histogram_counts_members_that_finished(ax: Axes) -> None:
     result = slideway.example()
+    del result.attrs["sweep_parameter"]
     plot.exponent_histogram(result, ax=ax)
     assert sum(patch.get_height() for patch in ax.patches[:-1]) == 11
     values = result.lyapunov_exponent.values[:-1, 0]

@@ -1,17 +1,12 @@
 // Small studies of orbits, run through the program, and their files read back.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <map>
 #include <numbers>
 #include <string>
-#include <utility>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "host/store/result_reader.hpp"
 #include "tests/system/process.hpp"
@@ -21,36 +16,19 @@ namespace slideway::testing::orbits {
 inline constexpr double speed = 100, turn = 2 * std::numbers::pi / speed;
 inline constexpr std::size_t member_total = 11;  // a pack of eight, and a rest
 
-inline std::string scene(std::string const& study, std::string const& law = "conservative") {
-    return fmt::format(
-        "schema = 1\ntitle = \"Orbits\"\n[mechanism]\ncrank_speed = {}\n[contact]\nlaw = \"{}\"\n[friction]\n"
-        "[initial]\nz = \"0.005 mm\"\nroll = 1e-4\nyaw = 2e-4\npitch = -1e-4\n[study]\n{}\n"
-        "[study.vary]\n\"initial.y\" = {{ dist = \"unif\", low = \"-0.03 mm\", high = \"0.03 mm\" }}\n",
-        speed, law, study);
-}
+std::string scene(std::string const& study, std::string const& law = "conservative");
 
-inline std::string const ensemble = scene("kind = \"ensemble\"\nmembers = 11");
-inline std::string const lyapunov =
-    scene("kind = \"lyapunov\"\nmembers = 11\nTtr = \"10 ms\"\nduration = \"50 ms\"\ndt = \"0.5 ms\"\nexponents = 2",
-          "paper");
-inline std::string const by_phase =
-    scene("kind = \"poincare\"\nmembers = 11\ntransient_revolutions = 0\nrevolutions = 2\nphase = \"90 deg\"");
-inline std::string const by_state = scene(
-    "kind = \"poincare\"\nmembers = 11\nTtr = \"10 ms\"\nduration = \"50 ms\"\n"
-    "section = { on = \"y\", value = \"0.03 mm\", direction = \"falling\" }");
-inline std::string const by_gap = scene(
-    "kind = \"poincare\"\nmembers = 11\nTtr = \"10 ms\"\nduration = \"50 ms\"\n"
-    "section = { on = \"gap_y[P2]\", value = \"0.02 mm\" }");
-inline std::string const sweep = scene(
-    "kind = \"sweep\"\nmembers = 3\nparameter = \"joint.clearance\"\nvalues = [\"0.2 mm\", \"0.1 mm\"]\n"
-    "transient_revolutions = 0\nrevolutions = 2\nphase = \"90 deg\"\nexponents = 1\nrescalings_per_revolution = 100");
-inline std::string const plain_sweep = scene(
-    "kind = \"sweep\"\nmembers = 3\nparameter = \"joint.clearance\"\nvalues = [\"0.2 mm\", \"0.1 mm\"]\n"
-    "transient_revolutions = 0\nrevolutions = 2\nphase = \"90 deg\"\nexponents = 0");
+extern std::string const ensemble;
+extern std::string const lyapunov;
+extern std::string const by_phase;
+extern std::string const by_state;
+extern std::string const by_gap;
+extern std::string const sweep;
+extern std::string const plain_sweep;
 
-inline std::string const continued_key = "study.start=continue";
+extern std::string const continued_key;
 
-inline std::vector<std::string> const state_names{"y", "z", "vy", "vz", "roll", "yaw", "pitch", "wx", "wy", "wz"};
+extern std::vector<std::string> const state_names;
 using State = std::array<double, 10>;
 struct Section {
     double time;
@@ -59,82 +37,25 @@ struct Section {
 };
 
 /// By member, in the order of the file.
-inline std::vector<std::vector<Section>> sections_of(ResultReader const& file) {
-    std::vector<std::vector<double>> columns;
-    for (std::string const& name : state_names) columns.push_back(file.values("section_" + name));
-    auto const times = file.values("section_time");
-    std::vector<std::vector<Section>> sections;
-    std::size_t row = 0;
-    for (double const count : file.values("section_count")) {
-        auto& of_member = sections.emplace_back();
-        for (double i = 0; i < count; ++i, ++row) {
-            of_member.push_back({times.at(row), {}});
-            for (std::size_t j = 0; j < columns.size(); ++j) of_member.back().state[j] = columns[j].at(row);
-        }
-    }
-    EXPECT_EQ(row, times.size());
-    return sections;
-}
+std::vector<std::vector<Section>> sections_of(ResultReader const& file);
 
-inline std::vector<State> final_states(ResultReader const& file) {
-    std::vector<State> states(file.values("status").size());
-    for (std::size_t j = 0; j < state_names.size(); ++j) {
-        auto const column = file.values("final_" + state_names[j]);
-        for (std::size_t i = 0; i < states.size(); ++i) states[i][j] = column[i];
-    }
-    return states;
-}
+std::vector<State> final_states(ResultReader const& file);
 
 /// The bits of member i's row, for numbers that may be NaN.
-inline std::vector<double> row(ResultReader const& file, std::string const& name, std::size_t i) {
-    auto const values = file.values(name);
-    std::size_t const width = values.size() / file.values("status").size();
-    std::vector<double> found(values.begin() + static_cast<std::ptrdiff_t>(i * width),
-                              values.begin() + static_cast<std::ptrdiff_t>((i + 1) * width));
-    for (double& x : found) {
-        if (std::isnan(x)) x = 1e300;
-    }
-    return found;
-}
+std::vector<double> row(ResultReader const& file, std::string const& name, std::size_t i);
 
 /// All that a file holds of member i, but for its sections.
-inline std::map<std::string, std::vector<double>> member_of(ResultReader const& file, std::size_t i) {
-    std::map<std::string, std::vector<double>> values;
-    for (std::string const& name : file.variable_names()) {
-        bool const along_members =
-            !name.starts_with("section_") && name != "exponent" && name != "history" && name != "member";
-        if (along_members) values[name] = row(file, name, i);
-    }
-    return values;
-}
+std::map<std::string, std::vector<double>> member_of(ResultReader const& file, std::size_t i);
 
 class OrbitProgram : public Program {
 protected:
-    Outcome run_scene(std::string const& text, std::vector<std::string> options = {}) const {
-        write("s.toml", text);
-        options = to_result(std::move(options));
-        options.insert(options.begin(), {"run", "s.toml", "--no-progress"});
-        return run(std::move(options));
-    }
+    Outcome run_scene(std::string const& text, std::vector<std::string> options = {}) const;
     /// Runs to the end without complaint.
-    ResultReader results_of(std::string const& text, std::vector<std::string> options = {}) const {
-        options.insert(options.end(), {"-o", "r.nc"});
-        Outcome const outcome = run_scene(text, std::move(options));
-        EXPECT_EQ(outcome.code, 0) << outcome.err;
-        EXPECT_EQ(outcome.err, "");
-        return results();
-    }
+    ResultReader results_of(std::string const& text, std::vector<std::string> options = {}) const;
     ResultReader results(std::string const& name = "r.nc") const { return ResultReader(path(name).string()); }
 };
 
 /// Steps that half of the members need more than.
-inline std::uint64_t steps_of_half(ResultReader const& file) {
-    auto steps = file.values("steps_accepted");
-    auto const rejected = file.values("steps_rejected");
-    for (std::size_t i = 0; i < steps.size(); ++i) steps[i] += rejected[i];
-    std::sort(steps.begin(), steps.end());
-    EXPECT_LT(steps.front(), steps.back());
-    return static_cast<std::uint64_t>(steps[steps.size() / 2 - 1]);
-}
+std::uint64_t steps_of_half(ResultReader const& file);
 
 }  // namespace slideway::testing::orbits

@@ -1,18 +1,13 @@
 // Runs the built program as a user does, in a folder of its own.
 #pragma once
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
-#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include <fcntl.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include <sys/types.h>
 
 #include <gtest/gtest.h>
 
@@ -23,10 +18,7 @@ struct Outcome {
     std::string out, err;
 };
 
-inline std::string file_text(std::filesystem::path const& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
+std::string file_text(std::filesystem::path const& path);
 
 /// Whether it comes true before half a minute is over.
 template <class Condition> bool comes_true(Condition const& condition) {
@@ -38,72 +30,29 @@ template <class Condition> bool comes_true(Condition const& condition) {
 }
 
 /// Options of a run whose result is s.nc whatever they change, also where there is one, unless they say otherwise.
-inline std::vector<std::string> to_result(std::vector<std::string> options) {
-    auto const has = [&](std::initializer_list<char const*> names) {
-        return std::any_of(options.begin(), options.end(),
-                           [&](std::string const& word) { return std::find(names.begin(), names.end(), word) != names.end(); });
-    };
-    if (!has({"-o", "--member", "--members"})) options.insert(options.end(), {"-o", "s.nc"});
-    if (!has({"--resume"})) options.push_back("--force");
-    return options;
-}
+std::vector<std::string> to_result(std::vector<std::string> options);
+
+/// The program that the tests of a target start: tests/support/tested_program.cpp, compiled for each.
+extern char const* const tested_program;
 
 class Program : public ::testing::Test {
 protected:
-    Program() : folder_(std::filesystem::temp_directory_path() / ("slideway_cli_test_" + std::to_string(getpid()))) {
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_);
-    }
-    ~Program() override { std::filesystem::remove_all(folder_); }
+    Program();
+    ~Program() override;
 
     std::filesystem::path path(std::string const& name) const { return folder_ / name; }
-    void write(std::string const& name, std::string const& text) const { std::ofstream(path(name)) << text; }
+    void write(std::string const& name, std::string const& text) const;
 
     /// Starts the program in the folder; its output goes to the files `out` and `err` there.
-    pid_t start(std::vector<std::string> arguments) const {
-        arguments.insert(arguments.begin(), SLIDEWAY_BINARY);
-        pid_t const child = fork();
-        if (child != 0) return child;
-        std::vector<char*> words;
-        for (std::string& argument : arguments) words.push_back(argument.data());
-        words.push_back(nullptr);
-        int const flags = O_WRONLY | O_CREAT | O_TRUNC;
-        if (chdir(folder_.c_str()) != 0 || dup2(open("out", flags, 0600), 1) < 0 ||
-            dup2(open("err", flags, 0600), 2) < 0) {
-            _exit(127);
-        }
-        execv(SLIDEWAY_BINARY, words.data());
-        _exit(127);
-    }
-    Outcome wait(pid_t child) const {
-        int status = 0;
-        if (waitpid(child, &status, 0) != child) throw std::runtime_error("waitpid");
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), file_text(path("out")),
-                file_text(path("err"))};
-    }
-    Outcome run(std::vector<std::string> arguments) const { return wait(start(std::move(arguments))); }
+    pid_t start(std::vector<std::string> arguments) const;
+    Outcome wait(pid_t child) const;
+    Outcome run(std::vector<std::string> arguments) const;
 
     /// The program refuses with one line on stderr, which contains `part`, and prints nothing else.
-    void expect_refusal(int code, std::string const& part, std::vector<std::string> arguments) const {
-        Outcome const outcome = run(std::move(arguments));
-        EXPECT_EQ(outcome.code, code) << outcome.err;
-        EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
-        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-        EXPECT_EQ(outcome.out, "");
-    }
+    void expect_refusal(int code, std::string const& part, std::vector<std::string> arguments) const;
 
     /// How many shards the folder lists.
-    std::size_t shards_in(std::string const& shards) const {
-        std::size_t count = 0;
-        std::error_code ignored;
-        for (std::filesystem::directory_iterator entry(path(shards), ignored), end; entry != end;
-             entry.increment(ignored)) {
-            if (!entry->path().filename().string().starts_with("manifest-")) continue;
-            std::string const lines = file_text(entry->path());
-            count += static_cast<std::size_t>(std::count(lines.begin(), lines.end(), '\n'));
-        }
-        return count;
-    }
+    std::size_t shards_in(std::string const& shards) const;
 
 private:
     std::filesystem::path folder_;

@@ -97,45 +97,65 @@ def exponent_history(result: xr.Dataset, member: Members = None, ax: Axes | None
 def exponent_histogram(result: xr.Dataset, ax: Axes | None = None, *, exponent: int = 1, bins: int | str = "auto") -> Axes:
     """Lyapunov exponents of all members that finished, with their mean and its 95 % interval.
 
-    Of a single member the interval of its own estimate is drawn.
+    Of a single member the interval of its own estimate is drawn; of a sweep each column by itself, for columns are different mechanisms.
 
     Args:
         exponent: its number, 1 the largest.
         bins: of numpy.histogram.
 
     Raises:
-        SlidewayError: the result has no exponents, or no member finished.
+        SlidewayError: the result has no exponents, no member finished, or a sweep has more columns than colours.
 
     >>> slideway.plot.exponent_histogram(slideway.example()).get_xlabel()
     'λ₁ [1/s]'
     """
     data = _exponent(variable(result, "lyapunov_exponent"), exponent).values
     there = np.isfinite(data)
-    values = data[there]
-    if values.size == 0:
+    if not there.any():
         raise SlidewayError("no member has an exponent, for none finished; see slideway.statuses(result)")
-    mean = float(values.mean())
-    if values.size > 1:
-        half = student_t(values.size - 1) * float(values.std(ddof=1)) / np.sqrt(values.size)
-    elif "lyapunov_exponent_half_width" in result:
-        half = float(_exponent(result["lyapunov_exponent_half_width"], exponent).values[there][0])
-    else:
-        half = np.nan
+    columns = _columns(result)
     ax = axis(ax)
-    if values.size > 1:
-        # Equal exponents would make bins of no width.
-        span = np.ptp(values) or max(abs(mean), 1.0) * 1e-3
-        ax.hist(values, bins=bins if np.ptp(values) else 1, range=None if np.ptp(values) else (mean - span, mean + span),
-                color=colours[0], alpha=0.7, edgecolor="white", lw=0.5)
-    ax.axvspan(mean - half, mean + half, color=colours[1], alpha=0.25, lw=0)
-    missing = data.size - values.size
-    note = f", {missing} failed" if missing else ""
-    count = f"{values.size} members{note}" if data.size > 1 else "one member"
-    ax.axvline(mean, color=colours[1], lw=2, label=f"({plus_minus(mean, half)}) 1/s, {count}")
+    for number, (name, of_column) in enumerate(columns):
+        values = data[of_column & there]
+        if values.size == 0:
+            continue
+        half = _half_width(values, result, exponent, of_column & there)
+        mean, tint = float(values.mean()), colours[1] if len(columns) == 1 else colours[number]
+        if values.size > 1:
+            # Equal exponents would make bins of no width.
+            span = np.ptp(values) or max(abs(mean), 1.0) * 1e-3
+            ax.hist(values, bins=bins if np.ptp(values) else 1, range=None if np.ptp(values) else (mean - span, mean + span),
+                    color=colours[number], alpha=0.7 if len(columns) == 1 else 0.45, edgecolor="white", lw=0.5)
+        ax.axvspan(mean - half, mean + half, color=tint, alpha=0.25, lw=0)
+        missing = int(of_column.sum()) - values.size
+        count = f"{values.size} members" + (f", {missing} failed" if missing else "") if of_column.sum() > 1 else "one member"
+        ax.axvline(mean, color=tint, lw=2, label=f"{name}({plus_minus(mean, half)}) 1/s, {count}")
     ax.axvline(0, color=grey, lw=1)
-    if values.size == 1:
+    if there.sum() == 1:
         ax.set_yticks([])
-    return finish(ax, f"{numbered('λ', exponent)} [1/s]", "members" if values.size > 1 else "")
+    return finish(ax, f"{numbered('λ', exponent)} [1/s]", "members" if there.sum() > 1 else "")
+
+
+def _columns(result: xr.Dataset) -> list[tuple[str, np.ndarray]]:
+    """The members that a mean may be taken of, with what to call them: all, or those of each column of a sweep."""
+    name = str(result.attrs.get("sweep_parameter", ""))
+    if name not in result:
+        return [("", np.ones(result.sizes["member"], dtype=bool))]
+    at = result[name].values
+    values = np.unique(at)
+    if len(values) > len(colours):
+        raise SlidewayError(f"this sweep has {len(values)} columns, too many to tell apart; use exponent_sweep, or select members")
+    factor, unit = scaled(str(result[name].attrs["units"]), at)
+    return [("" if len(values) == 1 else f"{factor * value:.4g} {unit}: ", at == value) for value in values]
+
+
+def _half_width(values: np.ndarray, result: xr.Dataset, exponent: int, of: np.ndarray) -> float:
+    """Of the 95 % interval: of the members' mean, or of the one member's own estimate."""
+    if values.size > 1:
+        return student_t(values.size - 1) * float(values.std(ddof=1)) / float(np.sqrt(values.size))
+    if "lyapunov_exponent_half_width" in result:
+        return float(_exponent(result["lyapunov_exponent_half_width"], exponent).values[of][0])
+    return float("nan")
 
 
 def _exponent(data: xr.DataArray, number: int) -> xr.DataArray:
