@@ -122,7 +122,8 @@ struct BlockBase {
     CrossingPlan crossings;  // from each member's first_stop on; of models without shadows, and without stops
     /// Asked now and then; true, or a flag that is not 0, ends the block at once.  Members that have not ended keep what their results
     /// held before, but that series, sections and growths of those under way are NaN.
-    bool (*stop)(void const* context) = nullptr;
+    /// @param covered how far the block is: members that ended, and of those under way the share of their time; 0 where cards run it
+    bool (*stop)(void const* context, double covered) = nullptr;
     void const* stop_context = nullptr;
     int const volatile* stop_flag = nullptr;
     // results

@@ -211,12 +211,13 @@ SLIDEWAY_FN std::uint64_t fetch_add(std::uint64_t& number, std::uint64_t amount)
 #endif
 }
 
-/// What a function of the host says, which may be nullptr; no on a card, where it cannot be called.
-SLIDEWAY_FN bool host_says([[maybe_unused]] bool (*question)(void const*), [[maybe_unused]] void const* context) {
+/// What a function of the host says, which may be nullptr, to a number; no on a card, where it cannot be called.
+SLIDEWAY_FN bool host_says([[maybe_unused]] bool (*question)(void const*, double), [[maybe_unused]] void const* context,
+                           [[maybe_unused]] double number) {
 #if defined(__CUDA_ARCH__)
     return false;
 #else
-    return question != nullptr && question(context);
+    return question != nullptr && question(context, number);
 #endif
 }
 

@@ -27,7 +27,7 @@ constexpr Choice choices[] = {
     {::slideway::Method::ros34pw2},  {::slideway::Method::dopri5, true},
 };
 
-bool past_deadline(void const* deadline) { return Clock::now() > *static_cast<Clock::time_point const*>(deadline); }
+bool past_deadline(void const* deadline, double) { return Clock::now() > *static_cast<Clock::time_point const*>(deadline); }
 
 Selection audit_quantities() {
     Selection selected = 0;

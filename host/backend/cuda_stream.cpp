@@ -48,7 +48,7 @@ void CudaStream::run(void const* kernel, Parts const& parts, std::size_t most_th
                   "fetching a block");
     card_.require(cudaEventRecord(done_.get(), stream_.get()), "marking the end of a block");
     while (!has_ended()) {
-        if (block.stop != nullptr && block.stop(block.stop_context)) stop = 1;
+        if (block.stop != nullptr && block.stop(block.stop_context, 0)) stop = 1;
     }
     read_results(host_.get(), block);
 }

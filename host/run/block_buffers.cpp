@@ -106,7 +106,7 @@ void BlockBuffers::run(BlockKernel const& kernel, BlockRequest const& request, M
     block.crossings = request.crossings;
     block.shadows = request.shadows;
     block.shadows.directions = directions_.data();
-    block.stop = [](void const* context) {
+    block.stop = [](void const* context, double) {
         return static_cast<StopRequest const*>(context)->reason() != StopReason::none;
     };
     block.stop_context = &stop;

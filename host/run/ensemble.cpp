@@ -59,13 +59,11 @@ namespace {
 /// The threads' common part of a run.
 class Team {
 public:
-    Team(EnsemblePlan const& plan, MemberQueue& queue, BlockSink const& sink, StopRequest const& stop,
-         Progress* progress)
+    Team(EnsemblePlan const& plan, MemberQueue& queue, BlockSink const& sink, StopRequest const& stop)
         : plan_(plan),
           queue_(queue),
           sink_(sink),
           stop_(stop),
-          progress_(progress),
           sizer_(plan.blocks, plan.members.count(), std::max(plan.workers, plan.threads)) {}
 
     /// Empty: there is nothing more to do.
@@ -82,7 +80,8 @@ public:
         return plan_.members.members(stretch.first, stretch.count);
     }
 
-    bool emit(BlockBuffers const& buffers) {
+    /// @return whether to go on.  @param ended how many members of the block did
+    bool emit(BlockBuffers const& buffers, std::uint64_t& ended) {
         BlockResult const result = buffers.result();
         std::lock_guard const lock(mutex_);
         // A worker whose card failed does not undo what others have finished.
@@ -95,10 +94,10 @@ public:
             fail_locked(std::current_exception());
             return false;
         }
+        std::uint64_t const before = totals_.done();
         add_block(totals_, buffers, result);
-        auto const members = static_cast<std::uint64_t>(result.records.size());
-        unreported_ += members;
-        if (progress_) progress_->add(members);
+        ended = totals_.done() - before;
+        unreported_ += ended;
         return !failure_;
     }
 
@@ -112,20 +111,7 @@ public:
         fail_locked(std::move(failure));
     }
 
-    /// Runs a block that also ends when another has failed: members of it that have ended by then are kept.
-    void run(BlockKernel const& kernel, Block& block) const {
-        struct Ends {
-            decltype(Block::stop) stop;
-            void const* context;
-            std::atomic<bool> const* failed;
-        } const ends{block.stop, block.stop_context, &has_failed_};
-        block.stop = [](void const* context) {
-            auto const& e = *static_cast<Ends const*>(context);
-            return *e.failed || (e.stop != nullptr && e.stop(e.context));
-        };
-        block.stop_context = &ends;
-        kernel(block);
-    }
+    bool has_failed() const { return has_failed_; }
 
     /// After all threads have ended.
     EnsembleTotals totals() {
@@ -147,7 +133,6 @@ private:
     MemberQueue& queue_;
     BlockSink const& sink_;
     StopRequest const& stop_;
-    Progress* const progress_;
     std::mutex mutex_;  // guards what follows and the sink
     BlockSizer sizer_;
     EnsembleTotals totals_;
@@ -158,6 +143,52 @@ private:
     std::atomic<bool> has_failed_ = false;  // as failure_, for those who do not hold the mutex
 };
 
+/// One thread of a team.
+class Worker {
+public:
+    Worker(Team& team, Progress* progress, double weight) : team_(team), progress_(progress) {
+        if (progress != nullptr) covered_ = &progress->worker(weight);
+    }
+
+    /// Runs a block that says how far it is, and also ends when another has failed: members of it that have ended by then are kept.
+    void run(BlockKernel const& kernel, Block& block) {
+        Watch const watch{block.stop, block.stop_context, this};
+        block.stop = [](void const* context, double covered) {
+            auto const& [stop, of_stop, worker] = *static_cast<Watch const*>(context);
+            worker->cover(worker->ended_ + covered);
+            return worker->team_.has_failed() || (stop != nullptr && stop(of_stop, covered));
+        };
+        block.stop_context = &watch;
+        kernel(block);
+    }
+
+    bool emit(BlockBuffers const& buffers) {
+        std::uint64_t ended = 0;
+        bool const goes_on = team_.emit(buffers, ended);
+        ended_ += static_cast<double>(ended);
+        cover(ended_);
+        if (progress_ != nullptr) progress_->add(ended);
+        return goes_on;
+    }
+
+private:
+    struct Watch {
+        decltype(Block::stop) stop;
+        void const* context;
+        Worker* worker;
+    };
+
+    /// What members covered that were given up stays covered.
+    void cover(double members) {
+        if (members > covered_->load(std::memory_order_relaxed)) covered_->store(members, std::memory_order_relaxed);
+    }
+
+    Team& team_;
+    Progress* const progress_;
+    Progress::Covered unheard_ = 0, *covered_ = &unheard_;
+    double ended_ = 0;  // members of the blocks before
+};
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -165,12 +196,11 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }  // namespace
 
 EnsembleTotals run_ensemble(EnsemblePlan const& plan, MemberQueue& queue, BlockKernel const& kernel,
-                            BlockSink const& sink, StopRequest const& stop, Progress* progress) {
+                            BlockSink const& sink, StopRequest const& stop, Progress* progress, double weight) {
     auto const start = std::chrono::steady_clock::now();
-    Team team(plan, queue, sink, stop, progress);
-    BlockEmit const emit = [&team](BlockBuffers const& buffers) { return team.emit(buffers); };
-    BlockKernel const watched = [&](Block& block) { team.run(kernel, block); };
-    BlockProgram const once = [&](BlockBuffers& buffers, std::span<std::uint64_t const> members, BlockEmit const&) {
+    Team team(plan, queue, sink, stop);
+    BlockProgram const once = [&](BlockKernel const& watched, BlockBuffers& buffers, std::span<std::uint64_t const> members,
+                                  BlockEmit const& emit) {
         buffers.run(watched, plan.request, plan.source, stop, members);
         emit(buffers);
     };
@@ -181,9 +211,12 @@ EnsembleTotals run_ensemble(EnsemblePlan const& plan, MemberQueue& queue, BlockK
         // No exception may leave the parallel region.
         try {
             BlockBuffers buffers;
+            Worker worker(team, progress, weight);
+            BlockKernel const watched = [&](Block& block) { worker.run(kernel, block); };
+            BlockEmit const emit = [&](BlockBuffers const& block) { return worker.emit(block); };
             for (auto places = team.next_places(); !places.empty(); places = team.next_places()) {
                 auto const begin = std::chrono::steady_clock::now();
-                program(buffers, places, emit);
+                program(watched, buffers, places, emit);
                 team.measured(places.size(), seconds_since(begin), buffers.lane_utilisation());
             }
         } catch (...) {
@@ -196,9 +229,9 @@ EnsembleTotals run_ensemble(EnsemblePlan const& plan, MemberQueue& queue, BlockK
 }
 
 EnsembleTotals run_ensemble(EnsemblePlan const& plan, BlockKernel const& kernel, BlockSink const& sink,
-                            StopRequest const& stop, Progress* progress) {
+                            StopRequest const& stop, Progress* progress, double weight) {
     LocalQueue queue(plan.members.count());
-    return run_ensemble(plan, queue, kernel, sink, stop, progress);
+    return run_ensemble(plan, queue, kernel, sink, stop, progress, weight);
 }
 
 }  // namespace slideway

@@ -21,8 +21,9 @@ namespace slideway {
 using BlockEmit = std::function<bool(BlockBuffers const&)>;
 
 /// What a worker does with the places of the run that it took; what it emits need not be one block.
-using BlockProgram =
-    std::function<void(BlockBuffers& buffers, std::span<std::uint64_t const> places, BlockEmit const& emit)>;
+/// @param kernel the run's, for blocks that are emitted: their progress is told
+using BlockProgram = std::function<void(BlockKernel const& kernel, BlockBuffers& buffers, std::span<std::uint64_t const> places,
+                                        BlockEmit const& emit)>;
 
 struct EnsemblePlan {
     MemberSet members;  // what is to run; with a program: its places
@@ -53,14 +54,15 @@ struct EnsembleTotals {
 int default_threads();
 
 /// Integrates the members of the plan, or those that were handed out before `stop` said to end.  A member's result depends neither on
-/// the threads nor on the blocks.  `progress` may be nullptr.
+/// the threads nor on the blocks.  `progress` may be nullptr, and hears of blocks in work too.
+/// @param weight of a member's work in the progress
 /// @throws what the sink, the kernel or the member source throws first; the queue is then abandoned, and the blocks in work end soon:
 /// what of them is finished goes to the sink, unless that has failed.
 EnsembleTotals run_ensemble(EnsemblePlan const& plan, MemberQueue& queue, BlockKernel const& kernel,
-                            BlockSink const& sink, StopRequest const& stop, Progress* progress = nullptr);
+                            BlockSink const& sink, StopRequest const& stop, Progress* progress = nullptr, double weight = 1);
 
 /// The same by this process alone.
 EnsembleTotals run_ensemble(EnsemblePlan const& plan, BlockKernel const& kernel, BlockSink const& sink,
-                            StopRequest const& stop, Progress* progress = nullptr);
+                            StopRequest const& stop, Progress* progress = nullptr, double weight = 1);
 
 }  // namespace slideway

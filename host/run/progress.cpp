@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -18,11 +19,11 @@ std::string clock_text(double seconds) {
 
 }  // namespace
 
-std::string progress_line(std::uint64_t done, std::uint64_t members, double seconds, std::uint64_t before) {
-    double const rate = seconds > 0 ? static_cast<double>(done - before) / seconds : 0;
-    double const percent = members > 0 ? 100.0 * static_cast<double>(done) / static_cast<double>(members) : 100.0;
-    std::string const left = rate > 0 ? clock_text(static_cast<double>(members - done) / rate) : "--";
-    return fmt::format("{:5.1f} %  {} of {} members  {:.3g} members/s  ETA {}", percent, done, members, rate, left);
+std::string progress_line(ProgressTask const& task, std::uint64_t ended, double share, double rate, double left) {
+    std::string const eta = clock_text(left);
+    if (task.is_check) return fmt::format("checking: {:5.1f} % of {} members  ETA {}", 100 * share, task.members, eta);
+    return fmt::format("{:5.1f} %  {} of {} members  {:.3g} members/s  ETA {}{}", 100 * share, ended, task.members, rate, eta,
+                       task.check_follows ? ", then a check" : "");
 }
 
 Progress::Style Progress::style_for(std::FILE* out, bool quiet) {
@@ -30,8 +31,8 @@ Progress::Style Progress::style_for(std::FILE* out, bool quiet) {
     return isatty(fileno(out)) ? Style::terminal : Style::lines;
 }
 
-Progress::Progress(std::uint64_t members, std::uint64_t before, Style style, std::FILE* out, StopRequest const& stop)
-    : members_(members), before_(before), style_(style), out_(out), stop_(stop) {
+Progress::Progress(ProgressTask const& task, Style style, std::FILE* out, StopRequest const& stop)
+    : task_(task), work_(task.work > 0 ? task.work : static_cast<double>(task.members)), style_(style), out_(out), stop_(stop) {
     if (style_ != Style::none) reporter_ = std::thread([this] { report(); });
 }
 
@@ -39,20 +40,47 @@ Progress::~Progress() {
     if (!reporter_.joinable()) return;
     {
         std::lock_guard const lock(mutex_);
-        ended_ = true;
+        ended_reporting_ = true;
     }
     changed_.notify_one();
     reporter_.join();
     if (style_ == Style::terminal) {
-        print_line();
+        print(look());
         std::fputc('\n', out_);
     }
 }
 
-void Progress::print_line() {
+Progress::Covered& Progress::worker(double weight) {
+    std::lock_guard const lock(workers_mutex_);
+    Worker& worker = workers_.emplace_back();
+    worker.weight = weight;
+    return worker.covered;
+}
+
+void Progress::add_distant(std::uint64_t members) {
+    add(members);
+    std::lock_guard const lock(workers_mutex_);
+    distant_ += static_cast<double>(members);
+}
+
+double Progress::share() {
+    std::lock_guard const lock(workers_mutex_);
+    double done = static_cast<double>(task_.before) + distant_;
+    for (Worker const& worker : workers_) done += worker.weight * worker.covered.load(std::memory_order_relaxed);
+    share_ = std::clamp(work_ > 0 ? done / work_ : 1, share_, 1.0);
+    return share_;
+}
+
+/// @return the line of now
+std::string Progress::look() {
     std::chrono::duration<double> const elapsed = std::chrono::steady_clock::now() - start_;
-    std::string const line =
-        progress_line(before_ + done_.load(std::memory_order_relaxed), members_, elapsed.count(), before_);
+    double const share = this->share(), done = share * work_ - static_cast<double>(task_.before);
+    time_left_.note(elapsed.count(), done);
+    double const left = time_left_.seconds((1 - share) * work_ + task_.after);
+    return progress_line(task_, task_.before + ended_.load(std::memory_order_relaxed), share, done / elapsed.count(), left);
+}
+
+void Progress::print(std::string const& line) {
     // Erase to the end of the line: the next one may be shorter.
     tell(style_ == Style::terminal ? fmt::format("\r{}\x1b[K", line) : line + '\n');
 }
@@ -65,17 +93,18 @@ void Progress::tell(std::string const& text) {
 
 void Progress::report() {
     using namespace std::chrono_literals;
-    int const ticks_per_line = style_ == Style::terminal ? 1 : 40;
+    constexpr int first_line = 8, ticks_per_line = 40;
     bool told_stop = false;
     std::unique_lock lock(mutex_);
-    for (int tick = 1; !changed_.wait_for(lock, 250ms, [this] { return ended_; }); ++tick) {
+    for (int tick = 1; !changed_.wait_for(lock, 250ms, [this] { return ended_reporting_; }); ++tick) {
         if (!told_stop && stop_.reason() != StopReason::none) {
             told_stop = true;
             tell(fmt::format("{}stopping ({}): members under way are given up, those that ended are written\n",
                              style_ == Style::terminal ? "\r\x1b[K" : "",
                              stop_.reason() == StopReason::signal ? "signal" : "--max-hours"));
         }
-        if (tick % ticks_per_line == 0) print_line();
+        std::string const line = look();
+        if (style_ == Style::terminal || tick == first_line || tick % ticks_per_line == 0) print(line);
     }
 }
 

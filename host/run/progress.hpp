@@ -6,48 +6,77 @@
 #include <condition_variable>
 #include <cstdint>
 #include <cstdio>
+#include <deque>
 #include <mutex>
 #include <string>
 #include <thread>
 
 #include "host/run/stop.hpp"
+#include "host/run/time_left.hpp"
 
 namespace slideway {
 
-/// ` 37.5 %  384 of 1024 members  12.3 members/s  ETA 0:52`.  The ETA is the rate so far carried on.
-/// @param before of `done`, those done before the clock started.
-std::string progress_line(std::uint64_t done, std::uint64_t members, double seconds, std::uint64_t before = 0);
+/// What is to be done, in members: how much of it is done is a matter of their simulated time.
+struct ProgressTask {
+    std::uint64_t members = 0;
+    std::uint64_t before = 0;  // of them were done before the start: they count, but not towards the rate
+    double after = 0;          // what follows and is told for itself, in members' work: it counts towards the time left
+    double work = 0;           // what the members come to, where those of some parts weigh more; 0: one each
+    bool is_check = false;     // members run again, and the line says so
+    bool check_follows = false;  // that nobody can foresee: the line says that it is not in the time left
+};
 
-/// Writes from a thread of its own: a line redrawn four times a second on a terminal, else a line every ten seconds.
+/// ` 37.5 %  384 of 1024 members  12.3 members/s  ETA 0:52`, `checking:  37.5 % of 16 members  ETA 0:05`.
+/// @param ended members, well or not  @param share of the work [0, 1]  @param rate [members/s]  @param left [s], NaN: nothing to say
+std::string progress_line(ProgressTask const& task, std::uint64_t ended, double share, double rate, double left);
+
+/// Writes from a thread of its own: a line redrawn four times a second on a terminal, else a line after two seconds and one every ten.
 class Progress {
 public:
     enum class Style { none, lines, terminal };
     /// terminal if `out` is one, lines if not, none if quiet.
     static Style style_for(std::FILE* out, bool quiet);
 
-    /// @param before members that were done before the start: they count, but not towards the rate.
-    Progress(std::uint64_t members, std::uint64_t before, Style style, std::FILE* out, StopRequest const& stop);
+    Progress(ProgressTask const& task, Style style, std::FILE* out, StopRequest const& stop);
     ~Progress();
     Progress(Progress const&) = delete;
     Progress& operator=(Progress const&) = delete;
 
-    /// From any thread.
-    void add(std::uint64_t members) noexcept { done_.fetch_add(members, std::memory_order_relaxed); }
+    /// How many members' work a worker has done, and shares of members under way.  It alone writes, and never less than before.
+    using Covered = std::atomic<double>;
+    /// A worker's own, for as long as this lives.  @param weight of each of its members  From any thread, as what follows.
+    Covered& worker(double weight = 1);
+    /// Members that have ended.
+    void add(std::uint64_t members) noexcept { ended_.fetch_add(members, std::memory_order_relaxed); }
+    /// The same of members that none of these workers had.
+    void add_distant(std::uint64_t members);
+    /// [0, 1], never less than before.
+    double share();
 
 private:
+    struct alignas(64) Worker {
+        Covered covered = 0;
+        double weight = 1;
+    };
     void report();
-    void print_line();
+    std::string look();
+    void print(std::string const& line);
     void tell(std::string const& text);
 
-    std::uint64_t const members_, before_;
+    ProgressTask const task_;
+    double const work_;
     Style const style_;
     std::FILE* const out_;
     StopRequest const& stop_;
     std::chrono::steady_clock::time_point const start_ = std::chrono::steady_clock::now();
-    std::atomic<std::uint64_t> done_ = 0;
+    std::atomic<std::uint64_t> ended_ = 0;
+    std::mutex workers_mutex_;
+    std::deque<Worker> workers_;
+    double distant_ = 0, share_ = 0;
+    TimeLeft time_left_;
     std::mutex mutex_;
     std::condition_variable changed_;
-    bool ended_ = false;
+    bool ended_reporting_ = false;
     std::thread reporter_;
 };
 

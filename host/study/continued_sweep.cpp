@@ -42,11 +42,12 @@ public:
           ends_(std::move(ends)),
           stop_(stop) {}
 
-    void run(BlockBuffers& buffers, std::span<std::uint64_t const> starts, BlockEmit const& emit) const {
+    /// @param kernel for the members that are asked for: progress is told of them alone
+    void run(BlockKernel const& kernel, BlockBuffers& buffers, std::span<std::uint64_t const> starts, BlockEmit const& emit) const {
         std::vector<Place> places(starts.size());
         std::vector<std::vector<Turn>> const turns = turns_of(starts);
         for (std::uint64_t column = 0; column < columns(); ++column) {
-            if (!run_column(column, turns[column], buffers, starts, places, emit)) return;
+            if (!run_column(column, turns[column], {kernel, buffers, emit}, starts, places)) return;
             if (stop_.reason() != StopReason::none) return;
         }
     }
@@ -84,8 +85,15 @@ private:
         if (finished) set_start(info(scene_.parts.mechanism), state, place.there);
     }
 
-    bool run_column(std::uint64_t column, std::vector<Turn> const& turns, BlockBuffers& buffers,
-                    std::span<std::uint64_t const> starts, std::vector<Place>& places, BlockEmit const& emit) const {
+    /// What runs members, and where results go; nowhere if there is no `emit`.
+    struct Way {
+        BlockKernel const& kernel;
+        BlockBuffers& buffers;
+        BlockEmit const& emit;
+    };
+
+    bool run_column(std::uint64_t column, std::vector<Turn> const& turns, Way const& way, std::span<std::uint64_t const> starts,
+                    std::vector<Place>& places) const {
         std::vector<std::uint64_t> asked, leading;
         std::vector<std::size_t> place_of_asked, place_of_leading;
         for (std::size_t i = 0; i < starts.size(); ++i) {
@@ -100,12 +108,13 @@ private:
             (is_asked ? asked : leading).push_back(m);
             (is_asked ? place_of_asked : place_of_leading).push_back(i);
         }
-        return run_members(leading, place_of_leading, buffers, places, {}) &&
-               run_members(asked, place_of_asked, buffers, places, emit);
+        return run_members(leading, place_of_leading, {kernel_, way.buffers, {}}, places) &&
+               run_members(asked, place_of_asked, way, places);
     }
 
-    bool run_members(std::vector<std::uint64_t> const& members, std::vector<std::size_t> const& places_of,
-                     BlockBuffers& buffers, std::vector<Place>& places, BlockEmit const& emit) const {
+    bool run_members(std::vector<std::uint64_t> const& members, std::vector<std::size_t> const& places_of, Way const& way,
+                     std::vector<Place>& places) const {
+        auto const& [kernel, buffers, emit] = way;
         if (members.empty()) return true;
         MemberSource const source = [&](std::uint64_t m, Inputs& inputs) {
             if (!draw_(m, inputs)) return false;
@@ -116,7 +125,7 @@ private:
             inputs.start_angle = scene_.chaos.section.level;  // where the column before has ended
             return true;
         };
-        buffers.run(kernel_, request_, source, stop_, members);
+        buffers.run(kernel, request_, source, stop_, members);
         BlockResult const result = buffers.result();
         for (std::size_t i = 0; i < members.size(); ++i) {
             StateNumbers state{};
@@ -178,8 +187,9 @@ void continue_columns(Scene const& scene, EnsemblePlan& plan, MemberSet const& a
                       MemberEnds ends, StopRequest const& stop) {
     plan.members = swept_starts(scene, asked);
     auto const chain = std::make_shared<Chain>(scene, plan.request, plan.source, asked, kernel, std::move(ends), stop);
-    plan.program = [chain](BlockBuffers& buffers, std::span<std::uint64_t const> places, BlockEmit const& emit) {
-        chain->run(buffers, places, emit);
+    plan.program = [chain](BlockKernel const& watched, BlockBuffers& buffers, std::span<std::uint64_t const> places,
+                           BlockEmit const& emit) {
+        chain->run(watched, buffers, places, emit);
     };
 }
 

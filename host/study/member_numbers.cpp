@@ -143,7 +143,7 @@ MemberNumbers stored_numbers(ToleranceMembers const& members, Scene const& scene
 }
 
 MemberNumbers fresh_numbers(Scene const& scene, std::vector<std::uint64_t> const& members, Backend const& backend, int threads,
-                            StopRequest const* stop) {
+                            StopRequest const* stop, Progress* progress, double weight) {
     MemberNumbers numbers = empty_numbers(scene);
     numbers.work.assign(members.size(), nan);
     for (auto& column : numbers.columns) column.values.assign(members.size(), nan);
@@ -174,7 +174,8 @@ MemberNumbers fresh_numbers(Scene const& scene, std::vector<std::uint64_t> const
     };
     EnsemblePlan const plan = ensemble_plan(scene, MemberSet::of(members), backend, threads);
     StopRequest const nobody;
-    run_ensemble(plan, backend.kernel(scene.parts, plan.request.shadows.count > 0), take, stop != nullptr ? *stop : nobody);
+    BlockKernel const kernel = backend.kernel(scene.parts, plan.request.shadows.count > 0);
+    run_ensemble(plan, kernel, take, stop != nullptr ? *stop : nobody, progress, weight);
     return numbers;
 }
 

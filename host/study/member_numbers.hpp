@@ -7,7 +7,7 @@
 
 #include "host/backend/backend.hpp"
 #include "host/config/scene.hpp"
-#include "host/run/stop.hpp"
+#include "host/run/progress.hpp"
 #include "host/statistics/summary.hpp"
 #include "host/study/tolerance_members.hpp"
 
@@ -45,8 +45,9 @@ std::vector<double> stored_work(ToleranceMembers const& members);
 MemberNumbers stored_numbers(ToleranceMembers const& members, Scene const& scene, std::vector<std::uint64_t> const& rows,
                              std::vector<double> const& work, std::vector<WholeColumn>& whole);
 
-/// Runs members, and says what they came to in their order.  @param stop may be nullptr
+/// Runs members, and says what they came to in their order.  @param stop may be nullptr  @param progress may be nullptr
+/// @param weight of a member's work in the progress
 MemberNumbers fresh_numbers(Scene const& scene, std::vector<std::uint64_t> const& members, Backend const& backend, int threads,
-                            StopRequest const* stop);
+                            StopRequest const* stop, Progress* progress = nullptr, double weight = 1);
 
 }  // namespace slideway

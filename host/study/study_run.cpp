@@ -170,7 +170,8 @@ bool StudyRun::merge(StopRequest const& stop, std::optional<ToleranceReport>& re
         settings.threads = options_.threads;
         settings.pause = pause;
         auto const check = [&](NetcdfFile& file) {
-            write_verification(file, verify(ResultView(file), scene_, *options_.backend, {scene_.verify, options_.threads, &stop}));
+            VerificationRequest const request{scene_.verify, options_.threads, &stop, options_.progress};
+            write_verification(file, verify(ResultView(file), scene_, *options_.backend, request));
         };
         merge_study(scene_, folder, folder.listed(), provenance(scene_, *options_.backend, options_.threads),
                     target_, report, settings, check);

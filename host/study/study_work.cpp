@@ -9,6 +9,7 @@
 #include "host/study/continued_sweep.hpp"
 #include "host/study/exponent_table.hpp"
 #include "host/study/study_run.hpp"
+#include "host/study/verification.hpp"
 
 namespace slideway {
 namespace {
@@ -95,6 +96,22 @@ EnsembleTotals compute(Scene const& scene, StudyOptions const& options, StudyWor
     return totals;
 }
 
+/// With the check that follows where it is small; what a large one takes is known but roughly.
+ProgressTask progress_task(Scene const& scene, StudyOptions const& options, StudyWork const& work, int ranks) {
+    constexpr double small = 0.25;
+    ProgressTask task{work.before + work.todo.count(), work.before};
+    if (options.part.of_array) return task;
+    auto const all = static_cast<double>(task.members);
+    // Rank 0 alone checks, and its lanes take as long for few members as for those that fill them.
+    EnsemblePlan const plan = ensemble_plan(scene, work.todo, *options.backend, options.threads, options.block_members);
+    double const lanes = static_cast<double>(plan.threads) * static_cast<double>(plan.blocks.bounds.lanes);
+    double const check = foreseen_check(scene, scene.verify, task.members) * std::max(1 / lanes, 1 / static_cast<double>(most_checked)) *
+                         std::min(all, ranks * lanes);
+    task.check_follows = check > small * all;
+    if (!task.check_follows) task.after = check;
+    return task;
+}
+
 /// @throws FileError with what a rank says of its failure
 EnsembleTotals sum_of(std::vector<std::string> const& ranks) {
     EnsembleTotals totals;
@@ -115,8 +132,8 @@ EnsembleTotals sum_of(std::vector<std::string> const& ranks) {
 EnsembleTotals run_work(Scene const& scene, StudyOptions const& options, StudyWork const& work, Ranks& ranks,
                         StopRequest const& stop) {
     std::uint64_t const places = place_count(scene, work.todo);
-    Progress progress(work.before + work.todo.count(), work.before, options.progress, stderr, stop);
-    auto const queue = ranks.share(places, [&](std::uint64_t members) { progress.add(members); });
+    Progress progress(progress_task(scene, options, work, ranks.count()), options.progress, stderr, stop);
+    auto const queue = ranks.share(places, [&](std::uint64_t members) { progress.add_distant(members); });
     // Every rank comes to `gather`, whatever happens to it, and before its queue ends: others may still take from it.
     std::string mine;
     std::exception_ptr failure;

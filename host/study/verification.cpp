@@ -14,7 +14,6 @@ namespace {
 
 constexpr double of_the_study = 0.1;  // that a check may cost unasked
 constexpr double first_share = 0.8;   // of what is left
-constexpr std::size_t most_members = 16;
 constexpr double steps_beyond = 2;    // how much more than foreseen a check may take
 
 std::string remedy(Scene const& scene, Verification const& v) {
@@ -59,6 +58,54 @@ Verification not_checked(Verification v, std::string const& why) {
     return v;
 }
 
+/// Which checks there is work for.  Each may have what is left of the whole, shared with those after it: the first ones may take most
+/// of it, for one check is better than several halves.
+class Budget {
+public:
+    /// @param asked as in VerificationRequest  @param all members of the study  @param total their work
+    /// @param members that are chosen already, or 0
+    Budget(std::optional<std::uint64_t> asked, std::uint64_t all, double total, std::uint64_t members)
+        : is_asked_(asked.has_value()), most_(std::min<std::uint64_t>(asked.value_or(most_checked), all)), mean_work_(total / static_cast<double>(all)),
+          left_(of_the_study * total), members_(members) {}
+
+    /// Members that the next check may run again, each taking `cost` times what a member of the study takes; 0: none.
+    std::uint64_t next(double cost, bool is_last) {
+        share_ = is_last ? left_ : first_share * left_;
+        of_a_member_ = cost * mean_work_;
+        auto const affordable = static_cast<std::uint64_t>(share_ / of_a_member_);
+        if (members_ == 0) {
+            std::uint64_t const count = is_asked_ ? most_ : std::min(most_, affordable);
+            if (!is_asked_ && count < least_members) return 0;
+            members_ = count;
+        }
+        return is_asked_ || share_ >= static_cast<double>(members_) * of_a_member_ ? members_ : 0;
+    }
+    /// What one of them may take.
+    double most_of_a_member() const { return std::min(share_ / static_cast<double>(members_), steps_beyond * of_a_member_); }
+    void spend(double work) { left_ -= work; }
+
+private:
+    bool const is_asked_;
+    std::uint64_t const most_;
+    double const mean_work_;
+    double left_, share_ = 0, of_a_member_ = 0;
+    std::uint64_t members_;
+};
+
+/// What checks are foreseen to take, in the work of members of the study.
+double foreseen_work(std::vector<CheckMethod> const& methods, Budget budget, double mean_work) {
+    double work = 0;
+    for (std::size_t i = 0; i < methods.size(); ++i) {
+        double const of_check = static_cast<double>(budget.next(methods[i].cost, i + 1 == methods.size())) * methods[i].cost;
+        budget.spend(of_check * mean_work);
+        work += of_check;
+    }
+    return work;
+}
+
+/// Of a study that keeps no members: whether some run again to be compared.
+bool runs_members_anew(std::optional<std::uint64_t> asked, std::uint64_t all) { return asked || all * of_the_study > 2 * most_checked; }
+
 /// Bounds what a check may take, in steps.
 void limit_steps(Scene& check, double work_of_a_member) {
     constexpr double of_a_step = 4;  // right-hand sides, of the cheapest method
@@ -68,6 +115,15 @@ void limit_steps(Scene& check, double work_of_a_member) {
 
 }  // namespace
 
+double foreseen_check(Scene const& scene, std::optional<std::uint64_t> asked, std::uint64_t all) {
+    if (asked == 0u || is_continued(scene)) return 0;
+    std::uint64_t const most = std::min<std::uint64_t>(asked.value_or(most_checked), all);
+    bool const stored = scene.stores_members();
+    if (!stored && !runs_members_anew(asked, all)) return 0;
+    Budget const budget(asked, all, static_cast<double>(all), stored ? 0 : most);
+    return foreseen_work(check_methods(scene), budget, 1) + (stored ? 0.0 : static_cast<double>(most));
+}
+
 Verification verify(ResultView const& results, Scene const& scene, Backend const& backend, VerificationRequest const& request) {
     Verification v;
     v.settings = words_of(scene.integrator);
@@ -76,53 +132,50 @@ Verification verify(ResultView const& results, Scene const& scene, Backend const
     std::optional<ToleranceMembers> stored;
     if (results.stores_members()) stored.emplace(results, 0, member_count(scene));
     std::uint64_t const all = stored ? stored->size() : member_count(scene);
-    auto const asked = [&] { return std::min<std::uint64_t>(request.members.value_or(most_members), all); };
     auto const choose = [&](std::uint64_t count) {
         std::vector<std::uint64_t> const rows = spread_over(all, count);
         for (std::uint64_t const row : rows) v.members.push_back(stored ? stored->number(row) : row);
         return rows;
     };
-    auto const run_again = [&](Scene const& check) { return fresh_numbers(check, v.members, backend, request.threads, request.stop); };
+    StopRequest const nobody;
+    std::optional<Progress> progress;
+    auto const run_again = [&](Scene const& check, double weight) {
+        ProgressTask task{v.members.size()};
+        task.work = foreseen_check(scene, request.members, all);
+        task.is_check = true;
+        if (!progress) progress.emplace(task, request.progress, stderr, request.stop != nullptr ? *request.stop : nobody);
+        return fresh_numbers(check, v.members, backend, request.threads, request.stop, &*progress, weight);
+    };
     std::vector<double> work;
     std::vector<WholeColumn> whole;
     double total = 0;
     if (stored) {
         work = stored_work(*stored);
         total = std::accumulate(work.begin(), work.end(), 0.0);
-    } else if (request.members || all * of_the_study > 2 * most_members) {
+    } else if (runs_members_anew(request.members, all)) {
         // What members came to is not there: those that are compared run as in the study, too.
-        choose(asked());
-        v.numbers.push_back(run_again(without_series(scene)));
+        choose(std::min<std::uint64_t>(request.members.value_or(most_checked), all));
+        v.numbers.push_back(run_again(without_series(scene), 1));
         total = v.numbers.front().total_work() * static_cast<double>(all) / static_cast<double>(v.members.size());
     }
     if (!(total > 0)) return not_checked(std::move(v), stored ? "no member ran" : "members are not stored; run --verify does it");
     std::vector<CheckMethod> methods = check_methods(scene);
 
-    // Each check may have what is left of the whole, shared with those after it.
-    double left = of_the_study * total, dearest = 0;
-    double const mean_work = total / static_cast<double>(all);
+    Budget budget(request.members, all, total, v.members.size());
+    double dearest = 0;
     for (std::size_t i = 0; i < methods.size(); ++i) {
         CheckMethod& method = methods[i];
-        // The first ones may take most of it: one check is better than several halves.
-        double const share = i + 1 < methods.size() ? first_share * left : left, of_a_member = method.cost * mean_work;
-        dearest += method.cost * static_cast<double>(std::min<std::uint64_t>(most_members, all));
-        if (v.members.empty()) {
-            std::uint64_t count = asked();
-            if (!request.members) count = std::min(count, static_cast<std::uint64_t>(share / of_a_member));
-            if (!request.members && count < least_members) continue;
-            v.numbers.push_back(stored_numbers(*stored, scene, choose(count), work, whole));
-        }
-        if (!request.members) {
-            auto const count = static_cast<double>(v.members.size());
-            if (share < count * of_a_member) continue;
-            limit_steps(method.scene, std::min(share / count, steps_beyond * of_a_member));
-        }
-        v.numbers.push_back(run_again(method.scene));
+        dearest += method.cost * static_cast<double>(std::min<std::uint64_t>(most_checked, all));
+        std::uint64_t const count = budget.next(method.cost, i + 1 == methods.size());
+        if (count == 0) continue;
+        if (v.members.empty()) v.numbers.push_back(stored_numbers(*stored, scene, choose(count), work, whole));
+        if (!request.members) limit_steps(method.scene, budget.most_of_a_member());
+        v.numbers.push_back(run_again(method.scene, method.cost));
         if (request.stop != nullptr && request.stop->reason() != StopReason::none) return not_checked(std::move(v), "the run was stopped");
         v.methods.push_back(method.words);
         v.finished.push_back(v.numbers.back().finished());
         double const spent = v.numbers.back().total_work();
-        left -= spent;
+        budget.spend(spent);
         v.share += spent / total;
     }
     if (v.methods.empty()) {

@@ -48,6 +48,8 @@ struct CheckedColumn {
     bool refutes_sign = false;  // of an exponent's mean: certain in the study, and not so, or the other, here; differs too
 };
 
+/// Members that run again unasked.
+inline constexpr std::uint64_t most_checked = 16;
 /// Fewer pairs are not tested.
 inline constexpr std::size_t least_members = 6;
 
@@ -76,7 +78,12 @@ struct VerificationRequest {
     std::optional<std::uint64_t> members;  // as many, whatever it costs; none: up to 16, within a tenth of the study's work
     int threads = 1;
     StopRequest const* stop = nullptr;     // ends it: not_checked
+    Progress::Style progress = Progress::Style::none;
 };
+
+/// What a check is foreseen to take beside its study, in the work of as many of the study's members; 0 where there will be none.
+/// @param asked as in VerificationRequest  @param all members that the study has run
+double foreseen_check(Scene const& scene, std::optional<std::uint64_t> asked, std::uint64_t all);
 
 /// Checks a study whose members are all in a result.  Deterministic: what is run again follows from the scene and from what members took,
 /// which do not depend on threads or machines.  Differences count where they are beyond chance (a paired t-test of the mean, Welch's against all members of the study (of a dozen members or more, and numbers that are not skewed), a two-sample

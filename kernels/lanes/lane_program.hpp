@@ -59,7 +59,7 @@ public:
 
 private:
     SLIDEWAY_HD bool is_stopped() const {
-        return (block_.stop_flag != nullptr && *block_.stop_flag != 0) || host_says(block_.stop, block_.stop_context);
+        return (block_.stop_flag != nullptr && *block_.stop_flag != 0) || host_says(block_.stop, block_.stop_context, covered_);
     }
 
     static constexpr int size = Model::size;
@@ -157,6 +157,7 @@ private:
     SLIDEWAY_HD void release(int const* chosen, int members) {
         for (int i = 0; i < members; ++i) {
             int const seat = chosen[i];
+            if (block_.stop != nullptr) count_covered(seat, i);
             if (!holds(pack_.busy, i)) {
                 admit(seat);
                 continue;
@@ -179,6 +180,16 @@ private:
             roster_[seat].kind = lane(c.stiff, i) > 0.5 ? Kind::stiff : Kind::explicit_pair;
             roster_[seat].pattern = static_cast<std::uint32_t>(lane(pattern_, i));
             roster_[seat].time = lane(c.t, i);
+        }
+    }
+
+    /// Counts the time that a member has covered in this stint; all that was left to it if it has ended.
+    SLIDEWAY_HD void count_covered(int seat, int i) {
+        double const before = roster_[seat].time, end = lane(pack_.state.constants.end, i);
+        if (holds(pack_.busy, i)) {
+            covered_ += (lane(pack_.state.course.t, i) - before) / end;
+        } else {
+            covered_ += before > 0 ? 1 - before / end : 1;
         }
     }
 
@@ -297,6 +308,7 @@ private:
     Results<Model> results_;
     Roster<seats, width> roster_;
     std::uint64_t next_ = 0;  // of the queue, if the block is this program's alone
+    double covered_ = 0;      // members, and shares of them
     [[no_unique_address]] std::conditional_t<(width > 1), Record[seats], NoRecords> records_;
     Pack<Model, Real> pack_;
     Real pattern_;

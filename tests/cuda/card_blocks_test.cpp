@@ -94,7 +94,7 @@ TEST_F(CardBlocks, EndSoonWhenTheyAreToldTo) {
     OwnedBlock block(plan);
     using Clock = std::chrono::steady_clock;
     auto const end = Clock::now() + std::chrono::milliseconds(100);
-    block.block.stop = [](void const* time) { return Clock::now() > *static_cast<Clock::time_point const*>(time); };
+    block.block.stop = [](void const* time, double) { return Clock::now() > *static_cast<Clock::time_point const*>(time); };
     block.block.stop_context = &end;
     run(block);
     EXPECT_LT(Clock::now() - end, std::chrono::seconds(5));

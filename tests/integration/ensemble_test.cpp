@@ -133,7 +133,7 @@ TEST(Ensemble, WhoseKernelFailsKeepsWhatOthersHaveInWork) {
         // The first block is told that the second has failed; its last member has not ended by then.
         for (int i = 0; i < 10'000 && !was_told; ++i) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
-            was_told = block.stop(block.stop_context);
+            was_told = block.stop(block.stop_context, 0);
         }
         known_results(block);
         block.records[4] = {};
@@ -157,7 +157,7 @@ TEST(Ensemble, WhoseWorkerFailsEndsTheProgramsOfOthers) {
     std::atomic<int> begun = 0;
     int emitted = 0, kept = 0;
     EnsemblePlan plan = small_plan(2, 1, 2);
-    plan.program = [&](BlockBuffers& buffers, std::span<std::uint64_t const> places, BlockEmit const& emit) {
+    plan.program = [&](BlockKernel const&, BlockBuffers& buffers, std::span<std::uint64_t const> places, BlockEmit const& emit) {
         if (++begun == 2) throw DeviceError("the card is lost");
         // A chain of blocks goes on for as long as it is told to.
         do {

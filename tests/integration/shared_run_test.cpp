@@ -67,7 +67,7 @@ TEST(SharedQueue, HandsPlacesToAProgramWhichEmitsWhatItWill) {
         EnsemblePlan plan = small_plan(12, 5, threads);
         BlockKernel const kernel = known_results;
         // Each place becomes two members, in blocks of one.
-        plan.program = [&](BlockBuffers& buffers, std::span<std::uint64_t const> places, BlockEmit const& emit) {
+        plan.program = [&](BlockKernel const&, BlockBuffers& buffers, std::span<std::uint64_t const> places, BlockEmit const& emit) {
             for (std::uint64_t const place : places) {
                 for (std::uint64_t const member : {place, place + 1000}) {
                     buffers.run(kernel, plan.request, plan.source, stop, std::span(&member, 1));

@@ -158,7 +158,7 @@ TEST_F(GridThread, TakesMembersInTheBlocksOrder) {
         OwnedBlock const& owned;
         std::vector<std::uint32_t> in_turn;
     } ends{owned, {}};
-    owned.block.stop = [](void const* context) {
+    owned.block.stop = [](void const* context, double) {
         auto& seen = *static_cast<Ends*>(const_cast<void*>(context));
         for (std::uint32_t i = 0; i < seen.owned.block.members; ++i) {
             bool const is_new = std::ranges::find(seen.in_turn, i) == seen.in_turn.end();
@@ -168,7 +168,7 @@ TEST_F(GridThread, TakesMembersInTheBlocksOrder) {
     };
     owned.block.stop_context = &ends;
     run_grid(owned, 1);
-    owned.block.stop(&ends);
+    owned.block.stop(&ends, 0);
     EXPECT_EQ(ends.in_turn, plan.order);
     OwnedBlock alone(plan), shared(plan);
     run_alone(alone);
@@ -228,7 +228,7 @@ TEST_F(GridThread, AStopLeavesNoMemberHalfWritten) {
         } flag;
         stopped.block.stop_flag = &flag.raised;
         stopped.block.stop_context = &flag;
-        stopped.block.stop = [](void const* context) {
+        stopped.block.stop = [](void const* context, double) {
             auto& mine = *static_cast<Flag*>(const_cast<void*>(context));
             if (++mine.asked == 120) mine.raised = 1;
             return false;
