@@ -24,6 +24,20 @@ inline constexpr int file_trouble = 4;  // also a lack of memory, and a card tha
 inline constexpr int stopped_early = 5;
 }  // namespace exit_code
 
+/// For the man page.
+struct ExitCode {
+    int number;
+    char const* meaning;
+};
+inline constexpr ExitCode exit_codes[] = {
+    {exit_code::done, "done"},
+    {exit_code::internal_error, "a defect of slideway itself"},
+    {exit_code::bad_usage, "bad usage, or a scene that cannot be used"},
+    {exit_code::too_many_failures, "more members failed than --max-failures allows; the result is there, with all members"},
+    {exit_code::file_trouble, "a file could not be read or written, memory was short, or a card failed"},
+    {exit_code::stopped_early, "stopped early, by a signal or --max-hours; what is finished can be resumed"},
+};
+
 /// What an exception that ends a command makes the exit code.
 int exit_code_of(std::exception_ptr error);
 /// What it makes the line on stderr.
@@ -73,6 +87,7 @@ struct InfoArguments {
     std::string path;
     bool scene = false;  // the scene too
     bool json = false;
+    std::optional<MemberRange> members;  // a table of these, too
 };
 int info(InfoArguments const& arguments);
 

@@ -27,6 +27,14 @@ std::optional<ToleranceReport> report_of(ResultReader const& results) {
     return {};
 }
 
+void print_members(ResultReader const& results, MemberRange const& range) {
+    fmt::print("\n{:>10}  {:<16} {:>14} {:>12} {:>12}\n", "member", "status", "end time [s]", "steps", "rejected");
+    for (MemberRow const& member : member_rows(results, range)) {
+        fmt::print("{:>10}  {:<16} {:>14.8g} {:>12} {:>12}\n", member.number, name_of(member.status), member.time, member.steps_accepted,
+                   member.steps_rejected);
+    }
+}
+
 void print_info(InfoArguments const& arguments, ResultReader const& results, std::string const& computed, bool intact) {
     print_field("file", arguments.path);
     for (char const* const name : {"title", "created", "version", "commit", "compiler", "flags", "machine", "backend",
@@ -47,7 +55,8 @@ void print_info(InfoArguments const& arguments, ResultReader const& results, std
         print_quantities(quantities);
     print_exponents(results);
     print_sections(results);
-    if (auto const summary = verification_summary(results)) fmt::print("\n{}\n", *summary);
+    if (auto const summary = verification_summary(results)) fmt::print("\n{}\n", wrapped(*summary, 0, line_width()));
+    if (arguments.members) print_members(results, *arguments.members);
     if (arguments.scene) fmt::print("\nscene\n{}\n", results.attribute("scene"));
 }
 
@@ -57,9 +66,10 @@ int info(InfoArguments const& arguments) {
     ResultReader const results(arguments.path);
     std::string const computed = results.computed_hash();
     bool const intact = computed == results.stored_hash();
+    if (arguments.members) member_rows(results, *arguments.members);  // or there are none to show
 
     if (arguments.json) {
-        fmt::print("{}", result_json("info", results, intact));
+        fmt::print("{}", result_json("info", results, intact, nullptr, 0, arguments.members));
     } else {
         print_info(arguments, results, computed, intact);
     }

@@ -40,6 +40,18 @@ Json of_quantities(ResultReader const& results) {
     return list;
 }
 
+Json of_members(ResultReader const& results, MemberRange const& range) {
+    Json list = Json::array();
+    for (MemberRow const& member : member_rows(results, range)) {
+        list.push_back({{"member", member.number},
+                        {"status", name_of(member.status)},
+                        {"end_time", number(member.time)},
+                        {"steps_accepted", member.steps_accepted},
+                        {"steps_rejected", member.steps_rejected}});
+    }
+    return list;
+}
+
 Json of_exponents(ResultReader const& results) {
     Json list = Json::array();
     for (ExponentSummary const& one : summarise_exponents(results)) {
@@ -56,7 +68,8 @@ Json of_exponents(ResultReader const& results) {
 
 }  // namespace
 
-std::string result_json(char const* command, ResultReader const& results, bool intact, EnsembleTotals const* totals, std::uint64_t left) {
+std::string result_json(char const* command, ResultReader const& results, bool intact, EnsembleTotals const* totals, std::uint64_t left,
+                        std::optional<MemberRange> const& members) {
     Json json = object(command);
     json["file"] = results.path();
     for (char const* const name : {"title", "created", "version", "commit", "compiler", "flags", "machine", "backend", "isa", "completeness"})
@@ -76,6 +89,7 @@ std::string result_json(char const* command, ResultReader const& results, bool i
     if (auto const summary = verification_summary(results)) {
         json["verification"] = {{"resolution", results.group_attribute(verification_group, "resolution")}, {"summary", *summary}};
     }
+    if (members) json["members"] = of_members(results, *members);
     if (totals != nullptr) {
         json["run"] = {{"members", totals->done()},
                        {"seconds", totals->seconds},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,9 +20,9 @@ namespace slideway::cli {
 inline constexpr int json_version = 1;
 
 /// Provenance, dimensions, statuses, statistics over the members that finished, exponents, sections and what the check of the resolution found.
-/// @param totals of the run that has just made it, or nullptr  @param left members that have not run
+/// @param totals of the run that has just made it, or nullptr  @param left members that have not run  @param members to list one by one
 std::string result_json(char const* command, ResultReader const& results, bool intact, EnsembleTotals const* totals = nullptr,
-                        std::uint64_t left = 0);
+                        std::uint64_t left = 0, std::optional<MemberRange> const& members = {});
 /// A run that ended before its result.
 std::string stopped_json(std::string const& folder, std::uint64_t left);
 /// @param trial nothing where no member was tried

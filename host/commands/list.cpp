@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "host/commands/commands.hpp"
+#include "host/commands/text.hpp"
 #include "host/config/key_reference.hpp"
 #include "host/config/labels.hpp"
 #include "host/config/settings.hpp"
@@ -13,6 +14,11 @@
 
 namespace slideway::cli {
 namespace {
+
+/// One line, but for a terminal: there it goes on below the column of explanations.
+template <class... Values> void print_row(fmt::format_string<Values...> format, Values&&... values) {
+    fmt::print("{}\n", wrapped(fmt::format(format, std::forward<Values>(values)...), 33, line_width(), 0));
+}
 
 /// " (slider_crank, carriage)": the mechanisms that have something, where not all do.
 template <class Has> std::string owners_text(Has has) {
@@ -41,36 +47,49 @@ void print_mechanisms() {
             if (selects(left, static_cast<Series>(s)))
                 beside += fmt::format("{}{}", beside.empty() ? "" : ", ", series_table[s].name);
         }
-        fmt::print("  {:<30} {}\n  {:<30} {}{}\n", mechanism.name, mechanism.meaning, "", states,
-                   beside.empty() ? beside : fmt::format("; series have {} too", beside));
+        print_row("  {:<30} {}", mechanism.name, mechanism.meaning);
+        print_row("  {:<30} {}{}", "", states, beside.empty() ? beside : fmt::format("; series have {} too", beside));
     }
 }
 
 /// In the order of a scene's tables, each with its unit, domain and default, and who knows it where not all do.
 void print_keys() {
-    for (KeyReference const& key : key_references()) {
-        std::string const domain = domain_text(key), owners = owners_text(key);
-        fmt::print("  {:<30} {:<8} {}{}{}{}\n", key.name, key.unit, key.meaning, domain.empty() ? "" : ": " + domain,
-                   key.preset.empty() ? "" : "; default " + key.preset, owners.empty() ? "" : fmt::format(" ({})", owners));
+    for (KeyReference const& key : known_keys()) {
+        print_row("  {:<30} {:<8} {}", key.name, key.unit, described(key));
     }
 }
 
 /// Of `Damping`.
 constexpr std::string_view damping_names[] = {"point", "rate", "restitution"};
-static_assert(std::size(damping_names) == damping_count);
+constexpr std::string_view damping_meanings[] = {
+    "contact.eta: point contacts alone",
+    "contact.chi_line, contact.chi_surface: lines and surfaces too",
+    "contact.restitution: replaces both",
+};
+static_assert(std::size(damping_names) == damping_count && std::size(damping_meanings) == damping_count);
+
+/// Of `study_kind_names`.
+constexpr std::string_view study_meanings[] = {
+    "every member to the end time, summary statistics",
+    "the largest Lyapunov exponents of every member, and how they converged",
+    "states at a crank angle, or where a state or a gap crosses a level",
+    "sections and exponents, column by column, as one key changes",
+    "how quantities scatter with what varies, what drives them, which limits they meet",
+};
+static_assert(std::size(study_meanings) == std::size(study_kind_names));
 
 /// Their words, and below these their dampings and what they have of their own.
 void print_laws() {
     for (LawInfo const& law : laws()) {
-        fmt::print("  {:<30} {}\n", law.name, law.words);
+        print_row("  {:<30} {}", law.name, law.words);
         std::string dampings;
         for (int i = 0; i < damping_count; ++i) {
             bool const has = law.has(static_cast<Damping>(i)) && has_group(law.groups, KeyGroup::point_damping);
             if (has) dampings += fmt::format("{}{}", dampings.empty() ? "" : ", ", damping_names[i]);
         }
-        fmt::print("  {:<30} damping: {}\n", "", dampings.empty() ? "its own alone" : dampings);
+        print_row("  {:<30} damping: {}", "", dampings.empty() ? "its own alone" : dampings);
         for (Key const& key : law.keys) {
-            fmt::print("  {:<30} {} [{}]: {}\n", "", key.name, key.unit, key.meaning);
+            print_row("  {:<30} {} [{}]: {}", "", key.name, key.unit, key.meaning);
         }
     }
 }
@@ -116,50 +135,41 @@ int list(ListArguments const& arguments) {
     print_mechanisms();
     fmt::print("\ncontact laws (contact.law){}\n", owners_text([](MechanismInfo const& one) { return one.spatial; }));
     print_laws();
-    fmt::print(
-        "\ndamping\n"
-        "  point                          contact.eta: point contacts alone\n"
-        "  rate                           contact.chi_line, contact.chi_surface: lines and surfaces too\n"
-        "  restitution                    contact.restitution: replaces both\n");
+    fmt::print("\ndamping\n");
+    for (int i = 0; i < damping_count; ++i) print_row("  {:<30} {}", damping_names[i], damping_meanings[i]);
     fmt::print("\nintegrators (integrator.method)\n");
-    for (MethodInfo const& method : method_table) fmt::print("  {:<30} {}\n", method.name, method.description);
-    fmt::print(
-        "\nstudies (study.kind)\n"
-        "  ensemble                       every member to the end time, summary statistics\n"
-        "  lyapunov                       the largest Lyapunov exponents of every member, and how they converged\n"
-        "  poincare                       states at a crank angle, or where a state or a gap crosses a level\n"
-        "  sweep                          sections and exponents, column by column, as one key changes\n"
-        "  tolerance                      how quantities scatter with what varies, what drives them, which limits they "
-        "meet\n");
+    for (MethodInfo const& method : method_table) print_row("  {:<30} {}", method.name, method.description);
+    fmt::print("\nstudies (study.kind)\n");
+    for (std::size_t i = 0; i < std::size(study_kind_names); ++i) print_row("  {:<30} {}", study_kind_names[i], study_meanings[i]);
     fmt::print("\ndistributions (dist in study.vary); arguments in [] may be left out\n");
     for (DistributionForm const& form : distribution_forms()) {
-        fmt::print("  {:<10} {:<19} {}\n", form.name, listed_arguments(form), form.meaning);
+        print_row("  {:<10} {:<19} {}", form.name, listed_arguments(form), form.meaning);
     }
     fmt::print("\ndesigns (study.design): how members are spread over what varies\n");
     for (std::size_t i = 0; i < std::size(design_names); ++i) {
-        fmt::print("  {:<30} {}\n", design_names[i], design_meanings[i]);
+        print_row("  {:<30} {}", design_names[i], design_meanings[i]);
     }
     fmt::print("\nquantities (study.quantities): one value, or one row of values, per member\n");
     for (QuantityInfo const& quantity : quantity_table) {
         Selection const bit = Selection{1} << (&quantity - quantity_table);
-        fmt::print("  {:<30} {:<8} {}{}{}\n", quantity.name, quantity.unit, quantity.long_name,
+        print_row("  {:<30} {:<8} {}{}{}", quantity.name, quantity.unit, quantity.long_name,
                    quantity.dimension ? fmt::format(" (per {})", quantity.dimension) : "",
                    owners_text([bit](MechanismInfo const& one) { return (one.quantities & bit) != 0; }));
     }
     fmt::print("\nseries (study.quantities): values at the sample times; those above come with every time series\n");
     for (SeriesInfo const& series : series_table) {
         Selection const bit = Selection{1} << (&series - series_table);
-        fmt::print("  {:<30} {:<8} {}{}\n", series.name, series.unit, series.long_name,
+        print_row("  {:<30} {:<8} {}{}", series.name, series.unit, series.long_name,
                    owners_text([bit](MechanismInfo const& one) { return (one.series & bit) != 0; }));
     }
     fmt::print("\nkeys of a scene, with their unit, domain and default\n");
     print_keys();
     fmt::print("\nbackends (--backend)\n");
-    fmt::print("  {:<30} this machine's processor, with one of its instruction sets\n", "cpu");
-    fmt::print("  {:<30} {}\n", "cuda", card_text());
+    print_row("  {:<30} this machine's processor, with one of its instruction sets", "cpu");
+    print_row("  {:<30} {}", "cuda", card_text());
     fmt::print("\ninstruction sets (--isa)\n");
     for (Isa const isa : all_isas()) {
-        fmt::print("  {:<30} {} lane{}, {}\n", name_of(isa), lanes_of(isa), lanes_of(isa) == 1 ? "" : "s",
+        print_row("  {:<30} {} lane{}, {}", name_of(isa), lanes_of(isa), lanes_of(isa) == 1 ? "" : "s",
                    state_of(isa));
     }
     return exit_code::done;

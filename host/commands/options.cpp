@@ -1,25 +1,16 @@
 #include "host/commands/options.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/base/error.hpp"
+#include "host/base/numbers.hpp"
 
 namespace slideway::cli {
-namespace {
-
-template <class Number> std::optional<Number> parse_number(std::string_view text) {
-    Number value{};
-    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return value;
-}
-
-}  // namespace
 
 bool FailureLimit::exceeded(std::uint64_t failed, std::uint64_t members) const {
     double const allowed = percent ? value / 100 * static_cast<double>(members) : value;
@@ -145,7 +136,7 @@ BackendRequest parse_backend(std::string_view backend, std::string_view isa) {
     } else if (backend == "cuda") {
         request.kind = BackendRequest::Kind::cuda;
     } else if (backend != "auto") {
-        throw SceneError(fmt::format("--backend {}: no such backend; use one of auto, cpu, cuda", backend));
+        throw SceneError(fmt::format("--backend {}: no such backend; use one of {}", backend, fmt::join(backend_words, ", ")));
     }
     if (isa == "auto") return request;
     if (request.kind == BackendRequest::Kind::cuda) {

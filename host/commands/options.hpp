@@ -35,6 +35,8 @@ double parse_seconds(std::string_view option, std::string_view text);       // f
 FitWindow parse_fit(std::string_view text);                                 // "A..B", both included, A < B, from 0
 std::pair<std::string, std::string> parse_override(std::string_view text);  // "key=value"
 Isa parse_isa(std::string_view text);                                       // also "auto"; supported by this machine
+/// What --backend takes.
+inline constexpr char const* backend_words[] = {"auto", "cpu", "cuda"};
 /// Of --backend and --isa.
 BackendRequest parse_backend(std::string_view backend, std::string_view isa);
 

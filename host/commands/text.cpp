@@ -5,6 +5,9 @@
 #include <new>
 #include <system_error>
 
+#include <sys/ioctl.h>
+#include <unistd.h>
+
 #include <fmt/format.h>
 
 #include "host/config/scene_text.hpp"
@@ -90,7 +93,33 @@ std::string scene_text(Scene const& scene, std::string const& path) {
     return scene.title.empty() ? path : fmt::format("{} ({})", one_line(scene.title), path);
 }
 
-void print_field(std::string_view label, std::string_view text) { fmt::print("{:<12} {}\n", label, text); }
+std::size_t line_width() {
+    if (isatty(STDOUT_FILENO) == 0) return 0;
+    winsize size{};
+    bool const known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    return known ? size.ws_col : usual_width;
+}
+
+std::string wrapped(std::string_view text, std::size_t indent, std::size_t width, std::size_t first) {
+    std::string lines;
+    std::size_t column = first == std::string_view::npos ? indent : first;
+    bool begun = false;
+    while (!text.empty()) {
+        auto const blanks = std::min(text.find_first_not_of(' '), text.size()), end = std::min(text.find(' ', blanks), text.size());
+        std::string_view const word = text.substr(blanks, end - blanks);
+        // Bytes that go on with a character of UTF-8 take no column.
+        auto const columns = static_cast<std::size_t>(std::ranges::count_if(word, [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u; }));
+        bool const broken = width > 0 && begun && column + blanks + columns > width;
+        if (broken) lines += '\n';
+        lines.append(broken ? indent : blanks, ' ').append(word);
+        column = (broken ? indent : column + blanks) + columns;
+        begun = true;
+        text.remove_prefix(end);
+    }
+    return lines;
+}
+
+void print_field(std::string_view label, std::string_view text) { fmt::print("{:<12} {}\n", label, wrapped(text, 13, line_width())); }
 
 void print_statuses(std::vector<StatusCount> const& statuses) {
     for (StatusCount const& count : statuses) fmt::print("  {:<16} {}\n", name_of(count.status), count.members);

@@ -43,7 +43,15 @@ void print_quantities(std::vector<QuantitySummary> const& quantities);
 /// "Title (scene.toml)", without control characters, which a terminal would obey.
 std::string scene_text(Scene const& scene, std::string const& path);
 
-/// Writes "label      text", labels in a column, on one line.
+/// Where lines of help end that go to no terminal.
+inline constexpr std::size_t usual_width = 80;
+/// Columns of the terminal that stdout is; 0 where it is none: then lines are as long as they are.
+std::size_t line_width();
+/// The text broken at blanks into lines that end before column `width` (0: anywhere); all but the first begin with `indent` blanks.
+/// @param first column at which the text begins; npos: at `indent`
+std::string wrapped(std::string_view text, std::size_t indent, std::size_t width, std::size_t first = std::string_view::npos);
+
+/// Writes "label      text", labels in a column; on one line, but for a terminal.
 void print_field(std::string_view label, std::string_view text);
 
 }  // namespace slideway::cli

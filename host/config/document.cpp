@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "host/base/numbers.hpp"
 #include "host/config/scene_text.hpp"
 #include "host/config/settings.hpp"
 
@@ -98,11 +99,7 @@ Node parse_text(std::string const& text, std::string const& path) {
 }
 
 /// One number and nothing else, as from_chars reads it: 5., .5, 007, which TOML does not.
-bool is_number(std::string_view text, double& value) {
-    if (text.starts_with('+')) text.remove_prefix(1);
-    auto const [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return problem == std::errc() && end == text.data() + text.size();
-}
+std::optional<double> plain_number(std::string_view text) { return parse_number<double>(text.starts_with('+') ? text.substr(1) : text); }
 
 /// The innermost single child: the value that "a.b.c = value" names.
 bool names_one_value(Node const& root) {
@@ -132,8 +129,8 @@ Node parse_override(std::string const& key, std::string const& value, int order)
         if (value.size() <= longest_option) {
             if (auto node = parse_pair(key, value, origin)) return *node;
         }
-        double number = 0;
-        std::string const literal = is_number(value, number) ? fmt::format("{}", number) : toml_string(value);
+        auto const number = plain_number(value);
+        std::string const literal = number ? fmt::format("{}", *number) : toml_string(value);
         if (auto node = parse_pair(key, literal, origin)) return *node;
     }
     throw SceneError(

@@ -59,11 +59,6 @@ KeyReference reference_of(Key const& of) {
     return key;
 }
 
-std::string_view table_of(KeyReference const& key) {
-    auto const dot = key.name.find('.');
-    return dot == key.name.npos ? std::string_view() : key.name.substr(0, dot);
-}
-
 void put_range(Json& to, Range const& range, char const* least, char const* above, char const* most) {
     if (std::isfinite(range.low)) to[range.low_included ? least : above] = range.low;
     if (std::isfinite(range.high)) to[most] = range.high;
@@ -140,15 +135,21 @@ std::string owners_text(KeyReference const& key) {
 std::vector<KeyReference> key_references(Settings rows) {
     std::vector<KeyReference> all;
     for (Setting const& row : rows) all.push_back(reference_of(row));
-    for (auto const table : {keys(), twin_keys()}) {
-        for (Key const& key : table) all.push_back(reference_of(key));
-    }
-    std::vector<std::string_view> tables;
-    auto const place = [&](KeyReference const& key) { return std::ranges::find(tables, table_of(key)) - tables.begin(); };
-    for (std::string_view const table : {"", "mechanism", "joint", "way", "contact", "friction", "initial", "integrator", "study"})
-        tables.push_back(table);
-    std::ranges::stable_sort(all, {}, place);
+    for (Key const& key : numeric_keys()) all.push_back(reference_of(key));
+    static constexpr std::string_view tables[] = {"", "mechanism", "joint", "way", "contact", "friction", "initial", "integrator", "study"};
+    std::ranges::stable_sort(all, {}, [](KeyReference const& key) { return std::ranges::find(tables, key.table()) - tables; });
     return all;
+}
+
+std::vector<KeyReference> const& known_keys() {
+    static std::vector<KeyReference> const all = key_references(settings());
+    return all;
+}
+
+std::string described(KeyReference const& key) {
+    std::string const domain = domain_text(key), owners = owners_text(key);
+    return fmt::format("{}{}{}{}", key.meaning, domain.empty() ? "" : ": " + domain, key.preset.empty() ? "" : "; default " + key.preset,
+                       owners.empty() ? "" : fmt::format(" ({})", owners));
 }
 
 std::string keys_json(std::vector<KeyReference> const& keys) {
@@ -176,14 +177,14 @@ std::string scene_schema(std::vector<KeyReference> const& keys) {
         std::string const owners = owners_text(key);
         value["description"] = fmt::format("{}{}{}{}", key.meaning, unit, key.preset.empty() ? "" : "; default " + key.preset,
                                            owners.empty() ? "" : fmt::format(" ({})", owners));
-        if (table_of(key).empty()) {
+        if (key.table().empty()) {
             properties[std::string(key.name)] = std::move(value);
             continue;
         }
-        Json& table = properties[std::string(table_of(key))];
+        Json& table = properties[std::string(key.table())];
         table["type"] = "object";
         table["additionalProperties"] = false;
-        table["properties"][std::string(key.name.substr(key.name.find('.') + 1))] = std::move(value);
+        table["properties"][std::string(key.key())] = std::move(value);
     }
     Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
                 {"title", "Scene of slideway"},
@@ -201,8 +202,8 @@ std::string keys_markdown(std::vector<KeyReference> const& keys) {
         "TOML). Numbers are in SI units, or texts with a unit: `\"0.1 mm\"`, `\"30 rpm\"`.\n";
     std::string_view table = "none yet";
     for (KeyReference const& key : keys) {
-        if (table_of(key) != table) {
-            table = table_of(key);
+        if (key.table() != table) {
+            table = key.table();
             text += table.empty() ? "\n## At the top\n" : fmt::format("\n## [{}]\n", table);
             text += "| key | type | unit | domain | default | what it is | of |\n|---|---|---|---|---|---|---|\n";
         }
@@ -211,7 +212,7 @@ std::string keys_markdown(std::vector<KeyReference> const& keys) {
             for (char const c : words) safe += c == '|' ? std::string("\\|") : std::string(1, c);
             return safe;
         };
-        text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", key.name.substr(key.name.find('.') + 1), name_of(key.type),
+        text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", key.key(), name_of(key.type),
                             key.unit == "1" ? "" : key.unit, cell(domain_text(key)), cell(key.preset), cell(key.meaning), owners_text(key));
     }
     return text;

@@ -9,7 +9,7 @@
 
 namespace slideway {
 
-/// A key with all that a user may ask of it.
+/// A key with all that a user may ask of it, whether it is a number of the physics or a setting.
 struct KeyReference {
     std::string_view name, unit, meaning;
     Setting::Type type = Setting::Type::number;
@@ -17,10 +17,16 @@ struct KeyReference {
     std::vector<std::string_view> choices;
     std::string preset;                         // "" for nothing
     std::vector<std::string_view> mechanisms, laws, studies, methods;  // that know it; empty: all
+
+    /// "" of those at the top
+    std::string_view table() const { return key() == name ? std::string_view() : name.substr(0, name.find('.')); }
+    std::string_view key() const { return name.substr(name.find('.') + 1); }
 };
 
-/// In the order of a scene's tables.
-std::vector<KeyReference> key_references(Settings rows = settings());
+/// In the order of a scene's tables; of these settings.
+std::vector<KeyReference> key_references(Settings rows);
+/// Of all settings.
+std::vector<KeyReference> const& known_keys();
 
 /// What a rule of the physics allows.
 Range range_of(Rule rule);
@@ -32,11 +38,14 @@ std::string domain_text(KeyReference const& key);
 /// "slider_crank, carriage; law paper": who knows it; "" where all do.
 std::string owners_text(KeyReference const& key);
 
+/// "clearance per side: > 0; default 0.0001 (law paper)"
+std::string described(KeyReference const& key);
+
 /// One object per key: name, type, unit, minimum or exclusive_minimum, maximum, choices, default, mechanisms, laws, studies, methods, meaning.
-std::string keys_json(std::vector<KeyReference> const& keys = key_references());
+std::string keys_json(std::vector<KeyReference> const& keys = known_keys());
 /// JSON Schema (draft 7) of scenes, for editors of TOML.
-std::string scene_schema(std::vector<KeyReference> const& keys = key_references());
+std::string scene_schema(std::vector<KeyReference> const& keys = known_keys());
 /// docs/keys.md.
-std::string keys_markdown(std::vector<KeyReference> const& keys = key_references());
+std::string keys_markdown(std::vector<KeyReference> const& keys = known_keys());
 
 }  // namespace slideway

@@ -23,7 +23,7 @@ constexpr Key double_keys[] = {
 
 }  // namespace
 
-std::span<Key const> keys() {
+std::span<Key const> numeric_keys() {
     static std::vector<Key> const all = [] {
         std::vector<Key> keys;
         for (Key const& key : input_keys) {
@@ -31,11 +31,19 @@ std::span<Key const> keys() {
             if (key.member != &Inputs::restitution) continue;  // the last of contacts
             for (LawInfo const& law : laws()) keys.insert(keys.end(), law.keys.begin(), law.keys.end());
         }
+        keys.insert(keys.end(), std::begin(double_keys), std::end(double_keys));
         return keys;
     }();
     return all;
 }
-std::span<Key const> twin_keys() { return double_keys; }
+std::span<Key const> keys() { return numeric_keys().first(numeric_keys().size() - std::size(double_keys)); }
+std::span<Key const> twin_keys() { return numeric_keys().last(std::size(double_keys)); }
+
+std::vector<std::string_view> numeric_key_names() {
+    std::vector<std::string_view> names;
+    for (Key const& key : numeric_keys()) names.push_back(key.name);
+    return names;
+}
 
 bool counts_for(Key const& key, Mechanism mechanism) {
     MechanismInfo const& of = info(mechanism);
@@ -52,12 +60,8 @@ bool counts_for(Key const& key, Parts const& parts) {
 }
 
 Key const* find_key(std::string_view dotted_name) {
-    for (auto const table : {keys(), twin_keys()}) {
-        for (Key const& key : table) {
-            if (key.name == dotted_name) return &key;
-        }
-    }
-    return nullptr;
+    auto const found = std::ranges::find(numeric_keys(), dotted_name, &Key::name);
+    return found == numeric_keys().end() ? nullptr : &*found;
 }
 
 void require_part(Parts& parts, Key const& key) {

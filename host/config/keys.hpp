@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "host/config/descriptors.hpp"
 #include "kernels/inputs.hpp"
@@ -21,7 +22,10 @@ bool counts_for(Key const& key, Parts const& parts);
 std::span<Key const> keys();
 /// The keys that set two inputs at once: joint.clearance, contact.young_modulus.
 std::span<Key const> twin_keys();
-/// Any of both; nullptr when there is none.
+/// These behind those.
+std::span<Key const> numeric_keys();
+std::vector<std::string_view> numeric_key_names();
+/// One of them; nullptr when there is none.
 Key const* find_key(std::string_view dotted_name);
 
 /// Puts in the kernel part that `key` needs if it is to differ from its default or between members: the way's pose

@@ -5,40 +5,24 @@
 #include <fmt/format.h>
 
 #include "host/base/suggest.hpp"
+#include "host/config/key_reference.hpp"
 #include "host/config/scene_text.hpp"
-#include "host/config/settings.hpp"
 #include "host/config/values.hpp"
 
 namespace slideway {
 namespace {
-
-/// Tables of a scene, by the names of its keys.
-std::vector<std::string_view> table_names() {
-    std::vector<std::string_view> names;
-    auto const add = [&](std::string_view name) {
-        auto const dot = name.find('.');
-        if (dot != name.npos && std::ranges::find(names, name.substr(0, dot)) == names.end()) names.push_back(name.substr(0, dot));
-    };
-    for (Setting const& one : settings()) add(one.name);
-    for (Key const& key : keys()) add(key.name);
-    return names;
-}
-
-std::vector<std::string_view> known_names() {
-    std::vector<std::string_view> names;
-    for (Setting const& one : settings()) names.push_back(one.name);
-    for (auto const table : {keys(), twin_keys()}) {
-        for (Key const& key : table) names.push_back(key.name);
-    }
-    return names;
-}
 
 bool contains(std::span<std::string_view const> names, std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 void check_known(Node const& root) {
-    auto const tables = table_names(), keys = known_names();
+    std::vector<std::string_view> tables, keys;
+    for (KeyReference const& key : known_keys()) {
+        keys.push_back(key.name);
+        // The keys of a table stand together.
+        if (!key.table().empty() && (tables.empty() || tables.back() != key.table())) tables.push_back(key.table());
+    }
     std::vector<std::string_view> all = keys;
     all.insert(all.end(), tables.begin(), tables.end());
     for (Node const& node : root.children) {

@@ -1,10 +1,10 @@
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "host/base/numbers.hpp"
 #include "host/config/reader.hpp"
 #include "host/config/values.hpp"
 
@@ -46,12 +46,7 @@ double read_end(Node const& root, std::string_view name, Key const& key) {
 }
 
 /// To 15 digits: the column at 0.1 mm then has the bits of a scene that says so.
-double rounded(double value) {
-    std::string const text = fmt::format("{:.14e}", value);
-    double result = value;
-    std::from_chars(text.data(), text.data() + text.size(), result);
-    return result;
-}
+double rounded(double value) { return parse_number<double>(fmt::format("{:.14e}", value)).value_or(value); }
 
 std::vector<double> read_range(Node const& root, Key const& key) {
     double const from = read_end(root, "study.from", key), to = read_end(root, "study.to", key);

@@ -51,11 +51,7 @@ void check_clashes(Node const& root, VariedNode const& entry, Scene const& scene
 }  // namespace
 
 std::string key_advice(std::string_view name) {
-    std::vector<std::string_view> names;
-    for (auto const table : {keys(), twin_keys()}) {
-        for (Key const& known : table) names.push_back(known.name);
-    }
-    std::string_view const near = nearest_name(name, names);
+    std::string_view const near = nearest_name(name, numeric_key_names());
     return near.empty() ? std::string("use a dotted key like \"joint.clearance\"")
                         : fmt::format("did you mean \"{}\"?", near);
 }

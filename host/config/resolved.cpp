@@ -31,16 +31,13 @@ std::string physics_table(Scene const& scene, Inputs const& complete, std::strin
         auto const dot = key.name.find('.');
         if (key.name.substr(0, dot) != table || !is_written(key, scene.parts)) continue;
         std::string_view const name = key.name.substr(dot + 1);
-        std::string_view const unit = key.unit == "1" ? "" : key.unit;
         if (std::isnan(key.get(complete))) {
             text += fmt::format("# {} follows from other keys\n", name);
         } else if (std::isnan(key.get(scene.inputs))) {
-            text += fmt::format("# {} = {}  # {}{}follows from other keys\n", name, toml_number(key.get(complete)),
-                                unit, unit.empty() ? "" : ", ");
-        } else if (unit.empty()) {
-            text += fmt::format("{} = {}\n", name, toml_number(key.get(scene.inputs)));
+            std::string const unit = unit_comment(key.unit);
+            text += fmt::format("# {} = {}{}follows from other keys\n", name, toml_number(key.get(complete)), unit.empty() ? "  # " : unit + ", ");
         } else {
-            text += fmt::format("{} = {}  # {}\n", name, toml_number(key.get(scene.inputs)), unit);
+            text += number_line(name, key.get(scene.inputs), key.unit);
         }
     }
     return text;
@@ -61,8 +58,7 @@ std::string quantities_text(Scene const& scene) {
 
 /// Of a bound setting: "max_step = 0.001  # s".
 std::string line_of(Setting const& row, Scene const& scene) {
-    bool const plain = row.unit.empty() || row.unit == "1";
-    return fmt::format("{} = {}{}{}\n", row.key(), value_text(row, scene), plain ? "" : "  # ", plain ? "" : row.unit);
+    return fmt::format("{} = {}{}\n", row.key(), value_text(row, scene), unit_comment(row.unit));
 }
 
 /// Only what counts with the scene's method.
@@ -75,13 +71,12 @@ std::string integrator_table(Scene const& scene, MechanismInfo const& mechanism)
 }
 
 std::string span_line(Span const& span, std::string_view turns, std::string_view time) {
-    return span.revolutions ? fmt::format("{} = {}\n", turns, toml_number(span.value))
-                            : fmt::format("{} = {}  # s\n", time, toml_number(span.value));
+    return span.revolutions ? number_line(turns, span.value, "1") : number_line(time, span.value, "s");
 }
 
 std::string section_line(SectionSurface const& section, Mechanism mechanism) {
     using On = SectionSurface::On;
-    if (section.on == On::phase) return fmt::format("phase = {}  # rad\n", toml_number(section.level));
+    if (section.on == On::phase) return number_line("phase", section.level, "rad");
     std::string const on = section.on == On::state
                                ? std::string(state_info(info(mechanism), section.index).name)
                                : fmt::format("{}[P{}]", section.on == On::gap_y ? "gap_y" : "gap_z", section.index + 1);
@@ -92,11 +87,9 @@ std::string section_line(SectionSurface const& section, Mechanism mechanism) {
 std::string neighbours_text(ChaosSettings const& chaos) {
     std::string text = fmt::format("exponents = {}\n", chaos.exponents);
     if (chaos.exponents == 0) return text;
-    text += fmt::format("d0 = {}\n", toml_number(chaos.d0));
-    if (chaos.exponents == 1) {
-        text += fmt::format("d0_lower = {}\nd0_upper = {}\n", toml_number(chaos.d0_lower), toml_number(chaos.d0_upper));
-    }
-    if (!chaos.dt.revolutions) return text + fmt::format("dt = {}  # s\n", toml_number(chaos.dt.value));
+    text += number_line("d0", chaos.d0, "1");
+    if (chaos.exponents == 1) text += number_line("d0_lower", chaos.d0_lower, "1") + number_line("d0_upper", chaos.d0_upper, "1");
+    if (!chaos.dt.revolutions) return text + number_line("dt", chaos.dt.value, "s");
     return text + fmt::format("rescalings_per_revolution = {:.0f}\n", std::round(1 / chaos.dt.value));
 }
 
@@ -104,8 +97,7 @@ std::string sweep_text(ChaosSettings const& chaos) {
     std::string text = fmt::format("parameter = \"{}\"\nvalues = [", chaos.parameter->name);
     // Lines of a scene have a longest length.
     for (double const value : chaos.values) text += fmt::format("\n    {},", toml_number(value));
-    std::string_view const unit = chaos.parameter->unit;
-    text += fmt::format("\n]{}{}\n", unit == "1" ? "" : "  # ", unit == "1" ? "" : unit);
+    text += fmt::format("\n]{}\n", unit_comment(chaos.parameter->unit));
     return text + fmt::format("start = \"{}\"\n", setting("study.start").choices[chaos.continued ? 1 : 0]);
 }
 
@@ -117,8 +109,7 @@ std::string study_table(Scene const& scene) {
         if (row.table() == "study" && row.is_bound() && (row.studies & set_of(scene.study)) != 0) text += line_of(row, scene);
     }
     if (runs_to_end(scene.study)) {
-        text += fmt::format("duration = {}  # s\nsamples = {}\n", toml_number(scene.integrator.end_time),
-                            scene.sample_times.size());
+        text += number_line("duration", scene.integrator.end_time, "s") + fmt::format("samples = {}\n", scene.sample_times.size());
     } else {
         text += span_line(chaos.transient, "transient_revolutions", "Ttr");
         text += span_line(chaos.span, "revolutions", "duration");

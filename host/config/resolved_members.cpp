@@ -24,8 +24,6 @@ std::string list_text(std::span<double const> values) {
     return text + (lines ? "\n]" : "]");
 }
 
-std::string unit_comment(std::string_view unit) { return unit == "1" ? std::string() : fmt::format("  # {}", unit); }
-
 /// @param levels of a grid; 0 elsewhere
 std::string distribution_text(Distribution const& distribution, std::uint64_t levels) {
     DistributionForm const& form = form_of(distribution.kind);
@@ -89,6 +87,12 @@ std::string toml_number(double value) {
     // Without a point TOML reads an integer, and -0 loses its sign.
     if (text.find_first_of(".e") == std::string::npos) text += ".0";
     return text;
+}
+
+std::string unit_comment(std::string_view unit) { return unit.empty() || unit == "1" ? std::string() : fmt::format("  # {}", unit); }
+
+std::string number_line(std::string_view name, double value, std::string_view unit) {
+    return fmt::format("{} = {}{}\n", name, toml_number(value), unit_comment(unit));
 }
 
 std::string design_text(Scene const& scene) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "host/config/scene.hpp"
 
@@ -9,6 +10,10 @@ namespace slideway {
 
 /// The shortest text that TOML reads back to the same double.
 std::string toml_number(double value);
+/// "  # m"; "" for a plain number
+std::string unit_comment(std::string_view unit);
+/// "clearance_y = 0.0001  # m", with the end of the line
+std::string number_line(std::string_view name, double value, std::string_view unit);
 
 /// Lines of [study]: design, base, table.
 std::string design_text(Scene const& scene);

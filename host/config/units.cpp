@@ -13,6 +13,7 @@
 #include <udunits2.h>
 
 #include "host/base/error.hpp"
+#include "host/base/numbers.hpp"
 
 namespace slideway {
 namespace {
@@ -137,12 +138,9 @@ double shifted(std::string_view number, int shift) {
     if (e != std::string_view::npos) {
         std::string_view digits = number.substr(e + 1);
         if (digits.starts_with('+')) digits.remove_prefix(1);
-        std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
+        exponent = parse_number<int>(digits).value_or(0);
     }
-    std::string const text = fmt::format("{}e{}", mantissa, exponent + shift);
-    double value = NAN;  // stays where the result is beyond double
-    std::from_chars(text.data(), text.data() + text.size(), value);
-    return value;
+    return parse_number<double>(fmt::format("{}e{}", mantissa, exponent + shift)).value_or(NAN);  // beyond double
 }
 
 double scaled(std::string_view number, double value, double factor) {

@@ -1,18 +1,14 @@
 #include "host/run/launcher.hpp"
 
-#include <charconv>
-#include <string_view>
+#include "host/base/numbers.hpp"
 
 namespace slideway {
 namespace {
 
 std::optional<int> whole_number(char const* text) {
     if (text == nullptr) return std::nullopt;
-    std::string_view const digits(text);
-    int value = 0;
-    auto const [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc{} || end != digits.data() + digits.size() || value < 0) return std::nullopt;
-    return value;
+    auto const value = parse_number<int>(text);
+    return value && *value >= 0 ? value : std::nullopt;
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "host/store/provenance.hpp"
 
-#include <charconv>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
@@ -15,6 +14,7 @@
 #include "host/backend/commit.hpp"
 #include "host/base/error.hpp"
 #include "host/base/fnv1a.hpp"
+#include "host/base/numbers.hpp"
 
 namespace slideway {
 
@@ -68,11 +68,9 @@ std::string machine_name() { return fmt::format("{} ({} threads)", cpu_name(), s
 std::string creation_time() {
     std::time_t seconds = std::time(nullptr);
     if (char const* const text = std::getenv("SOURCE_DATE_EPOCH")) {
-        std::time_t given = 0;
-        char const* const end = text + std::strlen(text);
-        auto const [stop, error] = std::from_chars(text, end, given);
+        auto const given = parse_number<std::time_t>(text);
         // Beyond the year 9999 ISO 8601 needs an agreement that nobody made.
-        if (error == std::errc{} && stop == end && given >= 0 && given < 253402300800) seconds = given;
+        if (given && *given >= 0 && *given < 253402300800) seconds = *given;
     }
     std::tm utc{};
     gmtime_r(&seconds, &utc);

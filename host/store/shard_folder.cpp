@@ -1,7 +1,6 @@
 #include "host/store/shard_folder.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <sstream>
 #include <string_view>
@@ -11,31 +10,29 @@
 #include "host/base/durable_file.hpp"
 #include "host/base/error.hpp"
 #include "host/base/fnv1a.hpp"
+#include "host/base/numbers.hpp"
 
 namespace slideway {
 namespace fs = std::filesystem;
 namespace {
-
-template <class T> bool read_whole(std::string_view word, T& value, int base = 10) {
-    auto const [end, error] = std::from_chars(word.data(), word.data() + word.size(), value, base);
-    return error == std::errc{} && end == word.data() + word.size();
-}
 
 /// Lines of a manifest that are whole.
 void read_manifest(std::string const& path, std::vector<Shard>& shards) {
     std::istringstream lines(read_text(path));
     for (std::string line; std::getline(lines, line);) {
         auto const space = line.rfind(' ');
-        std::uint64_t own = 0;
-        if (space == line.npos || !read_whole(std::string_view(line).substr(space + 1), own, 16)) continue;
+        if (space == line.npos) continue;
+        auto const own = parse_number<std::uint64_t>(std::string_view(line).substr(space + 1), 16);
         line.resize(space);
-        if (own != fnv1a(line)) continue;
+        if (own != fnv1a(line)) continue;  // also of none
         std::istringstream words(line);
         Shard shard{};
         std::string checksum, members;
         words >> shard.name >> shard.bytes >> checksum >> members;
         auto const set = MemberSet::parse(members);
-        if (!words || !set || !read_whole(std::string_view(checksum), shard.checksum, 16)) continue;
+        auto const sum = parse_number<std::uint64_t>(checksum, 16);
+        if (!words || !set || !sum) continue;
+        shard.checksum = *sum;
         shard.members = *set;
         shards.push_back(std::move(shard));
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -73,6 +74,27 @@ std::vector<StatusCount> count_statuses(ResultView const& results) {
         if (counts[i] > 0) occurring.push_back({static_cast<Status>(static_cast<signed char>(i)), counts[i]});
     }
     return occurring;
+}
+
+std::vector<MemberRow> member_rows(ResultView const& results, MemberRange const& range) {
+    if (!results.stores_members())
+        throw SceneError(fmt::format("{}: has no members (its scene says study.store = \"statistics\"); leave out --members", results.path()));
+    auto const numbers = results.values("member"), statuses = results.values("status"), times = results.values("end_time");
+    auto const accepted = results.values("steps_accepted"), rejected = results.values("steps_rejected");
+    std::vector<MemberRow> ends;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        auto const member = static_cast<std::uint64_t>(numbers[i]);
+        if (member < range.first || member >= range.end()) continue;
+        Status const status = status_of(statuses[i]);
+        bool const ran = status != Status::not_run;
+        auto const steps = [&](std::vector<double> const& of) { return ran ? static_cast<std::uint64_t>(of[i]) : 0; };
+        ends.push_back({member, status, ran ? times[i] : NAN, steps(accepted), steps(rejected)});
+    }
+    if (ends.empty() && !numbers.empty()) {
+        throw SceneError(fmt::format("{}: has none of the members {} to {}; it has {:.0f} to {:.0f}", results.path(), range.first, range.end() - 1,
+                                     numbers.front(), numbers.back()));
+    }
+    return ends;
 }
 
 std::vector<FailedMember> failed_members(ResultView const& results, std::size_t limit) {

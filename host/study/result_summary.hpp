@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/run/member_set.hpp"
 #include "host/statistics/summary.hpp"
 #include "host/store/block_statistics.hpp"
 #include "host/store/result_view.hpp"
@@ -27,6 +28,16 @@ struct StatusCount {
 };
 /// Statuses that occur; not_run last.
 std::vector<StatusCount> count_statuses(ResultView const& results);
+
+/// How a member ended.
+struct MemberRow {
+    std::uint64_t number;
+    Status status;
+    double time;  // [s]; NaN of one that has not run
+    std::uint64_t steps_accepted, steps_rejected;
+};
+/// Of the members whose numbers lie in the range, in the order of the file.  @throws SceneError where there are none, or the file keeps no members
+std::vector<MemberRow> member_rows(ResultView const& results, MemberRange const& range);
 
 /// The first `limit` members that ran and did not finish; where members are not stored, of those that are kept by
 /// number.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -11,6 +10,7 @@
 
 #include "host/base/csv.hpp"
 #include "host/base/error.hpp"
+#include "host/base/numbers.hpp"
 #include "host/store/result_reader.hpp"
 
 namespace slideway {
@@ -56,10 +56,8 @@ std::size_t column_of(Table const& table, std::string const& table_name, std::st
     if (wanted.empty()) return time_column(table) == count - 1 && count > 1 ? count - 2 : count - 1;
     auto const named = std::find(table.names.begin(), table.names.end(), wanted);
     if (named != table.names.end()) return static_cast<std::size_t>(named - table.names.begin());
-    std::size_t place = 0;
-    auto const [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), place);
-    bool const whole = error == std::errc{} && end == wanted.data() + wanted.size();
-    if (whole && place >= 1 && place <= count) return place - 1;
+    auto const place = parse_number<std::size_t>(wanted);
+    if (place && *place >= 1 && *place <= count) return *place - 1;
     std::string known;
     for (std::string const& name : table.names) known += fmt::format("{}{}", known.empty() ? "" : ", ", name);
     throw SceneError(fmt::format("{}: there is no column '{}'; give {}a number from 1 to {}", table_name, wanted,

@@ -67,10 +67,8 @@ Column column_of(std::string_view name, Mechanism mechanism, CsvReader const& li
                                          fmt::join(state_names(mechanism), ", ")));
         }
     } else {
-        std::vector<std::string_view> names{"contact.law"};
-        for (auto const table : {keys(), twin_keys()}) {
-            for (Key const& key : table) names.push_back(key.name);
-        }
+        std::vector<std::string_view> names = numeric_key_names();
+        names.push_back("contact.law");
         std::string_view const meant = nearest_name(name, names);
         lines.fail(
             fmt::format("column {}: no numeric key of a scene has this name{}", name,
