@@ -21,7 +21,7 @@ struct Words {
     std::vector<std::string> overrides;
     std::string max_failures, max_hours, member, members, threads, shard, block_members;
     std::string variable, column, spacing, skip_time, skip_samples, max_points, delay, dimension, theiler, fit;
-    bool quiet = false, no_progress = false, scene_too = false, resolved = false, resume = false, force = false, verify = false, json = false, schema = false, markdown = false;
+    bool quiet = false, no_progress = false, scene_too = false, intact = false, resolved = false, resume = false, force = false, verify = false, json = false, schema = false, markdown = false;
 };
 
 std::string isa_help() {
@@ -253,6 +253,7 @@ Arguments parse_arguments(int argc, char const* const* argv) {
     info->add_option("FILE", words.file, "Result file")->required()->type_name("");
     info->add_flag("--scene", words.scene_too, "Show its scene, too");
     add_json(*info, words);
+    info->add_flag("--check", words.intact, "Only say whether the file is what was written (exit code 4 if not)");
 
     CLI::App* const stats = app.add_subcommand("stats", "Chaos statistics of a stored series (NetCDF result or CSV)");
     add_stats_options(*stats, words);
@@ -306,7 +307,7 @@ Arguments parse_arguments(int argc, char const* const* argv) {
     if (run->parsed()) return run_arguments(words);
     if (check->parsed()) return CheckArguments{scene_arguments(words), threads(words), words.force, words.json, words.resolved};
     if (probe->parsed()) return ProbeArguments{scene_arguments(words), words.table, words.output, words.force, words.json};
-    if (info->parsed()) return InfoArguments{words.file, words.scene_too, words.json};
+    if (info->parsed()) return InfoArguments{words.file, words.scene_too, words.json, words.intact};
     if (stats->parsed()) return stats_arguments(words);
     if (merge->parsed()) return MergeArguments{words.file, words.output, words.force, words.json};
     if (report->parsed()) return ReportArguments{words.file, words.output, words.force};

@@ -73,6 +73,7 @@ struct InfoArguments {
     std::string path;
     bool scene = false;  // the scene too
     bool json = false;
+    bool check = false;  // nothing but whether it is intact
 };
 int info(InfoArguments const& arguments);
 
