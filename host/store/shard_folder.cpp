@@ -93,7 +93,8 @@ RunIdentity read_identity(std::string const& folder, std::string& damaged) {
 }  // namespace
 
 bool ShardFolder::exists(std::string const& path) {
-    return std::ranges::any_of(identity_files, [&](std::string_view name) { return is_there(in_folder(path, name)); });
+    auto const has = [&](std::string_view name) { return is_there(in_folder(path, name)); };
+    return has(shard_names::identity) || (has(shard_names::identity_copy) && !has(shard_names::finished));
 }
 
 void ShardFolder::mend() const {
