@@ -26,7 +26,7 @@ struct Words {
     std::string max_failures, max_hours, member, members, threads, shard, block_members;
     std::string variable, column, spacing, skip_time, skip_samples, max_points, delay, dimension, theiler, fit;
     std::string command, shell;
-    bool man = false, quiet = false, no_progress = false, scene_too = false, resolved = false, resume = false, force = false, verify = false, json = false, schema = false, markdown = false;
+    bool man = false, quiet = false, no_progress = false, scene_too = false, intact = false, resolved = false, resume = false, force = false, verify = false, json = false, schema = false, markdown = false;
 };
 
 std::string isa_help() {
@@ -104,6 +104,7 @@ void add_probe_options(CLI::App& probe, Words& words) {
 void add_info_options(CLI::App& info, Words& words) {
     info.add_option("FILE", words.file, "Result file")->type_name("");
     info.add_flag("--scene", words.scene_too, "Show its scene, too");
+    info.add_flag("--check", words.intact, "Only say whether the file is what was written (exit code 4 if not)");
     info.add_option("--members", words.members, "Show its members, or these of them, too: number, status, end time, steps")
         ->type_name("A..B")->expected(0, 1)->default_str(std::string(all_members));
     add_json(info, words);
@@ -226,7 +227,7 @@ StatsArguments stats_arguments(Words const& words) {
 }
 
 InfoArguments info_arguments(Words const& words) {
-    InfoArguments info{words.file, words.scene_too, words.json, {}};
+    InfoArguments info{words.file, words.scene_too, words.json, words.intact, {}};
     std::string members = words.members;
     // --members takes the word behind it, the file too.
     if (info.path.empty() && members != all_members) info.path = std::exchange(members, all_members);

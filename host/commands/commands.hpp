@@ -87,6 +87,7 @@ struct InfoArguments {
     std::string path;
     bool scene = false;  // the scene too
     bool json = false;
+    bool check = false;  // nothing but whether it is intact
     std::optional<MemberRange> members;  // a table of these, too
 };
 int info(InfoArguments const& arguments);

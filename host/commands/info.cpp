@@ -6,6 +6,7 @@
 #include "host/commands/text.hpp"
 #include "host/commands/tolerance_text.hpp"
 #include "host/config/scene_text.hpp"
+#include "host/store/result_check.hpp"
 #include "host/store/result_reader.hpp"
 #include "host/study/result_summary.hpp"
 #include "host/study/study_run.hpp"
@@ -35,17 +36,27 @@ void print_members(ResultReader const& results, MemberRange const& range) {
     }
 }
 
-void print_info(InfoArguments const& arguments, ResultReader const& results, std::string const& computed, bool intact) {
+void print_hash(char const* label, std::string const& stored, std::string const& found, bool match, char const* of_what) {
+    print_field(label, match ? fmt::format("{}: matches the {}", found, of_what)
+                             : fmt::format("DOES NOT MATCH: the file says {}, its {} give {}", one_line(stored), of_what, found));
+}
+
+/// Of a damaged file what it says of itself; of what its numbers come to nothing.
+void print_info(InfoArguments const& arguments, ResultReader const& results, SealCheck const& seal) {
     print_field("file", arguments.path);
     for (char const* const name : {"title", "created", "version", "commit", "compiler", "flags", "machine", "backend",
                                    "isa", "threads", "seed", "completeness"}) {
         print_field(name, one_line(results.attribute(name)));
     }
-    print_field("payload", intact ? fmt::format("{}: matches the data", computed)
-                                  : fmt::format("DOES NOT MATCH: the file says {}, its data give {}",
-                                                results.stored_hash(), computed));
+    print_field("format", fmt::format("{}", seal.version));
+    print_hash("payload", seal.payload, seal.payload_found, seal.data_match(), "data");
+    if (seal.version == 1 && seal.metadata.empty())
+        print_field("metadata", "not covered by a hash in format 1");
+    else
+        print_hash("metadata", seal.metadata, seal.metadata_found, seal.metadata_match(), "attributes");
     fmt::print("\ndimensions\n");
     for (auto const& dimension : results.dimensions()) fmt::print("  {:<16} {}\n", dimension.name, dimension.length);
+    if (!seal.intact()) return;
     fmt::print("\nstatus\n");
     print_statuses(count_statuses(results));
     auto const quantities = summarise_quantities(results);
@@ -63,19 +74,20 @@ void print_info(InfoArguments const& arguments, ResultReader const& results, std
 }  // namespace
 
 int info(InfoArguments const& arguments) {
-    ResultReader const results(arguments.path);
-    std::string const computed = results.computed_hash();
-    bool const intact = computed == results.stored_hash();
-    if (arguments.members) member_rows(results, *arguments.members);  // or there are none to show
-
-    if (arguments.json) {
-        fmt::print("{}", result_json("info", results, intact, nullptr, 0, arguments.members));
-    } else {
-        print_info(arguments, results, computed, intact);
+    SealCheck const seal = check_result(arguments.path);
+    if (!arguments.check) {
+        ResultReader const results(arguments.path);
+        if (seal.intact() && arguments.members) member_rows(results, *arguments.members);  // or there are none to show
+        if (arguments.json) {
+            fmt::print("{}", result_json("info", results, seal, nullptr, 0, arguments.members));
+        } else {
+            print_info(arguments, results, seal);
+        }
+    } else if (seal.intact()) {
+        print_field("intact", arguments.path);
     }
-    if (intact) return exit_code::done;
-    throw FileError(
-        fmt::format("{}: the data do not match their hash; the file is damaged or was edited", arguments.path));
+    if (seal.intact()) return exit_code::done;
+    throw FileError(fmt::format("{}: {}; the file is damaged or was edited", arguments.path, seal.damage()));
 }
 
 }  // namespace slideway::cli

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "host/store/payload_hash.hpp"
+#include "host/store/result_seal.hpp"
 #include "host/study/orbit_summary.hpp"
 #include "host/study/result_summary.hpp"
 #include "host/study/verification.hpp"
@@ -68,16 +68,21 @@ Json of_exponents(ResultReader const& results) {
 
 }  // namespace
 
-std::string result_json(char const* command, ResultReader const& results, bool intact, EnsembleTotals const* totals, std::uint64_t left,
+std::string result_json(char const* command, ResultReader const& results, SealCheck const& seal, EnsembleTotals const* totals, std::uint64_t left,
                         std::optional<MemberRange> const& members) {
     Json json = object(command);
     json["file"] = results.path();
     for (char const* const name : {"title", "created", "version", "commit", "compiler", "flags", "machine", "backend", "isa", "completeness"})
         json[name] = results.attribute(name);
-    json["payload_hash"] = results.stored_hash();
-    json["intact"] = intact;
+    json["format_version"] = seal.version;
+    json["payload_hash"] = seal.payload;
+    json["payload_matches"] = seal.data_match();
+    json["metadata_hash"] = seal.metadata.empty() ? Json(nullptr) : Json(seal.metadata);
+    json["metadata_matches"] = seal.metadata.empty() && seal.version == 1 ? Json(nullptr) : Json(seal.metadata_match());
+    json["intact"] = seal.intact();
     Json& dimensions = json["dimensions"] = Json::object();
     for (auto const& dimension : results.dimensions()) dimensions[dimension.name] = dimension.length;
+    if (!seal.intact()) return text_of(json);
     Json& statuses = json["statuses"] = Json::object();
     for (StatusCount const& count : count_statuses(results)) statuses[name_of(count.status)] = count.members;
     json["members_left"] = left;

@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include "host/base/durable_file.hpp"
+#include "host/base/error.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/json.hpp"
 #include "host/commands/run_summary.hpp"
 #include "host/commands/text.hpp"
+#include "host/store/result_check.hpp"
 #include "host/store/result_merge.hpp"
 #include "host/study/study_run.hpp"
 
@@ -33,6 +35,17 @@ std::vector<Shard> intact_shards(ShardFolder const& folder) {
     return shards;
 }
 
+/// A folder that cannot be written to is merged all the same.
+void mend(ShardFolder const& folder) {
+    if (folder.damaged_identity().empty()) return;
+    try {
+        folder.mend();
+        warn_of_mending(folder.damaged_identity());
+    } catch (FileError const& error) {
+        tell("warning: {}: is damaged or gone, and cannot be written again: {}\n", folder.damaged_identity(), error.what());
+    }
+}
+
 }  // namespace
 
 int merge(MergeArguments const& arguments) {
@@ -48,6 +61,7 @@ int merge(MergeArguments const& arguments) {
     require_outside(target, arguments.folder);
     std::optional<ToleranceReport> report;
     std::vector<Shard> const shards = intact_shards(folder);
+    mend(folder);
     std::uint64_t const left =
         merge_study(scene, folder, shards, shard_origin(folder, shards, scene), target, report);
 
@@ -55,7 +69,7 @@ int merge(MergeArguments const& arguments) {
     replay.scene.path = scene_path;
     ResultReader const results(arguments.output);
     if (arguments.json) {
-        fmt::print("{}", result_json("merge", results, true, nullptr, left));
+        fmt::print("{}", result_json("merge", results, results.seal(), nullptr, left));
         return left == 0 ? exit_code::done : exit_code::stopped_early;
     }
     print_field("scene", scene_text(scene, scene_path));

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <spawn.h>
@@ -12,7 +13,7 @@
 #include "host/base/error.hpp"
 #include "host/commands/commands.hpp"
 #include "host/store/output_target.hpp"
-#include "host/store/result_reader.hpp"
+#include "host/store/result_check.hpp"
 
 namespace slideway::cli {
 namespace {
@@ -77,6 +78,9 @@ int report(ReportArguments const& arguments) {
     require_intact(arguments.path);
     // Packages come from where they are installed, not from whatever lies in this folder.
     setenv("PYTHONSAFEPATH", "1", 1);
+    // The companion has files checked by this program, unless the user names one.
+    std::error_code ignored;
+    setenv("SLIDEWAY_PROGRAM", std::filesystem::read_symlink("/proc/self/exe", ignored).c_str(), 0);
     std::string const python = interpreter();
     if (!has_companion(python)) {
         throw FileError(fmt::format(

@@ -75,6 +75,7 @@ BackendChoice chosen_backend(RunArguments const& arguments, Scene const& scene, 
 
 /// Results that there were, and that must be computed again.
 void warn_of_losses(StudyOptions const& options, StudyRun const& run) {
+    warn_of_mending(run.mended());
     for (DamagedShard const& damaged : run.damaged()) {
         std::string const& name = damaged.shard.name;
         tell("warning: {}/{}: {}; its members run again\n", shard_folder_of(options.output), name,
@@ -137,7 +138,7 @@ int conclude(RunArguments const& arguments, Scene const& scene, StudyOptions con
              std::optional<ToleranceReport> report, EnsembleTotals const* totals) {
     ResultReader const results(options.output);
     if (arguments.json) {
-        fmt::print("{}", result_json("run", results, true, totals));
+        fmt::print("{}", result_json("run", results, results.seal(), totals));
     } else if (!arguments.quiet) {
         if (!report && asks_for_report(scene)) report = tolerance_report(results, scene, {options.threads});
         print_results(arguments, scene, results, report);

@@ -10,7 +10,7 @@
 #include "host/commands/commands.hpp"
 #include "host/commands/json.hpp"
 #include "host/store/output_target.hpp"
-#include "host/store/result_reader.hpp"
+#include "host/store/result_check.hpp"
 #include "host/study/series_analysis.hpp"
 #include "host/study/series_file.hpp"
 

@@ -64,6 +64,10 @@ void print_warnings(Scene const& scene) {
     for (std::string const& warning : scene.warnings) tell("warning: {}\n", warning);
 }
 
+void warn_of_mending(std::string const& file) {
+    if (!file.empty()) tell("warning: {}: was damaged or gone; it was written again from its copy\n", file);
+}
+
 std::string bytes_text(double bytes) {
     if (bytes < 1e3) return fmt::format("{:.0f} B", bytes);
     if (bytes < 1e6) return fmt::format("{:.1f} kB", bytes / 1e3);

@@ -26,6 +26,9 @@ template <class... Values> void tell(fmt::format_string<Values...> format, Value
     tell_text(fmt::format(format, std::forward<Values>(values)...));
 }
 
+/// To stderr: @param file of a run's identity that was damaged and is whole again; "" for none.
+void warn_of_mending(std::string const& file);
+
 std::string bytes_text(double bytes);       // "1.5 MB"
 std::string duration_text(double seconds);  // "8.2 s", "3 min 20 s", "2.4 h"
 

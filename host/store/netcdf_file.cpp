@@ -25,7 +25,9 @@ namespace {
 constexpr int closed = -1;
 
 [[noreturn]] void fail(std::string const& path, std::string_view action, int code) {
-    throw FileError(fmt::format("{}: cannot {}: {}", path, action, nc_strerror(code)));
+    bool const reads = action.starts_with("read") || action == "open";
+    throw FileError(fmt::format("{}: cannot {}: {}{}", path, action, nc_strerror(code),
+                                reads && code <= NC_EHDFERR && code >= NC4_LAST_ERROR ? "; the file is damaged, or its disk fails" : ""));
 }
 
 int variable_or_global(int variable) { return variable == NetcdfFile::global ? NC_GLOBAL : variable; }
@@ -267,20 +269,74 @@ std::vector<NetcdfFile::Variable> NetcdfFile::variables() const {
     return variables;
 }
 
-std::string NetcdfFile::first_dimension(Variable const& variable) const {
-    if (variable.shape.empty()) return {};
+std::vector<std::string> NetcdfFile::dimension_names(Variable const& variable) const {
     int dimensions[NC_MAX_VAR_DIMS];
     char name[NC_MAX_NAME + 1];
     require(nc_inq_vardimid(id_, variable.id, dimensions), "read the header");
-    require(nc_inq_dimname(id_, dimensions[0], name), "read the header");
-    return name;
+    std::vector<std::string> names;
+    for (std::size_t d = 0; d < variable.shape.size(); ++d) {
+        require(nc_inq_dimname(id_, dimensions[d], name), "read the header");
+        names.emplace_back(name);
+    }
+    return names;
+}
+
+std::string NetcdfFile::first_dimension(Variable const& variable) const {
+    auto const names = dimension_names(variable);
+    return names.empty() ? std::string() : names.front();
+}
+
+std::vector<std::string> NetcdfFile::attribute_names(int variable) const {
+    int const where = variable_or_global(variable);
+    int count = 0;
+    require(where == NC_GLOBAL ? nc_inq_natts(id_, &count) : nc_inq_varnatts(id_, where, &count), "read the header");
+    std::vector<std::string> names;
+    for (int i = 0; i < count; ++i) {
+        char name[NC_MAX_NAME + 1];
+        require(nc_inq_attname(id_, where, i, name), "read the header");
+        names.emplace_back(name);
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+std::vector<std::byte> NetcdfFile::attribute_bytes(int variable, std::string const& name) const {
+    int const where = variable_or_global(variable);
+    std::size_t count = 0, width = 0;
+    nc_type type = NC_NAT;
+    require(nc_inq_att(id_, where, name.c_str(), &type, &count), "read attribute " + name);
+    std::vector<std::byte> bytes;
+    auto const add = [&bytes](void const* from, std::size_t size) {
+        bytes.resize(bytes.size() + size);
+        if (size > 0) std::memcpy(bytes.data() + bytes.size() - size, from, size);
+    };
+    std::uint64_t const head[2] = {static_cast<std::uint64_t>(type), count};
+    add(head, sizeof head);
+    if (type == NC_STRING) {
+        std::vector<char*> strings(count, nullptr);
+        require(nc_get_att_string(id_, where, name.c_str(), strings.data()), "read attribute " + name);
+        for (char const* const one : strings) add(one != nullptr ? one : "", one != nullptr ? std::strlen(one) + 1 : 1);
+        nc_free_string(count, strings.data());
+        return bytes;
+    }
+    require(nc_inq_type(id_, type, nullptr, &width), "read attribute " + name);
+    std::vector<std::byte> values(count * width);
+    if (!values.empty()) require(nc_get_att(id_, where, name.c_str(), values.data()), "read attribute " + name);
+    add(values.data(), values.size());
+    return bytes;
+}
+
+/// One that cannot be read is not taken for none.
+bool NetcdfFile::has_attribute(int code, std::string const& name) const {
+    if (code != NC_ENOTATT) require(code, "read attribute " + name);
+    return code == NC_NOERR;
 }
 
 std::string NetcdfFile::text(int variable, std::string const& name) const {
     std::size_t length = 0;
     nc_type type = NC_NAT;
     int const where = variable_or_global(variable);
-    if (nc_inq_att(id_, where, name.c_str(), &type, &length) != NC_NOERR) return {};
+    if (!has_attribute(nc_inq_att(id_, where, name.c_str(), &type, &length), name)) return {};
     if (type == NC_STRING && length == 1) {
         char* string = nullptr;
         require(nc_get_att_string(id_, where, name.c_str(), &string), "read attribute " + name);
@@ -298,8 +354,7 @@ bool NetcdfFile::number(int variable, std::string const& name, double& value) co
     std::size_t length = 0;
     nc_type type = NC_NAT;
     int const where = variable_or_global(variable);
-    if (nc_inq_att(id_, where, name.c_str(), &type, &length) != NC_NOERR || type == NC_CHAR || length != 1)
-        return false;
+    if (!has_attribute(nc_inq_att(id_, where, name.c_str(), &type, &length), name) || type == NC_CHAR || length != 1) return false;
     return nc_get_att_double(id_, where, name.c_str(), &value) == NC_NOERR;
 }
 

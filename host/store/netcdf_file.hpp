@@ -65,7 +65,11 @@ public:
 
     std::vector<Dimension> dimensions() const;                      // of a group: its own
     std::vector<Variable> variables() const;                        // as they were defined; by name if made in memory
+    std::vector<std::string> dimension_names(Variable const& variable) const;
     std::string first_dimension(Variable const& variable) const;    // its name; "" of a scalar
+    std::vector<std::string> attribute_names(int variable) const;   // sorted
+    /// What an attribute is, to the last bit: netCDF's number of its type, the number of its values, the values.
+    std::vector<std::byte> attribute_bytes(int variable, std::string const& name) const;
     std::string text(int variable, std::string const& name) const;  // "" when there is none
     bool number(int variable, std::string const& name, double& value) const;
 
@@ -77,6 +81,7 @@ private:
     NetcdfFile(std::string path, int id, Kind kind = Kind::other) : path_(std::move(path)), id_(id), kind_(kind) {}
     int close_with_reason(bool& hdf5_failed) noexcept;
     void require(int code, std::string_view action) const;
+    bool has_attribute(int code, std::string const& name) const;
 
     std::string path_;
     int id_;

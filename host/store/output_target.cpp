@@ -11,7 +11,6 @@
 #include <unistd.h>
 
 #include "host/base/error.hpp"
-#include "host/store/result_reader.hpp"
 
 namespace slideway {
 namespace {
@@ -80,15 +79,6 @@ void OutputTarget::write(std::string_view text) const {
     } catch (...) {
         std::remove(part.c_str());
         throw;
-    }
-}
-
-bool is_result_file(std::string const& path) {
-    try {
-        ResultReader const opened(path);
-        return true;
-    } catch (FileError const&) {
-        return false;
     }
 }
 

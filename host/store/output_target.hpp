@@ -14,7 +14,7 @@ namespace slideway {
 struct OutputRules {
     std::span<std::string const> inputs;  // files that the command reads; those that do not exist do not count
     bool force = false;                   // --force
-    /// Whether a file is one of slideway's, of the kind that the command writes.
+    /// Whether a file is one of slideway's, of the kind that the command writes; of an empty one, which holds nothing, nobody asks.
     std::function<bool(std::string const& path)> is_ours;
     char const* instead = "add --force to replace it, or give another name with -o";  // where one is there, and not forced
 };
@@ -43,9 +43,7 @@ private:
     bool replaces_ = false;
 };
 
-/// For `OutputRules::is_ours`: a finished result file; an empty file holds nothing that could be lost.
-bool is_result_file(std::string const& path);
-/// A text whose first line satisfies a condition.
+/// For `OutputRules::is_ours`: a text whose first line satisfies a condition.
 bool begins_with(std::string const& path, std::function<bool(std::string_view line)> const& condition);
 
 }  // namespace slideway

@@ -13,7 +13,7 @@
 #include "host/base/durable_file.hpp"
 #include "host/base/error.hpp"
 #include "host/base/file_lock.hpp"
-#include "host/store/payload_hash.hpp"
+#include "host/store/result_seal.hpp"
 #include "host/store/result_definition.hpp"
 
 namespace slideway {
@@ -155,7 +155,7 @@ void write_merged(NetcdfFile& file, ShardFolder const& folder, std::vector<Shard
 /// HDF5 may be told that a write failed, try again as it closes, and say nothing: what counts is what can be read.
 void require_sound(std::string const& part) {
     NetcdfFile const file = NetcdfFile::open(part);
-    if (payload_hash(file) != file.text(NetcdfFile::global, "payload_hash")) {
+    if (!check_seal(file).intact()) {
         throw FileError(part + ": does not hold what was written to it");
     }
 }
@@ -182,7 +182,7 @@ void write_part(std::string const& part, std::string const& completeness,
         write(file);
         file.put_text(NetcdfFile::global, "completeness", completeness);
         file.flush();
-        file.put_text(NetcdfFile::global, "payload_hash", payload_hash(file));
+        seal(file);
         file.close();
         require_sound(part);
     } catch (...) {

@@ -32,7 +32,7 @@ struct ResultMerge {
 void merge_shards(ShardFolder const& folder, std::vector<Shard> const& shards, ResultMerge merge,
                   std::string const& path);
 
-/// The same for what `write` puts into the file: adds completeness and payload hash.
+/// The same for what `write` puts into the file: adds completeness and seals it.
 void write_result(std::string const& path, std::string const& completeness,
                   std::function<void(NetcdfFile& file)> const& write, Existing existing = Existing::replaced);
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "host/base/error.hpp"
+#include "host/base/fnv1a.hpp"
 #include "host/store/shard_names.hpp"
 
 namespace slideway {
@@ -16,7 +17,7 @@ namespace {
 
 constexpr std::string_view title_line =
     "# What the shards beside this file belong to; slideway run --resume continues it.";
-constexpr std::string_view program_mark = "# program: ", arithmetic_mark = "# arithmetic: ",
+constexpr std::string_view checksum_mark = "# checksum: ", program_mark = "# program: ", arithmetic_mark = "# arithmetic: ",
                            members_mark = "# members: ", table_mark = "# table: ";
 constexpr std::string_view fused = "fused", contracted = "contracted";
 
@@ -129,8 +130,9 @@ std::string portable_scene(std::string const& scene) {
 std::string identity_text(RunIdentity const& identity) {
     std::string const table =
         identity.table.empty() ? std::string() : fmt::format("{}{}\n", table_mark, identity.table);
-    return fmt::format("{}\n{}{}\n{}{}\n{}{}\n{}\n{}", title_line, program_mark, identity.program, arithmetic_mark,
-                       identity.arithmetic, members_mark, identity.members.text(), table, identity.scene);
+    std::string const rest = fmt::format("{}{}\n{}{}\n{}{}\n{}\n{}", program_mark, identity.program, arithmetic_mark,
+                                         identity.arithmetic, members_mark, identity.members.text(), table, identity.scene);
+    return fmt::format("{}\n{}{:016x}\n{}", title_line, checksum_mark, fnv1a(rest), rest);
 }
 
 RunIdentity parse_identity(std::string const& text, std::string const& path) {
@@ -153,6 +155,11 @@ RunIdentity parse_identity(std::string const& text, std::string const& path) {
         return std::string(line.substr(mark.size()));
     };
     require(next_line() == title_line);
+    // Second, so that no single change makes a text without one of a text with it: those of before had none.
+    if (rest.starts_with(checksum_mark)) {
+        std::string const checksum = marked(next_line(), checksum_mark);
+        if (checksum != fmt::format("{:016x}", fnv1a(rest))) throw FileError(fmt::format("{}: is damaged (its checksum differs)", path));
+    }
     identity.program = marked(next_line(), program_mark);
     identity.arithmetic = marked(next_line(), arithmetic_mark);
     require(identity.arithmetic == fused || identity.arithmetic == contracted);

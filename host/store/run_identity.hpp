@@ -32,9 +32,10 @@ std::string with_table(std::string const& scene, std::string_view quoted);
 /// The scene with a table beside it, wherever that lay: what a study that was moved has in common with the former.
 std::string portable_scene(std::string const& scene);
 
-/// A scene file that starts with the rest as comments.
+/// A scene file that starts with the rest as comments, and with a checksum of what follows it.
 std::string identity_text(RunIdentity const& identity);
-/// The other way.  @param path of the text, for messages.  @throws FileError if it is no such text.
+/// The other way.  @param path of the text, for messages.  @throws FileError if it is no such text, or damaged; one without a
+/// checksum is of an earlier version.
 RunIdentity parse_identity(std::string const& text, std::string const& path);
 
 }  // namespace slideway

@@ -138,6 +138,8 @@ void ShardClaim::begin(Wanted const& wanted) {
                             count_text(done_.count())));
         }
         if (changed.empty()) {
+            mended_ = folder.damaged_identity();
+            folder.mend();
             put_aside(damaged, wanted.mine);
             write_companion(wanted);
             return;
@@ -160,7 +162,7 @@ void ShardClaim::take_over(Wanted const& wanted) {
         sync_folder(folder_);
         remove_file(folder_, shard_names::finished);
     }
-    write_durably(in_folder(folder_, shard_names::identity), identity_text(wanted.identity));
+    write_identity(folder_, wanted.identity);
     write_companion(wanted);
 }
 
@@ -202,6 +204,7 @@ void ShardClaim::remove_folder() {
     // Nobody begins meanwhile: whoever waits finds the lock's file gone then, and makes a new one.
     FileLock begins(lock_of(folder_, begin_suffix), Kind::alone, Wait::yes);
     // First, so that whoever finds what a killed process left knows that it may go.
+    remove_file(folder_, shard_names::identity_copy);
     if (ShardFolder::exists(folder_)) {
         std::string const identity = in_folder(folder_, shard_names::identity);
         if (std::rename(identity.c_str(), in_folder(folder_, shard_names::finished).c_str()) != 0) {

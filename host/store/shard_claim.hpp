@@ -37,6 +37,9 @@ public:
     /// Shards that are not what was written: they were put aside, and their members are to run again.
     std::vector<DamagedShard> const& damaged() const { return damaged_; }
 
+    /// The file of the identity that was damaged, and is whole again; "" where none was.
+    std::string const& mended() const { return mended_; }
+
     /// When the result stands elsewhere: removes what belongs to the run.  What is not ours stays, and so does the folder then; a
     /// folder that OUT.nc.shards is but a link to stays too, empty.  @throws FileError
     void remove_folder();
@@ -58,6 +61,7 @@ private:
     std::optional<FileLock> whole_, part_;
     MemberSet done_;
     std::vector<DamagedShard> damaged_;
+    std::string mended_;
 };
 
 }  // namespace slideway

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <sstream>
 #include <string_view>
 
@@ -59,13 +60,62 @@ std::vector<std::string> names_in(std::string const& folder) {
     return names;
 }
 
-bool ShardFolder::exists(std::string const& path) { return is_there(in_folder(path, shard_names::identity)); }
+namespace {
+
+constexpr std::string_view identity_files[] = {shard_names::identity, shard_names::identity_copy};
+
+/// What is whole of the two; what cannot be read is not taken for damaged.  @param damaged the other's name, or "": a copy may be missing
+RunIdentity read_identity(std::string const& folder, std::string& damaged) {
+    std::optional<RunIdentity> found;
+    std::optional<FileError> damage;
+    for (std::string_view const name : identity_files) {
+        std::string const file = in_folder(folder, name);
+        if (!is_there(file)) {
+            if (name == shard_names::identity) damaged = file;
+            continue;
+        }
+        std::string const text = read_text(file);
+        try {
+            RunIdentity identity = parse_identity(text, file);
+            if (!found) found = std::move(identity);
+        } catch (FileError const& error) {
+            if (!damage) damage = error;
+            damaged = file;
+        }
+    }
+    if (found) return *found;
+    throw damage.value_or(FileError(folder + ": is no folder of shards any more"));
+}
+
+}  // namespace
+
+bool ShardFolder::exists(std::string const& path) {
+    auto const has = [&](std::string_view name) { return is_there(in_folder(path, name)); };
+    return has(shard_names::identity) || (has(shard_names::identity_copy) && !has(shard_names::finished));
+}
+
+void ShardFolder::mend() const {
+    std::string const text = identity_text(identity_);
+    for (std::string_view const name : identity_files) {
+        std::string const file = in_folder(path_, name);
+        if (!is_there(file) || read_text(file) != text) write_durably(file, text);
+    }
+}
+
+void write_identity(std::string const& folder, RunIdentity const& identity) {
+    std::string const copy = in_folder(folder, shard_names::identity_copy), text = identity_text(identity);
+    // One that is older than run.toml would speak for it some day.
+    if (std::error_code error; !fs::remove(copy, error) && error) {
+        throw FileError(fmt::format("{}: cannot remove: {}", copy, error.message()));
+    }
+    write_durably(in_folder(folder, shard_names::identity), text);
+    write_durably(copy, text);
+}
 
 ShardFolder::ShardFolder(std::string path) : path_(std::move(path)) {
     if (!exists(path_))
         throw FileError(path_ + ": is no folder of shards; give the folder that a run left, OUT.nc.shards");
-    std::string const file = in_folder(path_, shard_names::identity);
-    identity_ = parse_identity(read_text(file), file);
+    identity_ = read_identity(path_, damaged_);
 }
 
 namespace {

@@ -31,7 +31,7 @@ struct DamagedShard {
 /// One shard.  @throws FileError if the file is not what the manifest says.
 std::vector<std::byte> read_shard(std::string const& folder, Shard const& shard);
 
-/// `run.toml`    the identity: a scene file, with the rest as comments
+/// `run.toml`    the identity: a scene file, with the rest as comments; `run-copy.toml` the same again
 /// `members-*.nc`    the shards, or `statistics-*.bin` where members are not stored
 /// `manifest-*.txt`  one line per shard, written once the shard is on the disk; each line has a checksum of its own, so that a
 ///                   torn one is told.  Every process that writes has a manifest of its own.
@@ -41,7 +41,7 @@ std::vector<std::byte> read_shard(std::string const& folder, Shard const& shard)
 /// `lock*`       held by the processes that write
 class ShardFolder {
 public:
-    /// An existing one, to read.  @throws FileError if it is none.
+    /// An existing one, to read.  @throws FileError if it is none, or if neither file of the identity is whole.
     explicit ShardFolder(std::string path);
 
     /// Whether there is such a folder with an identity.  @throws FileError if that cannot be told
@@ -49,6 +49,10 @@ public:
 
     std::string const& path() const { return path_; }
     RunIdentity const& identity() const { return identity_; }
+    /// The file of the identity that is damaged or gone, so that the other counts; "" where none is.
+    std::string const& damaged_identity() const { return damaged_; }
+    /// Makes both what they should be, for those who write into the folder.  @throws FileError
+    void mend() const;
     /// What the manifests list, by first member; `read` tells whether a file is what it was.  @throws FileError if a file
     /// cannot be looked at
     std::vector<Shard> listed() const;
@@ -63,7 +67,11 @@ private:
 
     std::string path_;
     RunIdentity identity_;
+    std::string damaged_;
 };
+
+/// Writes both files of the identity; what was there before is none at any time.  @throws FileError
+void write_identity(std::string const& folder, RunIdentity const& identity);
 
 /// Names of the files in a folder, sorted.  @throws FileError
 std::vector<std::string> names_in(std::string const& folder);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host/store/payload_hash.hpp"
+#include "host/store/result_seal.hpp"
 #include "host/store/result_definition.hpp"
 #include "host/store/work_table.hpp"
 
@@ -152,7 +152,7 @@ ShardImage shard_image(std::string const& name, ResultLayout layout, Provenance 
     ResultVariables const ids = define_result(file, layout, provenance);
     BlockRows(file, layout, ids, block, rows).write(study);
     file.put_text(NetcdfFile::global, "completeness", "shard");
-    file.put_text(NetcdfFile::global, "payload_hash", payload_hash(file));
+    seal(file);
     image.bytes = file.close_to_bytes();
     return image;
 }

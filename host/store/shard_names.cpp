@@ -47,7 +47,9 @@ ShardFile kind_of(std::string_view name) {
     if (is_lock(name)) return ShardFile::lock;
     constexpr std::string_view temporary = ".tmp";
     if (name.ends_with(temporary)) name.remove_suffix(temporary.size());
-    if (name == shard_names::identity || name == shard_names::finished) return ShardFile::identity;
+    for (std::string_view const identity : {shard_names::identity, shard_names::identity_copy, shard_names::finished}) {
+        if (name == identity) return ShardFile::identity;
+    }
     if (is_shard(name) || is_manifest(name) || name == shard_names::table) return ShardFile::content;
     return take(name, shard_names::damaged) && is_shard(name) ? ShardFile::content : ShardFile::foreign;
 }

@@ -7,6 +7,8 @@ namespace slideway {
 
 namespace shard_names {
 inline constexpr std::string_view identity = "run.toml", manifest = "manifest-", lock = "lock";
+/// The same again: whichever is whole counts.
+inline constexpr std::string_view identity_copy = "run-copy.toml";
 /// What the identity is called once the result stands elsewhere, while the folder is cleared.
 inline constexpr std::string_view finished = "finished.toml";
 inline constexpr std::string_view members = "members-", statistics = "statistics-";  // what shards begin with
@@ -16,7 +18,7 @@ inline constexpr std::string_view table = "table.csv";   // the study's table, f
 
 enum class ShardFile {
     foreign,
-    identity,  // run.toml, finished.toml
+    identity,  // run.toml, its copy, finished.toml
     content,   // shards, manifests, what is damaged, the table: of worth only beside the identity
     lock
 };

@@ -7,6 +7,7 @@
 
 #include "host/base/durable_file.hpp"
 #include "host/base/fnv1a.hpp"
+#include "host/store/result_check.hpp"
 #include "host/store/result_merge.hpp"
 #include "host/store/result_reader.hpp"
 #include "host/store/statistics_merge.hpp"
@@ -21,6 +22,12 @@ namespace {
 
 /// Whether a result file holds all that a run would compute.  @throws SceneError if it is of another run.
 bool is_result_of(std::string const& path, RunIdentity const& identity) {
+    if (!check_result(path).intact()) {
+        throw FileError(
+            fmt::format("{}: is damaged: it does not hold what was written to it (its hash differs); give --force "
+                        "instead of --resume to run again",
+                        path));
+    }
     ResultReader const result(path);
     RunIdentity found;
     found.program =
@@ -39,14 +46,7 @@ bool is_result_of(std::string const& path, RunIdentity const& identity) {
             fmt::format("{}: cannot resume: it is the result of another run ({}); give another name with -o, or --force instead of --resume to replace it",
                         path, changed));
     }
-    if (result.attribute("completeness") != "complete") return false;
-    if (result.computed_hash() != result.stored_hash()) {
-        throw FileError(
-            fmt::format("{}: is damaged: it does not hold what was written to it (its hash differs); give --force "
-                        "instead of --resume to run again",
-                        path));
-    }
-    return true;
+    return result.attribute("completeness") == "complete";
 }
 
 /// The table of members, so that the folder of shards is all that a merge needs.

@@ -70,6 +70,8 @@ public:
     StudyWork const& work() const { return work_; }
     /// Shards that were not what had been written: their members run again.
     std::vector<DamagedShard> damaged() const;
+    /// See ShardClaim.
+    std::string mended() const { return claim_ ? claim_->mended() : std::string(); }
 
     /// Members that have not run, of the part that is this run's.
     std::uint64_t left() const;

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "host/store/payload_hash.hpp"
+#include "host/store/result_seal.hpp"
 #include "host/study/group_writer.hpp"
 #include "host/study/verification.hpp"
 

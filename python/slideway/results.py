@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from typing import Union
 
 import numpy as np
@@ -10,14 +11,18 @@ import xarray as xr
 
 from .arguments import dataset, one_line, text
 from .arguments import path as path_text
-from .errors import SlidewayError
+from .errors import FileError, RunError, SceneError, SlidewayError
+from .program import call, find_program
 from .temporary import TemporaryPath
 
 StrPath = Union[str, "os.PathLike[str]"]
 
+_newest_format = 2  # format_version of results that this package knows
+_checked: dict[str, tuple[int, ...]] = {}  # files that the program found intact, and what they were then
+
 
 @one_line
-def open(path: StrPath, group: str | None = None) -> xr.Dataset:  # noqa: A001
+def open(path: StrPath, group: str | None = None, *, check: bool = True) -> xr.Dataset:  # noqa: A001
     """Open a result file of slideway, or one of its groups.
 
     Numbers are read from the file when they are used; ``.load()`` reads all of them, ``.close()`` (or ``with``) closes the file.
@@ -25,11 +30,16 @@ def open(path: StrPath, group: str | None = None) -> xr.Dataset:  # noqa: A001
     the scene's ensemble, ``apex``, ``mode_class``, ``axis`` and the like their names, and samples are also found by ``time``.
     Sections of all members lie one after the other; ``section_member`` says whose they are (see :func:`slideway.sections`).
 
+    The program looks at the file first, in a process of its own: whether all numbers and attributes are what was written. Where there
+    is no program, a warning says that the file was not checked.
+
     Args:
         path: the result, OUT.nc of ``slideway run -o OUT.nc``.
         group: a group of the file, as :func:`slideway.groups` lists them: "statistics", "yield", "sensitivity", "verification".
+        check: False opens the file as it is. Some damaged files end Python when they are opened.
 
     Raises:
+        FileError: the file is not what was written; the text says which part is damaged.
         SlidewayError: the file is missing, damaged or no result of slideway, or has no such group.
 
     >>> result = slideway.open(example_file)
@@ -39,10 +49,11 @@ def open(path: StrPath, group: str | None = None) -> xr.Dataset:  # noqa: A001
     0.01
     """
     name = path_text(path, "path")
-    _check(name)
-    if group is not None and text(group, "group") not in groups(name):
-        there = ", ".join(groups(name)) or "no groups"
+    _check(name, check)
+    if group is not None and text(group, "group") not in (known := _group_names(name)):
+        there = ", ".join(known) or "no groups"
         raise SlidewayError(f'{name}: has no group "{group}", but {there}; see slideway.groups(path)')
+    raw = None
     try:
         raw = _opened(name, group)
         opened = _labelled(raw)
@@ -52,6 +63,8 @@ def open(path: StrPath, group: str | None = None) -> xr.Dataset:  # noqa: A001
                 shared = {d: whole[d].load() for d in opened.dims if d in whole.indexes and d not in opened.coords}
             opened = opened.assign_coords(shared)
     except (ArithmeticError, AttributeError, LookupError, OSError, RuntimeError, TypeError, ValueError) as error:
+        if raw is not None:
+            raw.close()
         raise SlidewayError(f"{name}: is damaged ({' '.join(str(error).split())}); copy it again, or run its scene again") from error
     return _from(name, raw, opened)
 
@@ -63,10 +76,14 @@ def groups(result: StrPath | xr.Dataset) -> list[str]:
     >>> slideway.groups(example_file)
     ['verification']
     """
+    name = file_of(result)
+    _check(name, not isinstance(result, xr.Dataset))
+    return _group_names(name)
+
+
+def _group_names(name: str) -> list[str]:
     import netCDF4
 
-    name = file_of(result)
-    _check(name)
     with netCDF4.Dataset(name) as file:
         return list(file.groups)
 
@@ -115,7 +132,7 @@ def _from(name: str, raw: xr.Dataset, labelled: xr.Dataset) -> xr.Dataset:
 
 def open_temporary(path: TemporaryPath) -> xr.Dataset:
     """A temporary result, whose folder is removed when it is closed, or when nothing uses it any more."""
-    opened = open(path)
+    opened = open(path, check=False)  # the program has just written it, and read it again
     # What removes the folder must not hold the Dataset itself, which would then live until the next collection.
     closing = opened.copy()
     closing.encoding = dict(opened.encoding)
@@ -133,8 +150,8 @@ def _opened(name: str, group: str | None) -> xr.Dataset:
     return xr.open_dataset(name, engine="netcdf4", group=group, decode_times=False, decode_timedelta=False)
 
 
-def _check(name: str) -> None:
-    """Raises where there is no result of slideway."""
+def _check(name: str, whole: bool) -> None:
+    """Raises where there is no result of slideway, or, if the `whole` file counts, one that is damaged."""
     import netCDF4
 
     if not os.path.exists(name):
@@ -144,14 +161,43 @@ def _check(name: str) -> None:
         raise SlidewayError(f"{name}: is a folder, not a result file{hint}")
     if not os.path.isfile(name) or os.path.getsize(name) == 0:
         raise SlidewayError(f"{name}: is {'empty' if os.path.isfile(name) else 'no file'}, and so no result; check the path")
+    if whole:
+        _require_intact(name)
     try:
         with netCDF4.Dataset(name) as file:
-            source = getattr(file, "source", "")
+            source, version = getattr(file, "source", ""), getattr(file, "format_version", 1)
     except (OSError, RuntimeError, ValueError, AttributeError) as error:
         why = getattr(error, "strerror", None) or error
         raise SlidewayError(f"{name}: is no NetCDF file that can be read ({why}); check the path") from error
     if not str(source).startswith("slideway"):
         raise SlidewayError(f"{name}: is a NetCDF file, but not a result of slideway; open it with xarray.open_dataset")
+    if not isinstance(version, (int, np.integer)) or version > _newest_format:
+        raise SlidewayError(f"{name}: is of format {version}, and this package reads formats 1 to {_newest_format}; install a newer one")
+
+
+def _require_intact(name: str) -> None:
+    """Has the program look at a file, once as long as it does not change."""
+    state = os.stat(name)
+    now = (state.st_dev, state.st_ino, state.st_size, state.st_mtime_ns, state.st_ctime_ns)
+    if _checked.get(os.path.abspath(name)) == now:
+        return
+    try:
+        call(find_program(), ["info", "--check", "--", os.path.abspath(name)])
+    except FileError as error:
+        raise FileError(error.code, error.line.replace(os.path.abspath(name), name)) from None
+    except SceneError as error:  # of an older version, which knows no --check
+        _warn(name, str(error))
+    except RunError:
+        raise
+    except SlidewayError:
+        _warn(name, "the program slideway was not found")
+    else:
+        _checked[os.path.abspath(name)] = now
+
+
+def _warn(name: str, why: str) -> None:
+    line = f"{name}: was not checked for damage ({why}); set SLIDEWAY_PROGRAM, or give check=False"
+    warnings.warn(" ".join(line.split()), stacklevel=6)  # the caller of open or groups
 
 
 def _labelled(dataset: xr.Dataset) -> xr.Dataset:

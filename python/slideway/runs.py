@@ -85,7 +85,7 @@ def run(
             raise KeyboardInterrupt from error_of(stopped.code, stopped.line, result, found) if stopped.code != 0 else None
     if code != 0:
         raise error_of(code, line, result, found)
-    return open_temporary(result) if isinstance(result, TemporaryPath) else open_result(result)
+    return open_temporary(result) if isinstance(result, TemporaryPath) else open_result(result, check=False)
 
 
 def info(result: StrPath | xr.Dataset, program: StrPath | None = None) -> str:

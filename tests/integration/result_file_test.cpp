@@ -8,7 +8,8 @@
 
 #include "host/base/error.hpp"
 #include "host/store/output_target.hpp"
-#include "host/store/payload_hash.hpp"
+#include "host/store/result_seal.hpp"
+#include "host/store/result_check.hpp"
 #include "host/store/result_reader.hpp"
 #include "tests/support/output_fixture.hpp"
 

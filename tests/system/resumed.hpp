@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "host/store/shard_folder.hpp"
 #include "tests/system/results.hpp"
 
 namespace slideway::testing {
@@ -47,10 +48,11 @@ protected:
     }
     /// As those of a card are whose compiler joined multiplications and additions.
     void let_shards_be_contracted() const {
-        std::string text = file_text(path("s.nc.shards/run.toml"));
-        auto const at = text.find("arithmetic: fused");
-        ASSERT_NE(at, std::string::npos);
-        std::ofstream(path("s.nc.shards/run.toml"), std::ios::binary) << text.replace(at, 17, "arithmetic: contracted");
+        std::string const folder = path("s.nc.shards").string();
+        RunIdentity identity = ShardFolder(folder).identity();
+        ASSERT_EQ(identity.arithmetic, "fused");
+        identity.arithmetic = "contracted";
+        write_identity(folder, identity);
     }
     /// Without those of members 16 to 23 and 40 to 47.
     void make_unfinished() const {

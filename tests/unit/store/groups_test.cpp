@@ -10,7 +10,7 @@
 #include "host/base/error.hpp"
 #include "host/base/fnv1a.hpp"
 #include "host/store/netcdf_file.hpp"
-#include "host/store/payload_hash.hpp"
+#include "host/store/result_seal.hpp"
 #include "host/store/result_reader.hpp"
 
 namespace slideway {

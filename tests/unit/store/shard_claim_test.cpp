@@ -131,6 +131,7 @@ TEST_F(Claim, IsRefusedWhereNothingSaysWhatShardsBelongTo) {
         put(3, 2);
     }
     fs::remove(file("run.toml"));
+    fs::remove(file("run-copy.toml"));
     for (bool const resume : {false, true}) {
         EXPECT_EQ(refused_scene(whole_run(resume)),
                   shards_ +

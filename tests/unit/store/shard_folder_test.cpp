@@ -92,6 +92,50 @@ TEST_F(Shards, AreNotThoseOfAFolderWithoutIdentity) {
     EXPECT_THROW(open(), FileError);
 }
 
+TEST_F(Shards, KeepTheirIdentityWhicheverBitOfEitherFileChanges) {
+    RunIdentity identity{"a program", "fused", range(0, 100), "schema = 1\n", "\"a table.csv\""};
+    write_identity(shards_, identity);
+    for (std::string const name : {"run.toml", "run-copy.toml"}) {
+        std::string const whole = testing::bytes_of(file(name));
+        for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
+            std::string changed = whole;
+            changed[bit / 8] = static_cast<char>(changed[bit / 8] ^ (1 << bit % 8));
+            testing::put_bytes(file(name), changed);
+            ShardFolder const folder = open();
+            EXPECT_EQ(folder.identity().difference(identity), "") << bit;
+            EXPECT_EQ(folder.identity().table, identity.table) << bit;
+            EXPECT_EQ(folder.damaged_identity(), file(name)) << bit;
+        }
+        open().mend();
+        EXPECT_EQ(testing::bytes_of(file(name)), whole);
+        EXPECT_EQ(open().damaged_identity(), "");
+    }
+    fs::remove(file("run.toml"));
+    EXPECT_TRUE(ShardFolder::exists(shards_));
+    EXPECT_EQ(open().damaged_identity(), file("run.toml"));
+    open().mend();
+    EXPECT_TRUE(fs::exists(file("run.toml")));
+}
+
+TEST_F(Shards, OfAnIdentityWhoseFilesAreBothDamagedAreRefused) {
+    write_identity(shards_, {"a program", "fused", range(0, 100), "schema = 1\n"});
+    for (char const* const name : {"run.toml", "run-copy.toml"}) testing::flip_bit(file(name), 150);
+    try {
+        open();
+        FAIL() << "was read";
+    } catch (FileError const& error) {
+        EXPECT_EQ(std::string(error.what()), file("run.toml") + ": is damaged (its checksum differs)");
+    }
+}
+
+TEST_F(Shards, OfAnIdentityWithoutChecksumAreRead) {
+    write_durably(file("run.toml"), "# What the shards beside this file belong to; slideway run --resume continues it.\n# program: a program\n"
+                                    "# arithmetic: fused\n# members: 0-99\n\nschema = 1\n");
+    RunIdentity const expected{"a program", "fused", range(0, 100), "schema = 1\n"};
+    EXPECT_EQ(open().identity().difference(expected), "");
+    EXPECT_EQ(open().damaged_identity(), "");
+}
+
 TEST_F(Shards, OfATornLastLineDoNotCount) {
     put(range(0, 4), 1);
     ShardStore store(shards_);

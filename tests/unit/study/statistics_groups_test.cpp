@@ -6,7 +6,7 @@
 #include <numeric>
 #include <span>
 
-#include "host/store/payload_hash.hpp"
+#include "host/store/result_seal.hpp"
 #include "tests/support/tolerance_file.hpp"
 
 namespace slideway::testing {

@@ -1,5 +1,5 @@
 #include "host/base/fnv1a.hpp"
-#include "host/store/payload_hash.hpp"
+#include "host/store/result_seal.hpp"
 
 #include <cstdio>
 #include <cstdlib>
@@ -25,7 +25,7 @@ TEST(Fnv1a, MeetsPublishedValues) {  // Fowler, Noll, Vo: test vectors of the re
 }
 
 TEST_F(PayloadHash, CoversNamesShapesAndData) {
-    // The definition of payload_hash.hpp, written out for a file of two variables: by name, not as they were defined.
+    // The definition of result_seal.hpp, written out for a file of two variables: by name, not as they were defined.
     std::vector<double> const values{1.5, -2.0};
     int const scalar = 7;
     {

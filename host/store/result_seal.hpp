@@ -1,0 +1,48 @@
+// What a result file says of itself so that damage shows: its format, and fingerprints of its numbers and of all else.
+#pragma once
+
+#include <string>
+
+#include "host/store/netcdf_file.hpp"
+
+namespace slideway {
+
+inline constexpr char const* verification_group = "verification";
+
+/// Attribute `format_version` of results and shards.  Files without it are of format 1, which had no metadata hash; this program reads both.
+inline constexpr int format_version = 2;
+
+/// The hash over all variables of a file by name (a file made in memory forgets their order): name, number of
+/// dimensions, their lengths, then the data in C order, little-endian, each number in its own width.  Every NaN counts
+/// as the same one, as its bits differ between instruction sets.  Groups follow what they lie in, in the order of their
+/// definition: name, then their variables and groups in the same way, but for the group `verification`, which says how far the
+/// numbers can be trusted and is none of them.  Attributes do not count: the same numbers
+/// computed on another day, with other threads or another compiler keep their hash.  @return 16 hexadecimal digits.
+std::string payload_hash(NetcdfFile const& file);
+
+/// The hash over what the payload hash leaves out, everything by name: of the file and each group the dimensions with their lengths, the
+/// attributes (type, count, values) but for the two hashes, of each variable the type, the dimensions and the attributes; and the
+/// data of the group `verification`.  @return 16 hexadecimal digits.
+std::string metadata_hash(NetcdfFile const& file);
+
+/// The last that is written into a file: its format and both hashes.  Whatever changes afterwards is damage.
+void seal(NetcdfFile& file);
+
+/// What a file says of itself, and what it holds.
+struct SealCheck {
+    int version = format_version;
+    std::string payload, metadata;                // as stored; without `metadata` format 1
+    std::string payload_found, metadata_found;    // of what is there
+    bool data_match() const { return payload == payload_found; }
+    bool metadata_match() const { return version == 1 ? metadata.empty() : metadata == metadata_found; }
+    bool intact() const { return data_match() && metadata_match(); }
+    /// Which part is damaged, in words: "the data do not match their hash"; "" of an intact file.
+    std::string damage() const;
+};
+
+/// 1 without the attribute.  @throws FileError if this program does not read that format.
+int format_of(NetcdfFile const& file);
+/// Reads everything.  @throws FileError also where that fails
+SealCheck check_seal(NetcdfFile const& file);
+
+}  // namespace slideway

@@ -1,0 +1,191 @@
+// What damage a result tells of, and which part of it.
+#include "host/store/result_check.hpp"
+
+#include <array>
+#include <functional>
+
+#include <netcdf.h>
+
+#include "host/base/error.hpp"
+#include "tests/support/output_fixture.hpp"
+
+namespace slideway {
+namespace {
+
+using Type = NetcdfFile::Type;
+
+class Sealed : public testing::OutputFolder {
+protected:
+    Sealed() {
+        NetcdfFile file = NetcdfFile::create(path());
+        std::array const member{file.add_dimension("member", 3)};
+        int const status = file.add_variable("status", Type::int8, member);
+        int const height = file.add_variable("height", Type::float64, member, true);
+        file.put_text(height, "units", "m");
+        file.put_text(NetcdfFile::global, "scene", "schema = 1\n");
+        file.put_text(NetcdfFile::global, "title", "Gelenk, größer");  // a string of netCDF, as it is no ASCII
+        file.put_number(NetcdfFile::global, "threads", 2);
+        NetcdfFile group = file.add_group(verification_group);
+        int const checked = group.add_variable("difference", Type::float64, member);
+        group.put_text(NetcdfFile::global, "summary", "resolved");
+        file.end_definitions();
+        std::array const first{std::size_t{0}}, count{std::size_t{3}};
+        std::array const statuses{'\0', '\0', '\1'};
+        std::array const heights{1.0, 2.0, 3.0};
+        file.write(status, first, count, statuses.data());
+        file.write(height, first, count, heights.data());
+        group.write(checked, first, count, heights.data());
+        seal(file);
+        file.close();
+    }
+
+    /// By netCDF itself, as a tool would.
+    void edit(std::function<void(int file)> const& change) const {
+        int file = 0;
+        ASSERT_EQ(nc_open(path().c_str(), NC_WRITE, &file), NC_NOERR);
+        change(file);
+        ASSERT_EQ(nc_close(file), NC_NOERR);
+    }
+    std::string refusal() const {
+        try {
+            require_intact(path());
+        } catch (FileError const& error) {
+            return error.what();
+        }
+        return "";
+    }
+};
+
+void put(int code) { ASSERT_EQ(code, NC_NOERR); }
+int variable_of(int file, char const* name) {
+    int variable = -1;
+    EXPECT_EQ(nc_inq_varid(file, name, &variable), NC_NOERR);
+    return variable;
+}
+int group_of(int file) {
+    int group = -1;
+    EXPECT_EQ(nc_inq_ncid(file, verification_group, &group), NC_NOERR);
+    return group;
+}
+
+TEST_F(Sealed, IsIntactAndOfTheSecondFormat) {
+    SealCheck const found = check_result(path());
+    EXPECT_EQ(found.version, 2);
+    EXPECT_TRUE(found.intact());
+    EXPECT_EQ(found.damage(), "");
+    EXPECT_EQ(found.payload.size(), 16u);
+    EXPECT_EQ(found.metadata.size(), 16u);
+    EXPECT_NO_THROW(require_intact(path()));
+}
+
+TEST_F(Sealed, TellsChangesOfWhatIsNoNumber) {
+    struct Change {
+        char const* what;
+        std::function<void(int)> make;
+    };
+    double const seven = 7;
+    std::size_t const second = 1;
+    int const four = 4;
+    Change const changes[] = {
+        {"scene", [](int f) { put(nc_put_att_text(f, NC_GLOBAL, "scene", 11, "schema = 2\n")); }},
+        {"a string", [](int f) { char const* other = "Gelenk, größes"; put(nc_put_att_string(f, NC_GLOBAL, "title", 1, &other)); }},
+        {"a number", [&](int f) { put(nc_put_att_int(f, NC_GLOBAL, "threads", NC_INT, 1, &four)); }},
+        {"its type", [](int f) { short const two = 2; put(nc_put_att_short(f, NC_GLOBAL, "threads", NC_SHORT, 1, &two)); }},
+        {"another attribute", [](int f) { put(nc_put_att_text(f, NC_GLOBAL, "history", 1, "x")); }},
+        {"one that is gone", [](int f) { put(nc_del_att(f, NC_GLOBAL, "scene")); }},
+        {"its name", [](int f) { put(nc_rename_att(f, NC_GLOBAL, "scene", "scent")); }},
+        {"unit of a variable", [](int f) { put(nc_put_att_text(f, variable_of(f, "height"), "units", 2, "mm")); }},
+        {"name of a dimension", [](int f) { put(nc_rename_dim(f, 0, "menber")); }},
+        {"format", [](int f) { put(nc_del_att(f, NC_GLOBAL, "format_version")); }},
+        {"hash", [](int f) { put(nc_del_att(f, NC_GLOBAL, "metadata_hash")); }},
+        {"attribute of the group", [](int f) { put(nc_put_att_text(group_of(f), NC_GLOBAL, "summary", 8, "resolvee")); }},
+        {"data of the group", [&](int f) { put(nc_put_var1_double(group_of(f), variable_of(group_of(f), "difference"), &second, &seven)); }},
+    };
+    std::string const whole = testing::bytes_of(path());
+    for (Change const& change : changes) {
+        testing::put_bytes(path(), whole);
+        edit(change.make);
+        SealCheck const found = check_result(path());
+        EXPECT_FALSE(found.metadata_match()) << change.what;
+        EXPECT_TRUE(found.data_match()) << change.what;
+        EXPECT_EQ(refusal(), path() + ": the attributes, names or group verification do not match their hash; the file is damaged or was edited, "
+                                      "see slideway info") << change.what;
+    }
+}
+
+TEST_F(Sealed, TellsChangesOfNumbers) {
+    double const seven = 7;
+    std::size_t const second = 1;
+    auto const change = [&](int f) { put(nc_put_var1_double(f, variable_of(f, "height"), &second, &seven)); };
+    edit(change);
+    EXPECT_TRUE(check_result(path()).metadata_match());
+    EXPECT_NE(refusal().find(": the data do not match their hash; "), std::string::npos) << refusal();
+    edit([](int f) { put(nc_put_att_text(f, NC_GLOBAL, "scene", 1, "x")); });
+    EXPECT_NE(refusal().find(": neither the data nor the attributes match their hashes; "), std::string::npos) << refusal();
+}
+
+TEST_F(Sealed, OfANewerFormatIsRefused) {
+    int const three = 3;
+    edit([&](int f) { put(nc_put_att_int(f, NC_GLOBAL, "format_version", NC_INT, 1, &three)); });
+    EXPECT_NE(refusal().find(": is of format 3, and slideway "), std::string::npos) << refusal();
+    EXPECT_NE(refusal().find("reads formats 1 to 2"), std::string::npos) << refusal();
+    EXPECT_EQ(refusal().find('\n'), std::string::npos);
+}
+
+TEST_F(Sealed, IsHashedAlikeInMemoryAndOnTheDisk) {
+    NetcdfFile file = NetcdfFile::create_in_memory("a file");
+    for (char const* const name : {"b", "a"}) {
+        std::array const dimension{file.add_dimension(name, 1)};
+        file.put_number(file.add_variable(name, Type::int32, dimension), "scale", 0.5);
+    }
+    file.end_definitions();
+    seal(file);
+    std::vector<std::byte> const bytes = file.close_to_bytes();
+    SealCheck const found = check_seal(NetcdfFile::open_in_memory("a file", bytes));
+    EXPECT_TRUE(found.intact()) << found.damage();
+}
+
+TEST_F(Sealed, WithAnyByteChangedIsRefusedOrTheSame) {
+    std::string const whole = testing::bytes_of(path());
+    SealCheck const before = check_result(path());
+    std::size_t refused = 0, same = 0;
+    for (std::size_t at = 0; at < whole.size(); at += 37) {
+        std::string changed = whole;
+        changed[at] = static_cast<char>(changed[at] ^ 0x55);
+        testing::put_bytes(path(), changed);
+        try {
+            SealCheck const found = check_result(path());
+            if (!found.intact()) {
+                ++refused;
+                continue;
+            }
+            ++same;  // no part of what is read
+            EXPECT_EQ(found.payload_found, before.payload_found) << at;
+            EXPECT_EQ(found.metadata_found, before.metadata_found) << at;
+        } catch (FileError const& error) {
+            ++refused;
+            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << at << error.what();
+        }
+    }
+    EXPECT_GT(refused, 50u);
+    EXPECT_GT(same, 0u);
+}
+
+TEST(FirstFormat, IsRead) {
+    SealCheck const found = check_result(std::string(SLIDEWAY_TEST_DATA) + "/formats/result_1.nc");
+    EXPECT_EQ(found.version, 1);
+    EXPECT_EQ(found.payload, "26acfe69637576dd");  // as the program that wrote it said
+    EXPECT_EQ(found.metadata, "");
+    EXPECT_TRUE(found.intact());
+}
+
+TEST_F(Sealed, ThatIsNoFileIsRefusedAtOnce) {
+    EXPECT_THROW(check_result(path("missing.nc")), FileError);
+    EXPECT_THROW(check_result(folder()), FileError);
+    EXPECT_THROW(check_result("/dev/zero"), FileError);
+    EXPECT_FALSE(is_result_file("/dev/zero"));
+    EXPECT_TRUE(is_result_file(path()));
+}
+
+}  // namespace
+}  // namespace slideway

@@ -1,0 +1,56 @@
+// Every byte of a result changed, one after another: told, or no part of what is read.
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "host/base/error.hpp"
+#include "host/store/result_check.hpp"
+
+namespace slideway {
+namespace {
+
+std::string bytes_of(std::filesystem::path const& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(EveryByte, OfAResultIsToldOrDoesNotMatter) {
+    auto const folder = std::filesystem::temp_directory_path() / ("slideway_bytes_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    std::string const file = (folder / "s.nc").string();
+    std::string const command = std::string(SLIDEWAY_BINARY) + " run " SLIDEWAY_SCENES "/ensemble_starts.toml --set study.members=4 " +
+                                "--set study.samples=5 --set study.duration=0.002 --quiet -o " + file;
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    std::string const whole = bytes_of(file);
+    SealCheck const before = check_result(file);
+    std::size_t refused = 0, crashes = 0;
+    std::string changed = whole;
+    for (std::size_t at = 0; at < whole.size(); ++at) {
+        changed[at] = static_cast<char>(whole[at] ^ (1 << at % 8));
+        std::ofstream(file, std::ios::binary) << changed;
+        changed[at] = whole[at];
+        try {
+            SealCheck const found = check_result(file);
+            if (found.intact()) {
+                EXPECT_EQ(found.payload_found, before.payload_found) << at;
+                EXPECT_EQ(found.metadata_found, before.metadata_found) << at;
+            } else {
+                ++refused;
+            }
+        } catch (FileError const& error) {
+            ++refused;
+            std::string const line = error.what();
+            EXPECT_EQ(line.find('\n'), std::string::npos) << at << line;
+            crashes += line.find("damaged so badly") != line.npos ? 1 : 0;
+        }
+    }
+    std::printf("%zu bytes: %zu refused, %zu of them because the library crashes\n", whole.size(), refused, crashes);
+    EXPECT_GT(refused, whole.size() / 2);
+    std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace slideway
