@@ -139,7 +139,7 @@ double shifted(std::string_view number, int shift) {
         if (digits.starts_with('+')) digits.remove_prefix(1);
         std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
     }
-    std::string const text = fmt::format("{}e{}", mantissa, exponent + shift);
+    std::string const text = fmt::format("{}e{}", mantissa, static_cast<long long>(exponent) + shift);  // "0e2147483647 km"
     double value = NAN;  // stays where the result is beyond double
     std::from_chars(text.data(), text.data() + text.size(), value);
     return value;

@@ -26,6 +26,8 @@ public:
     std::string long_name(std::string const& variable) const;
     /// All values in C order.  @throws FileError if there is no such variable or it is not a number.
     std::vector<double> values(std::string const& variable) const;
+    /// The same of so many.  @throws FileError also if there are not: the file was edited.
+    std::vector<double> values(std::string const& variable, std::size_t count) const;
     /// Of a float64 variable of one dimension, or of two, its column: the values along the first dimension.
     /// @throws FileError if there is no such variable or column.
     std::vector<double> column(std::string const& variable, std::size_t index) const;

@@ -79,8 +79,8 @@ std::vector<FailedMember> failed_members(ResultView const& results, std::size_t 
     bool const stored = results.stores_members();
     if (!stored && !results.has("failed_member")) return {};
     std::vector<double> const statuses = results.values(stored ? "status" : "failed_status");
-    std::vector<double> const numbers = results.values(stored ? "member" : "failed_member");
-    std::vector<double> const times = results.values(stored ? "end_time" : "failed_time");
+    std::vector<double> const numbers = results.values(stored ? "member" : "failed_member", statuses.size());
+    std::vector<double> const times = results.values(stored ? "end_time" : "failed_time", statuses.size());
     std::vector<FailedMember> failed;
     for (std::size_t i = 0; i < statuses.size() && failed.size() < limit; ++i) {
         Status const status = status_of(statuses[i]);
