@@ -2,7 +2,7 @@
 # Kills runs at random moments and resumes them, until N were killed; every study must end with the payload hash of one that nothing disturbed.
 # Usage: scripts/kills.sh [N] [--seed S] [PROGRAM].  N: 1000 if not given; PROGRAM: build/release/bin/slideway.
 # Threads (1, 2), ranks (1, 2 where mpiexec is found) and instruction set (all that the build and this machine have) change from resume to
-# resume.  Kills (-9) of the whole job: with ranks, mpiexec and all that it started.  The same seed gives the same choices, not the same moments.
+# resume.  Kills (-9) are of the whole job: with ranks, of mpiexec and all that it started.  The same seed gives the same choices, not the same moments.
 # The last line says kills, resumes, studies and time; the exit code is 0 only when all hashes agree.  What went wrong is kept.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -36,9 +36,13 @@ base=${TMPDIR:-/tmp}
 folder=$(mktemp -d "$base/slideway_kills.XXXXXX")
 cd "$folder"
 failed=false
-group=
+# Ranks are no children of this script, and not of one group with mpiexec: all have the path of the result in their words.
+end_job() {
+    local ids
+    while mapfile -t ids < <(pgrep -f -- "-o $folder/o.nc") && ((${#ids[@]} > 0)); do kill -9 "${ids[@]}" 2>/dev/null || true; done
+}
 clean() {
-    [[ -z $group ]] || kill -9 -- "-$group" 2>/dev/null || true
+    end_job
     if [[ $failed == true ]]; then echo "kills.sh: $folder is kept"; else rm -rf "$folder"; fi
 }
 trap clean EXIT
@@ -77,25 +81,22 @@ expected=$(hash_of whole.nc)
 echo "kills.sh: $kills kills, seed $seed, instruction sets ${isas[*]}, ranks ${rank_counts[*]}; undisturbed hash $expected"
 
 RANDOM=$seed
+export OMPI_MCA_hwloc_base_binding_policy=none
 start=$(date +%s) done=0 resumes=0 studies=0 lives=0 longest=800  # [ms] lives are shorter
 declare -A killed_with=()
-# One run in a group of processes of its own, killed after `life` ms unless it has ended; sets `code`.
+# One run, killed after `life` ms unless it has ended; sets `code`.
 run_once() {
     local life=$1
     shift
-    set -m
-    "$@" >out 2>err &
-    group=$!
-    set +m
+    # The shell within says to nobody that its program was killed.
+    { "$@" >out 2>err || exit $?; } 2>/dev/null &
+    local job=$!
     if [[ $life != none ]]; then
         sleep "$(printf '%d.%03d' $((life / 1000)) $((life % 1000)))"
-        kill -9 -- "-$group" 2>/dev/null || true
+        end_job
     fi
     code=0
-    wait "$group" 2>/dev/null || code=$?
-    # Of a launcher that was killed the ranks may live a moment longer; they are of its group or die with it.
-    kill -9 -- "-$group" 2>/dev/null || true
-    group=
+    wait "$job" 2>/dev/null || code=$?
 }
 compare() {
     local hash
@@ -110,7 +111,7 @@ compare() {
 while :; do
     isa=${isas[RANDOM % ${#isas[@]}]} ranks=${rank_counts[RANDOM % ${#rank_counts[@]}]} threads=$((1 + RANDOM % 2))
     life=$((RANDOM % longest))
-    command=("$program" run s.toml -o o.nc --no-progress --isa "$isa" --threads "$threads" --block-members 4)
+    command=("$program" run s.toml -o "$folder/o.nc" --no-progress --isa "$isa" --threads "$threads" --block-members 4)
     [[ ! -d o.nc.shards ]] || {
         command+=(--resume)
         resumes=$((resumes + 1))
