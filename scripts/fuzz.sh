@@ -4,8 +4,7 @@
 # Usage: scripts/fuzz.sh [SECONDS | --runs N] [TARGET...].  SECONDS for all of them together, 60 if not given; N: executions of each, from
 # its start, however long they take.
 # A line for each target: executions, per second, findings.  The exit code is 0 without findings; an input that led to one is kept, its name is
-# printed.  Inputs that reached new code are kept in build/fuzz/corpus, so that a later run goes on from there.  Needs clang 14 and LLVM's OpenMP
-# (Debian: clang-14 libclang-rt-14-dev libomp-14-dev).
+# printed.  Inputs that reached new code are kept in build/fuzz/corpus, so that a later run goes on from there.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
@@ -33,7 +32,7 @@ while (($# > 0)); do
     shift
 done
 ((${#targets[@]} > 0)) || targets=("${all[@]}")
-command -v clang++-14 >/dev/null || stop "there is no clang++-14; install clang-14 libclang-rt-14-dev libomp-14-dev"
+bash scripts/setup.sh clang || stop "the set-up failed"
 
 build=build/fuzz
 cmake --preset fuzz --log-level=WARNING || stop "the configuration failed"

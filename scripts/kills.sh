@@ -27,6 +27,7 @@ while (($# > 0)); do
     shift
 done
 program=$(realpath -m "$program")
+command -v pgrep >/dev/null || stop "there is no pgrep; install procps"
 [[ -x $program ]] || stop "no $program; build it first, with scripts/test.sh or scripts/demo.sh"
 # Asleep they leave the cores to others, and so the moments of kills to chance.
 export OMP_WAIT_POLICY=passive OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1

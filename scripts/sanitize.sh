@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # Unit and integration tests under sanitizers: address and undefined behaviour for all of them, threads for the queue, the runs and the stores.
-# Usage: scripts/sanitize.sh [asan|tsan].  Both if not given.  Needs clang 14 and LLVM's OpenMP (Debian: clang-14 libclang-rt-14-dev
-# libomp-14-dev).  Kernels are compiled for `scalar` and the widest instruction set of this machine; a quarter of an hour on two cores the
-# first time.  The exit code is 0 when nothing was found.
+# Usage: scripts/sanitize.sh [asan|tsan].  Both if not given.  Kernels are compiled for `scalar` and the widest instruction set of this machine.
+# Takes long the first time.  The exit code is 0 when nothing was found.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
@@ -12,7 +11,7 @@ stop() {
     echo "sanitize.sh: $1"
     exit 1
 }
-command -v clang++-14 >/dev/null || stop "there is no clang++-14; install clang-14 libclang-rt-14-dev libomp-14-dev"
+bash scripts/setup.sh clang || stop "the set-up failed"
 export OMP_WAIT_POLICY=passive UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 # Neither LLVM's OpenMP nor MPI, HDF5 and netCDF were compiled for the sanitizer of threads.
 export TSAN_OPTIONS=ignore_noninstrumented_modules=1:second_deadlock_stack=1

@@ -11,7 +11,8 @@ stop() {
     echo "tidy.sh: $1"
     exit 1
 }
-tidy=$(command -v clang-tidy-14 || command -v clang-tidy) || stop "there is no clang-tidy; install clang-tidy-14"
+bash scripts/setup.sh clang || stop "the set-up failed"
+tidy=clang-tidy-14
 if [[ ${1:-} == --all ]]; then
     mapfile -t units < <(git ls-files 'host/*.cpp')
 elif (($# > 0)); then

@@ -1,10 +1,12 @@
 // Reads the variables of a result.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "host/store/netcdf_file.hpp"
+#include "kernels/status.hpp"
 
 namespace slideway {
 
@@ -40,5 +42,10 @@ private:
     NetcdfFile const* file_;
     std::vector<NetcdfFile::Variable> variables_;
 };
+
+/// Stored numbers as what they count or name.  One that is out of range, in a file that was edited, becomes 0, and no known status.
+inline std::uint64_t count_of(double stored) { return stored >= 0 && stored < 0x1p64 ? static_cast<std::uint64_t>(stored) : 0; }
+inline signed char int8_of(double stored) { return stored >= -128 && stored <= 127 ? static_cast<signed char>(stored) : 127; }
+inline Status status_of(double stored) { return static_cast<Status>(int8_of(stored)); }
 
 }  // namespace slideway

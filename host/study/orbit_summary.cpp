@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/status.hpp"
-
 namespace slideway {
 namespace {
 
 std::vector<char> finished_members(ResultReader const& results) {
     std::vector<char> finished;
     for (double const status : results.values("status")) {
-        finished.push_back(static_cast<Status>(static_cast<signed char>(status)) == Status::finished);
+        finished.push_back(status_of(status) == Status::finished);
     }
     return finished;
 }
@@ -140,8 +138,8 @@ std::optional<SectionSummary> summarise_sections(ResultReader const& results) {
     auto const crossings = results.has("section_crossings") ? results.values("section_crossings", counts.size()) : counts;
     SectionSummary summary;
     for (std::size_t i = 0; i < counts.size(); ++i) {
-        summary.beyond += static_cast<std::uint64_t>(crossings[i] - counts[i]);
-        summary.sections += static_cast<std::uint64_t>(counts[i]);
+        summary.beyond += count_of(crossings[i] - counts[i]);
+        summary.sections += count_of(counts[i]);
         if (finished[i] && counts[i] == 0) ++summary.without;
     }
     return summary;
