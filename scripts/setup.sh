@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that slideway's build and tests need, only those that are missing.
-# Usage: scripts/setup.sh [tests|python].  With `tests` also what only the tests compare with, and what the Python package is tested with;
-# with `python` what scripts/reproduce.sh makes its Python environment of.
+# Usage: scripts/setup.sh [tests|python|clang].  With `tests` also what only the tests compare with, and what the Python package is tested with;
+# with `python` what scripts/reproduce.sh makes its Python environment of; with `clang` what fuzz.sh, sanitize.sh and tidy.sh build with.
 # Run by scripts/test.sh, scripts/demo.sh and scripts/reproduce.sh; needs root or sudo only when something is missing.
 set -euo pipefail
 
@@ -15,6 +15,7 @@ packages=(
 python=(python3 python3-pip python3-venv)
 [[ ${1:-} == tests ]] && packages+=(libopenturns-dev "${python[@]}" chromium)
 [[ ${1:-} == python ]] && packages+=("${python[@]}")
+[[ ${1:-} == clang ]] && packages+=(clang-14 clang-tidy-14 libclang-rt-14-dev libomp-14-dev)
 
 fail() {
     echo "setup.sh: $*" >&2

@@ -140,7 +140,8 @@ double shifted(std::string_view number, int shift) {
         if (digits.starts_with('+')) digits.remove_prefix(1);
         exponent = parse_number<int>(digits).value_or(0);
     }
-    return parse_number<double>(fmt::format("{}e{}", mantissa, exponent + shift)).value_or(NAN);  // beyond double
+    // "0e2147483647 km"
+    return parse_number<double>(fmt::format("{}e{}", mantissa, static_cast<long long>(exponent) + shift)).value_or(NAN);  // beyond double
 }
 
 double scaled(std::string_view number, double value, double factor) {

@@ -83,6 +83,12 @@ std::vector<double> ResultView::values(std::string const& variable) const {
     throw FileError(fmt::format("{}: {} is no number", file_->path(), variable));
 }
 
+std::vector<double> ResultView::values(std::string const& variable, std::size_t count) const {
+    std::vector<double> found = values(variable);
+    if (found.size() == count) return found;
+    throw FileError(fmt::format("{}: is damaged ({} has {} values in place of {}); run the study again", file_->path(), variable, found.size(), count));
+}
+
 std::vector<double> ResultView::column(std::string const& variable, std::size_t index) const {
     NetcdfFile::Variable const& found = find(variable);
     std::size_t const rank = found.shape.size();

@@ -1,10 +1,12 @@
 // Reads the variables of a result.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "host/store/netcdf_file.hpp"
+#include "kernels/status.hpp"
 
 namespace slideway {
 
@@ -26,6 +28,8 @@ public:
     std::string long_name(std::string const& variable) const;
     /// All values in C order.  @throws FileError if there is no such variable or it is not a number.
     std::vector<double> values(std::string const& variable) const;
+    /// The same of so many.  @throws FileError also if there are not: the file was edited.
+    std::vector<double> values(std::string const& variable, std::size_t count) const;
     /// Of a float64 variable of one dimension, or of two, its column: the values along the first dimension.
     /// @throws FileError if there is no such variable or column.
     std::vector<double> column(std::string const& variable, std::size_t index) const;
@@ -38,5 +42,10 @@ private:
     NetcdfFile const* file_;
     std::vector<NetcdfFile::Variable> variables_;
 };
+
+/// Stored numbers as what they count or name.  One that is out of range, in a file that was edited, becomes 0, and no known status.
+inline std::uint64_t count_of(double stored) { return stored >= 0 && stored < 0x1p64 ? static_cast<std::uint64_t>(stored) : 0; }
+inline signed char int8_of(double stored) { return stored >= -128 && stored <= 127 ? static_cast<signed char>(stored) : 127; }
+inline Status status_of(double stored) { return static_cast<Status>(int8_of(stored)); }
 
 }  // namespace slideway

@@ -123,7 +123,7 @@ void merge_statistics(ShardFolder const& folder, std::vector<Shard> const& shard
 BlockStatistics stored_statistics(ResultView const& results) {
     std::vector<std::byte> bytes;
     for (double const value : results.values("accumulators")) {
-        bytes.push_back(static_cast<std::byte>(static_cast<signed char>(value)));
+        bytes.push_back(static_cast<std::byte>(int8_of(value)));
     }
     return BlockStatistics::parse(bytes, results.path());
 }
@@ -141,7 +141,7 @@ Selection stored_quantities(ResultView const& results) {
 
 std::uint64_t members_left(ResultView const& results) {
     std::vector<double> const counts = results.values("status_count");
-    return counts.empty() ? 0 : static_cast<std::uint64_t>(counts.back());
+    return counts.empty() ? 0 : count_of(counts.back());
 }
 
 }  // namespace slideway

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/status.hpp"
-
 namespace slideway {
 namespace {
 
 std::vector<char> finished_members(ResultReader const& results) {
     std::vector<char> finished;
     for (double const status : results.values("status")) {
-        finished.push_back(static_cast<Status>(static_cast<signed char>(status)) == Status::finished);
+        finished.push_back(status_of(status) == Status::finished);
     }
     return finished;
 }
@@ -46,9 +44,10 @@ std::vector<ExponentSummary> summarise_exponents(ResultReader const& results) {
     if (!results.has("lyapunov_exponent")) return summaries;
     auto const finished = finished_members(results);
     std::size_t const exponents = results.shape("lyapunov_exponent").at(1);
-    auto const values = results.values("lyapunov_exponent"), late = results.values("lyapunov_exponent_late");
-    auto const half_widths = results.values("lyapunov_exponent_half_width");
-    double const resolution = largest_of(column_of(results.values("lyapunov_resolution"), finished, 1, 0));
+    std::size_t const count = finished.size() * exponents;
+    auto const values = results.values("lyapunov_exponent", count), late = results.values("lyapunov_exponent_late", count);
+    auto const half_widths = results.values("lyapunov_exponent_half_width", count);
+    double const resolution = largest_of(column_of(results.values("lyapunov_resolution", finished.size()), finished, 1, 0));
     for (std::size_t j = 0; j < exponents; ++j) {
         auto const of_members = column_of(values, finished, exponents, j);
         auto const reach = column_of(half_widths, finished, exponents, j);
@@ -83,8 +82,8 @@ OffsetHealth offset_health(ResultReader const& results) {
     auto const finished = finished_members(results);
     double const exponents = static_cast<double>(results.shape("lyapunov_exponent").at(1));
     auto const share = [&](char const* name) {
-        auto const counts = column_of(results.values(name), finished, 1, 0);
-        auto const rescalings = column_of(results.values("rescalings"), finished, 1, 0);
+        auto const counts = column_of(results.values(name, finished.size()), finished, 1, 0);
+        auto const rescalings = column_of(results.values("rescalings", finished.size()), finished, 1, 0);
         double counted = 0, all = 0;
         for (std::size_t i = 0; i < counts.size(); ++i) counted += counts[i], all += exponents * rescalings[i];
         return all > 0 ? counted / all : 0.0;
@@ -97,10 +96,10 @@ std::vector<SweepColumn> summarise_columns(ResultReader const& results) {
     std::string const parameter = results.attribute("sweep_parameter");
     if (parameter.empty()) return columns;
     auto const finished = finished_members(results);
-    auto const values = results.values(parameter);
+    auto const values = results.values(parameter, finished.size());
     bool const has_exponents = results.has("lyapunov_exponent");
-    auto const exponents = has_exponents ? results.values("lyapunov_exponent") : std::vector<double>{};
     std::size_t const width = has_exponents ? results.shape("lyapunov_exponent").at(1) : 0;
+    auto const exponents = has_exponents ? results.values("lyapunov_exponent", values.size() * width) : std::vector<double>{};
     std::vector<double> of_column;
     for (std::size_t i = 0; i < values.size(); ++i) {
         bool const is_new = columns.empty() || values[i] != columns.back().value;
@@ -122,8 +121,9 @@ std::vector<HistoryPoint> exponent_history(ResultReader const& results) {
     std::vector<HistoryPoint> history;
     if (!results.has("lyapunov_history")) return history;
     auto const finished = finished_members(results);
-    auto const values = results.values("lyapunov_history"), rescalings = results.values("history");
+    auto const rescalings = results.values("history");
     std::size_t const exponents = results.shape("lyapunov_history").at(2);
+    auto const values = results.values("lyapunov_history", finished.size() * rescalings.size() * exponents);
     for (std::size_t n = 0; n < rescalings.size(); ++n) {
         history.push_back({rescalings[n],
                            mean_of_members(column_of(values, finished, rescalings.size() * exponents, n * exponents))});
@@ -134,12 +134,12 @@ std::vector<HistoryPoint> exponent_history(ResultReader const& results) {
 std::optional<SectionSummary> summarise_sections(ResultReader const& results) {
     if (!results.has("section_count")) return std::nullopt;
     auto const finished = finished_members(results);
-    auto const counts = results.values("section_count");
-    auto const crossings = results.has("section_crossings") ? results.values("section_crossings") : counts;
+    auto const counts = results.values("section_count", finished.size());
+    auto const crossings = results.has("section_crossings") ? results.values("section_crossings", counts.size()) : counts;
     SectionSummary summary;
     for (std::size_t i = 0; i < counts.size(); ++i) {
-        summary.beyond += static_cast<std::uint64_t>(crossings[i] - counts[i]);
-        summary.sections += static_cast<std::uint64_t>(counts[i]);
+        summary.beyond += count_of(crossings[i] - counts[i]);
+        summary.sections += count_of(counts[i]);
         if (finished[i] && counts[i] == 0) ++summary.without;
     }
     return summary;

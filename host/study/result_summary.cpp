@@ -13,8 +13,6 @@
 namespace slideway {
 namespace {
 
-Status status_of(double stored) { return static_cast<Status>(static_cast<signed char>(stored)); }
-
 /// Of a file without members: the median is sketched.
 std::vector<QuantitySummary> sketched_quantities(ResultView const& results) {
     std::vector<QuantityColumn> const columns = report_columns(stored_quantities(results));
@@ -60,14 +58,14 @@ std::vector<QuantitySummary> summarise_quantities(ResultView const& results) {
 std::vector<StatusCount> count_statuses(ResultView const& results) {
     std::array<std::uint64_t, 256> counts{};
     auto const entry = [&](double status) -> std::uint64_t& {
-        return counts[static_cast<unsigned char>(static_cast<signed char>(status))];
+        return counts[static_cast<unsigned char>(status_of(status))];
     };
     if (results.stores_members()) {
         for (double const status : results.values("status")) ++entry(status);
     } else {
         std::vector<double> const statuses = results.values("status_value"), members = results.values("status_count");
         for (std::size_t i = 0; i < std::min(statuses.size(), members.size()); ++i)
-            entry(statuses[i]) += static_cast<std::uint64_t>(members[i]);
+            entry(statuses[i]) += count_of(members[i]);
     }
     std::vector<StatusCount> occurring;
     for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -101,13 +99,13 @@ std::vector<FailedMember> failed_members(ResultView const& results, std::size_t 
     bool const stored = results.stores_members();
     if (!stored && !results.has("failed_member")) return {};
     std::vector<double> const statuses = results.values(stored ? "status" : "failed_status");
-    std::vector<double> const numbers = results.values(stored ? "member" : "failed_member");
-    std::vector<double> const times = results.values(stored ? "end_time" : "failed_time");
+    std::vector<double> const numbers = results.values(stored ? "member" : "failed_member", statuses.size());
+    std::vector<double> const times = results.values(stored ? "end_time" : "failed_time", statuses.size());
     std::vector<FailedMember> failed;
     for (std::size_t i = 0; i < statuses.size() && failed.size() < limit; ++i) {
         Status const status = status_of(statuses[i]);
         if (status == Status::finished || status == Status::not_run) continue;
-        failed.push_back({static_cast<std::uint64_t>(numbers[i]), status, times[i]});
+        failed.push_back({count_of(numbers[i]), status, times[i]});
     }
     return failed;
 }

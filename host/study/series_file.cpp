@@ -93,9 +93,15 @@ StoredSeries read_sections(ResultReader const& file, std::string const& path, st
         throw SceneError(fmt::format("{}: has no sections of '{}'; use one of {}", path, variable, known));
     }
     auto const counts = file.values("section_count");
-    double first = 0;
-    for (std::size_t i = 0; i < place; ++i) first += counts[i];
-    double const count = counts.at(static_cast<std::size_t>(place));
+    double first = 0, all = 0;
+    for (std::size_t i = 0; i < counts.size(); all += counts[i++]) {
+        if (!(counts[i] >= 0)) all = std::nan("");
+        if (i == place) first = all;
+    }
+    if (place >= counts.size() || all != static_cast<double>(times.size())) {
+        throw FileError(fmt::format("{}: is damaged (the sections of its members do not add up); run the study again", path));
+    }
+    double const count = counts[place];
     if (count < 2)
         throw SceneError(fmt::format("{}: the member has {} sections; a series needs at least 2", path, count));
     auto const of_member = [&](std::vector<double> const& all) {
@@ -145,9 +151,10 @@ StoredSeries read_result_series(std::string const& path, std::string const& vari
     if (!file.has("time"))
         throw SceneError(path + ": has no time series; run the scene as kind = \"ensemble\" with study.samples");
     std::vector<double> const times = file.values("time");
+    std::size_t const members = file.values("member").size();
     auto const is_series = [&](std::string const& name) {
         auto const shape = file.shape(name);
-        return shape.size() == 2 && shape[1] == times.size();
+        return shape.size() == 2 && shape[0] == members && shape[1] == times.size();
     };
     if (!file.has(variable) || !is_series(variable)) {
         std::string known;

@@ -36,7 +36,7 @@ bool is_result_of(std::string const& path, RunIdentity const& identity) {
     found.scene = portable_scene(result.attribute("scene"));
     if (result.stores_members()) {
         std::vector<std::uint64_t> members;
-        for (double const member : result.values("member")) members.push_back(static_cast<std::uint64_t>(member));
+        for (double const member : result.values("member")) members.push_back(count_of(member));
         found.members = MemberSet::of(members);
     } else {
         found.members = MemberSet::parse(result.attribute("members")).value_or(MemberSet());

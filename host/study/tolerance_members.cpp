@@ -38,7 +38,7 @@ ToleranceMembers::ToleranceMembers(ResultView const& results, std::size_t width,
         if (i > 0 && numbers_[i] == numbers_[i - 1]) {
             throw FileError(fmt::format("{}: holds member {} twice; the file is damaged", results.path(), numbers_[i]));
         }
-        statuses_.push_back(static_cast<Status>(static_cast<signed char>(statuses[place])));
+        statuses_.push_back(status_of(statuses[place]));
     }
 }
 

@@ -151,6 +151,11 @@ TEST(Units, AFactorConvertsToTheSameBits) {
     EXPECT_TRUE(std::holds_alternative<Problem>(unit_factor(std::string(101, 'm'), "m")));
 }
 
+TEST(Units, ZeroHasAnyExponent) {
+    EXPECT_EQ(std::get<double>(to_si("0e2147483647 km", "m")), 0.0);
+    EXPECT_EQ(std::get<double>(to_si("0e-2147483648 mm", "m")), 0.0);
+}
+
 TEST(Units, ThreadsMayConvertAtOnce) {
     std::vector<std::thread> threads;
     std::vector<int> wrong(4, 0);

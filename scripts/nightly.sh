@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# All that CI has no time for, in turn: slow tests (1,000 runs killed among them), sanitizers, hostile input, clang-tidy.  For a machine at night:
+# some two hours on two cores.
+# Usage: scripts/nightly.sh [SECONDS of scripts/fuzz.sh, 1800 if not given].  Goes on where something fails; the last lines say what did, and the exit code.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+cd "$root"
+exec </dev/null
+
+results=()
+step() {
+    echo "== $*"
+    if "$@"; then results+=("passed: $*"); else results+=("FAILED: $*"); fi
+}
+step bash scripts/test.sh --all-isas
+step ctest --test-dir build/release --label-regex '^slow$' --output-on-failure
+step bash scripts/kills.sh 1000 build/release/bin/slideway
+step bash scripts/sanitize.sh
+step bash scripts/fuzz.sh "${1:-1800}"
+step bash scripts/tidy.sh --all
+printf '%s\n' "${results[@]}"
+[[ "${results[*]}" != *FAILED* ]]
