@@ -93,7 +93,7 @@ def test_what_is_no_result_is_refused_in_one_line(tmp_path: Path) -> None:
     (tmp_path / "text.nc").write_text("no NetCDF")
     xr.Dataset({"a": 1}).to_netcdf(tmp_path / "other.nc")
     (tmp_path / "a.nc.shards").mkdir()
-    for name, words in (("text.nc", "is no NetCDF file"), ("other.nc", "not a result of slideway"), ("gone.nc", "no such file"),
+    for name, words in (("text.nc", "is no netCDF file"), ("other.nc", "not a result of slideway"), ("gone.nc", "no such file"),
                         ("a.nc.shards", "is a folder.*slideway merge")):
         with pytest.raises(slideway.SlidewayError, match=words) as caught:
             slideway.open(tmp_path / name)

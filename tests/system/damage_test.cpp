@@ -48,9 +48,13 @@ TEST_F(Damage, OfAnyByteNeverCrashesACommand) {
         auto const commands = readers("s.nc");
         for (std::size_t i = 0; i < commands.size(); ++i) {
             Outcome const found = run(commands[i]);
-            EXPECT_TRUE(found.code == 0 || found.code == 4) << at << ' ' << commands[i][0] << ' ' << found.code << found.err;
-            EXPECT_EQ(std::count(found.err.begin(), found.err.end(), '\n'), found.code == 4 ? 1 : 0) << at << found.err;
-            if (found.code == 0) EXPECT_EQ(found.out, before[i].out) << at;
+            if (found.code == 4) {
+                EXPECT_EQ(std::count(found.err.begin(), found.err.end(), '\n'), 1) << at << found.err;
+                continue;
+            }
+            // As of the whole one; of few samples stats says that they are too few.
+            EXPECT_EQ(found.code, before[i].code) << at << ' ' << commands[i][0] << found.err;
+            EXPECT_EQ(found.out + found.err, before[i].out + before[i].err) << at;
         }
         std::ofstream(path("s.nc"), std::ios::binary) << whole;
     }
@@ -67,7 +71,7 @@ TEST_F(Damage, OfAnyByteIsToldOrDoesNotMatter) {
         std::ofstream(file, std::ios::binary) << changed;
         try {
             SealCheck const found = check_result(file);
-            if (found.intact()) EXPECT_EQ(found.payload_found, payload) << at;
+            EXPECT_TRUE(!found.intact() || found.payload_found == payload) << at;
             refused += found.intact() ? 0 : 1;
         } catch (FileError const&) {
             ++refused;
@@ -141,7 +145,7 @@ TEST_F(Damage, TheFirstFormatIsReadByAllReaders) {
         EXPECT_NE(info.out.find(word), std::string::npos) << word << '\n' << info.out;
     }
     Outcome const series = run({"stats", "one.nc", "--variable", "y"});
-    EXPECT_TRUE(series.code == 0 || series.code == 2) << series.err;
+    EXPECT_EQ(series.err, "one.nc: y: the series has 40 samples; at least 100 are needed\n");
     EXPECT_EQ(run({"report", "one.nc", "-o", "p.html"}).out, "page\n");
 }
 

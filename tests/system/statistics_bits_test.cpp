@@ -103,9 +103,9 @@ TEST_F(StatisticsRun, ADiskThatFailsInAJoinLosesNothing) {
         std::uint64_t at;
         std::uint64_t kept;  // members
     };
-    // The first renaming is that of the identity.
+    // The first two renamings are those of the identity and its copy.
     for (Failure const& failure :
-         {Failure{"rename", 65, 63 * 8}, Failure{"rename", 66, 64 * 8}, Failure{"unlink", 1, 64 * 8},
+         {Failure{"rename", 66, 63 * 8}, Failure{"rename", 67, 64 * 8}, Failure{"unlink", 1, 64 * 8},
           Failure{"unlink", 30, 64 * 8}, Failure{"unlink", 64, 64 * 8}}) {
         SCOPED_TRACE(std::string(failure.calls) + " " + std::to_string(failure.at));
         DiskFailure disk;
