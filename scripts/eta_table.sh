@@ -82,5 +82,5 @@ study lyapunov_0.1mm.toml study.members=64 study.transient_revolutions=1 study.r
 study sweep_clearance.toml study.points=12 study.transient_revolutions=2 study.revolutions=8 || code=1
 study poincare_0.1mm.toml study.revolutions=80 || code=1
 study slider_crank_0.1mm.toml study.revolutions=80 || code=1
-study scotch_yoke.toml study.revolutions=4000 study.samples_per_revolution=1 || code=1
+study ensemble_starts.toml contact.law=conservative study.members=128 study.duration=0.5 || code=1
 exit "$code"
