@@ -43,6 +43,28 @@ CheckedColumn checked(std::vector<MemberNumbers> const& numbers, std::vector<dou
     return findings.front();
 }
 
+/// A check by `auto` at a hundredth of the tolerance costs four times a member's work, one by dopri5 ten times (docs/integrators.md); together they may
+/// have a tenth of the study's, the first one four fifths of that, for six members at least and sixteen at most.
+TEST(ForeseenCheck, IsOfAsManyMembersAsATenthOfTheWorkAllows) {
+    EXPECT_EQ(foreseen_check(scene(), {}, 1000), 16 * 4);              // of 100 left for both 36 are no room for 16 · 10
+    EXPECT_EQ(foreseen_check(scene(), {}, 300), 6 * 4);                // 0.8 · 30 / 4
+    EXPECT_EQ(foreseen_check(scene(), {}, 10'000), 16 * 4 + 16 * 10);  // 800, and then 936
+    EXPECT_EQ(foreseen_check(scene(), {}, 100), 0);                    // not even for six
+}
+
+TEST(ForeseenCheck, IsOfTheMembersThatAreAskedFor) {
+    EXPECT_EQ(foreseen_check(scene(), 5u, 1000), 5 * 14);
+    EXPECT_EQ(foreseen_check(scene(), 5u, 1), 14);
+    EXPECT_EQ(foreseen_check(scene(), 0u, 1000), 0);
+}
+
+TEST(ForeseenCheck, RunsMembersThatAreNotStoredInTheStudysWayToo) {
+    Scene kept = scene();
+    kept.store = Store::statistics;
+    EXPECT_EQ(foreseen_check(kept, {}, 1000), 16 + 16 * 4);
+    EXPECT_EQ(foreseen_check(kept, {}, 300), 0);
+}
+
 TEST(CheckedNumbers, ThatScatterByRoundingAreTheSame) {
     auto const own = draws(100, 10, 1);
     auto again = own;
