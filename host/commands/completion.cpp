@@ -178,7 +178,8 @@ std::string zsh_action(Candidates const& candidates) {
         case Kind::files: {
             std::string endings = candidates.words;
             std::ranges::replace(endings, ' ', '|');
-            return fmt::format("_files -g \"*.({})\"", endings);
+            // A single word in parentheses would be qualifiers of the pattern.
+            return endings == candidates.words ? "_files -g \"*." + endings + "\"" : "_files -g \"*.(" + endings + ")\"";
         }
         case Kind::folders: return "_files -/";
         case Kind::keys: return "_slideway_keys";
@@ -188,7 +189,7 @@ std::string zsh_action(Candidates const& candidates) {
 }
 
 std::string zsh_spec(OptionDescription const& option, Candidates const& values) {
-    if (option.positional) return zsh_quoted(fmt::format("{}:{}:{}", option.optional ? ":" : "", option.value, zsh_action(values)));
+    if (option.positional) return zsh_quoted(fmt::format(":{}{}:{}", option.optional ? ":" : "", option.value, zsh_action(values)));
     std::string value = option.value.empty() ? "" : fmt::format("{}:{}:{}", option.optional ? ":" : "", zsh_text(option.value), zsh_action(values));
     std::string const rest = zsh_quoted(fmt::format("[{}]{}", zsh_text(option.meaning), value)), all = fmt::format("{}", fmt::join(option.names, " "));
     if (option.names.size() > 1) return fmt::format("'({})'{{{}}}{}", all, fmt::join(option.names, ","), rest);
