@@ -50,7 +50,8 @@ std::string help_text(CommandDescription const& command, std::size_t width) {
     }
     if (!command.note.empty()) text += fmt::format("\n{}\n", wrapped(command.note, 0, width));
     if (!command.examples.empty()) text += "\nExamples:\n";
-    for (Example const& example : command.examples) text += fmt::format("  {}\n      {}\n", shell_lines(example.line, width), wrapped(example.meaning, 6, width));
+    for (Example const& example : command.examples)
+        text += fmt::format("  {}\n      {}\n", shell_lines(example.line, width), wrapped(example.meaning, 6, width));
     return text;
 }
 

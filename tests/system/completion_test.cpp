@@ -30,8 +30,8 @@ protected:
     std::string in_bash(std::vector<std::string> const& words) const {
         std::string quoted;
         for (std::string const& word : words) quoted += " '" + word + "'";
-        ShellOutcome const outcome = shell("bash --norc", fmt::format("source ./s.bash\nCOMP_WORDS=({})\nCOMP_CWORD={}\n_slideway\nprintf '%s\\n' \"${{COMPREPLY[@]}}\" | sort\n",
-                                                                 quoted, words.size() - 1));
+        ShellOutcome const outcome = shell("bash --norc", fmt::format("source ./s.bash\nCOMP_WORDS=({})\nCOMP_CWORD={}\n_slideway\n"
+                                                                      "printf '%s\\n' \"${{COMPREPLY[@]}}\" | LC_ALL=C sort\n", quoted, words.size() - 1));
         EXPECT_EQ(outcome.err, "") << quoted;
         return outcome.out;
     }
@@ -77,7 +77,9 @@ TEST_F(Completion, OfFishKnowsCommandsOptionsAndValues) {
     std::string const script = written({"--completion", "fish"}, "s.fish");
     if (!is_there("fish")) GTEST_SKIP() << "fish is not installed";
     EXPECT_EQ(shell("fish -n", file_text(script)).code, 0);
-    auto const offered = [&](std::string const& line) { return shell("fish", "source s.fish\ncomplete -C '" + line + "' | string split -f 1 \\t | sort\n").out; };
+    auto const offered = [&](std::string const& line) {
+        return shell("fish", "source s.fish\ncomplete -C '" + line + "' | string split -f 1 \\t | LC_ALL=C sort\n").out;
+    };
     EXPECT_EQ(offered("slideway me"), "merge\n");
     EXPECT_EQ(offered("slideway run --max"), "--max-failures\n--max-hours\n");
     EXPECT_EQ(offered("slideway check --max"), "");
@@ -120,7 +122,8 @@ TEST_F(Completion, OfAnotherShellIsRefused) {
 TEST_F(Completion, ComesWithAManPageWithoutWarnings) {
     written({"--man"}, "slideway.1");
     bool checked = false;
-    for (auto const& [program, command] : {std::pair{"groff", "groff -man -Tutf8 -ww slideway.1 >page"}, {"mandoc", "mandoc -T lint -W warning slideway.1 >&2"}}) {
+    for (auto const& [program, command] :
+         {std::pair{"groff", "groff -man -Tutf8 -ww slideway.1 >page"}, {"mandoc", "mandoc -T lint -W warning slideway.1 >&2"}}) {
         if (!is_there(program)) continue;
         checked = true;
         ShellOutcome const outcome = shell("sh", command);

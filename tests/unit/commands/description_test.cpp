@@ -70,14 +70,15 @@ TEST(CommandLine, HasItsCommandsAndOptionsInEachCompletion) {
             for (std::string const& name : option.names) {
                 if (option.positional) continue;
                 EXPECT_TRUE(std::regex_search(in_bash, std::regex(" " + name + "[ \n]"))) << command.name << " " << name;
-                EXPECT_TRUE(std::regex_search(in_zsh, std::regex("[ {,}]" + name + "['},]"))) << command.name << " " << name;
+                EXPECT_TRUE(std::regex_search(in_zsh, std::regex("[ '{,}]" + name + "['},]"))) << command.name << " " << name;
                 std::string const of_fish = name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
                 EXPECT_TRUE(std::regex_search(fish, std::regex(in_fish + "[^\n]*" + of_fish + " "))) << command.name << " " << name;
             }
         }
     }
     for (KeyReference const& key : known_keys()) {
-        for (std::string const* const script : {&bash, &zsh}) EXPECT_TRUE(std::regex_search(*script, std::regex(" " + std::string(key.name) + "[ '\n]"))) << key.name;
+        std::regex const word(" " + std::string(key.name) + "[ '\n]");
+        for (std::string const* const script : {&bash, &zsh}) EXPECT_TRUE(std::regex_search(*script, word)) << key.name;
         EXPECT_TRUE(has(fish, " " + std::string(key.name) + "=")) << key.name;
         for (std::string_view const choice : key.choices) EXPECT_TRUE(has(fish, fmt::format(" {}={} ", key.name, choice))) << key.name;
     }
