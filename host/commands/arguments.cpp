@@ -26,7 +26,8 @@ struct Words {
     std::string max_failures, max_hours, member, members, threads, shard, block_members;
     std::string variable, column, spacing, skip_time, skip_samples, max_points, delay, dimension, theiler, fit;
     std::string command, shell;
-    bool man = false, quiet = false, no_progress = false, scene_too = false, intact = false, resolved = false, resume = false, force = false, verify = false, json = false, schema = false, markdown = false;
+    bool man = false, quiet = false, no_progress = false;
+    bool scene_too = false, intact = false, resolved = false, resume = false, force = false, verify = false, json = false, schema = false, markdown = false;
 };
 
 std::string isa_help() {
@@ -255,7 +256,8 @@ struct CommandRow {
 
 std::vector<CommandRow> const& command_rows() {
     static std::vector<CommandRow> const rows = {
-        {"run", "Integrate the members of a scene to a NetCDF file", add_run_options, [](Words const& words) -> Arguments { return run_arguments(words); },
+        {"run", "Integrate the members of a scene to a NetCDF file", add_run_options,
+         [](Words const& words) -> Arguments { return run_arguments(words); },
          {{"slideway run scenes/tolerance_0.1mm.toml -o result.nc", "The members of a scene, on all cores; its summary goes to stdout."},
           {"slideway run scenes/slider_crank_0.1mm.toml --set joint.clearance=\"0.2 mm\" study.revolutions=4", "The same scene with other numbers."},
           {"slideway run scenes/tolerance_0.1mm.toml -o result.nc --resume", "What an earlier run that was stopped has left to do."},
@@ -268,10 +270,12 @@ std::vector<CommandRow> const& command_rows() {
          [](Words const& words) -> Arguments { return ProbeArguments{scene_arguments(words), words.table, words.output, words.force, words.json}; },
          {{"slideway probe scenes/slider_crank_0.1mm.toml --set initial.z=\"0.1 mm\"", "The start of a scene, a tenth of a millimetre higher."},
           {"slideway probe scenes/slider_crank_0.1mm.toml --csv states.csv -o forces.csv", "A table of states to a table of forces."}}},
-        {"info", "Provenance, statuses and statistics of a result file", add_info_options, [](Words const& words) -> Arguments { return info_arguments(words); },
+        {"info", "Provenance, statuses and statistics of a result file", add_info_options,
+         [](Words const& words) -> Arguments { return info_arguments(words); },
          {{"slideway info result.nc", "Where a result comes from, how its members ended, their statistics."},
           {"slideway info result.nc --members 0..9", "The same with a row for each of its first ten members."}}},
-        {"stats", "Chaos statistics of a stored series (NetCDF result or CSV)", add_stats_options, [](Words const& words) -> Arguments { return stats_arguments(words); },
+        {"stats", "Chaos statistics of a stored series (NetCDF result or CSV)", add_stats_options,
+         [](Words const& words) -> Arguments { return stats_arguments(words); },
          {{"slideway stats result.nc --variable y --member 3 --skip 2", "The series y of member 3, without its first two seconds."},
           {"slideway stats measured.csv --column 2 --dt 1e-4", "The second column of a measured table."}}},
         {"merge", "Shards of a run or of a job array to one result file", add_merge_options,
@@ -280,7 +284,8 @@ std::vector<CommandRow> const& command_rows() {
         {"report", "A page to look at, without a network, of a result file (uses the Python companion)", add_report_options,
          [](Words const& words) -> Arguments { return ReportArguments{words.file, words.output, words.force}; },
          {{"slideway report result.nc -o result.html", "A page for a browser."}}},
-        {"list", "Mechanisms, laws, quantities, keys: what a scene may ask for", add_list_options, [](Words const& words) -> Arguments { return list_arguments(words); },
+        {"list", "Mechanisms, laws, quantities, keys: what a scene may ask for", add_list_options,
+         [](Words const& words) -> Arguments { return list_arguments(words); },
          {{"slideway list", "All that a scene may ask for, with units, domains and defaults."},
           {"slideway list --schema >scene.schema.json", "For completion and hover in editors of TOML."}}},
         {"help", "What a command does, and its options", add_help_options, help_arguments,

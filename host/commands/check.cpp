@@ -125,6 +125,17 @@ std::string design_text(Scene const& scene) {
     return name;
 }
 
+/// Lists may take several lines in TOML, other values not.
+void print_resolved(std::string_view text) {
+    while (!text.empty()) {
+        auto const end = std::min(text.find('\n'), text.size());
+        std::string_view const line = text.substr(0, end);
+        fmt::print("{}\n", wrapped(line, 4, line.find(" = [") == line.npos ? 0 : line_width(), 0));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    fmt::print("\n");
+}
+
 /// How members are spread over what varies, and what they are to meet.
 void print_design(Scene const& scene) {
     if (!scene.variations.empty()) print_field("design", design_text(scene));
@@ -165,9 +176,8 @@ int check(CheckArguments const& arguments) {
         return exit_code::done;
     }
 
-    fmt::print("# {} is a valid scene.  Resolved, in SI units:\n\n", scene.path);
-    std::string const resolved = resolved_toml(scene);
-    fmt::print("{}{}\n", resolved, resolved.ends_with('\n') ? "" : "\n");
+    print_text(2, "# {} is a valid scene.  Resolved, in SI units:\n", scene.path);
+    print_resolved(resolved_toml(scene));
     print_parts(scene);
     print_field("kernels", fmt::format("{}, {} threads, blocks of at most {} members", backend_text(*choice.backend),
                                        choice.backend->workers(threads), prediction.largest_block));

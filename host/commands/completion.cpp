@@ -130,7 +130,8 @@ std::string bash_script(std::vector<CommandDescription> const& commands) {
     std::string text = "# bash completion for slideway, written by: slideway help --completion bash\n";
     text += bash_functions;
     text += "_slideway_keys() {\n    if [[ -n $left ]]; then\n        case $left in\n" + value_cases("_slideway_words") +
-            "        esac\n        return\n    fi\n    compopt -o nospace 2>/dev/null\n    COMPREPLY+=($(compgen -S = -W '" + key_names() + "' -- \"$cur\"))\n}\n";
+            "        esac\n        return\n    fi\n    compopt -o nospace 2>/dev/null\n    COMPREPLY+=($(compgen -S = -W '" + key_names() +
+            "' -- \"$cur\"))\n}\n";
     text += "_slideway_of() {  # COMMAND OPTION\n    case \"$1 $2\" in\n";
     std::string defaults;
     for (CommandDescription const& command : commands) {
@@ -146,9 +147,11 @@ std::string bash_script(std::vector<CommandDescription> const& commands) {
                 options += " " + name;
                 patterns += fmt::format("{}\"{} {}\"", patterns.empty() ? "" : " | ", command.name, name);
             }
-            if (!option.value.empty() && !option.optional) text += fmt::format("        {}) {}; return ;;\n", patterns, action);
+            bool const takes_value = !option.value.empty() && !option.optional;
+            if (takes_value) text += fmt::format("        {}) {}; return ;;\n", patterns, action);
         }
-        defaults += fmt::format("        {})\n            [[ $cur == -* ]] && _slideway_words{} && return\n{}            ;;\n", command.name, options, positionals);
+        defaults += fmt::format("        {})\n            [[ $cur == -* ]] && _slideway_words{} && return\n{}            ;;\n", command.name, options,
+                                positionals);
     }
     text += "    esac\n    case $1 in\n" + defaults + "    esac\n}\n";
     std::string const names = candidates("COMMAND", commands).words;
@@ -178,7 +181,8 @@ std::string zsh_action(Candidates const& candidates) {
         case Kind::files: {
             std::string endings = candidates.words;
             std::ranges::replace(endings, ' ', '|');
-            return fmt::format("_files -g \"*.({})\"", endings);
+            // A single word in parentheses would be qualifiers of the pattern.
+            return endings == candidates.words ? "_files -g \"*." + endings + "\"" : "_files -g \"*.(" + endings + ")\"";
         }
         case Kind::folders: return "_files -/";
         case Kind::keys: return "_slideway_keys";
@@ -188,7 +192,7 @@ std::string zsh_action(Candidates const& candidates) {
 }
 
 std::string zsh_spec(OptionDescription const& option, Candidates const& values) {
-    if (option.positional) return zsh_quoted(fmt::format("{}:{}:{}", option.optional ? ":" : "", option.value, zsh_action(values)));
+    if (option.positional) return zsh_quoted(fmt::format(":{}{}:{}", option.optional ? ":" : "", option.value, zsh_action(values)));
     std::string value = option.value.empty() ? "" : fmt::format("{}:{}:{}", option.optional ? ":" : "", zsh_text(option.value), zsh_action(values));
     std::string const rest = zsh_quoted(fmt::format("[{}]{}", zsh_text(option.meaning), value)), all = fmt::format("{}", fmt::join(option.names, " "));
     if (option.names.size() > 1) return fmt::format("'({})'{{{}}}{}", all, fmt::join(option.names, ","), rest);
@@ -196,7 +200,8 @@ std::string zsh_spec(OptionDescription const& option, Candidates const& values) 
 }
 
 std::string zsh_script(std::vector<CommandDescription> const& commands) {
-    std::string text = "#compdef slideway\n# zsh completion for slideway, written by: slideway help --completion zsh\n_slideway_keys() {\n    if compset -P '*='; then\n"
+    std::string text = "#compdef slideway\n# zsh completion for slideway, written by: slideway help --completion zsh\n"
+                       "_slideway_keys() {\n    if compset -P '*='; then\n"
                        "        case ${${IPREFIX%=}##*=} in\n" + value_cases("compadd --") +
                        "        esac\n        return\n    fi\n    compadd -S = --" + key_names() +
                        "\n}\n_slideway() {\n    if ((CURRENT == 2)); then\n        local -a commands=(\n";

@@ -15,6 +15,13 @@ std::string entry(std::string const& label, std::string const& meaning, std::siz
     return left + (beside ? std::string(column - left.size(), ' ') : "\n" + std::string(column, ' ')) + wrapped(meaning, column, width) + "\n";
 }
 
+/// A command that goes on behind a backslash where it is longer than a line.
+std::string shell_lines(std::string const& command, std::size_t width) {
+    std::string lines = wrapped(command, 6, width - 2, 2);
+    for (std::size_t at = 0; (at = lines.find('\n', at)) != lines.npos; at += 3) lines.insert(at, " \\");
+    return lines;
+}
+
 std::string label_of(OptionDescription const& option) {
     std::string const label = fmt::format("{}", fmt::join(option.names, ", "));
     if (option.value.empty() || option.positional) return label;
@@ -43,13 +50,15 @@ std::string help_text(CommandDescription const& command, std::size_t width) {
     }
     if (!command.note.empty()) text += fmt::format("\n{}\n", wrapped(command.note, 0, width));
     if (!command.examples.empty()) text += "\nExamples:\n";
-    for (Example const& example : command.examples) text += fmt::format("  {}\n      {}\n", example.line, wrapped(example.meaning, 6, width));
+    for (Example const& example : command.examples)
+        text += fmt::format("  {}\n      {}\n", shell_lines(example.line, width), wrapped(example.meaning, 6, width));
     return text;
 }
 
 std::string help_text(std::vector<CommandDescription> const& commands, std::size_t width) {
     std::string text =
-        "Clearance joints of slider mechanisms: ensembles of simulations from a scene file.\n\nUsage: slideway COMMAND [OPTION]... [ARGUMENT]\n\n"
+        wrapped("Clearance joints of slider mechanisms: ensembles of simulations from a scene file.", 0, width) +
+        "\n\nUsage: slideway COMMAND [OPTION]... [ARGUMENT]\n\n"
         "Options:\n";
     text += entry("-h, --help", "This text; behind a command, what it does and its options", width);
     text += entry("--version", "Version and commit", width);

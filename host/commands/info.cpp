@@ -66,7 +66,7 @@ void print_info(InfoArguments const& arguments, ResultReader const& results, Sea
         print_quantities(quantities);
     print_exponents(results);
     print_sections(results);
-    if (auto const summary = verification_summary(results)) fmt::print("\n{}\n", wrapped(*summary, 0, line_width()));
+    if (auto const summary = verification_summary(results)) print_text(0, "\n{}", *summary);
     if (arguments.members) print_members(results, *arguments.members);
     if (arguments.scene) fmt::print("\nscene\n{}\n", results.attribute("scene"));
 }

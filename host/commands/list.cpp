@@ -17,7 +17,7 @@ namespace {
 
 /// One line, but for a terminal: there it goes on below the column of explanations.
 template <class... Values> void print_row(fmt::format_string<Values...> format, Values&&... values) {
-    fmt::print("{}\n", wrapped(fmt::format(format, std::forward<Values>(values)...), 33, line_width(), 0));
+    print_text(33, format, std::forward<Values>(values)...);
 }
 
 /// " (slider_crank, carriage)": the mechanisms that have something, where not all do.
@@ -133,7 +133,7 @@ int list(ListArguments const& arguments) {
         return exit_code::done;
     }
     print_mechanisms();
-    fmt::print("\ncontact laws (contact.law){}\n", owners_text([](MechanismInfo const& one) { return one.spatial; }));
+    print_text(2, "\ncontact laws (contact.law){}", owners_text([](MechanismInfo const& one) { return one.spatial; }));
     print_laws();
     fmt::print("\ndamping\n");
     for (int i = 0; i < damping_count; ++i) print_row("  {:<30} {}", damping_names[i], damping_meanings[i]);
@@ -156,7 +156,7 @@ int list(ListArguments const& arguments) {
                    quantity.dimension ? fmt::format(" (per {})", quantity.dimension) : "",
                    owners_text([bit](MechanismInfo const& one) { return (one.quantities & bit) != 0; }));
     }
-    fmt::print("\nseries (study.quantities): values at the sample times; those above come with every time series\n");
+    print_text(2, "\nseries (study.quantities): values at the sample times; those above come with every time series");
     for (SeriesInfo const& series : series_table) {
         Selection const bit = Selection{1} << (&series - series_table);
         print_row("  {:<30} {:<8} {}{}", series.name, series.unit, series.long_name,

@@ -65,7 +65,8 @@ std::string commands_text(std::vector<CommandDescription> const& commands) {
 
 std::string keys_text() {
     std::string text =
-        ".SH SCENES\nA scene is a file in TOML. Numbers are in SI units, or texts with a unit: \"0.1 mm\", \"30 rpm\". Its keys, each with unit, domain and default:\n";
+        ".SH SCENES\nA scene is a file in TOML. Numbers are in SI units, or texts with a unit: \"0.1 mm\", \"30 rpm\". "
+        "Its keys, each with unit, domain and default:\n";
     for (KeyReference const& key : known_keys()) {
         std::string const unit = key.unit.empty() || key.unit == "1" ? std::string() : fmt::format(" [{}]", key.unit);
         text += entry(bold(key.name) + plain(unit), plain(described(key)));
@@ -107,8 +108,8 @@ std::string man_page(std::vector<CommandDescription> const& commands) {
     std::string text = fmt::format(".\\\" written by: slideway help --man\n.TH SLIDEWAY 1 {} \"slideway {}\" \"User Commands\"\n",
                                    creation_time().substr(0, 10), build_info().version);
     text += ".SH NAME\nslideway \\- clearance joints of slider mechanisms: ensembles of simulations from a scene file\n.SH SYNOPSIS\n";
-    for (CommandDescription const& command : commands) text += fmt::format("{}{}\n", command.name == commands.front().name ? "" : ".br\n", plain(command.synopsis()));
-    text += ".br\nslideway \\-\\-version\n.SH DESCRIPTION\n"
+    for (CommandDescription const& command : commands) text += plain(command.synopsis()) + "\n.br\n";
+    text += "slideway \\-\\-version\n.SH DESCRIPTION\n"
             "Integrates the members of an ensemble of mechanisms with clearance joints, as a scene describes them, and writes a result file. "
             "Results go to files, summaries to the standard output, progress, warnings and errors to the standard error output. "
             "An error is one line: where it is, what is wrong, and what to do. A file that is there already is never replaced without \\fB\\-\\-force\\fR, "

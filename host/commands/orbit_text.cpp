@@ -13,7 +13,7 @@
 namespace slideway::cli {
 namespace {
 
-std::string number(double value) { return std::isnan(value) ? std::string("-") : fmt::format("{:.4g}", value); }
+std::string number(double value) { return cell(value, 4); }
 
 void print_history(std::vector<HistoryPoint> const& history) {
     if (history.empty()) return;
@@ -24,7 +24,7 @@ void print_history(std::vector<HistoryPoint> const& history) {
         line += fmt::format("{}{} ± {} after {:.0f}", line.empty() ? "" : ", ", number(point.mean.mean),
                             number(point.mean.half_width), point.rescalings);
     }
-    fmt::print("  running mean of the largest [1/s]: {} rescalings\n", line);
+    print_text(4, "  running mean of the largest [1/s]: {} rescalings", line);
 }
 
 std::string text(MeanOfMembers const& mean) {
@@ -46,7 +46,7 @@ void print_doubts(ResultReader const& results, ExponentSummary const& largest) {
             100 * health.lost);
     }
     if (largest.mean.mean > largest.mean.half_width && !(largest.late.mean > largest.late.half_width)) {
-        fmt::print("  The second half alone is not above zero: what grew, grew early. Leave out a longer transient.\n");
+        print_text(4, "  The second half alone is not above zero: what grew, grew early. Leave out a longer transient.");
     }
 }
 
@@ -81,26 +81,29 @@ void print_exponents(ResultReader const& results) {
         print_doubts(results, exponents.front());
         return;
     }
-    fmt::print("\nLyapunov exponents [1/s] over the members that finished; ± is the 95 % interval of the mean:\n");
-    fmt::print("  {:<8}  {:>22}  {:>10}  {:>10}  {:>10}  {:>10}  {:>10}\n", "exponent", "mean", "sd", "5 %", "median",
-               "95 %", "max");
-    for (std::size_t j = 0; j < exponents.size(); ++j) {
-        ExponentSummary const& e = exponents[j];
-        fmt::print("  {:<8}  {:>22}  {:>10}  {:>10}  {:>10}  {:>10}  {:>10}\n", j + 1, text(e.mean),
-                   number(e.values.sd), number(e.low), number(e.values.median), number(e.high), number(e.values.max));
-    }
+    print_text(0, "\nLyapunov exponents [1/s] over the members that finished; ± is the 95 % interval of the mean:");
+    auto const rows = [&](int digits) {
+        TextRows table{{"exponent", "mean", "sd", "5 %", "median", "95 %", "max"}};
+        for (std::size_t j = 0; j < exponents.size(); ++j) {
+            ExponentSummary const& e = exponents[j];
+            auto& row = table.emplace_back(std::vector<std::string>{std::to_string(j + 1), text(e.mean)});
+            for (double const value : {e.values.sd, e.low, e.values.median, e.high, e.values.max}) row.push_back(cell(value, digits));
+        }
+        return table;
+    };
+    print_table(rows, 4, 1, 10);
     ExponentSummary const& largest = exponents.front();
     if (refutes_sign(results)) {
-        fmt::print("  largest: NOT RESOLVED: tighter tolerances do not confirm its sign (see below)\n");
+        print_text(4, "  largest: NOT RESOLVED: tighter tolerances do not confirm its sign (see below)");
     } else {
-        fmt::print("  largest: {} members above zero, {} below, {} undecided by their own 95 % intervals\n",
+        print_text(4, "  largest: {} members above zero, {} below, {} undecided by their own 95 % intervals",
                    largest.positive, largest.negative, largest.undecided);
     }
-    fmt::print("  its second half alone: {}\n", text(largest.late));
+    print_text(4, "  its second half alone: {}", text(largest.late));
     print_history(exponent_history(results));
     if (results.has("kaplan_yorke_dimension")) {
         Summary const dimension = summarise(results.values("kaplan_yorke_dimension"));
-        fmt::print("  Kaplan-Yorke dimension of the map over a turn: median {}, {} to {}\n", number(dimension.median),
+        print_text(4, "  Kaplan-Yorke dimension of the map over a turn: median {}, {} to {}", number(dimension.median),
                    number(dimension.min), number(dimension.max));
     }
     print_doubts(results, largest);

@@ -47,19 +47,23 @@ std::string table_text(StateTable const& table, std::vector<ProbeResult> const& 
 /// Of the eight apices, or of the four corners of a planar slider.
 void print_contacts(MechanismInfo const& mechanism, ProbeResult const& result) {
     std::size_t const places = mechanism.spatial ? 8 : 4;
-    fmt::print("\n  {:<18}", mechanism.spatial ? "apex" : "corner");
-    for (std::size_t i = 1; i <= places; ++i)
-        fmt::print(" {:>11}", fmt::format("{}{}", mechanism.spatial ? "P" : "C", i));
-    fmt::print("\n");
-    auto const print_row = [places](std::string_view label, double const(&values)[8]) {
-        fmt::print("  {:<18}", label);
-        for (std::size_t i = 0; i < places; ++i) fmt::print(" {:>11.4g}", values[i]);
+    constexpr std::size_t label_width = 20, cell_width = 12;
+    // A terminal may have room for half of them.
+    std::size_t const per_line = line_width() == 0 || line_width() >= label_width + places * cell_width ? places : 4;
+    for (std::size_t first = 0; first < places; first += per_line) {
+        fmt::print("\n  {:<18}", mechanism.spatial ? "apex" : "corner");
+        for (std::size_t i = first; i < first + per_line; ++i) fmt::print(" {:>11}", fmt::format("{}{}", mechanism.spatial ? "P" : "C", i + 1));
         fmt::print("\n");
-    };
-    print_row("penetration Y [m]", result.penetration_y);
-    if (mechanism.spatial) print_row("penetration Z [m]", result.penetration_z);
-    print_row("force Y [N]", result.normal_force_y);
-    if (mechanism.spatial) print_row("force Z [N]", result.normal_force_z);
+        auto const print_row = [&](std::string_view label, double const(&values)[8]) {
+            fmt::print("  {:<18}", label);
+            for (std::size_t i = first; i < first + per_line; ++i) fmt::print(" {:>11.4g}", values[i]);
+            fmt::print("\n");
+        };
+        print_row("penetration Y [m]", result.penetration_y);
+        if (mechanism.spatial) print_row("penetration Z [m]", result.penetration_z);
+        print_row("force Y [N]", result.normal_force_y);
+        if (mechanism.spatial) print_row("force Z [N]", result.normal_force_z);
+    }
     fmt::print("\n");
 }
 
@@ -67,14 +71,14 @@ void print_listing(Scene const& scene, StateTable const& table, ProbeResult cons
     print_field("scene", fmt::format("{} at t = 0, computed with {}", scene.path, name_of(isa)));
     print_field("status", name_of(result.status));
     MechanismInfo const& has = info(table.mechanism);
-    int const width = has.spatial ? 8 : 22;  // of the longest name
-    fmt::print("\n  {:<{}} {:<8} {:>24} {:>24}\n", "state", width, "unit", "value", "derivative");
     StateNumbers const state = start_of(info(table.mechanism), table.inputs[0]);
+    TextRows rows{{"state", "unit", "value", "derivative"}};
     for (int i = 0; i < has.states; ++i) {
         SeriesInfo const& entry = state_info(has, i);
-        fmt::print("  {:<{}} {:<8} {:>24.16g} {:>24.16g}\n", entry.name, width, entry.unit,
-                   state[static_cast<std::size_t>(i)], result.derivative[i]);
+        rows.push_back({entry.name, entry.unit, cell(state[static_cast<std::size_t>(i)], 16), cell(result.derivative[i], 16)});
     }
+    fmt::print("\n");
+    print_table([&](int) { return rows; }, 3, 2, 8);
     print_contacts(has, result);
     print_field("mode", fmt::format("{} surfaces, {} lines, {} points", result.surfaces, result.lines, result.points));
     print_field("energy",

@@ -84,7 +84,7 @@ void print_instability(Scene const& scene, EndedMembers const& ended) {
     std::string what;
     if (unstable > 0) what = fmt::format("{} unstable by the energy audit", unstable);
     if (broken > 0) what += fmt::format("{}{} broke down", what.empty() ? "" : ", ", broken);
-    fmt::print("\n{} failed in {} member{} ({}): {}.\n", name, unstable + broken, unstable + broken == 1 ? "" : "s",
+    print_text(0, "\n{} failed in {} member{} ({}): {}.", name, unstable + broken, unstable + broken == 1 ? "" : "s",
                what, advice_on(method));
 }
 
@@ -93,9 +93,10 @@ void print_spent(Scene const& scene, EndedMembers const& ended) {
     std::uint64_t const spent = ended.count(Status::max_steps);
     if (spent == 0) return;
     bool const pair = scene.integrator.method == Method::dopri5 || scene.integrator.method == Method::bs32;
-    fmt::print(
+    print_text(
+        0,
         "\n{} member{} spent integrator.max_steps = {}: try a larger one, {}looser rtol and atol, or look at one "
-        "with --member K.\n",
+        "with --member K.",
         spent, spent == 1 ? "" : "s", scene.integrator.max_steps, pair ? "method = \"auto\", " : "");
 }
 
@@ -107,13 +108,9 @@ void print_failures(RunArguments const& arguments, Scene const& scene, EndedMemb
     fmt::print("\n{} failed member{}{}:\n", ended.failed(), ended.failed() == 1 ? "" : "s",
                ended.failed() > listed ? fmt::format(", the first {}", listed) : "");
     for (FailedMember const& member : failed) {
-        fmt::print("  member {}: {}", member.member, name_of(member.status));
         auto const why = defect(member_inputs(scene, member.member), scene.parts);
-        if (why)
-            fmt::print(": {}", *why);
-        else
-            fmt::print(" at t = {:.6g} s", member.time);
-        fmt::print("\n    {}\n", replay_command(arguments, scene, results.attribute("isa"), member.member));
+        print_text(4, "  member {}: {}{}", member.member, name_of(member.status), why ? ": " + *why : fmt::format(" at t = {:.6g} s", member.time));
+        fmt::print("    {}\n", replay_command(arguments, scene, results.attribute("isa"), member.member));
     }
 }
 
@@ -136,24 +133,24 @@ void print_energy_made(Scene const& scene, EndedMembers const& ended, std::vecto
     std::string const cause =
         doubtful ? fmt::format("The {} law's mode switching and the errors of {} together", law.name, name_of(method))
                  : fmt::format("Mode switching of the {} law", law.name);
-    fmt::print("\n{} made {:.3g} J of energy per member on average", cause, made);
+    std::string sentence = fmt::format("\n{} made {:.3g} J of energy per member on average", cause, made);
     QuantitySummary const* const work = mean_of("crank_work");
     if (work != nullptr && work->values.mean != 0) {
-        fmt::print(", {:.3g} % of the {}'s work of {:.3g} J", 100 * made / std::abs(work->values.mean),
+        sentence += fmt::format(", {:.3g} % of the {}'s work of {:.3g} J", 100 * made / std::abs(work->values.mean),
                    counts_for(*find_key("mechanism.rod_length"), scene.parts.mechanism) ? "crank" : "drive", work->values.mean);
     }
     if (doubtful) {
-        fmt::print("; {} tells them apart",
-                   is_always_audited(method) ? "method = \"auto\"" : "a smaller rtol and atol");
+        sentence += fmt::format("; {} tells them apart",
+                                is_always_audited(method) ? "method = \"auto\"" : "a smaller rtol and atol");
     }
-    fmt::print(".\n");
+    print_lines(0, sentence + ".");
 }
 
 /// Whether the numbers above are the integration's: to stdout beside them, and where they are, to stderr.
 void print_verification(ResultReader const& results) {
     auto const summary = verification_summary(results);
     if (!summary) return;
-    fmt::print("\n{}\n", *summary);
+    print_text(0, "\n{}", *summary);
     warn_of_results(results);
 }
 
@@ -218,7 +215,7 @@ void print_results(RunArguments const& arguments, Scene const& scene, ResultRead
     print_spent(scene, ended);
     print_failures(arguments, scene, ended, results);
     if (!scene.stores_members()) {
-        fmt::print("\nMembers are not stored; a single one can be had with --member K --set study.store=members.\n");
+        print_text(0, "\nMembers are not stored; a single one can be had with --member K --set study.store=members.");
     }
 }
 

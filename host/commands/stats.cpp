@@ -9,6 +9,7 @@
 #include "host/base/error.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/json.hpp"
+#include "host/commands/text.hpp"
 #include "host/store/output_target.hpp"
 #include "host/store/result_check.hpp"
 #include "host/study/series_analysis.hpp"
@@ -156,8 +157,8 @@ int stats(StatsArguments const& arguments) {
         fmt::print("{}", stats_json(arguments, series.name, a, rows));
         return exit_code::done;
     }
-    for (auto const& [label, text] : rows) fmt::print("{:<16} {}\n", label, text);
-    if (target) fmt::print("{:<16} {}\n", "curves", target->name());
+    for (auto const& [label, text] : rows) print_field(label, text, 16);
+    if (target) print_field("curves", target->name(), 16);
     return exit_code::done;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <numeric>
 #include <system_error>
 
 #include <sys/ioctl.h>
@@ -104,6 +105,15 @@ std::size_t line_width() {
     return known ? size.ws_col : usual_width;
 }
 
+namespace {
+
+/// Bytes that go on with a character of UTF-8 take no column.
+std::size_t columns_of(std::string_view text) {
+    return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u; }));
+}
+
+}  // namespace
+
 std::string wrapped(std::string_view text, std::size_t indent, std::size_t width, std::size_t first) {
     std::string lines;
     std::size_t column = first == std::string_view::npos ? indent : first;
@@ -111,8 +121,7 @@ std::string wrapped(std::string_view text, std::size_t indent, std::size_t width
     while (!text.empty()) {
         auto const blanks = std::min(text.find_first_not_of(' '), text.size()), end = std::min(text.find(' ', blanks), text.size());
         std::string_view const word = text.substr(blanks, end - blanks);
-        // Bytes that go on with a character of UTF-8 take no column.
-        auto const columns = static_cast<std::size_t>(std::ranges::count_if(word, [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u; }));
+        std::size_t const columns = columns_of(word);
         bool const broken = width > 0 && begun && column + blanks + columns > width;
         if (broken) lines += '\n';
         lines.append(broken ? indent : blanks, ' ').append(word);
@@ -123,7 +132,63 @@ std::string wrapped(std::string_view text, std::size_t indent, std::size_t width
     return lines;
 }
 
-void print_field(std::string_view label, std::string_view text) { fmt::print("{:<12} {}\n", label, wrapped(text, 13, line_width())); }
+void print_field(std::string_view label, std::string_view text, std::size_t label_width) {
+    fmt::print("{:<{}} {}\n", label, label_width, wrapped(text, label_width + 1, line_width()));
+}
+
+void print_lines(std::size_t indent, std::string_view text) {
+    std::size_t const width = line_width();
+    for (std::size_t at = 0; at <= text.size();) {
+        auto const end = std::min(text.find('\n', at), text.size());
+        fmt::print("{}\n", wrapped(text.substr(at, end - at), indent, width, 0));
+        at = end + 1;
+    }
+}
+
+std::string cell(double value, int digits) { return std::isnan(value) ? std::string("-") : fmt::format("{:.{}g}", value, digits); }
+
+namespace {
+
+/// Where a terminal has no room for all columns the others follow below, behind the first `left` again.
+void print_columns(TextRows const& rows, std::vector<std::size_t> const& widths, std::size_t gap, std::size_t left) {
+    std::size_t const terminal = line_width();
+    std::size_t first = left;
+    do {
+        std::size_t length = 2, end = first;
+        for (std::size_t i = 0; i < left; ++i) length += widths[i] + gap;
+        for (; end < widths.size() && (end == first || terminal == 0 || length + widths[end] <= terminal); ++end) length += widths[end] + gap;
+        if (first > left) fmt::print("\n");
+        for (auto const& row : rows) {
+            std::string line = " ";
+            for (std::size_t i = 0; i < std::min(row.size(), end); ++i) {
+                if (i >= left && i < first) continue;
+                std::string const pad(widths[i] - columns_of(row[i]), ' ');
+                line += std::string(i == 0 ? 1 : gap, ' ') + (i < left ? row[i] + pad : pad + row[i]);
+            }
+            fmt::print("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
+        }
+        first = end;
+    } while (first < widths.size());
+}
+
+}  // namespace
+
+void print_table(std::function<TextRows(int)> const& make_rows, int digits, std::size_t left, std::size_t least) {
+    constexpr int least_digits = 3;
+    std::size_t const terminal = line_width();
+    for (std::size_t gap = 2;;) {
+        TextRows const rows = make_rows(digits);
+        std::vector<std::size_t> widths;
+        for (auto const& row : rows) {
+            widths.resize(std::max(widths.size(), row.size()), terminal > 0 ? 0 : least);
+            for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], columns_of(row[i]));
+        }
+        bool const fits = terminal == 0 || std::accumulate(widths.begin(), widths.end(), gap * (widths.size() - 1) + 2) <= terminal;
+        if (fits || (gap == 1 && digits <= least_digits)) return print_columns(rows, widths, fits ? gap : 2, left);
+        if (gap == 1) --digits;
+        gap = 1;
+    }
+}
 
 void print_statuses(std::vector<StatusCount> const& statuses) {
     for (StatusCount const& count : statuses) fmt::print("  {:<16} {}\n", name_of(count.status), count.members);
@@ -139,29 +204,19 @@ void print_quantities(std::vector<QuantitySummary> const& quantities) {
     }
     bool const single = std::none_of(quantities.begin(), quantities.end(), [](QuantitySummary const& one) { return one.values.count > 1; });
     fmt::print("\nOver the member{} that finished:\n", single ? "" : "s");
-    std::size_t width = 8, unit_width = 4;
-    for (QuantitySummary const& quantity : quantities) {
-        width = std::max(width, quantity.label.size());
-        unit_width = std::max(unit_width, quantity.unit.size());
-    }
-    auto const row = [&](std::string_view label, std::string_view unit, auto const&... cells) {
-        fmt::print("  {:<{}}  {:<{}}", label, width, unit, unit_width);
-        (fmt::print("  {:>12}", cells), ...);
-        fmt::print("\n");
+    // One member has a value, and no distribution.
+    auto const rows = [&](int digits) {
+        TextRows table{single ? std::vector<std::string>{"quantity", "unit", "value"}
+                              : std::vector<std::string>{"quantity", "unit", "mean", "sd", "min", "median", "max"}};
+        for (QuantitySummary const& quantity : quantities) {
+            Summary const& s = quantity.values;
+            std::vector<std::string>& row = table.emplace_back(std::vector<std::string>{quantity.label, quantity.unit, cell(s.mean, digits)});
+            if (single) continue;
+            for (double const value : {s.sd, s.min, s.median, s.max}) row.push_back(cell(value, digits));
+        }
+        return table;
     };
-    // One member has no standard deviation.
-    auto const text = [](double value) { return std::isnan(value) ? std::string("-") : fmt::format("{:.5g}", value); };
-    if (single) {
-        // One member has a value, and no distribution.
-        row("quantity", "unit", "value");
-        for (QuantitySummary const& quantity : quantities) row(quantity.label, quantity.unit, text(quantity.values.mean));
-        return;
-    }
-    row("quantity", "unit", "mean", "sd", "min", "median", "max");
-    for (QuantitySummary const& quantity : quantities) {
-        Summary const& s = quantity.values;
-        row(quantity.label, quantity.unit, text(s.mean), text(s.sd), text(s.min), text(s.median), text(s.max));
-    }
+    print_table(rows, 5, 2, 12);
 }
 
 }  // namespace slideway::cli

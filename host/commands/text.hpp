@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,6 +56,19 @@ std::size_t line_width();
 std::string wrapped(std::string_view text, std::size_t indent, std::size_t width, std::size_t first = std::string_view::npos);
 
 /// Writes "label      text", labels in a column; on one line, but for a terminal.
-void print_field(std::string_view label, std::string_view text);
+void print_field(std::string_view label, std::string_view text, std::size_t label_width = 12);
+
+/// Writes lines as they are, but for a terminal: there a long one goes on `indent` blanks from the left.
+void print_lines(std::size_t indent, std::string_view text);
+template <class... Values> void print_text(std::size_t indent, fmt::format_string<Values...> format, Values&&... values) {
+    print_lines(indent, fmt::format(format, std::forward<Values>(values)...));
+}
+
+using TextRows = std::vector<std::vector<std::string>>;
+/// Writes rows of cells in columns, the first `left` of them flush left, all others at least `least` wide where there is no terminal.
+/// @param rows makes the rows with so many significant digits: `digits`, or fewer where lines would be longer than a terminal's
+void print_table(std::function<TextRows(int)> const& rows, int digits, std::size_t left, std::size_t least);
+/// A number for such a table; "-" for NaN.
+std::string cell(double value, int digits);
 
 }  // namespace slideway::cli

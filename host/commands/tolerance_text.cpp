@@ -11,10 +11,10 @@
 namespace slideway::cli {
 namespace {
 
-constexpr std::size_t line_width = 120;
 constexpr std::size_t top_inputs = 3;
 
-std::string number(double value) { return std::isnan(value) ? std::string("-") : fmt::format("{:.4g}", value); }
+/// Where lines end.
+std::size_t longest_line() { return line_width() > 0 ? std::min<std::size_t>(line_width(), 120) : 120; }
 
 std::string share(double value) { return std::isnan(value) ? std::string("-") : fmt::format("{:.3f}", value); }
 
@@ -24,56 +24,40 @@ std::string interval_text(Interval const& interval) {
     return fmt::format(" [{}, {}]", share(interval.low), share(interval.high));
 }
 
-/// Words in lines of at most line_width.
-void print_wrapped(std::string_view text) {
-    while (text.size() > line_width) {
-        std::size_t const end = text.rfind(' ', line_width);
-        if (end == std::string_view::npos) break;
-        fmt::print("{}\n", text.substr(0, end));
-        text.remove_prefix(end + 1);
-    }
-    fmt::print("{}\n", text);
+void print_wrapped(std::string_view text) { fmt::print("{}\n", wrapped(text, 0, longest_line())); }
+
+std::size_t name_width(ToleranceReport const& report) {
+    std::size_t width = std::string_view("quantity").size();
+    for (ColumnStatistics const& entry : report.columns) width = std::max(width, entry.column.name().size());
+    return width;
 }
 
-struct Names {
-    std::size_t name = 8, unit = 4;  // widths
-};
-
-Names widths_of(ToleranceReport const& report) {
-    Names widths;
-    for (ColumnStatistics const& entry : report.columns) {
-        widths.name = std::max(widths.name, entry.column.name().size());
-        widths.unit = std::max(widths.unit, entry.column.unit.size());
-    }
-    return widths;
-}
-
-void print_moments(ToleranceReport const& report, Names const& widths) {
+void print_moments(ToleranceReport const& report) {
     fmt::print("\nMean with its {:.0f} % interval, spread and ends:\n", 100 * confidence_level);
-    auto const row = [&](std::string_view name, std::string_view unit, auto const&... cells) {
-        fmt::print("  {:<{}}  {:<{}}", name, widths.name, unit, widths.unit);
-        (fmt::print("  {:>10}", cells), ...);
-        fmt::print("\n");
+    auto const rows = [&](int digits) {
+        TextRows table{{"quantity", "unit", "n", "mean", "low", "high", "sd", "min", "max"}};
+        for (ColumnStatistics const& entry : report.columns) {
+            Summary const& s = entry.summary;
+            auto& row = table.emplace_back(std::vector<std::string>{entry.column.name(), entry.column.unit, std::to_string(s.count)});
+            for (double const value : {s.mean, entry.mean.low, entry.mean.high, s.sd, s.min, s.max}) row.push_back(cell(value, digits));
+        }
+        return table;
     };
-    row("quantity", "unit", "n", "mean", "low", "high", "sd", "min", "max");
-    for (ColumnStatistics const& entry : report.columns) {
-        Summary const& s = entry.summary;
-        row(entry.column.name(), entry.column.unit, s.count, number(s.mean), number(entry.mean.low),
-            number(entry.mean.high), number(s.sd), number(s.min), number(s.max));
-    }
+    print_table(rows, 4, 2, 10);
 }
 
-void print_quantiles(ToleranceReport const& report, Names const& widths) {
-    fmt::print("\nQuantiles (their intervals are in the file):\n  {:<{}}", "quantity", widths.name);
-    for (double const p : reported_quantiles) fmt::print("{:>10}", fmt::format("{:.4g} %", 100 * p));
-    fmt::print("\n");
-    for (ColumnStatistics const& entry : report.columns) {
-        fmt::print("  {:<{}}", entry.column.name(), widths.name);
-        for (QuantileEstimate const& quantile : entry.quantiles) {
-            fmt::print("{:>10}", std::isnan(quantile.value) ? std::string("-") : fmt::format("{:.3g}", quantile.value));
+void print_quantiles(ToleranceReport const& report) {
+    fmt::print("\nQuantiles (their intervals are in the file):\n");
+    auto const rows = [&](int digits) {
+        TextRows table{{"quantity"}};
+        for (double const p : reported_quantiles) table[0].push_back(fmt::format("{:.4g} %", 100 * p));
+        for (ColumnStatistics const& entry : report.columns) {
+            auto& row = table.emplace_back(std::vector<std::string>{entry.column.name()});
+            for (QuantileEstimate const& quantile : entry.quantiles) row.push_back(cell(quantile.value, digits));
         }
-        fmt::print("\n");
-    }
+        return table;
+    };
+    print_table(rows, 3, 1, 8);
 }
 
 std::string range_text(Limit const& limit, std::string const& unit) {
@@ -86,23 +70,14 @@ void print_yields(ToleranceReport const& report) {
     if (!report.all_met) return;
     fmt::print("\nYield, of {} members that ran, with its {:.0f} % interval:\n", report.all_met->trials,
                100 * confidence_level);
-    std::size_t name = 10, range = 5;
-    for (LimitYield const& limit : report.limits) {
-        name = std::max(name, limit.limit.name().size());
-        range = std::max(range, range_text(limit.limit, limit.unit).size());
-    }
-    auto const percent = [](double value) {
-        return std::isnan(value) ? std::string("-") : fmt::format("{:.3f}", 100 * value);
+    auto const percent = [](double value) { return std::isnan(value) ? std::string("-") : fmt::format("{:.3f}", 100 * value); };
+    TextRows table{{"quantity", "limit", "met", "yield [%]", "low", "high"}};
+    auto const add = [&](std::string const& limit, std::string const& range, Proportion const& met) {
+        table.push_back({limit, range, std::to_string(met.successes), percent(met.value), percent(met.interval.low), percent(met.interval.high)});
     };
-    auto const row = [&](std::string_view limit, std::string_view text, Proportion const& met) {
-        fmt::print("  {:<{}}  {:<{}}  {:>10}  {:>9}  {:>9}  {:>9}\n", limit, name, text, range, met.successes,
-                   percent(met.value), percent(met.interval.low), percent(met.interval.high));
-    };
-    fmt::print("  {:<{}}  {:<{}}  {:>10}  {:>9}  {:>9}  {:>9}\n", "quantity", name, "limit", range, "met", "yield [%]",
-               "low", "high");
-    for (LimitYield const& limit : report.limits)
-        row(limit.limit.name(), range_text(limit.limit, limit.unit), limit.met);
-    row("all limits", "", *report.all_met);
+    for (LimitYield const& limit : report.limits) add(limit.limit.name(), range_text(limit.limit, limit.unit), limit.met);
+    add("all limits", "", *report.all_met);
+    print_table([&](int) { return table; }, 3, 2, 9);
 }
 
 /// The first inputs of a ranking after the quantity's name, as many as asked for; lines go on below where they are
@@ -111,7 +86,7 @@ void print_ranked(std::string const& name, std::size_t width, std::vector<std::s
     std::string line = fmt::format("  {:<{}}", name, width);
     std::size_t const indent = line.size();
     for (std::string const& cell : cells) {
-        if (line.size() > indent && line.size() + 2 + cell.size() > line_width) {
+        if (line.size() > indent && line.size() + 2 + cell.size() > longest_line()) {
             fmt::print("{}\n", line);
             line = std::string(indent, ' ');
         }
@@ -126,22 +101,16 @@ std::vector<std::string> cells_or_dash(std::vector<std::string> cells) {
     return cells;
 }
 
-void print_indices(ToleranceReport const& report, Names const& widths) {
+void print_indices(ToleranceReport const& report) {
     if (!report.indices) return;
     IndexReport const& indices = *report.indices;
-    fmt::print("\nSobol indices with {:.0f} % intervals, the largest total first, of {} rows of the design",
-               100 * confidence_level, indices.used());
-    if (indices.failed > 0) fmt::print("; {} left out for a failed member", indices.failed);
-    if (indices.incomplete > 0) fmt::print("; {} incomplete", indices.incomplete);
-    std::size_t input_width = std::string_view("all first orders").size();
-    for (std::string const& input : report.inputs) input_width = std::max(input_width, input.size());
-    auto const row = [&](std::string_view quantity, std::string_view input, std::string_view first,
-                         std::string_view total) {
-        fmt::print("  {:<{}}  {:<{}}  {:<24}  {}\n", quantity, widths.name, input, input_width, first, total);
-    };
-    auto const cell = [](IndexEstimate const& index) { return share(index.value) + interval_text(index.interval); };
-    fmt::print("\n");
-    row("quantity", "input", "first order", "total");
+    std::string heading = fmt::format("\nSobol indices with {:.0f} % intervals, the largest total first, of {} rows of the design", 100 * confidence_level,
+                                      indices.used());
+    if (indices.failed > 0) heading += fmt::format("; {} left out for a failed member", indices.failed);
+    if (indices.incomplete > 0) heading += fmt::format("; {} incomplete", indices.incomplete);
+    print_lines(0, heading);
+    TextRows table{{"quantity", "input", "first order", "total"}};
+    auto const text = [](IndexEstimate const& index) { return share(index.value) + interval_text(index.interval); };
     for (ColumnIndices const& entry : indices.columns) {
         SobolIndices const& found = entry.indices;
         std::string name = entry.column.name();
@@ -149,20 +118,22 @@ void print_indices(ToleranceReport const& report, Names const& widths) {
             std::size_t const input = entry.ranking[rank];
             // Nothing tells inputs apart for an output that does not vary.
             if (std::isnan(found.total[input].value)) break;
-            row(std::exchange(name, {}), report.inputs[input], cell(found.first[input]), cell(found.total[input]));
+            table.push_back({std::exchange(name, {}), report.inputs[input], text(found.first[input]), text(found.total[input])});
         }
         if (name.empty())
-            row("", "all first orders", cell(found.first_sum), "");
+            table.push_back({"", "all first orders", text(found.first_sum)});
         else
-            row(name, "-", "", "");
+            table.push_back({name, "-"});
     }
+    print_table([&](int) { return table; }, 3, 2, 24);
 }
 
-void print_correlations(ToleranceReport const& report, Names const& widths) {
+void print_correlations(ToleranceReport const& report) {
     if (report.correlations.empty()) return;
+    std::size_t const width = name_width(report);
     fmt::print(
         "\nRank correlations, the strongest first\n  {:<{}}  R² of the linear regression; correlation [interval]\n",
-        "quantity", widths.name);
+        "quantity", width);
     for (ColumnCorrelations const& entry : report.correlations) {
         std::vector<std::string> cells;
         for (std::size_t rank = 0; rank < std::min(top_inputs, entry.ranking.size()); ++rank) {
@@ -173,7 +144,7 @@ void print_correlations(ToleranceReport const& report, Names const& widths) {
             cells.push_back(
                 fmt::format("{} {}{}", report.inputs[input], share(estimate.value), interval_text(estimate.interval)));
         }
-        print_ranked(entry.column.name(), widths.name, cells_or_dash(std::move(cells)));
+        print_ranked(entry.column.name(), width, cells_or_dash(std::move(cells)));
     }
 }
 
@@ -189,12 +160,11 @@ void print_tolerance(ToleranceReport const& report) {
     if (std::none_of(report.columns.begin(), report.columns.end(), has_values)) {
         fmt::print("\nThere are no distributions: no member finished, or no quantity is stored.\n");
     } else {
-        Names const widths = widths_of(report);
-        print_moments(report, widths);
-        print_quantiles(report, widths);
+        print_moments(report);
+        print_quantiles(report);
         print_yields(report);
-        print_indices(report, widths);
-        print_correlations(report, widths);
+        print_indices(report);
+        print_correlations(report);
         return;
     }
     print_yields(report);

@@ -14,6 +14,7 @@ from ._version import __version__
 from .accessor import ResultAccessor
 from .errors import FileError, RunError, SceneError, SlidewayError, StoppedEarly, TooManyFailures
 from .example import example
+from .keys import Key, Keys, keys
 from .members import finished, statuses
 from .results import groups, open  # noqa: A004 (slideway.open is the name that users expect)
 from .runs import info, run
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
 
 __all__ = [
     "FileError",
+    "Key",
+    "Keys",
     "ResultAccessor",
     "RunError",
     "SceneError",
@@ -38,6 +41,7 @@ __all__ = [
     "finished",
     "groups",
     "info",
+    "keys",
     "open",
     "plot",
     "report",

@@ -10,6 +10,7 @@ import xarray as xr
 
 from . import arguments
 from .errors import SlidewayError
+from .keys import nearest_key
 from .program import Interrupted, call, error_of, find_program, follow
 from .results import StrPath, file_of, open_temporary
 from .results import open as open_result
@@ -46,7 +47,8 @@ def run(
         backend: "auto", "cpu" or "cuda".
         isa: "auto", or one of the instruction sets that ``slideway list`` names.
         progress: pass on what the program says of its progress, to stderr; warnings are passed on in any case.
-        set: dotted keys and their values, in place of those of the scene: ``{"joint.clearance": "0.2 mm"}``.
+        set: dotted keys and their values, in place of those of the scene: ``{"joint.clearance": "0.2 mm"}``;
+            :func:`slideway.keys` has all of them, with unit, domain and default.
         resume: go on with what an earlier run has left beside `output`.
         force: replace a result of slideway that is there already; any other file is left, and a FileError says so.
         max_hours: stop after this time and keep what is finished.
@@ -73,7 +75,7 @@ def run(
     """
     found = find_program(program)
     options = _options(threads, backend, isa, max_hours, max_failures, members)
-    for key, value in _all_overrides(set, overrides).items():
+    for key, value in _all_overrides(set, overrides, found).items():
         options += ["--set", f"{key}={to_value(value, key)}"]
     options += ["--resume"] * bool(resume) + ["--force"] * bool(force) + ["--quiet"] * (not progress)
     with scene_file(scene) as file:
@@ -139,12 +141,13 @@ def _stem(path: str) -> str:
     return os.path.splitext(os.path.basename(path))[0]
 
 
-def _all_overrides(given: Mapping[str, Any] | None, words: Mapping[str, Any]) -> dict[str, Any]:
+def _all_overrides(given: Mapping[str, Any] | None, words: Mapping[str, Any], program: str) -> dict[str, Any]:
     if given is not None and not isinstance(given, Mapping):
         raise SlidewayError(f'set is {arguments.shown(given)}; give keys and their values: {{"joint.clearance": "0.2 mm"}}')
     named = {arguments.text(key, "a key of set"): value for key, value in (given or {}).items()}
     for word, value in words.items():
         if "__" not in word:
-            raise SlidewayError(f"run() has no argument {word}; keys of the scene have two underscores, as in study__members=64")
+            hint = nearest_key(word, program) or "; keys of the scene have two underscores, as in study__members=64 (slideway.keys() has all)"
+            raise SlidewayError(f"run() has no argument {word}{hint}")
         named[word.replace("__", ".")] = value
     return named
