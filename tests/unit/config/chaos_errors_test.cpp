@@ -23,15 +23,6 @@ std::string sweep_error(std::string const& lines, Overrides const& overrides = {
 }
 
 TEST(SceneChaosErrors, KeysOfOtherStudies) {
-    EXPECT_EQ(error("ensemble", "phase = \"0 deg\""),
-              "scene.toml:4: study.phase is \"0 deg\" (it has no effect with kind = \"ensemble\"); "
-              "remove it, or use kind = \"poincare\" or \"sweep\"");
-    EXPECT_EQ(error_of("schema = 1\n[study]\nd0 = 1e-6"),
-              "scene.toml:3: study.d0 is 1e-06 (it has no effect with kind = \"ensemble\"); "
-              "remove it, or use kind = \"lyapunov\" or \"sweep\"");
-    EXPECT_EQ(error("poincare", "values = [1]"),
-              "scene.toml:4: study.values is a list (it has no effect with kind = \"poincare\"); "
-              "remove it, or use kind = \"sweep\"");
     for (char const* kind : {"lyapunov", "poincare", "sweep"}) {
         for (char const* key : {"samples", "samples_per_revolution"}) {
             EXPECT_EQ(error(kind, fmt::format("{} = 7", key)),
@@ -40,24 +31,7 @@ TEST(SceneChaosErrors, KeysOfOtherStudies) {
                                   key, kind));
         }
     }
-    EXPECT_EQ(
-        sweep_error("transient_revolutions = 0\nrevolutions = 1\nexponents = 1"),
-        "scene.toml:7: study.revolutions is 1 (exponents are taken between its sections, and there is one); use at "
-        "least 2, or a transient");
     EXPECT_EQ(sweep_error("transient_revolutions = 1\nrevolutions = 1\nexponents = 1"), "");
-    EXPECT_EQ(error("sweep", "duration = 1"),
-              "scene.toml:4: study.duration is 1 (a sweep records whole revolutions); use study.revolutions");
-    EXPECT_EQ(error("sweep", "section = {on=\"y\"}"),
-              "scene.toml:4: study.section is a table (a sweep takes its sections at a crank angle); use study.phase");
-    EXPECT_EQ(error("sweep", "dt = 1"),
-              "scene.toml:4: study.dt is 1 (rescalings of a sweep fall on its sections); "
-              "use study.rescalings_per_revolution");
-    EXPECT_EQ(error("lyapunov", "quantities = [\"normal_force\"]"),
-              "scene.toml:4: study.quantities is \"normal_force\" (it is a time series and the study stores none); "
-              "remove it, or use kind = \"ensemble\"");
-    EXPECT_EQ(error("tolerance", "phase = 0"),
-              "scene.toml:4: study.phase is 0 (it has no effect with kind = \"tolerance\"); "
-              "remove it, or use kind = \"poincare\" or \"sweep\"");
 }
 
 TEST(SceneChaosErrors, KeysThatSayTheSame) {
@@ -81,32 +55,8 @@ TEST(SceneChaosErrors, KeysThatSayTheSame) {
 }
 
 TEST(SceneChaosErrors, Sections) {
-    EXPECT_EQ(error("poincare", "section = \"vy\""),
-              "scene.toml:4: study.section is \"vy\" (not a section); "
-              "write for example { on = \"vy\", value = \"0 mm/s\", direction = \"rising\" }");
-    EXPECT_EQ(error("poincare", "section = { value = 1 }"),
-              "scene.toml:4: study.section has no on (what crosses the section); "
-              "write for example { on = \"vy\", value = \"0 mm/s\", direction = \"rising\" }");
-    EXPECT_EQ(error("poincare", "section = { on = \"vy\", level = 1 }"),
-              "scene.toml:4: study.section.level is 1 (no argument of a section); use on, value, direction");
-    EXPECT_EQ(error("poincare", "section = { on = \"gap_y[P9]\" }"),
-              "scene.toml:4: study.section.on is \"gap_y[P9]\" (neither a state nor a gap); "
-              "did you mean \"gap_y[P1]\"?");
-    EXPECT_EQ(
-        error("poincare", "section = { on = \"energy\" }"),
-        "scene.toml:4: study.section.on is \"energy\" (neither a state nor a gap); use one of y, z, vy, vz, roll, "
-        "yaw, pitch, wx, wy, wz, gap_y[P1] to gap_y[P8], gap_z[P1] to gap_z[P8]");
-    EXPECT_EQ(error("poincare", "section = { on = \"vy\", value = \"1 mm\" }"),
-              "scene.toml:4: study.section.value is \"1 mm\" (the unit \"mm\" does not convert to m/s); "
-              "use a unit like m/s or mm/s");
     EXPECT_TRUE(contains(error("poincare", "section = { on = \"gap_z[P1]\", value = \"1 mm/s\" }"), "convert to m)"));
-    EXPECT_EQ(error("poincare", "section = { on = \"vy\", direction = \"up\" }"),
-              "scene.toml:4: study.section.direction is \"up\" (there is no such direction); "
-              "use one of rising, falling, both");
     EXPECT_TRUE(contains(error("poincare", "phase = \"1 m\""), "scene.toml:4: study.phase is \"1 m\""));
-    EXPECT_EQ(error("poincare", "max_crossings = 7"),
-              "scene.toml:4: study.max_crossings is 7 (a crank angle comes once a revolution); "
-              "remove it, or give study.section");
     EXPECT_TRUE(contains(error("poincare", "section = {on=\"y\"}\nmax_crossings = 0"), "study.max_crossings is 0"));
 }
 
@@ -116,14 +66,8 @@ TEST(SceneChaosErrors, LengthsOfTime) {
     EXPECT_TRUE(contains(error("poincare", "Ttr = -1"), "study.Ttr is -1 s (out of range for the transient)"));
     EXPECT_TRUE(contains(error("poincare", "transient_revolutions = -1"), "study.transient_revolutions is -1"));
     EXPECT_TRUE(contains(error("lyapunov", "Ttr = \"1 m\""), "study.Ttr is \"1 m\""));
-    EXPECT_EQ(error("poincare", "revolutions = 1e9"),
-              "scene.toml:4: study.revolutions is 1000000000 (with the transient a member lasts 2e+09 s); "
-              "stay below 1000000000 s");
     EXPECT_TRUE(contains(error("lyapunov", "[mechanism]\ncrank_speed = 1e-300"),
                          "scene.toml:3: study.revolutions is not given (with the transient a member lasts"));
-    EXPECT_EQ(error("lyapunov", "duration = 0.1\ndt = 0.2"),
-              "scene.toml:4: study.duration is 0.1 (it ends before the first rescaling); "
-              "record for longer, or rescale oftener");
 }
 
 TEST(SceneChaosErrors, ACrankAtRest) {
@@ -138,8 +82,6 @@ TEST(SceneChaosErrors, ACrankAtRest) {
               "give study.section");
     EXPECT_TRUE(contains(error("poincare", "phase = 1" + rest), "scene.toml:4: study.phase is 1 (mechanism.crank_sp"));
     EXPECT_TRUE(contains(sweep_error(rest), "give the crank a speed"));
-    EXPECT_EQ(error("sweep", "parameter = \"mechanism.crank_speed\"\nvalues = [1, 0]"),
-              "scene.toml:5: study.values is 0 rad/s (a crank at rest comes to no section); leave the value out");
     EXPECT_TRUE(contains(error("poincare", "[study.vary]\n\"mechanism.crank_speed\" = {dist=\"unif\",low=-1,high=1}"),
                          "mechanism.crank_speed may be 0, where revolutions do not end"));
 }
@@ -165,18 +107,12 @@ TEST(SceneChaosErrors, Neighbours) {
         EXPECT_TRUE(contains(line, "must be an integer from 1 to 10")) << line;
     }
     EXPECT_TRUE(contains(sweep_error("exponents = 11"), "must be an integer from 0 to 10"));
-    EXPECT_EQ(error("lyapunov", "d0_lower = 1e-6"),
-              "scene.toml:4: study.d0_lower is 1e-06 (not below study.d0, 1e-06); use d0_lower < d0 < d0_upper");
-    EXPECT_EQ(error("lyapunov", "d0 = 1e-3\nd0_upper = 1e-4"),
-              "scene.toml:5: study.d0_upper is 0.0001 (not above study.d0, 0.001); use d0_lower < d0 < d0_upper");
     for (char const* value : {"0", "-1", "2", "nan", "\"1 mm\""}) {
         EXPECT_TRUE(contains(error("lyapunov", fmt::format("d0 = {}", value)), "scene.toml:4: study.d0 is ")) << value;
     }
     EXPECT_TRUE(contains(error("lyapunov", "dt = 0"), "study.dt is 0 s (out of range"));
     EXPECT_TRUE(contains(error("lyapunov", "rescalings_per_revolution = 0"), "study.rescalings_per_revolution is 0"));
     EXPECT_TRUE(contains(error("lyapunov", "rescalings_per_revolution = 1.5"), "must be an integer"));
-    EXPECT_EQ(error("lyapunov", "revolutions = 2\nrescalings_per_revolution = 7\nhistory = 15"),
-              "scene.toml:6: study.history is 15 (there are 14 rescalings); use a value <= 14");
     EXPECT_TRUE(contains(error("lyapunov", "history = -1"), "study.history is -1"));
 }
 
@@ -188,18 +124,9 @@ TEST(SceneChaosErrors, Sizes) {
 }
 
 TEST(SceneChaosErrors, SweptKeys) {
-    EXPECT_EQ(error("sweep", "values = [1]"),
-              "scene.toml:3: study.parameter is missing (a sweep changes one key); "
-              "add parameter = \"joint.clearance\"");
-    EXPECT_EQ(error("sweep", "parameter = \"joint.clearence\"\nvalues = [1]"),
-              "scene.toml:4: study.parameter is \"joint.clearence\" (only numeric keys of the physics can be swept); "
-              "did you mean \"joint.clearance\"?");
     EXPECT_TRUE(
         contains(error("sweep", "parameter = \"study.members\"\nvalues = [1]"), "only numeric keys of the phys"));
     EXPECT_TRUE(contains(error("sweep", "parameter = 1\nvalues = [1]"), "study.parameter is 1 (not a text)"));
-    EXPECT_EQ(sweep_error("[study.vary]\n\"joint.clearance_y\" = {dist=\"const\", value=1}"),
-              "scene.toml:4: study.parameter is \"joint.clearance\" (study.vary.joint.clearance_y varies the same); "
-              "remove one of the two");
     EXPECT_EQ(
         sweep_error("", {{"joint.clearance", "1e-4"}}),
         "--set joint.clearance=1e-4: joint.clearance is 0.0001 (the sweep sets it in every column, so this has no "
@@ -210,9 +137,6 @@ TEST(SceneChaosErrors, SweptKeys) {
 }
 
 TEST(SceneChaosErrors, SweptValues) {
-    EXPECT_EQ(error("sweep", "parameter = \"joint.clearance\""),
-              "scene.toml:3: study.from is missing (a sweep needs its values); "
-              "give study.values, or study.from, study.to and study.points");
     EXPECT_TRUE(contains(error("sweep", "parameter = \"joint.clearance\"\nfrom = 1"), "study.to is missing"));
     EXPECT_TRUE(contains(error("sweep", "parameter = \"joint.clearance\"\nfrom = 1\nto = 2"),
                          "study.points is missing (how many columns there are); add points = 50"));
@@ -238,26 +162,13 @@ TEST(SceneChaosErrors, SweptValues) {
               "use ends of one sign, or \"linear\"");
     EXPECT_TRUE(contains(range("0", "1", "points = 3\nspacing = \"log\""), "no common ratio"));
     EXPECT_TRUE(contains(range("1", "2", "points = 3\nspacing = \"square\""), "there is no such spacing"));
-    EXPECT_EQ(error("sweep", "parameter = \"mechanism.crank_length\"\nvalues = [0.05, 0.2]"),
-              "scene.toml:5: study.values is 0.2 m (mechanism.rod_length would be 0.1422 m: the crank of 0.2 m cannot "
-              "turn fully); use a rod longer than the crank, or crank_speed = 0");
     EXPECT_TRUE(contains(error("sweep", "parameter = \"mechanism.crank_length\"\nfrom = 0.05\nto = 0.2\npoints = 9"),
                          "scene.toml:6: study.to is 0.2"));
-    EXPECT_EQ(error("sweep", "parameter = \"mechanism.crank_speed\"\nfrom = -1\nto = 1\npoints = 3"),
-              "scene.toml:7: study.points is 3 (one is 0 rad/s: a crank at rest comes to no section); "
-              "use study.values, or other limits");
 }
 
 TEST(SceneChaosErrors, Columns) {
-    EXPECT_EQ(sweep_error("revolutions = 2.5"),
-              "scene.toml:6: study.revolutions is 2.5 (a sweep records whole revolutions); use an integer");
-    EXPECT_EQ(sweep_error("start = \"continue\"\nTtr = 2"),
-              "scene.toml:7: study.Ttr is 2 (with start = \"continue\" columns begin at the crank angle where the one "
-              "before ended); use a whole number of study.transient_revolutions");
     EXPECT_TRUE(contains(sweep_error("start = \"continue\"\ntransient_revolutions = 2.5"), "use a whole number"));
     EXPECT_EQ(sweep_error("start = \"continue\"\nTtr = 0"), "");
-    EXPECT_EQ(sweep_error("start = \"cont\""),
-              "scene.toml:6: study.start is \"cont\" (there is no such start); did you mean \"continue\"?");
 }
 
 TEST(SceneChaosErrors, MistypedKeysComeWithASuggestion) {

@@ -16,78 +16,6 @@ std::string error_in(std::string_view table, std::string_view line) {
     return error_of("schema = 1\n[" + std::string(table) + "]\n" + std::string(line) + "\n");
 }
 
-TEST(SceneErrors, NegativeAndZeroLengths) {
-    EXPECT_EQ(error_in("joint", "clearance = 0"),
-              "scene.toml:3: joint.clearance is 0 m (the joint needs a gap); use a value > 0");
-    EXPECT_EQ(error_in("joint", "clearance_y = \"-0.1 mm\""),
-              "scene.toml:3: joint.clearance_y is -0.1 mm (the joint needs a gap); use a value > 0");
-    EXPECT_EQ(error_in("mechanism", "rod_length = -1.5"),
-              "scene.toml:3: mechanism.rod_length is -1.5 m (the rod length must be positive); use a value > 0");
-    EXPECT_EQ(error_in("contact", "way_poisson_ratio = 0.6"),
-              "scene.toml:3: contact.way_poisson_ratio is 0.6 (no isotropic solid has it); "
-              "use a value > -1 and <= 0.5");
-    EXPECT_EQ(error_in("mechanism", "inclination = \"100 deg\""),
-              "scene.toml:3: mechanism.inclination is 100 deg "
-              "(the inclination of the way must be in [-90, 90] degrees); use a value from -90 deg to 90 deg");
-}
-
-TEST(SceneErrors, WrongTypes) {
-    EXPECT_EQ(error_in("joint", "clearance = true"),
-              "scene.toml:3: joint.clearance is true (not a number); use a number in m or a text like \"1 m\"");
-    EXPECT_EQ(error_in("contact", "eta = [1]"), "scene.toml:3: contact.eta is a list (not a number); use a number");
-    EXPECT_EQ(error_in("joint", "clearance = {a = 1}"),
-              "scene.toml:3: joint.clearance is a table (not a number); use a number in m or a text like \"1 m\"");
-    EXPECT_EQ(error_in("joint", "clearance = 1979-05-27"),
-              "scene.toml:3: joint.clearance is a date or time (not a number); "
-              "use a number in m or a text like \"1 m\"");
-    EXPECT_EQ(error_in("friction", "enabled = 1"),
-              "scene.toml:3: friction.enabled is 1 (not a truth value); use true or false");
-    EXPECT_EQ(error_in("contact", "law = 1"), "scene.toml:3: contact.law is 1 (not a text); put it in quotes");
-    EXPECT_EQ(error_of("schema = 1\ntitle = 1.5"), "scene.toml:2: title is 1.5 (not a text); put it in quotes");
-    EXPECT_EQ(error_of("schema = 1\njoint = 3"),
-              "scene.toml:2: joint is 3 (it must be a table); write [joint] and its keys below");
-    EXPECT_EQ(error_of("schema = 1\n[[joint]]\nclearance = 1"),
-              "scene.toml:2: joint is a list (it must be a table); write [joint] and its keys below");
-    EXPECT_EQ(error_in("study", "vary = 1"),
-              "scene.toml:3: study.vary is 1 (it must be a table); write [study.vary] and its keys below");
-    EXPECT_EQ(error_in("study", "quantities = \"mode_time\""),
-              "scene.toml:3: study.quantities is \"mode_time\" (not a list of names); "
-              "write for example [\"peak_normal_force\", \"energy_residual\"]");
-    EXPECT_EQ(error_in("study", "quantities = [\n\"mode_time\",\n7]"),
-              "scene.toml:5: study.quantities is 7 (not a text); put it in quotes");
-}
-
-TEST(SceneErrors, UnknownNamesComeWithASuggestion) {
-    EXPECT_EQ(error_in("joint", "clearence = 1"),
-              "scene.toml:3: joint.clearence is no key of a scene "
-              "(mistyped, it would have no effect); did you mean joint.clearance?");
-    EXPECT_EQ(error_of("schema = 1\n\n[joints]"),
-              "scene.toml:3: joints is no table of a scene "
-              "(mistyped, it would have no effect); did you mean joint?");
-    EXPECT_EQ(error_of("schema = 1\ncrank_length = 1"),
-              "scene.toml:2: crank_length is no key of a scene (mistyped, it would have no effect); "
-              "did you mean mechanism.crank_length?");
-    EXPECT_EQ(error_in("joint", "colour = 1"),
-              "scene.toml:3: joint.colour is no key of a scene (mistyped, it would have no effect); "
-              "remove it, or see `slideway list`");
-    EXPECT_EQ(error_of("schema = 1\n\"joint.clearance\" = 1"),
-              "scene.toml:2: joint.clearance is no key of a scene (mistyped, it would have no effect); "
-              "write it without quotes");
-    EXPECT_EQ(error_in("contact", "law = \"conservativ\""),
-              "scene.toml:3: contact.law is \"conservativ\" (there is no such contact law); "
-              "did you mean \"conservative\"?");
-    EXPECT_EQ(error_in("contact", "law = \"x\""),
-              "scene.toml:3: contact.law is \"x\" (there is no such contact law); use one of paper, conservative, kelvin_voigt");
-    EXPECT_EQ(error_in("integrator", "method = \"rk5\""),
-              "scene.toml:3: integrator.method is \"rk5\" (there is no such method); did you mean \"rk4\"?");
-    EXPECT_EQ(error_in("integrator", "method = \"euler\""),
-              "scene.toml:3: integrator.method is \"euler\" (there is no such method); use one of auto, dopri5, bs32, "
-              "ros34pw2, rk4");
-    EXPECT_EQ(error_in("study", "quantities = [\"peak_normal_forse\"]"),
-              "scene.toml:3: study.quantities is \"peak_normal_forse\" (there is no such quantity); "
-              "did you mean \"peak_normal_force\"?");
-}
-
 TEST(SceneErrors, UnknownMechanismsAndStudies) {
     std::string known;
     for (MechanismInfo const& mechanism : mechanisms()) {
@@ -98,26 +26,6 @@ TEST(SceneErrors, UnknownMechanismsAndStudies) {
               "scene.toml:3: mechanism.kind is \"lorenz\" (there is no such mechanism); use one of " + known);
     EXPECT_TRUE(contains(error_in("mechanism", "kind = \"slider_cranc\""), "did you mean \"slider_crank\"?"));
     EXPECT_TRUE(contains(error_in("study", "kind = \"x\""), "there is no such study"));
-}
-
-TEST(SceneErrors, Units) {
-    EXPECT_EQ(error_in("joint", "clearance = \"0.1 kg\""),
-              "scene.toml:3: joint.clearance is \"0.1 kg\" (the unit \"kg\" does not convert to m); "
-              "use a unit like m or mm");
-    EXPECT_EQ(error_in("joint", "clearance = \"0.1 smoot\""),
-              "scene.toml:3: joint.clearance is \"0.1 smoot\" (UDUNITS-2 knows no unit \"smoot\"); "
-              "use a unit like m or mm");
-    EXPECT_EQ(error_in("mechanism", "crank_speed = \"5 Hz\""),
-              "scene.toml:3: mechanism.crank_speed is \"5 Hz\" (the unit \"Hz\" does not convert to rad/s); "
-              "use a unit like rad/s or rpm or deg/s");
-    EXPECT_EQ(error_in("contact", "eta = \"1 rad\""),
-              "scene.toml:3: contact.eta is \"1 rad\" (the unit \"rad\" does not convert to a plain number); "
-              "use a plain number");
-    EXPECT_EQ(error_in("joint", "clearance = \"0.1\""),
-              "scene.toml:3: joint.clearance is \"0.1\" (a text needs a unit); "
-              "write the unit, \"0.1 m\", or the number without quotes");
-    EXPECT_EQ(error_in("joint", "clearance = \"\""),
-              "scene.toml:3: joint.clearance is \"\" (it does not begin with a number); use a text like \"1 m\"");
 }
 
 TEST(SceneErrors, NotFinite) {
@@ -159,9 +67,6 @@ TEST(SceneErrors, NanAnywhere) {
 }
 
 TEST(SceneErrors, Schema) {
-    EXPECT_EQ(error_of("title = \"x\"\n"),
-              "scene.toml:1: schema is missing (it says which format the scene is written in); "
-              "add the line schema = 1 at the top");
     for (char const* value : {"2", "0", "\"1\"", "1.0", "true"}) {
         std::string const error = error_of("\nschema = " + std::string(value));
         EXPECT_TRUE(contains(error, "scene.toml:2: schema is ")) << error;
@@ -170,17 +75,6 @@ TEST(SceneErrors, Schema) {
 }
 
 TEST(SceneErrors, DuplicateDefinitions) {
-    EXPECT_EQ(error_in("joint", "clearance = 1\nclearance_y = 1"),
-              "scene.toml:4: joint.clearance_y is 1 (joint.clearance in line 3 sets it too); remove one of the two");
-    EXPECT_EQ(error_in("contact", "way_young_modulus = 1e9\nyoung_modulus = 1e9"),
-              "scene.toml:4: contact.young_modulus is 1000000000 (contact.way_young_modulus in line 3 sets it too); "
-              "remove one of the two");
-    EXPECT_EQ(error_in("contact", "restitution = 0.4\neta = 0.01"),
-              "scene.toml:4: contact.eta is 0.01 (contact.restitution replaces it); remove one of the two");
-    EXPECT_EQ(error_in("study", "revolutions = 2\nduration = 3"),
-              "scene.toml:4: study.duration is 3 (study.revolutions says it too); remove one of the two");
-    EXPECT_EQ(error_in("study", "samples = 2\nsamples_per_revolution = 3"),
-              "scene.toml:4: study.samples_per_revolution is 3 (study.samples says it too); remove one of the two");
     EXPECT_TRUE(contains(error_in("joint", "clearance = 1\nclearance = 2"), "scene.toml:4: not TOML ("));
     EXPECT_TRUE(contains(error_in("joint", "[joint]"), "scene.toml:3: not TOML ("));
     EXPECT_TRUE(contains(error_of("schema = 1\n[contact]\nrestitution = 0.4", {{"contact.eta", "0.02"}}),
@@ -188,13 +82,7 @@ TEST(SceneErrors, DuplicateDefinitions) {
 }
 
 TEST(SceneErrors, BetweenKeys) {
-    EXPECT_EQ(error_in("friction", "stick_speed = 1\nslip_speed = \"10 mm/s\""),
-              "scene.toml:4: friction.slip_speed is 0.01 m/s (not above friction.stick_speed, 1 m/s); "
-              "use a slip_speed > stick_speed");
     EXPECT_TRUE(contains(error_in("friction", "stick_speed = 1"), "scene.toml:3: friction.slip_speed is 0.01 m/s"));
-    EXPECT_EQ(error_in("mechanism", "crank_length = 0.2"),
-              "scene.toml:3: mechanism.rod_length is 0.1422 m (the crank of 0.2 m cannot turn fully); "
-              "use a rod longer than the crank, or crank_speed = 0");
     EXPECT_EQ(error_of("schema = 1\n[mechanism]\ncrank_length = 0.2\ncrank_speed = 0"), "");
     EXPECT_TRUE(contains(error_in("mechanism", "rod_length = 1e300"), "scene.toml:"));
 }
@@ -227,20 +115,8 @@ TEST(SceneErrors, TimesAndTolerances) {
                          "scene.toml:5: study.revolutions is 2 (mechanism.crank_speed is 0"));
     EXPECT_TRUE(contains(error_of("schema = 1\n[mechanism]\ncrank_speed = 0\n[study]\nsamples_per_revolution = 2"),
                          "scene.toml:5: study.samples_per_revolution is 2 (mechanism.crank_speed is 0"));
-    EXPECT_EQ(error_in("integrator", "rtol = 1e-20"),
-              "scene.toml:3: integrator.rtol is 1e-20 (out of range for the relative tolerance); "
-              "use a value >= 1e-14 and <= 0.1");
-    EXPECT_EQ(error_in("integrator", "atol = 0"),
-              "scene.toml:3: integrator.atol is 0 (out of range for the absolute tolerance); "
-              "use a value > 0 and <= 0.1");
     EXPECT_TRUE(contains(error_in("integrator", "rtol = 0.2"), "scene.toml:3: integrator.rtol is 0.2"));
     EXPECT_TRUE(contains(error_in("integrator", "max_step = \"-1 ms\""), "scene.toml:3: integrator.max_step is -1 ms"));
-}
-
-TEST(SceneErrors, SeriesNeedSamples) {
-    EXPECT_EQ(error_in("study", "quantities = [\"normal_force\"]"),
-              "scene.toml:3: study.quantities is \"normal_force\" (it is a time series and the study stores none); "
-              "set study.samples_per_revolution or study.samples");
 }
 
 TEST(SceneErrors, Distributions) {
@@ -341,7 +217,6 @@ TEST(SceneErrors, FilesThatCannotBeRead) {
 }
 
 TEST(SceneErrors, FilesThatAreNoScene) {
-    EXPECT_EQ(error_of(""), "scene.toml:1: schema is missing (the file is empty); write a scene, see scenes/");
     EXPECT_EQ(error_of("\n  \n"), "scene.toml:1: schema is missing (the file is empty); write a scene, see scenes/");
     EXPECT_TRUE(contains(error_of("schema = 1\n<html>\n"), "scene.toml:2: not TOML ("));
     EXPECT_TRUE(contains(error_of("schema = 1\n[=]\n"), "scene.toml:2: not TOML ("));

@@ -1,6 +1,7 @@
 // Result files whose variables do not belong together, as an editor of NetCDF files leaves them: refused, whatever is asked of them.
 #include <array>
 
+#include "host/base/error.hpp"
 #include "host/study/orbit_summary.hpp"
 #include "host/study/result_summary.hpp"
 #include "host/study/series_file.hpp"
