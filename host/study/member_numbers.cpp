@@ -154,6 +154,9 @@ MemberNumbers fresh_numbers(Scene const& scene, std::vector<std::uint64_t> const
     auto const offsets = static_cast<std::size_t>(shadow_plan(scene).count);
     std::vector<std::size_t> quantities;
     for (QuantityColumn const& column : compared_columns(scene)) quantities.push_back(place_of(column));
+    bool const audited = selects(scene.quantities, Quantity::energy_residual);
+    auto const residual = static_cast<std::size_t>(quantity_column(Quantity::energy_residual));
+    if (audited) numbers.energy_residual.assign(members.size(), nan);
     auto const take = [&](BlockResult const& block) {
         std::vector<double> times;
         for (MemberRecord const& record : block.records) times.push_back(record.time);
@@ -165,6 +168,7 @@ MemberNumbers fresh_numbers(Scene const& scene, std::vector<std::uint64_t> const
             numbers.work[place] =
                 work_of(static_cast<double>(record.rhs_evaluations), static_cast<double>(record.jacobian_evaluations));
             if (record.status != Status::finished) continue;
+            if (audited) numbers.energy_residual[place] = block.quantities[i * quantity_columns + residual];
             auto next = numbers.columns.begin();
             auto const put = [&](double value) { (next++)->values[place] = value; };
             for (std::size_t const q : quantities) put(block.quantities[i * quantity_columns + q]);

@@ -22,6 +22,7 @@ struct MemberNumbers {
     };
     std::vector<Column> columns;
     std::vector<double> work;  // [members] right-hand sides, a Jacobian counting one and a half
+    std::vector<double> energy_residual = {};  // [members] J, of a check that asks for it; else empty
 
     std::size_t finished() const;
     double total_work() const;

@@ -38,8 +38,12 @@ std::string describe(Verification const& v, Scene const& scene) {
         if (v.finished[i] < v.members.size())
             unfinished += fmt::format("\n  by {} {} of {} came to their end", v.methods[i], v.finished[i], v.members.size());
     }
+    std::string const energy =
+        v.energy ? fmt::format("energy audit: the integration makes {:.2g} % of the energy of the slider's fall through its clearance in a period of the drive{}",
+                               100 * v.energy->share, v.energy->is_too_much ? ": too much for exponents" : "")
+                 : "";
     if (v.resolution == Resolution::resolved)
-        return fmt::format("resolved: {}: no mean and no distribution differs beyond chance", again) + unfinished;
+        return fmt::format("resolved: {}: no mean and no distribution differs beyond chance{}{}", again, v.energy ? "; " : "", energy) + unfinished;
     std::string text = fmt::format("NOT RESOLVED by {}: {}", v.settings, again) + unfinished;
     for (CheckedColumn const& found : v.findings) {
         if (!found.differs) continue;
@@ -49,6 +53,7 @@ std::string describe(Verification const& v, Scene const& scene) {
                             found.pairs.interval.half_width(), column.unit, found.p,
                             found.refutes_sign ? ": the sign of the study's is refuted" : "");
     }
+    if (v.energy && v.energy->is_too_much) text += "\n  " + energy;
     return text + "\n  " + remedy(scene, v);
 }
 
@@ -171,6 +176,7 @@ Verification verify(ResultView const& results, Scene const& scene, Backend const
         if (v.members.empty()) v.numbers.push_back(stored_numbers(*stored, scene, choose(count), work, whole));
         if (!request.members) limit_steps(method.scene, budget.most_of_a_member());
         v.numbers.push_back(run_again(method.scene, method.cost));
+        if (auto const energy = audit_energy(v.numbers.back(), method.scene)) v.energy = energy;
         if (request.stop != nullptr && request.stop->reason() != StopReason::none) return not_checked(std::move(v), "the run was stopped");
         v.methods.push_back(method.words);
         v.finished.push_back(v.numbers.back().finished());
@@ -186,7 +192,8 @@ Verification verify(ResultView const& results, Scene const& scene, Backend const
     bool const enough = std::any_of(v.findings.begin(), v.findings.end(), [&](CheckedColumn const& found) {
         return found.pairs.pairs >= least_members && 2 * found.pairs.pairs > v.members.size();
     });
-    bool const differs = std::any_of(v.findings.begin(), v.findings.end(), [](CheckedColumn const& found) { return found.differs; });
+    bool const differs = (v.energy && v.energy->is_too_much) ||
+                         std::any_of(v.findings.begin(), v.findings.end(), [](CheckedColumn const& found) { return found.differs; });
     if (!enough && !differs) {
         if (v.numbers.front().finished() < least_members) return not_checked(std::move(v), "too few of its members came to their end");
         std::string ends;

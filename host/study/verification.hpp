@@ -59,6 +59,17 @@ inline constexpr std::size_t least_members = 6;
 std::vector<CheckedColumn> compare(std::vector<MemberNumbers> const& numbers, Scene const& scene,
                                    std::vector<WholeColumn> const& whole, std::uint64_t all);
 
+/// What the slider's fall through its clearance gives [J], M g c + M (cΩ)².
+double fall_energy(Scene const& scene);
+
+/// Of a law that keeps energy: what the integration makes of it.
+struct EnergyCheck {
+    double share;     // mean of what members made a period of the drive, of fall_energy
+    bool is_too_much; // for exponents of that motion: above a hundredth
+};
+/// Nothing where no member tells.
+std::optional<EnergyCheck> audit_energy(MemberNumbers const& numbers, Scene const& scene);
+
 enum class Resolution { resolved, not_resolved, not_checked };
 
 struct Verification {
@@ -70,6 +81,7 @@ struct Verification {
     double share = 0;                      // of the study's work
     std::vector<MemberNumbers> numbers;    // the study's, and of each check
     std::vector<CheckedColumn> findings;   // one per column and check
+    std::optional<EnergyCheck> energy;     // of a study with exponents
     std::string summary;                   // lines of words, the first one says it all
 };
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "host/config/descriptors.hpp"
+#include "host/config/drive_period.hpp"
 #include "host/study/orbit_schedule.hpp"
 #include "host/study/verification.hpp"
 #include "kernels/members/complete_inputs.hpp"
@@ -15,6 +16,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double level = 0.95;
 constexpr double false_alarms = 0.02;    // of studies
 constexpr double least_relative = 1e-3;  // differences of a mean that nobody prints
+constexpr double most_energy = 0.01;     // made a period of the drive, of what that fall gives
 constexpr double least_share = 1e-4;     // of the run's time, and of what a fall through the clearance gives: differences that nobody feels
 /// Welch's test trusts means of few members to be normal: not of fewer, nor of numbers as skewed as rare events.
 constexpr std::size_t least_of_welch = 12;
@@ -29,10 +31,7 @@ double chance_of_mean(Summary const& some, std::uint64_t all) {
 /// A difference below which a number with this unit is the same.
 double least_difference(std::string const& unit, Scene const& scene) {
     if (unit == "s") return least_share * orbit_schedule(scene).end;
-    if (unit != "J") return 0;
-    Inputs const in = complete_inputs(scene.inputs);
-    double const clearance = std::max(in.clearance_y, in.clearance_z), speed = clearance * std::max(1.0, std::abs(in.crank_speed));
-    return least_share * in.slider_mass * (std::abs(in.gravity) * clearance + speed * speed);
+    return unit == "J" ? least_share * fall_energy(scene) : 0;
 }
 
 bool is_certain(Summary const& summary) {
@@ -41,6 +40,22 @@ bool is_certain(Summary const& summary) {
 }
 
 }  // namespace
+
+double fall_energy(Scene const& scene) {
+    Inputs const in = complete_inputs(scene.inputs);
+    double const clearance = std::max(in.clearance_y, in.clearance_z), speed = clearance * std::max(1.0, std::abs(in.crank_speed));
+    return in.slider_mass * (std::abs(in.gravity) * clearance + speed * speed);
+}
+
+std::optional<EnergyCheck> audit_energy(MemberNumbers const& numbers, Scene const& scene) {
+    std::vector<double> made;
+    for (double const residual : numbers.energy_residual) made.push_back(std::abs(residual));
+    Summary const summary = summarise(made);
+    if (summary.count == 0) return {};
+    double const end = orbit_schedule(scene).end, period = drive_period(scene.parts, scene.inputs);
+    double const share = summary.mean / std::max(1.0, end / period) / fall_energy(scene);
+    return EnergyCheck{share, !(share < most_energy)};
+}
 
 std::vector<CheckedColumn> compare(std::vector<MemberNumbers> const& numbers, Scene const& scene,
                                    std::vector<WholeColumn> const& whole, std::uint64_t all) {

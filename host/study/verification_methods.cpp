@@ -91,6 +91,8 @@ std::vector<CheckMethod> check_methods(Scene const& scene) {
     if (scene.chaos.exponents > 0 && !runs_to_end(scene.study)) {
         Scene wide = bare;
         wide.chaos.d0 = std::min(1e-2, farther * scene.chaos.d0);
+        // The study's own orbits once more: they also tell what energy the integration makes of them.
+        if (!makes_energy(scene.parts)) wide.quantities |= selection_of(Quantity::energy_residual);
         double const factor = wide.chaos.d0 / scene.chaos.d0;
         wide.chaos.d0_lower *= factor;
         wide.chaos.d0_upper *= factor;

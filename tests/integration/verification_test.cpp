@@ -2,7 +2,9 @@
 #include "host/study/verification.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include "tests/support/scene_fixture.hpp"
@@ -32,7 +34,7 @@ std::vector<double> plus(std::vector<double> values, double shift) {
 
 /// One column of a study and of one check of it.
 std::vector<MemberNumbers> numbers(std::vector<double> own, std::vector<double> again, bool is_exponent = false, std::string unit = "N") {
-    return {{{{"column", unit, is_exponent, std::move(own)}}, {}}, {{{"column", unit, is_exponent, std::move(again)}}, {}}};
+    return {{{{"column", unit, is_exponent, std::move(own)}}, {}, {}}, {{{"column", unit, is_exponent, std::move(again)}}, {}, {}}};
 }
 
 CheckedColumn checked(std::vector<MemberNumbers> const& numbers, std::vector<double> const& whole = {}) {
@@ -63,6 +65,37 @@ TEST(ForeseenCheck, RunsMembersThatAreNotStoredInTheStudysWayToo) {
     kept.store = Store::statistics;
     EXPECT_EQ(foreseen_check(kept, {}, 1000), 16 + 16 * 4);
     EXPECT_EQ(foreseen_check(kept, {}, 300), 0);
+}
+
+/// A steel block of 0.1872 kg falls through 0.1 mm: 1.8366e-4 J with what the crank's speed of π rad/s adds.
+TEST(EnergyCheck, IsOfTheFallThroughTheClearance) {
+    EXPECT_NEAR(fall_energy(scene()), 0.1872 * (9.81 * 1e-4 + std::pow(1e-4 * std::numbers::pi, 2)), 1e-12);
+    MemberNumbers numbers;
+    EXPECT_FALSE(audit_energy(numbers, scene())) << "no check asked for it";
+    numbers.energy_residual = {1e-6, -1e-6, nan, 1e-6};
+    auto const little = audit_energy(numbers, scene());  // 1 s is less than a revolution, and counts as one
+    ASSERT_TRUE(little);
+    EXPECT_NEAR(little->share, 1e-6 / fall_energy(scene()), 1e-12);
+    EXPECT_FALSE(little->is_too_much);
+    numbers.energy_residual.assign(4, -2e-6);
+    EXPECT_TRUE(audit_energy(numbers, scene())->is_too_much);
+    Scene longer = scene();
+    longer.integrator.end_time = 20;  // ten revolutions
+    EXPECT_NEAR(audit_energy(numbers, longer)->share, 2e-7 / fall_energy(scene()), 1e-12);
+    numbers.energy_residual.assign(4, nan);
+    EXPECT_FALSE(audit_energy(numbers, scene())) << "nobody came to the end";
+}
+
+TEST(EnergyCheck, IsAskedOfExponentsUnderALawThatKeepsEnergy) {
+    auto const audited = [](std::string const& law, std::string const& kind) {
+        Scene const study = scene_of("schema = 1\n[contact]\nlaw = \"" + law + "\"\n[study]\nkind = \"" + kind +
+                                     "\"\nmembers = 8\nTtr = \"1 s\"\nduration = \"2 s\"\n");
+        auto const methods = check_methods(study);
+        return std::ranges::any_of(methods, [](CheckMethod const& m) { return selects(m.scene.quantities, Quantity::energy_residual); });
+    };
+    EXPECT_TRUE(audited("conservative", "lyapunov"));
+    EXPECT_TRUE(audited("kelvin_voigt", "lyapunov"));
+    EXPECT_FALSE(audited("paper", "lyapunov")) << "its switches make energy";
 }
 
 TEST(CheckedNumbers, ThatScatterByRoundingAreTheSame) {
