@@ -1,4 +1,6 @@
 // Every byte of a result changed, one after another: told, or no part of what is read.
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
