@@ -1,9 +1,12 @@
 // Every byte of a result changed, one after another: told, or no part of what is read.
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include <unistd.h>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "host/base/error.hpp"
@@ -21,8 +24,8 @@ TEST(EveryByte, OfAResultIsToldOrDoesNotMatter) {
     auto const folder = std::filesystem::temp_directory_path() / ("slideway_bytes_" + std::to_string(getpid()));
     std::filesystem::create_directories(folder);
     std::string const file = (folder / "s.nc").string();
-    std::string const command = std::string(SLIDEWAY_BINARY) + " run " SLIDEWAY_SCENES "/ensemble_starts.toml --set study.members=4 " +
-                                "--set study.samples=5 --set study.duration=0.002 --quiet -o " + file;
+    std::string const command = fmt::format("{} run {}/ensemble_starts.toml --set study.members=4 --set study.samples=5 --set study.duration=0.002 "
+                                            "--quiet -o {}", SLIDEWAY_BINARY, SLIDEWAY_SCENES, file);
     ASSERT_EQ(std::system(command.c_str()), 0);
     std::string const whole = bytes_of(file);
     SealCheck const before = check_result(file);
