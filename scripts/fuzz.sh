@@ -43,6 +43,11 @@ limit=(-max_total_time=$(((seconds + ${#targets[@]} - 1) / ${#targets[@]})))
 [[ -z $runs ]] || limit=(-runs="$runs")
 # netCDF and HDF5 keep what they allocated once; leaks are looked for in what is ours.
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
+base=${TMPDIR:-/tmp}
+[[ -n ${TMPDIR:-} || ! -w /dev/shm ]] || base=/dev/shm
+TMPDIR=$(mktemp -d "$base/slideway_fuzz.XXXXXX")
+export TMPDIR
+trap 'rm -rf "$TMPDIR"' EXIT
 found=0
 for target in "${targets[@]}"; do
     mkdir -p "$build/corpus/$target" "$build/findings"

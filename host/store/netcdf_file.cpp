@@ -340,7 +340,7 @@ std::string NetcdfFile::text(int variable, std::string const& name) const {
     if (type == NC_STRING && length == 1) {
         char* string = nullptr;
         require(nc_get_att_string(id_, where, name.c_str(), &string), "read attribute " + name);
-        std::string const value = string != nullptr ? string : "";
+        std::string value = string != nullptr ? string : "";
         nc_free_string(1, &string);
         return value;
     }
