@@ -38,10 +38,12 @@ inline constexpr ExitCode exit_codes[] = {
     {exit_code::stopped_early, "stopped early, by a signal or --max-hours; what is finished can be resumed"},
 };
 
-/// What an exception that ends a command makes the exit code.
-int exit_code_of(std::exception_ptr error);
-/// What it makes the line on stderr.
-std::string line_of(std::exception_ptr const& error);
+/// What a failure says in one line, and the program's exit code.
+struct Complaint {
+    int code;
+    std::string line;
+};
+Complaint complaint_of(std::exception_ptr const& error);
 
 struct SceneArguments {
     std::string path;

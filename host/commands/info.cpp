@@ -59,11 +59,10 @@ void print_info(InfoArguments const& arguments, ResultReader const& results, Sea
     if (!seal.intact()) return;
     fmt::print("\nstatus\n");
     print_statuses(count_statuses(results));
-    auto const quantities = summarise_quantities(results);
     if (auto const report = report_of(results))
         print_tolerance(*report);
     else
-        print_quantities(quantities);
+        print_quantities(summarise_quantities(results));
     print_exponents(results);
     print_sections(results);
     if (auto const summary = verification_summary(results)) print_text(0, "\n{}", *summary);

@@ -1,9 +1,7 @@
-#include <cmath>
 #include <iterator>
 #include <string>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "host/commands/commands.hpp"
 #include "host/commands/text.hpp"

@@ -60,8 +60,8 @@ int main(int argc, char** argv) {
         return code;
     } catch (FileError const& error) {
         complain_of_file(error.what());
-    } catch (std::exception const&) {
-        std::exception_ptr const error = std::current_exception();
-        return complain(exit_code_of(error), line_of(error));
+    } catch (...) {
+        Complaint const complaint = complaint_of(std::current_exception());
+        return complain(complaint.code, complaint.line);
     }
 }

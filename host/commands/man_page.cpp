@@ -1,6 +1,5 @@
 // slideway.1, in the man macros that both groff and mandoc know.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "host/commands/commands.hpp"
 #include "host/commands/description.hpp"

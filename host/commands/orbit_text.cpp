@@ -3,7 +3,6 @@
 #include "host/commands/text.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 

@@ -254,17 +254,17 @@ int run(RunArguments const& arguments) {
         ranks->broadcast(invitation(study, *options.backend));
         return ranks->agree(lead(arguments, scene, options, study, *ranks, stop));
     } catch (...) {
-        std::exception_ptr const error = std::current_exception();
+        Complaint const complaint = complaint_of(std::current_exception());
         if (ranks->is_in_round()) {
             // The others are at work, and hear nothing but the end of the job.
             std::fflush(stdout);
-            tell("{}\n", line_of(error));
-            ranks->abort(exit_code_of(error));
+            tell("{}\n", complaint.line);
+            ranks->abort(complaint.code);
         }
         if (ranks->rank() > 0) throw;
         // The others wait for what rank 0 says.
         if (!invited) ranks->broadcast({});
-        ranks->agree(exit_code_of(error));
+        ranks->agree(complaint.code);
         throw;
     }
 }

@@ -24,7 +24,8 @@ struct Rows : std::vector<std::pair<std::string, std::string>> {
 };
 
 StoredSeries read_series(StatsArguments const& arguments) {
-    if (is_netcdf(arguments.path)) {
+    std::ifstream in(arguments.path, std::ios::binary);
+    if (is_netcdf(in, arguments.path)) {
         if (arguments.column) throw SceneError("--column is for tables; use --variable for a result file");
         if (arguments.spacing) throw SceneError("--dt is for tables; a result file has its own times");
         require_intact(arguments.path);
@@ -32,7 +33,6 @@ StoredSeries read_series(StatsArguments const& arguments) {
     }
     if (arguments.variable) throw SceneError("--variable is for result files; use --column for a table");
     if (arguments.member) throw SceneError("--member is for result files; use --column for a table");
-    std::ifstream in(arguments.path);
     return read_csv_series(in, arguments.path, arguments.column.value_or(""), arguments.spacing);
 }
 

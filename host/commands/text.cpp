@@ -15,39 +15,23 @@
 
 namespace slideway::cli {
 
-int exit_code_of(std::exception_ptr error) {
-    try {
-        std::rethrow_exception(std::move(error));
-    } catch (SceneError const&) {
-        return exit_code::bad_usage;
-    } catch (FileError const&) {
-        return exit_code::file_trouble;
-    } catch (DeviceError const&) {
-        return exit_code::file_trouble;
-    } catch (std::bad_alloc const&) {
-        return exit_code::file_trouble;
-    } catch (std::system_error const&) {
-        return exit_code::file_trouble;
-    } catch (...) {
-        return exit_code::internal_error;
-    }
-}
-
-std::string line_of(std::exception_ptr const& error) {
+Complaint complaint_of(std::exception_ptr const& error) {
     try {
         std::rethrow_exception(error);
     } catch (SceneError const& known) {
-        return known.what();
+        return {exit_code::bad_usage, known.what()};
     } catch (FileError const& known) {
-        return known.what();
+        return {exit_code::file_trouble, known.what()};
     } catch (DeviceError const& known) {
-        return known.what();
+        return {exit_code::file_trouble, known.what()};
     } catch (std::bad_alloc const&) {
-        return "slideway: not enough memory; ask for fewer members or samples";
+        return {exit_code::file_trouble, "slideway: not enough memory; ask for fewer members or samples"};
     } catch (std::system_error const& known) {
-        return fmt::format("slideway: {}", known.what());
+        return {exit_code::file_trouble, fmt::format("slideway: {}", known.what())};
     } catch (std::exception const& unknown) {
-        return fmt::format("slideway: internal error: {}", unknown.what());
+        return {exit_code::internal_error, fmt::format("slideway: internal error: {}", unknown.what())};
+    } catch (...) {
+        return {exit_code::internal_error, "slideway: internal error"};
     }
 }
 

@@ -1,7 +1,6 @@
 #include "host/config/document.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 #include <optional>
 #include <utility>

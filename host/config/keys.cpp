@@ -1,7 +1,6 @@
 #include "host/config/keys.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>

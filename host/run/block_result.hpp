@@ -1,4 +1,4 @@
-// What the driver hands to a sink: the results of one block of members, as views of memory that the driver owns.
+// What a run hands to a sink: the results of one block of members, as views of memory that the run owns.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,7 @@
 // Rank 0 hands out the places.  A thread of it answers the other ranks: a question of theirs is
 // {wanted, finished, what}, the answer {first, count, left}.  Its own workers take from the same queue without MPI.
-#include "host/run/mpi_ranks.hpp"
+#include "host/run/ranks.hpp"
 
-#include <array>
 #include <atomic>
 #include <exception>
 #include <stdexcept>

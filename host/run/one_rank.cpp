@@ -4,7 +4,6 @@
 
 #include "host/base/error.hpp"
 #include "host/run/launcher.hpp"
-#include "host/run/mpi_ranks.hpp"
 #include "host/run/ranks.hpp"
 
 namespace slideway {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "host/run/launcher.hpp"
 #include "host/run/member_queue.hpp"
 
 namespace slideway {
@@ -39,5 +40,9 @@ public:
     /// Ends the processes of all ranks, with this exit code where the launcher passes it on.  Does not return.
     [[noreturn]] virtual void abort(int code) = 0;
 };
+
+/// Of a build with MPI: starts it; the returned object ends it.
+/// @throws SceneError if MPI lets only its main thread make calls, or sees other processes than the launcher started.
+std::unique_ptr<Ranks> join_mpi(Launch const& launch);
 
 }  // namespace slideway

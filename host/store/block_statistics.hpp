@@ -12,7 +12,7 @@
 #include "host/run/member_set.hpp"
 #include "host/sampling/design.hpp"
 #include "host/statistics/column_accumulator.hpp"
-#include "host/store/work_table.hpp"
+#include "host/store/result_layout.hpp"
 #include "kernels/block.hpp"
 
 namespace slideway {

@@ -1,8 +1,6 @@
 #include "host/store/output_target.hpp"
 
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <system_error>

@@ -1,11 +1,9 @@
 #include "host/store/provenance.hpp"
 
 #include <cstdlib>
-#include <cstring>
 #include <ctime>
 #include <fstream>
 #include <string_view>
-#include <system_error>
 #include <thread>
 #include <vector>
 

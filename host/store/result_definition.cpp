@@ -10,7 +10,7 @@
 
 #include "host/base/error.hpp"
 #include "host/store/label_axes.hpp"
-#include "host/store/work_table.hpp"
+#include "host/store/result_layout.hpp"
 
 namespace slideway {
 namespace {

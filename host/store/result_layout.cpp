@@ -4,7 +4,6 @@
 #include <bit>
 
 #include "host/run/block_result.hpp"
-#include "host/store/work_table.hpp"
 
 namespace slideway {
 
@@ -41,6 +40,21 @@ std::uint64_t header_bytes(ResultLayout const& layout, Provenance const& provena
     variables += 2 * (layout.study.columns.size() + layout.study.axes.size());
     if (layout.sections > 0) variables += 2 + section_columns(layout.states());
     return of_file + variables * of_variable + provenance.scene.size() + provenance.flags.size();
+}
+
+std::vector<std::size_t> StudyTable::shape(StudyColumn const& column) const {
+    std::vector<std::size_t> lengths;
+    for (std::string const& name : column.axes) {
+        auto const axis = std::find_if(axes.begin(), axes.end(), [&](StudyAxis const& a) { return a.name == name; });
+        lengths.push_back(axis->values.size());
+    }
+    return lengths;
+}
+
+std::size_t StudyTable::width(StudyColumn const& column) const {
+    std::size_t width = 1;
+    for (std::size_t const length : shape(column)) width *= length;
+    return width;
 }
 
 }  // namespace slideway

@@ -1,6 +1,8 @@
 // Which variables a result file has, in which order.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -9,10 +11,55 @@
 #include "host/config/labels.hpp"
 #include "host/run/member_set.hpp"
 #include "host/store/provenance.hpp"
-#include "host/store/study_columns.hpp"
 #include "kernels/block.hpp"
 
 namespace slideway {
+
+// What a study concludes of its members.
+
+/// A dimension of its own with the values along it.
+struct StudyAxis {
+    std::string name;
+    std::string unit;
+    std::string long_name;
+    std::vector<double> values;
+};
+
+/// One value, or a row of values along axes, per member.
+struct StudyColumn {
+    std::string name;
+    std::string unit;
+    std::string long_name;
+    std::vector<std::string> axes;  // names of StudyAxis, slowest first
+};
+
+struct StudyTable {
+    std::vector<StudyAxis> axes;
+    std::vector<StudyColumn> columns;
+
+    /// Lengths of a column's axes.
+    std::vector<std::size_t> shape(StudyColumn const& column) const;
+    /// Values of a column per member.
+    std::size_t width(StudyColumn const& column) const;
+};
+
+/// Values of a table's columns for the members of one block: [column][members × width].
+using StudyValues = std::vector<std::vector<double>>;
+
+/// What a member's run cost, as numbers of a result.
+struct WorkCounter {
+    char const* name;  // of the member variable
+    char const* meaning;
+    std::uint64_t MemberRecord::*of;
+};
+
+inline constexpr std::array<WorkCounter, 5> work_table{{
+    {"steps_accepted", "accepted steps", &MemberRecord::steps_accepted},
+    {"steps_rejected", "rejected steps", &MemberRecord::steps_rejected},
+    {"rhs_evaluations", "evaluations of the right-hand side", &MemberRecord::rhs_evaluations},
+    {"jacobian_evaluations", "evaluations of the Jacobian", &MemberRecord::jacobian_evaluations},
+    {"stiff_steps", "accepted steps of the stiff method", &MemberRecord::stiff_steps},
+}};
 
 /// A varied input: its dotted key with underscores for dots.
 struct ParameterColumn {

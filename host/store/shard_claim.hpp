@@ -16,7 +16,7 @@ class ShardClaim {
 public:
     /// A file that the identity's scene names, kept beside it.
     struct Companion {
-        std::string name;  // one that `is_ours`
+        std::string name;  // of a kind that is not foreign
         std::vector<std::byte> bytes;
     };
     struct Wanted {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "host/store/result_seal.hpp"
 #include "host/store/result_definition.hpp"
-#include "host/store/work_table.hpp"
+#include "host/store/result_layout.hpp"
+#include "host/store/result_seal.hpp"
 
 namespace slideway {
 namespace {

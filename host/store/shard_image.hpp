@@ -8,7 +8,6 @@
 #include "host/run/block_result.hpp"
 #include "host/store/provenance.hpp"
 #include "host/store/result_layout.hpp"
-#include "host/store/study_columns.hpp"
 
 namespace slideway {
 

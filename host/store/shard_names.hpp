@@ -26,7 +26,5 @@ enum class ShardFile {
 /// By the exact forms of the names that a run gives; a temporary file `.tmp` is of the kind of the one that it was to become.
 /// A name that is merely alike (`members-of-the-board.nc`) is foreign.
 ShardFile kind_of(std::string_view name);
-/// Whether a run may remove a file of this name.
-inline bool is_ours(std::string_view name) { return kind_of(name) != ShardFile::foreign; }
 
 }  // namespace slideway

@@ -1,4 +1,4 @@
-// What the members of a scene, whatever its study, ask of the driver and of the result file.
+// What the members of a scene, whatever its study, ask of the run and of the result file.
 #pragma once
 
 #include "host/backend/backend.hpp"

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "host/base/error.hpp"
+
 namespace slideway {
 namespace {
 
@@ -37,13 +41,20 @@ double largest_of(std::vector<double> const& values) {
     return largest;
 }
 
+/// Of a member.  @throws FileError of a variable that says nothing of the kind
+std::size_t exponents_of(ResultReader const& results) {
+    auto const shape = results.shape("lyapunov_exponent");
+    if (shape.size() != 2) throw FileError(fmt::format("{}: lyapunov_exponent is not (member, exponent)", results.path()));
+    return shape[1];
+}
+
 }  // namespace
 
 std::vector<ExponentSummary> summarise_exponents(ResultReader const& results) {
     std::vector<ExponentSummary> summaries;
     if (!results.has("lyapunov_exponent")) return summaries;
     auto const finished = finished_members(results);
-    std::size_t const exponents = results.shape("lyapunov_exponent").at(1);
+    std::size_t const exponents = exponents_of(results);
     std::size_t const count = finished.size() * exponents;
     auto const values = results.values("lyapunov_exponent", count), late = results.values("lyapunov_exponent_late", count);
     auto const half_widths = results.values("lyapunov_exponent_half_width", count);
@@ -80,7 +91,7 @@ std::vector<ExponentSummary> summarise_exponents(ResultReader const& results) {
 
 OffsetHealth offset_health(ResultReader const& results) {
     auto const finished = finished_members(results);
-    double const exponents = static_cast<double>(results.shape("lyapunov_exponent").at(1));
+    double const exponents = static_cast<double>(exponents_of(results));
     auto const share = [&](char const* name) {
         auto const counts = column_of(results.values(name, finished.size()), finished, 1, 0);
         auto const rescalings = column_of(results.values("rescalings", finished.size()), finished, 1, 0);
@@ -98,7 +109,7 @@ std::vector<SweepColumn> summarise_columns(ResultReader const& results) {
     auto const finished = finished_members(results);
     auto const values = results.values(parameter, finished.size());
     bool const has_exponents = results.has("lyapunov_exponent");
-    std::size_t const width = has_exponents ? results.shape("lyapunov_exponent").at(1) : 0;
+    std::size_t const width = has_exponents ? exponents_of(results) : 0;
     auto const exponents = has_exponents ? results.values("lyapunov_exponent", values.size() * width) : std::vector<double>{};
     std::vector<double> of_column;
     for (std::size_t i = 0; i < values.size(); ++i) {

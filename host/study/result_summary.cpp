@@ -77,8 +77,10 @@ std::vector<StatusCount> count_statuses(ResultView const& results) {
 std::vector<MemberRow> member_rows(ResultView const& results, MemberRange const& range) {
     if (!results.stores_members())
         throw SceneError(fmt::format("{}: has no members (its scene says study.store = \"statistics\"); leave out --members", results.path()));
-    auto const numbers = results.values("member"), statuses = results.values("status"), times = results.values("end_time");
-    auto const accepted = results.values("steps_accepted"), rejected = results.values("steps_rejected");
+    auto const numbers = results.values("member");
+    auto const of_members = [&](char const* name) { return results.values(name, numbers.size()); };
+    auto const statuses = of_members("status"), times = of_members("end_time"), accepted = of_members("steps_accepted"),
+               rejected = of_members("steps_rejected");
     std::vector<MemberRow> ends;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         auto const member = static_cast<std::uint64_t>(numbers[i]);

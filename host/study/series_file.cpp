@@ -4,7 +4,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <fstream>
+#include <istream>
 
 #include <fmt/format.h>
 
@@ -125,15 +125,17 @@ std::optional<double> equal_spacing(std::vector<double> const& times) {
     return spacing;
 }
 
-bool is_netcdf(std::string const& path) {
-    std::ifstream in(path, std::ios::binary);
+bool is_netcdf(std::istream& in, std::string const& path) {
     char first[4] = {};
     // A folder opens, and only fails to read.
-    if (!in || (in.peek() == std::ifstream::traits_type::eof() && in.bad())) {
+    if (!in || (in.peek() == std::istream::traits_type::eof() && in.bad())) {
         throw FileError(fmt::format("{}: cannot read: {}", path, std::strerror(errno)));
     }
     in.read(first, sizeof first);
     std::string_view const bytes(first, static_cast<std::size_t>(in.gcount()));
+    in.clear();
+    // A pipe cannot be opened again, nor rewound; what is in its buffer can be put back.
+    for (std::size_t i = 0; i < bytes.size(); ++i) in.unget();
     return bytes == "\x89HDF" || bytes.starts_with("CDF");
 }
 

@@ -16,8 +16,9 @@ struct StoredSeries {
     double spacing;  // [s]
 };
 
-/// By the first bytes, not by the name.  @throws FileError if the file cannot be read.
-bool is_netcdf(std::string const& path);
+/// By the first bytes, not by the name; they are still there to read.  @param in freshly opened from `path`
+/// @throws FileError if the file cannot be read.
+bool is_netcdf(std::istream& in, std::string const& path);
 
 /// One member's samples of a variable (member, sample), spaced as `time` says.
 /// @param member its number in the ensemble; nothing: the first of the file.

@@ -1,4 +1,4 @@
-#include "host/study/statistics_report.hpp"
+#include "host/study/tolerance_report.hpp"
 
 #include <algorithm>
 

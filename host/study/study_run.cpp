@@ -13,8 +13,7 @@
 #include "host/store/statistics_merge.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/prediction.hpp"
-#include "host/study/statistics_groups.hpp"
-#include "host/study/statistics_report.hpp"
+#include "host/study/tolerance_report.hpp"
 #include "host/study/verification.hpp"
 
 namespace slideway {

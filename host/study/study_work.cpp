@@ -1,4 +1,4 @@
-// Members of a study, through the driver, into shards; at every rank.
+// Members of a study, through host/run, into shards; at every rank.
 #include <cstring>
 #include <optional>
 #include <unordered_map>

@@ -7,7 +7,6 @@
 
 #include "host/base/error.hpp"
 #include "host/store/statistics_merge.hpp"
-#include "host/study/statistics_report.hpp"
 #include "host/study/tolerance_members.hpp"
 #include "host/study/tolerance_policy.hpp"
 #include "host/study/tolerance_sensitivity.hpp"

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +16,8 @@
 #include "host/statistics/quantile_interval.hpp"
 #include "host/statistics/sobol_indices.hpp"
 #include "host/statistics/summary.hpp"
+#include "host/store/block_statistics.hpp"
+#include "host/store/netcdf_file.hpp"
 #include "host/store/result_view.hpp"
 #include "host/study/result_summary.hpp"
 
@@ -112,5 +113,20 @@ struct ReportSettings {
 /// @throws FileError if the result lacks a quantity that a limit names, or its members are not those of the scene's
 /// design.
 ToleranceReport tolerance_report(ResultView const& results, Scene const& scene, ReportSettings const& settings = {});
+
+/// Of members that were not stored.  Moments, ends and yields are those of the members, without rounding but for their last; quantiles and histograms are
+/// by the sketch (QuantileSketch::error), and there are no correlations.
+/// @param left members of the run that did not run.  @param path of what the statistics are from, for messages.
+/// @throws FileError if the statistics are not of the scene's quantities and limits.
+ToleranceReport statistics_report(BlockStatistics const& statistics, std::uint64_t left, Scene const& scene,
+                                  std::string const& path);
+
+/// Adds the groups `statistics`, `yield` (if there are limits) and `sensitivity` (if anything varies) to a file that is
+/// open for writing, before it is closed.  Variables are named after their quantity (`crank_work_quantile`), lie along
+/// its labels (if it has any, by the file's own dimension) and then along the group's: probability, bound, bin, edge,
+/// input, limit.  Labels are texts in `<dimension>_name`.  The attributes `policy` and `intervals` say whom the numbers
+/// are of.
+/// @throws FileError.
+void write_statistics(NetcdfFile& file, ToleranceReport const& report);
 
 }  // namespace slideway

@@ -15,7 +15,6 @@ namespace {
 
 constexpr std::uint64_t most_tried = 32, most_steps_of_one = 100'000;
 constexpr double full_lanes = 0.9;     // of lanes in use where members are many
-constexpr double with_the_check = 1.1;
 constexpr double beside_members = 0.1;  // [s]: a program that starts, shards, the file made of them
 
 }  // namespace
@@ -47,7 +46,8 @@ std::optional<Trial> try_members(Scene const& scene, Backend const& backend, int
     double const busy = std::min<double>(threads, static_cast<double>(count));
     double const of_a_step = tried > 0 ? totals.seconds * busy * totals.lane_utilisation() / tried : 0;
     double const lanes_used = all > 4 * count ? full_lanes : totals.lane_utilisation();
-    found.seconds = beside_members + with_the_check * found.steps * of_a_step / (std::min<double>(threads, static_cast<double>(all)) * lanes_used);
+    double const checked = foreseen_check(scene, scene.verify, all) / static_cast<double>(all);
+    found.seconds = beside_members + (1 + checked) * found.steps * of_a_step / (std::min<double>(threads, static_cast<double>(all)) * lanes_used);
     return found;
 }
 

@@ -118,6 +118,26 @@ void limit_steps(Scene& check, double work_of_a_member) {
     check.integrator.max_steps = std::min(check.integrator.max_steps, static_cast<std::uint64_t>(std::max(1.0, steps)));
 }
 
+/// What follows from the findings.  @param was_asked for so many members, whatever they cost
+Verification concluded(Verification v, Scene const& scene, bool was_asked) {
+    bool const enough = std::any_of(v.findings.begin(), v.findings.end(), [&](CheckedColumn const& found) {
+        return found.pairs.pairs >= least_members && 2 * found.pairs.pairs > v.members.size();
+    });
+    bool const differs = (v.energy && v.energy->is_too_much) ||
+                         std::any_of(v.findings.begin(), v.findings.end(), [](CheckedColumn const& found) { return found.differs; });
+    if (!enough && !differs) {
+        if (v.numbers.front().finished() < least_members) return not_checked(std::move(v), "too few of its members came to their end");
+        std::string ends;
+        for (std::size_t i = 0; i < v.methods.size(); ++i)
+            ends += fmt::format("{}{} of {} by {}", i > 0 ? ", " : "", v.finished[i], v.members.size(), v.methods[i]);
+        return not_checked(std::move(v), fmt::format("too few members came to their end again ({}){}", ends,
+                                                     was_asked ? "" : "; run --verify gives them more time"));
+    }
+    v.resolution = differs ? Resolution::not_resolved : Resolution::resolved;
+    v.summary = describe(v, scene);
+    return v;
+}
+
 }  // namespace
 
 double foreseen_check(Scene const& scene, std::optional<std::uint64_t> asked, std::uint64_t all) {
@@ -153,7 +173,7 @@ Verification verify(ResultView const& results, Scene const& scene, Backend const
     };
     std::vector<double> work;
     std::vector<WholeColumn> whole;
-    double total = 0;
+    double total = 0, dearest = 0;
     if (stored) {
         work = stored_work(*stored);
         total = std::accumulate(work.begin(), work.end(), 0.0);
@@ -167,7 +187,6 @@ Verification verify(ResultView const& results, Scene const& scene, Backend const
     std::vector<CheckMethod> methods = check_methods(scene);
 
     Budget budget(request.members, all, total, v.members.size());
-    double dearest = 0;
     for (std::size_t i = 0; i < methods.size(); ++i) {
         CheckMethod& method = methods[i];
         dearest += method.cost * static_cast<double>(std::min<std::uint64_t>(most_checked, all));
@@ -180,31 +199,15 @@ Verification verify(ResultView const& results, Scene const& scene, Backend const
         if (request.stop != nullptr && request.stop->reason() != StopReason::none) return not_checked(std::move(v), "the run was stopped");
         v.methods.push_back(method.words);
         v.finished.push_back(v.numbers.back().finished());
-        double const spent = v.numbers.back().total_work();
-        budget.spend(spent);
-        v.share += spent / total;
+        budget.spend(v.numbers.back().total_work());
+        v.share += v.numbers.back().total_work() / total;
     }
     if (v.methods.empty()) {
         return not_checked(std::move(v), fmt::format("it would take some {:.2g} times the study's work; run --verify does it",
                                                      dearest / static_cast<double>(all)));
     }
     v.findings = compare(v.numbers, scene, whole, all);
-    bool const enough = std::any_of(v.findings.begin(), v.findings.end(), [&](CheckedColumn const& found) {
-        return found.pairs.pairs >= least_members && 2 * found.pairs.pairs > v.members.size();
-    });
-    bool const differs = (v.energy && v.energy->is_too_much) ||
-                         std::any_of(v.findings.begin(), v.findings.end(), [](CheckedColumn const& found) { return found.differs; });
-    if (!enough && !differs) {
-        if (v.numbers.front().finished() < least_members) return not_checked(std::move(v), "too few of its members came to their end");
-        std::string ends;
-        for (std::size_t i = 0; i < v.methods.size(); ++i)
-            ends += fmt::format("{}{} of {} by {}", i > 0 ? ", " : "", v.finished[i], v.members.size(), v.methods[i]);
-        return not_checked(std::move(v), fmt::format("too few members came to their end again ({}){}", ends,
-                                                     request.members ? "" : "; run --verify gives them more time"));
-    }
-    v.resolution = differs ? Resolution::not_resolved : Resolution::resolved;
-    v.summary = describe(v, scene);
-    return v;
+    return concluded(std::move(v), scene, request.members.has_value());
 }
 
 }  // namespace slideway

@@ -16,25 +16,6 @@ std::string scene(std::string const& study, std::string const& law) {
         speed, law, study);
 }
 
-std::string const ensemble = scene("kind = \"ensemble\"\nmembers = 11");
-std::string const lyapunov =
-    scene("kind = \"lyapunov\"\nmembers = 11\nTtr = \"10 ms\"\nduration = \"50 ms\"\ndt = \"0.5 ms\"\nexponents = 2",
-          "paper");
-std::string const by_phase =
-    scene("kind = \"poincare\"\nmembers = 11\ntransient_revolutions = 0\nrevolutions = 2\nphase = \"90 deg\"");
-std::string const by_state = scene(
-    "kind = \"poincare\"\nmembers = 11\nTtr = \"10 ms\"\nduration = \"50 ms\"\n"
-    "section = { on = \"y\", value = \"0.03 mm\", direction = \"falling\" }");
-std::string const by_gap = scene(
-    "kind = \"poincare\"\nmembers = 11\nTtr = \"10 ms\"\nduration = \"50 ms\"\n"
-    "section = { on = \"gap_y[P2]\", value = \"0.02 mm\" }");
-std::string const sweep = scene(
-    "kind = \"sweep\"\nmembers = 3\nparameter = \"joint.clearance\"\nvalues = [\"0.2 mm\", \"0.1 mm\"]\n"
-    "transient_revolutions = 0\nrevolutions = 2\nphase = \"90 deg\"\nexponents = 1\nrescalings_per_revolution = 100");
-std::string const plain_sweep = scene(
-    "kind = \"sweep\"\nmembers = 3\nparameter = \"joint.clearance\"\nvalues = [\"0.2 mm\", \"0.1 mm\"]\n"
-    "transient_revolutions = 0\nrevolutions = 2\nphase = \"90 deg\"\nexponents = 0");
-std::string const continued_key = "study.start=continue";
 std::vector<std::string> const state_names{"y", "z", "vy", "vz", "roll", "yaw", "pitch", "wx", "wy", "wz"};
 
 std::vector<std::vector<Section>> sections_of(ResultReader const& file) {

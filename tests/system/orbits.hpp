@@ -18,15 +18,26 @@ inline constexpr std::size_t member_total = 11;  // a pack of eight, and a rest
 
 std::string scene(std::string const& study, std::string const& law = "conservative");
 
-extern std::string const ensemble;
-extern std::string const lyapunov;
-extern std::string const by_phase;
-extern std::string const by_state;
-extern std::string const by_gap;
-extern std::string const sweep;
-extern std::string const plain_sweep;
-
-extern std::string const continued_key;
+// Tests are instantiated with them before any other unit's constants are there.
+inline std::string const ensemble = scene("kind = \"ensemble\"\nmembers = 11");
+inline std::string const lyapunov =
+    scene("kind = \"lyapunov\"\nmembers = 11\nTtr = \"10 ms\"\nduration = \"50 ms\"\ndt = \"0.5 ms\"\nexponents = 2",
+          "paper");
+inline std::string const by_phase =
+    scene("kind = \"poincare\"\nmembers = 11\ntransient_revolutions = 0\nrevolutions = 2\nphase = \"90 deg\"");
+inline std::string const by_state = scene(
+    "kind = \"poincare\"\nmembers = 11\nTtr = \"10 ms\"\nduration = \"50 ms\"\n"
+    "section = { on = \"y\", value = \"0.03 mm\", direction = \"falling\" }");
+inline std::string const by_gap = scene(
+    "kind = \"poincare\"\nmembers = 11\nTtr = \"10 ms\"\nduration = \"50 ms\"\n"
+    "section = { on = \"gap_y[P2]\", value = \"0.02 mm\" }");
+inline std::string const sweep = scene(
+    "kind = \"sweep\"\nmembers = 3\nparameter = \"joint.clearance\"\nvalues = [\"0.2 mm\", \"0.1 mm\"]\n"
+    "transient_revolutions = 0\nrevolutions = 2\nphase = \"90 deg\"\nexponents = 1\nrescalings_per_revolution = 100");
+inline std::string const plain_sweep = scene(
+    "kind = \"sweep\"\nmembers = 3\nparameter = \"joint.clearance\"\nvalues = [\"0.2 mm\", \"0.1 mm\"]\n"
+    "transient_revolutions = 0\nrevolutions = 2\nphase = \"90 deg\"\nexponents = 0");
+inline std::string const continued_key = "study.start=continue";
 
 extern std::vector<std::string> const state_names;
 using State = std::array<double, 10>;

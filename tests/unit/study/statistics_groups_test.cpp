@@ -1,4 +1,4 @@
-#include "host/study/statistics_groups.hpp"
+#include "host/study/tolerance_report.hpp"
 
 #include <array>
 #include <cmath>
