@@ -52,8 +52,8 @@ void add_force(CLI::App& command, Words& words) {
     command.add_flag("--force", words.force, "Replace a file of slideway that is there already; inputs and other files never");
 }
 
-void add_json(CLI::App& command, Words& words) {
-    command.add_flag("--json", words.json, "One object in JSON in place of text (docs/json.md)");
+CLI::Option* add_json(CLI::App& command, Words& words) {
+    return command.add_flag("--json", words.json, "One object in JSON in place of text (docs/json.md)");
 }
 
 void add_threads(CLI::App& command, Words& words) {
@@ -89,8 +89,8 @@ void add_check_options(CLI::App& check, Words& words) {
     add_scene_options(check, words);
     add_threads(check, words);
     add_backend(check, words);
-    add_json(check, words);
-    check.add_flag("--resolved", words.resolved, "Print the resolved scene alone, as a scene file");
+    CLI::Option* const json = add_json(check, words);
+    check.add_flag("--resolved", words.resolved, "Print the resolved scene alone, as a scene file")->excludes(json);
     check.add_flag("--force", words.force, "Accept starts inside the way");
 }
 
@@ -104,11 +104,11 @@ void add_probe_options(CLI::App& probe, Words& words) {
 
 void add_info_options(CLI::App& info, Words& words) {
     info.add_option("FILE", words.file, "Result file")->type_name("");
-    info.add_flag("--scene", words.scene_too, "Show its scene, too");
-    info.add_flag("--check", words.intact, "Only say whether the file is what was written (exit code 4 if not)");
+    CLI::Option* const json = add_json(info, words);
+    info.add_flag("--scene", words.scene_too, "Show its scene, too")->excludes(json);
+    info.add_flag("--check", words.intact, "Only say whether the file is what was written (exit code 4 if not)")->excludes(json);
     info.add_option("--members", words.members, "Show its members, or these of them, too: number, status, end time, steps")
         ->type_name("A..B")->expected(0, 1)->default_str(std::string(all_members));
-    add_json(info, words);
 }
 
 void add_stats_options(CLI::App& stats, Words& words) {

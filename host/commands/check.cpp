@@ -176,7 +176,7 @@ int check(CheckArguments const& arguments) {
         return exit_code::done;
     }
 
-    print_text(2, "# {} is a valid scene.  Resolved, in SI units:\n", scene.path);
+    print_text(2, "# {} is a valid scene.  Resolved, in SI units:\n", in_one_line(scene.path));
     print_resolved(resolved_toml(scene));
     print_parts(scene);
     print_field("kernels", fmt::format("{}, {} threads, blocks of at most {} members", backend_text(*choice.backend),

@@ -59,6 +59,7 @@ int merge(MergeArguments const& arguments) {
     Scene const scene = scene_of(folder);
     OutputTarget const target(arguments.output, {inputs_of(scene), arguments.force, is_result_file});
     require_outside(target, arguments.folder);
+    require_room_beside(target.path());
     std::optional<ToleranceReport> report;
     std::vector<Shard> const shards = intact_shards(folder);
     mend(folder);

@@ -108,7 +108,13 @@ void warn_of_idle_keys(Node const& root, Scene& scene) {
         if (node == nullptr) return;
         scene.warnings.push_back(fmt::format("{} has no effect with design \"{}\"", node->name, name_of(kind)));
     };
-    if (kind != DesignKind::saltelli) warn(root.find_path("study.base"));
+    Node const* const base = kind != DesignKind::saltelli ? root.find_path("study.base") : nullptr;
+    bool const counts_itself = kind == DesignKind::grid || kind == DesignKind::table;
+    if (base != nullptr && !counts_itself && root.find_path("study.members") == nullptr) {
+        refuse(*base, {fmt::format("design \"{}\" has no rows of members, and study.members is not given", name_of(kind)),
+                       "add members = 1024, or use design = \"saltelli\""});
+    }
+    warn(base);
     if (kind == DesignKind::grid) return;
     warn(root.find_path("study.levels"));
     for (VariedNode const& entry : varied_nodes(root)) warn(entry.node->find("levels"));

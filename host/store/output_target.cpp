@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "host/base/error.hpp"
+#include "host/store/shard_names.hpp"
 
 namespace slideway {
 namespace {
@@ -31,15 +32,20 @@ std::string followed(std::string const& path) {
 /// Before a library tries: its reasons for a folder ("HDF error") tell nobody what to do.
 void require_writable_place(std::string const& name, std::string const& path) {
     std::error_code ignored;
+    // The renaming at the end would put a file in the place of /dev/null; what /dev/stdout leads to has no name.
+    auto const is_special = [&](std::string const& place) {
+        return fs::exists(place, ignored) && !fs::is_regular_file(place, ignored) && !fs::is_directory(place, ignored);
+    };
+    if (is_special(name) || is_special(path)) throw FileError(name + ": is a device or a pipe; give the name of a file with -o");
     if (name.empty()) throw FileError("-o: the name of the file is empty; give one");
     if (fs::is_directory(path, ignored)) throw FileError(name + ": is a folder; give a file name with -o");
     std::string const folder = folder_of(path);
     if (!fs::is_directory(folder, ignored)) {
         throw FileError(fmt::format("{}: cannot create: there is no folder '{}'", name, folder));
     }
-    // The renaming at the end would put a file in the place of /dev/null.
-    if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
-        throw FileError(name + ": is a device or a pipe; give the name of a file with -o");
+    // In the place of a shard it would be the end of another run.
+    if (kind_of(fs::path(path).filename().string()) != ShardFile::foreign && is_there(in_folder(folder, shard_names::identity))) {
+        throw FileError(name + ": lies in a folder of shards, under a name of theirs; give another name with -o");
     }
 }
 
@@ -54,16 +60,17 @@ OutputTarget::OutputTarget(std::string const& path, OutputRules const& rules) : 
     require_writable_place(name_, path_);
     for (std::string const& input : rules.inputs) {
         std::error_code ignored;
-        // Hard links are the same file, too.
-        if (fs::equivalent(path_, input, ignored)) {
-            throw FileError(fmt::format("{}: is what this command reads; give another name with -o", name_));
+        // Hard links are the same file, too.  A result is written under another name first.
+        for (char const* const ending : {"", ".part", ".part.lock"}) {
+            if (fs::equivalent(path_ + ending, input, ignored))
+                throw FileError(fmt::format("{}{}: is what this command reads; give another name with -o", name_, ending));
         }
     }
     replaces_ = is_there(path_);
     if (!replaces_) return;
     if (!rules.force) throw FileError(fmt::format("{}: is there already; {}", name_, rules.instead));
     if (is_empty(path_) || rules.is_ours(path_)) return;
-    throw FileError(fmt::format("{}: is there already, and slideway did not write it: --force does not replace it; give another name with -o, "
+    throw FileError(fmt::format("{}: is there already, and is no file of slideway, or a damaged one: --force does not replace it; give another name with -o, "
                                 "or remove it",
                                 name_));
 }

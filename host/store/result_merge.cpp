@@ -168,11 +168,10 @@ FileLock lock_of(std::string const& path) {
             path + ": another process is writing it; wait for its end or give another name with -o"};
 }
 
-/// @param left whether a merge was killed here: whose part it is then is known
-void remove_part(std::string const& part, bool left) {
-    if (!is_there(part)) return;
-    if (!left) throw FileError(part + ": is in the way, and no merge left it; remove it, or give another name with -o");
-    if (std::remove(part.c_str()) != 0) throw FileError(fmt::format("{}: cannot remove: {}", part, std::strerror(errno)));
+void remove_part(std::string const& part) {
+    if (is_there(part) && std::remove(part.c_str()) != 0) {
+        throw FileError(fmt::format("{}: cannot remove: {}", part, std::strerror(errno)));
+    }
 }
 
 void write_part(std::string const& part, std::string const& completeness,
@@ -193,14 +192,27 @@ void write_part(std::string const& part, std::string const& completeness,
 
 }  // namespace
 
+/// A lock is a file without a byte, and beside it a part may lie that a killed merge has left: what else has these names is somebody's.
+void require_room_beside(std::string const& path) {
+    std::error_code ignored;
+    auto const is_in_the_way = [](std::string const& name) {
+        return FileError(name + ": is in the way, and no merge left it; remove it, or give another name with -o");
+    };
+    std::string const part = path + ".part", lock_file = lock_file_of(path);
+    bool const left = is_there(lock_file);
+    if (left && !(std::filesystem::is_regular_file(lock_file, ignored) && std::filesystem::file_size(lock_file, ignored) == 0))
+        throw is_in_the_way(lock_file);
+    if (is_there(part) && !(left && std::filesystem::is_regular_file(part, ignored))) throw is_in_the_way(part);
+}
+
 void write_result(std::string const& path, std::string const& completeness,
                   std::function<void(NetcdfFile& file)> const& write, Existing existing) {
     std::string const part = path + ".part", lock_file = lock_file_of(path);
-    bool const left = is_there(lock_file);
+    require_room_beside(path);
     FileLock lock = lock_of(path);
     bool ours = false;
     try {
-        remove_part(part, left);
+        remove_part(part);
         ours = true;
         write_part(part, completeness, write);
         rename_durably(part, path, existing);

@@ -32,6 +32,9 @@ struct ResultMerge {
 void merge_shards(ShardFolder const& folder, std::vector<Shard> const& shards, ResultMerge merge,
                   std::string const& path);
 
+/// @throws FileError where files that no merge left have the names that a result has while it is written: `.part`, `.part.lock`
+void require_room_beside(std::string const& path);
+
 /// The same for what `write` puts into the file: adds completeness and seals it.
 void write_result(std::string const& path, std::string const& completeness,
                   std::function<void(NetcdfFile& file)> const& write, Existing existing = Existing::replaced);

@@ -124,7 +124,10 @@ std::string with_table(std::string const& scene, std::string_view quoted) {
 }
 
 std::string portable_scene(std::string const& scene) {
-    return with_table(scene, fmt::format("\"{}\"", shard_names::table));
+    std::string text = with_table(scene, fmt::format("\"{}\"", shard_names::table));
+    constexpr std::string_view checked = "\nverify = ";
+    if (auto const at = text.find(checked, text.find("\n[study]\n")); at != text.npos) text.erase(at, text.find('\n', at + 1) - at);
+    return text;
 }
 
 std::string identity_text(RunIdentity const& identity) {

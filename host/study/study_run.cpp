@@ -120,6 +120,7 @@ OutputTarget target_of(Scene const& scene, StudyOptions const& options) {
 StudyRun::StudyRun(Scene const& scene, StudyOptions const& options)
     : scene_(scene), options_(options), target_(target_of(scene, options)), members_(options.range),
       mine_(members_of_part(scene, options.part, members_)) {
+    require_room_beside(target_.path());
     std::string const folder = shard_folder_of(options.output);
     RunIdentity const identity = run_identity(scene, members_, *options.backend);
     if (options.resume && target_.replaces() && !(options.force && ShardFolder::exists(folder))) {

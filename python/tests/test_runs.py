@@ -96,9 +96,21 @@ def test_second_run_to_the_same_file_is_refused_and_what_is_opened_if_forced(tmp
     assert "\n" not in str(refused.value)
     assert slideway.run(short, tmp_path / "a.nc", progress=False, force=True, study__members=2).sizes["member"] == 2
     (tmp_path / "notes.nc").write_text("of a year")
-    with pytest.raises(slideway.FileError, match="slideway did not write it"):
+    with pytest.raises(slideway.FileError, match="is no file of slideway"):
         slideway.run(short, tmp_path / "notes.nc", progress=False, force=True)
     assert (tmp_path / "notes.nc").read_text() == "of a year"
+
+
+def test_page_goes_through_links_and_into_no_device(result_of: Result, tmp_path: Path) -> None:
+    result, page, link = result_of("ensemble"), tmp_path / "page.html", tmp_path / "link.html"
+    link.symlink_to(page)
+    assert slideway.report.write(result, link) == link
+    assert link.is_symlink() and page.read_text(encoding="utf-8").startswith("<!doctype html>")
+    os.mkfifo(tmp_path / "pipe")
+    for special in (tmp_path / "pipe", tmp_path):
+        with pytest.raises(slideway.SlidewayError, match="is a folder, a device or a pipe"):
+            slideway.report.write(result, special)
+    assert (tmp_path / "pipe").is_fifo()
 
 
 def test_page_replaces_pages_alone(tmp_path: Path) -> None:
@@ -131,8 +143,8 @@ def test_progress_is_passed_on(capfd: pytest.CaptureFixture[str]) -> None:
 
 
 def test_warnings_are_passed_on_without_progress(capfd: pytest.CaptureFixture[str]) -> None:
-    slideway.run(short, progress=False, study__base=16)
-    assert capfd.readouterr().err.startswith("warning: study.base has no effect")
+    slideway.run(short, progress=False, study__levels=3)
+    assert capfd.readouterr().err.startswith("warning: study.levels has no effect")
 
 
 def test_progress_goes_where_python_says_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,6 +4,7 @@
 
 #include <sys/stat.h>
 
+#include "tests/support/shell.hpp"
 #include "tests/system/small_run.hpp"
 
 namespace slideway::testing {
@@ -165,6 +166,43 @@ TEST_F(OutputTargets, ThatComeUpWhileItRunsAreKept) {
     Outcome const again = run({"run", "s.toml", "--no-progress", "-o", "late.nc", "--set", seconds, "study.members=500", "study.verify=0", "--resume"});
     EXPECT_EQ(again.code, 0) << again.err;
     EXPECT_EQ(results("late.nc").values("status").size(), 500u);
+}
+
+/// While it is written a result is `o.nc.part`, beside a lock without a byte: whatever else has these names is somebody's.
+TEST_F(OutputTargets, LeaveForeignFilesUnderTheNamesOfPartsAlone) {
+    for (std::string const& name : {std::string("o.nc.part.lock"), std::string("o.nc.part")}) {
+        write(name, "precious");
+        for (std::size_t i : {0u, 2u, 7u}) expect_untouched(commands[i], "o.nc");
+        fs::remove(path(name));
+        fs::copy_file(path("s.toml"), path(name));  // the scene itself
+        auto const before = files();
+        EXPECT_EQ(run({"run", name, "--no-progress", "--set", "study.members=2", "-o", "o.nc"}).code, 4);
+        EXPECT_EQ(files(), before);
+        fs::remove(path(name));
+    }
+    // A merge that was killed leaves both.
+    write("o.nc.part.lock", "");
+    write("o.nc.part", "half a result");
+    EXPECT_EQ(with_output(commands[0], "o.nc").code, 0);
+    EXPECT_FALSE(fs::exists(path("o.nc.part")));
+}
+
+TEST_F(OutputTargets, AreNoShardsOfAnotherRun) {
+    std::string shard;
+    for (auto const& entry : fs::directory_iterator(path("parts.nc.shards"))) {
+        std::string const name = entry.path().filename().string();
+        if (name.starts_with("members-")) shard = "parts.nc.shards/" + name;
+    }
+    ASSERT_NE(shard, "");
+    for (Command const& command : commands) expect_untouched(command, shard, {"--force"});
+    EXPECT_EQ(run({"merge", "parts.nc.shards", "-o", "parts.nc"}).code, 0);
+}
+
+TEST_F(OutputTargets, ThatArePipesAreRefusedBeforeAnythingIsComputed) {
+    ShellOutcome const shell = run_shell(path(""), "'" SLIDEWAY_BINARY "' run s.toml --no-progress -o /dev/stdout | cat");
+    EXPECT_EQ(shell.out, "");
+    EXPECT_NE(shell.err.find("/dev/stdout: is a device or a pipe"), std::string::npos) << shell.err;
+    EXPECT_EQ(std::count(shell.err.begin(), shell.err.end(), '\n'), 1) << shell.err;
 }
 
 TEST_F(OutputTargets, ByDefaultDifferWhereOverridesDo) {

@@ -73,7 +73,10 @@ def write(result: StrPath | xr.Dataset, out: StrPath) -> Path:
     '<!doctype html>'
     """
     path = Path(path_text(out, "out"))
-    if not _may_replace(path):
+    place = Path(os.path.realpath(path))  # a link is followed, as by the program
+    if os.path.exists(path) and not os.path.isfile(path):
+        raise SlidewayError(f"{path}: is a folder, a device or a pipe; give the name of a file")
+    if not _may_replace(place):
         raise SlidewayError(f"{path}: is there already, and is no page of slideway; give another name, or remove it")
     if isinstance(result, xr.Dataset):
         text = html_of(result)
@@ -81,7 +84,7 @@ def write(result: StrPath | xr.Dataset, out: StrPath) -> Path:
         with slideway.open(result) as opened:
             text = html_of(opened)
     try:
-        replace(path, text)
+        replace(place, text)
     except OSError as error:
         raise SlidewayError(f"{path}: cannot write the report: {error.strerror or error}") from error
     return path

@@ -131,7 +131,7 @@ TEST(SceneDesigns, AGridHasTheProductOfItsLevels) {
 
 TEST(SceneDesigns, WhatAnotherDesignReadsIsWarnedOf) {
     std::string const vary = "\"initial.y\" = {dist=\"unif\", low=0, high=1, levels=4}";
-    Scene const scene = study("design = \"saltelli\"\nbase = 64\nlevels = 3", vary, {{"study.design", "lhs"}});
+    Scene const scene = study("design = \"saltelli\"\nbase = 64\nlevels = 3", vary, {{"study.design", "lhs"}, {"study.members", "8"}});
     EXPECT_EQ(scene.warnings,
               (std::vector<std::string>{"study.base has no effect with design \"lhs\"",
                                         "study.levels has no effect with design \"lhs\"",

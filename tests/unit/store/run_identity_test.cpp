@@ -172,6 +172,8 @@ TEST(RunIdentity, OfATableDoesNotDependOnWhereItLies) {
     }
     std::string const none = identity_of().scene;
     EXPECT_EQ(portable_scene(none), none);
+    // How a study is checked makes no other members of it.
+    EXPECT_EQ(portable_scene("title = \"a\"\n[study]\nmembers = 3\nverify = 16  # members\nseed = 1\n"), "title = \"a\"\n[study]\nmembers = 3\nseed = 1\n");
     EXPECT_EQ(table_of(none), "");
 }
 
