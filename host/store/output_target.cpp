@@ -43,10 +43,6 @@ void require_writable_place(std::string const& name, std::string const& path) {
     if (!fs::is_directory(folder, ignored)) {
         throw FileError(fmt::format("{}: cannot create: there is no folder '{}'", name, folder));
     }
-    // In the place of a shard it would be the end of another run.
-    if (kind_of(fs::path(path).filename().string()) != ShardFile::foreign && is_there(in_folder(folder, shard_names::identity))) {
-        throw FileError(name + ": lies in a folder of shards, under a name of theirs; give another name with -o");
-    }
 }
 
 bool is_empty(std::string const& path) {
@@ -65,6 +61,11 @@ OutputTarget::OutputTarget(std::string const& path, OutputRules const& rules) : 
             if (fs::equivalent(path_ + ending, input, ignored))
                 throw FileError(fmt::format("{}{}: is what this command reads; give another name with -o", name_, ending));
         }
+    }
+    // In the place of a shard it would be the end of another run.
+    bool const has_name_of_one = kind_of(fs::path(path_).filename().string()) != ShardFile::foreign;
+    if (has_name_of_one && is_there(in_folder(folder_of(path_), shard_names::identity))) {
+        throw FileError(name_ + ": lies in the folder of the shards of a run, under a name of theirs; give another name with -o");
     }
     replaces_ = is_there(path_);
     if (!replaces_) return;

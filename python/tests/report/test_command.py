@@ -51,13 +51,18 @@ def test_a_page_can_be_written_from_python(result_of: Callable[[str], xr.Dataset
             report.write(result, tmp_path / "nowhere" / "p.html")
 
 
-def test_a_page_that_cannot_be_put_in_place_leaves_nothing(result_of: Callable[[str], xr.Dataset], tmp_path: Path) -> None:
+def test_a_page_that_cannot_be_put_in_place_leaves_nothing(
+    result_of: Callable[[str], xr.Dataset], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     from slideway import report
 
-    (tmp_path / "p.html").mkdir()  # a folder, which no file replaces
-    with result_of("poincare") as result, pytest.raises(slideway.SlidewayError, match="cannot write"):
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("slideway.report.files.os.replace", full)
+    with result_of("poincare") as result, pytest.raises(slideway.SlidewayError, match="cannot write the report: No space left"):
         report.write(result, tmp_path / "p.html")
-    assert [path.name for path in tmp_path.iterdir()] == ["p.html"]
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_pages_leave_the_files_of_others_alone(result_of: Callable[[str], xr.Dataset], tmp_path: Path) -> None:
