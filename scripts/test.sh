@@ -59,7 +59,7 @@ echo "build: $SECONDS s"
 
 SECONDS=0
 code=0
-ctest --test-dir "$build" --label-exclude '^slow$' --parallel "$jobs" --timeout 300 --no-tests=error \
+ctest --test-dir "$build" --label-exclude '^slow$' --parallel "$((jobs + 1))" --timeout 300 --no-tests=error \
     --output-on-failure | tee "$log" || code=$?
 echo "tests: $SECONDS s on $jobs cores"
 
