@@ -195,7 +195,7 @@ Verification verify(ResultView const& results, Scene const& scene, Backend const
         if (v.members.empty()) v.numbers.push_back(stored_numbers(*stored, scene, choose(count), work, whole));
         if (!request.members) limit_steps(method.scene, budget.most_of_a_member());
         v.numbers.push_back(run_again(method.scene, method.cost));
-        if (auto const energy = audit_energy(v.numbers.back(), method.scene)) v.energy = energy;
+        if (method.audits_energy) v.energy = audit_energy(v.numbers.back(), method.scene);
         if (request.stop != nullptr && request.stop->reason() != StopReason::none) return not_checked(std::move(v), "the run was stopped");
         v.methods.push_back(method.words);
         v.finished.push_back(v.numbers.back().finished());

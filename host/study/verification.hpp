@@ -22,6 +22,7 @@ struct CheckMethod {
     std::string words;  // "dopri5 at rtol 1e-08"
     Scene scene;        // the study's, integrated in that way, without time series
     double cost;        // what a member takes, roughly, in units of what it took in the study
+    bool audits_energy = false;  // the study's own orbits once more, under a law that keeps energy
 };
 
 /// What a check makes of rtol and atol.

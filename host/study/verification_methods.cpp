@@ -59,7 +59,7 @@ std::vector<CheckMethod> check_methods(Scene const& scene) {
     Scene const bare = without_series(scene);
     std::vector<CheckMethod> methods;
     auto const add = [&](Scene check, double cost, std::string_view beside = "") {
-        methods.push_back({words_of(check.integrator) + std::string(beside), std::move(check), cost});
+        methods.push_back({words_of(check.integrator) + std::string(beside), std::move(check), cost, false});
     };
     // Where forces jump, no tolerance brings a step across that does not end there: far below the study's, steps become too small.
     bool const jumps = makes_energy(scene.parts) && scene.parts.damping != Damping::restitution;
@@ -97,6 +97,7 @@ std::vector<CheckMethod> check_methods(Scene const& scene) {
         wide.chaos.d0_lower *= factor;
         wide.chaos.d0_upper *= factor;
         add(wide, 1, fmt::format(", d0 = {:.0e}", wide.chaos.d0));
+        methods.back().audits_energy = !makes_energy(scene.parts);
     }
     // The cheap one first: it may be all that there is room for.
     std::stable_sort(methods.begin(), methods.end(), [](CheckMethod const& a, CheckMethod const& b) { return a.cost < b.cost; });
