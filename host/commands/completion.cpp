@@ -161,13 +161,6 @@ std::string bash_script(std::vector<CommandDescription> const& commands) {
 
 // ---- zsh ----
 
-/// 'text' for zsh and fish; a quote inside is left and entered again.
-std::string zsh_quoted(std::string_view text) {
-    std::string out = "'";
-    for (char const c : text) out += c == '\'' ? "'\\''" : std::string(1, c);
-    return out + "'";
-}
-
 /// In an explanation of _arguments brackets and colons have a meaning.
 std::string zsh_text(std::string_view text) {
     std::string out;
@@ -192,9 +185,9 @@ std::string zsh_action(Candidates const& candidates) {
 }
 
 std::string zsh_spec(OptionDescription const& option, Candidates const& values) {
-    if (option.positional) return zsh_quoted(fmt::format(":{}{}:{}", option.optional ? ":" : "", option.value, zsh_action(values)));
+    if (option.positional) return shell_quoted(fmt::format(":{}{}:{}", option.optional ? ":" : "", option.value, zsh_action(values)));
     std::string value = option.value.empty() ? "" : fmt::format("{}:{}:{}", option.optional ? ":" : "", zsh_text(option.value), zsh_action(values));
-    std::string const rest = zsh_quoted(fmt::format("[{}]{}", zsh_text(option.meaning), value)), all = fmt::format("{}", fmt::join(option.names, " "));
+    std::string const rest = shell_quoted(fmt::format("[{}]{}", zsh_text(option.meaning), value)), all = fmt::format("{}", fmt::join(option.names, " "));
     if (option.names.size() > 1) return fmt::format("'({})'{{{}}}{}", all, fmt::join(option.names, ","), rest);
     return fmt::format("{}{}{}", option.repeats ? "'*'" : "", all, rest);
 }
@@ -205,7 +198,7 @@ std::string zsh_script(std::vector<CommandDescription> const& commands) {
                        "        case ${${IPREFIX%=}##*=} in\n" + value_cases("compadd --") +
                        "        esac\n        return\n    fi\n    compadd -S = --" + key_names() +
                        "\n}\n_slideway() {\n    if ((CURRENT == 2)); then\n        local -a commands=(\n";
-    for (CommandDescription const& command : commands) text += "            " + zsh_quoted(command.name + ":" + zsh_text(command.summary)) + "\n";
+    for (CommandDescription const& command : commands) text += "            " + shell_quoted(command.name + ":" + zsh_text(command.summary)) + "\n";
     text += "        )\n        [[ $PREFIX == -* ]] && compadd -- --help --version || _describe command commands\n        return\n    fi\n"
             "    local command=$words[2]\n    shift words\n    ((CURRENT -= 1))\n    case $command in\n";
     for (CommandDescription const& command : commands) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace slideway::cli {
@@ -13,6 +15,10 @@ struct OptionDescription {
     std::string meaning;
     bool positional = false, optional = false;  // optional: a positional, or the value of an option, that may be left out
     bool repeats = false;                       // takes several values
+
+    using Style = std::function<std::string(std::string_view)>;
+    /// "-o, --output OUT.nc", "--members [A..B]", "SCENE".  @param word, metavariable how names, and what stands for values, are set
+    std::string label(Style const& word, Style const& metavariable) const;
 };
 
 /// A command line that does something, and what.

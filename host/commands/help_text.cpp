@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "host/commands/description.hpp"
 #include "host/commands/text.hpp"
@@ -22,14 +21,15 @@ std::string shell_lines(std::string const& command, std::size_t width) {
     return lines;
 }
 
-std::string label_of(OptionDescription const& option) {
-    std::string const label = fmt::format("{}", fmt::join(option.names, ", "));
-    if (option.value.empty() || option.positional) return label;
-    std::string const value = option.value + (option.repeats ? " ..." : "");
-    return label + (option.optional ? " [" + value + "]" : " " + value);
-}
-
 }  // namespace
+
+std::string OptionDescription::label(Style const& word, Style const& metavariable) const {
+    std::string text;
+    for (std::string const& name : names) text += (text.empty() ? "" : ", ") + (positional ? metavariable(name) : word(name));
+    if (value.empty() || positional) return text;
+    std::string const taken = metavariable(value) + (repeats ? " ..." : "");
+    return text + (optional ? " [" + taken + "]" : " " + taken);
+}
 
 std::string CommandDescription::synopsis() const {
     std::string text = "slideway " + name + " [OPTION]...";
@@ -40,11 +40,12 @@ std::string CommandDescription::synopsis() const {
 }
 
 std::string help_text(CommandDescription const& command, std::size_t width) {
+    auto const as_it_is = [](std::string_view word) { return std::string(word); };
     std::string text = fmt::format("{}\n\nUsage: {}\n", wrapped(command.summary, 0, width), command.synopsis());
     for (bool const positional : {true, false}) {
         std::string entries;
         for (OptionDescription const& option : command.options) {
-            if (option.positional == positional) entries += entry(label_of(option), option.meaning, width);
+            if (option.positional == positional) entries += entry(option.label(as_it_is, as_it_is), option.meaning, width);
         }
         if (!entries.empty()) text += fmt::format("\n{}:\n{}", positional ? "Arguments" : "Options", entries);
     }

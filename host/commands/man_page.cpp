@@ -44,20 +44,12 @@ std::string bold(std::string_view text) { return "\\fB" + plain(text) + "\\fR"; 
 std::string italic(std::string_view text) { return "\\fI" + plain(text) + "\\fR"; }
 std::string entry(std::string const& label, std::string const& text) { return fmt::format(".TP\n{}\n{}\n", label, text); }
 
-std::string option_label(OptionDescription const& option) {
-    std::string label;
-    for (std::string const& name : option.names) label += (label.empty() ? "" : ", ") + (option.positional ? italic(name) : bold(name));
-    if (option.positional || option.value.empty()) return label;
-    std::string const value = italic(option.value) + (option.repeats ? " ..." : "");
-    return label + (option.optional ? " [" + value + "]" : " " + value);
-}
-
 std::string commands_text(std::vector<CommandDescription> const& commands) {
     std::string text = ".SH COMMANDS\n";
     for (CommandDescription const& command : commands) {
         text += fmt::format(".SS {}\n{}\n.PP\n{}\n", plain(command.synopsis()), plain(command.summary) + ".", plain(command.note));
         if (command.note.empty()) text.erase(text.size() - std::string_view(".PP\n\n").size());
-        for (OptionDescription const& option : command.options) text += entry(option_label(option), plain(option.meaning));
+        for (OptionDescription const& option : command.options) text += entry(option.label(bold, italic), plain(option.meaning));
     }
     return text;
 }

@@ -26,7 +26,7 @@ public:
     std::string computed_hash() const { return payload_hash(file); }  // reads all data
     /// Of a file that was just written and looked at.
     SealCheck seal() const { return {format_of(file), stored_hash(), attribute("metadata_hash"), stored_hash(), attribute("metadata_hash")}; }
-    SealCheck check() const { return check_seal(file); }               // the same
+    SealCheck check() const { return check_seal(file); }  // reads all data
 };
 
 }  // namespace slideway

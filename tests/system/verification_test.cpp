@@ -68,6 +68,20 @@ TEST_F(VerifiedRun, GoesOnAfterItsEnd) {
     EXPECT_EQ(of_group("summary"), results("whole.nc").group_attribute("verification", "summary"));
 }
 
+/// Energy is audited of exponents alone, and not of a law that makes it by itself: others that ask for the residual are resolved as before.
+TEST_F(VerifiedRun, AuditsTheEnergyOfExponentsUnderALawThatKeepsIt) {
+    auto const summary = [&](std::string const& law, std::string const& kind) {
+        Outcome const outcome = verified({"--force", "--set", "contact.law=" + law, "study.kind=" + kind, "study.duration=5 ms", "study.members=8"});
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return of_group("summary");
+    };
+    EXPECT_EQ(summary("paper", "ensemble").find("energy audit"), std::string::npos);
+    EXPECT_EQ(summary("conservative", "ensemble").find("energy audit"), std::string::npos);
+    write("s.toml", std::string(small_scene).replace(std::string(small_scene).find("samples = 6\n"), 12, "Ttr = 0\ndt = \"0.1 ms\"\n"));
+    EXPECT_EQ(summary("paper", "lyapunov").find("energy audit"), std::string::npos);
+    EXPECT_NE(summary("conservative", "lyapunov").find("energy audit: the integration makes"), std::string::npos);
+}
+
 TEST_F(VerifiedRun, IsAskedForByTheScene) {
     ASSERT_EQ(run_scene({"-o", "o.nc", "--set", "study.verify=6", "--set", "study.duration=1 ms"}).code, 0);
     EXPECT_NE(of_group("summary").find("resolved: 6 members again"), std::string::npos) << of_group("summary");
