@@ -69,28 +69,11 @@ int put_in_place(std::string const& from, std::string const& to, Existing existi
     return ::unlink(from.c_str()) == 0 ? 0 : errno;
 }
 
-}  // namespace
-
-std::string folder_of(std::string const& path) {
-    std::string const folder = std::filesystem::path(path).parent_path().string();
-    return folder.empty() ? std::string(".") : folder;
-}
-
-namespace {
-
 void sync_folder_for(std::string const& folder, std::string const& path) {
     Descriptor const file(folder, O_RDONLY | O_DIRECTORY);
     // Some file systems cannot, and need not.
     if (::fsync(file.get()) != 0 && errno != EINVAL) fail(path, "write to the disk", errno);
 }
-
-}  // namespace
-
-void sync_folder(std::string const& path) { sync_folder_for(path, path); }
-
-void sync_name(std::string const& path) { sync_folder_for(folder_of(path), path); }
-
-namespace {
 
 void write_file(std::string const& path, int flags, std::span<std::byte const> bytes) {
     Descriptor file(path, O_WRONLY | O_CREAT | flags);
@@ -105,6 +88,15 @@ void write_file(std::string const& path, int flags, std::span<std::byte const> b
 }
 
 }  // namespace
+
+std::string folder_of(std::string const& path) {
+    std::string const folder = std::filesystem::path(path).parent_path().string();
+    return folder.empty() ? std::string(".") : folder;
+}
+
+void sync_folder(std::string const& path) { sync_folder_for(path, path); }
+
+void sync_name(std::string const& path) { sync_folder_for(folder_of(path), path); }
 
 void write_new(std::string const& path, std::span<std::byte const> bytes) { write_file(path, O_EXCL, bytes); }
 
@@ -132,6 +124,14 @@ void rename_durably(std::string const& from, std::string const& to, Existing exi
         throw FileError(fmt::format("{}: cannot replace: {}; the results are in {}", to, std::strerror(reason), from));
     }
     sync_name(to);
+}
+
+void remove_file(std::string const& path) {
+    if (::unlink(path.c_str()) != 0 && errno != ENOENT) fail(path, "remove", errno);
+}
+
+void rename_file(std::string const& from, std::string const& to) {
+    if (std::rename(from.c_str(), to.c_str()) != 0) fail(from, "rename", errno);
 }
 
 bool is_there(std::string const& path) {

@@ -28,6 +28,11 @@ void write_new(std::string const& path, std::span<std::byte const> bytes);
 /// The last steps for a file that another library wrote: fsync, rename, fsync of the folder.  @throws FileError; `from` then stays.
 void rename_durably(std::string const& from, std::string const& to, Existing existing = Existing::replaced);
 
+/// What must not stay; what is not there is no matter.  @throws FileError
+void remove_file(std::string const& path);
+/// Without a word to the disk.  @throws FileError
+void rename_file(std::string const& from, std::string const& to);
+
 /// Makes new names and removals in a folder last.  @throws FileError
 void sync_folder(std::string const& path);
 /// The same for the folder that a path lies in.  @throws FileError, of the path

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "host/base/durable_file.hpp"
 #include "host/base/error.hpp"
 
 namespace slideway {
@@ -59,10 +60,6 @@ void FileLock::change(Kind kind, std::string const& rival) {
     if (flock_uninterrupted(file_, operation_of(kind) | LOCK_NB) != 0 && errno == EWOULDBLOCK) throw FileError(rival);
 }
 
-void FileLock::remove() {
-    if (unlink(path_.c_str()) != 0 && errno != ENOENT) {
-        throw FileError(fmt::format("{}: cannot remove: {}", path_, std::strerror(errno)));
-    }
-}
+void FileLock::remove() { remove_file(path_); }
 
 }  // namespace slideway

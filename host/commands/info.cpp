@@ -7,7 +7,7 @@
 #include "host/commands/tolerance_text.hpp"
 #include "host/config/scene_text.hpp"
 #include "host/store/result_check.hpp"
-#include "host/store/result_reader.hpp"
+#include "host/store/result_view.hpp"
 #include "host/study/result_summary.hpp"
 #include "host/study/study_run.hpp"
 #include "host/study/verification.hpp"

@@ -9,7 +9,7 @@
 
 #include "host/commands/commands.hpp"
 #include "host/run/ensemble.hpp"
-#include "host/store/result_reader.hpp"
+#include "host/store/result_view.hpp"
 #include "host/study/prediction.hpp"
 #include "host/study/probe.hpp"
 #include "host/study/series_analysis.hpp"

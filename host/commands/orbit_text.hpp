@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/commands/text.hpp"
-#include "host/store/result_reader.hpp"
+#include "host/store/result_view.hpp"
 
 namespace slideway::cli {
 

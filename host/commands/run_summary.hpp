@@ -7,7 +7,7 @@
 #include "host/commands/commands.hpp"
 #include "host/config/scene.hpp"
 #include "host/run/ensemble.hpp"
-#include "host/store/result_reader.hpp"
+#include "host/store/result_view.hpp"
 #include "host/study/tolerance_report.hpp"
 
 namespace slideway::cli {

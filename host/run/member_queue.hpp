@@ -1,6 +1,7 @@
 // Who works on which part of a run: threads and ranks take stretches of it until none is left.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <mutex>
 
@@ -29,9 +30,20 @@ public:
 class LocalQueue final : public MemberQueue {
 public:
     explicit LocalQueue(std::uint64_t places) : places_(places) {}
-    Stretch take(std::uint64_t wanted, std::uint64_t finished) override;
-    void abandon() override;
-    std::uint64_t left() const override;
+    Stretch take(std::uint64_t wanted, std::uint64_t) override {
+        std::lock_guard const lock(mutex_);
+        Stretch const stretch{taken_, std::min(wanted, places_ - taken_)};
+        taken_ += stretch.count;
+        return stretch;
+    }
+    void abandon() override {
+        std::lock_guard const lock(mutex_);
+        taken_ = places_;
+    }
+    std::uint64_t left() const override {
+        std::lock_guard const lock(mutex_);
+        return places_ - taken_;
+    }
 
 private:
     mutable std::mutex mutex_;

@@ -55,6 +55,7 @@ public:
         if (thread_.joinable()) thread_.join();
     }
 
+    /// For workers of rank 0, who may live longer than the server.
     std::shared_ptr<LocalQueue> const& queue() const { return queue_; }
 
     /// What the others gave with their end; the place of rank 0 is empty.
@@ -109,18 +110,6 @@ private:
     std::thread thread_;  // last: it uses the others
 };
 
-/// Rank 0's workers take from the server's queue, which may live no longer than they.
-class ServedQueue final : public MemberQueue {
-public:
-    explicit ServedQueue(std::shared_ptr<LocalQueue> queue) : queue_(std::move(queue)) {}
-    Stretch take(std::uint64_t wanted, std::uint64_t finished) override { return queue_->take(wanted, finished); }
-    void abandon() override { queue_->abandon(); }
-    std::uint64_t left() const override { return queue_->left(); }
-
-private:
-    std::shared_ptr<LocalQueue> const queue_;
-};
-
 /// The queue as another rank sees it.  One question is under way at a time; a thread that waits for its turn sleeps.
 class DistantQueue final : public MemberQueue {
 public:
@@ -171,11 +160,11 @@ public:
         return bytes;
     }
 
-    std::unique_ptr<MemberQueue> share(std::uint64_t places, std::function<void(std::uint64_t)> on_finished) override {
+    std::shared_ptr<MemberQueue> share(std::uint64_t places, std::function<void(std::uint64_t)> on_finished) override {
         is_under_way_ = is_in_round_ = true;
-        if (rank() != 0) return std::make_unique<DistantQueue>(calls_, Tags(round_), places);
+        if (rank() != 0) return std::make_shared<DistantQueue>(calls_, Tags(round_), places);
         server_ = std::make_unique<Server>(*calls_, Tags(round_), places, std::move(on_finished));
-        return std::make_unique<ServedQueue>(server_->queue());
+        return server_->queue();
     }
 
     std::vector<std::string> gather(std::string bytes) override {

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "host/run/launcher.hpp"
 #include "host/run/member_queue.hpp"
 
 namespace slideway {
@@ -27,8 +27,7 @@ public:
     /// What rank 0 gives, at every rank.
     virtual std::string broadcast(std::string bytes) = 0;
     /// One queue for all ranks.  @param on_finished at rank 0: members that other ranks report as finished; from another thread.
-    virtual std::unique_ptr<MemberQueue> share(std::uint64_t places,
-                                               std::function<void(std::uint64_t)> on_finished) = 0;
+    virtual std::shared_ptr<MemberQueue> share(std::uint64_t places, std::function<void(std::uint64_t)> on_finished) = 0;
     /// What every rank gives, by rank, at rank 0; nothing elsewhere.  Ends the queue of `share`: it waits, without load, for the
     /// ranks that still work.
     virtual std::vector<std::string> gather(std::string bytes) = 0;
@@ -40,6 +39,22 @@ public:
     /// Ends the processes of all ranks, with this exit code where the launcher passes it on.  Does not return.
     [[noreturn]] virtual void abort(int code) = 0;
 };
+
+/// What a launcher says of this process.
+struct Launch {
+    std::string told_by;  // the variable that says so
+    int count = 0;        // processes of the job; 0 where the launcher does not say
+    bool first = true;    // this one is rank 0, or the launcher does not say
+};
+
+/// Value of an environment variable; nullptr without it.
+using Environment = std::function<char const*(char const* name)>;
+
+/// Only variables that mean MPI are asked: OMPI_COMM_WORLD_SIZE (Open MPI), PMI_SIZE (MPICH, Intel MPI,
+/// `srun --mpi=pmi2`), MV2_COMM_WORLD_SIZE (MVAPICH2), PMIX_RANK (`srun --mpi=pmix`; SLURM then says how many).
+/// SLURM's own variables are set in plain batch jobs too, where each process is alone.
+/// @return nothing for a process that nobody started as one of a job.
+std::optional<Launch> find_launch(Environment const& environment);
 
 /// Of a build with MPI: starts it; the returned object ends it.
 /// @throws SceneError if MPI lets only its main thread make calls, or sees other processes than the launcher started.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <limits>
 
 namespace slideway {
 
@@ -10,9 +11,21 @@ namespace slideway {
 class TimeLeft {
 public:
     /// @param seconds since the start, later than those of the last call  @param done work since the start, no less than then
-    void note(double seconds, double done);
+    void note(double seconds, double done) {
+        constexpr double window = 0.5, spacing = 0.01;  // of the time so far
+        now_ = {seconds, done};
+        if (seconds - window_.back().seconds >= spacing * seconds) window_.push_back(now_);
+        while (window_.size() > 1 && window_[1].seconds <= (1 - window) * seconds) window_.pop_front();
+    }
     /// @param left work still to do, >= 0  @return [s]; NaN as long as nothing is done, and something left
-    double seconds(double left) const;
+    double seconds(double left) const {
+        if (left <= 0) return 0;
+        if (!(now_.done > 0)) return std::numeric_limits<double>::quiet_NaN();
+        double const so_far = now_.seconds / now_.done;
+        Point const& from = window_.front();
+        double const of_late = now_.done > from.done ? (now_.seconds - from.seconds) / (now_.done - from.done) : so_far;
+        return left * (so_far + of_late) / 2;
+    }
 
 private:
     struct Point {

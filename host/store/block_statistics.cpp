@@ -7,46 +7,27 @@
 #include <fmt/format.h>
 
 #include "host/base/byte_stream.hpp"
-#include "host/config/labels.hpp"
 
 namespace slideway {
 namespace {
 
 constexpr std::uint64_t magic = 0x31746174736b6c73;  // "slkstat1": the last letter is the version
 
-/// Place of what a limit is of in a member's row of all quantities.
-std::size_t column_of(Limit const& limit, Selection quantities) {
-    for (int q = 0; q < quantity_count; ++q) {
-        QuantityInfo const& info = quantity_table[q];
-        if (limit.quantity != info.name || !selects(quantities, static_cast<Quantity>(q))) continue;
-        auto const first = static_cast<std::size_t>(quantity_column(static_cast<Quantity>(q)));
-        if (info.dimension == nullptr) return first;
-        auto const labels = labels_of(info.dimension);
-        auto const found = std::find(labels.begin(), labels.end(), limit.label);
-        if (found != labels.end()) return first + static_cast<std::size_t>(found - labels.begin());
-    }
-    throw std::invalid_argument("no quantity of the statistics: " + limit.name());
-}
+bool is_before(FailedMember const& a, FailedMember const& b) { return a.member < b.member; }
 
 }  // namespace
 
-std::vector<std::size_t> selected_columns(Selection quantities) {
-    std::vector<std::size_t> columns;
-    for (int q = 0; q < quantity_count; ++q) {
-        if (!selects(quantities, static_cast<Quantity>(q))) continue;
-        for (int i = 0; i < quantity_table[q].columns; ++i)
-            columns.push_back(static_cast<std::size_t>(quantity_column(static_cast<Quantity>(q)) + i));
-    }
-    return columns;
-}
-
 BlockStatistics::BlockStatistics(StatisticsPlan const& plan)
-    : columns_(selected_columns(plan.quantities).size()), met_(plan.limits.size()) {}
+    : columns_(columns_of(plan.quantities).size()), met_(plan.limits.size()) {}
 
 void BlockStatistics::add(BlockResult const& block, StatisticsPlan const& plan) {
-    std::vector<std::size_t> const places = selected_columns(plan.quantities);
+    std::vector<QuantityColumn> const columns = columns_of(plan.quantities);
     std::vector<std::size_t> limited;
-    for (Limit const& limit : plan.limits) limited.push_back(column_of(limit, plan.quantities));
+    for (Limit const& limit : plan.limits) {
+        QuantityColumn const* const column = column_of(columns, limit);
+        if (column == nullptr) throw std::invalid_argument("no quantity of the statistics: " + limit.name());
+        limited.push_back(column->place);
+    }
     for (std::size_t i = 0; i < block.records.size(); ++i) {
         MemberRecord const& record = block.records[i];
         if (record.status == Status::not_run) continue;
@@ -58,7 +39,7 @@ void BlockStatistics::add(BlockResult const& block, StatisticsPlan const& plan) 
             continue;
         }
         auto const row = block.quantities.subspan(i * quantity_columns, quantity_columns);
-        for (std::size_t k = 0; k < places.size(); ++k) columns_[k].add(row[places[k]]);
+        for (std::size_t k = 0; k < columns.size(); ++k) columns_[k].add(row[columns[k].place]);
         bool all = !limited.empty();
         for (std::size_t k = 0; k < limited.size(); ++k) {
             double const value = row[limited[k]];
@@ -68,7 +49,7 @@ void BlockStatistics::add(BlockResult const& block, StatisticsPlan const& plan) 
         }
         all_met_ += all;
     }
-    std::sort(failed_.begin(), failed_.end(), [](auto const& a, auto const& b) { return a.member < b.member; });
+    std::ranges::sort(failed_, is_before);
     if (failed_.size() > most_failed) failed_.resize(most_failed);
 }
 
@@ -87,8 +68,7 @@ void BlockStatistics::merge(BlockStatistics const& other) {
     for (std::size_t i = 0; i < met_.size(); ++i) met_[i] += other.met_[i];
     all_met_ += other.all_met_;
     std::vector<FailedMember> failed;
-    std::merge(failed_.begin(), failed_.end(), other.failed_.begin(), other.failed_.end(), std::back_inserter(failed),
-               [](auto const& a, auto const& b) { return a.member < b.member; });
+    std::ranges::merge(failed_, other.failed_, std::back_inserter(failed), is_before);
     if (failed.size() > most_failed) failed.resize(most_failed);
     failed_ = std::move(failed);
 }

@@ -23,9 +23,6 @@ struct StatisticsPlan {
     std::vector<Limit> limits;
 };
 
-/// Columns of the selected quantities, as places in a member's row of all, in the order of the quantity table.
-std::vector<std::size_t> selected_columns(Selection quantities);
-
 /// A member that ran and did not finish.
 struct FailedMember {
     std::uint64_t member;
@@ -53,7 +50,7 @@ public:
 
     MemberSet const& members() const { return members_; }
     std::uint64_t ended(Status status) const { return ended_[static_cast<std::size_t>(status)]; }
-    /// Of `selected_columns`.
+    /// Of `columns_of` the quantities.
     std::span<ColumnAccumulator const> columns() const { return columns_; }
     /// Members that meet each limit; all of them.
     std::span<std::uint64_t const> met() const { return met_; }

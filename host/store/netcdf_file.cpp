@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -19,18 +20,23 @@
 
 namespace slideway {
 
-static_assert(NetcdfFile::unlimited == NC_UNLIMITED);
+static_assert(NetcdfFile::unlimited == NC_UNLIMITED && NetcdfFile::global == NC_GLOBAL);
 namespace {
 
 constexpr int closed = -1;
+constexpr char const* of_header = "read the header";
+
+/// netCDF's number of each type and the bytes of a value, in the order of NetcdfFile::Type.
+constexpr struct {
+    nc_type number;
+    std::size_t bytes;
+} type_table[] = {{NC_BYTE, 1}, {NC_INT, 4}, {NC_DOUBLE, 8}, {NC_CHAR, 1}};
 
 [[noreturn]] void fail(std::string const& path, std::string_view action, int code) {
     bool const reads = action.starts_with("read") || action == "open";
     throw FileError(fmt::format("{}: cannot {}: {}{}", path, action, nc_strerror(code),
                                 reads && code <= NC_EHDFERR && code >= NC4_LAST_ERROR ? "; the file is damaged, or its disk fails" : ""));
 }
-
-int variable_or_global(int variable) { return variable == NetcdfFile::global ? NC_GLOBAL : variable; }
 
 /// netCDF asks HDF5 for attributes that need not be there, and silences its complaints in the first thread alone.
 void silence_hdf5() {
@@ -50,32 +56,17 @@ std::size_t end_of_file(std::span<std::byte const> image) {
     return static_cast<std::size_t>(std::min<std::uint64_t>(end, image.size()));
 }
 
-nc_type type_of(NetcdfFile::Type type) {
-    switch (type) {
-        case NetcdfFile::Type::int8:
-            return NC_BYTE;
-        case NetcdfFile::Type::int32:
-            return NC_INT;
-        case NetcdfFile::Type::float64:
-            return NC_DOUBLE;
-        case NetcdfFile::Type::text:
-            break;
-    }
-    return NC_CHAR;
+/// What a call that opens or makes a file gives it as its number.
+template <class Call> int number_of(std::string const& path, std::string_view action, Call call) {
+    silence_hdf5();
+    int id = closed;
+    if (int const code = call(&id); code != NC_NOERR) fail(path, action, code);
+    return id;
 }
 
 }  // namespace
 
-std::size_t NetcdfFile::size_of(Type type) {
-    switch (type) {
-        case Type::int32:
-            return 4;
-        case Type::float64:
-            return 8;
-        default:
-            return 1;
-    }
-}
+std::size_t NetcdfFile::size_of(Type type) { return type_table[static_cast<int>(type)].bytes; }
 
 std::size_t NetcdfFile::Variable::size() const {
     return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
@@ -85,32 +76,28 @@ void NetcdfFile::require(int code, std::string_view action) const {
     if (code != NC_NOERR) fail(path_, action, code);
 }
 
+/// A name that a call writes.
+template <class Call> std::string NetcdfFile::name_by(Call call) const {
+    char name[NC_MAX_NAME + 1];
+    require(call(name), of_header);
+    return name;
+}
+
 NetcdfFile NetcdfFile::create(std::string const& path) {
-    silence_hdf5();
-    int id = closed;
-    if (int const code = nc_create(path.c_str(), NC_NOCLOBBER | NC_NETCDF4, &id); code != NC_NOERR) {
-        fail(path, "create", code);
-    }
-    return {path, id, Kind::written};
+    return {path, number_of(path, "create", [&](int* id) { return nc_create(path.c_str(), NC_NOCLOBBER | NC_NETCDF4, id); }), Kind::written};
 }
 
 NetcdfFile NetcdfFile::open(std::string const& path) {
-    silence_hdf5();
-    int id = closed;
-    int const code = nc_open(path.c_str(), NC_NOWRITE, &id);
-    if (code == NC_ENOTNC) throw FileError(path + ": is no netCDF file; give a result of slideway run");
-    if (code != NC_NOERR) fail(path, "open", code);
-    return {path, id};
+    return {path, number_of(path, "open", [&](int* id) {
+                int const code = nc_open(path.c_str(), NC_NOWRITE, id);
+                if (code == NC_ENOTNC) throw FileError(path + ": is no netCDF file; give a result of slideway run");
+                return code;
+            })};
 }
 
 NetcdfFile NetcdfFile::create_in_memory(std::string const& name) {
-    silence_hdf5();
-    int id = closed;
     constexpr std::size_t first_size = 1 << 16;  // netCDF takes no less
-    if (int const code = nc_create_mem(name.c_str(), NC_NETCDF4, first_size, &id); code != NC_NOERR) {
-        fail(name, "create", code);
-    }
-    return {name, id};
+    return {name, number_of(name, "create", [&](int* id) { return nc_create_mem(name.c_str(), NC_NETCDF4, first_size, id); })};
 }
 
 std::vector<std::byte> NetcdfFile::close_to_bytes() {
@@ -123,14 +110,8 @@ std::vector<std::byte> NetcdfFile::close_to_bytes() {
 }
 
 NetcdfFile NetcdfFile::open_in_memory(std::string const& name, std::span<std::byte const> bytes) {
-    silence_hdf5();
-    int id = closed;
-    // It only reads.
-    auto* const memory = const_cast<std::byte*>(bytes.data());
-    if (int const code = nc_open_mem(name.c_str(), NC_NOWRITE, bytes.size(), memory, &id); code != NC_NOERR) {
-        fail(name, "open", code);
-    }
-    return {name, id};
+    auto* const memory = const_cast<std::byte*>(bytes.data());  // it only reads
+    return {name, number_of(name, "open", [&](int* id) { return nc_open_mem(name.c_str(), NC_NOWRITE, bytes.size(), memory, id); })};
 }
 
 NetcdfFile::NetcdfFile(NetcdfFile&& other) noexcept
@@ -167,117 +148,116 @@ int NetcdfFile::add_dimension(std::string const& name, std::size_t length) {
 
 int NetcdfFile::add_variable(std::string const& name, Type type, std::span<int const> dimensions, bool fill) {
     int variable = 0;
-    require(
-        nc_def_var(id_, name.c_str(), type_of(type), static_cast<int>(dimensions.size()), dimensions.data(), &variable),
-        "define variable " + name);
+    nc_type const number = type_table[static_cast<int>(type)].number;
+    require(nc_def_var(id_, name.c_str(), number, static_cast<int>(dimensions.size()), dimensions.data(), &variable), "define variable " + name);
     double const nan = std::numeric_limits<double>::quiet_NaN();
-    require(fill ? nc_def_var_fill(id_, variable, NC_FILL, &nan) : nc_def_var_fill(id_, variable, NC_NOFILL, nullptr),
-            "define variable " + name);
+    require(nc_def_var_fill(id_, variable, fill ? NC_FILL : NC_NOFILL, fill ? &nan : nullptr), "define variable " + name);
     return variable;
 }
 
 void NetcdfFile::put_text(int variable, std::string const& name, std::string_view value) {
     // netCDF marks texts as ASCII; only its strings are UTF-8 to other readers.
-    bool const ascii =
-        std::all_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+    bool const ascii = std::ranges::all_of(value, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
     std::string const text(value);
     char const* string = text.c_str();
-    int const code = ascii
-                         ? nc_put_att_text(id_, variable_or_global(variable), name.c_str(), value.size(), value.data())
-                         : nc_put_att_string(id_, variable_or_global(variable), name.c_str(), 1, &string);
-    require(code, "write attribute " + name);
+    require(ascii ? nc_put_att_text(id_, variable, name.c_str(), value.size(), value.data()) : nc_put_att_string(id_, variable, name.c_str(), 1, &string),
+            "write attribute " + name);
 }
 
 void NetcdfFile::put_number(int variable, std::string const& name, double value) {
-    require(nc_put_att_double(id_, variable_or_global(variable), name.c_str(), NC_DOUBLE, 1, &value),
-            "write attribute " + name);
+    require(nc_put_att_double(id_, variable, name.c_str(), NC_DOUBLE, 1, &value), "write attribute " + name);
 }
 
 void NetcdfFile::put_number(int variable, std::string const& name, int value) {
-    require(nc_put_att_int(id_, variable_or_global(variable), name.c_str(), NC_INT, 1, &value),
-            "write attribute " + name);
+    require(nc_put_att_int(id_, variable, name.c_str(), NC_INT, 1, &value), "write attribute " + name);
 }
 
 void NetcdfFile::put_bytes(int variable, std::string const& name, std::span<signed char const> values) {
-    require(nc_put_att_schar(id_, variable_or_global(variable), name.c_str(), NC_BYTE, values.size(), values.data()),
-            "write attribute " + name);
+    require(nc_put_att_schar(id_, variable, name.c_str(), NC_BYTE, values.size(), values.data()), "write attribute " + name);
 }
 
 void NetcdfFile::flush() { require(nc_sync(id_), "write (disk full?)"); }
 
 void NetcdfFile::end_definitions() { require(nc_enddef(id_), "write the header"); }
 
-void NetcdfFile::write(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count,
-                       void const* values) {
+void NetcdfFile::write(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count, void const* values) {
     require(nc_put_vara(id_, variable, start.data(), count.data(), values), "write (disk full?)");
 }
 
-void NetcdfFile::read(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count,
-                      void* values) const {
+void NetcdfFile::write(int variable, void const* values) { require(nc_put_var(id_, variable, values), "write (disk full?)"); }
+
+void NetcdfFile::read(int variable, void* values) const { require(nc_get_var(id_, variable, values), "read"); }
+
+void NetcdfFile::read(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count, void* values) const {
     require(nc_get_vara(id_, variable, start.data(), count.data(), values), "read");
+}
+
+NetcdfFile NetcdfFile::add_group(std::string const& name) {
+    int id = 0;
+    require(nc_def_grp(id_, name.c_str(), &id), "define group " + name);
+    return {path_, id, Kind::group};
+}
+
+NetcdfFile NetcdfFile::group(std::string const& name) const {
+    int id = 0;
+    require(nc_inq_ncid(id_, name.c_str(), &id), "find group " + name);
+    return {path_, id, Kind::group};
+}
+
+bool NetcdfFile::has_group(std::string const& name) const { return std::ranges::count(groups(), name) > 0; }
+
+std::vector<std::string> NetcdfFile::groups() const {
+    int count = 0;
+    require(nc_inq_grps(id_, &count, nullptr), of_header);
+    std::vector<int> ids(static_cast<std::size_t>(count));
+    require(nc_inq_grps(id_, &count, ids.data()), of_header);
+    std::vector<std::string> names;
+    for (int const id : ids) names.push_back(name_by([&](char* name) { return nc_inq_grpname(id, name); }));
+    return names;
+}
+
+int NetcdfFile::dimension(std::string const& name) const {
+    int dimension = 0;
+    require(nc_inq_dimid(id_, name.c_str(), &dimension), "find dimension " + name);
+    return dimension;
 }
 
 std::vector<NetcdfFile::Dimension> NetcdfFile::dimensions() const {
     int count = 0;
-    require(nc_inq_ndims(id_, &count), "read the header");
+    require(nc_inq_ndims(id_, &count), of_header);
     std::vector<Dimension> dimensions;
     // Numbers of dimensions go through the whole file: those of a group need not start at 0.
     std::vector<int> ids(static_cast<std::size_t>(count));
-    require(nc_inq_dimids(id_, &count, ids.data(), 0), "read the header");
+    require(nc_inq_dimids(id_, &count, ids.data(), 0), of_header);
     for (int const id : ids) {
-        char name[NC_MAX_NAME + 1];
         std::size_t length = 0;
-        require(nc_inq_dim(id_, id, name, &length), "read the header");
-        dimensions.push_back({name, length});
+        std::string name = name_by([&](char* text) { return nc_inq_dim(id_, id, text, &length); });
+        dimensions.push_back({std::move(name), length});
     }
     return dimensions;
 }
 
 std::vector<NetcdfFile::Variable> NetcdfFile::variables() const {
     int count = 0;
-    require(nc_inq_nvars(id_, &count), "read the header");
+    require(nc_inq_nvars(id_, &count), of_header);
     std::vector<Variable> variables;
     for (int i = 0; i < count; ++i) {
-        char name[NC_MAX_NAME + 1];
-        nc_type type = NC_NAT;
-        int rank = 0;
-        int dimensions[NC_MAX_VAR_DIMS];
-        require(nc_inq_var(id_, i, name, &type, &rank, dimensions, nullptr), "read the header");
-        Variable variable{i, name, Type::text, {}};
-        switch (type) {
-            case NC_BYTE:
-                variable.type = Type::int8;
-                break;
-            case NC_INT:
-                variable.type = Type::int32;
-                break;
-            case NC_DOUBLE:
-                variable.type = Type::float64;
-                break;
-            case NC_CHAR:
-                break;
-            default:
-                continue;  // not a type that slideway writes
-        }
-        for (int d = 0; d < rank; ++d) {
-            std::size_t length = 0;
-            require(nc_inq_dimlen(id_, dimensions[d], &length), "read the header");
-            variable.shape.push_back(length);
-        }
-        variables.push_back(std::move(variable));
+        nc_type number = NC_NAT;
+        int rank = 0, dimensions[NC_MAX_VAR_DIMS];
+        std::string name = name_by([&](char* text) { return nc_inq_var(id_, i, text, &number, &rank, dimensions, nullptr); });
+        auto const type = std::ranges::find(type_table, number, [](auto const& row) { return row.number; });
+        if (type == std::end(type_table)) continue;  // not a type that slideway writes
+        Variable& variable = variables.emplace_back(Variable{i, std::move(name), static_cast<Type>(type - std::begin(type_table)), {}});
+        for (int d = 0; d < rank; ++d) require(nc_inq_dimlen(id_, dimensions[d], &variable.shape.emplace_back()), of_header);
     }
     return variables;
 }
 
 std::vector<std::string> NetcdfFile::dimension_names(Variable const& variable) const {
     int dimensions[NC_MAX_VAR_DIMS];
-    char name[NC_MAX_NAME + 1];
-    require(nc_inq_vardimid(id_, variable.id, dimensions), "read the header");
+    require(nc_inq_vardimid(id_, variable.id, dimensions), of_header);
     std::vector<std::string> names;
-    for (std::size_t d = 0; d < variable.shape.size(); ++d) {
-        require(nc_inq_dimname(id_, dimensions[d], name), "read the header");
-        names.emplace_back(name);
-    }
+    for (std::size_t d = 0; d < variable.shape.size(); ++d) names.push_back(name_by([&](char* name) { return nc_inq_dimname(id_, dimensions[d], name); }));
     return names;
 }
 
@@ -287,47 +267,47 @@ std::string NetcdfFile::first_dimension(Variable const& variable) const {
 }
 
 std::vector<std::string> NetcdfFile::attribute_names(int variable) const {
-    int const where = variable_or_global(variable);
     int count = 0;
-    require(where == NC_GLOBAL ? nc_inq_natts(id_, &count) : nc_inq_varnatts(id_, where, &count), "read the header");
+    require(variable == global ? nc_inq_natts(id_, &count) : nc_inq_varnatts(id_, variable, &count), of_header);
     std::vector<std::string> names;
-    for (int i = 0; i < count; ++i) {
-        char name[NC_MAX_NAME + 1];
-        require(nc_inq_attname(id_, where, i, name), "read the header");
-        names.emplace_back(name);
-    }
-    std::sort(names.begin(), names.end());
+    for (int i = 0; i < count; ++i) names.push_back(name_by([&](char* name) { return nc_inq_attname(id_, variable, i, name); }));
+    std::ranges::sort(names);
     return names;
 }
 
+/// Its texts, of an attribute of strings.
+std::vector<std::string> NetcdfFile::strings(int variable, std::string const& name, std::size_t count) const {
+    std::vector<char*> strings(count, nullptr);
+    require(nc_get_att_string(id_, variable, name.c_str(), strings.data()), "read attribute " + name);
+    std::vector<std::string> texts;
+    for (char const* const one : strings) texts.emplace_back(one != nullptr ? one : "");
+    nc_free_string(count, strings.data());
+    return texts;
+}
+
 std::vector<std::byte> NetcdfFile::attribute_bytes(int variable, std::string const& name) const {
-    int const where = variable_or_global(variable);
     std::size_t count = 0, width = 0;
     nc_type type = NC_NAT;
-    require(nc_inq_att(id_, where, name.c_str(), &type, &count), "read attribute " + name);
-    std::vector<std::byte> bytes;
-    auto const add = [&bytes](void const* from, std::size_t size) {
-        bytes.resize(bytes.size() + size);
-        if (size > 0) std::memcpy(bytes.data() + bytes.size() - size, from, size);
-    };
+    require(nc_inq_att(id_, variable, name.c_str(), &type, &count), "read attribute " + name);
     std::uint64_t const head[2] = {static_cast<std::uint64_t>(type), count};
-    add(head, sizeof head);
+    auto const head_bytes = std::as_bytes(std::span(head));
+    std::vector<std::byte> bytes(head_bytes.begin(), head_bytes.end());
     if (type == NC_STRING) {
-        std::vector<char*> strings(count, nullptr);
-        require(nc_get_att_string(id_, where, name.c_str(), strings.data()), "read attribute " + name);
-        for (char const* const one : strings) add(one != nullptr ? one : "", one != nullptr ? std::strlen(one) + 1 : 1);
-        nc_free_string(count, strings.data());
+        for (std::string const& one : strings(variable, name, count)) {
+            auto const of_one = std::as_bytes(std::span(one.c_str(), one.size() + 1));
+            bytes.insert(bytes.end(), of_one.begin(), of_one.end());
+        }
         return bytes;
     }
     require(nc_inq_type(id_, type, nullptr, &width), "read attribute " + name);
-    std::vector<std::byte> values(count * width);
-    if (!values.empty()) require(nc_get_att(id_, where, name.c_str(), values.data()), "read attribute " + name);
-    add(values.data(), values.size());
+    bytes.resize(sizeof head + count * width);
+    if (count * width > 0) require(nc_get_att(id_, variable, name.c_str(), bytes.data() + sizeof head), "read attribute " + name);
     return bytes;
 }
 
 /// One that cannot be read is not taken for none.
-bool NetcdfFile::has_attribute(int code, std::string const& name) const {
+bool NetcdfFile::has_attribute(int variable, std::string const& name, int& type, std::size_t& length) const {
+    int const code = nc_inq_att(id_, variable, name.c_str(), &type, &length);
     if (code != NC_ENOTATT) require(code, "read attribute " + name);
     return code == NC_NOERR;
 }
@@ -335,27 +315,19 @@ bool NetcdfFile::has_attribute(int code, std::string const& name) const {
 std::string NetcdfFile::text(int variable, std::string const& name) const {
     std::size_t length = 0;
     nc_type type = NC_NAT;
-    int const where = variable_or_global(variable);
-    if (!has_attribute(nc_inq_att(id_, where, name.c_str(), &type, &length), name)) return {};
-    if (type == NC_STRING && length == 1) {
-        char* string = nullptr;
-        require(nc_get_att_string(id_, where, name.c_str(), &string), "read attribute " + name);
-        std::string value = string != nullptr ? string : "";
-        nc_free_string(1, &string);
-        return value;
-    }
+    if (!has_attribute(variable, name, type, length)) return {};
+    if (type == NC_STRING && length == 1) return strings(variable, name, 1).front();
     if (type != NC_CHAR) return {};
     std::string value(length, '\0');
-    require(nc_get_att_text(id_, where, name.c_str(), value.data()), "read attribute " + name);
+    require(nc_get_att_text(id_, variable, name.c_str(), value.data()), "read attribute " + name);
     return value;
 }
 
 bool NetcdfFile::number(int variable, std::string const& name, double& value) const {
     std::size_t length = 0;
     nc_type type = NC_NAT;
-    int const where = variable_or_global(variable);
-    if (!has_attribute(nc_inq_att(id_, where, name.c_str(), &type, &length), name) || type == NC_CHAR || length != 1) return false;
-    return nc_get_att_double(id_, where, name.c_str(), &value) == NC_NOERR;
+    if (!has_attribute(variable, name, type, length) || type == NC_CHAR || length != 1) return false;
+    return nc_get_att_double(id_, variable, name.c_str(), &value) == NC_NOERR;
 }
 
 }  // namespace slideway

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace slideway {
@@ -49,9 +50,16 @@ public:
     void end_definitions();
     void flush();  // to the disk
 
+    /// All values of a variable, in C order.
+    void write(int variable, void const* values);
+    void read(int variable, void* values) const;
+    template <class T> std::vector<T> read(Variable const& variable) const {
+        std::vector<T> values(variable.size());
+        if (!values.empty()) read(variable.id, values.data());
+        return values;
+    }
     /// A hyperslab; `count` and `start` have one entry per dimension.
-    void write(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count,
-               void const* values);
+    void write(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count, void const* values);
     void read(int variable, std::span<std::size_t const> start, std::span<std::size_t const> count, void* values) const;
 
     /// Groups: handles that share this file and must not outlive it.  They do what the file does but flush and close;
@@ -75,13 +83,18 @@ public:
 
     std::string const& path() const { return path_; }
     static std::size_t size_of(Type type);
+    /// As what values are stored.
+    template <class T>
+    static constexpr Type type_of = std::is_same_v<T, double> ? Type::float64 : std::is_same_v<T, int> ? Type::int32 : Type::int8;
 
 private:
     enum class Kind { other, written, group };  // written: to a path; group: of a file that another closes
     NetcdfFile(std::string path, int id, Kind kind = Kind::other) : path_(std::move(path)), id_(id), kind_(kind) {}
     int close_with_reason(bool& hdf5_failed) noexcept;
     void require(int code, std::string_view action) const;
-    bool has_attribute(int code, std::string const& name) const;
+    template <class Call> std::string name_by(Call call) const;
+    std::vector<std::string> strings(int variable, std::string const& name, std::size_t count) const;
+    bool has_attribute(int variable, std::string const& name, int& type, std::size_t& length) const;
 
     std::string path_;
     int id_;

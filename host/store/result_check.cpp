@@ -13,7 +13,7 @@
 
 #include "host/base/apart.hpp"
 #include "host/base/error.hpp"
-#include "host/store/result_reader.hpp"
+#include "host/store/result_view.hpp"
 
 namespace slideway {
 namespace {

@@ -9,21 +9,16 @@
 #include <fmt/format.h>
 
 #include "host/base/error.hpp"
-#include "host/store/label_axes.hpp"
+#include "host/store/group_writer.hpp"
 #include "host/store/result_layout.hpp"
 
 namespace slideway {
-namespace {
 
 using Type = NetcdfFile::Type;
 
-}  // namespace
-
 void put_provenance(NetcdfFile& file, Provenance const& provenance) {
     BuildInfo const& build = build_info();
-    auto const attribute = [&](char const* name, std::string const& value) {
-        file.put_text(NetcdfFile::global, name, value);
-    };
+    auto const attribute = [&](char const* name, std::string const& value) { file.put_text(NetcdfFile::global, name, value); };
     attribute("Conventions", "CF-1.8");
     attribute("title", provenance.title);
     attribute("source", "slideway " + build.version);
@@ -71,7 +66,7 @@ private:
     void define_series();
     void define_study();
     void define_sections();
-    void describe(int variable, std::string const& unit, std::string const& long_name);
+    int add(Type type, std::span<int const> dimensions, std::string const& name, std::string const& unit, std::string const& long_name);
     int member_variable(std::string const& name, std::string const& unit, std::string const& long_name);
     void write_coordinates();
 
@@ -83,25 +78,25 @@ private:
     std::vector<int> axes_;  // of the study
 };
 
-void ResultDefiner::describe(int variable, std::string const& unit, std::string const& long_name) {
+/// Whatever goes by members reads as NaN where nothing was written, if it is a number that can be.
+int ResultDefiner::add(Type type, std::span<int const> dimensions, std::string const& name, std::string const& unit, std::string const& long_name) {
+    bool const fill = type == Type::float64 && dimensions[0] == member_dimension_;
+    int const variable = file_.add_variable(name, type, dimensions, fill);
     file_.put_text(variable, "units", unit);
     file_.put_text(variable, "long_name", long_name);
+    return variable;
 }
 
 int ResultDefiner::member_variable(std::string const& name, std::string const& unit, std::string const& long_name) {
-    int const variable = file_.add_variable(name, Type::float64, std::array{member_dimension_}, true);
-    describe(variable, unit, long_name);
-    return variable;
+    return add(Type::float64, std::array{member_dimension_}, name, unit, long_name);
 }
 
 void ResultDefiner::define_coordinates() {
     member_dimension_ = file_.add_dimension("member", static_cast<std::size_t>(layout_.members.count()));
-    ids_.member = file_.add_variable("member", Type::int32, std::array{member_dimension_});
-    describe(ids_.member, "1", "number of the member in the scene's ensemble");
+    ids_.member = add(Type::int32, std::array{member_dimension_}, "member", "1", "number of the member in the scene's ensemble");
     if (layout_.sample_times.empty()) return;
     sample_dimension_ = file_.add_dimension("sample", layout_.sample_times.size());
-    ids_.time = file_.add_variable("time", Type::float64, std::array{sample_dimension_});
-    describe(ids_.time, "s", "time since the start of the run");
+    ids_.time = add(Type::float64, std::array{sample_dimension_}, "time", "s", "time since the start of the run");
 }
 
 void ResultDefiner::define_members() {
@@ -110,14 +105,11 @@ void ResultDefiner::define_members() {
     put_status_flags(file_, ids_.status);
 
     // Counts can pass 2^31 and CF-1.8 has no wider integers; a double holds them exactly up to 2^53.
-    for (WorkCounter const& counter : work_table) {
-        ids_.work.push_back(member_variable(counter.name, "1", counter.meaning));
-    }
+    for (WorkCounter const& counter : work_table) ids_.work.push_back(member_variable(counter.name, "1", counter.meaning));
     ids_.end_time = member_variable("end_time", "s", "time at which the member ended");
     for (std::size_t i = 0; i < layout_.states(); ++i) {
         SeriesInfo const& state = state_info(info(layout_.mechanism), i);
-        ids_.final_states.push_back(member_variable(fmt::format("final_{}", state.name), state.unit,
-                                                    fmt::format("{} at end_time", state.long_name)));
+        ids_.final_states.push_back(member_variable(fmt::format("final_{}", state.name), state.unit, fmt::format("{} at end_time", state.long_name)));
     }
     for (ParameterColumn const& parameter : layout_.parameters) {
         ids_.parameters.push_back(member_variable(parameter.name, parameter.unit, parameter.long_name));
@@ -125,18 +117,15 @@ void ResultDefiner::define_members() {
 }
 
 void ResultDefiner::define_quantities() {
-    for (int q = 0; q < quantity_count; ++q) {
-        if (!selects(layout_.quantities, static_cast<Quantity>(q))) continue;
-        QuantityInfo const& info = quantity_table[q];
-        int const first_column = quantity_column(static_cast<Quantity>(q));
+    for (Quantity const q : selected_quantities(layout_.quantities)) {
+        QuantityInfo const& info = slideway::info(q);
+        int const first_column = quantity_column(q);
         if (info.dimension == nullptr) {
             ids_.quantities.push_back({member_variable(info.name, info.unit, info.long_name), first_column, 1});
             continue;
         }
         LabelAxes::Axis const& axis = labels_.axis(info.dimension);
-        int const variable =
-            file_.add_variable(info.name, Type::float64, std::array{member_dimension_, axis.dimension}, true);
-        describe(variable, info.unit, info.long_name);
+        int const variable = add(Type::float64, std::array{member_dimension_, axis.dimension}, info.name, info.unit, info.long_name);
         file_.put_text(variable, "coordinates", axis.label_name);
         ids_.quantities.push_back({variable, first_column, info.columns});
     }
@@ -146,11 +135,9 @@ void ResultDefiner::define_series() {
     if (layout_.sample_times.empty()) return;
     for (int s = 0; s < series_count; ++s) {
         if (!selects(layout_.series, static_cast<Series>(s))) continue;
-        int const variable = file_.add_variable(series_table[s].name, Type::float64,
-                                                std::array{member_dimension_, sample_dimension_}, true);
-        describe(variable, series_table[s].unit, series_table[s].long_name);
-        file_.put_text(variable, "coordinates", "time");
-        ids_.series.push_back(variable);
+        SeriesInfo const& info = series_table[s];
+        ids_.series.push_back(add(Type::float64, std::array{member_dimension_, sample_dimension_}, info.name, info.unit, info.long_name));
+        file_.put_text(ids_.series.back(), "coordinates", "time");
     }
 }
 
@@ -159,14 +146,12 @@ void ResultDefiner::define_study() {
     for (StudyAxis const& axis : layout_.study.axes) {
         int const dimension = file_.add_dimension(axis.name, axis.values.size());
         dimensions[axis.name] = dimension;
-        axes_.push_back(file_.add_variable(axis.name, Type::float64, std::array{dimension}));
-        describe(axes_.back(), axis.unit, axis.long_name);
+        axes_.push_back(add(Type::float64, std::array{dimension}, axis.name, axis.unit, axis.long_name));
     }
     for (StudyColumn const& column : layout_.study.columns) {
         std::vector<int> shape{member_dimension_};
         for (std::string const& axis : column.axes) shape.push_back(dimensions.at(axis));
-        ids_.study.push_back(file_.add_variable(column.name, Type::float64, shape, true));
-        describe(ids_.study.back(), column.unit, column.long_name);
+        ids_.study.push_back(add(Type::float64, shape, column.name, column.unit, column.long_name));
     }
 }
 
@@ -175,26 +160,23 @@ void ResultDefiner::define_sections() {
     if (layout_.sections == 0) return;
     // A dimension of no length is one without limit to netCDF.
     int const dimension = file_.add_dimension("section", static_cast<std::size_t>(layout_.section_rows));
-    ids_.section_count = file_.add_variable("section_count", Type::int32, std::array{member_dimension_});
-    describe(ids_.section_count, "1", "sections of the member");
+    ids_.section_count = add(Type::int32, std::array{member_dimension_}, "section_count", "1", "sections of the member");
     file_.put_text(ids_.section_count, "sample_dimension", "section");
     if (layout_.crossings) {
-        ids_.section_crossings = file_.add_variable("section_crossings", Type::int32, std::array{member_dimension_});
-        describe(ids_.section_crossings, "1", "crossings of the section, also those beyond study.max_crossings");
+        ids_.section_crossings = add(Type::int32, std::array{member_dimension_}, "section_crossings", "1",
+                                     "crossings of the section, also those beyond study.max_crossings");
     }
-    auto const add = [&](std::string const& name, std::string const& unit, std::string const& long_name) {
-        ids_.section_columns.push_back(file_.add_variable(name, Type::float64, std::array{dimension}));
-        describe(ids_.section_columns.back(), unit, long_name);
+    auto const add_column = [&](std::string const& name, std::string const& unit, std::string const& long_name) {
+        ids_.section_columns.push_back(add(Type::float64, std::array{dimension}, name, unit, long_name));
     };
-    add("section_time", "s", "time of the section since the start of the run");
+    add_column("section_time", "s", "time of the section since the start of the run");
     for (std::size_t i = 0; i < layout_.states(); ++i) {
         SeriesInfo const& state = state_info(info(layout_.mechanism), i);
-        add(std::string("section_") + state.name, state.unit, std::string(state.long_name) + " at the section");
+        add_column(std::string("section_") + state.name, state.unit, std::string(state.long_name) + " at the section");
     }
 }
 
 void ResultDefiner::write_coordinates() {
-    std::size_t const origin[2] = {0, 0};
     constexpr std::uint64_t at_once = 1 << 18;
     for (std::uint64_t first = 0; first < layout_.members.count(); first += at_once) {
         std::vector<std::uint64_t> const members = layout_.members.members(first, at_once);
@@ -207,15 +189,9 @@ void ResultDefiner::write_coordinates() {
             if (variable >= 0) file_.write(variable, start, count, none.data());
         }
     }
-    if (!layout_.sample_times.empty()) {
-        std::size_t const all_samples[1] = {layout_.sample_times.size()};
-        file_.write(ids_.time, {origin, 1}, all_samples, layout_.sample_times.data());
-    }
+    if (!layout_.sample_times.empty()) file_.write(ids_.time, layout_.sample_times.data());
     labels_.write();
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-        auto const& values = layout_.study.axes[i].values;
-        file_.write(axes_[i], std::array{std::size_t{0}}, std::array{values.size()}, values.data());
-    }
+    for (std::size_t i = 0; i < axes_.size(); ++i) file_.write(axes_[i], layout_.study.axes[i].values.data());
 }
 
 ResultVariables ResultDefiner::define() {

@@ -7,19 +7,53 @@
 
 namespace slideway {
 
+std::vector<Quantity> selected_quantities(Selection selection) {
+    std::vector<Quantity> quantities;
+    for (int q = 0; q < quantity_count; ++q) {
+        if (selects(selection, static_cast<Quantity>(q))) quantities.push_back(static_cast<Quantity>(q));
+    }
+    return quantities;
+}
+
+std::vector<QuantityColumn> columns_of(Selection quantities) {
+    std::vector<QuantityColumn> columns;
+    for (Quantity const q : selected_quantities(quantities)) {
+        QuantityColumn column;
+        column.quantity = info(q).name;
+        column.place = static_cast<std::size_t>(quantity_column(q));
+        column.unit = info(q).unit;
+        column.long_name = info(q).long_name;
+        if (info(q).dimension == nullptr) {
+            columns.push_back(column);
+            continue;
+        }
+        column.dimension = info(q).dimension;
+        for (std::string const& label : labels_of(column.dimension)) {
+            column.label = label;
+            columns.push_back(column);
+            ++column.index;
+            ++column.place;
+        }
+    }
+    return columns;
+}
+
+QuantityColumn const* column_of(std::vector<QuantityColumn> const& columns, Limit const& limit) {
+    auto const found =
+        std::ranges::find_if(columns, [&](QuantityColumn const& column) { return column.quantity == limit.quantity && column.label == limit.label; });
+    return found == columns.end() ? nullptr : &*found;
+}
+
 std::string variable_name(std::string_view key) {
     std::string name(key);
-    std::replace(name.begin(), name.end(), '.', '_');
+    std::ranges::replace(name, '.', '_');
     return name;
 }
 
 std::uint64_t payload_bytes(ResultLayout const& layout) {
     constexpr std::uint64_t end_time = 1;
     std::uint64_t columns = work_table.size() + end_time + layout.states() + layout.parameters.size();
-    for (int q = 0; q < quantity_count; ++q) {
-        if (selects(layout.quantities, static_cast<Quantity>(q)))
-            columns += static_cast<std::uint64_t>(quantity_table[q].columns);
-    }
+    columns += columns_of(layout.quantities).size();
     std::uint64_t const samples = layout.sample_times.size();
     if (samples > 0) columns += static_cast<std::uint64_t>(std::popcount(layout.series)) * samples;
     if (layout.sections > 0) columns += layout.sections * section_columns(layout.states());
@@ -42,18 +76,9 @@ std::uint64_t header_bytes(ResultLayout const& layout, Provenance const& provena
     return of_file + variables * of_variable + provenance.scene.size() + provenance.flags.size();
 }
 
-std::vector<std::size_t> StudyTable::shape(StudyColumn const& column) const {
-    std::vector<std::size_t> lengths;
-    for (std::string const& name : column.axes) {
-        auto const axis = std::find_if(axes.begin(), axes.end(), [&](StudyAxis const& a) { return a.name == name; });
-        lengths.push_back(axis->values.size());
-    }
-    return lengths;
-}
-
 std::size_t StudyTable::width(StudyColumn const& column) const {
     std::size_t width = 1;
-    for (std::size_t const length : shape(column)) width *= length;
+    for (std::string const& name : column.axes) width *= std::ranges::find(axes, name, &StudyAxis::name)->values.size();
     return width;
 }
 

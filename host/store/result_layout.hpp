@@ -10,6 +10,7 @@
 
 #include "host/config/labels.hpp"
 #include "host/run/member_set.hpp"
+#include "host/sampling/design.hpp"
 #include "host/store/provenance.hpp"
 #include "kernels/block.hpp"
 
@@ -37,8 +38,6 @@ struct StudyTable {
     std::vector<StudyAxis> axes;
     std::vector<StudyColumn> columns;
 
-    /// Lengths of a column's axes.
-    std::vector<std::size_t> shape(StudyColumn const& column) const;
     /// Values of a column per member.
     std::size_t width(StudyColumn const& column) const;
 };
@@ -60,6 +59,27 @@ inline constexpr std::array<WorkCounter, 5> work_table{{
     {"jacobian_evaluations", "evaluations of the Jacobian", &MemberRecord::jacobian_evaluations},
     {"stiff_steps", "accepted steps of the stiff method", &MemberRecord::stiff_steps},
 }};
+
+/// The quantities of a selection, in the order of their table.
+std::vector<Quantity> selected_quantities(Selection selection);
+inline QuantityInfo const& info(Quantity quantity) { return quantity_table[static_cast<int>(quantity)]; }
+
+/// One number per member: a quantity, or one of its columns.
+struct QuantityColumn {
+    std::string quantity;   // name of the variable: "mode_time"
+    std::string dimension;  // of the labels: "mode_class"; "" for a quantity of one column
+    std::string label;      // "free"; "" likewise
+    std::size_t index = 0;  // along the dimension
+    std::size_t place = 0;  // in a member's row of all quantities
+    std::string unit;
+    std::string long_name;
+    std::string name() const { return label.empty() ? quantity : quantity + "[" + label + "]"; }
+};
+
+/// A column for each number of the quantities, in the order of their table.
+std::vector<QuantityColumn> columns_of(Selection quantities);
+/// The one that a limit is of; nullptr without it.
+QuantityColumn const* column_of(std::vector<QuantityColumn> const& columns, Limit const& limit);
 
 /// A varied input: its dotted key with underscores for dots.
 struct ParameterColumn {

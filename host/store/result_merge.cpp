@@ -1,8 +1,6 @@
 #include "host/store/result_merge.hpp"
 
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -32,12 +30,6 @@ Variables variables_of(NetcdfFile const& file) {
     return variables;
 }
 
-std::vector<int> integers(NetcdfFile const& file, NetcdfFile::Variable const& variable) {
-    std::vector<int> values(variable.size());
-    if (!values.empty()) file.read(variable.id, std::vector<std::size_t>(1, 0), variable.shape, values.data());
-    return values;
-}
-
 /// Where the members of a shard belong among those of the run.
 std::vector<Run> member_runs(MemberSet const& shard, MemberSet const& all) {
     std::vector<Run> runs;
@@ -59,10 +51,9 @@ public:
         for (Shard const& shard : shards) {
             std::vector<std::byte> const bytes = folder.read(shard);
             NetcdfFile const file = NetcdfFile::open_in_memory(shard.name, bytes);
-            std::vector<int> const counts = integers(file, variables_of(file).at("section_count"));
+            std::vector<int> const counts = file.read<int>(variables_of(file).at("section_count"));
             for (Run const& run : member_runs(shard.members, all)) {
-                for (std::size_t i = 0; i < run.count; ++i)
-                    begin_[run.place + i + 1] = static_cast<std::uint64_t>(counts[run.row + i]);
+                for (std::size_t i = 0; i < run.count; ++i) begin_[run.place + i + 1] = static_cast<std::uint64_t>(counts[run.row + i]);
             }
         }
         for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
@@ -70,9 +61,7 @@ public:
     std::uint64_t rows() const { return begin_.back(); }
     /// The rows of a run of members.
     std::size_t begin(Run const& run) const { return static_cast<std::size_t>(begin_[run.place]); }
-    std::size_t count(Run const& run) const {
-        return static_cast<std::size_t>(begin_[run.place + run.count] - begin_[run.place]);
-    }
+    std::size_t count(Run const& run) const { return static_cast<std::size_t>(begin_[run.place + run.count] - begin_[run.place]); }
 
 private:
     std::vector<std::uint64_t> begin_;
@@ -104,8 +93,8 @@ private:
         if (variable.size() == 0) return;
         std::size_t const row_bytes = variable.size() / variable.shape[0] * NetcdfFile::size_of(variable.type);
         buffer_.resize(variable.shape[0] * row_bytes);
+        from.read(variable.id, buffer_.data());
         std::vector<std::size_t> start(variable.shape.size(), 0), count = variable.shape;
-        from.read(variable.id, start, count, buffer_.data());
         for (Run const& run : runs) {
             if (run.count == 0) continue;
             start[0] = run.place;
@@ -142,22 +131,20 @@ void write_merged(NetcdfFile& file, ShardFolder const& folder, std::vector<Shard
     Variables const variables = variables_of(file);
     ShardCopy shard_copy(file, variables);
     for (Shard const& shard : shards) {
-        if (merge.pause) merge.pause();
+        merge.pause();
         std::vector<std::byte> const bytes = folder.read(shard);
         NetcdfFile const from = NetcdfFile::open_in_memory(shard.name, bytes);
         shard_copy.copy(from, member_runs(shard.members, merge.layout.members), sections ? &*sections : nullptr);
     }
-    if (merge.pause) merge.pause();
-    if (merge.conclude) merge.conclude(file);
-    if (merge.pause) merge.pause();
+    merge.pause();
+    merge.conclude(file);
+    merge.pause();
 }
 
 /// HDF5 may be told that a write failed, try again as it closes, and say nothing: what counts is what can be read.
 void require_sound(std::string const& part) {
     NetcdfFile const file = NetcdfFile::open(part);
-    if (!check_seal(file).intact()) {
-        throw FileError(part + ": does not hold what was written to it");
-    }
+    if (!check_seal(file).intact()) throw FileError(part + ": does not hold what was written to it");
 }
 
 std::string lock_file_of(std::string const& path) { return path + ".part.lock"; }
@@ -166,12 +153,6 @@ std::string lock_file_of(std::string const& path) { return path + ".part.lock"; 
 FileLock lock_of(std::string const& path) {
     return {lock_file_of(path), FileLock::Kind::alone, FileLock::Wait::no,
             path + ": another process is writing it; wait for its end or give another name with -o"};
-}
-
-void remove_part(std::string const& part) {
-    if (is_there(part) && std::remove(part.c_str()) != 0) {
-        throw FileError(fmt::format("{}: cannot remove: {}", part, std::strerror(errno)));
-    }
 }
 
 void write_part(std::string const& part, std::string const& completeness,
@@ -212,7 +193,7 @@ void write_result(std::string const& path, std::string const& completeness,
     FileLock lock = lock_of(path);
     bool ours = false;
     try {
-        remove_part(part);
+        remove_file(part);
         ours = true;
         write_part(part, completeness, write);
         rename_durably(part, path, existing);

@@ -10,9 +10,7 @@ namespace slideway {
 namespace {
 
 template <class T> std::vector<double> read_as(NetcdfFile const& file, NetcdfFile::Variable const& variable) {
-    std::vector<T> values(variable.size());
-    std::vector<std::size_t> const start(variable.shape.size(), 0);
-    if (!values.empty()) file.read(variable.id, start, variable.shape, values.data());
+    std::vector<T> const values = file.read<T>(variable);
     return {values.begin(), values.end()};
 }
 
@@ -27,17 +25,11 @@ std::string text_of(NetcdfFile const& file, std::string const& attribute) {
 
 ResultView::ResultView(NetcdfFile const& file) : file_(&file), variables_(file.variables()) {
     std::string const name = stores_members() ? "status" : "status_count";
-    auto const is_status = [&](NetcdfFile::Variable const& variable) {
-        return variable.name == name && variable.shape.size() == 1;
-    };
-    if (!std::any_of(variables_.begin(), variables_.end(), is_status)) {
-        throw FileError(file.path() + ": is a netCDF file, but not a result of slideway");
-    }
+    if (!has(name) || shape(name).size() != 1) throw FileError(file.path() + ": is a netCDF file, but not a result of slideway");
 }
 
 NetcdfFile::Variable const& ResultView::find(std::string const& variable) const {
-    auto const found = std::find_if(variables_.begin(), variables_.end(),
-                                    [&](NetcdfFile::Variable const& candidate) { return candidate.name == variable; });
+    auto const found = std::ranges::find(variables_, variable, &NetcdfFile::Variable::name);
     if (found == variables_.end()) throw FileError(fmt::format("{}: has no variable {}", file_->path(), variable));
     return *found;
 }
@@ -49,10 +41,7 @@ std::string ResultView::group_attribute(std::string const& group, std::string co
     return text_of(file_->group(group), name);
 }
 
-bool ResultView::has(std::string const& variable) const {
-    return std::any_of(variables_.begin(), variables_.end(),
-                       [&](NetcdfFile::Variable const& candidate) { return candidate.name == variable; });
-}
+bool ResultView::has(std::string const& variable) const { return std::ranges::count(variables_, variable, &NetcdfFile::Variable::name) > 0; }
 
 std::vector<std::string> ResultView::variable_names() const {
     std::vector<std::string> names;
@@ -62,24 +51,15 @@ std::vector<std::string> ResultView::variable_names() const {
 
 std::string ResultView::unit(std::string const& variable) const { return file_->text(find(variable).id, "units"); }
 
-std::string ResultView::long_name(std::string const& variable) const {
-    return file_->text(find(variable).id, "long_name");
-}
+std::string ResultView::long_name(std::string const& variable) const { return file_->text(find(variable).id, "long_name"); }
 
 std::vector<std::size_t> ResultView::shape(std::string const& variable) const { return find(variable).shape; }
 
 std::vector<double> ResultView::values(std::string const& variable) const {
     NetcdfFile::Variable const& found = find(variable);
-    switch (found.type) {
-        case NetcdfFile::Type::int8:
-            return read_as<signed char>(*file_, found);
-        case NetcdfFile::Type::int32:
-            return read_as<int>(*file_, found);
-        case NetcdfFile::Type::float64:
-            return read_as<double>(*file_, found);
-        case NetcdfFile::Type::text:
-            break;
-    }
+    if (found.type == NetcdfFile::Type::int8) return read_as<signed char>(*file_, found);
+    if (found.type == NetcdfFile::Type::int32) return read_as<int>(*file_, found);
+    if (found.type == NetcdfFile::Type::float64) return file_->read<double>(found);
     throw FileError(fmt::format("{}: {} is no number", file_->path(), variable));
 }
 
@@ -99,6 +79,11 @@ std::vector<double> ResultView::column(std::string const& variable, std::size_t 
     std::size_t const start[2] = {0, index}, count[2] = {found.shape[0], 1};
     if (!values.empty()) file_->read(found.id, {start, rank}, {count, rank}, values.data());
     return values;
+}
+
+ResultReader::ResultReader(std::string const& path) : OpenResult{NetcdfFile::open(path)}, ResultView(file) {
+    format_of(file);
+    if (stored_hash().empty()) throw FileError(path + ": is unfinished: the run that wrote it did not come to its end");
 }
 
 }  // namespace slideway

@@ -1,4 +1,4 @@
-// Reads the variables of a result.
+// Reads the variables of a result, and a result file back.
 #pragma once
 
 #include <cstdint>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/store/netcdf_file.hpp"
+#include "host/store/result_seal.hpp"
 #include "kernels/status.hpp"
 
 namespace slideway {
@@ -41,6 +42,26 @@ private:
 
     NetcdfFile const* file_;
     std::vector<NetcdfFile::Variable> variables_;
+};
+
+/// A file that a reader keeps open; a base, so that it is there before the view of it.
+struct OpenResult {
+    NetcdfFile file;
+};
+
+/// A finished result file; usable wherever a view is.  Of files that were not just written `check_result` comes first.
+class ResultReader : private OpenResult, public ResultView {
+public:
+    /// @throws FileError if the file is missing, not netCDF, not a result of slideway, of a newer format, or unfinished.
+    explicit ResultReader(std::string const& path);
+    ResultReader(ResultReader const&) = delete;  // the view goes by the file's place
+    ResultReader& operator=(ResultReader const&) = delete;
+
+    std::string stored_hash() const { return attribute("payload_hash"); }
+    std::string computed_hash() const { return payload_hash(file); }  // reads all data
+    /// Of a file that was just written and looked at.
+    SealCheck seal() const { return {format_of(file), stored_hash(), attribute("metadata_hash"), stored_hash(), attribute("metadata_hash")}; }
+    SealCheck check() const { return check_seal(file); }  // reads all data
 };
 
 /// Stored numbers as what they count or name.  One that is out of range, in a file that was edited, becomes 0, and no known status.

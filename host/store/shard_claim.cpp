@@ -33,13 +33,6 @@ std::string of_rival(std::string const& folder) {
     return fmt::format("{}: another run is writing here; wait for its end or give another name with -o", folder);
 }
 
-void remove_file(std::string const& folder, std::string_view name) {
-    std::string const path = in_folder(folder, name);
-    if (unlink(path.c_str()) != 0 && errno != ENOENT) {
-        throw FileError(fmt::format("{}: cannot remove: {}", path, std::strerror(errno)));
-    }
-}
-
 /// "-of-8" of a part "3-of-8" or of its lock.
 std::string_view division_of(std::string_view name) {
     auto const at = name.rfind(division_mark);
@@ -160,7 +153,7 @@ void ShardClaim::take_over(Wanted const& wanted) {
     if (is_finished(folder_)) {
         // Last, also after a power loss: without it the rest would be anybody's.
         sync_folder(folder_);
-        remove_file(folder_, shard_names::finished);
+        remove_file(in_folder(folder_, shard_names::finished));
     }
     write_identity(folder_, wanted.identity);
     write_companion(wanted);
@@ -179,9 +172,7 @@ void ShardClaim::put_aside(std::vector<DamagedShard> const& damaged, MemberSet c
         if (!one.shard.members.overlaps(mine)) continue;
         std::string const path = in_folder(folder_, one.shard.name);
         std::string const aside = in_folder(folder_, fmt::format("{}{}", shard_names::damaged, one.shard.name));
-        if (!one.is_gone && std::rename(path.c_str(), aside.c_str()) != 0) {
-            throw FileError(fmt::format("{}: cannot rename: {}", path, std::strerror(errno)));
-        }
+        if (!one.is_gone) rename_file(path, aside);
         damaged_.push_back(one);
     }
 }
@@ -196,7 +187,7 @@ void ShardClaim::require_alone(Wanted const& wanted) {
 
 void ShardClaim::remove_content() {
     for (std::string const& name : names_in(folder_)) {
-        if (kind_of(name) == ShardFile::content) remove_file(folder_, name);
+        if (kind_of(name) == ShardFile::content) remove_file(in_folder(folder_, name));
     }
 }
 
@@ -204,19 +195,16 @@ void ShardClaim::remove_folder() {
     // Nobody begins meanwhile: whoever waits finds the lock's file gone then, and makes a new one.
     FileLock begins(lock_of(folder_, begin_suffix), Kind::alone, Wait::yes);
     // First, so that whoever finds what a killed process left knows that it may go.
-    remove_file(folder_, shard_names::identity_copy);
+    remove_file(in_folder(folder_, shard_names::identity_copy));
     if (ShardFolder::exists(folder_)) {
-        std::string const identity = in_folder(folder_, shard_names::identity);
-        if (std::rename(identity.c_str(), in_folder(folder_, shard_names::finished).c_str()) != 0) {
-            throw FileError(fmt::format("{}: cannot rename: {}", identity, std::strerror(errno)));
-        }
+        rename_file(in_folder(folder_, shard_names::identity), in_folder(folder_, shard_names::finished));
         sync_folder(folder_);
     }
     remove_content();
     sync_folder(folder_);
     for (ShardFile const kind : {ShardFile::identity, ShardFile::lock}) {
         for (std::string const& name : names_in(folder_)) {
-            if (kind_of(name) == kind) remove_file(folder_, name);
+            if (kind_of(name) == kind) remove_file(in_folder(folder_, name));
         }
     }
     // ENOTDIR: a link to a folder, which somebody made elsewhere for this.

@@ -105,8 +105,7 @@ void ShardFolder::mend() const {
 void write_identity(std::string const& folder, RunIdentity const& identity) {
     std::string const copy = in_folder(folder, shard_names::identity_copy), text = identity_text(identity);
     // One that is older than run.toml would speak for it some day.
-    std::error_code error;
-    if (is_there(copy) && !fs::remove(copy, error)) throw FileError(fmt::format("{}: cannot remove: {}", copy, error.message()));
+    remove_file(copy);
     write_durably(in_folder(folder, shard_names::identity), text);
     write_durably(copy, text);
 }

@@ -1,7 +1,6 @@
 #include "host/store/shard_image.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -34,8 +33,8 @@ public:
         write_quantities();
         write_series();
         for (std::size_t i = 0; i < ids_.study.size(); ++i) {
-            StudyColumn const& column = layout_.study.columns[i];
-            write_rows(ids_.study[i], study[i], layout_.study.width(column), layout_.study.shape(column));
+            std::size_t const width = layout_.study.width(layout_.study.columns[i]);
+            write_rows(ids_.study[i], study[i], width, width);
         }
         if (layout_.sections > 0) write_sections();
     }
@@ -46,19 +45,18 @@ private:
     template <class T, class ValueOf> void write_each(int variable, ValueOf value_of) {
         std::vector<T> column;
         for (std::size_t const row : rows_) column.push_back(static_cast<T>(value_of(row)));
-        file_.write(variable, std::array{std::size_t{0}}, std::array{column.size()}, column.data());
+        file_.write(variable, column.data());
     }
 
-    /// @param values [members][width] of the block.  @param shape of one member's
-    void write_rows(int variable, std::span<double const> values, std::size_t width, std::vector<std::size_t> shape) {
+    /// @param values [members][stride] of the block, of which `width` are the variable's
+    void write_rows(int variable, std::span<double const> values, std::size_t stride, std::size_t width) {
         std::vector<double> picked;
         picked.reserve(rows_.size() * width);
         for (std::size_t const row : rows_) {
-            auto const of_member = values.subspan(row * width, width);
+            auto const of_member = values.subspan(row * stride, width);
             picked.insert(picked.end(), of_member.begin(), of_member.end());
         }
-        shape.insert(shape.begin(), rows_.size());
-        file_.write(variable, std::vector<std::size_t>(shape.size(), 0), shape, picked.data());
+        file_.write(variable, picked.data());
     }
 
     void write_records() {
@@ -71,58 +69,38 @@ private:
     }
 
     void write_states() {
-        for (std::size_t k = 0; k < ids_.final_states.size(); ++k) {
-            write_each<double>(ids_.final_states[k],
-                               [&](std::size_t i) { return block_.final_states[i * block_.states() + k]; });
-        }
-        for (std::size_t k = 0; k < ids_.parameters.size(); ++k) {
-            write_each<double>(ids_.parameters[k],
-                               [&](std::size_t i) { return block_.inputs[i].*layout_.parameters[k].member; });
-        }
+        for (std::size_t k = 0; k < ids_.final_states.size(); ++k)
+            write_each<double>(ids_.final_states[k], [&](std::size_t i) { return block_.final_states[i * block_.states() + k]; });
+        for (std::size_t k = 0; k < ids_.parameters.size(); ++k)
+            write_each<double>(ids_.parameters[k], [&](std::size_t i) { return block_.inputs[i].*layout_.parameters[k].member; });
     }
 
     void write_quantities() {
         for (ResultVariables::Quantity const& quantity : ids_.quantities) {
-            auto const columns = static_cast<std::size_t>(quantity.columns);
             auto const first = static_cast<std::size_t>(quantity.first_column);
-            std::vector<double> values;
-            for (std::size_t i = 0; i < members(); ++i) {
-                auto const of_member = block_.quantities.subspan(i * quantity_columns + first, columns);
-                values.insert(values.end(), of_member.begin(), of_member.end());
-            }
-            write_rows(quantity.id, values, columns, columns > 1 ? std::vector{columns} : std::vector<std::size_t>{});
+            write_rows(quantity.id, block_.quantities.subspan(first), quantity_columns, static_cast<std::size_t>(quantity.columns));
         }
     }
 
     void write_series() {
-        std::size_t const samples = layout_.sample_times.size();
-        for (std::size_t k = 0; k < ids_.series.size(); ++k) {
-            write_rows(ids_.series[k], block_.series.subspan(k * members() * samples, members() * samples), samples,
-                       {samples});
-        }
+        std::size_t const samples = layout_.sample_times.size(), values = block_.members.size() * samples;
+        for (std::size_t k = 0; k < ids_.series.size(); ++k) write_rows(ids_.series[k], block_.series.subspan(k * values, values), samples, samples);
     }
 
     void write_sections() {
-        std::vector<int> counts;
         std::size_t const width = section_columns(block_.states());
         std::vector<std::vector<double>> columns(width);
         for (std::size_t const row : rows_) {
             auto const sections = sections_of(block_, row);
             for (std::size_t i = 0; i < sections.size(); ++i) columns[i % width].push_back(sections[i]);
-            int const count = static_cast<int>(sections.size() / width);
-            counts.push_back(count);
         }
-        file_.write(ids_.section_count, std::array{std::size_t{0}}, std::array{counts.size()}, counts.data());
+        write_each<int>(ids_.section_count, [&](std::size_t i) { return sections_of(block_, i).size() / width; });
         if (ids_.section_crossings >= 0) {
             constexpr std::uint64_t largest = std::numeric_limits<int>::max();
-            write_each<int>(ids_.section_crossings,
-                            [&](std::size_t i) { return std::min(block_.records[i].crossings, largest); });
+            write_each<int>(ids_.section_crossings, [&](std::size_t i) { return std::min(block_.records[i].crossings, largest); });
         }
         if (columns[0].empty()) return;
-        for (std::size_t j = 0; j < width; ++j) {
-            file_.write(ids_.section_columns[j], std::array{std::size_t{0}}, std::array{columns[j].size()},
-                        columns[j].data());
-        }
+        for (std::size_t j = 0; j < width; ++j) file_.write(ids_.section_columns[j], columns[j].data());
     }
 
     NetcdfFile& file_;

@@ -1,10 +1,6 @@
 #include "host/store/shard_store.hpp"
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-
-#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -12,19 +8,18 @@
 #include "host/base/fnv1a.hpp"
 
 namespace slideway {
-namespace fs = std::filesystem;
 
 void ShardStore::begin_manifest() {
     for (int number = 1; !manifest_; ++number) {
-        std::string const path = (fs::path(folder_) / manifest_name(number)).string();
+        std::string const path = in_folder(folder_, manifest_name(number));
         std::error_code ignored;
-        if (fs::exists(path, ignored)) continue;
+        if (std::filesystem::exists(path, ignored)) continue;
         try {
             manifest_ = std::make_unique<LineFile>(path);
             sync_folder(folder_);
         } catch (FileError const&) {
             // Another rank may have been first.
-            if (!manifest_ && fs::exists(path, ignored)) continue;
+            if (!manifest_ && std::filesystem::exists(path, ignored)) continue;
             throw;
         }
     }
@@ -32,7 +27,7 @@ void ShardStore::begin_manifest() {
 
 Shard ShardStore::put_as(std::string name, MemberSet const& members, std::vector<std::byte> const& bytes) {
     Shard shard{std::move(name), bytes.size(), fnv1a(bytes), members};
-    write_durably((fs::path(folder_) / shard.name).string(), bytes);
+    write_durably(in_folder(folder_, shard.name), bytes);
     begin_manifest();
     manifest_->append(manifest_line(shard));
     return shard;
@@ -56,12 +51,7 @@ void ShardStore::put(MemberSet const& members, std::vector<std::byte> const& byt
         if (generations_.size() == g + 1) generations_.emplace_back();
         MemberSet const all = members_of(parts);
         generations_[g + 1].push_back(put_as(name(all, g + 1), all, join_(folder_, parts)));
-        for (Shard const& part : parts) {
-            std::string const path = (fs::path(folder_) / part.name).string();
-            if (unlink(path.c_str()) != 0 && errno != ENOENT) {
-                throw FileError(fmt::format("{}: cannot remove: {}", path, std::strerror(errno)));
-            }
-        }
+        for (Shard const& part : parts) remove_file(in_folder(folder_, part.name));
     }
 }
 

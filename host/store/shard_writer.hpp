@@ -6,15 +6,43 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <span>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "host/run/block_result.hpp"
-#include "host/store/block_copy.hpp"
 #include "host/store/shard_image.hpp"
 #include "host/store/shard_store.hpp"
 
 namespace slideway {
+
+/// A block's results that outlive the buffers they came from.
+class BlockCopy {
+public:
+    explicit BlockCopy(BlockResult const& block)
+        : members_(of(block.members)),
+          inputs_(of(block.inputs)),
+          records_(of(block.records)),
+          final_states_(of(block.final_states)),
+          quantities_(of(block.quantities)),
+          series_(of(block.series)),
+          sections_(of(block.sections)),
+          growths_(of(block.growths)) {}
+
+    /// Of the copy; it must outlive what it gives.
+    BlockResult view() const {
+        return {members_, inputs_, records_, final_states_, quantities_, series_, sections_, growths_};
+    }
+
+private:
+    template <class T> static std::vector<T> of(std::span<T const> values) { return {values.begin(), values.end()}; }
+
+    std::vector<std::uint64_t> members_;
+    std::vector<Inputs> inputs_;
+    std::vector<MemberRecord> records_;
+    std::vector<double> final_states_, quantities_, series_, sections_, growths_;
+};
 
 /// A thread of its own makes the images of blocks and waits for the disk; computing waits only where that is slower.
 /// At most `most_waiting` blocks wait, beside the one that the thread works on: what does is lost with the process.

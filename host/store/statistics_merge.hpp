@@ -1,29 +1,14 @@
 // Shards of statistics to one result file.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "host/base/durable_file.hpp"
-#include "host/store/netcdf_file.hpp"
+#include "host/store/result_merge.hpp"
 #include "host/store/result_view.hpp"
 #include "host/store/statistics_shard.hpp"
 
 namespace slideway {
-
-/// The counterpart of ResultMerge.
-struct StatisticsMerge {
-    StatisticsPlan plan;
-    MemberSet members;  // of the run
-    Provenance provenance;
-    std::string completeness;
-    /// What is concluded from the statistics and added to the file; may be empty.
-    std::function<void(NetcdfFile& file, BlockStatistics const& statistics)> conclude;
-    /// Called now and then; what it throws ends the merge and leaves no file.  May be empty.
-    std::function<void()> pause;
-    Existing existing = Existing::replaced;  // of a file of the same name
-};
 
 /// Writes a result file without members, as `merge_shards` one with.  Its attribute `store` is "statistics", and
 /// `members` the numbers of those of the run, `quantities` the names of what the statistics are of.
@@ -31,7 +16,7 @@ struct StatisticsMerge {
 /// `failed_status` and `failed_time` name the first failures, scalars sum the work of all members, and `accumulators`
 /// holds the bytes of BlockStatistics.  Whatever the order and the division of the shards, the file has the same
 /// numbers.  @throws FileError
-void merge_statistics(ShardFolder const& folder, std::vector<Shard> const& shards, StatisticsMerge const& merge,
+void merge_statistics(ShardFolder const& folder, std::vector<Shard> const& shards, StatisticsPlan const& plan, ResultMerge const& merge,
                       std::string const& path);
 
 /// The statistics in such a file.  @throws FileError if it holds none.

@@ -15,7 +15,6 @@
 #include "host/study/ensemble_plan.hpp"
 #include "host/study/exponent_table.hpp"
 #include "host/study/orbit_schedule.hpp"
-#include "host/study/tolerance_policy.hpp"
 #include "kernels/members/start.hpp"
 
 namespace slideway {
@@ -28,9 +27,9 @@ using EndContacts = std::array<double, std::size(contact_names)>;
 
 /// The energy residual of a law that keeps energy is the integration's own error: nothing to compare.
 std::vector<QuantityColumn> compared_columns(Scene const& scene) {
-    std::vector<QuantityColumn> columns = report_columns(scene.quantities);
+    std::vector<QuantityColumn> columns = columns_of(scene.quantities);
     if (makes_energy(scene.parts)) return columns;
-    std::string_view const residual = quantity_table[static_cast<int>(Quantity::energy_residual)].name;
+    std::string_view const residual = info(Quantity::energy_residual).name;
     std::erase_if(columns, [&](QuantityColumn const& column) { return column.quantity == residual; });
     return columns;
 }
@@ -42,13 +41,6 @@ MemberNumbers empty_numbers(Scene const& scene) {
     for (int j = 1; j <= exponents; ++j) numbers.columns.push_back({fmt::format("lyapunov_exponent[{}]", j), "1/s", true, {}});
     for (char const* name : contact_names) numbers.columns.push_back({name, "1", false, {}});
     return numbers;
-}
-
-/// Of a column in a member's row of all quantities.
-std::size_t place_of(QuantityColumn const& column) {
-    int q = 0;
-    while (column.quantity != quantity_table[q].name) ++q;
-    return static_cast<std::size_t>(quantity_column(static_cast<Quantity>(q))) + column.index;
 }
 
 /// Surfaces, lines and points that touch in states; NaN where one cannot be evaluated.
@@ -153,7 +145,7 @@ MemberNumbers fresh_numbers(Scene const& scene, std::vector<std::uint64_t> const
     ExponentTable const exponents(scene);
     auto const offsets = static_cast<std::size_t>(shadow_plan(scene).count);
     std::vector<std::size_t> quantities;
-    for (QuantityColumn const& column : compared_columns(scene)) quantities.push_back(place_of(column));
+    for (QuantityColumn const& column : compared_columns(scene)) quantities.push_back(column.place);
     bool const audited = selects(scene.quantities, Quantity::energy_residual);
     auto const residual = static_cast<std::size_t>(quantity_column(Quantity::energy_residual));
     if (audited) numbers.energy_residual.assign(members.size(), nan);

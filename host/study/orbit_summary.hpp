@@ -7,7 +7,7 @@
 
 #include "host/chaos/exponents.hpp"
 #include "host/statistics/summary.hpp"
-#include "host/store/result_reader.hpp"
+#include "host/store/result_view.hpp"
 
 namespace slideway {
 

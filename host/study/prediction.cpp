@@ -29,7 +29,7 @@ double contact_steps(IntegratorSettings const& settings) {
 /// Bytes of the statistics of so many members, in memory or in a file.
 std::uint64_t statistics_image_bytes(Scene const& scene, std::uint64_t members) {
     constexpr std::uint64_t octaves = 8, buckets = octaves * 512, bytes_per_bucket = 16, beside = 700;
-    std::uint64_t const columns = selected_columns(scene.quantities).size();
+    std::uint64_t const columns = columns_of(scene.quantities).size();
     constexpr std::uint64_t head = 4096;  // counts, failed members, who made it
     return head + columns * (beside + bytes_per_bucket * std::min(members, buckets));
 }
@@ -40,9 +40,7 @@ std::uint64_t summary_bytes(Scene const& scene) {
     // Those of all members and of one shard.
     if (!scene.stores_members()) return 2 * statistics_image_bytes(scene, member_count(scene));
     int widest = 0;
-    for (int q = 0; q < quantity_count; ++q) {
-        if (selects(scene.quantities, static_cast<Quantity>(q))) widest = std::max(widest, quantity_table[q].columns);
-    }
+    for (Quantity const q : selected_quantities(scene.quantities)) widest = std::max(widest, info(q).columns);
     std::uint64_t const members = member_count(scene), word = sizeof(double);
     std::uint64_t const plain = members * word * (1 + (widest > 0 ? static_cast<std::uint64_t>(widest) + 2 : 0));
     std::uint64_t const sections = orbit_schedule(scene).section_rows() > 0 ? members * word : 0;
@@ -112,7 +110,7 @@ std::uint64_t most_shards(Scene const& scene, MemberSet const& members, Ensemble
 std::uint64_t statistics_bytes(Scene const& scene, std::uint64_t members) {
     constexpr std::uint64_t bins_and_edges = 129 * sizeof(double), quantiles = 36 * sizeof(double);
     return statistics_image_bytes(scene, members) +
-           selected_columns(scene.quantities).size() * (bins_and_edges + quantiles);
+           columns_of(scene.quantities).size() * (bins_and_edges + quantiles);
 }
 
 std::uint64_t statistics_shard_bytes(Scene const& scene, std::uint64_t members) {
@@ -142,7 +140,7 @@ std::uint64_t result_bytes(Scene const& scene, MemberSet const& members, Backend
     // A report has some ten variables of each column, described at length.
     constexpr std::uint64_t of_report = 10'000, of_column = 8'000;
     std::uint64_t const report =
-        asks_for_report(scene) ? of_report + of_column * selected_columns(scene.quantities).size() : 0;
+        asks_for_report(scene) ? of_report + of_column * columns_of(scene.quantities).size() : 0;
     return payload_bytes(layout) + header_bytes(layout, provenance(scene, backend, threads)) + report;
 }
 

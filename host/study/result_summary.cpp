@@ -1,21 +1,20 @@
 #include "host/study/result_summary.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "host/base/error.hpp"
 #include "host/store/result_layout.hpp"
 #include "host/store/statistics_merge.hpp"
-#include "host/study/tolerance_policy.hpp"
 
 namespace slideway {
 namespace {
 
 /// Of a file without members: the median is sketched.
 std::vector<QuantitySummary> sketched_quantities(ResultView const& results) {
-    std::vector<QuantityColumn> const columns = report_columns(stored_quantities(results));
+    std::vector<QuantityColumn> const columns = columns_of(stored_quantities(results));
     BlockStatistics const statistics = stored_statistics(results);
     std::vector<QuantitySummary> summaries;
     for (std::size_t i = 0; i < std::min(columns.size(), statistics.columns().size()); ++i) {
@@ -55,23 +54,24 @@ std::vector<QuantitySummary> summarise_quantities(ResultView const& results) {
     return summaries;
 }
 
+std::vector<StatusCount> listed(StatusCounts const& counts) {
+    std::vector<StatusCount> occurring;
+    for (auto const& [status, members] : counts) {
+        if (members > 0) occurring.push_back({static_cast<Status>(static_cast<signed char>(status)), members});
+    }
+    return occurring;
+}
+
 std::vector<StatusCount> count_statuses(ResultView const& results) {
-    std::array<std::uint64_t, 256> counts{};
-    auto const entry = [&](double status) -> std::uint64_t& {
-        return counts[static_cast<unsigned char>(status_of(status))];
-    };
+    StatusCounts counts;
+    auto const entry = [&](double status) -> std::uint64_t& { return counts[static_cast<unsigned char>(status_of(status))]; };
     if (results.stores_members()) {
         for (double const status : results.values("status")) ++entry(status);
     } else {
         std::vector<double> const statuses = results.values("status_value"), members = results.values("status_count");
-        for (std::size_t i = 0; i < std::min(statuses.size(), members.size()); ++i)
-            entry(statuses[i]) += count_of(members[i]);
+        for (std::size_t i = 0; i < std::min(statuses.size(), members.size()); ++i) entry(statuses[i]) += count_of(members[i]);
     }
-    std::vector<StatusCount> occurring;
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-        if (counts[i] > 0) occurring.push_back({static_cast<Status>(static_cast<signed char>(i)), counts[i]});
-    }
-    return occurring;
+    return listed(counts);
 }
 
 std::vector<MemberRow> member_rows(ResultView const& results, MemberRange const& range) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct StatusCount {
     Status status;
     std::uint64_t members;
 };
+/// By a status's byte: not_run, the largest, is the last.
+using StatusCounts = std::map<unsigned char, std::uint64_t>;
+std::vector<StatusCount> listed(StatusCounts const& counts);
 /// Statuses that occur; not_run last.
 std::vector<StatusCount> count_statuses(ResultView const& results);
 

@@ -11,7 +11,7 @@
 #include "host/base/csv.hpp"
 #include "host/base/error.hpp"
 #include "host/base/numbers.hpp"
-#include "host/store/result_reader.hpp"
+#include "host/store/result_view.hpp"
 
 namespace slideway {
 namespace {

@@ -1,14 +1,15 @@
 #include "host/study/tolerance_report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
-#include "host/study/group_writer.hpp"
+#include <fmt/ranges.h>
+
+#include "host/store/group_writer.hpp"
 
 namespace slideway {
 namespace {
-
-using Description = GroupWriter::Description;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -24,52 +25,59 @@ template <class Entry> std::vector<std::span<Entry const>> by_quantity(std::vect
     return groups;
 }
 
+void append(std::vector<int>& values, std::uint64_t count) { values.push_back(static_cast<int>(count)); }
+void append(std::vector<double>& values, double value) { values.push_back(value); }
+void append(std::vector<double>& values, Interval const& interval) { values.insert(values.end(), {interval.low, interval.high}); }
+template <class T> void append(std::vector<T>& values, std::vector<T> const& row) { values.insert(values.end(), row.begin(), row.end()); }
+
+/// The same of each of several, in a row.
+template <class Entries, class Of> std::vector<double> row_of(Entries const& entries, Of of) {
+    std::vector<double> row;
+    for (auto const& entry : entries) append(row, of(entry));
+    return row;
+}
+std::vector<double> values_of(auto const& estimates) {
+    return row_of(estimates, [](auto const& estimate) { return estimate.value; });
+}
+std::vector<double> intervals_of(auto const& estimates) {
+    return row_of(estimates, [](auto const& estimate) { return estimate.interval; });
+}
+
 /// Writes one value, or a row of values, of each column of a quantity.
 template <class Entry> class QuantityWriter {
 public:
     QuantityWriter(GroupWriter& group, std::span<Entry const> entries) : group_(group), entries_(entries) {}
 
-    /// @param fill appends an entry's values; they are as many as the dimensions say.
-    template <class Fill>
-    void numbers(std::string const& suffix, std::string const& unit, std::string const& what,
-                 std::vector<std::string> const& dimensions, Fill fill) {
-        std::vector<double> values;
-        for (Entry const& entry : entries_) fill(entry, values);
-        group_.numbers(describe(suffix, unit, what, dimensions), values);
+    /// @param of what there is to write of an entry: a number, an interval or a row of numbers, as many as the dimensions say
+    template <class Of>
+    void numbers(std::string const& suffix, std::string const& unit, std::string const& what, std::vector<std::string> const& dimensions, Of of) {
+        put<double>(suffix, unit, what, dimensions, of);
     }
-    template <class Fill>
-    void counts(std::string const& suffix, std::string const& what, std::vector<std::string> const& dimensions,
-                Fill fill) {
-        std::vector<int> values;
-        for (Entry const& entry : entries_) fill(entry, values);
-        group_.counts(describe(suffix, "1", what, dimensions), values);
+    template <class Of> void counts(std::string const& suffix, std::string const& what, std::vector<std::string> const& dimensions, Of of) {
+        put<int>(suffix, "1", what, dimensions, of);
     }
     std::string const& unit() const { return entries_.front().column.unit; }
 
 private:
-    Description describe(std::string const& suffix, std::string const& unit, std::string const& what,
-                         std::vector<std::string> dimensions) const {
+    template <class T, class Of>
+    void put(std::string const& suffix, std::string const& unit, std::string const& what, std::vector<std::string> dimensions, Of of) {
+        std::vector<T> values;
+        for (Entry const& entry : entries_) append(values, of(entry));
         QuantityColumn const& column = entries_.front().column;
-        std::string coordinates;
+        std::vector<std::string> coordinates;
         if (!column.dimension.empty()) {
             dimensions.insert(dimensions.begin(), column.dimension);
-            coordinates = column.dimension + "_name";
+            coordinates.push_back(column.dimension + "_name");
         }
-        if (std::find(dimensions.begin(), dimensions.end(), "input") != dimensions.end()) {
-            coordinates += coordinates.empty() ? "input_name" : " input_name";
-        }
-        return {column.quantity + "_" + suffix, unit, what + ": " + column.long_name, std::move(dimensions),
-                std::move(coordinates)};
+        if (std::ranges::count(dimensions, "input") > 0) coordinates.push_back("input_name");
+        group_.put({column.quantity + "_" + suffix, unit, what + ": " + column.long_name, std::move(dimensions),
+                    fmt::format("{}", fmt::join(coordinates, " "))},
+                   values);
     }
 
     GroupWriter& group_;
     std::span<Entry const> entries_;
 };
-
-void put(std::vector<double>& values, Interval const& interval) {
-    values.push_back(interval.low);
-    values.push_back(interval.high);
-}
 
 void describe_group(GroupWriter& group, ToleranceReport const& report) {
     group.attribute("policy", report.policy);
@@ -92,9 +100,8 @@ void write_statuses(GroupWriter& group, ToleranceReport const& report) {
     }
     if (labels.empty()) return;
     group.labels("ending", "how a member ended", labels);
-    group.counts({"members", "1", "members of the file that ended so", {"ending"}, "ending_name"}, members);
-    group.counts(
-        {"draws", "1", "members that distributions and yields are of that ended so", {"ending"}, "ending_name"}, draws);
+    group.put({"members", "1", "members of the file that ended so", {"ending"}, "ending_name"}, members);
+    group.put({"draws", "1", "members that distributions and yields are of that ended so", {"ending"}, "ending_name"}, draws);
 }
 
 void write_distributions(NetcdfFile& file, ToleranceReport const& report) {
@@ -103,41 +110,32 @@ void write_distributions(NetcdfFile& file, ToleranceReport const& report) {
     if (!report.quantile_error.empty()) group.attribute("quantile_error", report.quantile_error);
     write_statuses(group, report);
     group.dimension("probability", std::size(reported_quantiles));
-    group.numbers({"probability", "1", "probability of a quantile", {"probability"}, ""}, reported_quantiles);
+    group.put({"probability", "1", "probability of a quantile", {"probability"}}, reported_quantiles);
     group.dimension("bin", most_bins);
     group.dimension("edge", most_bins + 1);
     for (auto const& entries : by_quantity(report.columns)) {
-        QuantityWriter<ColumnStatistics> writer(group, entries);
+        using Entry = ColumnStatistics;
+        QuantityWriter<Entry> writer(group, entries);
         std::string const unit = writer.unit();
-        writer.counts("count", "members that finished with a number", {},
-                      [](auto const& entry, auto& values) { values.push_back(static_cast<int>(entry.summary.count)); });
-        writer.numbers("mean", unit, "mean", {}, [](auto const& e, auto& values) { values.push_back(e.summary.mean); });
-        writer.numbers("mean_interval", unit, "confidence interval of the mean", {"bound"},
-                       [](auto const& entry, auto& values) { put(values, entry.mean); });
-        writer.numbers("sd", unit, "standard deviation", {},
-                       [](auto const& entry, auto& values) { values.push_back(entry.summary.sd); });
-        writer.numbers("min", unit, "least", {}, [](auto const& e, auto& values) { values.push_back(e.summary.min); });
-        writer.numbers("max", unit, "largest", {},
-                       [](auto const& e, auto& values) { values.push_back(e.summary.max); });
-        writer.numbers("quantile", unit, "quantile", {"probability"}, [](auto const& entry, auto& values) {
-            for (QuantileEstimate const& quantile : entry.quantiles) values.push_back(quantile.value);
-        });
+        writer.counts("count", "members that finished with a number", {}, [](Entry const& e) { return e.summary.count; });
+        writer.numbers("mean", unit, "mean", {}, [](Entry const& e) { return e.summary.mean; });
+        writer.numbers("mean_interval", unit, "confidence interval of the mean", {"bound"}, [](Entry const& e) { return e.mean; });
+        writer.numbers("sd", unit, "standard deviation", {}, [](Entry const& e) { return e.summary.sd; });
+        writer.numbers("min", unit, "least", {}, [](Entry const& e) { return e.summary.min; });
+        writer.numbers("max", unit, "largest", {}, [](Entry const& e) { return e.summary.max; });
+        writer.numbers("quantile", unit, "quantile", {"probability"}, [](Entry const& e) { return values_of(e.quantiles); });
         writer.numbers("quantile_interval", unit, "confidence interval of the quantile", {"probability", "bound"},
-                       [](auto const& entry, auto& values) {
-                           for (QuantileEstimate const& quantile : entry.quantiles) put(values, quantile.interval);
-                       });
-        writer.counts("bin_count", "members in the bin; bins beyond those in use are 0", {"bin"},
-                      [](auto const& entry, auto& values) {
-                          std::size_t const room = values.size() + most_bins;
-                          for (auto const count : entry.histogram.counts) values.push_back(static_cast<int>(count));
-                          values.resize(room, 0);
-                      });
-        writer.numbers("bin_edge", unit, "edges of the bins; NaN beyond those in use", {"edge"},
-                       [](auto const& entry, auto& values) {
-                           std::size_t const room = values.size() + most_bins + 1;
-                           values.insert(values.end(), entry.histogram.edges.begin(), entry.histogram.edges.end());
-                           values.resize(room, nan);
-                       });
+                       [](Entry const& e) { return intervals_of(e.quantiles); });
+        writer.counts("bin_count", "members in the bin; bins beyond those in use are 0", {"bin"}, [](Entry const& e) {
+            std::vector<int> counts(e.histogram.counts.begin(), e.histogram.counts.end());
+            counts.resize(most_bins, 0);
+            return counts;
+        });
+        writer.numbers("bin_edge", unit, "edges of the bins; NaN beyond those in use", {"edge"}, [](Entry const& e) {
+            std::vector<double> edges = e.histogram.edges;
+            edges.resize(most_bins + 1, nan);
+            return edges;
+        });
     }
 }
 
@@ -153,91 +151,66 @@ void write_yields(NetcdfFile& file, ToleranceReport const& report) {
         units.push_back(limit.unit);
         low.push_back(limit.limit.low);
         high.push_back(limit.limit.high);
-        met.push_back(static_cast<int>(limit.met.successes));
+        append(met, limit.met.successes);
         value.push_back(limit.met.value);
-        put(interval, limit.met.interval);
+        append(interval, limit.met.interval);
     }
     std::string const unit_of("in the unit that unit_name gives");
     group.labels("limit", "quantity that is limited", names);
     group.texts("unit", "limit", "unit of the limited quantity", units);
-    group.numbers({"low", "", "least value that meets the limit, " + unit_of, {"limit"}, "limit_name"}, low);
-    group.numbers({"high", "", "largest value that meets the limit, " + unit_of, {"limit"}, "limit_name"}, high);
-    group.counts({"met", "1", "members that meet the limit", {"limit"}, "limit_name"}, met);
-    group.numbers({"share", "1", "share of the members that meet the limit", {"limit"}, "limit_name"}, value);
-    group.numbers({"share_interval", "1", "confidence interval of the share", {"limit", "bound"}, "limit_name"},
-                  interval);
+    group.put({"low", "", "least value that meets the limit, " + unit_of, {"limit"}, "limit_name"}, low);
+    group.put({"high", "", "largest value that meets the limit, " + unit_of, {"limit"}, "limit_name"}, high);
+    group.put({"met", "1", "members that meet the limit", {"limit"}, "limit_name"}, met);
+    group.put({"share", "1", "share of the members that meet the limit", {"limit"}, "limit_name"}, value);
+    group.put({"share_interval", "1", "confidence interval of the share", {"limit", "bound"}, "limit_name"}, interval);
     Proportion const& all = *report.all_met;
-    interval.clear();
-    put(interval, all.interval);
-    int const counts[] = {static_cast<int>(all.successes), static_cast<int>(all.trials)};
-    group.counts({"all_met", "1", "members that meet all limits", {}, ""}, {counts, 1});
-    group.counts({"trials", "1", "members that ran, failed ones included", {}, ""}, {counts + 1, 1});
-    group.numbers({"all_share", "1", "share of the members that meet all limits", {}, ""}, {&all.value, 1});
-    group.numbers({"all_share_interval", "1", "confidence interval of the share", {"bound"}, ""}, interval);
+    group.put({"all_met", "1", "members that meet all limits"}, static_cast<int>(all.successes));
+    group.put({"trials", "1", "members that ran, failed ones included"}, static_cast<int>(all.trials));
+    group.put({"all_share", "1", "share of the members that meet all limits"}, all.value);
+    group.put({"all_share_interval", "1", "confidence interval of the share", {"bound"}}, std::array{all.interval.low, all.interval.high});
 }
 
-void put_ranks(std::vector<std::size_t> const& ranking, std::vector<int>& values) {
-    std::size_t const first = values.size();
-    values.resize(first + ranking.size());
-    for (std::size_t rank = 0; rank < ranking.size(); ++rank) {
-        values[first + ranking[rank]] = static_cast<int>(rank) + 1;
-    }
-}
-
-void put_values(auto const& estimates, std::vector<double>& values) {
-    for (auto const& estimate : estimates) values.push_back(estimate.value);
-}
-
-void put_intervals(auto const& estimates, std::vector<double>& values) {
-    for (auto const& estimate : estimates) put(values, estimate.interval);
+/// Of each input its rank.
+std::vector<int> ranks_of(std::vector<std::size_t> const& ranking) {
+    std::vector<int> ranks(ranking.size());
+    for (std::size_t rank = 0; rank < ranking.size(); ++rank) ranks[ranking[rank]] = static_cast<int>(rank) + 1;
+    return ranks;
 }
 
 void write_indices(GroupWriter& group, IndexReport const& report) {
-    int const rows[] = {static_cast<int>(report.used()), static_cast<int>(report.failed),
-                        static_cast<int>(report.incomplete)};
-    group.counts({"rows_used", "1", "rows of the design in the indices", {}, ""}, {rows, 1});
-    group.counts({"rows_failed", "1", "rows left out: a member failed", {}, ""}, {rows + 1, 1});
-    group.counts({"rows_incomplete", "1", "rows left out: a member is missing", {}, ""}, {rows + 2, 1});
+    group.put({"rows_used", "1", "rows of the design in the indices"}, static_cast<int>(report.used()));
+    group.put({"rows_failed", "1", "rows left out: a member failed"}, static_cast<int>(report.failed));
+    group.put({"rows_incomplete", "1", "rows left out: a member is missing"}, static_cast<int>(report.incomplete));
     for (auto const& entries : by_quantity(report.columns)) {
-        QuantityWriter<ColumnIndices> writer(group, entries);
-        writer.counts("rows", "rows without a missing number", {},
-                      [](auto const& entry, auto& values) { values.push_back(static_cast<int>(entry.indices.rows)); });
-        writer.numbers("first", "1", "first-order index", {"input"},
-                       [](auto const& entry, auto& values) { put_values(entry.indices.first, values); });
+        using Entry = ColumnIndices;
+        QuantityWriter<Entry> writer(group, entries);
+        writer.counts("rows", "rows without a missing number", {}, [](Entry const& e) { return e.indices.rows; });
+        writer.numbers("first", "1", "first-order index", {"input"}, [](Entry const& e) { return values_of(e.indices.first); });
         writer.numbers("first_interval", "1", "confidence interval of the first-order index", {"input", "bound"},
-                       [](auto const& entry, auto& values) { put_intervals(entry.indices.first, values); });
-        writer.numbers("total", "1", "total index", {"input"},
-                       [](auto const& entry, auto& values) { put_values(entry.indices.total, values); });
+                       [](Entry const& e) { return intervals_of(e.indices.first); });
+        writer.numbers("total", "1", "total index", {"input"}, [](Entry const& e) { return values_of(e.indices.total); });
         writer.numbers("total_interval", "1", "confidence interval of the total index", {"input", "bound"},
-                       [](auto const& entry, auto& values) { put_intervals(entry.indices.total, values); });
-        writer.numbers("first_sum", "1", "sum of the first-order indices", {},
-                       [](auto const& entry, auto& values) { values.push_back(entry.indices.first_sum.value); });
-        writer.numbers("first_sum_interval", "1", "confidence interval of the sum of the first-order indices",
-                       {"bound"},
-                       [](auto const& entry, auto& values) { put(values, entry.indices.first_sum.interval); });
-        writer.counts("rank", "rank of the input by its total index, 1 the largest", {"input"},
-                      [](auto const& entry, auto& values) { put_ranks(entry.ranking, values); });
+                       [](Entry const& e) { return intervals_of(e.indices.total); });
+        writer.numbers("first_sum", "1", "sum of the first-order indices", {}, [](Entry const& e) { return e.indices.first_sum.value; });
+        writer.numbers("first_sum_interval", "1", "confidence interval of the sum of the first-order indices", {"bound"},
+                       [](Entry const& e) { return e.indices.first_sum.interval; });
+        writer.counts("rank", "rank of the input by its total index, 1 the largest", {"input"}, [](Entry const& e) { return ranks_of(e.ranking); });
     }
 }
 
 void write_correlations(GroupWriter& group, std::vector<ColumnCorrelations> const& correlations) {
     for (auto const& entries : by_quantity(correlations)) {
-        QuantityWriter<ColumnCorrelations> writer(group, entries);
-        writer.counts("count", "members in the correlations", {},
-                      [](auto const& entry, auto& values) { values.push_back(static_cast<int>(entry.members)); });
-        writer.numbers("rank_correlation", "1", "Spearman's rank correlation", {"input"},
-                       [](auto const& entry, auto& values) { put_values(entry.ranks, values); });
-        writer.numbers("rank_correlation_interval", "1", "confidence interval of the rank correlation",
-                       {"input", "bound"}, [](auto const& entry, auto& values) { put_intervals(entry.ranks, values); });
-        writer.numbers("regression", "1", "standardised regression coefficient", {"input"},
-                       [](auto const& entry, auto& values) {
-                           auto const& coefficients = entry.regression.coefficients;
-                           values.insert(values.end(), coefficients.begin(), coefficients.end());
-                       });
+        using Entry = ColumnCorrelations;
+        QuantityWriter<Entry> writer(group, entries);
+        writer.counts("count", "members in the correlations", {}, [](Entry const& e) { return e.members; });
+        writer.numbers("rank_correlation", "1", "Spearman's rank correlation", {"input"}, [](Entry const& e) { return values_of(e.ranks); });
+        writer.numbers("rank_correlation_interval", "1", "confidence interval of the rank correlation", {"input", "bound"},
+                       [](Entry const& e) { return intervals_of(e.ranks); });
+        writer.numbers("regression", "1", "standardised regression coefficient", {"input"}, [](Entry const& e) { return e.regression.coefficients; });
         writer.numbers("r_squared", "1", "share of the variance that the linear regression explains", {},
-                       [](auto const& entry, auto& values) { values.push_back(entry.regression.r_squared); });
+                       [](Entry const& e) { return e.regression.r_squared; });
         writer.counts("rank", "rank of the input by the magnitude of its rank correlation, 1 the largest", {"input"},
-                      [](auto const& entry, auto& values) { put_ranks(entry.ranking, values); });
+                      [](Entry const& e) { return ranks_of(e.ranking); });
     }
 }
 

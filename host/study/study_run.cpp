@@ -9,7 +9,7 @@
 #include "host/base/fnv1a.hpp"
 #include "host/store/result_check.hpp"
 #include "host/store/result_merge.hpp"
-#include "host/store/result_reader.hpp"
+#include "host/store/result_view.hpp"
 #include "host/store/statistics_merge.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/prediction.hpp"
@@ -183,6 +183,22 @@ bool StudyRun::merge(StopRequest const& stop, std::optional<ToleranceReport>& re
 
 void StudyRun::remove_shards() { claim_->remove_folder(); }
 
+namespace {
+
+/// Backend, isa, flags and threads, as a result file names them.
+Provenance stored_origin(NetcdfFile const& file) {
+    auto const text = [&](char const* name) { return file.text(NetcdfFile::global, name); };
+    Provenance origin;
+    origin.backend = text("backend");
+    origin.isa = text("isa");
+    origin.flags = text("flags");
+    double threads = 1;
+    if (file.number(NetcdfFile::global, "threads", threads)) origin.threads = static_cast<int>(threads);
+    return origin;
+}
+
+}  // namespace
+
 bool asks_for_report(Scene const& scene) {
     return !scene.stores_members() || scene.study == StudyKind::tolerance ||
            (scene.study == StudyKind::ensemble && !scene.limits.empty());
@@ -194,51 +210,34 @@ std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, std::ve
                           std::function<void(NetcdfFile&)> const& verify) {
     MemberSet const& members = folder.identity().members;
     std::uint64_t const left = members.without(members_of(shards)).count();
-    std::string const completeness =
-        left == 0 ? "complete" : fmt::format("{} of {} members not run", left, members.count());
-    if (!scene.stores_members()) {
-        auto const conclude = [&](NetcdfFile& file, BlockStatistics const& statistics) {
-            report = statistics_report(statistics, left, scene, output.name());
-            write_statistics(file, *report);
-            if (verify && left == 0) verify(file);
-        };
-        merge_statistics(folder, shards,
-                         {statistics_plan(scene), members, provenance, completeness, conclude, settings.pause, output.existing()},
-                         output.path());
-        return left;
-    }
-    auto const conclude = [&](NetcdfFile& file) {
+    ResultMerge merge{result_layout(scene, members), provenance, "complete"};
+    if (left > 0) merge.completeness = fmt::format("{} of {} members not run", left, members.count());
+    merge.conclude = [&](NetcdfFile& file) {
         if (asks_for_report(scene)) {
             report = tolerance_report(ResultView(file), scene, settings);
             write_statistics(file, *report);
         }
         if (verify && left == 0) verify(file);
     };
-    merge_shards(folder, shards,
-                 {result_layout(scene, members), provenance, completeness, conclude, settings.pause, output.existing()},
-                 output.path());
+    merge.pause = settings.pause;
+    merge.existing = output.existing();
+    if (scene.stores_members())
+        merge_shards(folder, shards, std::move(merge), output.path());
+    else
+        merge_statistics(folder, shards, statistics_plan(scene), merge, output.path());
     return left;
 }
 
 Provenance shard_origin(ShardFolder const& folder, std::vector<Shard> const& shards, Scene const& scene) {
     if (shards.empty()) throw FileError(folder.path() + ": holds no finished members");
     std::vector<std::byte> const bytes = folder.read(shards.front());
+    Provenance const of_shard = scene.stores_members() ? stored_origin(NetcdfFile::open_in_memory(shards.front().name, bytes))
+                                                       : parse_statistics(bytes, shards.front().name).origin;
     Provenance origin = provenance_of(scene);
-    if (scene.stores_members()) {
-        NetcdfFile const file = NetcdfFile::open_in_memory(shards.front().name, bytes);
-        auto const text = [&](char const* name) { return file.text(NetcdfFile::global, name); };
-        origin.backend = text("backend");
-        origin.isa = text("isa");
-        origin.flags = text("flags");
-        double threads = 1;
-        if (file.number(NetcdfFile::global, "threads", threads)) origin.threads = static_cast<int>(threads);
-    } else {
-        Provenance const of_shard = parse_statistics(bytes, shards.front().name).origin;
-        origin.backend = of_shard.backend;
-        origin.isa = of_shard.isa;
-        origin.flags = of_shard.flags;
-        origin.threads = of_shard.threads;
-    }
+    origin.backend = of_shard.backend;
+    origin.isa = of_shard.isa;
+    origin.flags = of_shard.flags;
+    origin.threads = of_shard.threads;
     RunIdentity const& identity = folder.identity();
     // The copy of the table goes with the folder.
     origin.scene = identity.table.empty() ? identity.scene : with_table(identity.scene, identity.table);

@@ -34,25 +34,15 @@ MemberEnds recalled_ends(std::string const& path, Mechanism mechanism, MemberSet
         std::vector<std::byte> const bytes = folder.read(shard);
         NetcdfFile const file = NetcdfFile::open_in_memory(shard.name, bytes);
         std::vector<std::uint64_t> const members = shard.members.members(0, shard.members.count());
-        std::vector<MemberEnd> of_shard(members.size());
-        std::vector<signed char> statuses(members.size());
-        std::vector<double> column(members.size());
-        for (NetcdfFile::Variable const& variable : file.variables()) {
-            std::array<std::size_t, 1> const start{0}, count{members.size()};
-            if (variable.name == "status") {
-                file.read(variable.id, start, count, statuses.data());
-                for (std::size_t i = 0; i < members.size(); ++i)
-                    of_shard[i].finished = statuses[i] == static_cast<signed char>(Status::finished);
-            }
-            for (int k = 0; k < has.states; ++k) {
-                if (variable.name != std::string("final_") + state_info(has, k).name) continue;
-                file.read(variable.id, start, count, column.data());
-                for (std::size_t i = 0; i < members.size(); ++i)
-                    of_shard[i].state[static_cast<std::size_t>(k)] = column[i];
-            }
-        }
+        ResultView const results(file);
+        std::vector<double> const statuses = results.values("status", members.size());
+        std::vector<std::vector<double>> states;
+        for (int k = 0; k < has.states; ++k) states.push_back(results.values(std::string("final_") + state_info(has, k).name, members.size()));
         for (std::size_t i = 0; i < members.size(); ++i) {
-            if (wanted.contains(members[i])) (*ends)[members[i]] = of_shard[i];
+            if (!wanted.contains(members[i])) continue;
+            MemberEnd& end = (*ends)[members[i]];
+            end.finished = status_of(statuses[i]) == Status::finished;
+            for (std::size_t k = 0; k < states.size(); ++k) end.state[k] = states[k][i];
         }
     }
     return [ends](std::uint64_t member) -> std::optional<MemberEnd> {

@@ -1,7 +1,6 @@
 #include "host/study/tolerance_members.hpp"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -55,15 +54,11 @@ std::vector<double> ToleranceMembers::column(std::string const& variable, std::s
 }
 
 std::vector<StatusCount> ToleranceMembers::count(bool draws_only) const {
-    std::array<std::uint64_t, 256> counts{};
+    StatusCounts counts;
     for (std::size_t i = 0; i < size(); ++i) {
         if (!draws_only || is_draw(i)) ++counts[static_cast<unsigned char>(status(i))];
     }
-    std::vector<StatusCount> occurring;
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-        if (counts[i] > 0) occurring.push_back({static_cast<Status>(static_cast<signed char>(i)), counts[i]});
-    }
-    return occurring;
+    return listed(counts);
 }
 
 }  // namespace slideway

@@ -8,18 +8,53 @@
 #include "host/base/error.hpp"
 #include "host/store/statistics_merge.hpp"
 #include "host/study/tolerance_members.hpp"
-#include "host/study/tolerance_policy.hpp"
 #include "host/study/tolerance_sensitivity.hpp"
 
 namespace slideway {
 namespace {
 
-std::vector<QuantityColumn> quantity_columns_of(ResultView const& results) {
-    Selection stored = 0;
-    for (int q = 0; q < quantity_count; ++q) {
-        if (results.has(quantity_table[q].name)) stored |= selection_of(static_cast<Quantity>(q));
+/// Whether members are random draws, so that intervals mean something.
+bool is_random(DesignKind design) { return design != DesignKind::grid && design != DesignKind::table; }
+
+std::string policy_of(DesignKind design) {
+    std::string text(
+        "Moments, quantiles and histograms are of the members that finished. Members that failed are counted by status "
+        "and meet no limit. Members that did not run are left out.");
+    if (design == DesignKind::saltelli) {
+        text +=
+            " Of this saltelli design, distributions and yields are of the members of A and B; rows with a member that "
+            "failed or is missing are left out of the indices whole.";
     }
-    std::vector<QuantityColumn> columns = report_columns(stored);
+    return text;
+}
+
+/// @param complete whether every member ran: the slow ones are missing otherwise, and what is left is no fair sample.
+std::string intervals_of(DesignKind design, bool complete) {
+    if (!complete) {
+        return "none: members have not run, and not at random: the slow ones are missing, and quick ones are too many "
+               "among the others";
+    }
+    std::string const level = fmt::format("{:.0f} % intervals of independent draws", 100 * confidence_level);
+    std::string const skewed = "; those of means hold less often where draws are few and skewed";
+    if (!is_random(design)) return "none: the members are no random draws";
+    if (design == DesignKind::mc) return level + skewed;
+    return level + "; as a rule too wide, for the draws of this design are spread more evenly";
+}
+
+/// Without an interval where members are no random draws.
+Proportion yield_of(std::uint64_t met, std::uint64_t trials, bool random) {
+    Proportion yield = proportion(met, trials, confidence_level);
+    if (!random) yield.interval = Interval();
+    return yield;
+}
+
+QuantityColumn const& limited_column(std::vector<QuantityColumn> const& columns, Limit const& limit, std::string const& path) {
+    if (QuantityColumn const* const column = column_of(columns, limit)) return *column;
+    throw FileError(fmt::format("{}: has no {}, which study.limits names; add it to study.quantities", path, limit.name()));
+}
+
+std::vector<QuantityColumn> stored_columns(ResultView const& results) {
+    std::vector<QuantityColumn> columns = columns_of(quantities_where([&](QuantityInfo const& quantity) { return results.has(quantity.name); }));
     for (QuantityColumn& column : columns) {
         column.unit = results.unit(column.quantity);
         column.long_name = results.long_name(column.quantity);
@@ -48,7 +83,7 @@ ColumnStatistics statistics_of(ToleranceMembers const& members, QuantityColumn c
 }
 
 void add_yields(ToleranceReport& report, ToleranceMembers const& members, Scene const& scene,
-                std::span<QuantityColumn const> columns, bool random, std::string const& path) {
+                std::vector<QuantityColumn> const& columns, bool random, std::string const& path) {
     if (scene.limits.empty()) return;
     std::vector<char> all_met(members.size());
     std::uint64_t trials = 0;
@@ -57,58 +92,79 @@ void add_yields(ToleranceReport& report, ToleranceMembers const& members, Scene 
         all_met[i] = members.is_draw(i) && members.finished(i);
     }
     for (Limit const& limit : scene.limits) {
-        auto const column = std::find_if(columns.begin(), columns.end(), [&](QuantityColumn const& candidate) {
-            return candidate.quantity == limit.quantity && candidate.label == limit.label;
-        });
-        if (column == columns.end()) refuse_limit(limit, path);
-        std::vector<double> const values = members.column(column->quantity, column->index);
+        QuantityColumn const& column = limited_column(columns, limit, path);
+        std::vector<double> const values = members.column(column.quantity, column.index);
         std::uint64_t met = 0;
         for (std::size_t i = 0; i < members.size(); ++i) {
             bool const within = limit.low <= values[i] && values[i] <= limit.high;  // not of NaN
             met += members.is_draw(i) && members.finished(i) && within;
             all_met[i] = all_met[i] && within;
         }
-        report.limits.push_back({limit, column->unit, yield_of(met, trials, random)});
+        report.limits.push_back({limit, column.unit, yield_of(met, trials, random)});
     }
     auto const all = static_cast<std::uint64_t>(std::count(all_met.begin(), all_met.end(), 1));
     report.all_met = yield_of(all, trials, random);
 }
 
-bool is_complete(std::vector<StatusCount> const& statuses) {
-    return std::none_of(statuses.begin(), statuses.end(),
-                        [](StatusCount const& count) { return count.status == Status::not_run; });
+ColumnStatistics statistics_of(ColumnAccumulator const& values, QuantityColumn const& column, bool random) {
+    ColumnStatistics result{column, values.summary(), {}, {}, values.histogram()};
+    if (random) result.mean = mean_interval(result.summary, confidence_level);
+    for (double const p : reported_quantiles)
+        result.quantiles.push_back({p, values.quantile(p), random ? values.quantile_interval(p, confidence_level) : Interval()});
+    return result;
+}
+
+/// Of a result without members.
+ToleranceReport statistics_report(ResultView const& results, Scene const& scene) {
+    BlockStatistics const statistics = stored_statistics(results);
+    std::vector<QuantityColumn> const columns = columns_of(scene.quantities);
+    if (columns.size() != statistics.columns().size() || scene.limits.size() != statistics.met().size()) {
+        throw FileError(fmt::format("{}: its statistics are of {} columns and {} limits, and the scene has {} and {}; give the scene of this result",
+                                    results.path(), statistics.columns().size(), statistics.met().size(), columns.size(), scene.limits.size()));
+    }
+    bool const complete = members_left(results) == 0, random = is_random(scene.design.kind) && complete;
+    ToleranceReport report;
+    report.design = scene.design.kind;
+    report.policy = policy_of(report.design) + " Members are not stored, so there are no correlations with what varies.";
+    report.intervals = intervals_of(report.design, complete);
+    report.quantile_error = "relative error of at most 2^-10 of a member of that rank";
+    static_assert(QuantileSketch::error == 0x1p-10);
+    report.statuses = report.draws = count_statuses(results);
+    std::erase_if(report.draws, [](StatusCount const& count) { return count.status == Status::not_run; });
+    for (std::size_t i = 0; i < columns.size(); ++i) report.columns.push_back(statistics_of(statistics.columns()[i], columns[i], random));
+    std::uint64_t const ran = statistics.members().count();
+    for (std::size_t i = 0; i < scene.limits.size(); ++i) {
+        QuantityColumn const& column = limited_column(columns, scene.limits[i], results.path());
+        report.limits.push_back({scene.limits[i], column.unit, yield_of(statistics.met()[i], ran, random)});
+    }
+    if (!scene.limits.empty()) report.all_met = yield_of(statistics.all_met(), ran, random);
+    return report;
 }
 
 }  // namespace
 
 ToleranceReport tolerance_report(ResultView const& results, Scene const& scene, ReportSettings const& settings) {
-    if (!results.stores_members()) {
-        std::uint64_t const left = members_left(results);
-        return statistics_report(stored_statistics(results), left, scene, results.path());
-    }
+    if (!results.stores_members()) return statistics_report(results, scene);
     bool const radial = scene.design.kind == DesignKind::saltelli;
     std::size_t const width = radial ? scene.variations.size() + 2 : 0;
     std::uint64_t const size = radial ? scene.design.base * width : scene.members;
     ToleranceMembers const members(results, width, size);
-    std::vector<QuantityColumn> const columns = quantity_columns_of(results);
+    std::vector<QuantityColumn> const columns = stored_columns(results);
 
     ToleranceReport report;
     report.design = scene.design.kind;
     report.policy = policy_of(report.design);
     report.statuses = members.count(false);
-    bool const complete = is_complete(report.statuses);
+    bool const complete = std::ranges::count(report.statuses, Status::not_run, &StatusCount::status) == 0;
     report.intervals = intervals_of(report.design, complete);
     report.draws = members.count(true);
     for (Variation const& variation : scene.variations) report.inputs.emplace_back(variation.key->name);
     bool const random = is_random(report.design) && complete;
-    auto const pause = [&settings] {
-        if (settings.pause) settings.pause();
-    };
     for (QuantityColumn const& column : columns) {
-        pause();
+        settings.pause();
         report.columns.push_back(statistics_of(members, column, random));
     }
-    pause();
+    settings.pause();
     add_yields(report, members, scene, columns, random, results.path());
     if (radial) {
         report.indices = index_report(members, scene, columns, random, settings);

@@ -18,6 +18,7 @@
 #include "host/statistics/summary.hpp"
 #include "host/store/block_statistics.hpp"
 #include "host/store/netcdf_file.hpp"
+#include "host/store/result_layout.hpp"
 #include "host/store/result_view.hpp"
 #include "host/study/result_summary.hpp"
 
@@ -25,17 +26,6 @@ namespace slideway {
 
 inline constexpr double confidence_level = 0.95;  // of all intervals
 inline constexpr double reported_quantiles[] = {0.001, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 0.999};
-
-/// One number per member: a quantity, or one of its columns.
-struct QuantityColumn {
-    std::string quantity;   // name of the variable: "mode_time"
-    std::string dimension;  // of the labels: "mode_class"; "" for a quantity of one column
-    std::string label;      // "free"; "" likewise
-    std::size_t index = 0;  // along the dimension
-    std::string unit;
-    std::string long_name;
-    std::string name() const { return label.empty() ? quantity : quantity + "[" + label + "]"; }
-};
 
 /// Of the draws that finished.
 struct ColumnStatistics {
@@ -95,7 +85,7 @@ struct ReportSettings {
     int threads = default_threads();  // numbers do not depend on them
     /// Members that take part in correlations, at most: of more, as many that the scene's seed chooses at random.
     std::size_t most_correlated = std::size_t{1} << 20;
-    std::function<void()> pause = {};  // called now and then; what it throws ends the report
+    std::function<void()> pause = [] {};  // called now and then; what it throws ends the report
 };
 
 /// Statistics of a result of the study `tolerance`, by this policy:
@@ -106,20 +96,13 @@ struct ReportSettings {
 ///   with a member that failed or is missing are left out of the indices whole, and counted.
 /// Members are known by their number (variable `member`), so the file may hold a part of the design, in any order.  One
 /// column of all members is in memory at a time, and the inputs of at most `most_correlated` members.
-/// A result that keeps statistics in place of members has the same report, with sketched quantiles and without
-/// correlations.
+/// A result that keeps statistics in place of members has the same report without correlations: moments, ends and yields are those of the
+/// members, without rounding but for their last; quantiles and histograms are by the sketch (QuantileSketch::error).
 /// Intervals are those of independent draws (so as a rule too wide for lhs, sobol and saltelli, whose draws are spread
 /// more evenly); of grid and table designs, whose members are no random draws, there are none.
 /// @throws FileError if the result lacks a quantity that a limit names, or its members are not those of the scene's
-/// design.
+/// design, or its statistics not of the scene's quantities and limits.
 ToleranceReport tolerance_report(ResultView const& results, Scene const& scene, ReportSettings const& settings = {});
-
-/// Of members that were not stored.  Moments, ends and yields are those of the members, without rounding but for their last; quantiles and histograms are
-/// by the sketch (QuantileSketch::error), and there are no correlations.
-/// @param left members of the run that did not run.  @param path of what the statistics are from, for messages.
-/// @throws FileError if the statistics are not of the scene's quantities and limits.
-ToleranceReport statistics_report(BlockStatistics const& statistics, std::uint64_t left, Scene const& scene,
-                                  std::string const& path);
 
 /// Adds the groups `statistics`, `yield` (if there are limits) and `sensitivity` (if anything varies) to a file that is
 /// open for writing, before it is closed.  Variables are named after their quantity (`crank_work_quantile`), lie along

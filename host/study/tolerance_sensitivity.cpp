@@ -103,7 +103,7 @@ IndexReport index_report(ToleranceMembers const& members, Scene const& scene, st
     IndexReport report;
     std::vector<std::size_t> const rows = usable_rows(members, width, report);
     for (QuantityColumn const& column : columns) {
-        if (settings.pause) settings.pause();
+        settings.pause();
         std::vector<double> radial;
         radial.reserve(rows.size() * width);
         {
@@ -138,7 +138,7 @@ std::vector<ColumnCorrelations> correlation_report(ToleranceMembers const& membe
         inputs.push_back(std::move(input));
     }
     for (QuantityColumn const& column : columns) {
-        if (settings.pause) settings.pause();
+        settings.pause();
         std::vector<double> output = taken(members.column(column.quantity, column.index), used);
         report.push_back(correlations_of(column, inputs, std::move(output), independent));
     }

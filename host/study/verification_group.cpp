@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "host/store/group_writer.hpp"
 #include "host/store/result_seal.hpp"
-#include "host/study/group_writer.hpp"
 #include "host/study/verification.hpp"
 
 namespace slideway {
@@ -33,7 +33,7 @@ void write_numbers(GroupWriter& group, Verification const& v) {
     group.labels("bound", "end of an interval", {"low", "high"});
     group.dimension("verified", v.members.size());
     std::vector<double> const members(v.members.begin(), v.members.end());
-    group.numbers({"verified_member", "1", "member that ran again", {"verified"}, ""}, members);
+    group.put({"verified_member", "1", "member that ran again", {"verified"}}, members);
 
     std::vector<double> values, work;
     for (std::size_t column = 0; column < columns.size(); ++column) {
@@ -43,17 +43,17 @@ void write_numbers(GroupWriter& group, Verification const& v) {
         }
     }
     for (MemberNumbers const& source : v.numbers) work.insert(work.end(), source.work.begin(), source.work.end());
-    group.numbers({"value", "", "what a member came to, in the unit of checked_name", {"checked", "source", "verified"}, "checked_name source_name"}, values);
-    group.numbers({"work", "1", "right-hand sides of a member, a Jacobian counting one and a half", {"source", "verified"}, "source_name"}, work);
+    group.put({"value", "", "what a member came to, in the unit of checked_name", {"checked", "source", "verified"}, "checked_name source_name"}, values);
+    group.put({"work", "1", "right-hand sides of a member, a Jacobian counting one and a half", {"source", "verified"}, "source_name"}, work);
     std::string const labels("checked_name check_name");
-    group.numbers({"difference", "", "mean over the members, check less study, in the unit of checked_name", {"checked", "check"}, labels},
-                  of_findings(v, 1, [](CheckedColumn const& f, std::size_t) { return f.pairs.difference; }));
-    group.numbers({"difference_interval", "", "95 % confidence interval of the difference", {"checked", "check", "bound"}, labels},
-                  of_findings(v, 2, [](CheckedColumn const& f, std::size_t i) { return i == 0 ? f.pairs.interval.low : f.pairs.interval.high; }));
-    group.numbers({"p_value", "1", "chance of what was found if nothing differed, adjusted for all that was compared", {"checked", "check"}, labels},
-                  of_findings(v, 1, [](CheckedColumn const& f, std::size_t) { return f.p; }));
-    group.numbers({"differs", "1", "1 where study and check differ beyond chance", {"checked", "check"}, labels},
-                  of_findings(v, 1, [](CheckedColumn const& f, std::size_t) { return f.differs ? 1.0 : 0.0; }));
+    group.put({"difference", "", "mean over the members, check less study, in the unit of checked_name", {"checked", "check"}, labels},
+              of_findings(v, 1, [](CheckedColumn const& f, std::size_t) { return f.pairs.difference; }));
+    group.put({"difference_interval", "", "95 % confidence interval of the difference", {"checked", "check", "bound"}, labels},
+              of_findings(v, 2, [](CheckedColumn const& f, std::size_t i) { return i == 0 ? f.pairs.interval.low : f.pairs.interval.high; }));
+    group.put({"p_value", "1", "chance of what was found if nothing differed, adjusted for all that was compared", {"checked", "check"}, labels},
+              of_findings(v, 1, [](CheckedColumn const& f, std::size_t) { return f.p; }));
+    group.put({"differs", "1", "1 where study and check differ beyond chance", {"checked", "check"}, labels},
+              of_findings(v, 1, [](CheckedColumn const& f, std::size_t) { return f.differs ? 1.0 : 0.0; }));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "host/run/ensemble.hpp"
-#include "host/store/result_reader.hpp"
+#include "host/store/result_view.hpp"
 #include "tests/support/output_fixture.hpp"
 
 namespace slideway {

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "host/base/error.hpp"
-#include "host/store/result_reader.hpp"
+#include "host/store/result_view.hpp"
 #include "tests/support/output_fixture.hpp"
 
 namespace slideway {

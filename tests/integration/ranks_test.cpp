@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "host/run/launcher.hpp"
+#include "host/run/ranks.hpp"
 #include "host/run/ranks.hpp"
 #include "tests/support/mpirun.hpp"
 

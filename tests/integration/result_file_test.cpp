@@ -10,7 +10,7 @@
 #include "host/store/output_target.hpp"
 #include "host/store/result_seal.hpp"
 #include "host/store/result_check.hpp"
-#include "host/store/result_reader.hpp"
+#include "host/store/result_view.hpp"
 #include "tests/support/output_fixture.hpp"
 
 namespace slideway {

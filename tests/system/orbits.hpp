@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "host/store/result_reader.hpp"
+#include "host/store/result_view.hpp"
 #include "tests/system/process.hpp"
 
 namespace slideway::testing::orbits {

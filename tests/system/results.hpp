@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host/store/result_reader.hpp"
+#include "host/store/result_view.hpp"
 #include "tests/system/process.hpp"
 
 namespace slideway::testing {

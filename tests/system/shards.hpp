@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "host/run/member_set.hpp"
-#include "host/store/result_reader.hpp"
+#include "host/store/result_view.hpp"
 #include "tests/support/mpirun.hpp"
 
 namespace slideway::testing {

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "host/store/netcdf_file.hpp"
-#include "host/store/result_reader.hpp"
+#include "host/store/result_view.hpp"
 #include "tests/system/results.hpp"
 
 namespace slideway::testing {

@@ -1,7 +1,7 @@
 // Studies of a table of members, moved and merged where the table is out of reach.
 #include <algorithm>
 
-#include "host/store/result_reader.hpp"
+#include "host/store/result_view.hpp"
 #include "tests/system/process.hpp"
 
 namespace slideway::testing {

@@ -11,7 +11,7 @@
 #include "host/base/fnv1a.hpp"
 #include "host/store/netcdf_file.hpp"
 #include "host/store/result_seal.hpp"
-#include "host/store/result_reader.hpp"
+#include "host/store/result_view.hpp"
 
 namespace slideway {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "host/base/error.hpp"
-#include "host/store/result_reader.hpp"
+#include "host/store/result_view.hpp"
 #include "tests/support/output_fixture.hpp"
 
 namespace slideway {
