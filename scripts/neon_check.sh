@@ -112,7 +112,7 @@ study() {
     shift 2
     "$here/bin/slideway" run "scenes/$scene" --quiet -o "$results/here.nc" "$@" >/dev/null || stop "$name: the run failed"
     for isa in neon scalar; do
-        on_arm "$build/bin/slideway" run "scenes/$scene" --quiet --isa $isa -o "$results/arm.nc" "$@" >/dev/null ||
+        on_arm "$build/bin/slideway" run "scenes/$scene" --quiet --isa $isa --force -o "$results/arm.nc" "$@" >/dev/null ||
             stop "$name: the run on ARM failed"
         compare "$name, $isa" "$(hash_of "$results/here.nc")" "$(hash_of "$results/arm.nc")"
     done

@@ -150,4 +150,32 @@ void read_member_table(Node const& node, Node const& root, Scene& scene) {
     scene.design.table = std::move(table);
 }
 
+void take_members(Scene& scene, std::vector<std::string> const& names, std::span<double const> values) {
+    auto const fail = [&](std::string const& what) { throw SceneError(fmt::format("{}: {}", scene.path, what)); };
+    if (scene.study == StudyKind::sweep || !scene.design.correlation.variations.empty()) {
+        fail("cannot take inputs of members: a sweep and correlated draws have a design of their own; use study.kind = \"ensemble\"");
+    }
+    if (names.empty() || values.empty() || values.size() % names.size() != 0) fail("inputs of members need keys, and rows of one number for each");
+    auto table = std::make_shared<MemberTable>();
+    table->columns = names.size();
+    table->values.assign(values.begin(), values.end());
+    table->checksum = fnv1a(std::as_bytes(values));
+    for (std::string const& name : names) {
+        Key const* const key = find_key(name);
+        if (key == nullptr) fail(fmt::format("{}: only numeric keys of the physics can be inputs of members; {}", name, key_advice(name)));
+        if (!counts_for(*key, scene.parts)) fail(fmt::format("{} has no meaning for this mechanism and contact law; leave it out", name));
+        std::erase_if(scene.variations, [&](Variation const& other) { return other.column == Variation::no_column && other.key->overlaps(*key); });
+        for (Variation const& other : scene.variations) {
+            if (other.key->overlaps(*key)) fail(fmt::format("{} and {} set the same input; leave one out", other.key->name, name));
+        }
+        require_part(scene.parts, *key);
+        scene.variations.push_back({key, {}, 0, static_cast<std::size_t>(&name - names.data())});
+    }
+    scene.design = {};
+    scene.design.kind = DesignKind::table;
+    scene.members = table->rows();
+    scene.design.table = std::move(table);
+    prepare_sampler(scene);
+}
+
 }  // namespace slideway

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,6 +50,11 @@ Scene read_scene(std::string const& path, Overrides const& overrides = {});
 
 /// The same from the text of a scene; `name` stands for the path in messages.
 Scene parse_scene(std::string const& text, std::string const& name, Overrides const& overrides = {});
+
+/// Makes the members those of given inputs: design "table" without a file.  What the keys varied by before counts no more.
+/// @param names dotted keys  @param values in SI, one member a row  @throws SceneError if one of them is no such key, or the study's design is
+/// given otherwise
+void take_members(Scene& scene, std::vector<std::string> const& names, std::span<double const> values);
 
 /// Members of all columns of a sweep, else `members`.
 std::uint64_t member_count(Scene const& scene);

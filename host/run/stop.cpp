@@ -20,6 +20,7 @@ void StopRequest::stop_after(std::chrono::duration<double> limit) {
 
 StopReason StopRequest::reason() const noexcept {
     if (requested_.load(std::memory_order_relaxed)) return StopReason::signal;
+    if (flag_ != nullptr && flag_->load(std::memory_order_relaxed)) return StopReason::signal;
     return Clock::now() >= deadline_ ? StopReason::time_limit : StopReason::none;
 }
 

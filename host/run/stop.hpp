@@ -16,11 +16,14 @@ public:
     void request() noexcept { requested_.store(true, std::memory_order_relaxed); }
     /// Call before the run starts.
     void stop_after(std::chrono::duration<double> limit);
+    /// A flag of somebody else's, which asks to stop once it is true; nullptr: none.  Call before the run starts.
+    void watch(std::atomic<bool> const* flag) { flag_ = flag; }
     StopReason reason() const noexcept;
 
 private:
     using Clock = std::chrono::steady_clock;
     std::atomic<bool> requested_ = false;
+    std::atomic<bool> const* flag_ = nullptr;
     Clock::time_point deadline_ = Clock::time_point::max();
     static_assert(std::atomic<bool>::is_always_lock_free);
 };

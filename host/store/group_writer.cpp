@@ -13,14 +13,14 @@ namespace {
 constexpr std::size_t label_length = 8;  // of LabelAxes: "surface" and room for one more letter
 
 /// Texts along the first of two dimensions, their letters along the second.
-int define_texts(NetcdfFile& file, std::string const& name, std::array<int, 2> const& dimensions, std::string const& long_name) {
-    int const variable = file.add_variable(name, NetcdfFile::Type::text, dimensions);
+int define_texts(DataFile& file, std::string const& name, std::array<int, 2> const& dimensions, std::string const& long_name) {
+    int const variable = file.add_variable(name, DataFile::Type::text, dimensions);
     file.put_text(variable, "long_name", long_name);
     file.put_text(variable, "_Encoding", "utf-8");  // readers then give strings, not bytes
     return variable;
 }
 
-void write_texts(NetcdfFile& file, int variable, std::vector<std::string> const& texts, std::size_t width) {
+void write_texts(DataFile& file, int variable, std::vector<std::string> const& texts, std::size_t width) {
     std::vector<char> letters(texts.size() * width, '\0');
     for (std::size_t i = 0; i < texts.size(); ++i) texts[i].copy(letters.data() + i * width, width);
     file.write(variable, letters.data());
@@ -40,7 +40,7 @@ void GroupWriter::texts(std::string const& name, std::string const& dimension, s
     write_texts(file_, define_texts(file_, name + "_name", dimensions, long_name), texts, width);
 }
 
-int GroupWriter::define(Description const& description, NetcdfFile::Type type) {
+int GroupWriter::define(Description const& description, DataFile::Type type) {
     std::vector<int> dimensions;
     for (std::string const& name : description.dimensions) dimensions.push_back(file_.dimension(name));
     int const variable = file_.add_variable(description.name, type, dimensions);

@@ -8,19 +8,19 @@
 #include <string>
 #include <vector>
 
-#include "host/store/netcdf_file.hpp"
+#include "host/store/data_file.hpp"
 
 namespace slideway {
 
 class GroupWriter {
 public:
     /// Into the file itself; into a new group of it.
-    explicit GroupWriter(NetcdfFile& file) : file_(file) {}
-    GroupWriter(NetcdfFile& file, std::string const& name) : group_(file.add_group(name)), file_(*group_) {}
+    explicit GroupWriter(DataFile& file) : file_(file) {}
+    GroupWriter(DataFile& file, std::string const& name) : group_(file.add_group(name)), file_(*group_) {}
     GroupWriter(GroupWriter const&) = delete;
 
-    void attribute(std::string const& name, std::string const& text) { file_.put_text(NetcdfFile::global, name, text); }
-    void attribute(std::string const& name, double number) { file_.put_number(NetcdfFile::global, name, number); }
+    void attribute(std::string const& name, std::string const& text) { file_.put_text(DataFile::global, name, text); }
+    void attribute(std::string const& name, double number) { file_.put_number(DataFile::global, name, number); }
     void dimension(std::string const& name, std::size_t length) { file_.add_dimension(name, length); }
     /// A dimension with a text for each entry, in the variable `<name>_name`.
     void labels(std::string const& name, std::string const& long_name, std::vector<std::string> const& labels);
@@ -36,7 +36,7 @@ public:
     };
     /// @param values in C order, as many as the dimensions say  @return the variable
     template <std::ranges::contiguous_range Values> int put(Description const& description, Values const& values) {
-        int const variable = define(description, NetcdfFile::type_of<std::ranges::range_value_t<Values>>);
+        int const variable = define(description, DataFile::type_of<std::ranges::range_value_t<Values>>);
         file_.write(variable, std::ranges::data(values));
         return variable;
     }
@@ -44,17 +44,17 @@ public:
     int put(Description const& description, double value) { return put(description, std::span(&value, 1)); }
 
 private:
-    int define(Description const& description, NetcdfFile::Type type);
+    int define(Description const& description, DataFile::Type type);
 
-    std::optional<NetcdfFile> group_;
-    NetcdfFile& file_;
+    std::unique_ptr<DataFile> group_;
+    DataFile& file_;
 };
 
 /// Defines the dimensions of the quantity table (apex, mode_class, axis, direction, channel) as they are asked for, each with its labels in
 /// `<name>_name`.
 class LabelAxes {
 public:
-    explicit LabelAxes(NetcdfFile& file) : file_(file) {}
+    explicit LabelAxes(DataFile& file) : file_(file) {}
     struct Axis {
         int dimension;
         std::string label_name;
@@ -65,7 +65,7 @@ public:
     void write() const;
 
 private:
-    NetcdfFile& file_;
+    DataFile& file_;
     std::map<std::string, Axis> axes_;
     std::vector<std::pair<int, std::vector<std::string>>> labels_;  // by variable
     int label_dimension_ = -1;

@@ -20,7 +20,7 @@
 
 namespace slideway {
 
-static_assert(NetcdfFile::unlimited == NC_UNLIMITED && NetcdfFile::global == NC_GLOBAL);
+static_assert(NetcdfFile::global == NC_GLOBAL);
 namespace {
 
 constexpr int closed = -1;
@@ -65,12 +65,6 @@ template <class Call> int number_of(std::string const& path, std::string_view ac
 }
 
 }  // namespace
-
-std::size_t NetcdfFile::size_of(Type type) { return type_table[static_cast<int>(type)].bytes; }
-
-std::size_t NetcdfFile::Variable::size() const {
-    return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
-}
 
 void NetcdfFile::require(int code, std::string_view action) const {
     if (code != NC_NOERR) fail(path_, action, code);
@@ -192,19 +186,19 @@ void NetcdfFile::read(int variable, std::span<std::size_t const> start, std::spa
     require(nc_get_vara(id_, variable, start.data(), count.data(), values), "read");
 }
 
-NetcdfFile NetcdfFile::add_group(std::string const& name) {
+std::unique_ptr<DataFile> NetcdfFile::add_group(std::string const& name) {
     int id = 0;
     require(nc_def_grp(id_, name.c_str(), &id), "define group " + name);
-    return {path_, id, Kind::group};
+    return std::unique_ptr<DataFile>(new NetcdfFile(path_, id, Kind::group));
 }
 
-NetcdfFile NetcdfFile::group(std::string const& name) const {
+std::unique_ptr<DataFile> NetcdfFile::group(std::string const& name) const { return std::make_unique<NetcdfFile>(inner(name)); }
+
+NetcdfFile NetcdfFile::inner(std::string const& name) const {
     int id = 0;
     require(nc_inq_ncid(id_, name.c_str(), &id), "find group " + name);
     return {path_, id, Kind::group};
 }
-
-bool NetcdfFile::has_group(std::string const& name) const { return std::ranges::count(groups(), name) > 0; }
 
 std::vector<std::string> NetcdfFile::groups() const {
     int count = 0;
@@ -259,11 +253,6 @@ std::vector<std::string> NetcdfFile::dimension_names(Variable const& variable) c
     std::vector<std::string> names;
     for (std::size_t d = 0; d < variable.shape.size(); ++d) names.push_back(name_by([&](char* name) { return nc_inq_dimname(id_, dimensions[d], name); }));
     return names;
-}
-
-std::string NetcdfFile::first_dimension(Variable const& variable) const {
-    auto const names = dimension_names(variable);
-    return names.empty() ? std::string() : names.front();
 }
 
 std::vector<std::string> NetcdfFile::attribute_names(int variable) const {

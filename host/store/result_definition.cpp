@@ -14,11 +14,11 @@
 
 namespace slideway {
 
-using Type = NetcdfFile::Type;
+using Type = DataFile::Type;
 
-void put_provenance(NetcdfFile& file, Provenance const& provenance) {
+void put_provenance(DataFile& file, Provenance const& provenance) {
     BuildInfo const& build = build_info();
-    auto const attribute = [&](char const* name, std::string const& value) { file.put_text(NetcdfFile::global, name, value); };
+    auto const attribute = [&](char const* name, std::string const& value) { file.put_text(DataFile::global, name, value); };
     attribute("Conventions", "CF-1.8");
     attribute("title", provenance.title);
     attribute("source", "slideway " + build.version);
@@ -29,7 +29,7 @@ void put_provenance(NetcdfFile& file, Provenance const& provenance) {
     attribute("backend", provenance.backend);
     attribute("isa", provenance.isa);
     attribute("machine", machine_name());
-    file.put_number(NetcdfFile::global, "threads", provenance.threads);
+    file.put_number(DataFile::global, "threads", provenance.threads);
     attribute("seed", fmt::format("{}", provenance.seed));  // CF-1.8 has no 64-bit integers
     attribute("created", creation_time());
     attribute("scene", provenance.scene);
@@ -37,10 +37,10 @@ void put_provenance(NetcdfFile& file, Provenance const& provenance) {
     attribute("mechanism_meaning", provenance.mechanism);
     if (provenance.law.empty()) return;
     attribute("contact_law_meaning", provenance.law);
-    file.put_number(NetcdfFile::global, "contact_law_switches", provenance.law_switches ? 1 : 0);
+    file.put_number(DataFile::global, "contact_law_switches", provenance.law_switches ? 1 : 0);
 }
 
-void put_status_flags(NetcdfFile& file, int variable) {
+void put_status_flags(DataFile& file, int variable) {
     std::vector<signed char> values{static_cast<signed char>(Status::not_run)};
     std::string meanings = "not_run";
     for (int status = 0; status < status_count; ++status) {
@@ -56,7 +56,7 @@ namespace {
 /// Defines what a layout has, in an order that never changes: files of the same numbers have the same bytes.
 class ResultDefiner {
 public:
-    ResultDefiner(NetcdfFile& file, ResultLayout const& layout) : file_(file), layout_(layout), labels_(file) {}
+    ResultDefiner(DataFile& file, ResultLayout const& layout) : file_(file), layout_(layout), labels_(file) {}
     ResultVariables define();
 
 private:
@@ -70,7 +70,7 @@ private:
     int member_variable(std::string const& name, std::string const& unit, std::string const& long_name);
     void write_coordinates();
 
-    NetcdfFile& file_;
+    DataFile& file_;
     ResultLayout const& layout_;
     ResultVariables ids_;
     int member_dimension_ = 0, sample_dimension_ = 0;
@@ -208,14 +208,18 @@ ResultVariables ResultDefiner::define() {
 
 }  // namespace
 
-ResultVariables define_result(NetcdfFile& file, ResultLayout const& layout, Provenance const& provenance) {
+ResultVariables define_variables(DataFile& file, ResultLayout const& layout) {
     constexpr std::uint64_t largest = std::numeric_limits<int>::max();
     if (!layout.members.empty() && layout.members.ranges().back().end() > largest) {
         throw FileError(fmt::format("{}: cannot number members beyond {}", file.path(), largest));
     }
-    put_provenance(file, provenance);
-    if (!layout.sweep.empty()) file.put_text(NetcdfFile::global, "sweep_parameter", layout.sweep);
+    if (!layout.sweep.empty()) file.put_text(DataFile::global, "sweep_parameter", layout.sweep);
     return ResultDefiner(file, layout).define();
+}
+
+ResultVariables define_result(DataFile& file, ResultLayout const& layout, Provenance const& provenance) {
+    put_provenance(file, provenance);
+    return define_variables(file, layout);
 }
 
 }  // namespace slideway

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "host/store/netcdf_file.hpp"
+#include "host/store/data_file.hpp"
 #include "host/store/provenance.hpp"
 #include "host/store/result_layout.hpp"
 
@@ -27,11 +27,13 @@ struct ResultVariables {
 
 /// Defines and describes the variables, and writes what is known before any member is: coordinates, members' numbers, and for each member
 /// that it was not run.  @throws FileError, also if the members do not fit the file's 32-bit numbers.
-ResultVariables define_result(NetcdfFile& file, ResultLayout const& layout, Provenance const& provenance);
+ResultVariables define_result(DataFile& file, ResultLayout const& layout, Provenance const& provenance);
+/// The same without where it comes from.
+ResultVariables define_variables(DataFile& file, ResultLayout const& layout);
 
 /// Attributes that say where a result comes from.
-void put_provenance(NetcdfFile& file, Provenance const& provenance);
+void put_provenance(DataFile& file, Provenance const& provenance);
 /// `flag_values` and `flag_meanings` of a variable that holds statuses.
-void put_status_flags(NetcdfFile& file, int variable);
+void put_status_flags(DataFile& file, int variable);
 
 }  // namespace slideway

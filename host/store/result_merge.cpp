@@ -17,16 +17,16 @@
 namespace slideway {
 namespace {
 
-using Variables = std::map<std::string, NetcdfFile::Variable>;
+using Variables = std::map<std::string, DataFile::Variable>;
 
 /// Rows [row, row + count) of a shard belong at `place` and after it.
 struct Run {
     std::size_t row, count, place;
 };
 
-Variables variables_of(NetcdfFile const& file) {
+Variables variables_of(DataFile const& file) {
     Variables variables;
-    for (NetcdfFile::Variable& variable : file.variables()) variables.emplace(variable.name, std::move(variable));
+    for (DataFile::Variable& variable : file.variables()) variables.emplace(variable.name, std::move(variable));
     return variables;
 }
 
@@ -46,15 +46,14 @@ std::vector<Run> member_runs(MemberSet const& shard, MemberSet const& all) {
 /// Where the section rows of each member begin, by place; one more entry is the end.
 class SectionPlaces {
 public:
-    SectionPlaces(ShardFolder const& folder, std::vector<Shard> const& shards, MemberSet const& all)
-        : begin_(static_cast<std::size_t>(all.count()) + 1, 0) {
-        for (Shard const& shard : shards) {
-            std::vector<std::byte> const bytes = folder.read(shard);
-            NetcdfFile const file = NetcdfFile::open_in_memory(shard.name, bytes);
-            std::vector<int> const counts = file.read<int>(variables_of(file).at("section_count"));
-            for (Run const& run : member_runs(shard.members, all)) {
-                for (std::size_t i = 0; i < run.count; ++i) begin_[run.place + i + 1] = static_cast<std::uint64_t>(counts[run.row + i]);
-            }
+    SectionPlaces(std::vector<MergedShard> const& shards, MemberSet const& all) : begin_(static_cast<std::size_t>(all.count()) + 1, 0) {
+        for (MergedShard const& shard : shards) {
+            shard.open([&](DataFile const& file) {
+                std::vector<int> const counts = file.read<int>(variables_of(file).at("section_count"));
+                for (Run const& run : member_runs(shard.members, all)) {
+                    for (std::size_t i = 0; i < run.count; ++i) begin_[run.place + i + 1] = static_cast<std::uint64_t>(counts[run.row + i]);
+                }
+            });
         }
         for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
     }
@@ -70,9 +69,9 @@ private:
 /// Copies the rows of one shard into the file of all.
 class ShardCopy {
 public:
-    ShardCopy(NetcdfFile& to, Variables const& variables) : to_(to), variables_(variables) {}
+    ShardCopy(DataFile& to, Variables const& variables) : to_(to), variables_(variables) {}
 
-    void copy(NetcdfFile const& from, std::vector<Run> const& members, SectionPlaces const* sections) {
+    void copy(DataFile const& from, std::vector<Run> const& members, SectionPlaces const* sections) {
         std::vector<Run> rows;
         std::size_t row = 0;
         for (Run const& run : members) {
@@ -80,7 +79,7 @@ public:
             rows.push_back({row, sections->count(run), sections->begin(run)});
             row += rows.back().count;
         }
-        for (NetcdfFile::Variable const& variable : from.variables()) {
+        for (DataFile::Variable const& variable : from.variables()) {
             std::string const dimension = from.first_dimension(variable);
             if (dimension == "member") copy_rows(from, variable, members);
             if (dimension == "section") copy_rows(from, variable, rows);
@@ -88,10 +87,10 @@ public:
     }
 
 private:
-    void copy_rows(NetcdfFile const& from, NetcdfFile::Variable const& variable, std::vector<Run> const& runs) {
-        NetcdfFile::Variable const& target = variables_.at(variable.name);
+    void copy_rows(DataFile const& from, DataFile::Variable const& variable, std::vector<Run> const& runs) {
+        DataFile::Variable const& target = variables_.at(variable.name);
         if (variable.size() == 0) return;
-        std::size_t const row_bytes = variable.size() / variable.shape[0] * NetcdfFile::size_of(variable.type);
+        std::size_t const row_bytes = variable.size() / variable.shape[0] * DataFile::size_of(variable.type);
         buffer_.resize(variable.shape[0] * row_bytes);
         from.read(variable.id, buffer_.data());
         std::vector<std::size_t> start(variable.shape.size(), 0), count = variable.shape;
@@ -103,42 +102,21 @@ private:
         }
     }
 
-    NetcdfFile& to_;
+    DataFile& to_;
     Variables const& variables_;
     std::vector<std::byte> buffer_;
 };
 
 /// The first value makes HDF5 allocate a variable's storage and fill it with NaN: a full disk so shows before the shards are read.
-void reserve_space(NetcdfFile& file) {
+void reserve_space(DataFile& file) {
     double const nan = std::numeric_limits<double>::quiet_NaN();
-    for (NetcdfFile::Variable const& variable : file.variables()) {
-        if (variable.type != NetcdfFile::Type::float64 || variable.size() == 0) continue;
+    for (DataFile::Variable const& variable : file.variables()) {
+        if (variable.type != DataFile::Type::float64 || variable.size() == 0) continue;
         std::string const dimension = file.first_dimension(variable);
         if (dimension != "member" && dimension != "section") continue;
         std::size_t const rank = variable.shape.size();
         file.write(variable.id, std::vector<std::size_t>(rank, 0), std::vector<std::size_t>(rank, 1), &nan);
     }
-}
-
-void write_merged(NetcdfFile& file, ShardFolder const& folder, std::vector<Shard> const& shards, ResultMerge& merge) {
-    std::optional<SectionPlaces> sections;
-    if (merge.layout.sections > 0) {
-        sections.emplace(folder, shards, merge.layout.members);
-        merge.layout.section_rows = sections->rows();
-    }
-    define_result(file, merge.layout, merge.provenance);
-    reserve_space(file);
-    Variables const variables = variables_of(file);
-    ShardCopy shard_copy(file, variables);
-    for (Shard const& shard : shards) {
-        merge.pause();
-        std::vector<std::byte> const bytes = folder.read(shard);
-        NetcdfFile const from = NetcdfFile::open_in_memory(shard.name, bytes);
-        shard_copy.copy(from, member_runs(shard.members, merge.layout.members), sections ? &*sections : nullptr);
-    }
-    merge.pause();
-    merge.conclude(file);
-    merge.pause();
 }
 
 /// HDF5 may be told that a write failed, try again as it closes, and say nothing: what counts is what can be read.
@@ -160,7 +138,7 @@ void write_part(std::string const& part, std::string const& completeness,
     try {
         NetcdfFile file = NetcdfFile::create(part);
         write(file);
-        file.put_text(NetcdfFile::global, "completeness", completeness);
+        file.put_text(DataFile::global, "completeness", completeness);
         file.flush();
         seal(file);
         file.close();
@@ -172,6 +150,27 @@ void write_part(std::string const& part, std::string const& completeness,
 }
 
 }  // namespace
+
+void write_merged(DataFile& file, std::vector<MergedShard> const& shards, ResultMerge& merge) {
+    std::optional<SectionPlaces> sections;
+    if (merge.layout.sections > 0) {
+        sections.emplace(shards, merge.layout.members);
+        merge.layout.section_rows = sections->rows();
+    }
+    define_result(file, merge.layout, merge.provenance);
+    reserve_space(file);
+    Variables const variables = variables_of(file);
+    ShardCopy shard_copy(file, variables);
+    for (MergedShard const& shard : shards) {
+        merge.pause();
+        shard.open([&](DataFile const& contents) {
+            shard_copy.copy(contents, member_runs(shard.members, merge.layout.members), sections ? &*sections : nullptr);
+        });
+    }
+    merge.pause();
+    merge.conclude(file);
+    merge.pause();
+}
 
 /// A lock is a file without a byte, and beside it a part may lie that a killed merge has left: what else has these names is somebody's.
 void require_room_beside(std::string const& path) {
@@ -212,7 +211,14 @@ void remove_merge_lock(std::string const& path) {
 
 void merge_shards(ShardFolder const& folder, std::vector<Shard> const& shards, ResultMerge merge,
                   std::string const& path) {
-    write_result(path, merge.completeness, [&](NetcdfFile& file) { write_merged(file, folder, shards, merge); }, merge.existing);
+    std::vector<MergedShard> merged;
+    for (Shard const& shard : shards) {
+        merged.push_back({shard.members, [&folder, &shard](MergedShard::Use const& use) {
+                              std::vector<std::byte> const bytes = folder.read(shard);
+                              use(NetcdfFile::open_in_memory(shard.name, bytes));
+                          }});
+    }
+    write_result(path, merge.completeness, [&](NetcdfFile& file) { write_merged(file, merged, merge); }, merge.existing);
 }
 
 }  // namespace slideway

@@ -20,11 +20,21 @@ struct ResultMerge {
     Provenance provenance;
     std::string completeness;  // an attribute: "complete", "12 of 100 members not run"
     /// What is concluded from the members and added to the file.
-    std::function<void(NetcdfFile& file)> conclude = [](NetcdfFile&) {};
+    std::function<void(DataFile& file)> conclude = [](DataFile&) {};
     /// Called now and then; what it throws ends the merge and leaves no file.
     std::function<void()> pause = [] {};
     Existing existing = Existing::replaced;  // of a file of the same name
 };
+
+/// A shard as a merge reads it: its members, and what hands its contents to `use`.
+struct MergedShard {
+    using Use = std::function<void(DataFile const& contents)>;
+    MemberSet members;
+    std::function<void(Use const& use)> open;
+};
+
+/// The members of the shards, in order, into an empty file.
+void write_merged(DataFile& file, std::vector<MergedShard> const& shards, ResultMerge& merge);
 
 /// Writes `path`.part, which becomes `path` when it is whole: a former file stays until then.  One shard at a time is in memory.
 /// @throws FileError, also if another process writes the same file, or somebody else's `path`.part is there; if only the renaming failed,

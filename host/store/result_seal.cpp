@@ -28,7 +28,7 @@ void unify_nans(std::vector<std::byte>& bytes) {
     }
 }
 
-void add_variable(Fnv1a& hash, NetcdfFile const& file, NetcdfFile::Variable const& variable) {
+void add_variable(Fnv1a& hash, DataFile const& file, DataFile::Variable const& variable) {
     hash.add(variable.name);
     hash.add(std::uint64_t{variable.shape.size()});
     for (std::size_t const length : variable.shape) hash.add(std::uint64_t{length});
@@ -36,7 +36,7 @@ void add_variable(Fnv1a& hash, NetcdfFile const& file, NetcdfFile::Variable cons
 
     std::vector<std::size_t> start(variable.shape.size(), 0), count = variable.shape;
     std::size_t const rows = count.empty() ? 1 : count[0];
-    std::size_t const row_bytes = variable.size() / rows * NetcdfFile::size_of(variable.type);
+    std::size_t const row_bytes = variable.size() / rows * DataFile::size_of(variable.type);
     constexpr std::size_t buffer_bytes = 1 << 22;
     std::size_t const rows_at_once = std::max<std::size_t>(1, buffer_bytes / row_bytes);
     std::vector<std::byte> buffer;
@@ -45,7 +45,7 @@ void add_variable(Fnv1a& hash, NetcdfFile const& file, NetcdfFile::Variable cons
         if (!start.empty()) start[0] = row, count[0] = taken;
         buffer.resize(taken * row_bytes);
         file.read(variable.id, start, count, buffer.data());
-        if (variable.type == NetcdfFile::Type::float64) unify_nans(buffer);
+        if (variable.type == DataFile::Type::float64) unify_nans(buffer);
         hash.add(buffer);
     }
 }
@@ -55,12 +55,12 @@ template <class T> std::vector<T> by_name(std::vector<T> list) {
     return list;
 }
 
-void add_group(Fnv1a& hash, NetcdfFile const& group) {
-    for (NetcdfFile::Variable const& variable : by_name(group.variables())) add_variable(hash, group, variable);
+void add_group(Fnv1a& hash, DataFile const& group) {
+    for (DataFile::Variable const& variable : by_name(group.variables())) add_variable(hash, group, variable);
     for (std::string const& name : group.groups()) {
         if (name == verification_group) continue;
         hash.add(name);
-        add_group(hash, group.group(name));
+        add_group(hash, *group.group(name));
     }
 }
 
@@ -72,19 +72,19 @@ void add_name(Fnv1a& hash, std::string const& name) {
 
 void add_attributes(Fnv1a& hash, NetcdfFile const& file, int variable) {
     for (std::string const& name : file.attribute_names(variable)) {
-        if (variable == NetcdfFile::global && (name == payload_name || name == metadata_name)) continue;
+        if (variable == DataFile::global && (name == payload_name || name == metadata_name)) continue;
         add_name(hash, name);
         hash.add(file.attribute_bytes(variable, name));
     }
 }
 
 void add_metadata(Fnv1a& hash, NetcdfFile const& group) {
-    for (NetcdfFile::Dimension const& dimension : by_name(group.dimensions())) {
+    for (DataFile::Dimension const& dimension : by_name(group.dimensions())) {
         add_name(hash, dimension.name);
         hash.add(std::uint64_t{dimension.length});
     }
-    add_attributes(hash, group, NetcdfFile::global);
-    for (NetcdfFile::Variable const& variable : by_name(group.variables())) {
+    add_attributes(hash, group, DataFile::global);
+    for (DataFile::Variable const& variable : by_name(group.variables())) {
         add_name(hash, variable.name);
         hash.add(static_cast<std::uint64_t>(variable.type));
         for (std::string const& name : group.dimension_names(variable)) add_name(hash, name);
@@ -93,7 +93,7 @@ void add_metadata(Fnv1a& hash, NetcdfFile const& group) {
     std::vector<std::string> groups = group.groups();
     std::sort(groups.begin(), groups.end());
     for (std::string const& name : groups) {
-        NetcdfFile const inner = group.group(name);
+        NetcdfFile const inner = group.inner(name);
         add_name(hash, name);
         add_metadata(hash, inner);
         if (name == verification_group) add_group(hash, inner);
@@ -104,7 +104,7 @@ std::string text_of(Fnv1a const& hash) { return fmt::format("{:016x}", hash.valu
 
 }  // namespace
 
-std::string payload_hash(NetcdfFile const& file) {
+std::string payload_hash(DataFile const& file) {
     Fnv1a hash;
     add_group(hash, file);
     return text_of(hash);
@@ -117,14 +117,14 @@ std::string metadata_hash(NetcdfFile const& file) {
 }
 
 void seal(NetcdfFile& file) {
-    file.put_number(NetcdfFile::global, version_name, format_version);
-    file.put_text(NetcdfFile::global, metadata_name, metadata_hash(file));
-    file.put_text(NetcdfFile::global, payload_name, payload_hash(file));
+    file.put_number(DataFile::global, version_name, format_version);
+    file.put_text(DataFile::global, metadata_name, metadata_hash(file));
+    file.put_text(DataFile::global, payload_name, payload_hash(file));
 }
 
-int format_of(NetcdfFile const& file) {
+int format_of(DataFile const& file) {
     double version = 1;
-    file.number(NetcdfFile::global, version_name, version);
+    file.number(DataFile::global, version_name, version);
     if (version > format_version) {
         throw FileError(fmt::format("{}: is of format {}, and slideway {} reads formats 1 to {}; read it with a newer version", file.path(),
                                     version, build_info().version, format_version));
@@ -133,7 +133,7 @@ int format_of(NetcdfFile const& file) {
 }
 
 SealCheck check_seal(NetcdfFile const& file) {
-    return {format_of(file), file.text(NetcdfFile::global, payload_name), file.text(NetcdfFile::global, metadata_name), payload_hash(file),
+    return {format_of(file), file.text(DataFile::global, payload_name), file.text(DataFile::global, metadata_name), payload_hash(file),
             metadata_hash(file)};
 }
 

@@ -18,7 +18,7 @@ inline constexpr int format_version = 2;
 /// definition: name, then their variables and groups in the same way, but for the group `verification`, which says how far the
 /// numbers can be trusted and is none of them.  Attributes do not count: the same numbers
 /// computed on another day, with other threads or another compiler keep their hash.  @return 16 hexadecimal digits.
-std::string payload_hash(NetcdfFile const& file);
+std::string payload_hash(DataFile const& file);
 
 /// The hash over what the payload hash leaves out, everything by name: of the file and each group the dimensions with their lengths, the
 /// attributes (type, count, values) but for the two hashes, of each variable the type, the dimensions and the attributes; and the
@@ -41,7 +41,7 @@ struct SealCheck {
 };
 
 /// 1 without the attribute.  @throws FileError if this program does not read that format.
-int format_of(NetcdfFile const& file);
+int format_of(DataFile const& file);
 /// Reads everything.  @throws FileError also where that fails
 SealCheck check_seal(NetcdfFile const& file);
 

@@ -9,27 +9,27 @@
 namespace slideway {
 namespace {
 
-template <class T> std::vector<double> read_as(NetcdfFile const& file, NetcdfFile::Variable const& variable) {
+template <class T> std::vector<double> read_as(DataFile const& file, DataFile::Variable const& variable) {
     std::vector<T> const values = file.read<T>(variable);
     return {values.begin(), values.end()};
 }
 
 /// As text, also a number.
-std::string text_of(NetcdfFile const& file, std::string const& attribute) {
+std::string text_of(DataFile const& file, std::string const& attribute) {
     double number = 0;
-    if (file.number(NetcdfFile::global, attribute, number)) return fmt::format("{}", number);
-    return file.text(NetcdfFile::global, attribute);
+    if (file.number(DataFile::global, attribute, number)) return fmt::format("{}", number);
+    return file.text(DataFile::global, attribute);
 }
 
 }  // namespace
 
-ResultView::ResultView(NetcdfFile const& file) : file_(&file), variables_(file.variables()) {
+ResultView::ResultView(DataFile const& file) : file_(&file), variables_(file.variables()) {
     std::string const name = stores_members() ? "status" : "status_count";
     if (!has(name) || shape(name).size() != 1) throw FileError(file.path() + ": is a netCDF file, but not a result of slideway");
 }
 
-NetcdfFile::Variable const& ResultView::find(std::string const& variable) const {
-    auto const found = std::ranges::find(variables_, variable, &NetcdfFile::Variable::name);
+DataFile::Variable const& ResultView::find(std::string const& variable) const {
+    auto const found = std::ranges::find(variables_, variable, &DataFile::Variable::name);
     if (found == variables_.end()) throw FileError(fmt::format("{}: has no variable {}", file_->path(), variable));
     return *found;
 }
@@ -38,14 +38,14 @@ std::string ResultView::attribute(std::string const& name) const { return text_o
 
 std::string ResultView::group_attribute(std::string const& group, std::string const& name) const {
     if (!file_->has_group(group)) return {};
-    return text_of(file_->group(group), name);
+    return text_of(*file_->group(group), name);
 }
 
-bool ResultView::has(std::string const& variable) const { return std::ranges::count(variables_, variable, &NetcdfFile::Variable::name) > 0; }
+bool ResultView::has(std::string const& variable) const { return std::ranges::count(variables_, variable, &DataFile::Variable::name) > 0; }
 
 std::vector<std::string> ResultView::variable_names() const {
     std::vector<std::string> names;
-    for (NetcdfFile::Variable const& variable : variables_) names.push_back(variable.name);
+    for (DataFile::Variable const& variable : variables_) names.push_back(variable.name);
     return names;
 }
 
@@ -56,10 +56,10 @@ std::string ResultView::long_name(std::string const& variable) const { return fi
 std::vector<std::size_t> ResultView::shape(std::string const& variable) const { return find(variable).shape; }
 
 std::vector<double> ResultView::values(std::string const& variable) const {
-    NetcdfFile::Variable const& found = find(variable);
-    if (found.type == NetcdfFile::Type::int8) return read_as<signed char>(*file_, found);
-    if (found.type == NetcdfFile::Type::int32) return read_as<int>(*file_, found);
-    if (found.type == NetcdfFile::Type::float64) return file_->read<double>(found);
+    DataFile::Variable const& found = find(variable);
+    if (found.type == DataFile::Type::int8) return read_as<signed char>(*file_, found);
+    if (found.type == DataFile::Type::int32) return read_as<int>(*file_, found);
+    if (found.type == DataFile::Type::float64) return file_->read<double>(found);
     throw FileError(fmt::format("{}: {} is no number", file_->path(), variable));
 }
 
@@ -70,9 +70,9 @@ std::vector<double> ResultView::values(std::string const& variable, std::size_t 
 }
 
 std::vector<double> ResultView::column(std::string const& variable, std::size_t index) const {
-    NetcdfFile::Variable const& found = find(variable);
+    DataFile::Variable const& found = find(variable);
     std::size_t const rank = found.shape.size();
-    if (found.type != NetcdfFile::Type::float64 || rank < 1 || rank > 2 || index >= (rank == 2 ? found.shape[1] : 1)) {
+    if (found.type != DataFile::Type::float64 || rank < 1 || rank > 2 || index >= (rank == 2 ? found.shape[1] : 1)) {
         throw FileError(fmt::format("{}: {} has no column {}", file_->path(), variable, index));
     }
     std::vector<double> values(found.shape[0]);

@@ -16,9 +16,9 @@ namespace slideway {
 class ResultView {
 public:
     /// @throws FileError if the file has no `status` of members and no counts of them, so is no result of slideway.
-    explicit ResultView(NetcdfFile const& file);
+    explicit ResultView(DataFile const& file);
 
-    std::vector<NetcdfFile::Dimension> dimensions() const { return file_->dimensions(); }
+    std::vector<DataFile::Dimension> dimensions() const { return file_->dimensions(); }
     /// Whether the members are there, or what they come to together (`store` is "statistics").
     bool stores_members() const { return attribute("store") != "statistics"; }
     std::string attribute(std::string const& name) const;  // as text, also numbers; "" when there is none
@@ -38,10 +38,10 @@ public:
     std::string const& path() const { return file_->path(); }
 
 private:
-    NetcdfFile::Variable const& find(std::string const& variable) const;
+    DataFile::Variable const& find(std::string const& variable) const;
 
-    NetcdfFile const* file_;
-    std::vector<NetcdfFile::Variable> variables_;
+    DataFile const* file_;
+    std::vector<DataFile::Variable> variables_;
 };
 
 /// A file that a reader keeps open; a base, so that it is there before the view of it.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host/store/netcdf_file.hpp"
 #include "host/store/result_definition.hpp"
 #include "host/store/result_layout.hpp"
 #include "host/store/result_seal.hpp"
@@ -23,7 +24,7 @@ std::span<double const> sections_of(BlockResult const& block, std::size_t row) {
 /// Rows of a block, picked out of its arrays and written as whole variables.
 class BlockRows {
 public:
-    BlockRows(NetcdfFile& file, ResultLayout const& layout, ResultVariables const& ids, BlockResult const& block,
+    BlockRows(DataFile& file, ResultLayout const& layout, ResultVariables const& ids, BlockResult const& block,
               std::vector<std::size_t> const& rows)
         : file_(file), layout_(layout), ids_(ids), block_(block), rows_(rows) {}
 
@@ -103,7 +104,7 @@ private:
         for (std::size_t j = 0; j < width; ++j) file_.write(ids_.section_columns[j], columns[j].data());
     }
 
-    NetcdfFile& file_;
+    DataFile& file_;
     ResultLayout const& layout_;
     ResultVariables const& ids_;
     BlockResult const& block_;
@@ -112,24 +113,31 @@ private:
 
 }  // namespace
 
-ShardImage shard_image(std::string const& name, ResultLayout layout, Provenance const& provenance,
-                       BlockResult const& block, StudyValues const& study) {
+MemberSet write_block(DataFile& file, ResultLayout layout, BlockResult const& block, StudyValues const& study) {
     std::vector<std::size_t> rows;
-    ShardImage image;
+    MemberSet members;
     for (std::size_t i = 0; i < block.records.size(); ++i) {
         if (block.records[i].status == Status::not_run) continue;
         rows.push_back(i);
-        image.members.add({block.members[i], 1});
+        members.add({block.members[i], 1});
     }
-    if (rows.empty()) return image;
-    layout.members = image.members;
+    if (rows.empty()) return members;
+    layout.members = members;
     for (std::size_t i = 0; i < rows.size() && layout.sections > 0; ++i) {
         layout.section_rows += sections_of(block, rows[i]).size() / section_columns(block.states());
     }
-    NetcdfFile file = NetcdfFile::create_in_memory(name);
-    ResultVariables const ids = define_result(file, layout, provenance);
+    ResultVariables const ids = define_variables(file, layout);
     BlockRows(file, layout, ids, block, rows).write(study);
-    file.put_text(NetcdfFile::global, "completeness", "shard");
+    return members;
+}
+
+ShardImage shard_image(std::string const& name, ResultLayout layout, Provenance const& provenance,
+                       BlockResult const& block, StudyValues const& study) {
+    NetcdfFile file = NetcdfFile::create_in_memory(name);
+    put_provenance(file, provenance);
+    ShardImage image{write_block(file, std::move(layout), block, study), {}};
+    if (image.members.empty()) return image;
+    file.put_text(DataFile::global, "completeness", "shard");
     seal(file);
     image.bytes = file.close_to_bytes();
     return image;

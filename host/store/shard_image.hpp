@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/run/block_result.hpp"
+#include "host/store/data_file.hpp"
 #include "host/store/provenance.hpp"
 #include "host/store/result_layout.hpp"
 
@@ -16,6 +17,10 @@ struct ShardImage {
     MemberSet members;
     std::vector<std::byte> bytes;  // empty if none have ended
 };
+
+/// The rows of those members of a block that have ended, into an empty file.
+/// @param layout of the run; its members do not count.  @param study the study's columns of the block's members.  @return the members
+MemberSet write_block(DataFile& file, ResultLayout layout, BlockResult const& block, StudyValues const& study);
 
 /// @param layout of the run; its members do not count.  @param study the study's columns of the block's members.
 /// @param name of the file, for messages.  @throws FileError

@@ -10,7 +10,7 @@
 namespace slideway {
 namespace {
 
-void write_statuses(NetcdfFile& file, BlockStatistics const& statistics, std::uint64_t left) {
+void write_statuses(DataFile& file, BlockStatistics const& statistics, std::uint64_t left) {
     std::vector<signed char> values;
     std::vector<double> counts;
     for (int status = 0; status < status_count; ++status) {
@@ -25,7 +25,7 @@ void write_statuses(NetcdfFile& file, BlockStatistics const& statistics, std::ui
     out.put({"status_count", "1", "members that ended so", {"status"}}, counts);
 }
 
-void write_failed(NetcdfFile& file, BlockStatistics const& statistics) {
+void write_failed(DataFile& file, BlockStatistics const& statistics) {
     if (statistics.failed().empty()) return;
     std::vector<int> members;
     std::vector<signed char> statuses;
@@ -42,18 +42,20 @@ void write_failed(NetcdfFile& file, BlockStatistics const& statistics) {
     out.put({"failed_time", "s", "time at which it ended", {"failed"}}, times);
 }
 
-void write_all(NetcdfFile& file, ResultMerge const& merge, BlockStatistics const& statistics) {
+}  // namespace
+
+void write_merged(DataFile& file, BlockStatistics const& statistics, ResultMerge const& merge) {
     MemberSet const& members = merge.layout.members;
     put_provenance(file, merge.provenance);
-    file.put_text(NetcdfFile::global, "store", "statistics");
-    file.put_text(NetcdfFile::global, "members", members.text());
+    file.put_text(DataFile::global, "store", "statistics");
+    file.put_text(DataFile::global, "members", members.text());
     LabelAxes axes(file);
     std::vector<std::string_view> names;
     for (Quantity const q : selected_quantities(merge.layout.quantities)) {
         names.push_back(info(q).name);
         if (info(q).dimension != nullptr) axes.axis(info(q).dimension);
     }
-    file.put_text(NetcdfFile::global, "quantities", fmt::format("{}", fmt::join(names, " ")));
+    file.put_text(DataFile::global, "quantities", fmt::format("{}", fmt::join(names, " ")));
     axes.write();
     write_statuses(file, statistics, members.without(statistics.members()).count());
     write_failed(file, statistics);
@@ -63,22 +65,20 @@ void write_all(NetcdfFile& file, ResultMerge const& merge, BlockStatistics const
     std::vector<std::byte> const bytes = statistics.bytes();
     out.dimension("byte", bytes.size());
     out.put({"accumulators", "", "exact sums and quantile sketches from which the statistics follow, as bytes", {"byte"}}, bytes);
+    merge.conclude(file);
+    merge.pause();
 }
-
-}  // namespace
 
 void merge_statistics(ShardFolder const& folder, std::vector<Shard> const& shards, StatisticsPlan const& plan, ResultMerge const& merge,
                       std::string const& path) {
-    auto const write = [&](NetcdfFile& file) {
+    auto const write = [&](DataFile& file) {
         BlockStatistics statistics(plan);
         for (Shard const& shard : shards) {
             merge.pause();
             statistics.merge(parse_statistics(folder.read(shard), shard.name).statistics);
         }
         merge.pause();
-        write_all(file, merge, statistics);
-        merge.conclude(file);
-        merge.pause();
+        write_merged(file, statistics, merge);
     };
     write_result(path, merge.completeness, write, merge.existing);
 }

@@ -19,6 +19,9 @@ namespace slideway {
 void merge_statistics(ShardFolder const& folder, std::vector<Shard> const& shards, StatisticsPlan const& plan, ResultMerge const& merge,
                       std::string const& path);
 
+/// The same of statistics that are there, into an empty file.
+void write_merged(DataFile& file, BlockStatistics const& statistics, ResultMerge const& merge);
+
 /// The statistics in such a file.  @throws FileError if it holds none.
 BlockStatistics stored_statistics(ResultView const& results);
 /// The quantities that its columns are of.

@@ -199,6 +199,31 @@ StateTable start_state(Scene const& scene) {
     return table;
 }
 
+StateTable state_table(Scene const& scene, std::span<double const> states, std::span<double const> times) {
+    MechanismInfo const& mechanism = info(scene.parts.mechanism);
+    auto const width = static_cast<std::size_t>(mechanism.states);
+    StateTable table;
+    table.mechanism = scene.parts.mechanism;
+    std::size_t const rows = states.size() / width;
+    if (states.size() % width != 0 || (!times.empty() && times.size() != rows)) {
+        throw SceneError(fmt::format("{}: states are rows of {} numbers ({}), with one time for each", scene.path, width,
+                                     fmt::join(state_names(scene.parts.mechanism), ", ")));
+    }
+    for (std::size_t row = 0; row < rows; ++row) {
+        StateNumbers state{};
+        std::copy_n(states.begin() + static_cast<std::ptrdiff_t>(row * width), width, state.begin());
+        Inputs inputs = scene.inputs;
+        set_start(mechanism, state, inputs);
+        inputs = complete_inputs(inputs);
+        if (auto const why = defect(inputs, scene.parts)) throw SceneError(fmt::format("{}: state {}: {}", scene.path, row, *why));
+        table.inputs.push_back(inputs);
+        table.parts.push_back(scene.parts);
+        table.times.push_back(times.empty() ? 0 : times[row]);
+        table.parameter_texts.emplace_back();
+    }
+    return table;
+}
+
 StateTable read_state_table(std::istream& in, std::string const& name, Scene const& scene) {
     CsvReader lines(in, name);
     if (!lines.next()) lines.fail("the table is empty");

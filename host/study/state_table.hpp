@@ -2,6 +2,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,10 @@ struct StateTable {
 
 /// The scene's start at t = 0.  @throws SceneError if the scene's inputs cannot be used.
 StateTable start_state(Scene const& scene);
+
+/// States of the scene's nominal mechanism.  @param states rows of the mechanism's state  @param times [s], one a row; none: 0
+/// @throws SceneError if they are no rows, or one cannot be used
+StateTable state_table(Scene const& scene, std::span<double const> states, std::span<double const> times);
 
 /// Reads columns in any order: t and the mechanism's states (needed), `contact.law` and numeric keys of the scene (override
 /// it); a column without a dot in its name that is none of these is ignored.  A row has the kernel parts that its

@@ -104,7 +104,7 @@ void write_statuses(GroupWriter& group, ToleranceReport const& report) {
     group.put({"draws", "1", "members that distributions and yields are of that ended so", {"ending"}, "ending_name"}, draws);
 }
 
-void write_distributions(NetcdfFile& file, ToleranceReport const& report) {
+void write_distributions(DataFile& file, ToleranceReport const& report) {
     GroupWriter group(file, "statistics");
     describe_group(group, report);
     if (!report.quantile_error.empty()) group.attribute("quantile_error", report.quantile_error);
@@ -139,7 +139,7 @@ void write_distributions(NetcdfFile& file, ToleranceReport const& report) {
     }
 }
 
-void write_yields(NetcdfFile& file, ToleranceReport const& report) {
+void write_yields(DataFile& file, ToleranceReport const& report) {
     if (!report.all_met) return;
     GroupWriter group(file, "yield");
     describe_group(group, report);
@@ -214,7 +214,7 @@ void write_correlations(GroupWriter& group, std::vector<ColumnCorrelations> cons
     }
 }
 
-void write_sensitivity(NetcdfFile& file, ToleranceReport const& report) {
+void write_sensitivity(DataFile& file, ToleranceReport const& report) {
     if (report.inputs.empty()) return;
     GroupWriter group(file, "sensitivity");
     describe_group(group, report);
@@ -225,7 +225,7 @@ void write_sensitivity(NetcdfFile& file, ToleranceReport const& report) {
 
 }  // namespace
 
-void write_statistics(NetcdfFile& file, ToleranceReport const& report) {
+void write_statistics(DataFile& file, ToleranceReport const& report) {
     write_distributions(file, report);
     write_yields(file, report);
     write_sensitivity(file, report);

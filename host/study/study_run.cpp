@@ -169,7 +169,7 @@ bool StudyRun::merge(StopRequest const& stop, std::optional<ToleranceReport>& re
         ReportSettings settings;
         settings.threads = options_.threads;
         settings.pause = pause;
-        auto const check = [&](NetcdfFile& file) {
+        auto const check = [&](DataFile& file) {
             VerificationRequest const request{scene_.verify, options_.threads, &stop, options_.progress};
             write_verification(file, verify(ResultView(file), scene_, *options_.backend, request));
         };
@@ -186,14 +186,14 @@ void StudyRun::remove_shards() { claim_->remove_folder(); }
 namespace {
 
 /// Backend, isa, flags and threads, as a result file names them.
-Provenance stored_origin(NetcdfFile const& file) {
-    auto const text = [&](char const* name) { return file.text(NetcdfFile::global, name); };
+Provenance stored_origin(DataFile const& file) {
+    auto const text = [&](char const* name) { return file.text(DataFile::global, name); };
     Provenance origin;
     origin.backend = text("backend");
     origin.isa = text("isa");
     origin.flags = text("flags");
     double threads = 1;
-    if (file.number(NetcdfFile::global, "threads", threads)) origin.threads = static_cast<int>(threads);
+    if (file.number(DataFile::global, "threads", threads)) origin.threads = static_cast<int>(threads);
     return origin;
 }
 
@@ -204,19 +204,22 @@ bool asks_for_report(Scene const& scene) {
            (scene.study == StudyKind::ensemble && !scene.limits.empty());
 }
 
+void conclude_study(Scene const& scene, DataFile& file, std::optional<ToleranceReport>& report, ReportSettings const& settings) {
+    if (!asks_for_report(scene)) return;
+    report = tolerance_report(ResultView(file), scene, settings);
+    write_statistics(file, *report);
+}
+
 std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, std::vector<Shard> const& shards,
                           Provenance const& provenance, OutputTarget const& output,
                           std::optional<ToleranceReport>& report, ReportSettings const& settings,
-                          std::function<void(NetcdfFile&)> const& verify) {
+                          std::function<void(DataFile&)> const& verify) {
     MemberSet const& members = folder.identity().members;
     std::uint64_t const left = members.without(members_of(shards)).count();
     ResultMerge merge{result_layout(scene, members), provenance, "complete"};
     if (left > 0) merge.completeness = fmt::format("{} of {} members not run", left, members.count());
-    merge.conclude = [&](NetcdfFile& file) {
-        if (asks_for_report(scene)) {
-            report = tolerance_report(ResultView(file), scene, settings);
-            write_statistics(file, *report);
-        }
+    merge.conclude = [&](DataFile& file) {
+        conclude_study(scene, file, report, settings);
         if (verify && left == 0) verify(file);
     };
     merge.pause = settings.pause;

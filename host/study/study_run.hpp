@@ -97,13 +97,16 @@ private:
 /// keeps statistics in place of members.
 bool asks_for_report(Scene const& scene);
 
+/// What a study concludes from its members, into the file that has these: the report of a scene that `asks_for_report`.
+void conclude_study(Scene const& scene, DataFile& file, std::optional<ToleranceReport>& report, ReportSettings const& settings);
+
 /// A result file of the shards in a folder; members without one have status not_run.  The shards stay.
 /// @param report where that of a scene that `asks_for_report` goes  @param verify checks a complete result before it is closed
 /// @return how many members have none.  @throws FileError
 std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, std::vector<Shard> const& shards,
                           Provenance const& provenance, OutputTarget const& output,
                           std::optional<ToleranceReport>& report, ReportSettings const& settings = {},
-                          std::function<void(NetcdfFile&)> const& verify = {});
+                          std::function<void(DataFile&)> const& verify = {});
 
 /// The scene of the run that left a folder, its table of members from the copy there.  @throws SceneError, also if the copy is gone;
 /// FileError if it holds something else than what was run

@@ -17,7 +17,7 @@
 #include "host/statistics/sobol_indices.hpp"
 #include "host/statistics/summary.hpp"
 #include "host/store/block_statistics.hpp"
-#include "host/store/netcdf_file.hpp"
+#include "host/store/data_file.hpp"
 #include "host/store/result_layout.hpp"
 #include "host/store/result_view.hpp"
 #include "host/study/result_summary.hpp"
@@ -110,6 +110,6 @@ ToleranceReport tolerance_report(ResultView const& results, Scene const& scene, 
 /// input, limit.  Labels are texts in `<dimension>_name`.  The attributes `policy` and `intervals` say whom the numbers
 /// are of.
 /// @throws FileError.
-void write_statistics(NetcdfFile& file, ToleranceReport const& report);
+void write_statistics(DataFile& file, ToleranceReport const& report);
 
 }  // namespace slideway

@@ -11,7 +11,7 @@
 #include "host/config/scene.hpp"
 #include "host/run/stop.hpp"
 #include "host/statistics/paired_comparison.hpp"
-#include "host/store/netcdf_file.hpp"
+#include "host/store/data_file.hpp"
 #include "host/store/result_view.hpp"
 #include "host/study/member_numbers.hpp"
 
@@ -108,7 +108,7 @@ Verification verify(ResultView const& results, Scene const& scene, Backend const
                     VerificationRequest const& request);
 
 /// The group `verification`: who ran again, how, what came out, and `summary`; it is no part of the payload hash.
-void write_verification(NetcdfFile& file, Verification const& verification);
+void write_verification(DataFile& file, Verification const& verification);
 
 /// Its words as a result file has them; nothing where it has none.
 std::optional<std::string> verification_summary(ResultView const& results);

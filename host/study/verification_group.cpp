@@ -58,7 +58,7 @@ void write_numbers(GroupWriter& group, Verification const& v) {
 
 }  // namespace
 
-void write_verification(NetcdfFile& file, Verification const& v) {
+void write_verification(DataFile& file, Verification const& v) {
     GroupWriter group(file, verification_group);
     group.attribute("resolution", std::string(resolution_names[static_cast<int>(v.resolution)]));
     group.attribute("summary", v.summary);

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from ._version import __version__
 from .accessor import ResultAccessor
+from .ensemble import Ensemble
 from .errors import FileError, RunError, SceneError, SlidewayError, StoppedEarly, TooManyFailures
 from .example import example
 from .keys import Key, Keys, keys
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from . import plot, report
 
 __all__ = [
+    "Ensemble",
     "FileError",
     "Key",
     "Keys",

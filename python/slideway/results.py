@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from typing import Union
+from typing import Any, Union
 
 import numpy as np
 import xarray as xr
@@ -13,7 +13,7 @@ from .arguments import dataset, one_line, text
 from .arguments import path as path_text
 from .errors import FileError, RunError, SceneError, SlidewayError
 from .program import call, find_program
-from .temporary import TemporaryPath
+from .temporary import TemporaryPath, temporary_path
 
 StrPath = Union[str, "os.PathLike[str]"]
 
@@ -56,10 +56,10 @@ def open(path: StrPath, group: str | None = None, *, check: bool = True) -> xr.D
     raw = None
     try:
         raw = _opened(name, group)
-        opened = _labelled(raw)
+        opened = labelled(raw)
         if group is not None:
             # A group shares the file's dimensions, whose labels lie outside it.
-            with _labelled(_opened(name, None)) as whole:
+            with labelled(_opened(name, None)) as whole:
                 shared = {d: whole[d].load() for d in opened.dims if d in whole.indexes and d not in opened.coords}
             opened = opened.assign_coords(shared)
     except (ArithmeticError, AttributeError, LookupError, OSError, RuntimeError, TypeError, ValueError) as error:
@@ -95,6 +95,8 @@ def path_of(result: xr.Dataset) -> str:
         SlidewayError: the Dataset does not come from a file.
     """
     source = dataset(result).encoding.get("source")
+    if isinstance(source, InMemory):
+        return source.path()
     if not isinstance(source, str) or not source:
         raise SlidewayError("this Dataset does not know its file; use the one that slideway.open or slideway.run returned")
     return source  # as it is, for a temporary file lives as long as its path
@@ -128,6 +130,34 @@ def _from(name: str, raw: xr.Dataset, labelled: xr.Dataset) -> xr.Dataset:
         variable.encoding["source"] = source
     opened.set_close(raw.close)
     return opened
+
+
+class InMemory:
+    """Where a Dataset comes from that was computed in this process: a result file that is written once somebody asks for it."""
+
+    def __init__(self, result: Any, stem: str) -> None:
+        self._result, self._stem = result, stem
+        self._path: TemporaryPath | None = None
+
+    def path(self) -> str:
+        """The file, which is gone when nothing from its Dataset is used any more."""
+        if self._path is None:
+            path = temporary_path(self._stem + ".nc")
+            self._result.write(str(path), False)
+            self._path = path
+        return self._path
+
+    def __deepcopy__(self, memo: dict[int, object]) -> InMemory:
+        return self
+
+
+def in_memory(computed: xr.Dataset, result: Any, stem: str) -> xr.Dataset:
+    """Says of a Dataset and its variables that they are of a result in memory."""
+    source = {"source": InMemory(result, stem)}
+    computed.encoding = source
+    for variable in computed.variables.values():
+        variable.encoding = source
+    return computed
 
 
 def open_temporary(path: TemporaryPath) -> xr.Dataset:
@@ -200,7 +230,7 @@ def _warn(name: str, why: str) -> None:
     warnings.warn(" ".join(line.split()), stacklevel=6)  # the caller of open or groups
 
 
-def _labelled(dataset: xr.Dataset) -> xr.Dataset:
+def labelled(dataset: xr.Dataset) -> xr.Dataset:
     """Names of a dimension's entries become its labels, samples are found by time, sections know their member."""
     for name in [str(v) for v in dataset.variables]:
         stem = name.removesuffix("_name")

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .arguments import one_line, path
+from .errors import SceneError
 from .results import StrPath
 from .temporary import temporary_folder
 from .toml_writer import keys_of_lines, to_toml
@@ -22,10 +23,12 @@ class SceneFile:
     Attributes:
         path: of the TOML file.
         keys: the dotted key in each of its lines, of a scene that was a dictionary; empty of the user's own file.
+        text: what stands in it, where it is read here.
     """
 
     path: str
     keys: tuple[str, ...] = ()
+    text: str = ""
 
     def said(self, line: str) -> str:
         """What the program says, without a file that the user has never seen: "scene.toml:7: text" becomes "key: text".
@@ -54,13 +57,35 @@ def scene_file(scene: StrPath | Mapping[str, Any]) -> Iterator[SceneFile]:
         yield _written(scene, os.path.join(folder, "scene.toml"))
 
 
+def scene_text(scene: StrPath | Mapping[str, Any]) -> SceneFile:
+    """The scene as text, with the path that messages name; of a dictionary there is no file.
+
+    Raises:
+        SceneError: the file cannot be read.
+    """
+    if isinstance(scene, Mapping):
+        return _in_memory(scene, "scene.toml")
+    name = path(scene, "scene")
+    try:
+        with open(name, encoding="utf-8") as file:
+            return SceneFile(name, text=file.read())
+    except (OSError, UnicodeDecodeError) as error:
+        why = error.strerror if isinstance(error, OSError) else error
+        raise SceneError(2, f"{name}: cannot be read: {why}") from None
+
+
 @one_line
-def _written(scene: Mapping[str, Any], name: str) -> SceneFile:
+def _in_memory(scene: Mapping[str, Any], name: str) -> SceneFile:
     study = scene.get("study")
     if isinstance(study, Mapping) and isinstance(study.get("table"), (str, os.PathLike)):
-        # The program looks for a table beside the scene, and this one lies in a temporary folder.
+        # The program looks for a table beside the scene, which has no place of its own.
         scene = {**scene, "study": {**study, "table": os.path.abspath(study["table"])}}
     text = to_toml(scene)
+    return SceneFile(name, keys_of_lines(text), text)
+
+
+def _written(scene: Mapping[str, Any], name: str) -> SceneFile:
+    made = _in_memory(scene, name)
     with open(name, "w", encoding="utf-8") as file:
-        file.write(text)
-    return SceneFile(name, keys_of_lines(text))
+        file.write(made.text)
+    return made

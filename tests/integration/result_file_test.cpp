@@ -188,7 +188,7 @@ TEST_F(ResultFile, StandsAtItsPathOnlyWhenComplete) {
 }
 
 TEST_F(ResultFile, HoldsWhatIsConcludedFromItsMembers) {
-    auto const concluding = [](NetcdfFile& file) { file.put_number(NetcdfFile::global, "mean_of_all", 2.5); };
+    auto const concluding = [](NetcdfFile& file) { file.put_number(DataFile::global, "mean_of_all", 2.5); };
     write_file(path(), {{0, 5}}, 1, concluding);
     EXPECT_EQ(ResultReader(path()).attribute("mean_of_all"), "2.5");
 }
@@ -250,7 +250,7 @@ TEST_F(ResultFile, IsToldFromOtherFiles) {
     {
         NetcdfFile unfinished = NetcdfFile::create(path("unfinished.nc"));
         int const dimension = unfinished.add_dimension("member", 2);
-        unfinished.add_variable("status", NetcdfFile::Type::int8, {&dimension, 1});
+        unfinished.add_variable("status", DataFile::Type::int8, {&dimension, 1});
         unfinished.close();
     }
     EXPECT_THROW(ResultReader{path("unfinished.nc")}, FileError);  // without a hash it did not come to its end

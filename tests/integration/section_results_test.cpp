@@ -147,7 +147,7 @@ TEST_F(SectionsFile, FollowsTheConventionsForContiguousRaggedArrays) {
     for (auto const& variable : file.variables()) {
         if (variable.name == "section_count") {
             ++counts;
-            EXPECT_EQ(variable.type, NetcdfFile::Type::int32);
+            EXPECT_EQ(variable.type, DataFile::Type::int32);
             EXPECT_EQ(file.text(variable.id, "sample_dimension"), "section");
         } else {
             EXPECT_EQ(file.text(variable.id, "sample_dimension"), "") << variable.name;

@@ -90,8 +90,8 @@ protected:
         NetcdfFile file = NetcdfFile::create(path());
         std::size_t const n = members.size(), origin[2] = {0, 0}, all[1] = {n}, table[2] = {n, 4};
         int const member = file.add_dimension("member", n), mode_class = file.add_dimension("mode_class", 4);
-        int const number = file.add_variable("member", NetcdfFile::Type::int32, std::array{member});
-        int const status = file.add_variable("status", NetcdfFile::Type::int8, std::array{member});
+        int const number = file.add_variable("member", DataFile::Type::int32, std::array{member});
+        int const status = file.add_variable("status", DataFile::Type::int8, std::array{member});
         std::vector<int> numbers;
         std::vector<signed char> statuses;
         for (MadeUpMember const& m : members) {
@@ -101,7 +101,7 @@ protected:
         file.write(number, {origin, 1}, all, numbers.data());
         file.write(status, {origin, 1}, all, statuses.data());
         auto const column = [&](char const* name, char const* unit, double MadeUpMember::*of) {
-            int const variable = file.add_variable(name, NetcdfFile::Type::float64, std::array{member}, true);
+            int const variable = file.add_variable(name, DataFile::Type::float64, std::array{member}, true);
             file.put_text(variable, "units", unit);
             file.put_text(variable, "long_name", std::string("made-up ") + name);
             std::vector<double> values;
@@ -112,7 +112,7 @@ protected:
         column("contact_eta", "1", &MadeUpMember::eta);
         column("peak_normal_force", "N", &MadeUpMember::force);
         int const times =
-            file.add_variable("mode_time", NetcdfFile::Type::float64, std::array{member, mode_class}, true);
+            file.add_variable("mode_time", DataFile::Type::float64, std::array{member, mode_class}, true);
         file.put_text(times, "units", "s");
         file.put_text(times, "long_name", "time spent in the mode class");
         std::vector<double> values;

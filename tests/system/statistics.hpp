@@ -53,7 +53,7 @@ protected:
                                   std::string const& group = "statistics") const {
         NetcdfFile const results = NetcdfFile::open(path(file).string());
         NetcdfFile const from = results.group(group);
-        for (NetcdfFile::Variable const& variable : from.variables()) {
+        for (DataFile::Variable const& variable : from.variables()) {
             if (variable.name != name) continue;
             std::vector<std::size_t> const start(variable.shape.size() + 1, 0);
             std::vector<std::size_t> shape = variable.shape;
@@ -61,7 +61,7 @@ protected:
             std::size_t const rank = variable.shape.size();
             std::vector<double> values(variable.size());
             std::vector<int> counts(variable.size());
-            bool const whole = variable.type == NetcdfFile::Type::int32;
+            bool const whole = variable.type == DataFile::Type::int32;
             from.read(variable.id, {start.data(), rank}, {shape.data(), rank},
                       whole ? static_cast<void*>(counts.data()) : values.data());
             if (whole) values.assign(counts.begin(), counts.end());

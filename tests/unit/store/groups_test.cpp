@@ -17,7 +17,7 @@ namespace slideway {
 namespace {
 
 namespace fs = std::filesystem;
-using Type = NetcdfFile::Type;
+using Type = DataFile::Type;
 using Lengths = std::vector<std::size_t>;
 
 class Groups : public testing::Test {
@@ -58,7 +58,7 @@ TEST_F(Groups, HoldVariablesOverDimensionsOfTheFileAndTheirOwn) {
         NetcdfFile group = file.add_group("statistics");
         int const bound = group.add_dimension("bound", 3);
         put(group, "x", {member, bound}, {2, 3}, {1, 2, 3, 4, 5, 6});
-        group.put_text(NetcdfFile::global, "policy", "all of them");
+        group.put_text(DataFile::global, "policy", "all of them");
         NetcdfFile inner = group.add_group("inner");
         put(inner, "y", {inner.dimension("bound")}, {3}, {7, 8, 9});
         file.close();
@@ -70,8 +70,8 @@ TEST_F(Groups, HoldVariablesOverDimensionsOfTheFileAndTheirOwn) {
     EXPECT_EQ(get(file, "x"), (std::vector<double>{1, 2}));
     NetcdfFile const group = file.group("statistics");
     EXPECT_EQ(get(group, "x"), (std::vector<double>{1, 2, 3, 4, 5, 6}));
-    EXPECT_EQ(group.text(NetcdfFile::global, "policy"), "all of them");
-    EXPECT_EQ(file.text(NetcdfFile::global, "policy"), "");
+    EXPECT_EQ(group.text(DataFile::global, "policy"), "all of them");
+    EXPECT_EQ(file.text(DataFile::global, "policy"), "");
     ASSERT_EQ(group.dimensions().size(), 1u);  // its own
     EXPECT_EQ(group.dimensions()[0].name, "bound");
     EXPECT_EQ(group.dimensions()[0].length, 3u);

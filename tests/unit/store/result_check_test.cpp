@@ -12,7 +12,7 @@
 namespace slideway {
 namespace {
 
-using Type = NetcdfFile::Type;
+using Type = DataFile::Type;
 
 class Sealed : public testing::OutputFolder {
 protected:
@@ -22,12 +22,12 @@ protected:
         int const status = file.add_variable("status", Type::int8, member);
         int const height = file.add_variable("height", Type::float64, member, true);
         file.put_text(height, "units", "m");
-        file.put_text(NetcdfFile::global, "scene", "schema = 1\n");
-        file.put_text(NetcdfFile::global, "title", "Gelenk, größer");  // a string of netCDF, as it is no ASCII
-        file.put_number(NetcdfFile::global, "threads", 2);
+        file.put_text(DataFile::global, "scene", "schema = 1\n");
+        file.put_text(DataFile::global, "title", "Gelenk, größer");  // a string of netCDF, as it is no ASCII
+        file.put_number(DataFile::global, "threads", 2);
         NetcdfFile group = file.add_group(verification_group);
         int const checked = group.add_variable("difference", Type::float64, member);
-        group.put_text(NetcdfFile::global, "summary", "resolved");
+        group.put_text(DataFile::global, "summary", "resolved");
         file.end_definitions();
         std::array const first{std::size_t{0}}, count{std::size_t{3}};
         std::array const statuses{'\0', '\0', '\1'};

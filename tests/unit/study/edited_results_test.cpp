@@ -21,12 +21,12 @@ protected:
     void write(std::vector<Column> const& columns) const {
         NetcdfFile file = NetcdfFile::create(path());
         std::vector<int> variables;
-        file.put_text(NetcdfFile::global, "payload_hash", "0123456789abcdef");
+        file.put_text(DataFile::global, "payload_hash", "0123456789abcdef");
         for (auto const& [name, length] : lengths) file.add_dimension(name, length);
         for (Column const& column : columns) {
             std::vector<int> dimensions;
             for (char const* const name : column.dimensions) dimensions.push_back(file.dimension(name));
-            variables.push_back(file.add_variable(column.name, NetcdfFile::Type::float64, dimensions));
+            variables.push_back(file.add_variable(column.name, DataFile::Type::float64, dimensions));
         }
         file.end_definitions();
         for (std::size_t i = 0; i < columns.size(); ++i) {

@@ -30,9 +30,9 @@ Stored stored(NetcdfFile const& group, std::string const& name) {
         std::vector<std::size_t> const start(variable.shape.size() + 1, 0);
         std::span const origin = std::span(start).first(variable.shape.size());
         std::span const count(variable.shape.empty() ? start.data() : variable.shape.data(), variable.shape.size());
-        if (variable.type == NetcdfFile::Type::float64) {
+        if (variable.type == DataFile::Type::float64) {
             group.read(variable.id, origin, count, result.values.data());
-        } else if (variable.type == NetcdfFile::Type::int32) {
+        } else if (variable.type == DataFile::Type::int32) {
             std::vector<int> whole(variable.size());
             group.read(variable.id, origin, count, whole.data());
             result.values.assign(whole.begin(), whole.end());
@@ -73,8 +73,8 @@ TEST_F(StatisticsGroups, HoldTheReportOfARandomDesign) {
     EXPECT_EQ(back.groups(), (std::vector<std::string>{"statistics", "yield", "sensitivity"}));
     for (std::string const& name : back.groups()) {
         NetcdfFile const group = back.group(name);
-        EXPECT_EQ(group.text(NetcdfFile::global, "policy"), report.policy);
-        EXPECT_EQ(group.text(NetcdfFile::global, "design"), "mc");
+        EXPECT_EQ(group.text(DataFile::global, "policy"), report.policy);
+        EXPECT_EQ(group.text(DataFile::global, "design"), "mc");
         for (auto const& variable : group.variables()) {
             EXPECT_NE(group.text(variable.id, "long_name"), "") << variable.name;
         }

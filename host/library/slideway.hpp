@@ -1,0 +1,142 @@
+// slideway as a library: scenes in, columns of numbers out, in memory or in a file.
+//
+//     #include <slideway/slideway.hpp>
+//
+//     auto const ensemble = slideway::Ensemble::read("scenes/tolerance_0.1mm.toml", {{"study.base", "64"}});
+//     slideway::Result const result = ensemble.run();
+//     for (double const force : result.column("peak_normal_force").numbers()) …
+//
+// Link with slideway::slideway (find_package(slideway)).  Numbers are SI.  A member's numbers depend on its own inputs alone: not on
+// threads, instruction sets or on who else runs.  Objects may be used by one thread at a time; different ones by different threads.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#define SLIDEWAY_API __attribute__((visibility("default")))
+
+namespace slideway {
+
+/// What cannot be done, in one line.  `code` is the exit code that the program has for it: 2 a scene or a setting that cannot be used,
+/// 4 a file or a device, 5 stopped.
+class SLIDEWAY_API Error : public std::runtime_error {
+public:
+    Error(int code, std::string const& line) : std::runtime_error(line), code_(code) {}
+    int code() const noexcept { return code_; }
+
+private:
+    int code_;
+};
+
+/// Dotted keys of the scene and values for them, as `--set` takes them: {"joint.clearance", "0.2 mm"}.
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+/// One variable of a result, as a result file has it.  Valid as long as its Result.
+struct Column {
+    std::string name;
+    std::string unit;                     // UDUNITS; "1" of plain numbers, "" of labels and statuses
+    std::string long_name;
+    std::vector<std::string> dimensions;  // "member", "sample", "apex", …; slowest first
+    std::vector<std::size_t> shape;
+    enum class Type { int8, int32, float64, text } type = Type::float64;
+    void const* data = nullptr;           // in C order
+
+    std::size_t size() const {
+        std::size_t product = 1;
+        for (std::size_t const length : shape) product *= length;
+        return product;
+    }
+    /// All values in C order; NaN of members that did not get there.  @throws Error if the type is not float64
+    SLIDEWAY_API std::span<double const> numbers() const;
+    /// The same of a column of any type but text, converted.
+    SLIDEWAY_API std::vector<double> values() const;
+};
+
+/// What a run gave: the variables, groups and attributes of a result file.  Copies share the numbers.
+class SLIDEWAY_API Result {
+public:
+    /// Names of all columns; those of groups as "sensitivity/first_order".
+    std::vector<std::string> names() const;
+    bool has(std::string const& name) const;
+    /// @throws Error if there is none of that name
+    Column column(std::string const& name) const;
+    /// An attribute of the whole, as text: "scene", "version", "seed"; "" if there is none.
+    std::string attribute(std::string const& name) const;
+    /// The hash of all numbers that `slideway info` tells of a result file.
+    std::string payload_hash() const;
+    /// Writes a result file, as the program does.  @param replace a former result of slideway  @throws Error
+    void write(std::string const& path, bool replace = false) const;
+
+    struct Data;
+    explicit Result(std::shared_ptr<Data const> data) : data_(std::move(data)) {}
+    Data const& data() const { return *data_; }
+
+private:
+    std::shared_ptr<Data const> data_;
+};
+
+struct RunOptions {
+    int threads = 0;           // 0: all that this process may use
+    std::string isa = "auto";  // or one of those that `slideway list` names
+    /// Some members run again with tighter tolerances and by another method; what does not agree is told in the group `verification`.
+    bool verify = false;
+    std::atomic<bool> const* stop = nullptr;  // looked at now and then: true ends the run
+};
+
+/// Numbers of rows by named columns: values[row * names.size() + column], SI.
+struct Table {
+    std::vector<std::string> names;
+    std::vector<double> values;
+    std::size_t rows() const { return names.empty() ? 0 : values.size() / names.size(); }
+};
+
+/// A scene that has been read, ready to run.
+class SLIDEWAY_API Ensemble {
+public:
+    /// @throws Error with file, line and key
+    static Ensemble read(std::string const& path, Settings const& settings = {});
+    /// The text of a scene; `name` stands for the path in messages.
+    static Ensemble parse(std::string const& text, std::string const& name = "scene", Settings const& settings = {});
+    /// The same scene with other values.
+    Ensemble with(Settings const& settings) const;
+
+    /// The same scene with members of these inputs, one a row; the columns are dotted keys, which vary no more otherwise.  Of studies
+    /// whose design is given by their kind (sweep) or by correlations there are none.
+    Ensemble with_members(Table const& inputs) const;
+
+    std::uint64_t members() const;
+    /// What varies, as members draw it: dotted keys and a row for each member.
+    Table draws() const;
+    /// Names of the mechanism's state, in the order of `probe`: "y", "z", "vy", …
+    std::vector<std::string> state_names() const;
+    /// The equations at single states of the nominal mechanism: derivatives d_*, powers [W], penetrations [m], normal forces [N], numbers
+    /// of contacts, energies [J], crank torque [N m], and `status`, which is 0 where the state can be evaluated.
+    /// @param states rows of state_names()  @param times [s] of each row, for driven mechanisms; empty: 0
+    Table probe(std::span<double const> states, std::span<double const> times = {}) const;
+    /// The scene with all its defaults, in SI, as TOML.
+    std::string resolved() const;
+    /// What was given and has no effect, one line each.
+    std::vector<std::string> warnings() const;
+
+    /// Integrates all members.  Nothing is written to disk.  @throws Error, with code 5 when `stop` ended it
+    Result run(RunOptions const& options = {}) const;
+
+    struct State;
+    State const& state() const { return *state_; }
+
+private:
+    explicit Ensemble(std::shared_ptr<State const> state) : state_(std::move(state)) {}
+    std::shared_ptr<State const> state_;
+};
+
+/// "0.2.0"
+SLIDEWAY_API std::string version();
+
+}  // namespace slideway

@@ -1,0 +1,67 @@
+#include "host/study/memory_run.hpp"
+
+#include "host/store/result_merge.hpp"
+#include "host/store/shard_image.hpp"
+#include "host/store/statistics_merge.hpp"
+#include "host/study/continued_sweep.hpp"
+#include "host/study/exponent_table.hpp"
+#include "host/study/study_run.hpp"
+#include "host/study/verification.hpp"
+
+namespace slideway {
+namespace {
+
+/// What takes the blocks of a run and makes a file of them.
+class MemoryStore {
+public:
+    explicit MemoryStore(Scene const& scene, ResultMerge merge) : scene_(scene), merge_(std::move(merge)), exponents_(scene) {}
+
+    void take(BlockResult const& block) {
+        if (!scene_.stores_members()) return statistics_.add(block, plan_);
+        MemoryFile shard(scene_.path);
+        MemberSet const members = write_block(shard, merge_.layout, block, exponents_.values(block));
+        if (!members.empty()) shards_.push_back({members, [shard](MergedShard::Use const& use) { use(shard); }});
+    }
+    MemoryFile file() {
+        MemoryFile file(scene_.path);
+        if (scene_.stores_members())
+            write_merged(file, shards_, merge_);
+        else
+            write_merged(file, statistics_, merge_);
+        file.put_text(DataFile::global, "completeness", merge_.completeness);
+        return file;
+    }
+
+private:
+    Scene const& scene_;
+    ResultMerge merge_;
+    ExponentTable const exponents_;
+    StatisticsPlan const plan_ = statistics_plan(scene_);
+    BlockStatistics statistics_{plan_};
+    std::vector<MergedShard> shards_;
+};
+
+}  // namespace
+
+std::optional<MemoryFile> run_in_memory(Scene const& scene, MemoryRun const& run) {
+    MemberSet const members(MemberRange{0, member_count(scene)});
+    EnsemblePlan plan = ensemble_plan(scene, members, *run.backend, run.threads);
+    BlockKernel const kernel = run.backend->kernel(scene.parts, plan.request.shadows.count > 0);
+    if (is_continued(scene)) continue_columns(scene, plan, members, kernel, {}, run.stop);
+    ResultMerge merge{result_layout(scene, members), provenance(scene, *run.backend, run.threads), "complete"};
+    merge.conclude = [&](DataFile& file) {
+        std::optional<ToleranceReport> report;
+        conclude_study(scene, file, report, {run.threads});
+        if (!run.verify) return;
+        VerificationRequest const request{scene.verify, run.threads, &run.stop, Progress::Style::none};
+        write_verification(file, verify(ResultView(file), scene, *run.backend, request));
+    };
+    MemoryStore store(scene, std::move(merge));
+    EnsembleTotals const totals = run_ensemble(plan, kernel, [&](BlockResult const& block) { store.take(block); }, run.stop);
+    if (totals.stopped != StopReason::none) return {};
+    MemoryFile file = store.file();
+    if (run.stop.reason() != StopReason::none) return {};
+    return file;
+}
+
+}  // namespace slideway

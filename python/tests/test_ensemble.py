@@ -1,0 +1,206 @@
+"""Runs in memory: the same numbers as the program's, and what they say when they are asked wrongly."""
+
+from __future__ import annotations
+
+import os
+import resource
+import signal
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import slideway
+import xarray as xr
+from slideway.program import call
+
+scenes = Path(__file__).parents[2] / "scenes"
+small: dict[str, Any] = {
+    "schema": 1,
+    "study": {
+        "kind": "ensemble", "members": 6, "duration": "20 ms", "quantities": ["peak_normal_force", "mode_time", "peak_tilt"],
+        "vary": {"initial.y": {"dist": "unif", "low": 0, "high": "20 um"}, "joint.clearance": {"dist": "unif", "low": "50 um", "high": "0.1 mm"}},
+    },
+}  # fmt: skip
+
+# Each kind of study, and each way to store one: with what makes it small.
+studies = {
+    "ensemble_starts": {"study.members": 12, "study.duration": "20 ms"},
+    "lyapunov_0.1mm": {"study.members": 3, "study.transient_revolutions": 1, "study.revolutions": 2},
+    "tolerance_0.1mm": {"study.base": 8, "study.duration": "1 ms"},
+    "tolerance_table": {"study.duration": "1 ms"},
+    "poincare_0.1mm": {"study.members": 3, "study.transient_revolutions": 1, "study.revolutions": 3},
+    "planar_flores": {"study.duration": "20 ms"},
+    "sweep_clearance": {"study.members": 2, "study.points": 3, "study.transient_revolutions": 0, "study.revolutions": 2},
+    "carriage_3": {"study.duration": "5 ms"},
+}
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize("name", studies)
+def test_results_in_memory_are_those_of_the_program(name: str, threads: int, tmp_path: Path) -> None:
+    scene = scenes / f"{name}.toml"
+    stored = slideway.run(scene, tmp_path / "file.nc", set={**studies[name], "study.verify": 0}, progress=False, max_failures="100%")
+    computed = slideway.Ensemble(scene, threads=threads, set=studies[name]).run()
+
+    varying = {"created", "threads", "commit", "completeness", "format_version", "payload_hash", "metadata_hash", "scene"}
+    assert {k for k in computed.attrs} - varying == {k for k in stored.attrs} - varying
+    xr.testing.assert_identical(computed.drop_attrs(deep=False), stored.drop_attrs(deep=False))
+    # The file that it becomes has the program's hash, and its groups.
+    path = slideway.results.path_of(computed)
+    assert payload(path) == payload(str(tmp_path / "file.nc"))
+    without_check = [group for group in slideway.groups(stored) if group != "verification"]
+    assert slideway.groups(computed) == without_check
+    for group in without_check:
+        xr.testing.assert_identical(slideway.open(path, group).drop_attrs(deep=False), slideway.open(tmp_path / "file.nc", group).drop_attrs(deep=False))
+
+
+def payload(path: str) -> str:
+    import netCDF4
+
+    call(None, ["info", "--check", path])
+    with netCDF4.Dataset(path) as file:
+        return str(file.payload_hash)
+
+
+def test_a_check_is_made_where_it_is_asked_for() -> None:
+    ensemble = slideway.Ensemble(small, verify=True)
+    assert slideway.groups(ensemble.run()) == ["verification"]
+    assert slideway.groups(slideway.Ensemble(small).run()) == []
+
+
+def test_runs_with_other_values_are_those_of_the_scene_with_them() -> None:
+    ensemble = slideway.Ensemble(small)
+    changed = ensemble.run(contact__law="conservative", set={"mechanism.crank_speed": "60 rpm"})
+    expected = slideway.Ensemble({**small, "contact": {"law": "conservative"}, "mechanism": {"crank_speed": "60 rpm"}}).run()
+    xr.testing.assert_identical(changed.drop_attrs(deep=False), expected.drop_attrs(deep=False))
+    # The ensemble itself is as it was.
+    assert not np.array_equal(changed.peak_normal_force, ensemble.run().peak_normal_force)
+
+
+def test_members_are_those_that_are_given() -> None:
+    ensemble = slideway.Ensemble(small)
+    drawn = ensemble.members()
+    assert list(drawn) == ["initial_y", "joint_clearance"] and drawn.sizes == {"member": 6}
+    as_drawn = ensemble.run()
+    np.testing.assert_array_equal(as_drawn.initial_y, drawn.initial_y)
+    by_name = {key: drawn[key.replace(".", "_")].values for key in ensemble.inputs}
+    for inputs in (by_name, np.stack(list(by_name.values()), axis=1)):
+        given = ensemble.run(inputs=inputs)
+        for name in as_drawn:
+            np.testing.assert_array_equal(given[name], as_drawn[name], name)
+    # Keys that the scene does not vary, and another number of members.
+    wide = ensemble.run(inputs={"joint.clearance": [1e-4, 2e-4], "friction.kinetic": 0.1, "friction.static": 0.2})
+    assert wide.sizes["member"] == 2 and wide.joint_clearance.values.tolist() == [1e-4, 2e-4]
+
+
+@pytest.mark.parametrize(
+    ("inputs", "says"),
+    [
+        ({"joint.clearence": [1e-4]}, "joint.clearence"),
+        ({"joint.clearance": [1e-4], "joint.clearance_y": [1e-4]}, "set the same input"),
+        ({"joint.clearance": ["wide"]}, "joint.clearance is"),
+        ({}, "inputs of members need keys"),
+        (np.zeros((3, 5)), r"\[members, 2\]"),
+        (np.zeros(3), r"\[members, 2\]"),
+    ],
+)
+def test_inputs_that_cannot_be_used_are_named(inputs: Any, says: str) -> None:
+    with pytest.raises(slideway.SlidewayError, match=says):
+        slideway.Ensemble(small).run(inputs=inputs)
+
+
+def test_a_member_with_unusable_inputs_fails_alone() -> None:
+    result = slideway.Ensemble(small).run(inputs={"joint.clearance": [1e-4, -1.0, np.nan]})
+    assert [str(status) for status in slideway.statuses(result).values] == ["finished", "invalid_inputs", "invalid_inputs"]
+    assert np.isfinite(result.peak_normal_force.values[0])
+
+
+def test_errors_name_keys_of_a_dictionary_and_lines_of_a_file(tmp_path: Path) -> None:
+    with pytest.raises(slideway.SceneError, match=r"^study.members is 0"):
+        slideway.Ensemble({**small, "study": {**small["study"], "members": 0}})
+    with pytest.raises(slideway.SceneError, match="joint.clearance"):
+        slideway.Ensemble(small).run(joint__clearance=-1.0)
+    file = tmp_path / "s.toml"
+    file.write_text("schema = 1\n[joint]\nclearance = -1\n")
+    with pytest.raises(slideway.SceneError, match=r"s.toml:3: "):
+        slideway.Ensemble(file)
+    with pytest.raises(slideway.SceneError, match="nowhere.toml: cannot be read"):
+        slideway.Ensemble(tmp_path / "nowhere.toml")
+    with pytest.raises(slideway.SceneError, match="no instruction set"):
+        slideway.Ensemble(small, isa="sse9").run()
+    with pytest.raises(slideway.SlidewayError, match="two underscores"):
+        slideway.Ensemble(small).run(clearance=1)
+
+
+def test_states_are_probed_as_by_the_program(tmp_path: Path) -> None:
+    ensemble = slideway.Ensemble(scenes / "ensemble_starts.toml")
+    generator = np.random.default_rng(1)
+    states = generator.uniform(-1, 1, (20, len(ensemble.states))) * [1e-4, 1e-4, 1, 1, 1e-3, 1e-3, 1e-3, 1, 1, 1]
+    times = generator.uniform(0, 1, 20)
+    table = tmp_path / "states.csv"
+    rows = np.column_stack([times, states])
+    np.savetxt(table, rows, delimiter=",", header=",".join(["t", *ensemble.states]), comments="", fmt="%.17g")
+    call(None, ["probe", str(scenes / "ensemble_starts.toml"), "--csv", str(table), "-o", str(tmp_path / "out.csv")])
+    expected = np.genfromtxt(tmp_path / "out.csv", delimiter=",", names=True, dtype=None, encoding="utf-8")
+    found = ensemble.probe(states, times)
+    assert np.all(found["status"] == 0)
+    for name, values in found.items():
+        if name != "status":
+            np.testing.assert_array_equal(values, expected[name], name)
+    by_name = ensemble.probe(dict(zip(ensemble.states, states.T)), times)
+    np.testing.assert_array_equal(by_name["fn_y_P1"], found["fn_y_P1"])
+
+
+def test_statistics_in_place_of_members_come_back_too() -> None:
+    scene = {**small, "study": {**small["study"], "store": "statistics"}}
+    result = slideway.Ensemble(scene).run()
+    assert int(result.status_count.values[0]) == 6
+    assert "statistics" in slideway.groups(result)
+
+
+def test_ctrl_c_ends_a_run() -> None:
+    ensemble = slideway.Ensemble(small, study__members=4096, study__duration="2 s")
+    start = time.monotonic()
+    timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        ensemble.run()
+    timer.join()
+    assert time.monotonic() - start < 10
+    assert ensemble.run(study__members=2, study__duration="1 ms").sizes["member"] == 2
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_other_threads_go_on_meanwhile() -> None:
+    ensemble = slideway.Ensemble(small, study__members=512, study__duration="100 ms", threads=1)
+    results: list[xr.Dataset] = []
+    thread = threading.Thread(target=lambda: results.append(ensemble.run()))
+    thread.start()
+    steps = 0
+    while thread.is_alive():
+        steps += 1
+        time.sleep(0.001)
+    assert steps > 10 and results[0].sizes["member"] == 512
+
+
+def test_memory_stays_flat_over_many_runs() -> None:
+    ensemble = slideway.Ensemble(small)
+
+    def used() -> int:
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+
+    for _ in range(200):
+        ensemble.run()
+    before = used()
+    for _ in range(int(os.environ.get("SLIDEWAY_CALLS", "1000"))):
+        ensemble.run()
+    assert used() - before < 2000  # kB; a result has some 20
+
+
+def test_arrays_outlive_their_ensemble() -> None:
+    values = slideway.Ensemble(small).run().peak_normal_force.values
+    again = slideway.Ensemble(small).run().peak_normal_force.values
+    np.testing.assert_array_equal(values, again)
