@@ -131,14 +131,14 @@ void write_merged(NetcdfFile& file, ShardFolder const& folder, std::vector<Shard
     Variables const variables = variables_of(file);
     ShardCopy shard_copy(file, variables);
     for (Shard const& shard : shards) {
-        merge.pause();
+        merge.may_pause();
         std::vector<std::byte> const bytes = folder.read(shard);
         NetcdfFile const from = NetcdfFile::open_in_memory(shard.name, bytes);
         shard_copy.copy(from, member_runs(shard.members, merge.layout.members), sections ? &*sections : nullptr);
     }
-    merge.pause();
-    merge.conclude(file);
-    merge.pause();
+    merge.may_pause();
+    if (merge.conclude) merge.conclude(file);
+    merge.may_pause();
 }
 
 /// HDF5 may be told that a write failed, try again as it closes, and say nothing: what counts is what can be read.

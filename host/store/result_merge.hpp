@@ -19,11 +19,15 @@ struct ResultMerge {
     ResultLayout layout;  // its section_rows follow from the shards
     Provenance provenance;
     std::string completeness;  // an attribute: "complete", "12 of 100 members not run"
-    /// What is concluded from the members and added to the file.
-    std::function<void(NetcdfFile& file)> conclude = [](NetcdfFile&) {};
-    /// Called now and then; what it throws ends the merge and leaves no file.
-    std::function<void()> pause = [] {};
+    /// What is concluded from the members and added to the file; may be empty.
+    std::function<void(NetcdfFile& file)> conclude;
+    /// Called now and then; what it throws ends the merge and leaves no file.  May be empty.
+    std::function<void()> pause;
     Existing existing = Existing::replaced;  // of a file of the same name
+
+    void may_pause() const {
+        if (pause) pause();
+    }
 };
 
 /// Writes `path`.part, which becomes `path` when it is whole: a former file stays until then.  One shard at a time is in memory.

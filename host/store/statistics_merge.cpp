@@ -72,13 +72,13 @@ void merge_statistics(ShardFolder const& folder, std::vector<Shard> const& shard
     auto const write = [&](NetcdfFile& file) {
         BlockStatistics statistics(plan);
         for (Shard const& shard : shards) {
-            merge.pause();
+            merge.may_pause();
             statistics.merge(parse_statistics(folder.read(shard), shard.name).statistics);
         }
-        merge.pause();
+        merge.may_pause();
         write_all(file, merge, statistics);
-        merge.conclude(file);
-        merge.pause();
+        if (merge.conclude) merge.conclude(file);
+        merge.may_pause();
     };
     write_result(path, merge.completeness, write, merge.existing);
 }
