@@ -23,8 +23,10 @@ public:
     /// Its length before it.
     void put(std::span<std::byte const> bytes) {
         put(std::uint64_t{bytes.size()});
-        append(bytes.data(), bytes.size());
+        append(bytes);
     }
+    /// Without its length.
+    void append(std::span<std::byte const> bytes) { append(bytes.data(), bytes.size()); }
     void put(std::string_view text) { put(std::as_bytes(std::span(text))); }
     std::vector<std::byte> take() { return std::move(bytes_); }
 

@@ -21,7 +21,6 @@ public:
     bool next();
     std::vector<std::string> const& fields() const { return fields_; }
 
-    std::string const& name() const { return name_; }
     int line() const;                                        // of the row, from 1
     std::string where() const;                               // "members.csv:3"
     [[noreturn]] void fail(std::string_view message) const;  // SceneError `members.csv:3: message`

@@ -146,6 +146,12 @@ std::string in_folder(std::string const& folder, std::string_view name) {
     return (std::filesystem::path(folder) / name).string();
 }
 
+void require_readable(std::string const& path) {
+    Descriptor const file(path, O_RDONLY);
+    char byte;
+    if (::read(file.get(), &byte, 1) < 0) fail(path, "read", errno);
+}
+
 std::vector<std::byte> read_bytes(std::string const& path) {
     Descriptor const file(path, O_RDONLY);
     std::error_code ignored;

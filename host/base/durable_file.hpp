@@ -47,6 +47,9 @@ std::string in_folder(std::string const& folder, std::string_view name);
 /// Whether there is something of this name.  @throws FileError if that cannot be told: a disk that fails is no missing file.
 bool is_there(std::string const& path);
 
+/// @throws FileError with the reason where a file cannot be opened, or its first byte not be read.
+void require_readable(std::string const& path);
+
 /// @throws FileError if it cannot be read.
 std::vector<std::byte> read_bytes(std::string const& path);
 std::string read_text(std::string const& path);

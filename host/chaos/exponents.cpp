@@ -1,9 +1,10 @@
 #include "host/chaos/exponents.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
+
+#include "host/statistics/summary.hpp"
 
 namespace slideway {
 namespace {
@@ -48,11 +49,6 @@ std::vector<double> batch_means(GrowthLog const& log, std::size_t offset) {
         means.push_back(sum_of(log, offset, from, from + size) / (static_cast<double>(size) * log.length));
     }
     return means;
-}
-
-double student_quantile(std::size_t numbers, double confidence) {
-    boost::math::students_t const distribution(static_cast<double>(numbers - 1));
-    return boost::math::quantile(distribution, 0.5 + 0.5 * confidence);
 }
 
 double rate_from(GrowthLog const& log, std::size_t offset, std::size_t first, std::size_t last) {

@@ -31,13 +31,11 @@ Moments moments(std::span<double const> x, std::span<double const> y) {
     return m;
 }
 
-bool usable(std::span<double const> x, std::span<double const> y) { return x.size() == y.size() && x.size() >= 2; }
-
 }  // namespace
 
 LinearFit fit_line(std::span<double const> x, std::span<double const> y) {
     LinearFit fit{nan, nan, nan, nan, x.size()};
-    if (!usable(x, y)) return fit;
+    if (x.size() != y.size() || x.size() < 2) return fit;
     Moments const m = moments(x, y);
     if (!(m.xx > 0) || !std::isfinite(m.xx + m.yy)) return fit;
     fit.slope = m.xy / m.xx;
@@ -50,13 +48,6 @@ LinearFit fit_line(std::span<double const> x, std::span<double const> y) {
     if (x.size() > 2) fit.slope_error = std::sqrt(residual / (static_cast<double>(x.size() - 2) * m.xx));
     if (m.yy > 0) fit.r_squared = std::clamp(1 - residual / m.yy, 0.0, 1.0);
     return fit;
-}
-
-double correlation(std::span<double const> x, std::span<double const> y) {
-    if (!usable(x, y)) return nan;
-    Moments const m = moments(x, y);
-    if (!(m.xx > 0) || !(m.yy > 0)) return nan;
-    return std::clamp(m.xy / std::sqrt(m.xx) / std::sqrt(m.yy), -1.0, 1.0);
 }
 
 }  // namespace slideway

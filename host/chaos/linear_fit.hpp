@@ -21,8 +21,4 @@ struct LinearFit {
 /// @return all NaN for less than two points, numbers that are not finite or one x only.
 LinearFit fit_line(std::span<double const> x, std::span<double const> y);
 
-/// Correlation of x and y after Pearson: Sxy/√(Sxx Syy).
-/// @return in [-1, 1]; NaN where x or y does not vary, or for less than two points.
-double correlation(std::span<double const> x, std::span<double const> y);
-
 }  // namespace slideway

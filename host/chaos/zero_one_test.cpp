@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "host/chaos/linear_fit.hpp"
+#include "host/statistics/correlation.hpp"
 
 namespace slideway {
 namespace {
@@ -49,7 +49,7 @@ double growth_rate(std::vector<double> const& series, double c) {
         }
     }
     for (std::size_t k = 0; k < longest; ++k) lag[k] = static_cast<double>(k + 1);
-    return correlation(lag, displacement);
+    return product_moment(lag, displacement);
 }
 
 double median(std::vector<double> values) {

@@ -30,7 +30,7 @@ std::vector<Shard> intact_shards(ShardFolder const& folder) {
     std::vector<Shard> shards = folder.intact(damaged);
     for (DamagedShard const& one : damaged) {
         tell("warning: {}/{}: {}; its members are left out: slideway run --resume runs them again\n",
-                   folder.path(), one.shard.name, one.is_gone ? "is gone" : "is not what was written");
+                   folder.path(), one.shard.name, one.words());
     }
     return shards;
 }
@@ -56,15 +56,18 @@ int merge(MergeArguments const& arguments) {
                                      arguments.folder, made_by, here));
     }
     std::string const scene_path = (std::filesystem::path(arguments.folder) / shard_names::identity).string();
-    Scene const scene = scene_of(folder);
+    Scene scene = scene_of(folder);
     OutputTarget const target(arguments.output, {inputs_of(scene), arguments.force, is_result_file});
     require_outside(target, arguments.folder);
     require_room_beside(target.path());
     std::optional<ToleranceReport> report;
     std::vector<Shard> const shards = intact_shards(folder);
     mend(folder);
-    std::uint64_t const left =
-        merge_study(scene, folder, shards, shard_origin(folder, shards, scene), target, report);
+    scene.verify = asked_check(folder, shards, scene);
+    StopRequest const nobody;
+    auto const backend = cpu_backend(best_isa());
+    auto const check = resolution_check(scene, *backend, default_threads(), nobody, Progress::style_for(stderr, arguments.json));
+    std::uint64_t const left = merge_study(scene, folder, shards, shard_origin(folder, shards, scene), target, report, {}, check);
 
     RunArguments replay;
     replay.scene.path = scene_path;

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/base/fnv1a.hpp"
 #include "host/commands/commands.hpp"
@@ -79,9 +80,7 @@ void warn_of_losses(StudyOptions const& options, StudyRun const& run) {
     for (DamagedShard const& damaged : run.damaged()) {
         std::string const& name = damaged.shard.name;
         tell("warning: {}/{}: {}; its members run again\n", shard_folder_of(options.output), name,
-                   damaged.is_gone
-                       ? std::string("is gone")
-                       : fmt::format("is not what was written and is now {}{}", shard_names::damaged, name));
+                   damaged.is_gone || damaged.is_manifest ? damaged.words() : fmt::format("{} and is now {}{}", damaged.words(), shard_names::damaged, name));
     }
     if (options.resume && !run.is_complete() && run.work().before == 0 && run.target().replaces()) {
         tell("warning: {}: holds a part of this run, but its shards are gone; all members run again\n",
@@ -181,7 +180,8 @@ int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& 
         throw DeviceError(kept(error, options));
     }
     int const code = conclude(arguments, scene, options, run.target().replaces(), std::move(report), &done);
-    run.remove_shards();
+    if (auto const kept = run.remove_shards(); !kept.empty())
+        tell("warning: {}: stays, for it holds what is not of this run: {}\n", shard_folder_of(options.output), fmt::join(kept, ", "));
     return code;
 }
 

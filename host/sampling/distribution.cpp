@@ -14,8 +14,6 @@ namespace {
 /// A probability by both of its tails: near 1, `below` has no digits left for what `above` resolves.
 struct Tails {
     double below, above;
-    explicit Tails(double u) : below(u), above(1 - u) {}
-    Tails(double probability, double complement) : below(probability), above(complement) {}
 };
 
 /// What underflowed is still not impossible: quantiles stay finite.
@@ -69,51 +67,40 @@ double listed(Distribution const& d, double u) {
     return d.list[std::min(static_cast<std::size_t>(u * static_cast<double>(n)), n - 1)];
 }
 
+/// Of those that have no shorter way.
+double by_tails(Distribution const& d, Tails const& p) {
+    switch (d.kind) {
+        case Distribution::Kind::truncated_normal:
+            return truncated_normal(d, p);
+        case Distribution::Kind::triangular:
+            return triangular(d, p);
+        case Distribution::Kind::weibull:
+            return weibull(d, p);
+        case Distribution::Kind::values:
+            return listed(d, p.below);
+        default:
+            return d.mean;
+    }
+}
+
 }  // namespace
 
 double standard_normal_quantile(double u) { return boost::math::quantile(boost::math::normal(), u); }
 
 double Distribution::quantile(double u) const {
-    switch (kind) {
-        case Kind::constant:
-            break;
-        case Kind::uniform:
-            return std::clamp(low + u * (high - low), low, high);
-        case Kind::normal:
-            return mean + sd * standard_normal_quantile(u);
-        case Kind::truncated_normal:
-            return truncated_normal(*this, Tails(u));
-        case Kind::triangular:
-            return triangular(*this, Tails(u));
-        case Kind::lognormal:
-            return lognormal(*this, standard_normal_quantile(u));
-        case Kind::weibull:
-            return weibull(*this, Tails(u));
-        case Kind::values:
-            return listed(*this, u);
-    }
-    return mean;
+    if (kind == Kind::uniform) return std::clamp(low + u * (high - low), low, high);
+    if (kind == Kind::normal) return mean + sd * standard_normal_quantile(u);
+    if (kind == Kind::lognormal) return lognormal(*this, standard_normal_quantile(u));
+    return by_tails(*this, {u, 1 - u});
 }
 
 double Distribution::from_standard_normal(double z) const {
     if (kind == Kind::normal) return finite(mean + sd * z);
     if (kind == Kind::lognormal) return lognormal(*this, z);
     boost::math::normal const normal;
-    Tails const p(cdf(normal, z), cdf(complement(normal, z)));
-    switch (kind) {
-        case Kind::uniform:
-            return std::clamp(z < 0 ? low + p.below * (high - low) : high - p.above * (high - low), low, high);
-        case Kind::truncated_normal:
-            return truncated_normal(*this, p);
-        case Kind::triangular:
-            return triangular(*this, p);
-        case Kind::weibull:
-            return weibull(*this, p);
-        case Kind::values:
-            return listed(*this, p.below);
-        default:
-            return mean;
-    }
+    double const below = cdf(normal, z), above = cdf(complement(normal, z));
+    if (kind == Kind::uniform) return std::clamp(z < 0 ? low + below * (high - low) : high - above * (high - low), low, high);
+    return by_tails(*this, {below, above});
 }
 
 }  // namespace slideway

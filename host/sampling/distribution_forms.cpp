@@ -49,11 +49,8 @@ DistributionForm const& form_of(Distribution::Kind kind) { return forms[static_c
 std::string listed_arguments(DistributionForm const& form) {
     std::string text;
     for (DistributionArgument const& argument : form.arguments) {
-        std::string_view const comma = text.empty() ? "" : ", ";
-        text += argument.optional ? std::string("[") : std::string();
-        text += comma;
-        text += argument.name;
-        text += argument.optional ? std::string("]") : std::string();
+        std::string const next = (text.empty() ? "" : ", ") + std::string(argument.name);
+        text += argument.optional ? "[" + next + "]" : next;
     }
     return text;
 }

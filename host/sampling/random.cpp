@@ -27,8 +27,4 @@ double unit_fraction(std::uint64_t word) {
     return (static_cast<double>(word >> 12) + 0.5) * 0x1p-52;
 }
 
-double uniform_draw(std::uint64_t seed, std::uint64_t member, std::string_view name) {
-    return StreamKey{seed, name_hash(name)}.uniform(Stream::value, member);
-}
-
 }  // namespace slideway

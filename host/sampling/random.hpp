@@ -16,7 +16,8 @@ std::uint64_t name_hash(std::string_view name);
 /// Independent numbers of one key: second word of the counter.
 enum class Stream : std::uint64_t { value, permutation, jitter, scramble, second_scramble };
 
-/// The numbers of one varied key: seed and hash of its name.
+/// The numbers of one varied key: seed and hash of its name.  So neither the order of the variations nor other keys, members or threads
+/// change what a member draws.
 struct StreamKey {
     std::uint64_t seed;
     std::uint64_t name;
@@ -29,9 +30,5 @@ struct StreamKey {
 
 /// The odd multiple of 2^-53 in (0, 1) that the leading 52 bits of a word say.
 double unit_fraction(std::uint64_t word);
-
-/// Uniform in (0, 1), an odd multiple of 2^-53.  Key of the generator: seed and hash of the name; counter: member.
-/// So neither the order of the variations nor other keys, members or threads change what a member draws.
-double uniform_draw(std::uint64_t seed, std::uint64_t member, std::string_view name);
 
 }  // namespace slideway

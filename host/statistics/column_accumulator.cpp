@@ -1,17 +1,16 @@
 #include "host/statistics/column_accumulator.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
+
+#include "host/base/byte_stream.hpp"
 
 namespace slideway {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-static_assert(std::endian::native == std::endian::little, "bytes() is defined as little-endian");
 
 }  // namespace
 
@@ -74,37 +73,16 @@ double ColumnAccumulator::at_rank(std::uint64_t rank) const {
     return std::clamp(sketch_.at_rank(rank), min(), max());
 }
 
-namespace {
-
-/// Type 7 between the ranks from `first` on, n of them.  @param value_at of a rank
-template <class ValueAt> double type7(std::uint64_t first, std::uint64_t n, double p, ValueAt value_at) {
-    if (n == 0) return nan;
-    double const h = static_cast<double>(n - 1) * p;
-    auto const below = std::min(static_cast<std::uint64_t>(h), n - 1);
-    double const fraction = h - static_cast<double>(below);
-    double const low = value_at(first + below);
-    // Without a fraction the neighbour does not count: it may be infinite, or beyond the end.
-    if (!(fraction > 0) || below + 1 == n) return low;
-    return low + fraction * (value_at(first + below + 1) - low);
-}
-
-}  // namespace
-
 double ColumnAccumulator::quantile(double p) const {
-    return type7(0, count(), p, [this](std::uint64_t rank) { return at_rank(rank); });
+    return quantile_of(count(), p, [this](std::uint64_t rank) { return at_rank(rank); });
 }
 
 double ColumnAccumulator::finite_quantile(double p) const {
-    return type7(negative_infinities_, finite(), p, [this](std::uint64_t rank) { return at_rank(rank); });
+    return quantile_of(finite(), p, [this](std::uint64_t rank) { return at_rank(negative_infinities_ + rank); });
 }
 
 Interval ColumnAccumulator::quantile_interval(double p, double level) const {
-    Interval interval;
-    if (count() == 0) return interval;
-    auto const [low, high] = quantile_ranks(count(), p, level);
-    if (low >= 1) interval.low = at_rank(low - 1);
-    if (high <= count()) interval.high = at_rank(high - 1);
-    return interval;
+    return interval_of_ranks(count(), p, level, [this](std::uint64_t rank) { return at_rank(rank); });
 }
 
 Histogram ColumnAccumulator::histogram() const {
@@ -127,17 +105,12 @@ Histogram ColumnAccumulator::histogram() const {
 Summary ColumnAccumulator::summary() const { return {count(), missing(), mean(), sd(), min(), quantile(0.5), max()}; }
 
 std::vector<std::byte> ColumnAccumulator::bytes() const {
-    std::vector<std::byte> bytes;
-    auto const put = [&](void const* from, std::size_t length) {
-        bytes.resize(bytes.size() + length);
-        std::memcpy(bytes.data() + bytes.size() - length, from, length);
-    };
-    for (double const end : {least_, largest_}) put(&end, sizeof end);
-    for (std::uint64_t const number : {negative_infinities_, positive_infinities_}) put(&number, sizeof number);
-    for (ExactSum const* const sum : {&sum_, &squares_}) put(sum->bytes().data(), ExactSum::byte_count);
-    auto const sketch = sketch_.bytes();
-    put(sketch.data(), sketch.size());
-    return bytes;
+    ByteWriter out;
+    for (double const end : {least_, largest_}) out.put(end);
+    for (std::uint64_t const number : {negative_infinities_, positive_infinities_}) out.put(number);
+    for (ExactSum const* const sum : {&sum_, &squares_}) out.append(sum->bytes());
+    out.append(sketch_.bytes());
+    return out.take();
 }
 
 std::optional<ColumnAccumulator> ColumnAccumulator::from_bytes(std::span<std::byte const> bytes) {

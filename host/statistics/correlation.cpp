@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include <Eigen/Dense>
-#include <boost/math/distributions/normal.hpp>
+#include "host/sampling/distribution.hpp"
 
 namespace slideway {
 namespace {
@@ -63,7 +63,7 @@ double product_moment(std::span<double const> x, std::span<double const> y) {
 Interval rank_correlation_interval(double r, std::size_t n, double level) {
     if (n < 4 || std::isnan(r)) return {};
     if (std::abs(r) == 1) return {r, r};
-    double const z = boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * level);
+    double const z = standard_normal_quantile(0.5 + 0.5 * level);
     double const half = z * std::sqrt((1 + 0.5 * r * r) / (static_cast<double>(n) - 3));
     return {std::tanh(std::atanh(r) - half), std::tanh(std::atanh(r) + half)};
 }

@@ -8,11 +8,12 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 
+#include "host/base/byte_stream.hpp"
+
 namespace slideway {
 
 static_assert(std::is_trivially_copyable_v<ExactSum>);
 static_assert(std::numeric_limits<double>::is_iec559);
-static_assert(std::endian::native == std::endian::little, "bytes() is defined as little-endian");
 
 namespace {
 
@@ -108,10 +109,10 @@ double ExactSum::value() const {
 std::vector<std::byte> ExactSum::bytes() const {
     static_assert(byte_count == (size + 1) * sizeof(std::uint64_t));
     std::uint64_t const flags = nan_ | positive_infinity_ << 1 | negative_infinity_ << 2;
-    std::vector<std::byte> bytes(byte_count);
-    std::memcpy(bytes.data(), limbs_.data(), sizeof limbs_);
-    std::memcpy(bytes.data() + sizeof limbs_, &flags, sizeof flags);
-    return bytes;
+    ByteWriter out;
+    for (std::uint64_t const limb : limbs_) out.put(limb);
+    out.put(flags);
+    return out.take();
 }
 
 std::optional<ExactSum> ExactSum::from_bytes(std::span<std::byte const> bytes) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boost/math/distributions/normal.hpp>
+#include "host/sampling/distribution.hpp"
 
 namespace slideway {
 
@@ -12,7 +12,7 @@ Proportion proportion(std::uint64_t successes, std::uint64_t trials, double leve
     if (trials == 0) return result;
     auto const n = static_cast<double>(trials);
     double const p = static_cast<double>(successes) / n;
-    double const z = boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * level);
+    double const z = standard_normal_quantile(0.5 + 0.5 * level);
     double const scale = 1 / (1 + z * z / n);
     double const centre = (p + z * z / (2 * n)) * scale;
     double const half = z * scale * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));

@@ -1,50 +1,27 @@
 #include "host/statistics/quantile_interval.hpp"
 
-#include <cstddef>
+#include <algorithm>
+#include <ranges>
 
 #include <boost/math/distributions/binomial.hpp>
 
 #include "host/statistics/summary.hpp"
 
 namespace slideway {
-namespace {
-
-/// The smallest k in [0, n] where `holds`, which stays true from there on; n + 1 where it never holds.
-template <class Predicate> std::uint64_t first_where(std::uint64_t n, Predicate holds) {
-    std::uint64_t low = 0, high = n + 1;
-    while (low < high) {
-        std::uint64_t const middle = low + (high - low) / 2;
-        if (holds(middle)) {
-            high = middle;
-        } else {
-            low = middle + 1;
-        }
-    }
-    return low;
-}
-
-}  // namespace
-
 RankInterval quantile_ranks(std::uint64_t n, double p, double level) {
     double const tail = 0.5 * (1 - level);
     boost::math::binomial const below(static_cast<double>(n), p);
     // k is the number of draws below: r is one more than the largest k of P(B <= k) <= tail.
-    std::uint64_t const r =
-        first_where(n, [&](std::uint64_t k) { return boost::math::cdf(below, static_cast<double>(k)) > tail; });
-    std::uint64_t const s = first_where(n, [&](std::uint64_t k) {
-        if (k == 0) return false;  // P(B >= 0) = 1
-        return boost::math::cdf(boost::math::complement(below, static_cast<double>(k - 1))) <= tail;
+    auto const numbers = std::views::iota(std::uint64_t{0}, n + 1);
+    auto const r = std::ranges::partition_point(numbers, [&](std::uint64_t k) { return boost::math::cdf(below, static_cast<double>(k)) <= tail; });
+    auto const s = std::ranges::partition_point(numbers, [&](std::uint64_t k) {
+        return k == 0 || boost::math::cdf(boost::math::complement(below, static_cast<double>(k - 1))) > tail;  // P(B >= 0) = 1
     });
-    return {r, s};
+    return {static_cast<std::uint64_t>(r - numbers.begin()), static_cast<std::uint64_t>(s - numbers.begin())};
 }
 
 Interval quantile_interval(std::span<double const> sorted, double p, double level) {
-    Interval interval;
-    if (sorted.empty()) return interval;
-    auto const [r, s] = quantile_ranks(sorted.size(), p, level);
-    if (r >= 1) interval.low = sorted[r - 1];
-    if (s <= sorted.size()) interval.high = sorted[s - 1];
-    return interval;
+    return interval_of_ranks(sorted.size(), p, level, [&](std::uint64_t rank) { return sorted[rank]; });
 }
 
 std::vector<QuantileEstimate> estimate_quantiles(std::span<double const> sorted, std::span<double const> probabilities,

@@ -30,6 +30,15 @@ struct RankInterval {
 /// @return r and s; or the interval in the unit of the values.  A bound for which n is too small (no such rank) is NaN.
 RankInterval quantile_ranks(std::uint64_t n, double p, double level = 0.95);
 Interval quantile_interval(std::span<double const> sorted, double p, double level = 0.95);
+/// The same of values by their rank, from 0.
+template <class ValueAt> Interval interval_of_ranks(std::uint64_t n, double p, double level, ValueAt value_at) {
+    Interval interval;
+    if (n == 0) return interval;
+    auto const [low, high] = quantile_ranks(n, p, level);
+    if (low >= 1) interval.low = value_at(low - 1);
+    if (high <= n) interval.high = value_at(high - 1);
+    return interval;
+}
 
 /// Sample quantiles with their intervals, one for each probability.
 std::vector<QuantileEstimate> estimate_quantiles(std::span<double const> sorted, std::span<double const> probabilities,

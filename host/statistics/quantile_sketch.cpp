@@ -1,13 +1,14 @@
 #include "host/statistics/quantile_sketch.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
-namespace slideway {
+#include "host/base/byte_stream.hpp"
 
-static_assert(std::endian::native == std::endian::little, "bytes() is defined as little-endian");
+namespace slideway {
 
 namespace {
 
@@ -26,11 +27,6 @@ double value_of(std::uint32_t bin) {
     double const low = edge(bin), high = edge(bin + 1);
     if (std::isinf(high)) return low * (1 + 0x1p-11);  // the last bin: u is twice the largest power, no double
     return low * (high / (0.5 * low + 0.5 * high));    // halves: the sum may be no double
-}
-
-void put(std::vector<std::byte>& bytes, std::uint64_t word) {
-    bytes.resize(bytes.size() + sizeof word);
-    std::memcpy(bytes.data() + bytes.size() - sizeof word, &word, sizeof word);
 }
 
 }  // namespace
@@ -75,25 +71,12 @@ void QuantileSketch::merge(QuantileSketch const& other) {
     missing_ += other.missing_;
 }
 
-double QuantileSketch::quantile(double p) const {
-    if (count_ == 0) return std::numeric_limits<double>::quiet_NaN();
-    auto rank = static_cast<std::uint64_t>(p * static_cast<double>(count_ - 1));
-    if (rank > count_ - 1) rank = count_ - 1;  // count - 1 may have rounded up
-    return at_rank(rank);
-}
-
 double QuantileSketch::at_rank(std::uint64_t rank) const {
-    for (std::size_t i = negative_.counts.size(); i-- > 0;) {
-        if (rank < negative_.counts[i]) return -value_of(negative_.first + static_cast<std::uint32_t>(i));
-        rank -= negative_.counts[i];
+    for (Bucket const& bucket : buckets()) {
+        if (rank < bucket.count) return bucket.value;
+        rank -= bucket.count;
     }
-    if (rank < zeros_) return 0;
-    rank -= zeros_;
-    for (std::size_t i = 0; i < positive_.counts.size(); ++i) {
-        if (rank < positive_.counts[i]) return value_of(positive_.first + static_cast<std::uint32_t>(i));
-        rank -= positive_.counts[i];
-    }
-    return std::numeric_limits<double>::quiet_NaN();  // unreachable: the counts add up
+    return std::numeric_limits<double>::quiet_NaN();  // of none
 }
 
 std::vector<QuantileSketch::Bucket> QuantileSketch::buckets() const {
@@ -110,19 +93,17 @@ std::vector<QuantileSketch::Bucket> QuantileSketch::buckets() const {
 }
 
 std::vector<std::byte> QuantileSketch::bytes() const {
-    std::vector<std::byte> bytes;
-    for (std::uint64_t const word : {magic, zeros_, missing_}) put(bytes, word);
+    ByteWriter out;
+    for (std::uint64_t const word : {magic, zeros_, missing_}) out.put(word);
     for (Store const* const store : {&negative_, &positive_}) {
-        std::uint64_t used = 0;
-        for (std::uint64_t const count : store->counts) used += count > 0;
-        put(bytes, used);
+        out.put(std::uint64_t(std::ranges::count_if(store->counts, [](std::uint64_t count) { return count > 0; })));
         for (std::size_t i = 0; i < store->counts.size(); ++i) {
             if (store->counts[i] == 0) continue;
-            put(bytes, store->first + i);
-            put(bytes, store->counts[i]);
+            out.put(std::uint64_t{store->first + i});
+            out.put(store->counts[i]);
         }
     }
-    return bytes;
+    return out.take();
 }
 
 std::optional<QuantileSketch> QuantileSketch::from_bytes(std::span<std::byte const> bytes) {

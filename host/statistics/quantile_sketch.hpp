@@ -28,11 +28,8 @@ public:
     std::uint64_t count() const { return count_; }      // without NaN
     std::uint64_t missing() const { return missing_; }  // NaN
 
-    /// The number of rank ⌊p (count-1)⌋ (from 0) in ascending order, within `error` of it relative; exact for zeros and
-    /// infinities.  @param p in [0, 1].  @return NaN without numbers.
-    double quantile(double p) const;
-
-    /// The number of this rank, from 0 and below `count`, likewise.
+    /// The number of this rank in ascending order, from 0 and below `count`, within `error` of it relative; exact for zeros and
+    /// infinities.  @return NaN without numbers.
     double at_rank(std::uint64_t rank) const;
 
     /// Numbers that the sketch does not tell apart: how many, and what it answers for them.

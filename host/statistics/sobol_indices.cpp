@@ -5,7 +5,6 @@
 #include <limits>
 
 #include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 
 #include "host/sampling/random.hpp"
 #include "host/statistics/exact_sum.hpp"
@@ -108,8 +107,7 @@ void resample(std::span<double const> groups, std::size_t size, std::uint64_t se
 /// Tail of the percentiles: Student's, and wider by the shrinkage of a bootstrap's variance.
 double tail_of(std::size_t rows, double level) {
     auto const n = static_cast<double>(rows);
-    boost::math::students_t const student(n - 1);
-    double const reach = boost::math::quantile(student, 0.5 + 0.5 * level) * std::sqrt(n / (n - 1));
+    double const reach = student_quantile(rows, level) * std::sqrt(n / (n - 1));
     return boost::math::cdf(boost::math::normal(), -reach);
 }
 

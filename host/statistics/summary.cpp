@@ -15,13 +15,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 }  // namespace
 
 double quantile(std::span<double const> sorted, double p) {
-    if (sorted.empty()) return nan;
-    double const h = static_cast<double>(sorted.size() - 1) * p;
-    auto const below = static_cast<std::size_t>(h);
-    double const fraction = h - static_cast<double>(below);
-    // Without a fraction the neighbour does not count: it may be infinite, or beyond the end.
-    if (fraction == 0) return sorted[below];
-    return sorted[below] + fraction * (sorted[below + 1] - sorted[below]);
+    return quantile_of(sorted.size(), p, [&](std::uint64_t rank) { return sorted[rank]; });
 }
 
 Summary summarise(std::span<double const> values) {
@@ -51,11 +45,13 @@ Summary summarise(std::span<double const> values) {
     return summary;
 }
 
+double student_quantile(std::uint64_t n, double level) {
+    return boost::math::quantile(boost::math::students_t(static_cast<double>(n) - 1), 0.5 + 0.5 * level);
+}
+
 Interval mean_interval(Summary const& summary, double level) {
     if (!std::isfinite(summary.sd)) return {};
-    auto const n = static_cast<double>(summary.count);
-    boost::math::students_t const distribution(n - 1);
-    double const half = boost::math::quantile(distribution, 0.5 + 0.5 * level) * summary.sd / std::sqrt(n);
+    double const half = student_quantile(summary.count, level) * summary.sd / std::sqrt(static_cast<double>(summary.count));
     return {summary.mean - half, summary.mean + half};
 }
 

@@ -1,7 +1,10 @@
 // Summary statistics of plain numbers.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <span>
 
 #include "host/statistics/interval.hpp"
@@ -18,6 +21,9 @@ struct Summary {
 
 Summary summarise(std::span<double const> values);
 
+/// Student's t of a mean of n numbers: half the width of its interval in standard errors.  @param n > 1  @param level in (0, 1)
+double student_quantile(std::uint64_t n, double level);
+
 /// Confidence interval of the mean of independent draws by Student's t: mean ± t(n-1, (1+level)/2) · sd/√n.
 /// Source: Student (1908), The probable error of a mean, Biometrika 6.  Exact for normal draws; of skewed ones it
 /// holds the mean less often than it says: of exponential draws 90 % with 10, 92 % with 20 and 95 % with 200 of them, of
@@ -27,7 +33,17 @@ Interval mean_interval(Summary const& summary, double level = 0.95);
 
 /// Sample quantile by linear interpolation (type 7 of Hyndman and Fan 1996): with h = (n-1)p, the value is
 /// x[⌊h⌋] + (h - ⌊h⌋)(x[⌊h⌋+1] - x[⌊h⌋]).
-/// @param sorted ascending, no NaN.  @param p in [0, 1].  @return NaN for no values.
+/// @param n numbers  @param p in [0, 1].  @param value_at of a rank from 0  @return NaN for no values.
+template <class ValueAt> double quantile_of(std::uint64_t n, double p, ValueAt value_at) {
+    if (n == 0) return std::numeric_limits<double>::quiet_NaN();
+    double const h = static_cast<double>(n - 1) * p;
+    auto const below = std::min(static_cast<std::uint64_t>(h), n - 1);
+    double const fraction = h - static_cast<double>(below), low = value_at(below);
+    // Without a fraction the neighbour does not count: it may be infinite, or beyond the end.
+    if (!(fraction > 0) || below + 1 == n) return low;
+    return low + fraction * (value_at(below + 1) - low);
+}
+/// @param sorted ascending, no NaN.
 double quantile(std::span<double const> sorted, double p);
 
 }  // namespace slideway

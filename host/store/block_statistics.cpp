@@ -81,10 +81,10 @@ std::vector<std::byte> BlockStatistics::bytes() const {
         out.put(range.first);
         out.put(range.count);
     }
-    for (std::uint64_t const count : ended_) out.put(count);
-    for (std::uint64_t const count : work_) out.put(count);
+    out.append(std::as_bytes(std::span(ended_)));
+    out.append(std::as_bytes(std::span(work_)));
     out.put(std::uint64_t{met_.size()});
-    for (std::uint64_t const count : met_) out.put(count);
+    out.append(std::as_bytes(std::span(met_)));
     out.put(all_met_);
     out.put(std::uint64_t{failed_.size()});
     for (FailedMember const& member : failed_) {

@@ -45,11 +45,6 @@ void require_writable_place(std::string const& name, std::string const& path) {
     }
 }
 
-bool is_empty(std::string const& path) {
-    std::error_code ignored;
-    return fs::file_size(path, ignored) == 0;
-}
-
 }  // namespace
 
 OutputTarget::OutputTarget(std::string const& path, OutputRules const& rules) : name_(path), path_(followed(path)) {
@@ -70,7 +65,9 @@ OutputTarget::OutputTarget(std::string const& path, OutputRules const& rules) : 
     replaces_ = is_there(path_);
     if (!replaces_) return;
     if (!rules.force) throw FileError(fmt::format("{}: is there already; {}", name_, rules.instead));
-    if (is_empty(path_) || rules.is_ours(path_)) return;
+    // What cannot be read is somebody's for all that can be told.
+    require_readable(path_);
+    if (rules.is_ours(path_)) return;
     throw FileError(fmt::format("{}: is there already, and is no file of slideway, or a damaged one: --force does not replace it; give another name with -o, "
                                 "or remove it",
                                 name_));

@@ -14,7 +14,7 @@ namespace slideway {
 struct OutputRules {
     std::span<std::string const> inputs;  // files that the command reads; those that do not exist do not count
     bool force = false;                   // --force
-    /// Whether a file is one of slideway's, of the kind that the command writes; of an empty one, which holds nothing, nobody asks.
+    /// Whether a file, which can be read, is one of slideway's, of the kind that the command writes; an empty one is none.
     std::function<bool(std::string const& path)> is_ours;
     char const* instead = "add --force to replace it, or give another name with -o";  // where one is there, and not forced
 };
@@ -23,7 +23,7 @@ struct OutputRules {
 class OutputTarget {
 public:
     /// @throws FileError: `path` is empty, a folder, a device or a pipe, lies in no folder or is a link to itself; it is an input; there is
-    /// a file, and it is not forced, or is none of slideway's
+    /// a file, and it is not forced, or cannot be read, or is none of slideway's
     OutputTarget(std::string const& path, OutputRules const& rules);
 
     /// As the user gave it.

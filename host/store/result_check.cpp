@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <functional>
@@ -13,6 +14,7 @@
 
 #include "host/base/apart.hpp"
 #include "host/base/error.hpp"
+#include "host/run/ranks.hpp"
 #include "host/store/result_view.hpp"
 
 namespace slideway {
@@ -39,10 +41,12 @@ std::string look_apart(std::string const& path, std::function<std::string(Result
     if (kind == Type::fifo || kind == Type::socket || kind == Type::character || kind == Type::block) {
         throw FileError(path + ": is a device or a pipe; give the name of a result file");
     }
+    // A process that has begun MPI may not be forked (its network's memory is registered): the ranks of a job look for themselves.
+    auto const launch = find_launch([](char const* name) -> char const* { return std::getenv(name); });
+    if (launch && launch->count != 1) return look(ResultReader(path));
     auto const work = [&] {
         try {
-            ResultReader const results(path);
-            return look(results);
+            return look(ResultReader(path));
         } catch (FileError const& error) {
             return fmt::format("{}{}", error_mark, error.what());
         }

@@ -1,4 +1,5 @@
 // Whether a result file is what was written, found out in a process apart: HDF5 crashes on some files of which a single byte has changed.
+// In a job of several ranks it is found out by the rank itself: MPI does not outlive a fork.
 #pragma once
 
 #include <string>

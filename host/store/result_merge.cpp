@@ -162,14 +162,14 @@ void write_merged(DataFile& file, std::vector<MergedShard> const& shards, Result
     Variables const variables = variables_of(file);
     ShardCopy shard_copy(file, variables);
     for (MergedShard const& shard : shards) {
-        merge.pause();
+        merge.may_pause();
         shard.open([&](DataFile const& contents) {
             shard_copy.copy(contents, member_runs(shard.members, merge.layout.members), sections ? &*sections : nullptr);
         });
     }
-    merge.pause();
-    merge.conclude(file);
-    merge.pause();
+    merge.may_pause();
+    if (merge.conclude) merge.conclude(file);
+    merge.may_pause();
 }
 
 /// A lock is a file without a byte, and beside it a part may lie that a killed merge has left: what else has these names is somebody's.

@@ -19,11 +19,15 @@ struct ResultMerge {
     ResultLayout layout;  // its section_rows follow from the shards
     Provenance provenance;
     std::string completeness;  // an attribute: "complete", "12 of 100 members not run"
-    /// What is concluded from the members and added to the file.
-    std::function<void(DataFile& file)> conclude = [](DataFile&) {};
-    /// Called now and then; what it throws ends the merge and leaves no file.
-    std::function<void()> pause = [] {};
+    /// What is concluded from the members and added to the file; may be empty.
+    std::function<void(DataFile& file)> conclude;
+    /// Called now and then; what it throws ends the merge and leaves no file.  May be empty.
+    std::function<void()> pause;
     Existing existing = Existing::replaced;  // of a file of the same name
+
+    void may_pause() const {
+        if (pause) pause();
+    }
 };
 
 /// A shard as a merge reads it: its members, and what hands its contents to `use`.

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <map>
+#include <ranges>
 #include <sstream>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/base/error.hpp"
 #include "host/base/fnv1a.hpp"
@@ -101,10 +103,9 @@ std::string RunIdentity::difference(RunIdentity const& earlier) const {
             if (!now.contains(key)) found.push_back(fmt::format("{} = {} is gone", key, shown(value)));
         }
         constexpr std::size_t named = 3;
-        std::string text;
-        for (std::size_t i = 0; i < std::min(found.size(), named); ++i) text += (i > 0 ? "; " : "") + found[i];
-        if (found.size() > named) text += fmt::format("; and {} more", found.size() - named);
-        return text.empty() ? "the scene's text changed" : text;
+        if (found.empty()) return "the scene's text changed";
+        std::string const more = found.size() > named ? fmt::format("; and {} more", found.size() - named) : "";
+        return fmt::format("{}{}", fmt::join(found | std::views::take(named), "; "), more);
     }
     if (!(members == earlier.members)) {
         return fmt::format("the members were {}, are {}", earlier.members.text(), members.text());

@@ -1,7 +1,7 @@
 #include "host/store/shard_claim.hpp"
 
+#include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -76,13 +76,19 @@ bool is_remains(std::string const& folder) {
     return names_in(folder).empty() || (holds(folder, ShardFile::lock) && !holds(folder, ShardFile::content));
 }
 
+/// What every shard holds, of members or of statistics.
+bool is_shard_within(std::string const& path) {
+    std::string const text = read_text(path);
+    return text.find("slideway") != text.npos || text.find("slkstat") != text.npos;
+}
+
 std::string count_text(std::uint64_t members) {
     return fmt::format("{} finished member{}", members, members == 1 ? "" : "s");
 }
 
 }  // namespace
 
-ShardClaim::ShardClaim(std::string folder, Wanted const& wanted) : folder_(std::move(folder)) {
+ShardClaim::ShardClaim(std::string folder, Wanted const& wanted) : folder_(std::move(folder)), has_table_(wanted.companion.has_value()) {
     // Parts begin one after another: the first writes the identity.
     auto const begins = make_and_lock(folder_);
     bool const is_whole = wanted.part.empty();
@@ -149,7 +155,7 @@ void ShardClaim::begin(Wanted const& wanted) {
 
 /// A folder of nobody, of a run that finished nothing, or the remains of one whose result stands.
 void ShardClaim::take_over(Wanted const& wanted) {
-    remove_content();
+    remove_content(true);
     if (is_finished(folder_)) {
         // Last, also after a power loss: without it the rest would be anybody's.
         sync_folder(folder_);
@@ -169,10 +175,10 @@ void ShardClaim::write_companion(Wanted const& wanted) const {
 /// What is damaged must not stand in the way of its successor, but may be worth a look.  Other parts see to theirs.
 void ShardClaim::put_aside(std::vector<DamagedShard> const& damaged, MemberSet const& mine) {
     for (DamagedShard const& one : damaged) {
-        if (!one.shard.members.overlaps(mine)) continue;
+        if (!one.is_manifest && !one.shard.members.overlaps(mine)) continue;
         std::string const path = in_folder(folder_, one.shard.name);
         std::string const aside = in_folder(folder_, fmt::format("{}{}", shard_names::damaged, one.shard.name));
-        if (!one.is_gone) rename_file(path, aside);
+        if (!one.is_gone && !one.is_manifest) rename_file(path, aside);
         damaged_.push_back(one);
     }
 }
@@ -185,13 +191,24 @@ void ShardClaim::require_alone(Wanted const& wanted) {
     whole_->change(Kind::shared, of_rival(folder_));
 }
 
-void ShardClaim::remove_content() {
+/// Shards go that a manifest lists, and others that a process was killed before it could list; manifests last, for they say which.
+/// @param own_table a table is the run's
+void ShardClaim::remove_content(bool own_table) {
+    std::vector<std::string> shards, rest;
     for (std::string const& name : names_in(folder_)) {
-        if (kind_of(name) == ShardFile::content) remove_file(in_folder(folder_, name));
+        if (kind_of(name) != ShardFile::content || (name == shard_names::table && !own_table)) continue;
+        bool const is_shard = (name.starts_with(shard_names::members) || name.starts_with(shard_names::statistics)) && !name.ends_with(".tmp");
+        (is_shard ? shards : rest).push_back(name);
     }
+    std::vector<std::string> const listed = listed_names(folder_);
+    for (std::string const& name : shards) {
+        std::string const path = in_folder(folder_, name);
+        if (std::ranges::binary_search(listed, name) || is_shard_within(path)) remove_file(path);
+    }
+    for (std::string const& name : rest) remove_file(in_folder(folder_, name));
 }
 
-void ShardClaim::remove_folder() {
+std::vector<std::string> ShardClaim::remove_folder() {
     // Nobody begins meanwhile: whoever waits finds the lock's file gone then, and makes a new one.
     FileLock begins(lock_of(folder_, begin_suffix), Kind::alone, Wait::yes);
     // First, so that whoever finds what a killed process left knows that it may go.
@@ -200,7 +217,7 @@ void ShardClaim::remove_folder() {
         rename_file(in_folder(folder_, shard_names::identity), in_folder(folder_, shard_names::finished));
         sync_folder(folder_);
     }
-    remove_content();
+    remove_content(has_table_);
     sync_folder(folder_);
     for (ShardFile const kind : {ShardFile::identity, ShardFile::lock}) {
         for (std::string const& name : names_in(folder_)) {
@@ -208,9 +225,11 @@ void ShardClaim::remove_folder() {
         }
     }
     // ENOTDIR: a link to a folder, which somebody made elsewhere for this.
-    if (rmdir(folder_.c_str()) != 0 && errno != ENOTEMPTY && errno != EEXIST && errno != ENOTDIR) {
+    if (rmdir(folder_.c_str()) == 0) return {};
+    if (errno != ENOTEMPTY && errno != EEXIST && errno != ENOTDIR) {
         throw FileError(fmt::format("{}: cannot remove the folder: {}", folder_, std::strerror(errno)));
     }
+    return names_in(folder_);
 }
 
 void ShardClaim::remove_remains(std::string const& folder) {

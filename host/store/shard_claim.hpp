@@ -40,9 +40,10 @@ public:
     /// The file of the identity that was damaged, and is whole again; "" where none was.
     std::string const& mended() const { return mended_; }
 
-    /// When the result stands elsewhere: removes what belongs to the run.  What is not ours stays, and so does the folder then; a
-    /// folder that OUT.nc.shards is but a link to stays too, empty.  @throws FileError
-    void remove_folder();
+    /// When the result stands elsewhere: removes what belongs to the run.  What is not ours stays, also under a name that a shard could
+    /// have, and so does the folder then; a folder that OUT.nc.shards is but a link to stays too, empty.
+    /// @return the names of what stays  @throws FileError
+    std::vector<std::string> remove_folder();
     /// Ends what a process that was killed in `remove_folder` began.  @throws FileError, also if another process works there
     static void remove_remains(std::string const& folder);
 
@@ -55,9 +56,10 @@ private:
     void put_aside(std::vector<DamagedShard> const& damaged, MemberSet const& mine);
     void take_over(Wanted const& wanted);
     void write_companion(Wanted const& wanted) const;
-    void remove_content();
+    void remove_content(bool own_table);
 
     std::string const folder_;
+    bool has_table_ = true;  // among what the run keeps there
     std::optional<FileLock> whole_, part_;
     MemberSet done_;
     std::vector<DamagedShard> damaged_;

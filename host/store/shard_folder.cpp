@@ -17,50 +17,37 @@ namespace slideway {
 namespace fs = std::filesystem;
 namespace {
 
-/// Lines of a manifest that are whole.
-void read_manifest(std::string const& path, std::vector<Shard>& shards) {
+/// A whole line of a manifest; nothing of any other.
+std::optional<Shard> shard_of(std::string line) {
+    auto const space = line.rfind(' ');
+    if (space == line.npos) return {};
+    auto const own = parse_number<std::uint64_t>(std::string_view(line).substr(space + 1), 16);
+    line.resize(space);
+    if (own != fnv1a(line)) return {};  // also of none
+    std::istringstream words(line);
+    Shard shard{};
+    std::string checksum, members;
+    words >> shard.name >> shard.bytes >> checksum >> members;
+    auto const set = MemberSet::parse(members);
+    auto const sum = parse_number<std::uint64_t>(checksum, 16);
+    if (!words || !set || !sum) return {};
+    shard.checksum = *sum;
+    shard.members = *set;
+    return shard;
+}
+
+/// @return whether all lines are whole, but for a last one without its end: there a process was killed
+bool read_manifest(std::string const& path, std::vector<Shard>& shards) {
     std::istringstream lines(read_text(path));
+    bool is_whole = true;
     for (std::string line; std::getline(lines, line);) {
-        auto const space = line.rfind(' ');
-        if (space == line.npos) continue;
-        auto const own = parse_number<std::uint64_t>(std::string_view(line).substr(space + 1), 16);
-        line.resize(space);
-        if (own != fnv1a(line)) continue;  // also of none
-        std::istringstream words(line);
-        Shard shard{};
-        std::string checksum, members;
-        words >> shard.name >> shard.bytes >> checksum >> members;
-        auto const set = MemberSet::parse(members);
-        auto const sum = parse_number<std::uint64_t>(checksum, 16);
-        if (!words || !set || !sum) continue;
-        shard.checksum = *sum;
-        shard.members = *set;
-        shards.push_back(std::move(shard));
+        if (auto shard = shard_of(std::move(line)))
+            shards.push_back(std::move(*shard));
+        else if (!lines.eof())
+            is_whole = false;
     }
+    return is_whole;
 }
-
-}  // namespace
-
-std::string manifest_name(int number) { return fmt::format("{}{:06}.txt", shard_names::manifest, number); }
-
-std::string manifest_line(Shard const& shard) {
-    std::string const line =
-        fmt::format("{} {} {:016x} {}", shard.name, shard.bytes, shard.checksum, shard.members.text());
-    return fmt::format("{} {:016x}", line, fnv1a(line));
-}
-
-std::vector<std::string> names_in(std::string const& folder) {
-    std::vector<std::string> names;
-    std::error_code error;
-    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-        names.push_back(entry->path().filename().string());
-    }
-    if (error) throw FileError(fmt::format("{}: cannot read the folder: {}", folder, error.message()));
-    std::sort(names.begin(), names.end());
-    return names;
-}
-
-namespace {
 
 constexpr std::string_view identity_files[] = {shard_names::identity, shard_names::identity_copy};
 
@@ -87,36 +74,16 @@ RunIdentity read_identity(std::string const& folder, std::string& damaged) {
     throw damage.value_or(FileError(folder + ": is no folder of shards any more"));
 }
 
-}  // namespace
-
-bool ShardFolder::exists(std::string const& path) {
-    auto const has = [&](std::string_view name) { return is_there(in_folder(path, name)); };
-    return has(shard_names::identity) || (has(shard_names::identity_copy) && !has(shard_names::finished));
-}
-
-void ShardFolder::mend() const {
-    std::string const text = identity_text(identity_);
-    for (std::string_view const name : identity_files) {
-        std::string const file = in_folder(path_, name);
-        if (!is_there(file) || read_text(file) != text) write_durably(file, text);
+/// What the manifests say.  @param damaged manifests that are
+std::vector<Shard> all_in(std::string const& folder, std::vector<DamagedShard>* damaged = nullptr) {
+    std::vector<Shard> shards;
+    for (std::string const& name : names_in(folder)) {
+        if (!name.starts_with(shard_names::manifest)) continue;
+        bool const is_whole = read_manifest(in_folder(folder, name), shards);
+        if (!is_whole && damaged != nullptr) damaged->push_back({{name, 0, 0, {}}, false, true});
     }
+    return shards;
 }
-
-void write_identity(std::string const& folder, RunIdentity const& identity) {
-    std::string const copy = in_folder(folder, shard_names::identity_copy), text = identity_text(identity);
-    // One that is older than run.toml would speak for it some day.
-    remove_file(copy);
-    write_durably(in_folder(folder, shard_names::identity), text);
-    write_durably(copy, text);
-}
-
-ShardFolder::ShardFolder(std::string path) : path_(std::move(path)) {
-    if (!exists(path_))
-        throw FileError(path_ + ": is no folder of shards; give the folder that a run left, OUT.nc.shards");
-    identity_ = read_identity(path_, damaged_);
-}
-
-namespace {
 
 /// A shard that was damaged once, and whose members ran again, may be listed beside its successors: the later line counts.
 std::vector<Shard> without_repeats(std::vector<Shard> shards) {
@@ -155,16 +122,54 @@ bool read_intact(std::string const& folder, Shard const& shard, bool& is_gone) {
 
 }  // namespace
 
-std::vector<Shard> ShardFolder::all() const {
-    std::vector<Shard> shards;
-    for (std::string const& name : names_in(path_)) {
-        if (name.starts_with(shard_names::manifest)) read_manifest(in_folder(path_, name), shards);
+std::string manifest_name(int number) { return fmt::format("{}{:06}.txt", shard_names::manifest, number); }
+
+std::string manifest_line(Shard const& shard) {
+    std::string const line =
+        fmt::format("{} {} {:016x} {}", shard.name, shard.bytes, shard.checksum, shard.members.text());
+    return fmt::format("{} {:016x}", line, fnv1a(line));
+}
+
+std::vector<std::string> names_in(std::string const& folder) {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        names.push_back(entry->path().filename().string());
     }
-    return shards;
+    if (error) throw FileError(fmt::format("{}: cannot read the folder: {}", folder, error.message()));
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+bool ShardFolder::exists(std::string const& path) {
+    auto const has = [&](std::string_view name) { return is_there(in_folder(path, name)); };
+    return has(shard_names::identity) || (has(shard_names::identity_copy) && !has(shard_names::finished));
+}
+
+void ShardFolder::mend() const {
+    std::string const text = identity_text(identity_);
+    for (std::string_view const name : identity_files) {
+        std::string const file = in_folder(path_, name);
+        if (!is_there(file) || read_text(file) != text) write_durably(file, text);
+    }
+}
+
+void write_identity(std::string const& folder, RunIdentity const& identity) {
+    std::string const copy = in_folder(folder, shard_names::identity_copy), text = identity_text(identity);
+    // One that is older than run.toml would speak for it some day.
+    remove_file(copy);
+    write_durably(in_folder(folder, shard_names::identity), text);
+    write_durably(copy, text);
+}
+
+ShardFolder::ShardFolder(std::string path) : path_(std::move(path)) {
+    if (!exists(path_))
+        throw FileError(path_ + ": is no folder of shards; give the folder that a run left, OUT.nc.shards");
+    identity_ = read_identity(path_, damaged_);
 }
 
 std::vector<Shard> ShardFolder::listed() const {
-    std::vector<Shard> shards = all();
+    std::vector<Shard> shards = all_in(path_);
     std::erase_if(shards, [&](Shard const& shard) {
         std::string const file = in_folder(path_, shard.name);
         std::error_code error;
@@ -178,8 +183,8 @@ std::vector<Shard> ShardFolder::listed() const {
 
 std::vector<Shard> ShardFolder::intact(std::vector<DamagedShard>& damaged) const {
     std::vector<Shard> whole;
-    std::vector<DamagedShard> broken;
-    for (Shard& shard : all()) {
+    std::vector<DamagedShard> broken, manifests;
+    for (Shard& shard : all_in(path_, &manifests)) {
         bool is_gone = false;
         if (read_intact(path_, shard, is_gone))
             whole.push_back(std::move(shard));
@@ -188,6 +193,7 @@ std::vector<Shard> ShardFolder::intact(std::vector<DamagedShard>& damaged) const
     }
     whole = without_repeats(std::move(whole));
     MemberSet const done = members_of(whole);
+    if (!(done == identity_.members)) damaged.insert(damaged.end(), manifests.begin(), manifests.end());
     for (DamagedShard& one : broken) {
         // The line of a shard outlives it: its successor may have its name.
         auto const has_its_name = [&](Shard const& other) { return other.name == one.shard.name; };
@@ -197,6 +203,13 @@ std::vector<Shard> ShardFolder::intact(std::vector<DamagedShard>& damaged) const
         if (!one.shard.members.without(done).empty()) damaged.push_back(std::move(one));
     }
     return whole;
+}
+
+std::vector<std::string> listed_names(std::string const& folder) {
+    std::vector<std::string> names;
+    for (Shard& shard : all_in(folder)) names.push_back(std::move(shard.name));
+    std::ranges::sort(names);
+    return names;
 }
 
 std::vector<std::byte> read_shard(std::string const& folder, Shard const& shard) {

@@ -21,10 +21,12 @@ struct Shard {
     MemberSet members;
 };
 
-/// One that is not what was written, and so does not count.
+/// One that is not what was written, and so does not count; or a manifest with lines that cannot be read, and so without their members.
 struct DamagedShard {
     Shard shard;
     bool is_gone;  // there is no such file
+    bool is_manifest = false;
+    std::string words() const { return is_gone ? "is gone" : is_manifest ? "is damaged: not all of its lines can be read" : "is not what was written"; }
 };
 
 /// One shard.  @throws FileError if the file is not what the manifest says.
@@ -56,14 +58,12 @@ public:
     /// cannot be looked at
     std::vector<Shard> listed() const;
     /// Those that are: reads them all.  @param damaged the others, but for those whose members or whose name another one
-    /// has by now  @throws FileError if one cannot be read, which says nothing of what it holds
+    /// has by now; and damaged manifests, as long as members are missing  @throws FileError if one cannot be read, which says nothing of what it holds
     std::vector<Shard> intact(std::vector<DamagedShard>& damaged) const;
     /// @throws FileError if the file is not what the manifest says.
     std::vector<std::byte> read(Shard const& shard) const { return read_shard(path_, shard); }
 
 private:
-    std::vector<Shard> all() const;
-
     std::string path_;
     RunIdentity identity_;
     std::string damaged_;
@@ -74,6 +74,9 @@ void write_identity(std::string const& folder, RunIdentity const& identity);
 
 /// Names of the files in a folder, sorted.  @throws FileError
 std::vector<std::string> names_in(std::string const& folder);
+
+/// Names of the shards that the manifests in a folder list, sorted; also of a folder without identity.  @throws FileError
+std::vector<std::string> listed_names(std::string const& folder);
 
 /// Members of shards together.
 MemberSet members_of(std::vector<Shard> const& shards);

@@ -65,8 +65,8 @@ void write_merged(DataFile& file, BlockStatistics const& statistics, ResultMerge
     std::vector<std::byte> const bytes = statistics.bytes();
     out.dimension("byte", bytes.size());
     out.put({"accumulators", "", "exact sums and quantile sketches from which the statistics follow, as bytes", {"byte"}}, bytes);
-    merge.conclude(file);
-    merge.pause();
+    if (merge.conclude) merge.conclude(file);
+    merge.may_pause();
 }
 
 void merge_statistics(ShardFolder const& folder, std::vector<Shard> const& shards, StatisticsPlan const& plan, ResultMerge const& merge,
@@ -74,10 +74,10 @@ void merge_statistics(ShardFolder const& folder, std::vector<Shard> const& shard
     auto const write = [&](DataFile& file) {
         BlockStatistics statistics(plan);
         for (Shard const& shard : shards) {
-            merge.pause();
+            merge.may_pause();
             statistics.merge(parse_statistics(folder.read(shard), shard.name).statistics);
         }
-        merge.pause();
+        merge.may_pause();
         write_merged(file, statistics, merge);
     };
     write_result(path, merge.completeness, write, merge.existing);

@@ -9,10 +9,6 @@
 namespace slideway {
 namespace {
 
-void append(std::vector<double>& column, std::vector<double> const& row) {
-    column.insert(column.end(), row.begin(), row.end());
-}
-
 /// Sorted, and 0 where it is but rounding: an orbit at rest would have any dimension else.
 double dimension(std::vector<double> exponents, double resolution) {
     for (double& exponent : exponents) {
@@ -38,50 +34,43 @@ ExponentTable::ExponentTable(Scene const& scene)
     add_history(scene.chaos.history);
 }
 
-void ExponentTable::add(char const* name, char const* unit, char const* long_name, std::vector<std::string> axes,
-                        Row row) {
-    layout_.columns.push_back({std::string(name), std::string(unit), std::string(long_name), std::move(axes)});
+void ExponentTable::add(StudyColumn column, Row row) {
+    layout_.columns.push_back(std::move(column));
     rows_.push_back(std::move(row));
 }
 
 void ExponentTable::add_exponents() {
     std::vector<std::string> const along(1, layout_.axes.front().name);
-    using Column = std::vector<double>;
-    add("lyapunov_exponent", "s-1", "finite-time Lyapunov exponents, by shadows", along,
-        [](Member const& m, Column& column) { append(column, m.exponents.value); });
-    add("lyapunov_exponent_error", "s-1", "standard error of the exponent, by batch means", along,
-        [](Member const& m, Column& column) { append(column, m.exponents.standard_error); });
-    add("lyapunov_exponent_half_width", "s-1",
-        "half the width of the exponent's 95 % interval, by Student's t of at least 8 batches, resolution included",
-        along, [](Member const& m, Column& column) {
-            for (double const width : m.exponents.half_width) column.push_back(width + m.resolution);
+    using Numbers = std::vector<double>;
+    add({"lyapunov_exponent", "s-1", "finite-time Lyapunov exponents, by shadows", along}, [](Member const& m) { return m.exponents.value; });
+    add({"lyapunov_exponent_error", "s-1", "standard error of the exponent, by batch means", along},
+        [](Member const& m) { return m.exponents.standard_error; });
+    add({"lyapunov_exponent_half_width", "s-1",
+         "half the width of the exponent's 95 % interval, by Student's t of at least 8 batches, resolution included", along},
+        [](Member const& m) {
+            Numbers widths = m.exponents.half_width;
+            for (double& width : widths) width += m.resolution;
+            return widths;
         });
-    add("lyapunov_exponent_late", "s-1", "exponent of the second half of the record alone", along,
-        [](Member const& m, Column& column) { append(column, m.exponents.late); });
-    add("lyapunov_time", "s", "time over which the exponents are taken, after the transient", {},
-        [](Member const& m, Column& column) {
-            column.push_back(m.log.length * static_cast<double>(m.log.intervals()));
-        });
+    add({"lyapunov_exponent_late", "s-1", "exponent of the second half of the record alone", along}, [](Member const& m) { return m.exponents.late; });
+    add({"lyapunov_time", "s", "time over which the exponents are taken, after the transient", {}},
+        [](Member const& m) { return Numbers{m.log.length * static_cast<double>(m.log.intervals())}; });
     if (exponents_ < 2) return;
-    add("kaplan_yorke_dimension", "1",
-        "Kaplan-Yorke dimension of the map over a period of the drive, one less than the flow's; a lower bound where "
-        "it "
-        "is the number of exponents",
-        {}, [](Member const& m, Column& column) { column.push_back(dimension(m.exponents.value, m.resolution)); });
+    add({"kaplan_yorke_dimension", "1",
+         "Kaplan-Yorke dimension of the map over a period of the drive, one less than the flow's; a lower bound where it is the number of exponents", {}},
+        [](Member const& m) { return Numbers{dimension(m.exponents.value, m.resolution)}; });
 }
 
 void ExponentTable::add_health() {
-    using Column = std::vector<double>;
-    add("lyapunov_resolution", "s-1", "least exponent that is more than the rounding of resting offsets", {},
-        [](Member const& m, Column& column) { column.push_back(m.resolution); });
-    add("rescalings", "1", "times that offsets were rescaled while the exponents were taken", {},
-        [every = static_cast<double>(schedule_.stops.growth_every)](Member const& m, Column& column) {
-            column.push_back(every * static_cast<double>(m.log.intervals()));
-        });
-    add("lost_offsets", "1", "times that an offset had shrunk into rounding: then exponents are upper bounds", {},
-        [](Member const& m, Column& column) { column.push_back(static_cast<double>(m.record.lost_offsets)); });
-    add("grown_offsets", "1", "times that an offset had grown to the size of the joint: then exponents are too small",
-        {}, [](Member const& m, Column& column) { column.push_back(static_cast<double>(m.record.grown_offsets)); });
+    using Numbers = std::vector<double>;
+    add({"lyapunov_resolution", "s-1", "least exponent that is more than the rounding of resting offsets", {}},
+        [](Member const& m) { return Numbers{m.resolution}; });
+    add({"rescalings", "1", "times that offsets were rescaled while the exponents were taken", {}},
+        [every = static_cast<double>(schedule_.stops.growth_every)](Member const& m) { return Numbers{every * static_cast<double>(m.log.intervals())}; });
+    add({"lost_offsets", "1", "times that an offset had shrunk into rounding: then exponents are upper bounds", {}},
+        [](Member const& m) { return Numbers{static_cast<double>(m.record.lost_offsets)}; });
+    add({"grown_offsets", "1", "times that an offset had grown to the size of the joint: then exponents are too small", {}},
+        [](Member const& m) { return Numbers{static_cast<double>(m.record.grown_offsets)}; });
 }
 
 void ExponentTable::add_history(std::size_t points) {
@@ -94,14 +83,14 @@ void ExponentTable::add_history(std::size_t points) {
         history.values.push_back(static_cast<double>(after.back() * schedule_.stops.growth_every));
     }
     layout_.axes.push_back(history);
-    add("lyapunov_history", "s-1", "running exponents after so many rescalings",
-        {history.name, layout_.axes.front().name}, [after](Member const& m, std::vector<double>& column) {
-            std::vector<std::vector<double>> running;
-            for (std::size_t j = 0; j < m.log.count; ++j) running.push_back(running_exponents(m.log, j, after));
-            for (std::size_t i = 0; i < after.size(); ++i) {
-                for (auto const& of_offset : running) column.push_back(of_offset[i]);
-            }
-        });
+    add({"lyapunov_history", "s-1", "running exponents after so many rescalings", {history.name, layout_.axes.front().name}}, [after](Member const& m) {
+        std::vector<double> row(after.size() * m.log.count);
+        for (std::size_t j = 0; j < m.log.count; ++j) {
+            auto const of_offset = running_exponents(m.log, j, after);
+            for (std::size_t i = 0; i < after.size(); ++i) row[i * m.log.count + j] = of_offset[i];
+        }
+        return row;
+    });
 }
 
 ExponentTable::Member ExponentTable::member(BlockResult const& block, std::size_t i) const {
@@ -121,7 +110,10 @@ StudyValues ExponentTable::values(BlockResult const& block) const {
     StudyValues columns(rows_.size());
     for (std::size_t i = 0; i < block.records.size() && exponents_ > 0; ++i) {
         Member const of_member = member(block, i);
-        for (std::size_t column = 0; column < rows_.size(); ++column) rows_[column](of_member, columns[column]);
+        for (std::size_t column = 0; column < rows_.size(); ++column) {
+            std::vector<double> const row = rows_[column](of_member);
+            columns[column].insert(columns[column].end(), row.begin(), row.end());
+        }
     }
     return columns;
 }

@@ -31,10 +31,10 @@ private:
         double resolution;  // [1/s]
         MemberRecord const& record;
     };
-    /// Appends a member's row to a column.
-    using Row = std::function<void(Member const& member, std::vector<double>& column)>;
+    /// A member's row of a column.
+    using Row = std::function<std::vector<double>(Member const& member)>;
 
-    void add(char const* name, char const* unit, char const* long_name, std::vector<std::string> axes, Row row);
+    void add(StudyColumn column, Row row);
     void add_exponents();
     void add_health();
     void add_history(std::size_t points);

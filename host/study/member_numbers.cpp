@@ -15,6 +15,7 @@
 #include "host/study/ensemble_plan.hpp"
 #include "host/study/exponent_table.hpp"
 #include "host/study/orbit_schedule.hpp"
+#include "host/study/probe.hpp"
 #include "kernels/members/start.hpp"
 
 namespace slideway {
@@ -54,10 +55,8 @@ std::vector<EndContacts> end_contacts(Scene const& scene, std::vector<Inputs> in
         std::copy_n(states.data() + i * width, width, state.begin());
         set_start(info(mechanism), state, inputs[i]);
     }
-    std::vector<ProbeResult> results(inputs.size());
-    find_instance(best_isa(), scene.parts).probe({inputs.data(), times.data(), inputs.size(), results.data()});
     std::vector<EndContacts> contacts;
-    for (ProbeResult const& r : results) {
+    for (ProbeResult const& r : probe(best_isa(), scene.parts, inputs, times)) {
         bool const known = r.status == Status::finished;
         contacts.push_back({known ? r.surfaces : nan, known ? r.lines : nan, known ? r.points : nan});
     }

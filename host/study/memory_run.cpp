@@ -6,7 +6,6 @@
 #include "host/study/continued_sweep.hpp"
 #include "host/study/exponent_table.hpp"
 #include "host/study/study_run.hpp"
-#include "host/study/verification.hpp"
 
 namespace slideway {
 namespace {
@@ -49,12 +48,11 @@ std::optional<MemoryFile> run_in_memory(Scene const& scene, MemoryRun const& run
     BlockKernel const kernel = run.backend->kernel(scene.parts, plan.request.shadows.count > 0);
     if (is_continued(scene)) continue_columns(scene, plan, members, kernel, {}, run.stop);
     ResultMerge merge{result_layout(scene, members), provenance(scene, *run.backend, run.threads), "complete"};
+    auto const check = resolution_check(scene, *run.backend, run.threads, run.stop, Progress::Style::none);
     merge.conclude = [&](DataFile& file) {
         std::optional<ToleranceReport> report;
         conclude_study(scene, file, report, {run.threads});
-        if (!run.verify) return;
-        VerificationRequest const request{scene.verify, run.threads, &run.stop, Progress::Style::none};
-        write_verification(file, verify(ResultView(file), scene, *run.backend, request));
+        if (run.verify) check(file);
     };
     MemoryStore store(scene, std::move(merge));
     EnsembleTotals const totals = run_ensemble(plan, kernel, [&](BlockResult const& block) { store.take(block); }, run.stop);

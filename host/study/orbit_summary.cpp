@@ -12,9 +12,7 @@ namespace {
 
 std::vector<char> finished_members(ResultReader const& results) {
     std::vector<char> finished;
-    for (double const status : results.values("status")) {
-        finished.push_back(status_of(status) == Status::finished);
-    }
+    for (double const status : results.values("status")) finished.push_back(status_of(status) == Status::finished);
     return finished;
 }
 
@@ -67,11 +65,9 @@ std::vector<ExponentSummary> summarise_exponents(ResultReader const& results) {
         summary.mean = mean_with_rounding(of_members, resolution);
         summary.late = mean_with_rounding(of_late, resolution);
         summary.values = summarise(of_members);
-        std::vector<double> sorted;
-        for (double const x : of_members) {
-            if (!std::isnan(x)) sorted.push_back(x);
-        }
-        std::sort(sorted.begin(), sorted.end());
+        std::vector<double> sorted = of_members;
+        std::erase_if(sorted, [](double x) { return std::isnan(x); });
+        std::ranges::sort(sorted);
         summary.low = quantile(sorted, 0.05);
         summary.high = quantile(sorted, 0.95);
         for (std::size_t i = 0; i < of_members.size(); ++i) {
@@ -136,8 +132,7 @@ std::vector<HistoryPoint> exponent_history(ResultReader const& results) {
     std::size_t const exponents = results.shape("lyapunov_history").at(2);
     auto const values = results.values("lyapunov_history", finished.size() * rescalings.size() * exponents);
     for (std::size_t n = 0; n < rescalings.size(); ++n) {
-        history.push_back({rescalings[n],
-                           mean_of_members(column_of(values, finished, rescalings.size() * exponents, n * exponents))});
+        history.push_back({rescalings[n], mean_of_members(column_of(values, finished, rescalings.size() * exponents, n * exponents))});
     }
     return history;
 }

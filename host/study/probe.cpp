@@ -10,23 +10,11 @@
 #include "kernels/members/start.hpp"
 
 namespace slideway {
-namespace {
-
-/// Rows of the same parts go to the kernels as one table, so that packs are full.
-void probe_group(StateTable const& table, std::vector<std::size_t> const& rows, Isa isa,
-                 std::vector<ProbeResult>& results) {
-    std::vector<Inputs> inputs;
-    std::vector<double> times;
-    for (std::size_t const row : rows) {
-        inputs.push_back(table.inputs[row]);
-        times.push_back(table.times[row]);
-    }
-    std::vector<ProbeResult> group(rows.size());
-    find_instance(isa, table.parts[rows.front()]).probe({inputs.data(), times.data(), rows.size(), group.data()});
-    for (std::size_t i = 0; i < rows.size(); ++i) results[rows[i]] = group[i];
+std::vector<ProbeResult> probe(Isa isa, Parts const& parts, std::vector<Inputs> const& inputs, std::vector<double> const& times) {
+    std::vector<ProbeResult> results(inputs.size());
+    find_instance(isa, parts).probe({inputs.data(), times.data(), inputs.size(), results.data()});
+    return results;
 }
-
-}  // namespace
 
 std::vector<ProbeResult> probe(StateTable const& table, Isa isa) {
     std::vector<Parts> kinds;
@@ -34,12 +22,19 @@ std::vector<ProbeResult> probe(StateTable const& table, Isa isa) {
         if (std::find(kinds.begin(), kinds.end(), parts) == kinds.end()) kinds.push_back(parts);
     }
     std::vector<ProbeResult> results(table.rows());
+    // Rows of the same parts go to the kernels as one table, so that packs are full.
     for (Parts const& parts : kinds) {
         std::vector<std::size_t> rows;
+        std::vector<Inputs> inputs;
+        std::vector<double> times;
         for (std::size_t row = 0; row < table.rows(); ++row) {
-            if (table.parts[row] == parts) rows.push_back(row);
+            if (!(table.parts[row] == parts)) continue;
+            rows.push_back(row);
+            inputs.push_back(table.inputs[row]);
+            times.push_back(table.times[row]);
         }
-        probe_group(table, rows, isa, results);
+        std::vector<ProbeResult> const group = probe(isa, parts, inputs, times);
+        for (std::size_t i = 0; i < rows.size(); ++i) results[rows[i]] = group[i];
     }
     return results;
 }

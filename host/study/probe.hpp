@@ -11,6 +11,9 @@
 
 namespace slideway {
 
+/// What the kernels say of states, packs of them at a time.  @param inputs complete, of members that start there  @param times [s]
+std::vector<ProbeResult> probe(Isa isa, Parts const& parts, std::vector<Inputs> const& inputs, std::vector<double> const& times);
+
 /// One result per row.
 std::vector<ProbeResult> probe(StateTable const& table, Isa isa);
 

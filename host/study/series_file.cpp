@@ -7,6 +7,7 @@
 #include <istream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/base/csv.hpp"
 #include "host/base/error.hpp"
@@ -15,8 +16,6 @@
 
 namespace slideway {
 namespace {
-
-constexpr std::size_t no_column = static_cast<std::size_t>(-1);
 
 struct Table {
     std::vector<std::string> names;  // empty: no header
@@ -45,23 +44,27 @@ Table read_table(std::istream& in, std::string const& name) {
     return table;
 }
 
-std::size_t time_column(Table const& table) {
-    auto const found = std::find_if(table.names.begin(), table.names.end(),
-                                    [](std::string const& name) { return name == "time" || name == "t"; });
-    return found == table.names.end() ? no_column : static_cast<std::size_t>(found - table.names.begin());
+std::optional<std::size_t> time_column(Table const& table) {
+    auto const found = std::ranges::find_if(table.names, [](std::string const& name) { return name == "time" || name == "t"; });
+    return found == table.names.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - table.names.begin()));
 }
 
 std::size_t column_of(Table const& table, std::string const& table_name, std::string const& wanted) {
     std::size_t const count = table.columns.size();
     if (wanted.empty()) return time_column(table) == count - 1 && count > 1 ? count - 2 : count - 1;
-    auto const named = std::find(table.names.begin(), table.names.end(), wanted);
+    auto const named = std::ranges::find(table.names, wanted);
     if (named != table.names.end()) return static_cast<std::size_t>(named - table.names.begin());
     auto const place = parse_number<std::size_t>(wanted);
     if (place && *place >= 1 && *place <= count) return *place - 1;
-    std::string known;
-    for (std::string const& name : table.names) known += fmt::format("{}{}", known.empty() ? "" : ", ", name);
-    throw SceneError(fmt::format("{}: there is no column '{}'; give {}a number from 1 to {}", table_name, wanted,
-                                 known.empty() ? "" : fmt::format("one of {}, or ", known), count));
+    std::string const known = table.names.empty() ? "" : fmt::format("one of {}, or ", fmt::join(table.names, ", "));
+    throw SceneError(fmt::format("{}: there is no column '{}'; give {}a number from 1 to {}", table_name, wanted, known, count));
+}
+
+/// "y, z": the variables of which something holds.
+template <class Condition> std::string known_variables(ResultReader const& file, Condition const& holds) {
+    std::vector<std::string> names = file.variable_names();
+    std::erase_if(names, [&](std::string const& name) { return !holds(name); });
+    return fmt::format("{}", fmt::join(names, ", "));
 }
 
 std::uint64_t place_of(ResultReader const& file, std::string const& path, std::optional<std::uint64_t> member) {
@@ -85,13 +88,8 @@ StoredSeries read_sections(ResultReader const& file, std::string const& path, st
         return name.starts_with("section_") && shape.size() == 1 && shape[0] == times.size() &&
                name != "section_time" && name != "section_count" && name != "section_crossings";
     };
-    if (!file.has(variable) || !is_column(variable)) {
-        std::string known;
-        for (std::string const& name : file.variable_names()) {
-            if (is_column(name)) known += fmt::format("{}{}", known.empty() ? "" : ", ", name);
-        }
-        throw SceneError(fmt::format("{}: has no sections of '{}'; use one of {}", path, variable, known));
-    }
+    if (!file.has(variable) || !is_column(variable))
+        throw SceneError(fmt::format("{}: has no sections of '{}'; use one of {}", path, variable, known_variables(file, is_column)));
     auto const counts = file.values("section_count");
     double first = 0, all = 0;
     for (std::size_t i = 0; i < counts.size(); all += counts[i++]) {
@@ -158,13 +156,8 @@ StoredSeries read_result_series(std::string const& path, std::string const& vari
         auto const shape = file.shape(name);
         return shape.size() == 2 && shape[0] == members && shape[1] == times.size();
     };
-    if (!file.has(variable) || !is_series(variable)) {
-        std::string known;
-        for (std::string const& name : file.variable_names()) {
-            if (is_series(name)) known += fmt::format("{}{}", known.empty() ? "" : ", ", name);
-        }
-        throw SceneError(fmt::format("{}: has no series '{}'; use one of {}", path, variable, known));
-    }
+    if (!file.has(variable) || !is_series(variable))
+        throw SceneError(fmt::format("{}: has no series '{}'; use one of {}", path, variable, known_variables(file, is_series)));
     auto const spacing = equal_spacing(times);
     if (!spacing) throw SceneError(path + ": the sample times are not equally spaced");
     std::uint64_t const place = place_of(file, path, member);
@@ -177,10 +170,11 @@ StoredSeries read_csv_series(std::istream& in, std::string const& name, std::str
                              std::optional<double> spacing) {
     Table table = read_table(in, name);
     if (in.bad()) throw FileError(fmt::format("{}: cannot read", name));
-    std::size_t const place = column_of(table, name, column), time = time_column(table);
+    std::size_t const place = column_of(table, name, column);
     if (!spacing) {
-        if (time == no_column) throw SceneError(fmt::format("{}: has no column time or t; give --dt SECONDS", name));
-        spacing = equal_spacing(table.columns[time]);
+        auto const time = time_column(table);
+        if (!time) throw SceneError(fmt::format("{}: has no column time or t; give --dt SECONDS", name));
+        spacing = equal_spacing(table.columns[*time]);
         if (!spacing) throw SceneError(fmt::format("{}: the times are not equally spaced; resample the series", name));
     }
     std::string const label = table.names.empty() ? fmt::format("column {}", place + 1) : table.names[place];

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "host/study/member_numbers.hpp"
+#include "host/study/probe.hpp"
 
 namespace slideway {
 
@@ -19,9 +20,7 @@ std::optional<std::string> impossible_starts(Scene const& scene, Isa isa) {
         members.push_back(member);
         inputs.push_back(drawn);
     }
-    std::vector<double> const times(inputs.size(), 0.0);
-    std::vector<ProbeResult> results(inputs.size());
-    find_instance(isa, scene.parts).probe({inputs.data(), times.data(), inputs.size(), results.data()});
+    std::vector<ProbeResult> const results = probe(isa, scene.parts, inputs, std::vector<double>(inputs.size(), 0.0));
 
     std::uint64_t count = 0;
     std::size_t worst = 0;

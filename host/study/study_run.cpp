@@ -7,6 +7,7 @@
 
 #include "host/base/durable_file.hpp"
 #include "host/base/fnv1a.hpp"
+#include "host/base/numbers.hpp"
 #include "host/store/result_check.hpp"
 #include "host/store/result_merge.hpp"
 #include "host/store/result_view.hpp"
@@ -169,10 +170,7 @@ bool StudyRun::merge(StopRequest const& stop, std::optional<ToleranceReport>& re
         ReportSettings settings;
         settings.threads = options_.threads;
         settings.pause = pause;
-        auto const check = [&](DataFile& file) {
-            VerificationRequest const request{scene_.verify, options_.threads, &stop, options_.progress};
-            write_verification(file, verify(ResultView(file), scene_, *options_.backend, request));
-        };
+        auto const check = resolution_check(scene_, *options_.backend, options_.threads, stop, options_.progress);
         merge_study(scene_, folder, folder.listed(), provenance(scene_, *options_.backend, options_.threads),
                     target_, report, settings, check);
     } catch (Interrupted const&) {
@@ -180,8 +178,6 @@ bool StudyRun::merge(StopRequest const& stop, std::optional<ToleranceReport>& re
     }
     return true;
 }
-
-void StudyRun::remove_shards() { claim_->remove_folder(); }
 
 namespace {
 
@@ -198,6 +194,12 @@ Provenance stored_origin(DataFile const& file) {
 }
 
 }  // namespace
+
+std::function<void(DataFile&)> resolution_check(Scene const& scene, Backend const& backend, int threads, StopRequest const& stop, Progress::Style progress) {
+    return [&scene, &backend, threads, &stop, progress](DataFile& file) {
+        write_verification(file, verify(ResultView(file), scene, backend, {scene.verify, threads, &stop, progress}));
+    };
+}
 
 bool asks_for_report(Scene const& scene) {
     return !scene.stores_members() || scene.study == StudyKind::tolerance ||
@@ -216,19 +218,28 @@ std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, std::ve
                           std::function<void(DataFile&)> const& verify) {
     MemberSet const& members = folder.identity().members;
     std::uint64_t const left = members.without(members_of(shards)).count();
-    ResultMerge merge{result_layout(scene, members), provenance, "complete"};
-    if (left > 0) merge.completeness = fmt::format("{} of {} members not run", left, members.count());
-    merge.conclude = [&](DataFile& file) {
+    std::string const completeness = left == 0 ? "complete" : fmt::format("{} of {} members not run", left, members.count());
+    auto const conclude = [&](DataFile& file) {
         conclude_study(scene, file, report, settings);
         if (verify && left == 0) verify(file);
     };
-    merge.pause = settings.pause;
-    merge.existing = output.existing();
+    ResultMerge merge{result_layout(scene, members), provenance, completeness, conclude, settings.pause, output.existing()};
     if (scene.stores_members())
         merge_shards(folder, shards, std::move(merge), output.path());
     else
         merge_statistics(folder, shards, statistics_plan(scene), merge, output.path());
     return left;
+}
+
+std::optional<std::uint64_t> asked_check(ShardFolder const& folder, std::vector<Shard> const& shards, Scene const& scene) {
+    if (shards.empty() || !scene.stores_members()) return {};
+    std::vector<std::byte> const bytes = folder.read(shards.front());
+    std::string const text = NetcdfFile::open_in_memory(shards.front().name, bytes).text(NetcdfFile::global, "scene");
+    constexpr std::string_view key = "\nverify = ";
+    auto const at = text.find(key, text.find("\n[study]\n"));
+    if (at == text.npos) return {};
+    auto const from = at + key.size();
+    return parse_number<std::uint64_t>(std::string_view(text).substr(from, text.find('\n', from) - from));
 }
 
 Provenance shard_origin(ShardFolder const& folder, std::vector<Shard> const& shards, Scene const& scene) {

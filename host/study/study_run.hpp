@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -54,9 +55,13 @@ struct StudyWork {
 };
 
 /// Integrates the members of `work.todo` with the threads of all ranks; at every rank.  Finished shards stay, whatever happens.
-/// @return what all ranks came to, at rank 0; elsewhere nothing of worth.  @throws FileError at rank 0, for any rank; never elsewhere
+/// @return what all ranks came to, at rank 0; elsewhere nothing of worth.  @throws at rank 0 what any rank has thrown; never elsewhere
 EnsembleTotals run_work(Scene const& scene, StudyOptions const& options, StudyWork const& work, Ranks& ranks,
                         StopRequest const& stop);
+
+/// An error as bytes for another rank, and there again: of the same kind, with the same line.
+std::string to_bytes(std::exception_ptr const& error);
+[[noreturn]] void throw_again(std::string const& bytes);
 
 /// A run as rank 0 leads it.
 class StudyRun {
@@ -78,8 +83,8 @@ public:
     /// Makes the result file of all shards.  @param report where that of a scene that `asks_for_report` goes
     /// @return false if a signal came: there is no file then, and the shards are still there.
     bool merge(StopRequest const& stop, std::optional<ToleranceReport>& report);
-    /// Removes the shards of a result that is there.  @throws FileError
-    void remove_shards();
+    /// Removes the shards of a result that is there.  @return names of what is not of the run, and stays with the folder  @throws FileError
+    std::vector<std::string> remove_shards() { return claim_->remove_folder(); }
 
 private:
     void require_room() const;
@@ -108,9 +113,16 @@ std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, std::ve
                           std::optional<ToleranceReport>& report, ReportSettings const& settings = {},
                           std::function<void(DataFile&)> const& verify = {});
 
+/// The `verify` of merge_study: the check of a result's resolution, as `study.verify` of the scene asks for it.  What it refers to must outlive it.
+std::function<void(DataFile&)> resolution_check(Scene const& scene, Backend const& backend, int threads, StopRequest const& stop, Progress::Style progress);
+
 /// The scene of the run that left a folder, its table of members from the copy there.  @throws SceneError, also if the copy is gone;
 /// FileError if it holds something else than what was run
 Scene scene_of(ShardFolder const& folder);
+
+/// `study.verify` of the run that made the shards, which no identity has: it changes no member.  Nothing also where members are not stored.
+/// @throws FileError
+std::optional<std::uint64_t> asked_check(ShardFolder const& folder, std::vector<Shard> const& shards, Scene const& scene);
 
 /// Who made the shards in a folder, as the first of them says.  @throws FileError, also if there is none.
 Provenance shard_origin(ShardFolder const& folder, std::vector<Shard> const& shards, Scene const& scene);

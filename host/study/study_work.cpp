@@ -1,6 +1,8 @@
 // Members of a study, through host/run, into shards; at every rank.
 #include <cstring>
+#include <new>
 #include <optional>
+#include <stdexcept>
 #include <unordered_map>
 
 #include "host/config/labels.hpp"
@@ -16,7 +18,8 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<EnsembleTotals>, "ranks send it as bytes");
 
-constexpr char succeeded = '+', failed = '-';
+// What the bytes of a rank begin with: how it ended, a failure by what it was.
+constexpr char succeeded = '+', of_scene = 's', of_file = 'f', of_device = 'd', of_memory = 'm', unknown = '-';
 
 std::string to_bytes(EnsembleTotals const& totals) {
     std::string bytes(1 + sizeof totals, succeeded);
@@ -54,13 +57,10 @@ MemberEnds recalled_ends(std::string const& path, Mechanism mechanism, MemberSet
 /// Result files of a scene's blocks, or their statistics.
 std::unique_ptr<ShardWriter> shard_writer(Scene const& scene, std::string const& folder, Provenance const& origin) {
     if (!scene.stores_members()) {
-        auto form = [plan = statistics_plan(scene), origin](BlockResult const& block) {
-            return statistics_image(plan, origin, block);
-        };
+        auto form = [plan = statistics_plan(scene), origin](BlockResult const& block) { return statistics_image(plan, origin, block); };
         return std::make_unique<ShardWriter>(folder, std::move(form), joined_statistics);
     }
-    auto form = [folder, origin, layout = result_layout(scene, {}),
-                 exponents = ExponentTable(scene)](BlockResult const& block) {
+    auto form = [folder, origin, layout = result_layout(scene, {}), exponents = ExponentTable(scene)](BlockResult const& block) {
         return shard_image(folder, layout, origin, block, exponents.values(block));
     };
     return std::make_unique<ShardWriter>(folder, std::move(form));
@@ -102,12 +102,12 @@ ProgressTask progress_task(Scene const& scene, StudyOptions const& options, Stud
     return task;
 }
 
-/// @throws FileError with what a rank says of its failure
+/// @throws what a rank says of its failure
 EnsembleTotals sum_of(std::vector<std::string> const& ranks) {
     EnsembleTotals totals;
     double longest = 0;
     for (std::string const& bytes : ranks) {
-        if (bytes[0] == failed) throw FileError(bytes.substr(1));
+        if (bytes[0] != succeeded) throw_again(bytes);
         EnsembleTotals of_rank;
         std::memcpy(&of_rank, bytes.data() + 1, sizeof of_rank);
         longest = std::max(longest, of_rank.seconds);
@@ -119,6 +119,39 @@ EnsembleTotals sum_of(std::vector<std::string> const& ranks) {
 
 }  // namespace
 
+std::string to_bytes(std::exception_ptr const& error) {
+    auto const as = [](char kind, std::exception const& found) { return kind + std::string(found.what()); };
+    try {
+        std::rethrow_exception(error);
+    } catch (SceneError const& found) {
+        return as(of_scene, found);
+    } catch (FileError const& found) {
+        return as(of_file, found);
+    } catch (DeviceError const& found) {
+        return as(of_device, found);
+    } catch (std::bad_alloc const& found) {
+        return as(of_memory, found);
+    } catch (std::exception const& found) {
+        return as(unknown, found);
+    }
+}
+
+void throw_again(std::string const& bytes) {
+    std::string const line = bytes.substr(1);
+    switch (bytes[0]) {
+        case of_scene:
+            throw SceneError(line);
+        case of_file:
+            throw FileError(line);
+        case of_device:
+            throw DeviceError(line);
+        case of_memory:
+            throw std::bad_alloc();
+        default:
+            throw std::runtime_error(line);
+    }
+}
+
 EnsembleTotals run_work(Scene const& scene, StudyOptions const& options, StudyWork const& work, Ranks& ranks,
                         StopRequest const& stop) {
     std::uint64_t const places = place_count(scene, work.todo);
@@ -129,10 +162,10 @@ EnsembleTotals run_work(Scene const& scene, StudyOptions const& options, StudyWo
     std::exception_ptr failure;
     try {
         mine = to_bytes(compute(scene, options, work, ranks.count(), *queue, stop, progress));
-    } catch (std::exception const& error) {
+    } catch (std::exception const&) {
         failure = std::current_exception();
         queue->abandon();
-        mine = failed + std::string(error.what());
+        mine = to_bytes(failure);
     }
     std::vector<std::string> const all = ranks.gather(mine);
     if (ranks.rank() > 0) return {};

@@ -29,9 +29,7 @@ ToleranceMembers::ToleranceMembers(ResultView const& results, std::size_t width,
         std::size_t const place = places_.empty() ? i : places_[i];
         double const number = numbers[place];
         if (!(number >= 0) || number >= static_cast<double>(members)) {
-            throw FileError(
-                fmt::format("{}: holds member {}, but the design has {} members; give the scene of this result",
-                            results.path(), number, members));
+            throw FileError(fmt::format("{}: holds member {}, but the design has {} members; give the scene of this result", results.path(), number, members));
         }
         numbers_.push_back(static_cast<std::uint64_t>(number));
         if (i > 0 && numbers_[i] == numbers_[i - 1]) {
@@ -43,9 +41,7 @@ ToleranceMembers::ToleranceMembers(ResultView const& results, std::size_t width,
 
 std::vector<double> ToleranceMembers::column(std::string const& variable, std::size_t index) const {
     std::vector<double> stored = results_.column(variable, index);
-    if (stored.size() != size()) {
-        throw FileError(fmt::format("{}: {} is not of the members", results_.path(), variable));
-    }
+    if (stored.size() != size()) throw FileError(fmt::format("{}: {} is not of the members", results_.path(), variable));
     if (places_.empty()) return stored;
     std::vector<double> ordered;
     ordered.reserve(stored.size());

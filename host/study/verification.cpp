@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/study/continued_sweep.hpp"
 #include "host/study/orbit_schedule.hpp"
@@ -18,21 +19,17 @@ constexpr double steps_beyond = 2;    // how much more than foreseen a check may
 
 std::string remedy(Scene const& scene, Verification const& v) {
     if (scene.integrator.method == Method::rk4) return "use a smaller integrator.step, or method = \"auto\"";
-    bool tolerance = false;
-    for (CheckedColumn const& found : v.findings) tolerance = tolerance || (found.differs && v.methods[found.method].starts_with(name_of(scene.integrator.method)));
+    bool const tolerance = std::ranges::any_of(
+        v.findings, [&](CheckedColumn const& found) { return found.differs && v.methods[found.method].starts_with(name_of(scene.integrator.method)); });
     std::string const tighter = fmt::format("integrator.rtol = {:.0e} and atol likewise", check_tightening * scene.integrator.rtol);
     if (scene.integrator.method == Method::automatic || tolerance) return "use " + tighter;
     return fmt::format("use {}, or method = \"auto\"", tighter);
 }
 
-std::string joined(std::vector<std::string> const& words) {
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i) text += (i == 0 ? "" : i + 1 == words.size() ? " and by " : ", by ") + words[i];
-    return text;
-}
-
 std::string describe(Verification const& v, Scene const& scene) {
-    std::string const again = fmt::format("{} members again by {} ({:.2g} % of the study's work)", v.members.size(), joined(v.methods), 100 * v.share);
+    std::string by = v.methods.front();
+    for (std::size_t i = 1; i < v.methods.size(); ++i) by += (i + 1 == v.methods.size() ? " and by " : ", by ") + v.methods[i];
+    std::string const again = fmt::format("{} members again by {} ({:.2g} % of the study's work)", v.members.size(), by, 100 * v.share);
     std::string unfinished;
     for (std::size_t i = 0; i < v.methods.size(); ++i) {
         if (v.finished[i] < v.members.size())
@@ -120,17 +117,15 @@ void limit_steps(Scene& check, double work_of_a_member) {
 
 /// What follows from the findings.  @param was_asked for so many members, whatever they cost
 Verification concluded(Verification v, Scene const& scene, bool was_asked) {
-    bool const enough = std::any_of(v.findings.begin(), v.findings.end(), [&](CheckedColumn const& found) {
+    bool const enough = std::ranges::any_of(v.findings, [&](CheckedColumn const& found) {
         return found.pairs.pairs >= least_members && 2 * found.pairs.pairs > v.members.size();
     });
-    bool const differs = (v.energy && v.energy->is_too_much) ||
-                         std::any_of(v.findings.begin(), v.findings.end(), [](CheckedColumn const& found) { return found.differs; });
+    bool const differs = (v.energy && v.energy->is_too_much) || std::ranges::any_of(v.findings, &CheckedColumn::differs);
     if (!enough && !differs) {
         if (v.numbers.front().finished() < least_members) return not_checked(std::move(v), "too few of its members came to their end");
-        std::string ends;
-        for (std::size_t i = 0; i < v.methods.size(); ++i)
-            ends += fmt::format("{}{} of {} by {}", i > 0 ? ", " : "", v.finished[i], v.members.size(), v.methods[i]);
-        return not_checked(std::move(v), fmt::format("too few members came to their end again ({}){}", ends,
+        std::vector<std::string> ends;
+        for (std::size_t i = 0; i < v.methods.size(); ++i) ends.push_back(fmt::format("{} of {} by {}", v.finished[i], v.members.size(), v.methods[i]));
+        return not_checked(std::move(v), fmt::format("too few members came to their end again ({}){}", fmt::join(ends, ", "),
                                                      was_asked ? "" : "; run --verify gives them more time"));
     }
     v.resolution = differs ? Resolution::not_resolved : Resolution::resolved;

@@ -168,6 +168,22 @@ TEST_F(Damage, OfOneFileOfTheIdentityIsMended) {
     }
 }
 
+TEST_F(Damage, OfAManifestIsToldAndCostsTheMembersOfItsLineAlone) {
+    ASSERT_EQ(run_scene({"--quiet", "-o", "whole.nc"}).code, 0);
+    make_shards();
+    flip("s.nc.shards/manifest-000001.txt", 3);
+    std::string const told = "warning: s.nc.shards/manifest-000001.txt: is damaged: not all of its lines can be read; its members ";
+    Outcome const merged = run({"merge", "s.nc.shards", "-o", "m.nc"});
+    EXPECT_EQ(merged.code, 5);
+    EXPECT_NE(merged.err.find(told + "are left out"), std::string::npos) << merged.err;
+    EXPECT_NE(merged.err.find("8 of 64 members have not run"), std::string::npos) << merged.err;
+    Outcome const resumed = run_scene({"--quiet", "--resume"});
+    EXPECT_EQ(resumed.code, 0);
+    EXPECT_NE(resumed.err.find(told + "run again\n"), std::string::npos) << resumed.err;
+    EXPECT_EQ(hash_of("s.nc"), hash_of("whole.nc"));
+    EXPECT_FALSE(exists("s.nc.shards"));
+}
+
 TEST_F(Damage, OfBothFilesOfTheIdentityIsRefused) {
     make_shards();
     for (char const* const name : {"run.toml", "run-copy.toml"}) flip(std::string("s.nc.shards/") + name, 400);

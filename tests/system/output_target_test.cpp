@@ -111,10 +111,20 @@ TEST_F(OutputTargets, ThatAreResultsAreReplacedWhereItIsSaid) {
         expect_written(command, name);
         expect_untouched(command, name);
         expect_written(command, name, {"--force"});
-        // A file without a byte holds nothing that could be lost.
+        // A file without a byte is nothing that slideway leaves.
         write(name, "");
         expect_untouched(command, name);
-        expect_written(command, name, {"--force"});
+        expect_untouched(command, name, {"--force"});
+        fs::remove(path(name));
+    }
+}
+
+/// A file that opens and cannot be read: nobody can tell whose it is.
+TEST_F(OutputTargets, ThatCannotBeReadSayWhy) {
+    for (Command const& command : commands) {
+        Outcome const outcome = with_output(command, "/proc/self/mem", {"--force"});
+        EXPECT_EQ(outcome.code, 4) << command.name;
+        EXPECT_EQ(outcome.err, "/proc/self/mem: cannot read: Input/output error\n") << command.name;
     }
 }
 

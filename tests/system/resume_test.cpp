@@ -189,6 +189,20 @@ TEST_F(Resume, InterruptedAfterDamageLosesNothing) {
     EXPECT_EQ(hash_of("s.nc"), hash_of("whole.nc"));
 }
 
+TEST_F(Resume, LeavesWhatIsNotOfTheRunInItsFolderAndSaysSo) {
+    make_unfinished();
+    write("s.nc.shards/notes.txt", "mine");
+    write("s.nc.shards/members-0000000999.nc", "of the board");
+    write("s.nc.shards/table.csv", "a\n1\n");
+    Outcome const outcome = run_scene({"--quiet", "--resume"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_NE(outcome.err.find("warning: s.nc.shards: stays, for it holds what is not of this run: members-0000000999.nc, notes.txt, table.csv\n"),
+              std::string::npos)
+        << outcome.err;
+    EXPECT_EQ(file_text(path("s.nc.shards/members-0000000999.nc")), "of the board");
+    EXPECT_EQ(std::distance(fs::directory_iterator(path("s.nc.shards")), fs::directory_iterator()), 3);
+}
+
 TEST_F(Resume, TakesOneMemberThatItRanAlone) {
     ASSERT_EQ(run_scene({"--no-progress"}).code, 0);
     Outcome const outcome = run_scene({"--no-progress", "--member", "7", "--resume"});

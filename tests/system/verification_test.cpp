@@ -68,6 +68,31 @@ TEST_F(VerifiedRun, GoesOnAfterItsEnd) {
     EXPECT_EQ(of_group("summary"), results("whole.nc").group_attribute("verification", "summary"));
 }
 
+/// As a single run: the check is the same, whoever ran the members.
+TEST_F(VerifiedRun, OfPartsIsCheckedWhereTheyAreMerged) {
+    for (std::string const& more : {std::string("study.seed=1"), std::string("study.verify=6"), std::string("study.verify=0")}) {
+        auto const parts = [&](std::string const& output, std::vector<std::string> options) {
+            options.insert(options.begin(), {"-o", output, "--force", "--set", "study.members=1000", "study.samples=0", more});
+            EXPECT_EQ(run_scene(options).code, 0);
+        };
+        parts("whole.nc", {});
+        parts("o.nc", {"--shard", "1/2"});
+        Outcome const half = run({"merge", "o.nc.shards", "-o", "half.nc", "--force"});
+        EXPECT_EQ(half.code, 5) << half.err;
+        EXPECT_EQ(results("half.nc").group_attribute("verification", "summary"), "");
+        parts("o.nc", {"--shard", "2/2"});
+        Outcome const merged = run({"merge", "o.nc.shards", "-o", "o.nc", "--force"});
+        EXPECT_EQ(merged.code, 0) << merged.err;
+        EXPECT_EQ(hash_of("o.nc"), hash_of("whole.nc"));
+        for (char const* const attribute : {"resolution", "summary", "settings", "share_of_work", "exponent_sign"}) {
+            EXPECT_NE(of_group(attribute), "") << attribute;
+            EXPECT_EQ(of_group(attribute), results("whole.nc").group_attribute("verification", attribute)) << attribute << more;
+        }
+        EXPECT_NE(merged.out.find(of_group("summary").substr(0, 40)), std::string::npos) << merged.out;
+        std::filesystem::remove_all(path("o.nc.shards"));
+    }
+}
+
 /// Energy is audited of exponents alone, and not of a law that makes it by itself: others that ask for the residual are resolved as before.
 TEST_F(VerifiedRun, AuditsTheEnergyOfExponentsUnderALawThatKeepsIt) {
     auto const summary = [&](std::string const& law, std::string const& kind) {

@@ -12,6 +12,10 @@
 namespace slideway {
 namespace {
 
+double uniform_draw(std::uint64_t seed, std::uint64_t member, std::string_view name) {
+    return StreamKey{seed, name_hash(name)}.uniform(Stream::value, member);
+}
+
 using Words = std::array<std::uint64_t, 4>;
 
 TEST(Philox, MeetsTheKnownAnswers) {

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include <netcdf.h>
+#include <sys/resource.h>
 
 #include "host/base/error.hpp"
 #include "tests/support/output_fixture.hpp"
@@ -169,6 +170,24 @@ TEST_F(Sealed, WithAnyByteChangedIsRefusedOrTheSame) {
     }
     EXPECT_GT(refused, 50u);
     EXPECT_GT(same, 0u);
+}
+
+/// MPI does not outlive a fork: a rank of a job looks for itself, any other process has one that looks for it.
+TEST_F(Sealed, IsLookedAtWithoutAForkByARankOfAJob) {
+    auto const faults_of_children = [] {
+        rusage usage{};
+        getrusage(RUSAGE_CHILDREN, &usage);
+        return usage.ru_minflt;
+    };
+    long before = faults_of_children();
+    EXPECT_TRUE(check_result(path()).intact());
+    EXPECT_GT(faults_of_children(), before);
+    setenv("OMPI_COMM_WORLD_SIZE", "2", 1);
+    before = faults_of_children();
+    EXPECT_TRUE(check_result(path()).intact());
+    EXPECT_FALSE(is_result_file(path("none.nc")));
+    EXPECT_EQ(faults_of_children(), before);
+    unsetenv("OMPI_COMM_WORLD_SIZE");
 }
 
 TEST(FirstFormat, IsRead) {

@@ -98,6 +98,17 @@ TEST_F(Removal, LeavesWhatOnlyLooksLikeOurs) {
     EXPECT_EQ(names_in(shards_), names);
 }
 
+/// A shard that is written and not yet listed is the run's all the same.
+TEST_F(Removal, OfUnlistedShardsGoesByWhatIsInThem) {
+    ShardClaim claim(shards_, wanted());
+    put(0);
+    testing::put_bytes(file("members-0000000004.nc"), "\x89HDF ... source slideway 0.1.0 ...");
+    testing::put_bytes(file("statistics-0000000004-0.bin"), "... slkstat1 ...");
+    testing::put_bytes(file("members-0000000008.nc"), "of the board");
+    EXPECT_EQ(claim.remove_folder(), std::vector<std::string>{"members-0000000008.nc"});
+    EXPECT_EQ(names_in(shards_), std::vector<std::string>{"members-0000000008.nc"});
+}
+
 TEST_F(Removal, OfWhatOthersPutThereIsNotForABeginnerToDo) {
     fs::create_directories(shards_);
     for (char const* const name : look_alikes) testing::put_bytes(file(name), "mine");
