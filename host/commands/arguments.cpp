@@ -374,7 +374,7 @@ std::string help_of(std::string_view command) {
 
 Arguments help_arguments(Words const& words) {
     if (words.man) return TextOnly{man_page(command_descriptions())};
-    if (!words.shell.empty()) return TextOnly{completion(command_descriptions(), words.shell)};
+    if (!words.shell.empty()) return TextOnly{completion(words.shell)};
     if (!words.command.empty()) require_known_command(words.command);
     return TextOnly{help_of(words.command)};
 }
@@ -396,11 +396,12 @@ std::vector<CommandDescription> command_descriptions() {
 
 Arguments parse_arguments(int argc, char const* const* argv) {
     std::string_view const first = argc > 1 ? argv[1] : "";
+    std::vector<std::string> given(argv + 1, argv + argc);
+    if (first == "__complete") return TextOnly{candidates(command_descriptions(), std::span(given).subspan(std::min<std::size_t>(2, given.size())))};
     if (first != "--help" && first != "-h" && first != "--version") require_known_command(first);
     Words words;
     auto const parser = make_parser(words);
     auto const command = [&]() -> CLI::App const* { return parser->get_subcommands().empty() ? nullptr : parser->get_subcommands().front(); };
-    std::vector<std::string> given(argv + 1, argv + argc);
     std::reverse(given.begin(), given.end());  // as CLI11 wants them
     try {
         parser->parse(given);
