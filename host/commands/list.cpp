@@ -122,12 +122,8 @@ std::string state_of(Isa isa) {
 }  // namespace
 
 int list(ListArguments const& arguments) {
-    using Form = ListArguments::Form;
-    if (arguments.form != Form::text) {
-        std::string const text = arguments.form == Form::json     ? keys_json()
-                                 : arguments.form == Form::schema ? scene_schema()
-                                                                  : keys_markdown();
-        fmt::print("{}", text);
+    if (arguments.json || arguments.schema || arguments.markdown) {
+        fmt::print("{}", arguments.json ? keys_json() : arguments.schema ? scene_schema() : keys_markdown());
         return exit_code::done;
     }
     print_mechanisms();

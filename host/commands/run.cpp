@@ -59,7 +59,7 @@ StudyOptions study_options(RunArguments const& arguments, Scene const& scene) {
     options.block_members = arguments.block_members;
     options.resume = arguments.resume;
     options.force = arguments.force;
-    options.progress = Progress::style_for(stderr, !arguments.progress);
+    options.progress = Progress::style_for(stderr, !arguments.shows_progress());
     return options;
 }
 
@@ -163,7 +163,7 @@ int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& 
          StopRequest const& stop) {
     if (says_text(arguments)) print_field("scene", scene_text(scene, scene.path));
     if (run.is_complete()) {
-        if (arguments.progress) tell("resuming: {} is complete already\n", options.output);
+        if (arguments.shows_progress()) tell("resuming: {} is complete already\n", options.output);
         return conclude(arguments, scene, options, false, {}, nullptr);
     }
     std::optional<ToleranceReport> report;
@@ -249,7 +249,7 @@ int run(RunArguments const& arguments) {
             if (auto const wrong = impossible_starts(scene, best_isa())) tell("warning: {}\n", *wrong);
         }
         warn_of_losses(options, study);
-        if (arguments.progress && !study.is_complete()) announce(scene, options, choice.reason, prediction, study);
+        if (arguments.shows_progress() && !study.is_complete()) announce(scene, options, choice.reason, prediction, study);
         invited = true;
         ranks->broadcast(invitation(study, *options.backend));
         return ranks->agree(lead(arguments, scene, options, study, *ranks, stop));
