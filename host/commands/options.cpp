@@ -44,7 +44,8 @@ std::function<std::uint32_t(std::string_view, std::string_view)> whole_number(st
         auto number = parse_number<std::uint32_t>(word);
         if (number && (*number < least || *number > most)) number.reset();
         bool const bounded = most < ~0u;
-        return given(number, option, word, bounded ? fmt::format("a whole number from {} to {}", least, most) : fmt::format("a whole number, {} or more", least));
+        return given(number, option, word,
+                     bounded ? fmt::format("a whole number from {} to {}", least, most) : fmt::format("a whole number, {} or more", least));
     };
 }
 
