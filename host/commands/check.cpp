@@ -33,11 +33,8 @@ std::string damping_text(Parts const& parts) {
 
 void print_parts(Scene const& scene) {
     MechanismInfo const& mechanism = info(scene.parts.mechanism);
-    std::string in = fmt::format("{} mechanism", mechanism.name), out;
-    auto const sort = [&](bool is_in, std::string_view name) {
-        std::string& list = is_in ? in : out;
-        list += fmt::format("{}{}", list.empty() ? "" : "; ", name);
-    };
+    std::vector<std::string> in{fmt::format("{} mechanism", mechanism.name)}, out;
+    auto const sort = [&](bool is_in, std::string name) { (is_in ? in : out).push_back(std::move(name)); };
     if (mechanism.spatial) {
         for (LawInfo const& law : laws()) sort(&law == &info(scene.parts.law), fmt::format("{} law", law.name));
     } else {
@@ -46,7 +43,7 @@ void print_parts(Scene const& scene) {
     }
     sort(true, damping_text(scene.parts));
     // Which the scene might have had.
-    auto const sort_out = [&](Damping damping, std::string_view name) {
+    auto const sort_out = [&](Damping damping, char const* name) {
         bool const may = mechanism.spatial ? info(scene.parts.law).has(damping) : damping == Damping::restitution;
         if (may && scene.parts.damping != damping) sort(false, name);
     };
@@ -55,17 +52,17 @@ void print_parts(Scene const& scene) {
     sort(scene.parts.friction, "friction");
     if (mechanism.spatial) sort(scene.parts.misaligned_way, "pose of a misaligned way");
     sort(!scene.sample_times.empty(), "time series");
-    print_field("parts in", in);
-    print_field("parts out", out);
+    print_field("parts in", fmt::format("{}", fmt::join(in, "; ")));
+    print_field("parts out", fmt::format("{}", fmt::join(out, "; ")));
 
-    std::string asked, left;
+    std::vector<std::string_view> asked, left;
     for (int q = 0; q < quantity_count; ++q) {
         if (!selects(mechanism.quantities, static_cast<Quantity>(q))) continue;
-        std::string& names = selects(scene.quantities, static_cast<Quantity>(q)) ? asked : left;
-        names += fmt::format("{}{}", names.empty() ? "" : ", ", quantity_table[q].name);
+        (selects(scene.quantities, static_cast<Quantity>(q)) ? asked : left).push_back(quantity_table[q].name);
     }
-    print_field("asked for", asked.empty() ? "no quantity" : asked);
-    print_field("left out", left.empty() ? "no quantity" : left);
+    auto const listed = [](auto const& names) { return names.empty() ? "no quantity" : fmt::format("{}", fmt::join(names, ", ")); };
+    print_field("asked for", listed(asked));
+    print_field("left out", listed(left));
 }
 
 std::string range_text(std::string const& least, std::string const& most) {
@@ -73,15 +70,14 @@ std::string range_text(std::string const& least, std::string const& most) {
 }
 
 std::string cost_text(Scene const& scene, Prediction const& prediction, std::optional<Trial> const& trial) {
-    std::string const threads =
-        fmt::format("{} thread{}", prediction.busy_threads, prediction.busy_threads == 1 ? "" : "s");
+    std::string const threads = counted(static_cast<std::uint64_t>(prediction.busy_threads), "thread");
     if (scene.integrator.method == Method::rk4) {
         return fmt::format("{:.0f} steps, all fixed; some {} on {}", prediction.most_steps,
                            duration_text(trial ? trial->seconds : prediction.most_seconds), threads);
     }
     if (trial) {
-        return fmt::format("about {} on {}, some {:.2g} steps, as {} of its members tell", duration_text(trial->seconds), threads, trial->steps,
-                           trial->members);
+        return fmt::format("about {} on {}, some {:.2g} steps, as {} of its members {}", duration_text(trial->seconds), threads, trial->steps,
+                           trial->members, trial->members == 1 ? "tells" : "tell");
     }
     return fmt::format(
         "{} steps, {} on {}; a rough range: all in free flight to all in contact that rings",
@@ -93,8 +89,8 @@ std::string cost_text(Scene const& scene, Prediction const& prediction, std::opt
 void print_orbits(Scene const& scene, OrbitSchedule const& schedule) {
     if (!schedule.timing) return;
     if (scene.study == StudyKind::sweep) {
-        print_field("columns", fmt::format("{} values of {}, {} start{} each", scene.chaos.values.size(),
-                                           scene.chaos.parameter->name, scene.members, scene.members == 1 ? "" : "s"));
+        print_field("columns", fmt::format("{} of {}, {} each", counted(scene.chaos.values.size(), "value"), scene.chaos.parameter->name,
+                                           counted(scene.members, "start")));
     }
     if (schedule.sections) {
         print_field("sections", fmt::format("{}{} of each member", schedule.crossings.room > 0 ? "at most " : "",
@@ -108,12 +104,12 @@ void print_orbits(Scene const& scene, OrbitSchedule const& schedule) {
 
 std::string design_text(Scene const& scene) {
     Design const& design = scene.design;
-    std::string const name(name_of(design.kind));
+    std::string const name(name_of(design.kind)), keys = counted(scene.variations.size(), "key");
     switch (design.kind) {
         case DesignKind::mc:
         case DesignKind::lhs:
         case DesignKind::sobol:
-            return fmt::format("{}, {} points of {} keys", name, scene.members, scene.variations.size());
+            return fmt::format("{}, {} of {}", name, counted(scene.members, "point"), keys);
         case DesignKind::saltelli:
             return fmt::format("{}, {} rows of {} members", name, design.base, scene.variations.size() + 2);
         case DesignKind::grid:
@@ -142,11 +138,9 @@ void print_design(Scene const& scene) {
     if (!scene.design.correlation.variations.empty()) {
         print_field("correlation", fmt::format("of {} keys", scene.design.correlation.variations.size()));
     }
-    std::string limited;
-    for (Limit const& limit : scene.limits) {
-        limited += fmt::format("{}{}", limited.empty() ? "" : ", ", limit.name());
-    }
-    if (!limited.empty()) print_field("limits", fmt::format("of {}", limited));
+    std::vector<std::string> limited;
+    for (Limit const& limit : scene.limits) limited.push_back(limit.name());
+    if (!limited.empty()) print_field("limits", fmt::format("of {}", fmt::join(limited, ", ")));
 }
 
 }  // namespace
@@ -179,8 +173,9 @@ int check(CheckArguments const& arguments) {
     print_text(2, "# {} is a valid scene.  Resolved, in SI units:\n", in_one_line(scene.path));
     print_resolved(resolved_toml(scene));
     print_parts(scene);
-    print_field("kernels", fmt::format("{}, {} threads, blocks of at most {} members", backend_text(*choice.backend),
-                                       choice.backend->workers(threads), prediction.largest_block));
+    print_field("kernels", fmt::format("{}, {}, blocks of at most {}", backend_text(*choice.backend),
+                                       counted(static_cast<std::uint64_t>(choice.backend->workers(threads)), "thread"),
+                                       counted(prediction.largest_block, "member")));
     if (!choice.reason.empty()) print_field("", choice.reason);
     OrbitSchedule const schedule = orbit_schedule(scene);
     print_field("members", fmt::format("{}, each over {:.6g} s", member_count(scene), schedule.end));

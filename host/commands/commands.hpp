@@ -62,9 +62,10 @@ struct RunArguments {
     RunPart part;
     std::size_t block_members = 0;  // 0: by their cost
     bool resume = false, force = false;
-    bool progress = true;
+    bool no_progress = false;
     bool quiet = false;  // no progress, no summary
     bool json = false;   // an object in place of the summary
+    bool shows_progress() const { return !quiet && !no_progress; }
 };
 int run(RunArguments const& arguments);
 
@@ -123,8 +124,7 @@ struct ReportArguments {
 int report(ReportArguments const& arguments);
 
 struct ListArguments {
-    enum class Form { text, json, schema, markdown };  // all but the first: of the keys of a scene
-    Form form = Form::text;
+    bool json = false, schema = false, markdown = false;  // one of them: of the keys of a scene
 };
 int list(ListArguments const& arguments);
 

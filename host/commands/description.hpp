@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,7 +48,10 @@ std::string man_page(std::vector<CommandDescription> const& commands);
 
 /// Shells that completions are written for.
 inline constexpr char const* shell_names[] = {"bash", "zsh", "fish"};
-/// The script that teaches a shell the command line, keys for --set included.  @throws SceneError for another shell
-std::string completion(std::vector<CommandDescription> const& commands, std::string const& shell);
+/// The script that teaches a shell the command line, keys for --set included; it asks the program for `candidates`.  @throws SceneError for another shell
+std::string completion(std::string const& shell);
+/// What may stand for the last of the words behind `slideway`, one a line: "candidate<TAB>meaning"; "*/" stands for all folders, "*.nc" for all files with
+/// this ending.  But for options not only what begins as the word does: that is for the shell, which may match otherwise.
+std::string candidates(std::vector<CommandDescription> const& commands, std::span<std::string const> words);
 
 }  // namespace slideway::cli

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/commands/description.hpp"
 #include "host/commands/text.hpp"
@@ -24,8 +25,9 @@ std::string shell_lines(std::string const& command, std::size_t width) {
 }  // namespace
 
 std::string OptionDescription::label(Style const& word, Style const& metavariable) const {
-    std::string text;
-    for (std::string const& name : names) text += (text.empty() ? "" : ", ") + (positional ? metavariable(name) : word(name));
+    std::vector<std::string> set;
+    for (std::string const& name : names) set.push_back(positional ? metavariable(name) : word(name));
+    std::string const text = fmt::format("{}", fmt::join(set, ", "));
     if (value.empty() || positional) return text;
     std::string const taken = metavariable(value) + (repeats ? " ..." : "");
     return text + (optional ? " [" + taken + "]" : " " + taken);

@@ -2,9 +2,7 @@
 
 #include "host/commands/commands.hpp"
 #include "host/commands/json.hpp"
-#include "host/commands/orbit_text.hpp"
 #include "host/commands/text.hpp"
-#include "host/commands/tolerance_text.hpp"
 #include "host/config/scene_text.hpp"
 #include "host/store/result_check.hpp"
 #include "host/store/result_view.hpp"
@@ -78,7 +76,7 @@ int info(InfoArguments const& arguments) {
         ResultReader const results(arguments.path);
         if (seal.intact() && arguments.members) member_rows(results, *arguments.members);  // or there are none to show
         if (arguments.json) {
-            fmt::print("{}", result_json("info", results, seal, nullptr, 0, arguments.members));
+            fmt::print("{}", result_json("info", results, seal, seal.intact() ? report_of(results) : std::nullopt, nullptr, 0, arguments.members));
         } else {
             print_info(arguments, results, seal);
         }

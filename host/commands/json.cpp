@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "host/base/numbers.hpp"
 #include "host/store/result_seal.hpp"
 #include "host/study/orbit_summary.hpp"
 #include "host/study/result_summary.hpp"
@@ -66,14 +67,47 @@ Json of_exponents(ResultReader const& results) {
     return list;
 }
 
+Json of_estimate(double value, Interval const& interval) {
+    return {{"value", number(value)}, {"low", number(interval.low)}, {"high", number(interval.high)}};
+}
+
+Json of_yield(std::string const& name, Limit const& limit, std::string const& unit, Proportion const& met) {
+    Json json{{"name", name}, {"unit", unit}, {"min", number(limit.low)}, {"max", number(limit.high)}, {"met", met.successes}, {"of", met.trials}};
+    json.update(of_estimate(met.value, met.interval));
+    return json;
+}
+
+Json of_report(ToleranceReport const& report) {
+    Json json{{"design", name_of(report.design)}, {"policy", report.policy}, {"intervals", report.intervals}};
+    json["quantile_error"] = report.quantile_error.empty() ? Json(nullptr) : Json(report.quantile_error);
+    json["confidence"] = confidence_level;
+    json["quantities"] = json["yields"] = Json::array();
+    for (ColumnStatistics const& entry : report.columns) {
+        Json one{{"name", entry.column.name()}, {"unit", entry.column.unit}, {"count", entry.summary.count}};
+        one["mean"] = of_estimate(entry.summary.mean, entry.mean);
+        for (QuantileEstimate const& quantile : entry.quantiles) {
+            one["quantiles"].push_back({{"probability", quantile.p}});
+            one["quantiles"].back().update(of_estimate(quantile.value, quantile.interval));
+        }
+        json["quantities"].push_back(std::move(one));
+    }
+    for (LimitYield const& limit : report.limits) json["yields"].push_back(of_yield(limit.limit.name(), limit.limit, limit.unit, limit.met));
+    if (report.all_met) json["yields"].push_back(of_yield("all limits", {}, "", *report.all_met));
+    return json;
+}
+
 }  // namespace
 
-std::string result_json(char const* command, ResultReader const& results, SealCheck const& seal, EnsembleTotals const* totals, std::uint64_t left,
-                        std::optional<MemberRange> const& members) {
+std::string result_json(char const* command, ResultReader const& results, SealCheck const& seal, std::optional<ToleranceReport> const& report,
+                        EnsembleTotals const* totals, std::uint64_t left, std::optional<MemberRange> const& members) {
     Json json = object(command);
     json["file"] = results.path();
     for (char const* const name : {"title", "created", "version", "commit", "compiler", "flags", "machine", "backend", "isa", "completeness"})
         json[name] = results.attribute(name);
+    for (char const* const name : {"threads", "seed"}) {
+        auto const count = parse_number<std::uint64_t>(results.attribute(name));
+        json[name] = count ? Json(*count) : Json(nullptr);
+    }
     json["format_version"] = seal.version;
     json["payload_hash"] = seal.payload;
     json["payload_matches"] = seal.data_match();
@@ -87,6 +121,7 @@ std::string result_json(char const* command, ResultReader const& results, SealCh
     for (StatusCount const& count : count_statuses(results)) statuses[name_of(count.status)] = count.members;
     json["members_left"] = left;
     json["quantities"] = of_quantities(results);
+    if (report) json["tolerance"] = of_report(*report);
     if (Json exponents = of_exponents(results); !exponents.empty()) json["exponents"] = std::move(exponents);
     if (auto const sections = summarise_sections(results)) {
         json["sections"] = {{"count", sections->sections}, {"members_without", sections->without}, {"beyond_room", sections->beyond}};

@@ -1,7 +1,10 @@
 #include <iterator>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/commands/commands.hpp"
 #include "host/commands/text.hpp"
@@ -20,33 +23,28 @@ template <class... Values> void print_row(fmt::format_string<Values...> format, 
 
 /// " (slider_crank, carriage)": the mechanisms that have something, where not all do.
 template <class Has> std::string owners_text(Has has) {
-    std::string names;
-    bool all = true;
+    std::vector<std::string_view> names;
     for (MechanismInfo const& mechanism : mechanisms()) {
-        if (!has(mechanism))
-            all = false;
-        else
-            names += fmt::format("{}{}", names.empty() ? "" : ", ", mechanism.name);
+        if (has(mechanism)) names.push_back(mechanism.name);
     }
-    return all ? std::string() : fmt::format(" ({})", names);
+    return names.size() == mechanisms().size() ? std::string() : fmt::format(" ({})", fmt::join(names, ", "));
 }
 
 /// Their states, and what else comes with every time series.
 void print_mechanisms() {
     fmt::print("mechanisms (mechanism.kind), with the numbers of their state\n");
     for (MechanismInfo const& mechanism : mechanisms()) {
-        std::string states, beside;
+        std::vector<std::string_view> states, beside;
         Selection left = mechanism.always;
         for (int i = 0; i < mechanism.states; ++i) {
-            states += fmt::format("{}{}", i > 0 ? ", " : "", state_info(mechanism, i).name);
+            states.push_back(state_info(mechanism, i).name);
             left &= ~selection_of(mechanism.state[i]);
         }
         for (int s = 0; s < series_count; ++s) {
-            if (selects(left, static_cast<Series>(s)))
-                beside += fmt::format("{}{}", beside.empty() ? "" : ", ", series_table[s].name);
+            if (selects(left, static_cast<Series>(s))) beside.push_back(series_table[s].name);
         }
         print_row("  {:<30} {}", mechanism.name, mechanism.meaning);
-        print_row("  {:<30} {}{}", "", states, beside.empty() ? beside : fmt::format("; series have {} too", beside));
+        print_row("  {:<30} {}{}", "", fmt::join(states, ", "), beside.empty() ? "" : fmt::format("; series have {} too", fmt::join(beside, ", ")));
     }
 }
 
@@ -80,12 +78,12 @@ static_assert(std::size(study_meanings) == std::size(study_kind_names));
 void print_laws() {
     for (LawInfo const& law : laws()) {
         print_row("  {:<30} {}", law.name, law.words);
-        std::string dampings;
+        std::vector<std::string_view> dampings;
         for (int i = 0; i < damping_count; ++i) {
             bool const has = law.has(static_cast<Damping>(i)) && has_group(law.groups, KeyGroup::point_damping);
-            if (has) dampings += fmt::format("{}{}", dampings.empty() ? "" : ", ", damping_names[i]);
+            if (has) dampings.push_back(damping_names[i]);
         }
-        print_row("  {:<30} damping: {}", "", dampings.empty() ? "its own alone" : dampings);
+        print_row("  {:<30} damping: {}", "", dampings.empty() ? "its own alone" : fmt::format("{}", fmt::join(dampings, ", ")));
         for (Key const& key : law.keys) {
             print_row("  {:<30} {} [{}]: {}", "", key.name, key.unit, key.meaning);
         }
@@ -122,12 +120,8 @@ std::string state_of(Isa isa) {
 }  // namespace
 
 int list(ListArguments const& arguments) {
-    using Form = ListArguments::Form;
-    if (arguments.form != Form::text) {
-        std::string const text = arguments.form == Form::json     ? keys_json()
-                                 : arguments.form == Form::schema ? scene_schema()
-                                                                  : keys_markdown();
-        fmt::print("{}", text);
+    if (arguments.json || arguments.schema || arguments.markdown) {
+        fmt::print("{}", arguments.json ? keys_json() : arguments.schema ? scene_schema() : keys_markdown());
         return exit_code::done;
     }
     print_mechanisms();
@@ -167,8 +161,7 @@ int list(ListArguments const& arguments) {
     print_row("  {:<30} {}", "cuda", card_text());
     fmt::print("\ninstruction sets (--isa)\n");
     for (Isa const isa : all_isas()) {
-        print_row("  {:<30} {} lane{}, {}", name_of(isa), lanes_of(isa), lanes_of(isa) == 1 ? "" : "s",
-                   state_of(isa));
+        print_row("  {:<30} {}, {}", name_of(isa), counted(static_cast<std::uint64_t>(lanes_of(isa)), "lane"), state_of(isa));
     }
     return exit_code::done;
 }

@@ -7,7 +7,6 @@
 #include "host/base/error.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/json.hpp"
-#include "host/commands/run_summary.hpp"
 #include "host/commands/text.hpp"
 #include "host/store/result_check.hpp"
 #include "host/store/result_merge.hpp"
@@ -73,7 +72,7 @@ int merge(MergeArguments const& arguments) {
     replay.scene.path = scene_path;
     ResultReader const results(arguments.output);
     if (arguments.json) {
-        fmt::print("{}", result_json("merge", results, results.seal(), nullptr, left));
+        fmt::print("{}", result_json("merge", results, results.seal(), report, nullptr, left));
         return left == 0 ? exit_code::done : exit_code::stopped_early;
     }
     print_field("scene", scene_text(scene, scene_path));

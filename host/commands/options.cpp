@@ -1,6 +1,9 @@
 #include "host/commands/options.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <vector>
 #include <limits>
 
 #include <fmt/format.h>
@@ -18,86 +21,76 @@ bool FailureLimit::exceeded(std::uint64_t failed, std::uint64_t members) const {
 
 std::string FailureLimit::text() const { return fmt::format("{}{}", value, percent ? "%" : ""); }
 
-int parse_threads(std::string_view text) {
-    constexpr int most = 4096;  // beyond it the OpenMP runtime ends the process instead of complaining
-    auto const threads = parse_number<int>(text);
-    if (threads && *threads >= 1 && *threads <= most) return *threads;
-    throw SceneError(fmt::format("--threads {}: give a whole number from 1 to {}", text, most));
+namespace {
+
+/// The value, if the word has one that can be used.
+template <class Value> Value given(std::optional<Value> const& value, std::string_view option, std::string_view word, std::string_view wanted) {
+    if (value) return *value;
+    throw SceneError(fmt::format("{} {}: give {}", option, word, wanted));
 }
 
-double parse_hours(std::string_view text) {
-    auto const hours = parse_number<double>(text);
-    if (hours && *hours >= 0) return *hours;
-    throw SceneError(fmt::format("--max-hours {}: give a number of hours, 0 or more", text));
+/// "3..9", "1/4".
+template <class Number> std::optional<std::pair<Number, Number>> parse_pair(std::string_view word, std::string_view between) {
+    auto const at = word.find(between);
+    if (at == word.npos) return {};
+    auto const first = parse_number<Number>(word.substr(0, at)), second = parse_number<Number>(word.substr(at + between.size()));
+    return first && second ? std::optional(std::pair(*first, *second)) : std::nullopt;
 }
 
-MemberRange parse_member(std::string_view text) {
-    auto const member = parse_number<std::uint64_t>(text);
-    if (member) return {*member, 1};
-    throw SceneError(fmt::format("--member {}: give the number of a member, counted from 0", text));
+}  // namespace
+
+std::function<std::uint32_t(std::string_view, std::string_view)> whole_number(std::uint32_t least, std::uint32_t most) {
+    return [=](std::string_view option, std::string_view word) {
+        auto number = parse_number<std::uint32_t>(word);
+        if (number && (*number < least || *number > most)) number.reset();
+        bool const bounded = most < ~0u;
+        return given(number, option, word,
+                     bounded ? fmt::format("a whole number from {} to {}", least, most) : fmt::format("a whole number, {} or more", least));
+    };
 }
 
-RunPart parse_part(std::string_view text) {
-    auto const slash = text.find('/');
-    if (slash != text.npos) {
-        auto const number = parse_number<std::uint32_t>(text.substr(0, slash));
-        auto const parts = parse_number<std::uint32_t>(text.substr(slash + 1));
-        if (number && parts && *number >= 1 && *number <= *parts) return {*number, *parts, true};
-    }
-    throw SceneError(fmt::format("--shard {}: give the part and how many there are as I/N, from 1/N to N/N", text));
+double parse_hours(std::string_view option, std::string_view word) {
+    auto hours = parse_number<double>(word);
+    if (hours && !(*hours >= 0)) hours.reset();
+    return given(hours, option, word, "a number of hours, 0 or more");
 }
 
-std::size_t parse_block_members(std::string_view text) {
-    constexpr std::uint32_t most = 1'000'000;  // results of a block stay in memory while it runs
-    auto const members = parse_number<std::uint32_t>(text);
-    if (members && *members >= 1 && *members <= most) return *members;
-    throw SceneError(fmt::format("--block-members {}: give a whole number from 1 to {}", text, most));
+double parse_seconds(std::string_view option, std::string_view word) {
+    auto seconds = parse_number<double>(word);
+    if (seconds && !(*seconds > 0 && std::isfinite(*seconds))) seconds.reset();
+    return given(seconds, option, word, "a number of seconds, more than 0");
 }
 
-FailureLimit parse_failure_limit(std::string_view text) {
-    bool const percent = text.ends_with('%');
-    std::string_view const number = percent ? text.substr(0, text.size() - 1) : text;
-    auto const value = parse_number<double>(number);
-    bool const whole = value && (percent || *value == std::floor(*value));
-    if (!whole || !std::isfinite(*value) || *value < 0 || (percent && *value > 100)) {
-        throw SceneError(fmt::format("--max-failures {}: give a number of members (3) or a percentage (0.5%)", text));
-    }
-    return {*value, percent};
+std::uint64_t parse_member(std::string_view option, std::string_view word) {
+    return given(parse_number<std::uint64_t>(word), option, word, "the number of a member, counted from 0");
 }
 
-MemberRange parse_member_range(std::string_view text) {
-    auto const dots = text.find("..");
-    if (dots != text.npos) {
-        auto const first = parse_number<std::uint64_t>(text.substr(0, dots));
-        auto const last = parse_number<std::uint64_t>(text.substr(dots + 2));
-        if (first && last && *first <= *last && *last < std::numeric_limits<std::uint64_t>::max()) {
-            return {*first, *last - *first + 1};
-        }
-    }
-    throw SceneError(fmt::format("--members {}: give the first and the last member as A..B, counted from 0", text));
+MemberRange parse_member_range(std::string_view option, std::string_view word) {
+    auto ends = parse_pair<std::uint64_t>(word, "..");
+    if (ends && (ends->first > ends->second || ends->second == std::numeric_limits<std::uint64_t>::max())) ends.reset();
+    auto const [first, last] = given(ends, option, word, "the first and the last member as A..B, counted from 0");
+    return {first, last - first + 1};
 }
 
-std::size_t parse_count(std::string_view option, std::string_view text, std::size_t least) {
-    auto const count = parse_number<std::uint32_t>(text);
-    if (count && *count >= least) return *count;
-    throw SceneError(fmt::format("{} {}: give a whole number, {} or more", option, text, least));
+RunPart parse_part(std::string_view option, std::string_view word) {
+    auto part = parse_pair<std::uint32_t>(word, "/");
+    if (part && (part->first < 1 || part->first > part->second)) part.reset();
+    auto const [number, parts] = given(part, option, word, "the part and how many there are as I/N, from 1/N to N/N");
+    return {number, parts, true};
 }
 
-double parse_seconds(std::string_view option, std::string_view text) {
-    auto const seconds = parse_number<double>(text);
-    if (seconds && *seconds > 0 && std::isfinite(*seconds)) return *seconds;
-    throw SceneError(fmt::format("{} {}: give a number of seconds, more than 0", option, text));
+FailureLimit parse_failure_limit(std::string_view option, std::string_view word) {
+    bool const percent = word.ends_with('%');
+    auto value = parse_number<double>(word.substr(0, word.size() - (percent ? 1 : 0)));
+    if (value && !(*value >= 0 && (percent ? *value <= 100 : std::isfinite(*value) && *value == std::floor(*value)))) value.reset();
+    return {given(value, option, word, "a number of members (3) or a percentage (0.5%)"), percent};
 }
 
-FitWindow parse_fit(std::string_view text) {
-    auto const dots = text.find("..");
-    if (dots != text.npos) {
-        auto const first = parse_number<std::uint32_t>(text.substr(0, dots));
-        auto const last = parse_number<std::uint32_t>(text.substr(dots + 2));
-        if (first && last && *first < *last) return {*first, *last};
-    }
-    throw SceneError(
-        fmt::format("--fit {}: give the first and the last sample of the fit as A..B, A less than B", text));
+FitWindow parse_fit(std::string_view option, std::string_view word) {
+    auto ends = parse_pair<std::uint32_t>(word, "..");
+    if (ends && ends->first >= ends->second) ends.reset();
+    auto const [first, last] = given(ends, option, word, "the first and the last sample of the fit as A..B, A less than B");
+    return {first, last};
 }
 
 std::pair<std::string, std::string> parse_override(std::string_view text) {
@@ -113,30 +106,30 @@ Isa parse_isa(std::string_view text) {
         cpu_backend(best_isa());  // or it says that no kernels of this program run here
         return best_isa();
     }
-    std::string known = "auto", built, supported;
-    for (Isa const isa : all_isas()) {
-        known += fmt::format(", {}", name_of(isa));
-        if (is_built(isa)) built += fmt::format("{}{}", built.empty() ? "" : ", ", name_of(isa));
-        if (is_supported(isa)) supported += fmt::format("{}{}", supported.empty() ? "" : ", ", name_of(isa));
-    }
+    auto const names = [](auto accepts) {
+        std::vector<std::string_view> all;
+        for (Isa const isa : built_isas()) {
+            if (accepts(isa)) all.push_back(name_of(isa));
+        }
+        return fmt::format("{}", fmt::join(all, ", "));
+    };
+    std::string const built = names([](Isa) { return true; });
     for (Isa const isa : all_isas()) {
         if (name_of(isa) != text) continue;
         if (is_supported(isa)) return isa;
         if (!is_built(isa)) throw SceneError(fmt::format("--isa {}: is not in this build, which has {}", text, built));
-        throw SceneError(fmt::format("--isa {}: this machine does not have it; it has {}", text, supported));
+        throw SceneError(fmt::format("--isa {}: this machine does not have it; it has {}", text, names(is_supported)));
     }
-    throw SceneError(fmt::format("--isa {}: no such instruction set; use one of {}", text, known));
+    throw SceneError(fmt::format("--isa {}: no such instruction set; use one of auto, {}", text, built));
 }
 
 BackendRequest parse_backend(std::string_view backend, std::string_view isa) {
-    BackendRequest request;
-    if (backend == "cpu") {
-        request.kind = BackendRequest::Kind::cpu;
-    } else if (backend == "cuda") {
-        request.kind = BackendRequest::Kind::cuda;
-    } else if (backend != "auto") {
+    auto const word = std::ranges::find(backend_words, backend);
+    if (word == std::end(backend_words)) {
         throw SceneError(fmt::format("--backend {}: no such backend; use one of {}", backend, fmt::join(backend_words, ", ")));
     }
+    BackendRequest request;
+    request.kind = static_cast<BackendRequest::Kind>(word - backend_words);
     if (isa == "auto") return request;
     if (request.kind == BackendRequest::Kind::cuda) {
         throw SceneError(
@@ -151,10 +144,7 @@ std::string shell_quoted(std::string_view word) {
     if (!word.empty() && word.find_first_not_of(plain) == word.npos) return std::string(word);
     std::string quoted = "'";
     for (char const c : word) {
-        if (c == '\'')
-            quoted += "'\\''";
-        else
-            quoted += c;
+        quoted += c == '\'' ? "'\\''" : std::string(1, c);
     }
     return quoted + "'";
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -21,22 +22,22 @@ struct FailureLimit {
     std::string text() const;
 };
 
-// Each throws SceneError with one line for a text that cannot be used.
+// Of an option's name and its word.  Each throws SceneError with one line for a word that cannot be used.
 
-int parse_threads(std::string_view text);
-double parse_hours(std::string_view text);
-MemberRange parse_member(std::string_view text);  // "A", from 0
-RunPart parse_part(std::string_view text);        // "I/N", 1 <= I <= N
-std::size_t parse_block_members(std::string_view text);
-FailureLimit parse_failure_limit(std::string_view text);  // "3", "0.5%"
-MemberRange parse_member_range(std::string_view text);    // "A..B", both included, from 0
-std::size_t parse_count(std::string_view option, std::string_view text, std::size_t least);
-double parse_seconds(std::string_view option, std::string_view text);       // finite, > 0
-FitWindow parse_fit(std::string_view text);                                 // "A..B", both included, A < B, from 0
+double parse_hours(std::string_view option, std::string_view word);
+double parse_seconds(std::string_view option, std::string_view word);            // finite, > 0
+std::uint64_t parse_member(std::string_view option, std::string_view word);      // from 0
+MemberRange parse_member_range(std::string_view option, std::string_view word);  // "A..B", both included, from 0
+RunPart parse_part(std::string_view option, std::string_view word);              // "I/N", 1 <= I <= N
+FailureLimit parse_failure_limit(std::string_view option, std::string_view word);  // "3", "0.5%"
+FitWindow parse_fit(std::string_view option, std::string_view word);               // "A..B", both included, A < B, from 0
+/// What parses a whole number from least to most.
+std::function<std::uint32_t(std::string_view option, std::string_view word)> whole_number(std::uint32_t least, std::uint32_t most = ~0u);
+
 std::pair<std::string, std::string> parse_override(std::string_view text);  // "key=value"
 Isa parse_isa(std::string_view text);                                       // also "auto"; supported by this machine
-/// What --backend takes.
-inline constexpr char const* backend_words[] = {"auto", "cpu", "cuda"};
+/// What --backend takes, in the order of `BackendRequest::Kind`.
+inline constexpr std::string_view backend_words[] = {"auto", "cpu", "cuda"};
 /// Of --backend and --isa.
 BackendRequest parse_backend(std::string_view backend, std::string_view isa);
 

@@ -1,10 +1,9 @@
-#include "host/commands/orbit_text.hpp"
-
 #include "host/commands/text.hpp"
 
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/study/orbit_summary.hpp"
 #include "host/study/verification.hpp"
@@ -14,20 +13,17 @@ namespace {
 
 std::string number(double value) { return cell(value, 4); }
 
+std::string text(MeanOfMembers const& mean) { return fmt::format("{} ± {}", number(mean.mean), number(mean.half_width)); }
+
 void print_history(std::vector<HistoryPoint> const& history) {
     if (history.empty()) return;
     std::size_t const shown = std::min<std::size_t>(5, history.size());
-    std::string line;
+    std::vector<std::string> means;
     for (std::size_t i = 1; i <= shown; ++i) {
         HistoryPoint const& point = history[i * history.size() / shown - 1];
-        line += fmt::format("{}{} ± {} after {:.0f}", line.empty() ? "" : ", ", number(point.mean.mean),
-                            number(point.mean.half_width), point.rescalings);
+        means.push_back(fmt::format("{} after {:.0f}", text(point.mean), point.rescalings));
     }
-    print_text(4, "  running mean of the largest [1/s]: {} rescalings", line);
-}
-
-std::string text(MeanOfMembers const& mean) {
-    return fmt::format("{} ± {}", number(mean.mean), number(mean.half_width));
+    print_text(4, "  running mean of the largest [1/s]: {} rescalings", fmt::join(means, ", "));
 }
 
 /// What makes exponents wrong without a sign in their intervals.
@@ -117,8 +113,7 @@ void print_sections(ResultReader const& results) {
         tell("warning: {} more crossings are not stored: raise study.max_crossings\n", sections->beyond);
     }
     if (sections->without > 0) {
-        tell("warning: {} member{} never crossed the section: look at study.section, or at the orbit\n",
-                   sections->without, sections->without == 1 ? "" : "s");
+        tell("warning: {} never crossed the section: look at study.section, or at the orbit\n", counted(sections->without, "member"));
     }
 }
 

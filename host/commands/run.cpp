@@ -9,7 +9,6 @@
 #include "host/base/fnv1a.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/json.hpp"
-#include "host/commands/run_summary.hpp"
 #include "host/commands/text.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/prediction.hpp"
@@ -60,7 +59,7 @@ StudyOptions study_options(RunArguments const& arguments, Scene const& scene) {
     options.block_members = arguments.block_members;
     options.resume = arguments.resume;
     options.force = arguments.force;
-    options.progress = Progress::style_for(stderr, !arguments.progress);
+    options.progress = Progress::style_for(stderr, !arguments.shows_progress());
     return options;
 }
 
@@ -105,9 +104,8 @@ bool says_text(RunArguments const& arguments) { return !arguments.quiet && !argu
 
 int end_stopped(StudyOptions const& options, std::string_view why, std::uint64_t left) {
     std::string const folder = shard_folder_of(options.output);
-    tell("slideway: stopped early{}: {} members have not run; those that did are kept in {}: add --resume to go on, or "
-        "make a file of them with slideway merge\n",
-        why, left, folder);
+    tell("slideway: stopped early{}: {} {} not run; those that did are kept in {}: add --resume to go on, or make a file of them with slideway merge\n", why,
+         counted(left, "member"), left == 1 ? "has" : "have", folder);
     return exit_code::stopped_early;
 }
 
@@ -136,10 +134,11 @@ int end_with_shards(RunArguments const& arguments, StudyOptions const& options, 
 int conclude(RunArguments const& arguments, Scene const& scene, StudyOptions const& options, bool replaced,
              std::optional<ToleranceReport> report, EnsembleTotals const* totals) {
     ResultReader const results(options.output);
+    bool const tells = arguments.json || !arguments.quiet;
+    if (tells && !report && asks_for_report(scene)) report = tolerance_report(results, scene, {options.threads});
     if (arguments.json) {
-        fmt::print("{}", result_json("run", results, results.seal(), totals));
+        fmt::print("{}", result_json("run", results, results.seal(), report, totals));
     } else if (!arguments.quiet) {
-        if (!report && asks_for_report(scene)) report = tolerance_report(results, scene, {options.threads});
         print_results(arguments, scene, results, report);
         fmt::print("\n");
         print_field("results", fmt::format("{}{}", options.output, replaced ? " (replaced a former file)" : ""));
@@ -162,7 +161,7 @@ int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& 
          StopRequest const& stop) {
     if (says_text(arguments)) print_field("scene", scene_text(scene, scene.path));
     if (run.is_complete()) {
-        if (arguments.progress) tell("resuming: {} is complete already\n", options.output);
+        if (arguments.shows_progress()) tell("resuming: {} is complete already\n", options.output);
         return conclude(arguments, scene, options, false, {}, nullptr);
     }
     std::optional<ToleranceReport> report;
@@ -249,7 +248,7 @@ int run(RunArguments const& arguments) {
             if (auto const wrong = impossible_starts(scene, best_isa())) tell("warning: {}\n", *wrong);
         }
         warn_of_losses(options, study);
-        if (arguments.progress && !study.is_complete()) announce(scene, options, choice.reason, prediction, study);
+        if (arguments.shows_progress() && !study.is_complete()) announce(scene, options, choice.reason, prediction, study);
         invited = true;
         ranks->broadcast(invitation(study, *options.backend));
         return ranks->agree(lead(arguments, scene, options, study, *ranks, stop));

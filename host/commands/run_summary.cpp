@@ -1,13 +1,11 @@
-#include "host/commands/run_summary.hpp"
+#include "host/commands/text.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "host/commands/orbit_text.hpp"
-#include "host/commands/text.hpp"
-#include "host/commands/tolerance_text.hpp"
 #include "host/config/drive_period.hpp"
 #include "host/store/run_identity.hpp"
 #include "host/study/orbit_schedule.hpp"
@@ -81,11 +79,10 @@ void print_instability(Scene const& scene, EndedMembers const& ended) {
     std::string const name = method == Method::rk4
                                  ? fmt::format("rk4 with a step of {:.3g} s", scene.integrator.fixed_step)
                                  : std::string(name_of(method));
-    std::string what;
-    if (unstable > 0) what = fmt::format("{} unstable by the energy audit", unstable);
-    if (broken > 0) what += fmt::format("{}{} broke down", what.empty() ? "" : ", ", broken);
-    print_text(0, "\n{} failed in {} member{} ({}): {}.", name, unstable + broken, unstable + broken == 1 ? "" : "s",
-               what, advice_on(method));
+    std::vector<std::string> what;
+    if (unstable > 0) what.push_back(fmt::format("{} unstable by the energy audit", unstable));
+    if (broken > 0) what.push_back(fmt::format("{} broke down", broken));
+    print_text(0, "\n{} failed in {} ({}): {}.", name, counted(unstable + broken, "member"), fmt::join(what, ", "), advice_on(method));
 }
 
 /// Members that spent their steps before their end.
@@ -93,11 +90,8 @@ void print_spent(Scene const& scene, EndedMembers const& ended) {
     std::uint64_t const spent = ended.count(Status::max_steps);
     if (spent == 0) return;
     bool const pair = scene.integrator.method == Method::dopri5 || scene.integrator.method == Method::bs32;
-    print_text(
-        0,
-        "\n{} member{} spent integrator.max_steps = {}: try a larger one, {}looser rtol and atol, or look at one "
-        "with --member K.",
-        spent, spent == 1 ? "" : "s", scene.integrator.max_steps, pair ? "method = \"auto\", " : "");
+    print_text(0, "\n{} spent integrator.max_steps = {}: try a larger one, {}looser rtol and atol, or look at one with --member K.",
+               counted(spent, "member"), scene.integrator.max_steps, pair ? "method = \"auto\", " : "");
 }
 
 void print_failures(RunArguments const& arguments, Scene const& scene, EndedMembers const& ended,
@@ -105,7 +99,7 @@ void print_failures(RunArguments const& arguments, Scene const& scene, EndedMemb
     if (ended.failed() == 0) return;
     constexpr std::size_t listed = 5;
     auto const failed = failed_members(results, listed);
-    fmt::print("\n{} failed member{}{}:\n", ended.failed(), ended.failed() == 1 ? "" : "s",
+    fmt::print("\n{}{}:\n", counted(ended.failed(), "failed member"),
                ended.failed() > listed ? fmt::format(", the first {}", listed) : "");
     for (FailedMember const& member : failed) {
         auto const why = defect(member_inputs(scene, member.member), scene.parts);
@@ -176,10 +170,10 @@ void print_throughput(Scene const& scene, StudyOptions const& options, EnsembleT
     OrbitSchedule const schedule = orbit_schedule(scene);
     double const turns = schedule.timing ? schedule.end / drive_period(scene.parts, scene.inputs) : 0;
     print_field("throughput",
-                fmt::format("{:.4g} members/s, {}{} wall time ({}{} threads, {})", rate,
+                fmt::format("{:.4g} members/s, {}{} wall time ({}{}, {})", rate,
                             turns > 0 ? fmt::format("{:.4g} members x revolutions/s, ", rate * turns) : "",
                             duration_text(totals.seconds), ranks > 1 ? fmt::format("{} ranks of ", ranks) : "",
-                            options.backend->workers(options.threads), options.backend->machine()));
+                            counted(static_cast<std::uint64_t>(options.backend->workers(options.threads)), "thread"), options.backend->machine()));
     // Of a card's lanes nobody knows.
     if (options.backend->name() == "cpu") {
         print_field("lanes in use", fmt::format("{:.1f} %", 100 * totals.lane_utilisation()));

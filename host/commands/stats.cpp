@@ -53,8 +53,7 @@ void cut(StoredSeries& series, StatsArguments const& arguments) {
 }
 
 std::string samples_text(std::size_t samples, double spacing) {
-    return fmt::format("{} sample{} ({:.4g} s)", samples, samples == 1 ? "" : "s",
-                       static_cast<double>(samples) * spacing);
+    return fmt::format("{} ({:.4g} s)", counted(samples, "sample"), static_cast<double>(samples) * spacing);
 }
 
 std::string found_text(std::optional<std::size_t> samples) {

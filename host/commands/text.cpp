@@ -78,6 +78,8 @@ std::string shards_text(Scene const& scene, Prediction const& prediction) {
     return fmt::format("at most {}", bytes_text(static_cast<double>(prediction.shard_bytes)));
 }
 
+std::string counted(std::uint64_t count, std::string_view noun) { return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s"); }
+
 std::string scene_text(Scene const& scene, std::string const& path) {
     return scene.title.empty() ? path : fmt::format("{} ({})", one_line(scene.title), path);
 }
@@ -182,7 +184,7 @@ void print_quantities(std::vector<QuantitySummary> const& quantities) {
     if (quantities.empty()) return;
     // Rows of NaN alone would say the same in a harder way.
     auto const has_values = [](QuantitySummary const& quantity) { return quantity.values.count > 0; };
-    if (std::none_of(quantities.begin(), quantities.end(), has_values)) {
+    if (std::ranges::none_of(quantities, has_values)) {
         fmt::print("\nNo member finished: there are no statistics.\n");
         return;
     }

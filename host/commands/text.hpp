@@ -1,17 +1,22 @@
-// Pieces of text that several commands print to stdout.
+// What commands print of scenes and results, and how text is laid out.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "host/commands/commands.hpp"
+#include "host/store/result_view.hpp"
 #include "host/study/prediction.hpp"
 #include "host/study/result_summary.hpp"
+#include "host/study/study_run.hpp"
+#include "host/study/tolerance_report.hpp"
 
 namespace slideway::cli {
 
@@ -43,6 +48,27 @@ void print_statuses(std::vector<StatusCount> const& statuses);
 
 /// Headed table of mean, standard deviation, minimum, median and maximum, one row per column of a quantity.
 void print_quantities(std::vector<QuantitySummary> const& quantities);
+
+/// Distribution and mean of the exponents and how the largest converged; nothing where there are none.
+void print_exponents(ResultReader const& results);
+/// How many sections there are, and a warning where members have none.
+void print_sections(ResultReader const& results);
+/// Tables of moments and quantiles, yields, and what matters most for each quantity; lines of at most 120 columns.
+void print_tolerance(ToleranceReport const& report);
+/// All members of the file: how they ended, statistics, and what to do about those that failed.
+/// @param arguments those of the command that replays a member
+/// @param report of a scene that `asks_for_report`
+void print_results(RunArguments const& arguments, Scene const& scene, ResultReader const& results, std::optional<ToleranceReport> const& report);
+/// What this run computed, and how fast.
+void print_throughput(Scene const& scene, StudyOptions const& options, EnsembleTotals const& totals, int ranks);
+
+/// Members that ended otherwise than finished.
+std::uint64_t failed_count(ResultReader const& results);
+/// To stderr: that numbers are not resolved.
+void warn_of_results(ResultReader const& results);
+
+/// "1 member", "3 members".
+std::string counted(std::uint64_t count, std::string_view noun);
 
 /// "Title (scene.toml)", without control characters, which a terminal would obey.
 std::string scene_text(Scene const& scene, std::string const& path);

@@ -1,5 +1,3 @@
-#include "host/commands/tolerance_text.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -68,8 +66,7 @@ std::string range_text(Limit const& limit, std::string const& unit) {
 
 void print_yields(ToleranceReport const& report) {
     if (!report.all_met) return;
-    fmt::print("\nYield, of {} members that ran, with its {:.0f} % interval:\n", report.all_met->trials,
-               100 * confidence_level);
+    fmt::print("\nYield, of {} that ran, with its {:.0f} % interval:\n", counted(report.all_met->trials, "member"), 100 * confidence_level);
     auto const percent = [](double value) { return std::isnan(value) ? std::string("-") : fmt::format("{:.3f}", 100 * value); };
     TextRows table{{"quantity", "limit", "met", "yield [%]", "low", "high"}};
     auto const add = [&](std::string const& limit, std::string const& range, Proportion const& met) {

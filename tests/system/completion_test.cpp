@@ -12,10 +12,11 @@ namespace {
 
 class Completion : public Program {
 protected:
-    /// Runs a script in the test's folder.
+    /// Runs a script in the test's folder; the program is on the path, for it says what may stand on a command line.
     ShellOutcome shell(std::string const& program, std::string const& script) const {
         write("script", script);
-        return run_shell(path(""), "TERM=dumb HOME=$PWD " + program + " script");
+        std::string const folder = std::filesystem::path(SLIDEWAY_BINARY).parent_path().string();
+        return run_shell(path(""), fmt::format("TERM=dumb HOME=$PWD PATH='{}':\"$PATH\" {} script", folder, program));
     }
     bool is_there(std::string const& program) const { return run_shell(path(""), "command -v " + program).code == 0; }
     std::string written(std::vector<std::string> const& options, std::string const& name) const {
@@ -71,6 +72,8 @@ TEST_F(Completion, OfBashKnowsFilesByTheirEndings) {
     EXPECT_EQ(in_bash({"slideway", "run", "x1.toml", "-o", "x"}), "x2.nc\nx6.nc.shards\n");
     EXPECT_EQ(in_bash({"slideway", "stats", "x"}), "x2.nc\nx3.csv\nx6.nc.shards\n");
     EXPECT_EQ(in_bash({"slideway", "merge", "x"}), "x6.nc.shards\n");
+    EXPECT_EQ(in_bash({"slideway", "run", "--output", "=", "x2"}), "x2.nc\n");
+    EXPECT_EQ(in_bash({"slideway", "run", "--output=x2"}), "--output=x2.nc\n") << "where = breaks no words";
 }
 
 TEST_F(Completion, OfFishKnowsCommandsOptionsAndValues) {

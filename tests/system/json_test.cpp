@@ -1,5 +1,7 @@
 // What commands say to programs, beside what files and pages say.
+#include <algorithm>
 #include <sstream>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -44,6 +46,45 @@ TEST_F(JsonOutput, OfARunAndOfItsFileAreOneButForTheRun) {
     EXPECT_EQ((*work)["unit"], "J");
     EXPECT_NEAR((*work)["mean"].get<double>(), sum / 37, 1e-12 * std::abs(sum));
     EXPECT_EQ(told["verification"]["resolution"], "not_checked");
+}
+
+TEST_F(JsonOutput, OfAToleranceStudyHasQuantilesAndYields) {
+    write("t.toml", std::string(small_scene) + "[study.limits]\npeak_normal_force = { max = 10 }\n\"mode_time[free]\" = { min = 0 }\n");
+    Json made = of({"run", "t.toml", "--no-progress", "--threads", "2", "-o", "t.nc", "--set", "study.kind=tolerance", "study.samples=0", "study.seed=7"});
+    EXPECT_EQ(made["threads"], 2);
+    EXPECT_EQ(made["seed"], 7);
+    // By hand, of the members in the file.
+    std::vector<double> forces = results("t.nc").values("peak_normal_force");
+    ASSERT_EQ(forces.size(), 37u);
+    std::ranges::sort(forces);
+    auto const within = std::ranges::count_if(forces, [](double force) { return force <= 10; });
+    Json const& report = made["tolerance"];
+    EXPECT_EQ(report["design"], "mc");
+    EXPECT_EQ(report["confidence"], 0.95);
+    Json const& yields = report["yields"];
+    ASSERT_EQ(yields.size(), 3u);
+    EXPECT_EQ(yields[0]["name"], "peak_normal_force");
+    EXPECT_EQ(yields[0]["max"], 10);
+    EXPECT_TRUE(yields[0]["min"].is_null());
+    EXPECT_EQ(yields[0]["met"], within);
+    EXPECT_EQ(yields[0]["of"], 37);
+    EXPECT_LE(yields[0]["low"].get<double>(), static_cast<double>(within) / 37);
+    EXPECT_GE(yields[0]["high"].get<double>(), static_cast<double>(within) / 37);
+    EXPECT_EQ(yields[1]["met"], 37);
+    EXPECT_EQ(yields[2]["name"], "all limits");
+    EXPECT_EQ(yields[2]["met"], within);
+    auto const force = std::ranges::find_if(report["quantities"], [](Json const& one) { return one["name"] == "peak_normal_force"; });
+    ASSERT_NE(force, report["quantities"].end());
+    ASSERT_EQ((*force)["quantiles"].size(), 9u);
+    Json const& median = (*force)["quantiles"][4];
+    EXPECT_EQ(median["probability"], 0.5);
+    EXPECT_EQ(median["value"].get<double>(), forces[18]);
+    EXPECT_LT(median["low"].get<double>(), forces[18]);
+    EXPECT_GT(median["high"].get<double>(), forces[18]);
+    EXPECT_LT((*force)["mean"]["low"].get<double>(), (*force)["mean"]["high"].get<double>());
+    made.erase("run");
+    made["command"] = "info";
+    EXPECT_EQ(made, of({"info", "t.nc"}));
 }
 
 TEST_F(JsonOutput, SaysWhatIsLeft) {

@@ -82,7 +82,7 @@ TEST_F(StoppedRun, ASignalEndsAMemberThatWouldTakeMinutes) {
     Outcome const outcome = wait(child);
     EXPECT_EQ(outcome.code, 5) << outcome.err;
     EXPECT_LT(std::chrono::steady_clock::now() - asked, std::chrono::seconds(5));
-    EXPECT_NE(outcome.err.find("1 members have not run"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("1 member has not run"), std::string::npos) << outcome.err;
     EXPECT_EQ(shards_in("s.nc.shards"), 0u);
 }
 

@@ -1,4 +1,4 @@
-#include "host/commands/tolerance_text.hpp"
+#include "host/commands/text.hpp"
 
 #include <sstream>
 
