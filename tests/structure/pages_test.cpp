@@ -119,10 +119,10 @@ TEST(Pages, AreAllInTheIndex) {
     }
 }
 
-/// Rows of tables cannot be broken, fenced blocks show what a program prints.
+/// Rows of tables cannot be broken, fenced blocks show what a program prints, and the program writes docs/keys.md.
 TEST(Pages, LinesFit) {
     for (SourceFile const& page : pages()) {
-        if (!page.path.starts_with("docs/") && page.path != "README.md") continue;
+        if ((!page.path.starts_with("docs/") && page.path != "README.md") || page.path == "docs/keys.md") continue;
         for (std::string const& line : prose_of(page.text)) {
             if (line.starts_with("|")) continue;
             EXPECT_LE(characters(line), longest_line) << page.path << ": " << line;
