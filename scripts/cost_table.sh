@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# What `slideway check` says that the shipped scenes will take beside what `slideway run` takes, here and now.  Usage: scripts/cost_table.sh [SECONDS [THREADS]]:
-# of scenes that are said to take no longer (120), on as many threads (1).  Exit code 1 where one is off by more than a factor of three; below half a second
-# nothing is judged.  Steps are the same on every machine; seconds hang on what else it does.
+# The time and steps that `slideway check` predicts for the shipped scenes beside what `slideway run` takes on this machine.  Usage: scripts/cost_table.sh [SECONDS [THREADS]]:
+# for scenes with a prediction up to SECONDS (120), on THREADS threads (1).  Exit code 1 where one is off by more than a factor of three; below half a second
+# nothing is judged.  Steps are the same on every machine; seconds depend on its load.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 slideway=${SLIDEWAY_PROGRAM:-$root/build/release/bin/slideway}

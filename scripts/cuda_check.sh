@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# What there is to check on a machine with a card that CUDA knows: builds the module for cards, runs the tests labelled cuda, compares
-# results with the processor's, watches both with compute-sanitizer, and measures.
+# The checks that need a GPU: builds the GPU module, runs the tests labelled cuda, compares results with the processor's, runs
+# compute-sanitizer, and measures.
 # Usage: scripts/cuda_check.sh [arguments of bench_cuda], e.g. --rounds 5.  Result: bench/results/cuda_<card>.md.
 #
-# Exit code 0 only when every step passed; 1 after the first one that failed; 4 without a card that can be used, when nothing was checked.
+# Exit code 0 only when every step passed; 1 after the first one that failed; 4 without a usable GPU, when nothing was checked.
 # The last line says which.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -50,7 +50,7 @@ run() {
     return "$code"
 }
 
-# The runtime may find less than the driver's tool: a driver that is too old, a card that this build has no kernels for.
+# The runtime may find less than the driver's tool: the driver may be too old, or this build may have no kernels for the GPU.
 step "the card, as slideway finds it"
 found=$("$slideway" list | sed -n 's/^  cuda  *//p') || stop "slideway cannot say"
 echo "$found"
@@ -68,7 +68,7 @@ if grep -q '(Skipped)$' "$results/ctest.log"; then stop "tests found no card"; f
 payload() {
     "$slideway" info "$results/$1" | sed -n 's/^payload  *\([0-9a-f]*\): matches the data$/\1/p'
 }
-# same <name> <scene> [options]: on the processor, on the card, and there in other blocks.
+# same <name> <scene> [options]: on the processor, on the GPU, and there in other blocks.
 same() {
     local name=$1
     shift

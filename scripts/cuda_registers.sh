@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Writes bench/results/cuda_registers.md: registers, stack and spills of the kernels on cards, from what ptxas -v said when a build
+# Writes bench/results/cuda_registers.md: registers, stack and spills of the GPU kernels, from what ptxas -v said when a build
 # compiled them.  Usage: scripts/cuda_registers.sh [BUILD], a build of the target slideway_cuda_module for sm_80 and sm_90, as the
 # preset cuda makes it.
 set -euo pipefail
@@ -21,7 +21,7 @@ flags=$(grep -m 1 "SLIDEWAY_ISA=cuda " "$build/compile_commands.json" | tr " " "
 
 {
     cat <<EOF
-# Registers, stack and spills of the kernels on cards
+# Registers, stack and spills of the GPU kernels
 
 - compiler: $("$nvcc" --version | sed -n 's/.*release .*, V/nvcc /p')
 - commit: $(git -C "$root" rev-parse --short HEAD)$changed

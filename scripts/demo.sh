@@ -36,19 +36,19 @@ Done in $SECONDS s.  The results lie in $PWD/demo:
   tolerance_conservative.nc   2,560 mechanisms whose clearances, friction, crank speed and way scatter, under the law that
                               conserves energy
   tolerance_paper.nc          the same mechanisms under the contact law as published
-Each holds, for every member, what it drew, how it ended, what it cost and its quantities; and in the groups statistics, yield
-and sensitivity the tables above with their intervals.
+Each file has, for every member, its drawn inputs, status, cost and quantities. The groups statistics, yield and sensitivity
+have the tables above with their intervals.
 
 How to read them:
-  quantiles     of what scatters, by the 512 independent draws of the design
-  yield         how many mechanisms keep to the scene's limit of 1 kN on the peak normal force: under the conservative law
+  quantiles     of each quantity, from the 512 independent draws of the design
+  yield         the share of mechanisms that meet the scene's limit of 1 kN on the peak normal force: under the conservative law
                 nine in ten, under the law as published one in forty
-  sensitivity   first order: the share of a quantity's variance that an input explains alone; total: with its part in mixtures.
-                Friction loss and crank work are explained by friction and crank speed.  Contact counts and times are mixed by the
-                impacts: first orders near 0, totals near 1, and no single tolerance would calm them.
-  energy_residual = E(t) - E(0) - W + D_f + D_d: energy that neither came from the crank's work W nor is missing for friction D_f and
-                contact damping D_d.  The published law jumps where a contact changes between point, line and surface, and makes a tenth
-                of the crank's work that way: its hammering, and its yield, are not physics.  docs/tolerance.md and docs/chaos.md
-                tell the whole story.
-Stop it with Ctrl-C and start it again: it goes on where it was.
+  sensitivity   first order: the share of a quantity's variance that an input explains alone; total: its interactions included.
+                Friction and crank speed explain friction loss and crank work.  The impacts mix the inputs of contact counts and
+                times: first orders near 0, totals near 1.  Tightening one tolerance does not reduce their scatter.
+  energy_residual = E(t) - E(0) - W + D_f + D_d: energy that neither came from the crank's work W nor went into friction D_f and
+                contact damping D_d.  The force of the published law jumps where a contact changes between point, line and surface.
+                This makes a tenth of the crank's work, so the peak forces and the yield under this law are not physical.
+                docs/tolerance.md and docs/chaos.md have the details.
+Stop the demo with Ctrl-C and start it again: it continues where it was.
 END

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The time left that `slideway run` tells at 10, 25 and 50 % of its time beside what was left, for shipped scenes at sizes of some ten seconds to a minute: here
-# and now, a few minutes.  Usage: scripts/eta_table.sh [--processor] [THREADS] (1).  --processor: for a machine with other work, in processor time; the word is
-# taken for what it says of the share of the processor so far.  Exit code 1 where the word at 10 % is off by more than 30 %.
+# The remaining time that `slideway run` predicts at 10, 25 and 50 % of its time beside the true one, for shipped scenes at sizes of some ten seconds to a
+# minute; takes a few minutes.  Usage: scripts/eta_table.sh [--processor] [THREADS] (1).  --processor: for a loaded machine, in processor time; the
+# prediction is scaled by the share of the processor so far.  Exit code 1 where the prediction at 10 % is off by more than 30 %.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 slideway=${SLIDEWAY_PROGRAM:-$root/build/release/bin/slideway}

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# All that CI has no time for, in turn: slow tests (1,000 runs killed among them), sanitizers, hostile input, clang-tidy.  For a machine at night:
+# The tests that take too long for CI, in turn: slow tests (1,000 runs killed among them), sanitizers, hostile input, clang-tidy.  For a machine at night:
 # some two hours on two cores.
 # Usage: scripts/nightly.sh [SECONDS of scripts/fuzz.sh, 1800 if not given].  Goes on where something fails; the last lines say what did, and the exit code.
 set -euo pipefail

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every table and figure of Qian et al. (2020) under both contact laws: runs, figures, claims and verdicts on one page.
+# Figs. 3-5, 11-15, 17 and 19 of Qian et al. (2020) under both contact laws: runs, figures, claims and verdicts on one page.
 # Usage: scripts/reproduce.sh [OUTDIR [options of python -m reproduction]]; OUTDIR: build/reproduction.
 # Builds first if SLIDEWAY_PROGRAM does not name a built program.  Stop it with Ctrl-C and start it again: it goes on where it was.
 set -euo pipefail

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Sets up, builds and runs all tests but those labelled slow.  Exit code 0 only when everything passed.
-# Usage: scripts/test.sh [--cuda] [--all-isas].  The module with the kernels for cards, and its tests, are built where a card is found (with
-# CI=true not even there) or with --cuda; without a card for sm_90, on a simulated one.  With less than four cores the instruction sets are
+# Usage: scripts/test.sh [--cuda] [--all-isas].  The GPU module and its tests are built where a GPU is found (not with CI=true) or with
+# --cuda; without a GPU for sm_90, and tested on a simulated one.  With less than four cores the instruction sets are
 # scalar and the widest of this machine, all of them with --all-isas: before a release.
 # The last line is `N passed, N failed`, with `, N skipped` when tests were skipped.
 set -euo pipefail
@@ -20,7 +20,7 @@ if [[ -z ${TMPDIR:-} && -w /dev/shm ]] && (($(df --output=avail /dev/shm | tail 
     export TMPDIR=/dev/shm
 fi
 
-# A failure before the first test counts as one failed test, so that the last line always tells the truth.
+# A failure before the first test counts as one failed test, so that the last line is always right.
 stop() {
     echo "test.sh: $1"
     echo "0 passed, 1 failed"
@@ -41,7 +41,7 @@ bash scripts/setup.sh tests || stop "the set-up failed, no test ran"
 if nvidia-smi -L >/dev/null 2>&1; then
     [[ ${CI:-false} == true ]] || cuda=ON
 else
-    # Without a card one of its kinds says as much about the kernels as two, in half the time.
+    # Without a GPU one architecture checks the kernels as well as two, in half the time.
     export CUDAARCHS=90-real
 fi
 isas=all

@@ -27,7 +27,7 @@ build=build/tidy
 cmake --preset asan -B "$build" --log-level=WARNING -DSLIDEWAY_SANITIZE= -DSLIDEWAY_TESTS=OFF -DSLIDEWAY_ISAS=scalar \
     -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON || stop "the configuration failed"
 cmake --build "$build" --target slideway_commit || stop "the build failed"
-# Units that this build does not compile (those of cards) have no flags.
+# Units that this build does not compile (those for GPUs) have no flags.
 listed=()
 for unit in "${units[@]}"; do
     if grep -qF "\"file\": \"$root/$unit\"" "$build/compile_commands.json"; then listed+=("$unit"); fi

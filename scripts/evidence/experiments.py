@@ -280,7 +280,7 @@ def shipped(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
 
 
 def audit(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
-    """How often the resolution audit cries wolf."""
+    """How often the resolution check reports a false alarm."""
     laws = ("paper", "conservative")
     runs = [
         Run(

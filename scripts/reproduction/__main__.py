@@ -92,7 +92,7 @@ def _rounded_up(value: float) -> float:
 def main() -> int:
     """The command; exit code 1 where a part could not be made."""
     parser = argparse.ArgumentParser(
-        prog="python -m reproduction", description="Every table and figure of Qian et al. (2020) under both contact laws."
+        prog="python -m reproduction", description="Figs. 3-5, 11-15, 17 and 19 of Qian et al. (2020) under both contact laws."
     )
     parser.add_argument("output", type=Path, help="folder of the results and of reproduction.html")
     parser.add_argument("--scenes", type=Path, default=Path(__file__).resolve().parents[2] / "scenes", help="folder of the scenes")

@@ -64,7 +64,7 @@ def section(bench: Bench) -> Section:
 
 
 def _exponents(bench: Bench, clearance: float, law: str) -> np.ndarray:
-    """Second half of each member's record [1/s]: what its start stirred up has died down."""
+    """Second half of each member's record [1/s], after the transient of its start."""
     return bench.values("exponent", crank(clearance), "settled", law, "lyapunov_exponent_late")
 
 

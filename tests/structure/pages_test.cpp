@@ -1,0 +1,134 @@
+// The pages of the repository: their links lead somewhere, and their lines fit an editor.
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/structure/source_tree.hpp"
+
+namespace slideway::structure {
+namespace {
+
+constexpr std::size_t longest_line = 160;  // characters
+
+std::vector<SourceFile> pages() {
+    auto files = files_below({"bench", "docs", "python"});
+    auto const in_root = files_in_root();
+    files.insert(files.end(), in_root.begin(), in_root.end());
+    std::erase_if(files, [](SourceFile const& f) { return !f.path.ends_with(".md"); });
+    return files;
+}
+
+std::size_t characters(std::string const& line) {
+    return static_cast<std::size_t>(std::ranges::count_if(line, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+/// The lines outside fenced blocks.
+std::vector<std::string> prose_of(std::string const& text) {
+    std::vector<std::string> lines;
+    bool fenced = false;
+    for (std::string const& line : lines_of(text)) {
+        bool const fence = line.starts_with("```");
+        if (!fence && !fenced) lines.push_back(line);
+        if (fence) fenced = !fenced;
+    }
+    return lines;
+}
+
+/// A heading's anchor: in lower case, without what is no letter, digit, blank, '-' or '_'; blanks are '-'.
+std::string anchor_of(std::string const& heading) {
+    std::string anchor;
+    for (char const c : heading.substr(std::min(heading.find_first_not_of("# "), heading.size()))) {
+        auto const u = static_cast<unsigned char>(c);
+        if (std::isalnum(u) || c == '-' || c == '_' || u >= 0x80) anchor += static_cast<char>(u < 0x80 ? std::tolower(u) : u);
+        if (c == ' ') anchor += '-';
+    }
+    return anchor;
+}
+
+std::set<std::string> anchors_of(std::string const& text) {
+    std::set<std::string> anchors;
+    for (std::string const& line : prose_of(text)) {
+        if (line.starts_with("#")) anchors.insert(anchor_of(line));
+    }
+    return anchors;
+}
+
+/// Targets of `[text](target)` that are files of the repository; spans of code and addresses elsewhere are left aside.
+std::vector<std::string> links_of(std::string const& text) {
+    static std::regex const code("`[^`]*`"), link(R"(\]\(([^)\s]+)\))");
+    std::vector<std::string> targets;
+    for (std::string const& line : prose_of(text)) {
+        std::string const plain = std::regex_replace(line, code, "`");
+        for (std::sregex_iterator at(plain.begin(), plain.end(), link), end; at != end; ++at) {
+            if ((*at)[1].str().find("://") == std::string::npos) targets.push_back((*at)[1]);
+        }
+    }
+    return targets;
+}
+
+/// Why a link of a page leads nowhere; empty where it does not.
+std::string broken(SourceFile const& page, std::string const& target, std::map<std::string, std::set<std::string>> const& anchors) {
+    namespace fs = std::filesystem;
+    auto const hash = target.find('#');
+    std::string const file = target.substr(0, hash);
+    fs::path const path = file.empty() ? fs::path(page.path) : (fs::path(page.path).parent_path() / file).lexically_normal();
+    if (!fs::exists(fs::path(SLIDEWAY_SOURCE) / path)) return "there is no " + path.generic_string();
+    if (hash == std::string::npos) return {};
+    auto const found = anchors.find(path.generic_string());
+    bool const is_there = found != anchors.end() && found->second.contains(target.substr(hash + 1));
+    return is_there ? "" : path.generic_string() + " has no heading " + target.substr(hash);
+}
+
+TEST(Pages, LinksLeadSomewhere) {
+    std::map<std::string, std::set<std::string>> anchors;
+    for (SourceFile const& page : pages()) anchors[page.path] = anchors_of(page.text);
+    ASSERT_GT(anchors.size(), 10u);
+    for (SourceFile const& page : pages()) {
+        for (std::string const& target : links_of(page.text)) {
+            auto const why = broken(page, target, anchors);
+            EXPECT_TRUE(why.empty()) << page.path << ": " << target << ": " << why;
+        }
+    }
+}
+
+TEST(Pages, BrokenLinksAreRecognised) {
+    SourceFile const page{"docs/sample.md", "# A heading of `code`, and more\n"};
+    std::map<std::string, std::set<std::string>> const anchors{{"docs/model.md", anchors_of(page.text)}};
+    EXPECT_EQ(links_of("see [a](model.md), `[b](c)`, [d](https://e.f/g)\n```\n[h](i)\n```\n[j](#k)\n"), (std::vector<std::string>{"model.md", "#k"}));
+    EXPECT_EQ(broken(page, "model.md#a-heading-of-code-and-more", anchors), "");
+    EXPECT_EQ(broken(page, "../README.md", anchors), "");
+    EXPECT_NE(broken(page, "model.md#another", anchors), "");
+    EXPECT_NE(broken(page, "no_such_page.md", anchors), "");
+}
+
+TEST(Pages, AreAllInTheIndex) {
+    std::set<std::string> listed;
+    for (SourceFile const& page : pages()) {
+        if (page.path != "docs/README.md") continue;
+        for (std::string const& target : links_of(page.text)) listed.insert(target);
+    }
+    for (SourceFile const& page : pages()) {
+        if (!page.path.starts_with("docs/") || page.path == "docs/README.md") continue;
+        EXPECT_TRUE(listed.contains(page.path.substr(5))) << "docs/README.md does not list " << page.path;
+    }
+}
+
+/// Rows of tables cannot be broken, fenced blocks show what a program prints, and the program writes docs/keys.md.
+TEST(Pages, LinesFit) {
+    for (SourceFile const& page : pages()) {
+        if ((!page.path.starts_with("docs/") && page.path != "README.md") || page.path == "docs/keys.md") continue;
+        for (std::string const& line : prose_of(page.text)) {
+            if (line.starts_with("|")) continue;
+            EXPECT_LE(characters(line), longest_line) << page.path << ": " << line;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace slideway::structure
