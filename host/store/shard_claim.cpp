@@ -191,21 +191,16 @@ void ShardClaim::require_alone(Wanted const& wanted) {
     whole_->change(Kind::shared, of_rival(folder_));
 }
 
-/// Shards go that a manifest lists, and others that a process was killed before it could list; manifests last, for they say which.
+/// Shards go that a manifest lists, and others that a process was killed before it could list, or after it had removed the manifest.
 /// @param own_table a table is the run's
 void ShardClaim::remove_content(bool own_table) {
-    std::vector<std::string> shards, rest;
+    std::vector<std::string> const listed = listed_names(folder_);
     for (std::string const& name : names_in(folder_)) {
         if (kind_of(name) != ShardFile::content || (name == shard_names::table && !own_table)) continue;
-        bool const is_shard = (name.starts_with(shard_names::members) || name.starts_with(shard_names::statistics)) && !name.ends_with(".tmp");
-        (is_shard ? shards : rest).push_back(name);
-    }
-    std::vector<std::string> const listed = listed_names(folder_);
-    for (std::string const& name : shards) {
         std::string const path = in_folder(folder_, name);
-        if (std::ranges::binary_search(listed, name) || is_shard_within(path)) remove_file(path);
+        bool const is_shard = (name.starts_with(shard_names::members) || name.starts_with(shard_names::statistics)) && !name.ends_with(".tmp");
+        if (!is_shard || std::ranges::binary_search(listed, name) || is_shard_within(path)) remove_file(path);
     }
-    for (std::string const& name : rest) remove_file(in_folder(folder_, name));
 }
 
 std::vector<std::string> ShardClaim::remove_folder() {

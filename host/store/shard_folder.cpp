@@ -157,7 +157,7 @@ void ShardFolder::mend() const {
 void write_identity(std::string const& folder, RunIdentity const& identity) {
     std::string const copy = in_folder(folder, shard_names::identity_copy), text = identity_text(identity);
     // One that is older than run.toml would speak for it some day.
-    remove_file(copy);
+    if (is_there(copy)) remove_file(copy);
     write_durably(in_folder(folder, shard_names::identity), text);
     write_durably(copy, text);
 }
