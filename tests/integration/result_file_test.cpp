@@ -71,7 +71,7 @@ Provenance provenance_of(int threads) {
 class ResultFile : public testing::OutputFolder {
 protected:
     void write_file(std::string const& file, std::vector<FakeBlock> const& blocks, int threads = 1,
-                    std::function<void(NetcdfFile&)> conclude = {}) const {
+                    std::function<void(DataFile&)> conclude = {}) const {
         std::vector<testing::BlockAndStudy> views;
         for (FakeBlock const& block : blocks) views.push_back({block.view(), {}});
         write_result(file, layout_of(5), provenance_of(threads), views, "complete", std::move(conclude));
@@ -174,7 +174,7 @@ TEST_F(ResultFile, IsTheSameWhateverTheOrderOfBlocks) {
 
 TEST_F(ResultFile, StandsAtItsPathOnlyWhenComplete) {
     std::ofstream(path()) << "a former file";
-    auto const giving_up = [&](NetcdfFile&) {
+    auto const giving_up = [&](DataFile&) {
         EXPECT_EQ(fs::file_size(path()), 13u);
         EXPECT_TRUE(fs::exists(path() + ".part"));
         throw FileError("given up");
@@ -188,13 +188,13 @@ TEST_F(ResultFile, StandsAtItsPathOnlyWhenComplete) {
 }
 
 TEST_F(ResultFile, HoldsWhatIsConcludedFromItsMembers) {
-    auto const concluding = [](NetcdfFile& file) { file.put_number(DataFile::global, "mean_of_all", 2.5); };
+    auto const concluding = [](DataFile& file) { file.put_number(DataFile::global, "mean_of_all", 2.5); };
     write_file(path(), {{0, 5}}, 1, concluding);
     EXPECT_EQ(ResultReader(path()).attribute("mean_of_all"), "2.5");
 }
 
 TEST_F(ResultFile, StaysAsPartIfOnlyItsNameIsTaken) {
-    auto const taking_the_name = [&](NetcdfFile&) { fs::create_directories(path() + "/in_the_way"); };
+    auto const taking_the_name = [&](DataFile&) { fs::create_directories(path() + "/in_the_way"); };
     EXPECT_THROW(write_file(path(), {{0, 5}}, 1, taking_the_name), FileError);
     EXPECT_EQ(ResultReader(path() + ".part").values("status").size(), 5u);
 }

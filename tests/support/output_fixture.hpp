@@ -90,7 +90,7 @@ protected:
     /// The result file of blocks, by way of their shards.
     void write_result(std::string const& file, ResultLayout const& layout, Provenance const& provenance,
                       std::vector<BlockAndStudy> const& blocks, std::string const& completeness = "complete",
-                      std::function<void(NetcdfFile&)> conclude = {}) const {
+                      std::function<void(DataFile&)> conclude = {}) const {
         std::string const shards =
             shards_of({"a program", "fused", layout.members, provenance.scene}, "shards_of_result");
         put_blocks(shards, layout, provenance, blocks);

@@ -52,7 +52,8 @@ protected:
     std::vector<double> statistic(std::string const& file, std::string const& name,
                                   std::string const& group = "statistics") const {
         NetcdfFile const results = NetcdfFile::open(path(file).string());
-        NetcdfFile const from = results.group(group);
+        auto const held_from = results.group(group);
+        DataFile const& from = *held_from;
         for (DataFile::Variable const& variable : from.variables()) {
             if (variable.name != name) continue;
             std::vector<std::size_t> const start(variable.shape.size() + 1, 0);

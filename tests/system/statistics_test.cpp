@@ -85,7 +85,7 @@ TEST_F(StatisticsRun, QuantilesKeepTheirPromise) {
         }
     }
     NetcdfFile const file = NetcdfFile::open(path("s.nc").string());
-    EXPECT_EQ(file.group("statistics").text(DataFile::global, "quantile_error"),
+    EXPECT_EQ(file.group("statistics")->text(DataFile::global, "quantile_error"),
               "relative error of at most 2^-10 of a member of that rank");
 }
 

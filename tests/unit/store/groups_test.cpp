@@ -34,13 +34,13 @@ private:
 };
 
 /// A variable of doubles along dimensions of known lengths.
-void put(NetcdfFile& file, std::string const& name, std::vector<int> const& dimensions, Lengths const& lengths,
+void put(DataFile& file, std::string const& name, std::vector<int> const& dimensions, Lengths const& lengths,
          std::vector<double> const& values) {
     int const variable = file.add_variable(name, Type::float64, dimensions);
     file.write(variable, Lengths(lengths.size(), 0), lengths, values.data());
 }
 
-std::vector<double> get(NetcdfFile const& file, std::string const& name) {
+std::vector<double> get(DataFile const& file, std::string const& name) {
     for (auto const& variable : file.variables()) {
         if (variable.name != name) continue;
         std::vector<double> values(variable.size());
@@ -55,11 +55,13 @@ TEST_F(Groups, HoldVariablesOverDimensionsOfTheFileAndTheirOwn) {
         NetcdfFile file = NetcdfFile::create(path());
         int const member = file.add_dimension("member", 2);
         put(file, "x", {member}, {2}, {1, 2});
-        NetcdfFile group = file.add_group("statistics");
+        auto const held_group = file.add_group("statistics");
+        DataFile& group = *held_group;
         int const bound = group.add_dimension("bound", 3);
         put(group, "x", {member, bound}, {2, 3}, {1, 2, 3, 4, 5, 6});
         group.put_text(DataFile::global, "policy", "all of them");
-        NetcdfFile inner = group.add_group("inner");
+        auto const held_inner = group.add_group("inner");
+        DataFile& inner = *held_inner;
         put(inner, "y", {inner.dimension("bound")}, {3}, {7, 8, 9});
         file.close();
     }
@@ -68,21 +70,22 @@ TEST_F(Groups, HoldVariablesOverDimensionsOfTheFileAndTheirOwn) {
     EXPECT_TRUE(file.has_group("statistics"));
     EXPECT_FALSE(file.has_group("yield"));
     EXPECT_EQ(get(file, "x"), (std::vector<double>{1, 2}));
-    NetcdfFile const group = file.group("statistics");
+    auto const held_group = file.group("statistics");
+    DataFile const& group = *held_group;
     EXPECT_EQ(get(group, "x"), (std::vector<double>{1, 2, 3, 4, 5, 6}));
     EXPECT_EQ(group.text(DataFile::global, "policy"), "all of them");
     EXPECT_EQ(file.text(DataFile::global, "policy"), "");
     ASSERT_EQ(group.dimensions().size(), 1u);  // its own
     EXPECT_EQ(group.dimensions()[0].name, "bound");
     EXPECT_EQ(group.dimensions()[0].length, 3u);
-    EXPECT_EQ(get(group.group("inner"), "y"), (std::vector<double>{7, 8, 9}));
+    EXPECT_EQ(get(*group.group("inner"), "y"), (std::vector<double>{7, 8, 9}));
     EXPECT_THROW(file.group("yield"), FileError);
     EXPECT_THROW(file.dimension("bound"), FileError);  // of the group alone
 }
 
 TEST_F(Groups, EndBeforeTheirFileWithoutClosingIt) {
     NetcdfFile file = NetcdfFile::create(path());
-    { NetcdfFile const group = file.add_group("a"); }
+    file.add_group("a");
     int const n = file.add_dimension("n", 1);
     put(file, "x", {n}, {1}, {5});
     NetcdfFile const moved = std::move(file);
@@ -112,9 +115,11 @@ TEST_F(Groups, FollowTheFilesVariablesInTheHash) {
         NetcdfFile file = NetcdfFile::create(path(name));
         int const n = file.add_dimension("n", 2);
         put(file, "x", {n}, {2}, {1, 2});
-        NetcdfFile second = file.add_group("z_first");  // by definition, not by name
+        auto const held_second = file.add_group("z_first");
+        DataFile& second = *held_second;  // by definition, not by name
         put(second, "y", {n}, {2}, {3, 4});
-        NetcdfFile third = file.add_group("a_second");
+        auto const held_third = file.add_group("a_second");
+        DataFile& third = *held_third;
         put(third, "y", {n}, {2}, {5, last});
         file.close();
     };

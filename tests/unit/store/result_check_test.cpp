@@ -26,7 +26,8 @@ protected:
         file.put_text(DataFile::global, "scene", "schema = 1\n");
         file.put_text(DataFile::global, "title", "Gelenk, größer");  // a string of netCDF, as it is no ASCII
         file.put_number(DataFile::global, "threads", 2);
-        NetcdfFile group = file.add_group(verification_group);
+        auto const held_group = file.add_group(verification_group);
+        DataFile& group = *held_group;
         int const checked = group.add_variable("difference", Type::float64, member);
         group.put_text(DataFile::global, "summary", "resolved");
         file.end_definitions();

@@ -22,7 +22,7 @@ struct Stored {
     std::string unit, long_name, coordinates;
 };
 
-Stored stored(NetcdfFile const& group, std::string const& name) {
+Stored stored(DataFile const& group, std::string const& name) {
     for (auto const& variable : group.variables()) {
         if (variable.name != name) continue;
         Stored result{std::vector<double>(variable.size()), variable.shape, group.text(variable.id, "units"),
@@ -43,7 +43,7 @@ Stored stored(NetcdfFile const& group, std::string const& name) {
     return {};
 }
 
-std::vector<std::string> texts(NetcdfFile const& group, std::string const& name) {
+std::vector<std::string> texts(DataFile const& group, std::string const& name) {
     for (auto const& variable : group.variables()) {
         if (variable.name != name) continue;
         std::vector<char> letters(variable.size());
@@ -72,14 +72,16 @@ TEST_F(StatisticsGroups, HoldTheReportOfARandomDesign) {
     NetcdfFile const back = NetcdfFile::open(path());
     EXPECT_EQ(back.groups(), (std::vector<std::string>{"statistics", "yield", "sensitivity"}));
     for (std::string const& name : back.groups()) {
-        NetcdfFile const group = back.group(name);
+        auto const held_group = back.group(name);
+        DataFile const& group = *held_group;
         EXPECT_EQ(group.text(DataFile::global, "policy"), report.policy);
         EXPECT_EQ(group.text(DataFile::global, "design"), "mc");
         for (auto const& variable : group.variables()) {
             EXPECT_NE(group.text(variable.id, "long_name"), "") << variable.name;
         }
     }
-    NetcdfFile const statistics = back.group("statistics");
+    auto const held_statistics = back.group("statistics");
+    DataFile const& statistics = *held_statistics;
     Stored const mean = stored(statistics, "mode_time_mean");
     EXPECT_EQ(mean.shape, (std::vector<std::size_t>{4}));
     EXPECT_EQ(mean.values[2], report.columns[3].summary.mean);
@@ -103,7 +105,8 @@ TEST_F(StatisticsGroups, HoldTheReportOfARandomDesign) {
     EXPECT_EQ(edges.unit, "N");
     EXPECT_TRUE(std::isnan(edges.values.back()));
 
-    NetcdfFile const yield = back.group("yield");
+    auto const held_yield = back.group("yield");
+    DataFile const& yield = *held_yield;
     EXPECT_EQ(texts(yield, "limit_name"), (std::vector<std::string>{"peak_normal_force", "mode_time[line]"}));
     EXPECT_EQ(texts(yield, "unit_name"), (std::vector<std::string>{"N", "s"}));
     EXPECT_EQ(stored(yield, "met").values, (std::vector<double>{400, 720}));
@@ -112,7 +115,8 @@ TEST_F(StatisticsGroups, HoldTheReportOfARandomDesign) {
     EXPECT_EQ(stored(yield, "trials").values, (std::vector<double>{900}));
     EXPECT_EQ(stored(yield, "all_share_interval").values[1], report.all_met->interval.high);
 
-    NetcdfFile const sensitivity = back.group("sensitivity");
+    auto const held_sensitivity = back.group("sensitivity");
+    DataFile const& sensitivity = *held_sensitivity;
     EXPECT_EQ(texts(sensitivity, "input_name"), (std::vector<std::string>{"joint.clearance", "contact.eta"}));
     Stored const ranks = stored(sensitivity, "mode_time_rank_correlation");
     EXPECT_EQ(ranks.shape, (std::vector<std::size_t>{4, 2}));
@@ -126,7 +130,8 @@ TEST_F(StatisticsGroups, HoldIndices) {
     ToleranceReport const report = tolerance_report(ResultView(file), scene(DesignKind::saltelli, 400));
     write_statistics(file, report);
     EXPECT_FALSE(file.has_group("yield"));
-    NetcdfFile const sensitivity = file.group("sensitivity");
+    auto const held_sensitivity = file.group("sensitivity");
+    DataFile const& sensitivity = *held_sensitivity;
     EXPECT_EQ(stored(sensitivity, "rows_used").values, (std::vector<double>{100}));
     EXPECT_EQ(stored(sensitivity, "mode_time_total").shape, (std::vector<std::size_t>{4, 2}));
     EXPECT_EQ(stored(sensitivity, "mode_time_total").values[1], report.indices->columns[1].indices.total[1].value);
