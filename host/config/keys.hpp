@@ -28,6 +28,9 @@ std::vector<std::string_view> numeric_key_names();
 /// One of them; nullptr when there is none.
 Key const* find_key(std::string_view dotted_name);
 
+/// What contact.restitution replaces.
+inline constexpr std::string_view rates_of_damping[] = {"contact.eta", "contact.chi_line", "contact.chi_surface"};
+
 /// Puts in the kernel part that `key` needs if it is to differ from its default or between members: the way's pose
 /// for way.*, the rates for contact.chi_*, restitution for contact.restitution, friction for friction.*.
 /// @param key that counts for the parts

@@ -1,4 +1,5 @@
 // A scene as TOML with every key in SI units.  Numbers are the shortest that read back to the same double.
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <string>
@@ -20,8 +21,7 @@ bool is_written(Key const& key, Parts const& parts) {
     bool const restitution = parts.damping == Damping::restitution;
     if (key.name.starts_with("way.")) return parts.misaligned_way;
     if (key.name == "contact.restitution") return restitution;
-    if (key.name == "contact.eta" || key.name.starts_with("contact.chi_")) return !restitution;
-    return true;
+    return !restitution || std::ranges::count(rates_of_damping, key.name) == 0;
 }
 
 /// Keys of one table; what follows from other keys is a comment, so that it still follows when they vary.
