@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/config/labels.hpp"
+#include "host/config/descriptors.hpp"
 #include "host/config/reader.hpp"
 #include "host/config/scene_text.hpp"
 #include "host/config/values.hpp"

@@ -9,7 +9,7 @@
 
 #include "host/base/suggest.hpp"
 #include "host/config/drive_period.hpp"
-#include "host/config/labels.hpp"
+#include "host/config/descriptors.hpp"
 #include "host/config/reader.hpp"
 #include "host/config/values.hpp"
 

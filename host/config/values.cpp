@@ -84,10 +84,10 @@ std::uint64_t read_count(Node const& node, std::string_view meaning, std::uint64
     Problem const problem{fmt::format("the {} must be an integer from {} to {}", meaning, low, high),
                           fmt::format("use an integer >= {} and <= {}", low, high)};
     constexpr double exact = 9007199254740992;  // 2^53: every integer below is a double
-    bool const integral = node.type == Node::Type::integer ? node.integer >= 0
-                                                           : node.type == Node::Type::real && node.real >= 0 && node.real <= exact && node.real == std::floor(node.real);
+    bool const whole = node.type == Node::Type::real && node.real >= 0 && node.real <= exact && node.real == std::floor(node.real);
+    bool const integral = whole || (node.type == Node::Type::integer && node.integer >= 0);
     if (!integral) refuse(node, problem);
-    auto const value = static_cast<std::uint64_t>(node.type == Node::Type::integer ? node.integer : static_cast<std::int64_t>(node.real));
+    auto const value = whole ? static_cast<std::uint64_t>(node.real) : static_cast<std::uint64_t>(node.integer);
     if (value < low || value > high) refuse(node, problem);
     return value;
 }

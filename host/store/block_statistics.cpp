@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "host/base/byte_stream.hpp"
-#include "host/config/labels.hpp"
+#include "host/config/descriptors.hpp"
 
 namespace slideway {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "host/base/error.hpp"
-#include "host/config/labels.hpp"
+#include "host/config/descriptors.hpp"
 
 namespace slideway {
 
