@@ -9,7 +9,7 @@
 #include "host/commands/commands.hpp"
 #include "host/commands/text.hpp"
 #include "host/config/key_reference.hpp"
-#include "host/config/labels.hpp"
+#include "host/config/descriptors.hpp"
 #include "host/config/settings.hpp"
 #include "host/sampling/distribution_forms.hpp"
 

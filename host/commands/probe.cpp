@@ -12,7 +12,7 @@
 #include "host/commands/commands.hpp"
 #include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
-#include "host/config/labels.hpp"
+#include "host/config/descriptors.hpp"
 #include "host/store/output_target.hpp"
 #include "host/study/study_run.hpp"
 #include "kernels/members/start.hpp"

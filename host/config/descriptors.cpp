@@ -1,6 +1,7 @@
 // Compiled under a name of its own (CMakeLists.txt here): it shares no code with the kernels.
 #include "host/config/descriptors.hpp"
 
+#include <iterator>
 #include <string_view>
 
 #include "kernels/all_laws.hpp"
@@ -65,6 +66,15 @@ int free_states(Parts const& parts) {
     int count = 0;
     for (int i = 0; i < info(parts.mechanism).states; ++i) count += is_prescribed(parts, i) ? 0 : 1;
     return count;
+}
+
+std::vector<std::string> labels_of(std::string_view dimension) {
+    if (dimension == "apex") return {"P1", "P2", "P3", "P4", "P5", "P6", "P7", "P8"};
+    if (dimension == "mode_class") return {std::begin(mode_class_names), std::end(mode_class_names)};
+    if (dimension == "axis") return {"roll", "yaw", "pitch"};
+    if (dimension == "direction") return {"x", "y", "z"};
+    if (dimension == "channel") return {"top", "front"};
+    return {};
 }
 
 }  // namespace slideway

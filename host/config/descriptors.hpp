@@ -2,7 +2,9 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "kernels/laws/law_info.hpp"
 #include "kernels/mechanisms/mechanism_info.hpp"
@@ -26,5 +28,15 @@ bool makes_energy(Parts const& parts);
 bool is_prescribed(Parts const& parts, int component);
 /// How many components neighbours may differ in.
 int free_states(Parts const& parts);
+
+/// Labels along a dimension of the quantity table: "P1" … "P8", the mode classes, "roll" "yaw" "pitch",
+/// "x" "y" "z" of a direction, "top" "front" of a channel (a sensor of the experiment).
+/// Empty for an unknown dimension.
+std::vector<std::string> labels_of(std::string_view dimension);
+
+/// Number i of a mechanism's state.
+template <class Index> constexpr SeriesInfo const& state_info(MechanismInfo const& mechanism, Index i) {
+    return series_table[static_cast<int>(mechanism.state[i])];
+}
 
 }  // namespace slideway

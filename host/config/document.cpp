@@ -142,7 +142,7 @@ Node parse_override(std::string const& key, std::string const& value, int order)
 std::vector<std::string_view> rivals_of(std::string_view name) {
     std::vector<std::string_view> result;
     // The numbers of the physics have but this one.
-    if (name == "contact.restitution") result = {"contact.eta", "contact.chi_line", "contact.chi_surface"};
+    if (name == "contact.restitution") result.assign(std::begin(rates_of_damping), std::end(rates_of_damping));
     auto const row = std::ranges::find(settings(), name, &Setting::name);
     if (row != settings().end()) std::ranges::copy_if(row->rivals, std::back_inserter(result), [](auto rival) { return !rival.empty(); });
     for (Key const& twin : twin_keys()) {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/config/rules.hpp"
+#include "host/config/keys.hpp"
 #include "host/config/scene.hpp"
 
 namespace slideway {

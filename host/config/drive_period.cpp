@@ -1,9 +1,76 @@
 #include "host/config/drive_period.hpp"
 
-#include "host/config/descriptors.hpp"
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "host/config/reader.hpp"
 #include "kernels/members/drive_period.hpp"
 
 namespace slideway {
+namespace {
+
+/// Low and high ends beyond which none of 1e15 draws lies.
+std::pair<double, double> ends_of(Distribution const& d) {
+    constexpr double deviations = 8, rare = 1e-15;
+    switch (d.kind) {
+        case Distribution::Kind::constant:
+            return {d.mean, d.mean};
+        case Distribution::Kind::normal:
+            return {d.mean - deviations * d.sd, d.mean + deviations * d.sd};
+        case Distribution::Kind::lognormal: {
+            // Of ln(x - low): variance ln(1 + (sd/m)²) and mean ln m - variance/2, m = mean - low.
+            double const m = d.mean - d.low, variance = std::log1p((d.sd / m) * (d.sd / m));
+            double const median = m * std::exp(-variance / 2), spread = std::exp(deviations * std::sqrt(variance));
+            return {d.low + median / spread, d.low + median * spread};
+        }
+        case Distribution::Kind::weibull:
+            return {d.low + d.scale * std::pow(rare, 1 / d.shape),
+                    d.low + d.scale * std::pow(-std::log(rare), 1 / d.shape)};
+        default:
+            return {d.low, d.high};
+    }
+}
+
+/// Magnitudes that members may have of a key; the least is 0 where the limits include it.
+struct Magnitudes {
+    double least, most;
+    bool several = false;  // members may differ
+};
+
+Magnitudes magnitudes(Scene const& scene, Key const& key) {
+    double const own = std::abs(key.get(scene.inputs));
+    Magnitudes range{own, own};
+    auto const take = [&](double low, double high) {
+        if (!range.several) range.least = range.most = std::abs(low);
+        range.several = true;
+        double const least = low <= 0 && high >= 0 ? 0 : std::min(std::abs(low), std::abs(high));
+        range.least = std::min(range.least, least);
+        range.most = std::max({range.most, std::abs(low), std::abs(high)});
+    };
+    auto const take_each = [&](std::vector<double> const& values) {
+        for (double const value : values) take(value, value);
+    };
+    for (Variation const& variation : scene.variations) {
+        if (variation.key != &key) continue;
+        if (variation.column != Variation::no_column) {
+            MemberTable const& table = *scene.design.table;
+            for (std::size_t row = 0; row < std::min<std::size_t>(table.rows(), scene.members); ++row) {
+                double const value = table.values[row * table.columns + variation.column];
+                if (!broken_rule(key, value)) take(value, value);  // other members fail before they run
+            }
+        } else if (variation.distribution.kind == Distribution::Kind::values) {
+            take_each(variation.distribution.list);
+        } else {
+            auto const [low, high] = ends_of(variation.distribution);
+            take(low, high);
+        }
+    }
+    if (scene.chaos.parameter == &key) take_each(scene.chaos.values);
+    return range;
+}
+
+}  // namespace
 
 double drive_period(Parts const& parts, Inputs const& inputs) {
     return drive_period(info(parts.mechanism), parts.free_crank, inputs);
@@ -16,6 +83,35 @@ double first_time_at(double phase, Parts const& parts, Inputs const& inputs) {
 std::string why_no_period(Parts const& parts) {
     if (!parts.free_crank && info(parts.mechanism).drive != DriveKind::none) return "mechanism.crank_speed is 0";
     return std::string("nothing drives a ") + (parts.free_crank ? "free crank" : info(parts.mechanism).name);
+}
+
+PeriodRange drive_periods(Scene const& scene) {
+    Inputs shortest = scene.inputs, longest = scene.inputs;
+    PeriodRange range{0, 0, nullptr};
+    /// @param at_least, at_most whose period has the key's least and largest magnitude
+    auto const vary = [&](std::string_view name, Inputs& at_least, Inputs& at_most) {
+        Key const& key = *find_key(name);
+        Magnitudes const of_key = magnitudes(scene, key);
+        if (of_key.several && range.varied == nullptr) range.varied = &key;
+        key.set(at_least, of_key.least);
+        key.set(at_most, of_key.most);
+    };
+    if (info(scene.parts.mechanism).drive == DriveKind::carriage) {
+        vary("mechanism.carriage_speed", longest, shortest);
+        vary("mechanism.stroke", shortest, longest);
+        vary("mechanism.reversal_time", shortest, longest);
+    } else if (std::isfinite(drive_period(scene.parts, Inputs{}))) {
+        vary("mechanism.crank_speed", longest, shortest);
+    }
+    range.least = drive_period(scene.parts, shortest);
+    range.most = drive_period(scene.parts, longest);
+    return range;
+}
+
+double shortest_reversal(Scene const& scene) {
+    double const least = magnitudes(scene, *find_key("mechanism.reversal_time")).least;
+    // Members at 0 fail before they run.
+    return least > 0 ? least : scene.inputs.reversal_time;
 }
 
 }  // namespace slideway

@@ -9,7 +9,6 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-
 namespace slideway {
 namespace {
 
@@ -26,19 +25,13 @@ template <class Infos, class Knows> std::vector<std::string_view> owners(Infos c
     return names;
 }
 
-std::vector<std::string_view> method_names() {
-    std::vector<std::string_view> names;
-    for (MethodInfo const& method : method_table) names.emplace_back(method.name);
-    return names;
-}
-
 KeyReference reference_of(Setting const& row) {
     KeyReference key{.name = row.name, .unit = row.unit, .meaning = row.meaning, .type = row.type, .range = row.range, .choices = {},
                      .preset = preset_text(row), .mechanisms = {}, .laws = {}, .studies = {}, .methods = {}};
     if (row.type == Type::count) key.range = {static_cast<double>(row.least), static_cast<double>(row.most)};
     key.choices.assign(row.choices.begin(), row.choices.end());
     key.studies = owners(study_kind_names, [&](std::size_t i) { return (row.studies & set_of(static_cast<StudyKind>(i))) != 0; });
-    key.methods = owners(method_names(), [&](std::size_t i) { return (row.methods & set_of(static_cast<Method>(i))) != 0; });
+    key.methods = owners(setting("integrator.method").choices, [&](std::size_t i) { return (row.methods & set_of(static_cast<Method>(i))) != 0; });
     bool const of_free_cranks = row.name == "mechanism.crank", of_faces = row.of_faces || row.name == "contact.law";
     key.mechanisms = owners(mechanism_names(), [&](std::size_t i) {
         return (!of_faces || mechanisms()[i].spatial) && (!of_free_cranks || mechanisms()[i].free_crank);

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "host/config/rules.hpp"
 #include "kernels/members/complete_inputs.hpp"
 
 namespace slideway {

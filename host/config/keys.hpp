@@ -2,6 +2,7 @@
 // scene and the variables of result files all go by it.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,6 +29,9 @@ std::vector<std::string_view> numeric_key_names();
 /// One of them; nullptr when there is none.
 Key const* find_key(std::string_view dotted_name);
 
+/// What contact.restitution replaces.
+inline constexpr std::string_view rates_of_damping[] = {"contact.eta", "contact.chi_line", "contact.chi_surface"};
+
 /// Puts in the kernel part that `key` needs if it is to differ from its default or between members: the way's pose
 /// for way.*, the rates for contact.chi_*, restitution for contact.restitution, friction for friction.*.
 /// @param key that counts for the parts
@@ -39,5 +43,35 @@ Inputs with_presets(Inputs inputs, Law law);
 /// Why a set of inputs cannot be used, in words ("joint.clearance_y is 0 m (the joint needs a gap); use a value > 0"),
 /// or nothing.  Checks every key's rule and those between keys of the mechanism (slip_speed > stick_speed …).
 std::optional<std::string> defect(Inputs const& inputs, Parts const& parts = {});
+
+// Why a number cannot be used: the words behind `defect`, in the parts that the reader needs for its positions.
+
+/// `reason` goes into the parentheses of a message, `advice` after the semicolon.
+struct Problem {
+    std::string reason;
+    std::string advice;
+};
+
+/// What a number may be; the words of a refusal come from the limits.
+struct Range {
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
+    bool low_included = true;
+};
+
+/// The problem of one value with its key's rule; NaN and infinity break every rule.
+std::optional<Problem> broken_rule(Key const& key, double value);
+
+/// What `defect` found: the key to blame, and another one whose value it clashes with (nullptr if none).
+struct Defect {
+    Key const* key;
+    Key const* other;
+    double value;
+    Problem problem;
+};
+std::optional<Defect> find_defect(Inputs const& inputs, Parts const& parts);
+
+/// "0.05 m"; a plain number for the unit "1".
+std::string with_unit(double value, std::string_view unit);
 
 }  // namespace slideway

@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/base/suggest.hpp"
+#include "host/config/drive_period.hpp"
 #include "host/config/key_reference.hpp"
 #include "host/config/scene_text.hpp"
 #include "host/config/values.hpp"
@@ -86,14 +88,6 @@ void read_bound(Node const& root, std::string_view table, Scene& scene, Settings
     }
 }
 
-void refuse_both(Node const& root, std::string_view first, std::string_view second) {
-    Node const* const a = root.find_path(first);
-    Node const* const b = root.find_path(second);
-    if (a == nullptr || b == nullptr) return;
-    bool const a_is_later = a->order != b->order ? a->order > b->order : a->line > b->line;
-    refuse(a_is_later ? *a : *b, {fmt::format("{} says it too", a_is_later ? second : first), "remove one of the two"});
-}
-
 void refuse_study(Node const& root, Node const* node, std::string_view key, Problem const& problem) {
     if (node != nullptr) refuse(*node, problem);
     Node const& kind = *root.find_path("study.kind");
@@ -114,8 +108,18 @@ void refuse_foreign_quantity(Node const& node, std::string_view name, Mechanism 
         fmt::format("{}: {} is no quantity of a {}; see `slideway list`", node.where, name, info(mechanism).name));
 }
 
+void refuse_at_rest(Node const& node, Parts const& parts, std::string_view instead) {
+    refuse(node, {fmt::format("{}, so there are no revolutions", why_no_period(parts)), fmt::format("use {} instead", instead)});
+}
+
 void refuse_missing(Node const& asking, std::string_view key, std::string_view why, std::string_view advice) {
     throw SceneError(fmt::format("{}: {} is missing ({}); {}", asking.where, key, why, advice));
+}
+
+void check_arguments(Node const& table, std::string_view what, std::initializer_list<std::string_view> known) {
+    for (Node const& node : table.children) {
+        if (std::ranges::count(known, node.key) == 0) refuse(node, {fmt::format("no argument of a {}", what), fmt::format("use {}", fmt::join(known, ", "))});
+    }
 }
 
 void refuse_unknown(Node const& node, std::string_view what, std::span<std::string_view const> known) {

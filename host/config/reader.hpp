@@ -53,9 +53,9 @@ void read_integrator(Node const& root, Scene& scene);
 /// Until when, and what of [study] is recorded on the way; needs everything above.
 void read_recording(Node const& root, Scene& scene);
 
-/// Whether a varied or swept key counts beside the scene's other ones.  @throws SceneError at `node`, or at a key that
-/// it replaces
-void check_counts(Node const& root, Node const& node, Key const& key, Scene const& scene);
+/// Whether a key may differ between members or columns: nothing else varies it, and it counts beside the scene's other ones.
+/// @param of_option why an option that sets it is refused  @throws SceneError at `node`, or at a key that it replaces
+void check_varied(Node const& root, Node const& node, Key const& key, Scene const& scene, Problem const& of_option);
 /// What to write instead of a name that is no numeric key of the physics.
 std::string key_advice(std::string_view name);
 /// Periods of the drive that members may have [s]; the most is infinite where a limit lets it stand still.
@@ -92,11 +92,14 @@ std::vector<double> uniform_times(double end_time, std::size_t count);
 /// What is given of the bound settings of a table.
 void read_bound(Node const& root, std::string_view table, Scene& scene, Settings rows = settings());
 
-/// Refuses the later one of two keys that say the same, if both are given.
-void refuse_both(Node const& root, std::string_view first, std::string_view second);
-
 /// Refuses what is given, or the study whose default it is; `key` is the dotted name.
 [[noreturn]] void refuse_study(Node const& root, Node const* given, std::string_view key, Problem const& problem);
+
+/// Refuses what is no argument of an inline table.  @param what it describes: "limit"
+void check_arguments(Node const& table, std::string_view what, std::initializer_list<std::string_view> known);
+
+/// Refuses what is counted by revolutions where nothing turns.  @param instead key that says it in seconds
+[[noreturn]] void refuse_at_rest(Node const& node, Parts const& parts, std::string_view instead);
 
 /// Refuses a node that no part of the scene reads.
 [[noreturn]] void refuse_unknown(Node const& node, std::string_view what, std::span<std::string_view const> known);

@@ -25,31 +25,25 @@ Node const* given_of(Node const& root, SpanKeys const& keys) {
     return node != nullptr ? node : root.find_path(keys.turns);
 }
 
-[[noreturn]] void refuse_at_rest(Node const& node, Parts const& parts, std::string_view advice) {
-    refuse(node, {fmt::format("{}, so there are no revolutions", why_no_period(parts)), std::string(advice)});
-}
-
 bool has_period(Scene const& scene) { return std::isfinite(drive_period(scene.parts, scene.inputs)); }
 
 /// Where nothing turns there are no revolutions; each that would be the default is a second, as in an ensemble.
 Span read_span(Node const& root, Scene const& scene, SpanKeys const& keys, double default_turns) {
-    refuse_both(root, keys.turns, keys.time);
     if (Node const* const node = root.find_path(keys.time)) return {read_number(*node, setting(keys.time)), false};
     bool const turns = has_period(scene);
     Node const* const node = root.find_path(keys.turns);
     if (node == nullptr) return {default_turns, turns};
     double const value = read_number(*node, setting(keys.turns));
-    if (!turns) refuse_at_rest(*node, scene.parts, fmt::format("use {} instead", keys.time));
+    if (!turns) refuse_at_rest(*node, scene.parts, keys.time);
     return {value, true};
 }
 
 Span read_dt(Node const& root, Scene const& scene) {
-    refuse_both(root, dt_keys.turns, dt_keys.time);
     if (Node const* const node = root.find_path(dt_keys.time)) return {read_number(*node, setting(dt_keys.time)), false};
     Node const* const node = root.find_path(dt_keys.turns);
     std::uint64_t const per_turn =
         node != nullptr ? read_count(*node, setting(dt_keys.turns)) : 2000;
-    if (node != nullptr && !has_period(scene)) refuse_at_rest(*node, scene.parts, "use study.dt instead");
+    if (node != nullptr && !has_period(scene)) refuse_at_rest(*node, scene.parts, "study.dt");
     return {1 / static_cast<double>(per_turn), has_period(scene)};
 }
 

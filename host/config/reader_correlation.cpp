@@ -90,11 +90,7 @@ void read_correlation(Node const& root, Scene& scene) {
     Node const* const table = root.find_path("study.correlation");
     if (table == nullptr) return;
     if (!table->is_table()) refuse(*table, {"it must be a table", "write [study.correlation], keys and matrix below"});
-    for (Node const& node : table->children) {
-        if (node.key != "keys" && node.key != "matrix") {
-            refuse(node, {"no argument of a correlation", "use keys, matrix"});
-        }
-    }
+    check_arguments(*table, "correlation", {"keys", "matrix"});
     DesignKind const kind = scene.design.kind;
     if (kind == DesignKind::saltelli) {
         refuse(*table, {"sensitivities of design \"saltelli\" are of keys that vary alone",

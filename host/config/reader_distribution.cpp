@@ -37,16 +37,6 @@ void refuse_unknown_arguments(Node const& node, DistributionForm const& form) {
     }
 }
 
-std::vector<double> read_list(Node const& list, Key const& key) {
-    constexpr std::size_t most_values = 10'000;
-    if (list.type != Node::Type::array || list.children.empty() || list.children.size() > most_values) {
-        refuse(list, {fmt::format("not a list of 1 to {} values", most_values), "write for example [1, 2]"});
-    }
-    std::vector<double> values;
-    for (Node const& node : list.children) values.push_back(read_number(node, key));
-    return values;
-}
-
 /// A distribution and where its arguments stand, for what they must meet.
 class Check {
 public:
@@ -157,7 +147,7 @@ Distribution read_distribution(Node const& node, Key const& key) {
                                          argument.name));
         }
         if (argument.member == nullptr) {
-            distribution.list = read_list(*child, key);
+            distribution.list = read_list(*child, key, 10'000, "[1, 2]");
         } else {
             distribution.*argument.member = read_number(*child, argument.plain ? "1" : key.unit);
         }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/config/labels.hpp"
+#include "host/config/descriptors.hpp"
 #include "host/config/reader.hpp"
 #include "host/config/scene_text.hpp"
 #include "host/config/values.hpp"
@@ -59,9 +59,7 @@ LimitedQuantity read_name(Node const& node, Mechanism mechanism) {
 Limit read_limit(Node const& node, LimitedQuantity const& limited) {
     constexpr std::string_view example = "{ min = 0, max = 1 }, or one of the two";
     if (!node.is_table()) refuse(node, {"not a limit", fmt::format("write for example {}", example)});
-    for (Node const& child : node.children) {
-        if (child.key != "min" && child.key != "max") refuse(child, {"no argument of a limit", "use min, max"});
-    }
+    check_arguments(node, "limit", {"min", "max"});
     QuantityInfo const& info = quantity_table[static_cast<int>(limited.quantity)];
     Node const *const low = node.find("min"), *const high = node.find("max");
     if (low == nullptr && high == nullptr) {

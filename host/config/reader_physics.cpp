@@ -29,14 +29,6 @@ void check_rivals(std::vector<GivenKey> const& given) {
     }
 }
 
-void check_restitution(Node const& root) {
-    for (std::string_view const name : {"contact.eta", "contact.chi_line", "contact.chi_surface"}) {
-        if (Node const* const node = root.find_path(name)) {
-            refuse(*node, {"contact.restitution replaces it", "remove one of the two"});
-        }
-    }
-}
-
 /// Which mechanism, and that nothing is given that does not count for it.
 void read_mechanism(Node const& root, Parts& parts) {
     if (Node const* const kind = root.find_path("mechanism.kind")) {
@@ -145,8 +137,10 @@ void read_physics(Node const& root, Scene& scene) {
         restitution = restitution || key->member == &Inputs::restitution;
     }
     check_rivals(given);
-    if (restitution) check_restitution(root);
-
+    for (std::string_view const name : rates_of_damping) {
+        Node const* const node = restitution ? root.find_path(name) : nullptr;
+        if (node != nullptr) refuse(*node, {"contact.restitution replaces it", "remove one of the two"});
+    }
     if (restitution) {
         scene.parts.damping = Damping::restitution;
     } else if (scene.inputs.chi_line != 0 || scene.inputs.chi_surface != 0) {

@@ -9,7 +9,7 @@
 
 #include "host/base/suggest.hpp"
 #include "host/config/drive_period.hpp"
-#include "host/config/labels.hpp"
+#include "host/config/descriptors.hpp"
 #include "host/config/reader.hpp"
 #include "host/config/values.hpp"
 
@@ -45,11 +45,7 @@ void read_section_table(Node const& table, Scene& scene) {
     MechanismInfo const& mechanism = info(scene.parts.mechanism);
     constexpr std::string_view example = "{ on = \"vy\", value = \"0 mm/s\", direction = \"rising\" }";
     if (!table.is_table()) refuse(table, {"not a section", fmt::format("write for example {}", example)});
-    for (Node const& node : table.children) {
-        if (node.key != "on" && node.key != "value" && node.key != "direction") {
-            refuse(node, {"no argument of a section", "use on, value, direction"});
-        }
-    }
+    check_arguments(table, "section", {"on", "value", "direction"});
     Node const* const on = table.find("on");
     if (on == nullptr) {
         throw SceneError(fmt::format("{}: study.section has no on (what crosses the section); write for example {}",
@@ -99,7 +95,6 @@ std::string_view section_unit(SectionSurface const& section, Mechanism mechanism
 }
 
 void read_section(Node const& root, Scene& scene) {
-    refuse_both(root, "study.phase", "study.section");
     Node const* const table = root.find_path("study.section");
     Node const* const crossings = root.find_path("study.max_crossings");
     if (table == nullptr) {

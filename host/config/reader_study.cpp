@@ -3,8 +3,10 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/config/drive_period.hpp"
 #include "host/config/reader.hpp"
@@ -23,7 +25,6 @@ struct EndTime {
 };
 
 EndTime read_end_time(Node const& root, Scene const& scene) {
-    refuse_both(root, "study.revolutions", "study.duration");
     double const turn = drive_period(scene.parts, scene.inputs);
     bool const turns = std::isfinite(turn);
     if (Node const* const node = root.find_path("study.duration")) {
@@ -32,10 +33,7 @@ EndTime read_end_time(Node const& root, Scene const& scene) {
     }
     Node const* const node = root.find_path("study.revolutions");
     if (!turns) {
-        if (node != nullptr) {
-            refuse(*node, {fmt::format("{}, so there are no revolutions", why_no_period(scene.parts)),
-                           "use study.duration instead"});
-        }
+        if (node != nullptr) refuse_at_rest(*node, scene.parts, "study.duration");
         return {1, NAN};
     }
     double const revolutions =
@@ -57,7 +55,6 @@ struct Sampling {
 };
 
 Sampling read_sampling(Node const& root, Scene const& scene, EndTime const& end) {
-    refuse_both(root, "study.samples_per_revolution", "study.samples");
     if (Node const* const node = root.find_path("study.samples")) {
         std::uint64_t const count = read_count(*node, setting("study.samples"));
         if (count == 1) refuse(*node, {"the first and the last time are both stored", "use 0 or at least 2"});
@@ -67,10 +64,7 @@ Sampling read_sampling(Node const& root, Scene const& scene, EndTime const& end)
     if (node == nullptr) return {};
     std::uint64_t const per_turn = read_count(*node, setting("study.samples_per_revolution"));
     if (per_turn == 0) return {node, 0};
-    if (std::isnan(end.revolutions)) {
-        refuse(*node, {fmt::format("{}, so there are no revolutions", why_no_period(scene.parts)),
-                       "use study.samples instead"});
-    }
+    if (std::isnan(end.revolutions)) refuse_at_rest(*node, scene.parts, "study.samples");
     double const intervals = std::max(1.0, std::round(static_cast<double>(per_turn) * end.revolutions));
     if (intervals >= static_cast<double>(most_samples())) {
         refuse(*node, {fmt::format("that makes {} samples of each member", intervals + 1),
@@ -163,19 +157,25 @@ Problem foreign_key(Setting const& key, StudyKind kind) {
     if (sweep && key.name == "study.dt") {
         return {"rescalings of a sweep fall on its sections", "use study.rescalings_per_revolution"};
     }
-    std::string owners;
+    std::vector<std::string> owners;
     for (int i = 0; i < static_cast<int>(std::size(study_kind_names)); ++i) {
-        if ((key.studies & set_of(static_cast<StudyKind>(i))) == 0) continue;
-        owners += fmt::format("{}\"{}\"", owners.empty() ? "" : " or ", study_kind_names[i]);
+        if ((key.studies & set_of(static_cast<StudyKind>(i))) != 0) owners.push_back(fmt::format("\"{}\"", study_kind_names[i]));
     }
-    return {fmt::format("it has no effect with kind = \"{}\"", name_of(kind)),
-            fmt::format("remove it, or use kind = {}", owners)};
+    return {fmt::format("it has no effect with kind = \"{}\"", name_of(kind)), fmt::format("remove it, or use kind = {}", fmt::join(owners, " or "))};
 }
 
-void refuse_foreign_keys(Node const& table, StudyKind kind) {
-    for (Node const& node : table.children) {
-        for (Setting const& key : settings()) {
-            if (key.name == node.name && (key.studies & set_of(kind)) == 0) refuse(node, foreign_key(key, kind));
+/// Refuses what the study does not read, and the later one of two keys that say the same.
+void check_keys(Node const& root, StudyKind kind) {
+    for (Setting const& key : settings()) {
+        Node const* const node = root.find_path(key.name);
+        if (node == nullptr) continue;
+        if ((key.studies & set_of(kind)) == 0) refuse(*node, foreign_key(key, kind));
+        for (std::string_view const rival : key.rivals) {
+            // study.members may say what a design comes to.
+            Node const* const other = rival.empty() || rival == "study.members" ? nullptr : root.find_path(rival);
+            if (other == nullptr) continue;
+            bool const is_later = std::pair(node->order, node->line) > std::pair(other->order, other->line);
+            refuse(is_later ? *node : *other, {fmt::format("{} says it too", is_later ? rival : key.name), "remove one of the two"});
         }
     }
 }
@@ -195,7 +195,7 @@ void read_study(Node const& root, Scene& scene) {
     if (Node const* const kind = root.find_path("study.kind")) {
         scene.study = static_cast<StudyKind>(read_choice(*kind, setting("study.kind")));
     }
-    if (Node const* const table = root.find("study")) refuse_foreign_keys(*table, scene.study);
+    check_keys(root, scene.study);
     read_bound(root, "study", scene);
     if (Node const* const node = root.find_path("study.verify")) scene.verify = read_count(*node, setting("study.verify"));
     read_design(root, scene);

@@ -11,7 +11,6 @@
 namespace slideway {
 namespace {
 
-
 Key const& read_parameter(Node const& root, Scene const& scene) {
     Node const* const node = root.find_path("study.parameter");
     if (node == nullptr) {
@@ -21,18 +20,7 @@ Key const& read_parameter(Node const& root, Scene const& scene) {
     std::string const& name = read_text_value(*node);
     Key const* const key = find_key(name);
     if (key == nullptr) refuse(*node, {"only numeric keys of the physics can be swept", key_advice(name)});
-    for (Variation const& other : scene.variations) {
-        if (other.key->overlaps(*key)) {
-            refuse(*node, {fmt::format("study.vary.{} varies the same", other.key->name), "remove one of the two"});
-        }
-    }
-    for (GivenKey const& given : given_keys(root)) {
-        if (given.node->order > 0 && given.key->overlaps(*key)) {
-            refuse(*given.node,
-                   {"the sweep sets it in every column, so this has no effect", "use --set 'study.values=[...]'"});
-        }
-    }
-    check_counts(root, *node, *key, scene);
+    check_varied(root, *node, *key, scene, {"the sweep sets it in every column, so this has no effect", "use --set 'study.values=[...]'"});
     return *key;
 }
 
@@ -76,16 +64,6 @@ std::vector<double> read_range(Node const& root, Key const& key) {
     return values;
 }
 
-std::vector<double> read_list(Node const& list, Key const& key) {
-    if (list.type != Node::Type::array || list.children.empty() || list.children.size() > setting("study.points").most) {
-        refuse(list, {fmt::format("not a list of 1 to {} values", setting("study.points").most),
-                      "write for example [\"0.1 mm\", \"0.2 mm\"]"});
-    }
-    std::vector<double> values;
-    for (Node const& node : list.children) values.push_back(read_number(node, key));
-    return values;
-}
-
 /// Why a column cannot be run, if it is so.
 std::optional<Problem> broken_column(Inputs inputs, Parts const& parts, Key const& key, double value) {
     key.set(inputs, value);
@@ -125,13 +103,10 @@ void check_values(Node const& root, Scene const& scene) {
 }  // namespace
 
 void read_sweep(Node const& root, Scene& scene) {
-    for (std::string_view const name : {"study.from", "study.to", "study.points", "study.spacing"}) {
-        refuse_both(root, "study.values", name);
-    }
     Key const& key = read_parameter(root, scene);
     Node const* const list = root.find_path("study.values");
     scene.chaos.parameter = &key;
-    scene.chaos.values = list != nullptr ? read_list(*list, key) : read_range(root, key);
+    scene.chaos.values = list != nullptr ? read_list(*list, key, setting("study.points").most, "[\"0.1 mm\", \"0.2 mm\"]") : read_range(root, key);
     require_part(scene.parts, key);
     check_values(root, scene);
     if (Node const* const node = root.find_path("study.start")) {

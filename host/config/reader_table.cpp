@@ -76,23 +76,11 @@ Column read_column(Node const& node) {
 
 /// Adds a variation for each column of the header.
 std::vector<Column> read_header(CsvReader const& table, Node const& root, Scene& scene) {
-    auto const given = given_keys(root);
     std::vector<Column> columns;
     for (std::string const& field : table.fields()) {
         Node const node = field_node(table, fmt::format("column {}", columns.size() + 1), field);
         Column const column = read_column(node);
-        for (Variation const& other : scene.variations) {
-            if (!other.key->overlaps(*column.key)) continue;
-            bool const drawn = other.column == Variation::no_column;
-            refuse(node, {drawn ? fmt::format("study.vary.{} varies the same", other.key->name)
-                                : fmt::format("column {} has the same", other.column + 1),
-                          "remove one of the two"});
-        }
-        for (GivenKey const& option : given) {
-            if (option.node->order == 0 || !option.key->overlaps(*column.key)) continue;
-            refuse(*option.node, {"study.table has it for every member, so this has no effect", "change the table"});
-        }
-        check_counts(root, node, *column.key, scene);
+        check_varied(root, node, *column.key, scene, {"study.table has it for every member, so this has no effect", "change the table"});
         require_part(scene.parts, *column.key);
         scene.variations.push_back({column.key, {}, table.line(), columns.size()});
         columns.push_back(column);

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "host/base/suggest.hpp"
@@ -31,23 +33,6 @@ void collect_variations(Node const& table, std::string const& prefix, std::vecto
     }
 }
 
-void check_clashes(Node const& root, VariedNode const& entry, Scene const& scene, Variation const& variation) {
-    for (Variation const& other : scene.variations) {
-        if (other.key->overlaps(*variation.key)) {
-            refuse(*entry.node,
-                   {fmt::format("study.vary.{} varies the same", other.key->name), "remove one of the two"});
-        }
-    }
-    for (GivenKey const& given : given_keys(root)) {
-        if (given.node->order > 0 && given.key->overlaps(*variation.key)) {
-            refuse(*given.node,
-                   {"[study.vary] draws it for every member, so this has no effect",
-                    fmt::format("use --set 'study.vary.\"{}\"={{dist=\"const\", value=...}}'", variation.key->name)});
-        }
-    }
-    check_counts(root, *entry.node, *variation.key, scene);
-}
-
 }  // namespace
 
 std::string key_advice(std::string_view name) {
@@ -56,19 +41,27 @@ std::string key_advice(std::string_view name) {
                         : fmt::format("did you mean \"{}\"?", near);
 }
 
-void check_counts(Node const& root, Node const& node, Key const& key, Scene const& scene) {
+void check_varied(Node const& root, Node const& node, Key const& key, Scene const& scene, Problem const& of_option) {
+    for (Variation const& other : scene.variations) {
+        if (!other.key->overlaps(key)) continue;
+        bool const drawn = other.column == Variation::no_column;
+        refuse(node, {drawn ? fmt::format("study.vary.{} varies the same", other.key->name) : fmt::format("column {} has the same", other.column + 1),
+                      "remove one of the two"});
+    }
+    for (GivenKey const& given : given_keys(root)) {
+        if (given.node->order > 0 && given.key->overlaps(key)) refuse(*given.node, of_option);
+    }
     std::string_view const name = key.name;
     if (!counts_for(key, scene.parts.mechanism)) refuse_meaningless(node.where, name, scene.parts.mechanism);
     if (!counts_for(key, scene.parts)) refuse_strange(node, scene.parts.law);
     if (name.starts_with("friction.") && !scene.parts.friction) {
         refuse(node, {"friction is off", "add a [friction] table"});
     }
-    bool const rate = name == "contact.eta" || name.starts_with("contact.chi_");
-    if (rate && scene.parts.damping == Damping::restitution) {
+    if (std::ranges::count(rates_of_damping, name) > 0 && scene.parts.damping == Damping::restitution) {
         refuse(node, {"contact.restitution replaces it", "remove one of the two"});
     }
     if (name != "contact.restitution") return;
-    for (std::string_view const replaced : {"contact.eta", "contact.chi_line", "contact.chi_surface"}) {
+    for (std::string_view const replaced : rates_of_damping) {
         if (Node const* const given = root.find_path(replaced)) {
             refuse(*given, {"contact.restitution is varied and replaces it", "remove one of the two"});
         }
@@ -92,7 +85,9 @@ std::vector<VariedNode> varied_nodes(Node const& root) {
 void read_variations(Node const& root, Scene& scene) {
     for (VariedNode const& entry : varied_nodes(root)) {
         Variation const variation = read_variation(*entry.node, entry.name);
-        check_clashes(root, entry, scene, variation);
+        check_varied(root, *entry.node, *variation.key, scene,
+                     {"[study.vary] draws it for every member, so this has no effect",
+                      fmt::format("use --set 'study.vary.\"{}\"={{dist=\"const\", value=...}}'", variation.key->name)});
         require_part(scene.parts, *variation.key);
         scene.variations.push_back(variation);
     }

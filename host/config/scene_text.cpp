@@ -149,6 +149,19 @@ std::string one_line(std::string_view text) {
     return line;
 }
 
+std::string toml_number(double value) {
+    std::string text = fmt::format("{}", value);
+    // Without a point TOML reads an integer, and -0 loses its sign.
+    if (text.find_first_of(".e") == std::string::npos) text += ".0";
+    return text;
+}
+
+std::string unit_comment(std::string_view unit) { return unit.empty() || unit == "1" ? std::string() : fmt::format("  # {}", unit); }
+
+std::string number_line(std::string_view name, double value, std::string_view unit) {
+    return fmt::format("{} = {}{}\n", name, toml_number(value), unit_comment(unit));
+}
+
 std::string toml_string(std::string_view text) {
     std::string quoted = "\"";
     for (char const c : text) {

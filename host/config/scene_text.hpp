@@ -22,6 +22,13 @@ std::string unshielded(std::string_view text);
 /// Control characters and broken UTF-8 as \xNN, at most about 80 characters.
 std::string one_line(std::string_view text);
 
+/// The shortest text that TOML reads back to the same double.
+std::string toml_number(double value);
+/// "  # m"; "" for a plain number
+std::string unit_comment(std::string_view unit);
+/// "clearance_y = 0.0001  # m", with the end of the line
+std::string number_line(std::string_view name, double value, std::string_view unit);
+
 /// A TOML basic string, quotes included.
 std::string toml_string(std::string_view text);
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "host/config/resolved_members.hpp"
+#include "host/config/scene_text.hpp"
 
 namespace slideway {
 namespace {

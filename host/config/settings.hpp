@@ -8,7 +8,7 @@
 #include <span>
 #include <string_view>
 
-#include "host/config/rules.hpp"
+#include "host/config/keys.hpp"
 #include "host/config/scene.hpp"
 
 namespace slideway {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <variant>
 
-#include "host/config/rules.hpp"
+#include "host/config/keys.hpp"
 
 namespace slideway {
 

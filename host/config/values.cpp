@@ -63,6 +63,15 @@ double read_number(Node const& node, Key const& key) {
     return value;
 }
 
+std::vector<double> read_list(Node const& list, Key const& key, std::uint64_t most, std::string_view example) {
+    if (list.type != Node::Type::array || list.children.empty() || list.children.size() > most) {
+        refuse(list, {fmt::format("not a list of 1 to {} values", most), fmt::format("write for example {}", example)});
+    }
+    std::vector<double> values;
+    for (Node const& node : list.children) values.push_back(read_number(node, key));
+    return values;
+}
+
 double read_number(Node const& node, Setting const& setting) { return read_number(node, setting.unit, setting.what, setting.range); }
 
 std::uint64_t read_count(Node const& node, Setting const& setting) {
@@ -74,17 +83,11 @@ std::size_t read_choice(Node const& node, Setting const& setting) { return read_
 std::uint64_t read_count(Node const& node, std::string_view meaning, std::uint64_t low, std::uint64_t high) {
     Problem const problem{fmt::format("the {} must be an integer from {} to {}", meaning, low, high),
                           fmt::format("use an integer >= {} and <= {}", low, high)};
-    if (node.type == Node::Type::integer) {
-        if (node.integer < 0) refuse(node, problem);
-        auto const value = static_cast<std::uint64_t>(node.integer);
-        if (value < low || value > high) refuse(node, problem);
-        return value;
-    }
     constexpr double exact = 9007199254740992;  // 2^53: every integer below is a double
-    bool const integral = node.type == Node::Type::real && node.real >= 0 && node.real <= exact &&
-                          node.real == std::floor(node.real);
+    bool const whole = node.type == Node::Type::real && node.real >= 0 && node.real <= exact && node.real == std::floor(node.real);
+    bool const integral = whole || (node.type == Node::Type::integer && node.integer >= 0);
     if (!integral) refuse(node, problem);
-    auto const value = static_cast<std::uint64_t>(node.real);
+    auto const value = whole ? static_cast<std::uint64_t>(node.real) : static_cast<std::uint64_t>(node.integer);
     if (value < low || value > high) refuse(node, problem);
     return value;
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "host/config/document.hpp"
 #include "host/config/settings.hpp"
@@ -17,6 +18,9 @@ double read_number(Node const& node, std::string_view unit);
 double read_number(Node const& node, std::string_view unit, std::string_view meaning, Range range);
 /// The same for a key of the physics: within the key's rule.
 double read_number(Node const& node, Key const& key);
+
+/// One or more of them.  @param example for refusals: "[1, 2]"
+std::vector<double> read_list(Node const& list, Key const& key, std::uint64_t most, std::string_view example);
 
 /// Of a setting: within its limits.
 double read_number(Node const& node, Setting const& setting);

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "host/config/labels.hpp"
+#include "host/config/descriptors.hpp"
 
 namespace slideway {
 namespace {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/config/labels.hpp"
+#include "host/config/descriptors.hpp"
 #include "host/run/member_set.hpp"
 #include "host/sampling/design.hpp"
 #include "host/store/provenance.hpp"

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "host/config/labels.hpp"
+#include "host/config/descriptors.hpp"
 #include "host/study/result_summary.hpp"
 #include "kernels/members/start.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "host/base/csv.hpp"
 #include "host/base/suggest.hpp"
-#include "host/config/labels.hpp"
+#include "host/config/descriptors.hpp"
 #include "kernels/members/complete_inputs.hpp"
 #include "kernels/members/start.hpp"
 

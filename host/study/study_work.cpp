@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "host/config/labels.hpp"
+#include "host/config/descriptors.hpp"
 #include "host/store/shard_writer.hpp"
 #include "host/store/statistics_shard.hpp"
 #include "host/study/continued_sweep.hpp"
