@@ -4,11 +4,14 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <string>
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <udunits2.h>
 
@@ -62,6 +65,22 @@ Signature signature_of(Unit const& unit) {
     return signature;
 }
 
+/// The units database that lies beside the object that this code is in, as in a Python wheel; "" where the system's is meant.
+std::string database_beside_us() {
+    namespace fs = std::filesystem;
+    if (std::getenv("UDUNITS2_XML_PATH") != nullptr) return {};
+    static constexpr char here = 0;
+    Dl_info object{};
+    std::error_code ignored;
+    fs::path file = dladdr(&here, &object) != 0 && object.dli_fname != nullptr ? object.dli_fname : "";
+    if (!file.is_absolute()) file = fs::read_symlink("/proc/self/exe", ignored);
+    for (char const* const share : {"share", "../share"}) {
+        fs::path const database = file.parent_path() / share / "udunits" / "udunits2.xml";
+        if (fs::is_regular_file(database, ignored)) return database.string();
+    }
+    return {};
+}
+
 /// The one unit system of the process.  UDUNITS-2 keeps a status and a parser in static variables: hold `mutex`.
 class UnitSystem {
 public:
@@ -69,7 +88,8 @@ public:
 
     UnitSystem() {
         ut_set_error_message_handler(ut_ignore);  // by default it writes to stderr
-        system_ = ut_read_xml(nullptr);
+        std::string const beside = database_beside_us();
+        system_ = ut_read_xml(beside.empty() ? nullptr : beside.c_str());
         if (system_ == nullptr) {
             throw FileError("the units database of UDUNITS-2 cannot be read; install the package libudunits2-data");
         }

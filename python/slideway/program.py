@@ -23,7 +23,7 @@ _patience = 30.0  # until a program that was asked to end is made to [s]
 
 
 def find_program(program: StrPath | None = None) -> str:
-    """Where the program is: the argument, else the environment variable SLIDEWAY_PROGRAM, else on the PATH.
+    """Where the program is: the argument, else the environment variable SLIDEWAY_PROGRAM, else in the package, else on the PATH.
 
     Raises:
         SlidewayError: it is in none of these places.
@@ -39,10 +39,10 @@ def find_program(program: StrPath | None = None) -> str:
             if not found:
                 raise SlidewayError(f"{name}: is no program that can be run; give the path of the program slideway")
             return found
-    found = shutil.which("slideway")
+    found = shutil.which(os.path.join(os.path.dirname(__file__), "bin", "slideway")) or shutil.which("slideway")
     if not found:
         raise SlidewayError(
-            "the program slideway was not found; build it (scripts/demo.sh does), then set SLIDEWAY_PROGRAM to its path, give "
+            "the program slideway was not found; install the package with pip install ., or build it (scripts/demo.sh does) and set SLIDEWAY_PROGRAM to its path, give "
             "program=..., or put its folder on the PATH"
         )
     return found

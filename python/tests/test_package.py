@@ -18,10 +18,10 @@ def python_blocks(document: str) -> list[str]:
     return re.findall(r"^```python\n(.*?)^```", (root / document).read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
 
 
-def test_version_is_that_of_the_program() -> None:
-    stated = re.search(r"project\(slideway VERSION (\S+)", (root / "CMakeLists.txt").read_text(encoding="utf-8"))
-    assert stated is not None
-    assert slideway.__version__ == stated[1]
+def test_version_is_that_of_the_program(program: str) -> None:
+    stated = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
+    assert stated.split()[1].rstrip(",") == slideway.__version__
+    assert slideway.Ensemble({"schema": 1}).run().attrs["version"] == slideway.__version__
 
 
 def test_package_is_marked_as_typed() -> None:
