@@ -1,7 +1,7 @@
 // Compiled once per instruction set.
 #include "bench/fma_peak.hpp"
 
-#include "host/backend/isa_real.hpp"
+#include "kernels/isa_real.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "host/backend/isa_real.hpp"
+#include "kernels/isa_real.hpp"
 #include "tests/models/fixed_step.hpp"
 #include "tests/models/lorenz.hpp"
 

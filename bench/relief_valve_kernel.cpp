@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/relief_valve_orbit.hpp"
-#include "host/backend/isa_real.hpp"
+#include "kernels/isa_real.hpp"
 #include "kernels/integrate.hpp"
 #include "tests/models/relief_valve.hpp"
 #include "tests/models/twin.hpp"

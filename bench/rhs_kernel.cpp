@@ -1,7 +1,7 @@
 // Compiled once per instruction set, and once more with a number that counts operations.
 #include "bench/rhs_kernel.hpp"
 
-#include "host/backend/isa_real.hpp"
+#include "kernels/isa_real.hpp"
 #include "kernels/lane_copy.hpp"
 #include "kernels/laws/conservative.hpp"
 #include "kernels/laws/one_law.hpp"

@@ -1,6 +1,5 @@
 # The instruction sets that kernels are built for.  Every unit built for one of them sees its name as SLIDEWAY_ISA,
-# the inline namespace of kernels/real.hpp, so that no two of them share a function.  The flags of processors stand here and nowhere else.
-include(CheckCXXCompilerFlag)
+# the inline namespace of kernels/real.hpp, so that no two of them share a function.  isa_flags.cmake has the flags of processors.
 include(${CMAKE_CURRENT_LIST_DIR}/isa_choice.cmake)
 
 # `scalar` is one member per Real: the reference that all others meet bit for bit.  On x86-64 it needs AVX2 and FMA; `scalar_libm` takes its
@@ -16,6 +15,7 @@ if(SLIDEWAY_ISAS STREQUAL "native")
 endif()
 slideway_known_isas(${CMAKE_SYSTEM_PROCESSOR} SLIDEWAY_KNOWN_ISAS)
 slideway_chosen_isas("${SLIDEWAY_ISAS}" ${CMAKE_SYSTEM_PROCESSOR} "${machine_features}" SLIDEWAY_BUILT_ISAS)
+include(${CMAKE_CURRENT_LIST_DIR}/isa_flags.cmake)
 list(JOIN SLIDEWAY_BUILT_ISAS ", " names)
 message(STATUS "Kernels are compiled for: ${names}")
 
@@ -32,42 +32,6 @@ file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/host/backend/built_isas.hp
 #define SLIDEWAY_FOR_EACH_ISA(row, ...)@rows@
 ")
 include_directories(${PROJECT_BINARY_DIR}/generated)
-
-# Members per Real.
-set(SLIDEWAY_LANES_scalar 1)
-set(SLIDEWAY_LANES_scalar_libm 1)
-set(SLIDEWAY_LANES_avx2 4)
-set(SLIDEWAY_LANES_avx512 8)
-set(SLIDEWAY_LANES_neon 2)
-
-# g++ copies structures in pieces of 16 bytes unless told otherwise; a pack that was stored in two pieces and is read back whole
-# waits until the stores have left the core.
-check_cxx_compiler_flag("-mmove-max=256 -mstore-max=256" SLIDEWAY_HAS_MOVE_MAX)
-
-# slideway_isa_flags(<isa> <out_var>): compile options for a unit of that instruction set.
-function(slideway_isa_flags isa out_var)
-    set(flags -DSLIDEWAY_ISA=${isa})
-    # Of other processors scalar needs no flag.
-    if("avx2" IN_LIST SLIDEWAY_KNOWN_ISAS AND isa MATCHES "^(scalar|avx2)$")
-        list(APPEND flags -mavx2 -mfma -mpopcnt)
-    elseif(isa STREQUAL "avx512")
-        list(APPEND flags -mavx512f -mavx512dq -mavx512cd -mavx512bw -mavx512vl -mfma -mpopcnt -mprefer-vector-width=512)
-        # g++ 12 warns about its own intrinsic headers.
-        if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-            list(APPEND flags -Wno-uninitialized -Wno-maybe-uninitialized)
-        endif()
-    endif()
-    if(SLIDEWAY_HAS_MOVE_MAX AND isa STREQUAL "avx2")
-        list(APPEND flags -mmove-max=256 -mstore-max=256)
-    elseif(SLIDEWAY_HAS_MOVE_MAX AND isa STREQUAL "avx512")
-        list(APPEND flags -mmove-max=512 -mstore-max=512)
-    endif()
-    # Pairing operations of one member costs the scalar kernels 4 %: they are to be the best scalar build there is.
-    if(isa MATCHES "^scalar")
-        list(APPEND flags -fno-tree-slp-vectorize)
-    endif()
-    set(${out_var} ${flags} PARENT_SCOPE)
-endfunction()
 
 # slideway_isa_unit(<library> <isa> <source>): the source as an object library with the flags of the kernels that ship.  The unit
 # sees SLIDEWAY_ISA and SLIDEWAY_LANES and defines its functions in that namespace.

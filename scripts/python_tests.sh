@@ -17,7 +17,9 @@ stop() {
 program=$(realpath -m "${1:-${SLIDEWAY_PROGRAM:-build/release/bin/slideway}}")
 shift $(($# > 0))
 [[ -x $program ]] || stop "no $program; build it first, with scripts/test.sh or scripts/demo.sh"
-environment=$(bash scripts/python_environment.sh) || stop "no Python environment (see above)"
+build=$(dirname "$(dirname "$program")")
+[[ -f $build/CMakeCache.txt ]] || build=build/release
+environment=$(bash scripts/python_environment.sh "$build") || stop "no Python environment (see above)"
 report=$(mktemp)
 trap 'rm -f "$report"' EXIT
 code=0

@@ -50,11 +50,14 @@ if [[ $all_isas == false ]]; then
     isas=native
     echo "test.sh: less than four cores: instruction sets but scalar and the widest are left to scripts/test.sh --all-isas"
 fi
-options=("-DSLIDEWAY_CUDA=$cuda" "-DSLIDEWAY_ISAS=$isas")
+environment=$(bash scripts/python_environment.sh --without-package) || stop "no Python environment, no test ran"
+options=("-DSLIDEWAY_CUDA=$cuda" "-DSLIDEWAY_ISAS=$isas" -DSLIDEWAY_PYTHON=ON "-DPython_EXECUTABLE=$environment/bin/python")
 
 SECONDS=0
 cmake --preset release --log-level=WARNING "${options[@]}" || stop "the configuration failed, no test ran"
 cmake --build "$build" --parallel "$jobs" || stop "the build failed, no test ran"
+# The wheel, before tests run in this build.
+bash scripts/python_environment.sh "$build" >/dev/null || stop "the Python package could not be made, no test ran"
 echo "build: $SECONDS s"
 
 SECONDS=0

@@ -1,7 +1,7 @@
 // Compiled once per instruction set.
 #include "bench/work_precision/models_kernel.hpp"
 
-#include "host/backend/isa_real.hpp"
+#include "kernels/isa_real.hpp"
 #include "kernels/integrate.hpp"
 #include "tests/models/lorenz.hpp"
 #include "tests/models/relief_valve.hpp"

@@ -2,7 +2,7 @@
 // host is included, so that no unit shares code with one of another instruction set.
 #pragma once
 
-#include "host/backend/isa_real.hpp"
+#include "kernels/isa_real.hpp"
 #include "kernels/block.hpp"
 #include "kernels/models/mechanism_table.hpp"
 

@@ -1,7 +1,7 @@
 // The compiled laws of one instruction set.
 #pragma once
 
-#include "host/backend/isa_real.hpp"
+#include "kernels/isa_real.hpp"
 #include "kernels/inputs.hpp"
 #include "kernels/laws/law_table.hpp"
 

@@ -39,13 +39,18 @@ def find_program(program: StrPath | None = None) -> str:
             if not found:
                 raise SlidewayError(f"{name}: is no program that can be run; give the path of the program slideway")
             return found
-    found = shutil.which(os.path.join(os.path.dirname(__file__), "bin", "slideway")) or shutil.which("slideway")
+    found = _packaged() or shutil.which("slideway")
     if not found:
         raise SlidewayError(
             "the program slideway was not found; install the package with pip install ., or build it (scripts/demo.sh does) and set SLIDEWAY_PROGRAM to its path, give "
             "program=..., or put its folder on the PATH"
         )
     return found
+
+
+def _packaged() -> str | None:
+    """The program that a wheel brings."""
+    return shutil.which(os.path.join(os.path.dirname(__file__), "bin", "slideway"))
 
 
 def call(program: StrPath | None, arguments: Sequence[str], good: Sequence[int] = (0,)) -> str:

@@ -81,6 +81,7 @@ def _in_memory(scene: Mapping[str, Any], name: str) -> SceneFile:
         # The program looks for a table beside the scene, which has no place of its own.
         scene = {**scene, "study": {**study, "table": os.path.abspath(study["table"])}}
     text = to_toml(scene)
+    text.encode("utf-8")  # or it is no text that a scene can hold
     return SceneFile(name, keys_of_lines(text), text)
 
 

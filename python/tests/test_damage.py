@@ -99,6 +99,7 @@ def test_format_1_is_read(check: bool, program: str, tmp_path: Path) -> None:
 
 
 def test_without_the_program_a_warning_says_so(copy: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr("slideway.program._packaged", lambda: None)
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.delenv("SLIDEWAY_PROGRAM")
     with pytest.warns(UserWarning, match="a.nc: was not checked for damage .the program slideway was not found.") as said:

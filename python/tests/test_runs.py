@@ -307,6 +307,7 @@ def test_program_is_looked_for_in_this_order(tmp_path: Path, monkeypatch: pytest
         folder.mkdir()
     argument, environment, path = (stub(folder, "exit 0") for folder in folders)
     find = slideway.program.find_program
+    monkeypatch.setattr("slideway.program._packaged", lambda: None)
     monkeypatch.setenv("PATH", str(path.parent))
     monkeypatch.delenv("SLIDEWAY_PROGRAM")
     assert find() == str(path)
@@ -316,9 +317,10 @@ def test_program_is_looked_for_in_this_order(tmp_path: Path, monkeypatch: pytest
 
 
 def test_program_that_is_nowhere_says_what_to_do(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("slideway.program._packaged", lambda: None)
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.delenv("SLIDEWAY_PROGRAM")
-    with pytest.raises(slideway.SlidewayError, match="was not found; build it .* SLIDEWAY_PROGRAM"):
+    with pytest.raises(slideway.SlidewayError, match="was not found; install the package .* SLIDEWAY_PROGRAM"):
         slideway.run(short)
 
 

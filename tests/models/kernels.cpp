@@ -1,5 +1,5 @@
 // Compiled once per instruction set.
-#include "host/backend/isa_real.hpp"
+#include "kernels/isa_real.hpp"
 #include "kernels/integrate.hpp"
 #include "kernels/models/shadowed.hpp"
 #include "tests/models/ball_model.hpp"

@@ -2,7 +2,7 @@
 #include "tests/parity/linearisation_table.hpp"
 
 #include "host/backend/cpu_laws.hpp"
-#include "host/backend/isa_real.hpp"
+#include "kernels/isa_real.hpp"
 #include "kernels/conditions.hpp"
 #include "kernels/lane_copy.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"

@@ -1,5 +1,5 @@
 // Compiled once per instruction set.
-#include "host/backend/isa_real.hpp"
+#include "kernels/isa_real.hpp"
 #include "kernels/math/exponential.hpp"
 #include "kernels/math/lambert_w.hpp"
 #include "kernels/math/logarithm.hpp"

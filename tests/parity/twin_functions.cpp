@@ -1,7 +1,7 @@
 // Compiled once per instruction set.
 #include "tests/parity/twin_functions.hpp"
 
-#include "host/backend/isa_real.hpp"
+#include "kernels/isa_real.hpp"
 #include "kernels/integrate.hpp"
 #include "tests/models/relief_valve.hpp"
 #include "tests/models/twin.hpp"

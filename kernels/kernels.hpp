@@ -1,0 +1,19 @@
+// The kernels as a library: mechanisms, contact laws, and what integrates blocks of members of them.  For units that slideway_add_kernels()
+// compiles, or for one member at a time with -DSLIDEWAY_NO_SIMD.
+//
+//     using Laws = OneLaw<Conservative, PointDamping>;
+//     using Model = MechanismModel<SliderCrank, SliderBase, Laws>;
+//     integrate<Model, IsaReal>(block, Model{Conditions<Laws>{{}, Conservative::info.switches, Parts{}}});
+//
+// kernels/block.hpp says what a block is, kernels/inputs.hpp what a member is; complete_inputs() fills in masses and inertias.
+#pragma once
+
+#include "kernels/all_laws.hpp"
+#include "kernels/all_mechanisms.hpp"
+#include "kernels/block.hpp"
+#include "kernels/integrate.hpp"
+#include "kernels/isa_real.hpp"
+#include "kernels/laws/one_law.hpp"
+#include "kernels/members/complete_inputs.hpp"
+#include "kernels/members/start.hpp"
+#include "kernels/models/mechanism_model.hpp"
