@@ -18,6 +18,7 @@
 #include "host/study/backend_choice.hpp"
 #include "host/study/memory_run.hpp"
 #include "host/study/probe.hpp"
+#include "host/study/start_check.hpp"
 #include "host/study/state_table.hpp"
 
 namespace slideway {
@@ -94,6 +95,8 @@ std::vector<std::string> Result::names() const {
     return names;
 }
 
+bool Result::is_complete() const { return attribute("completeness") == "complete"; }
+
 bool Result::has(std::string const& name) const { return std::ranges::count(names(), name) > 0; }
 
 Column Result::column(std::string const& wanted) const {
@@ -112,7 +115,7 @@ std::string Result::payload_hash() const { return slideway::payload_hash(data_->
 void Result::write(std::string const& path, bool replace) const {
     told([&] {
         OutputTarget const target(path, {{}, replace, is_result_file, "allow to replace it, or give another name"});
-        write_result(target.path(), data_->completeness, [&](NetcdfFile& file) { data_->file.copy_to(file); }, target.existing());
+        write_result(target.path(), attribute("completeness"), [&](NetcdfFile& file) { data_->file.copy_to(file); }, target.existing());
     });
 }
 
@@ -181,7 +184,13 @@ Table Ensemble::probe(std::span<double const> states, std::span<double const> ti
 
 std::uint64_t Ensemble::members() const { return member_count(state_->scene); }
 std::string Ensemble::resolved() const { return resolved_toml(state_->scene); }
-std::vector<std::string> Ensemble::warnings() const { return state_->scene.warnings; }
+std::vector<std::string> Ensemble::warnings() const {
+    std::vector<std::string> warnings = state_->scene.warnings;
+    if (auto wrong = impossible_starts(state_->scene, best_isa())) warnings.push_back(*std::move(wrong));
+    return warnings;
+}
+
+std::uint64_t Ensemble::result_bytes() const { return memory_bytes(state_->scene); }
 
 Result Ensemble::run(RunOptions const& options) const {
     return told([&] {
@@ -191,9 +200,8 @@ Result Ensemble::run(RunOptions const& options) const {
         run.threads = request.threads;
         run.verify = options.verify;
         run.stop.watch(options.stop);
-        auto file = run_in_memory(state_->scene, run);
-        if (!file) throw Error(5, state_->name + ": stopped early; nothing is kept of a run in memory");
-        return Result(std::make_shared<Result::Data>(Result::Data{*std::move(file), "complete"}));
+        if (options.progress) run.progress = Progress::style_for(stderr, false);
+        return Result(std::make_shared<Result::Data>(Result::Data{run_in_memory(state_->scene, run)}));
     });
 }
 

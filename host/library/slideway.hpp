@@ -25,7 +25,7 @@
 namespace slideway {
 
 /// What cannot be done, in one line.  `code` is the exit code that the program has for it: 2 a scene or a setting that cannot be used,
-/// 4 a file or a device, 5 stopped.
+/// 4 a file or a device.
 class SLIDEWAY_API Error : public std::runtime_error {
 public:
     Error(int code, std::string const& line) : std::runtime_error(line), code_(code) {}
@@ -64,6 +64,8 @@ class SLIDEWAY_API Result {
 public:
     /// Names of all columns; those of groups as "sensitivity/first_order".
     std::vector<std::string> names() const;
+    /// False of a run that was stopped: members that had not ended have the status not_run.
+    bool is_complete() const;
     bool has(std::string const& name) const;
     /// @throws Error if there is none of that name
     Column column(std::string const& name) const;
@@ -87,6 +89,7 @@ struct RunOptions {
     std::string isa = "auto";  // or one of those that `slideway list` names
     /// Some members run again with tighter tolerances and by another method; what does not agree is told in the group `verification`.
     bool verify = false;
+    bool progress = false;                    // tell on stderr how far the run is
     std::atomic<bool> const* stop = nullptr;  // looked at now and then: true ends the run
 };
 
@@ -122,10 +125,13 @@ public:
     Table probe(std::span<double const> states, std::span<double const> times = {}) const;
     /// The scene with all its defaults, in SI, as TOML.
     std::string resolved() const;
-    /// What was given and has no effect, one line each.
+    /// What was given and has no effect, and starts that no mechanism has, one line each.
     std::vector<std::string> warnings() const;
 
-    /// Integrates all members.  Nothing is written to disk.  @throws Error, with code 5 when `stop` ended it
+    /// Bytes of the numbers of a result.
+    std::uint64_t result_bytes() const;
+
+    /// Integrates all members, or those that end before `stop` says so.  Nothing is written to disk.  @throws Error
     Result run(RunOptions const& options = {}) const;
 
     struct State;

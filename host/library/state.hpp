@@ -11,7 +11,6 @@ namespace slideway {
 
 struct Result::Data {
     MemoryFile file;
-    std::string completeness;
 };
 
 struct Ensemble::State {

@@ -1,5 +1,9 @@
 #include "host/study/memory_run.hpp"
 
+#include <optional>
+
+#include <fmt/format.h>
+
 #include "host/store/result_merge.hpp"
 #include "host/store/shard_image.hpp"
 #include "host/store/statistics_merge.hpp"
@@ -21,8 +25,9 @@ public:
         MemberSet const members = write_block(shard, merge_.layout, block, exponents_.values(block));
         if (!members.empty()) shards_.push_back({members, [shard](MergedShard::Use const& use) { use(shard); }});
     }
-    MemoryFile file() {
+    MemoryFile file(std::uint64_t left) {
         MemoryFile file(scene_.path);
+        if (left > 0) merge_.completeness = fmt::format("{} of {} members not run", left, merge_.layout.members.count());
         if (scene_.stores_members())
             write_merged(file, shards_, merge_);
         else
@@ -42,24 +47,30 @@ private:
 
 }  // namespace
 
-std::optional<MemoryFile> run_in_memory(Scene const& scene, MemoryRun const& run) {
+MemoryFile run_in_memory(Scene const& scene, MemoryRun const& run) {
     MemberSet const members(MemberRange{0, member_count(scene)});
     EnsemblePlan plan = ensemble_plan(scene, members, *run.backend, run.threads);
     BlockKernel const kernel = run.backend->kernel(scene.parts, plan.request.shadows.count > 0);
     if (is_continued(scene)) continue_columns(scene, plan, members, kernel, {}, run.stop);
     ResultMerge merge{result_layout(scene, members), provenance(scene, *run.backend, run.threads), "complete"};
-    auto const check = resolution_check(scene, *run.backend, run.threads, run.stop, Progress::Style::none);
+    std::uint64_t left = 0;
+    auto const check = resolution_check(scene, *run.backend, run.threads, run.stop, run.progress);
     merge.conclude = [&](DataFile& file) {
         std::optional<ToleranceReport> report;
         conclude_study(scene, file, report, {run.threads});
-        if (run.verify) check(file);
+        if (run.verify && left == 0) check(file);
     };
     MemoryStore store(scene, std::move(merge));
-    EnsembleTotals const totals = run_ensemble(plan, kernel, [&](BlockResult const& block) { store.take(block); }, run.stop);
-    if (totals.stopped != StopReason::none) return {};
-    MemoryFile file = store.file();
-    if (run.stop.reason() != StopReason::none) return {};
-    return file;
+    std::optional<Progress> progress;
+    if (run.progress != Progress::Style::none) progress.emplace(ProgressTask{members.count()}, run.progress, stderr, run.stop);
+    BlockSink const sink = [&](BlockResult const& block) { store.take(block); };
+    left = members.count() - run_ensemble(plan, kernel, sink, run.stop, progress ? &*progress : nullptr).done();
+    progress.reset();
+    return store.file(left);
+}
+
+std::uint64_t memory_bytes(Scene const& scene) {
+    return payload_bytes(result_layout(scene, MemberSet(MemberRange{0, member_count(scene)})));
 }
 
 }  // namespace slideway

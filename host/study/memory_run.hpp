@@ -1,11 +1,12 @@
-// A study in memory: nothing is written to disk, and nothing is kept of one that was stopped.
+// A study in memory: nothing is written to disk.
 #pragma once
 
+#include <cstdint>
 #include <memory>
-#include <optional>
 
 #include "host/backend/backend.hpp"
 #include "host/config/scene.hpp"
+#include "host/run/progress.hpp"
 #include "host/run/stop.hpp"
 #include "host/store/memory_file.hpp"
 
@@ -15,10 +16,14 @@ struct MemoryRun {
     std::shared_ptr<Backend const> backend;
     int threads = 1;
     bool verify = false;  // as study.verify says; the group `verification`
+    Progress::Style progress = Progress::Style::none;  // on stderr
     StopRequest stop;
 };
 
-/// Integrates all members.  @return what the result file of the same run holds, without its hashes; nothing if it was stopped
-std::optional<MemoryFile> run_in_memory(Scene const& scene, MemoryRun const& run);
+/// Integrates the members, or those that end before a stop: the others have status not_run.
+/// @return what the result file of the same run holds, without its hashes
+MemoryFile run_in_memory(Scene const& scene, MemoryRun const& run);
+/// Bytes of such a result.
+std::uint64_t memory_bytes(Scene const& scene);
 
 }  // namespace slideway

@@ -125,17 +125,11 @@ nb::dict arrays_of(Result const& result) {
     return arrays;
 }
 
-Result run(Ensemble const& ensemble, int threads, std::string const& isa, bool verify, bool is_main_thread) {
+/// @param is_main_thread whose Ctrl-C ends the run
+Result run(Ensemble const& ensemble, int threads, std::string const& isa, bool verify, bool progress, bool is_main_thread) {
     InterruptScope const scope(is_main_thread);
-    RunOptions options{threads, isa, verify, &interrupted};
-    try {
-        nb::gil_scoped_release const released;
-        return ensemble.run(options);
-    } catch (Error const& error) {
-        if (error.code() != 5) throw;
-    }
-    PyErr_SetNone(PyExc_KeyboardInterrupt);
-    nb::raise_python_error();
+    nb::gil_scoped_release const released;
+    return ensemble.run({threads, isa, verify, progress, &interrupted});
 }
 
 using Numbers = nb::ndarray<double const, nb::c_contig, nb::device::cpu>;
@@ -164,6 +158,7 @@ NB_MODULE(_native, module) {
         exception.ptr());
 
     nb::class_<Result>(module, "Result")
+        .def_prop_ro("is_complete", &Result::is_complete)
         .def_prop_ro("form", [](Result const& result) { return form_of(result.data().file); })
         .def("arrays", &arrays_of)
         .def("variables", [](Result const& result) { return variables_of(result, result.data().file); })
@@ -184,6 +179,7 @@ NB_MODULE(_native, module) {
                  return ensemble.with_members({names, {values.data(), values.data() + values.size()}});
              })
         .def_prop_ro("members", &Ensemble::members)
+        .def_prop_ro("result_bytes", &Ensemble::result_bytes)
         .def_prop_ro("resolved", &Ensemble::resolved)
         .def_prop_ro("warnings", &Ensemble::warnings)
         .def_prop_ro("state_names", &Ensemble::state_names)

@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from . import arguments
-from .errors import FileError, RunError, SceneError, SlidewayError
+from .errors import FileError, RunError, SceneError, SlidewayError, StoppedEarly
 from .results import StrPath, in_memory, labelled
 from .scene_files import SceneFile, scene_text
 from .toml_writer import to_value
@@ -101,14 +101,20 @@ class Ensemble:
         return str(self._native.resolved)
 
     @property
+    def result_bytes(self) -> int:
+        """Bytes of the numbers of a result."""
+        return int(self._native.result_bytes)
+
+    @property
     def warnings(self) -> list[str]:
-        """What the scene gives that has no effect, one line each."""
-        return list(self._native.warnings)
+        """What the scene gives that has no effect, and starts that no mechanism has, one line each."""
+        return [self._file.said(line) for line in self._native.warnings]
 
     def run(
         self,
         inputs: Mapping[str, ArrayLike] | ArrayLike | None = None,
         *,
+        progress: bool = False,
         set: Mapping[str, Any] | None = None,  # noqa: A002
         **overrides: Any,
     ) -> xr.Dataset:
@@ -117,6 +123,7 @@ class Ensemble:
         Args:
             inputs: values of members instead of those that the scene draws, in SI units: dotted keys with an array [members] each, or
                 an array [members, keys] whose columns are those of `inputs`.
+            progress: tell on stderr how far the run is.
             set: dotted keys and their values, for this run alone.
             **overrides: the same as `set`, with two underscores for the dot.
 
@@ -125,15 +132,20 @@ class Ensemble:
 
         Raises:
             SceneError: an override or an input cannot be used.
-            KeyboardInterrupt: Ctrl-C; nothing is kept.
+            KeyboardInterrupt: Ctrl-C; its `__cause__` is a StoppedEarly, whose `dataset` holds the members that had ended.
         """
         native = self._native
         if set or overrides:
             native = self._told(native.with_settings, _settings(set, overrides))
         if inputs is not None:
             native = self._told(native.with_members, *self._rows(inputs))
-        result = self._told(native.run, self._threads, self._isa, self._verify, threading.current_thread() is threading.main_thread())
-        return self._dataset(result)
+        is_main = threading.current_thread() is threading.main_thread()
+        result = self._told(native.run, self._threads, self._isa, self._verify, progress, is_main)
+        dataset = self._dataset(result)
+        if not result.is_complete:
+            line = f"stopped early (signal): {dataset.attrs['completeness']}"
+            raise KeyboardInterrupt from StoppedEarly(5, line, "", "", dataset)
+        return dataset
 
     def members(self) -> xr.Dataset:
         """What members draw of the keys that vary: a variable [member] for each, named as in a result.

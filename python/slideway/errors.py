@@ -48,16 +48,19 @@ class KeptResults(RunError):
     """An end that leaves results: `dataset` is what was computed.
 
     Attributes:
-        output: the result file that the run was to make, or made.
+        output: the result file that the run was to make, or made; empty of a run in memory.
     """
 
-    def __init__(self, code: int, line: str, output: str) -> None:
+    def __init__(self, code: int, line: str, output: str, computed: xr.Dataset | None = None) -> None:
         super().__init__(code, line)
         self.output = output
+        self._computed = computed
 
     @property
     def dataset(self) -> xr.Dataset:
         """What was computed before the end."""
+        if self._computed is not None:
+            return self._computed
         from .results import open as open_result
 
         return open_result(self.output)
@@ -71,14 +74,16 @@ class StoppedEarly(KeptResults):
     """Stopped by a signal or by max_hours (exit code 5). `dataset` holds the members that ended before; with the same output and
     ``resume=True`` the run goes on."""
 
-    def __init__(self, code: int, line: str, output: str, program: str) -> None:
-        super().__init__(code, line, output)
+    def __init__(self, code: int, line: str, output: str, program: str, computed: xr.Dataset | None = None) -> None:
+        super().__init__(code, line, output, computed)
         self.program = program
         self._merged: str | None = None
 
     @property
     def dataset(self) -> xr.Dataset:
         """One file of the members that ended before the stop; the others have the status not_run. The shards stay as they are."""
+        if self._computed is not None:
+            return self._computed
         from .program import call
         from .results import open as open_result
         from .temporary import temporary_path

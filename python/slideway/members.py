@@ -42,6 +42,18 @@ def statuses(result: xr.Dataset) -> xr.DataArray:
     )
 
 
+def failed_and_all(result: xr.Dataset) -> tuple[int, int]:
+    """How many members failed, and how many there are, also of a result that holds statistics alone.
+
+    >>> failed_and_all(slideway.example())
+    (1, 12)
+    """
+    if "status" in result.data_vars:
+        return int(np.count_nonzero(result["status"])), result["status"].size
+    counts = result["status_count"].values
+    return int(counts[1:].sum()), int(counts.sum())
+
+
 @one_line
 def finished(result: xr.Dataset) -> xr.DataArray:
     """Which members finished: true or false along ``member``.

@@ -3,20 +3,27 @@
 from __future__ import annotations
 
 import os
+import re
+import sys
 from collections.abc import Mapping
 from typing import Any
 
 import xarray as xr
 
 from . import arguments
-from .errors import SlidewayError
+from .ensemble import Ensemble, is_available
+from .errors import SlidewayError, TooManyFailures
 from .keys import nearest_key
+from .members import failed_and_all
 from .program import Interrupted, call, error_of, find_program, follow
 from .results import StrPath, file_of, open_temporary
 from .results import open as open_result
 from .scene_files import scene_file
 from .temporary import TemporaryPath, temporary_path
 from .toml_writer import to_value
+
+
+_largest_in_memory = 1 << 28  # bytes
 
 
 def run(
@@ -38,10 +45,13 @@ def run(
 ) -> xr.Dataset:
     """Run a scene and open its result.
 
+    Without `output` a run of moderate size takes place in this process (:class:`Ensemble`), unless an argument or SLIDEWAY_PROGRAM
+    asks for the program. The numbers and errors are the same.
+
     Args:
         scene: path of a TOML file, or the scene as nested dictionaries.
-        output: the result file; left out: a temporary one, which is gone once the Dataset is closed, or
-            neither it nor anything selected from it is used any more.
+        output: the result file; left out: the result is in memory, or in a temporary file, which is gone once the Dataset is
+            closed, or neither it nor anything selected from it is used any more.
         program: path of the program; left out: SLIDEWAY_PROGRAM, else the PATH.
         threads: left out: all that this process may use.
         backend: "auto", "cpu" or "cuda".
@@ -73,6 +83,10 @@ def run(
     >>> result.peak_tilt.dims
     ('member', 'axis')
     """
+    if output is None and not (program or os.environ.get("SLIDEWAY_PROGRAM") or backend or resume or max_hours or members is not None):
+        computed = _in_memory(scene, threads, isa, progress, _all_overrides(set, overrides, None), max_failures)
+        if computed is not None:
+            return computed
     found = find_program(program)
     options = _options(threads, backend, isa, max_hours, max_failures, members)
     for key, value in _all_overrides(set, overrides, found).items():
@@ -104,6 +118,31 @@ def info(result: StrPath | xr.Dataset, program: StrPath | None = None) -> str:
     file ...ensemble.nc
     """
     return call(program, ["info", file_of(result)])
+
+
+def _in_memory(
+    scene: StrPath | Mapping[str, Any],
+    threads: int | None,
+    isa: str | None,
+    progress: bool,
+    overrides: Mapping[str, Any],
+    max_failures: int | str | None,
+) -> xr.Dataset | None:
+    """The result of a run in this process; None where the package has no module for it, or the result is too large."""
+    limit = str("1%" if max_failures is None else max_failures)
+    if not is_available() or not re.fullmatch(r"\d+(\.\d+%|%)?", limit):
+        return None  # the program says what is wrong
+    ensemble = Ensemble(scene, threads=threads, isa=isa or "auto", verify=True, set=overrides)
+    if ensemble.result_bytes > _largest_in_memory:
+        return None
+    for warning in ensemble.warnings:
+        print(f"warning: {warning}", file=sys.stderr, flush=True)
+    computed = ensemble.run(progress=bool(progress))
+    failed, all_members = failed_and_all(computed)
+    share = limit.endswith("%")
+    if failed > float(limit.rstrip("%")) * (all_members / 100 if share else 1):
+        raise TooManyFailures(3, f"slideway: {failed} of {all_members} members failed, more than --max-failures {limit}", "", computed)
+    return computed
 
 
 def _options(
@@ -141,7 +180,7 @@ def _stem(path: str) -> str:
     return os.path.splitext(os.path.basename(path))[0]
 
 
-def _all_overrides(given: Mapping[str, Any] | None, words: Mapping[str, Any], program: str) -> dict[str, Any]:
+def _all_overrides(given: Mapping[str, Any] | None, words: Mapping[str, Any], program: str | None) -> dict[str, Any]:
     if given is not None and not isinstance(given, Mapping):
         raise SlidewayError(f'set is {arguments.shown(given)}; give keys and their values: {{"joint.clearance": "0.2 mm"}}')
     named = {arguments.text(key, "a key of set"): value for key, value in (given or {}).items()}

@@ -38,6 +38,11 @@ studies = {
 }
 
 
+@pytest.fixture(autouse=True)
+def _program(program: str) -> None:
+    """Every test here has one."""
+
+
 @pytest.mark.parametrize("threads", [1, 2])
 @pytest.mark.parametrize("name", studies)
 def test_results_in_memory_are_those_of_the_program(name: str, threads: int, tmp_path: Path) -> None:
@@ -204,3 +209,53 @@ def test_arrays_outlive_their_ensemble() -> None:
     values = slideway.Ensemble(small).run().peak_normal_force.values
     again = slideway.Ensemble(small).run().peak_normal_force.values
     np.testing.assert_array_equal(values, again)
+
+
+@pytest.fixture
+def in_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No program is named: runs without a file are in this process."""
+    monkeypatch.delenv("SLIDEWAY_PROGRAM", raising=False)
+    monkeypatch.setattr("slideway.runs.find_program", lambda program=None: pytest.fail("the program was asked for"))
+
+
+def test_a_run_without_a_file_is_in_this_process(in_process: None, capfd: pytest.CaptureFixture[str]) -> None:
+    result = slideway.run(small, study__members=8, contact__eta=0.02)
+    assert result.sizes["member"] == 8 and slideway.groups(result) == ["verification"]
+    assert Path(slideway.results.path_of(result)).exists()
+    assert slideway.scene(result)["contact"]["eta"] == 0.02
+    slideway.run({**small, "study": {**small["study"], "levels": 3}}, progress=False)
+    assert "warning: study.levels has no effect" in capfd.readouterr().err
+
+
+def test_too_many_failures_leave_the_members(in_process: None) -> None:
+    failing = {**small, "integrator": {"max_steps": 3}}
+    with pytest.raises(slideway.TooManyFailures, match="6 of 6 members failed, more than --max-failures 1%") as caught:
+        slideway.run(failing, progress=False)
+    assert caught.value.code == 3 and caught.value.dataset.sizes["member"] == 6
+    assert slideway.run(failing, progress=False, max_failures=6).sizes["member"] == 6
+    assert slideway.run(failing, progress=False, max_failures="100%").sizes["member"] == 6
+
+
+def test_ctrl_c_keeps_the_members_that_ended(in_process: None) -> None:
+    timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt) as caught:
+        slideway.run(small, study__members=4096, study__duration="1 s", progress=False)
+    timer.join()
+    cause = caught.value.__cause__
+    assert isinstance(cause, slideway.StoppedEarly)
+    ended = np.unique(slideway.statuses(cause.dataset).values, return_counts=True)
+    assert "not_run" in ended[0] and cause.dataset.sizes["member"] == 4096
+
+
+def test_what_needs_the_program_goes_to_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, program: str) -> None:
+    asked: list[object] = []
+    find = slideway.program.find_program
+    monkeypatch.setattr("slideway.runs.find_program", lambda given=None: asked.append(given) or find(program))
+    monkeypatch.delenv("SLIDEWAY_PROGRAM")
+    slideway.run(small, tmp_path / "a.nc", progress=False)
+    slideway.run(small, members=2, progress=False)
+    slideway.run(small, backend="cpu", progress=False)
+    monkeypatch.setattr("slideway.runs._largest_in_memory", 100)
+    slideway.run(small, progress=False)
+    assert len(asked) == 4

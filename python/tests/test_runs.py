@@ -321,7 +321,7 @@ def test_program_that_is_nowhere_says_what_to_do(tmp_path: Path, monkeypatch: py
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.delenv("SLIDEWAY_PROGRAM")
     with pytest.raises(slideway.SlidewayError, match="was not found; install the package .* SLIDEWAY_PROGRAM"):
-        slideway.run(short)
+        slideway.run(short, tmp_path / "a.nc")
 
 
 def test_temporary_results_are_gone_with_python() -> None:
