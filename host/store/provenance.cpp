@@ -58,7 +58,8 @@ BuildInfo const& build_info() {
 std::string BuildInfo::text() const { return fmt::format("slideway {}, commit {}, {}", version, commit, compiler); }
 
 std::string cpu_name() {
-    return fmt::format("{}, family {} model {}", cpu_info("model name"), cpu_info("cpu family"), cpu_info("model"));
+    static std::string const name = fmt::format("{}, family {} model {}", cpu_info("model name"), cpu_info("cpu family"), cpu_info("model"));
+    return name;
 }
 
 std::string machine_name() { return fmt::format("{} ({} threads)", cpu_name(), std::thread::hardware_concurrency()); }
