@@ -200,7 +200,7 @@ Finish add_report(Options& options) {
     options.text("-o,--output", "OUT.html", report->output, "Page (default: FILE with .html)");
     options.force(report->force);
     options.note("The companion is the package slideway of the interpreter that SLIDEWAY_PYTHON names, else of python3; "
-                 "pip install ./python in the source tree installs it.");
+                 "pip install . in the source tree installs it.");
     return [=] { return *report; };
 }
 

@@ -84,7 +84,7 @@ int report(ReportArguments const& arguments) {
     std::string const python = interpreter();
     if (!has_companion(python)) {
         throw FileError(fmt::format(
-            "slideway report: {} has no package slideway; install it with pip install ./python in the source "
+            "slideway report: {} has no package slideway; install it with pip install . in the source "
             "tree, and if that was in a virtual environment, name its interpreter with SLIDEWAY_PYTHON=PATH",
             python));
     }

@@ -42,7 +42,7 @@ TEST_F(Report, EndsAsTheCompanionDoes) {
 
 TEST_F(Report, SaysHowToInstallTheCompanion) {
     set_interpreter(false);
-    expect_refusal(4, "pip install ./python", {"report", "s.nc"});
+    expect_refusal(4, "pip install .", {"report", "s.nc"});
 }
 
 TEST_F(Report, SaysThatThereIsNoInterpreter) {
