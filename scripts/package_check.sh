@@ -34,7 +34,7 @@ new_root() {
     cp /etc/resolv.conf "$bare/$1/etc/resolv.conf" 2>/dev/null || true
     cp -rL /etc/ssl/certs/. "$bare/$1/etc/ssl/certs/" 2>/dev/null || true
 }
-inside() { chroot "$bare/$1" /usr/bin/env -i PATH=/usr/local/bin:/usr/bin:/bin HOME=/root LC_ALL=C.UTF-8 bash -euc "$2"; }
+inside() { chroot "$bare/$1" /usr/bin/env -i PATH=/usr/local/bin:/usr/bin:/bin HOME=/tmp LC_ALL=C.UTF-8 bash -euc "$2"; }
 
 new_root debian ca-certificates,man-db
 cp "$deb" "$bare/debian/slideway.deb"
@@ -51,17 +51,17 @@ new_root python ca-certificates,python3-minimal,python3-venv
 for file in /etc/pip.conf "$HOME/.config/pip/pip.conf" "$HOME/.pip/pip.conf"; do
     [[ ! -f $file ]] || cp "$file" "$bare/python/etc/pip.conf"
 done
-cp "$wheel" "$bare/python/root/"
-inside python 'cd /root && python3 -m venv v && ! command -v g++ >/dev/null'
+cp "$wheel" "$bare/python/tmp/"
+inside python 'cd /tmp && python3 -m venv v && ! command -v g++ >/dev/null'
 SECONDS=0
-inside python "cd /root && v/bin/pip install --quiet --disable-pip-version-check ./$(basename "$wheel")"
+inside python "cd /tmp && v/bin/pip install --quiet --disable-pip-version-check ./$(basename "$wheel")"
 scene='$(ls -d v/lib/python3*/site-packages/slideway/scenes)/ensemble_starts.toml'
-inside python "cd /root && v/bin/slideway run $scene --set study.members=64 --set 'study.duration=20 ms' --quiet -o a.nc"
+inside python "cd /tmp && v/bin/slideway run $scene --set study.members=64 --set 'study.duration=20 ms' --quiet -o a.nc"
 seconds=$SECONDS
-of_wheel=$(inside python 'cd /root && v/bin/slideway info a.nc' | payload)
+of_wheel=$(inside python 'cd /tmp && v/bin/slideway info a.nc' | payload)
 echo "wheel: from pip install to the first result $seconds s, payload $of_wheel"
 [[ -n $of_wheel && $of_wheel == "$of_deb" ]] || stop "the two packages have other numbers: $of_deb, $of_wheel"
-inside python "cd /root && v/bin/python - <<'END'
+inside python "cd /tmp && v/bin/python - <<'END'
 import matplotlib
 matplotlib.use('Agg')
 import slideway

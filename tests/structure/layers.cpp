@@ -20,6 +20,7 @@ struct Layer {
 constexpr std::array layers = {
     Layer{"kernels/simd", 0},
     Layer{"kernels/real.hpp", 1},
+    Layer{"kernels/isa_real.hpp", 2},
     Layer{"kernels/lane_copy.hpp", 2},
     Layer{"kernels/math", 2},
     Layer{"kernels/laws", 3},
@@ -33,6 +34,8 @@ constexpr std::array layers = {
     Layer{"kernels/integrate.hpp", 8},
     Layer{"kernels/grid_thread.hpp", 8},
     Layer{"kernels/members", 9},
+    Layer{"kernels/kernels.hpp", 10},
+    Layer{"kernels/dispatch.hpp", 10},
     Layer{"host/backend", 10},
     Layer{"host/base", 10},
     Layer{"host/sampling", 11},
@@ -43,6 +46,7 @@ constexpr std::array layers = {
     Layer{"host/store", 14},
     Layer{"host/study", 15},
     Layer{"host/commands", 16},
+    Layer{"host/library", 16},
 };
 
 // Plain data without code of any instruction set: every layer may share it, the host included.
@@ -72,6 +76,8 @@ constexpr std::array<std::string_view, 6> programs_of_cards = {
 // All laws and all mechanisms, made at configuration; who may name them all: the unit that collects what each says of itself.
 constexpr std::array<std::string_view, 2> collections = {"kernels/all_laws.hpp", "kernels/all_mechanisms.hpp"};
 constexpr std::string_view collector = "host/config/descriptors.cpp", every_law = "kernels/models/every_law.hpp";
+/// The kernels as a library of others, which nobody here includes.
+constexpr std::string_view library_of_kernels = "kernels/kernels.hpp", library_dispatch = "kernels/dispatch.hpp", made_for_dispatch = "slideway_isas.hpp";
 
 /// What is known of a member without integrating it: in plain numbers, for who prepares members, and not for units of an instruction set.
 constexpr std::string_view closed_forms = "kernels/members";
@@ -87,7 +93,8 @@ Layer const* layer_of(std::string_view path) {
 }
 
 bool knows_backends(std::string_view path) {
-    return path == "kernels/real.hpp" || path.starts_with("kernels/simd/") || path.starts_with("host/backend/");
+    return path == "kernels/real.hpp" || path == "kernels/isa_real.hpp" || path == library_dispatch || path.starts_with("kernels/simd/") ||
+           path.starts_with("host/backend/");
 }
 
 bool knows_instructions(std::string_view path) {
@@ -105,12 +112,14 @@ std::optional<std::string> include_violation(std::string const& from, std::strin
         return from + " includes " + to + "; it stands below everything";
     if (is_plain_data(to)) return std::nullopt;
     if (std::ranges::find(collections, to) != collections.end()) {
-        if (from == collector || from == every_law) return std::nullopt;
+        if (from == collector || from == every_law || from == library_of_kernels) return std::nullopt;
         return from + " includes " + to + "; a unit that uses one law or mechanism includes no other";
     }
+    if (from == library_dispatch && to == made_for_dispatch) return std::nullopt;
     Layer const* const used = layer_of(to);
     if (!used) return from + " includes " + to + ", which is in no layer (includes are written from the root)";
     if (used->rank > user->rank) return from + " includes upward: " + to;
+    if (to == library_of_kernels || to == library_dispatch) return from + " includes " + to + ", which is for programs outside the tree";
     if (user->name == closed_forms) return from + " includes " + to + "; closed forms know plain data only";
     bool const forms = used->name == closed_forms;
     if (from.starts_with("host/") && to.starts_with("kernels/") && !forms && user->name != "host/backend") {
