@@ -41,6 +41,7 @@ def on_files(files: Files, config: Any) -> Files:
             files.remove(there)
     for page, source in _pages.items():
         files.append(File.generated(config, page, content=(_root / source).read_text(encoding="utf-8")))
+    files.append(File.generated(config, "assets/iframe-worker.js", abs_src_path=str(Path(__file__).with_name("iframe-worker.js"))))
     return files
 
 
