@@ -6,6 +6,7 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,8 @@
 namespace slideway::structure {
 namespace {
 
-constexpr std::size_t longest_line = 160;  // characters
+constexpr std::size_t longest_line = 160;         // characters
+constexpr std::size_t largest_picture = 200'000;  // bytes
 
 std::vector<SourceFile> pages() {
     auto files = files_below({"bench", "docs", "python"});
@@ -116,6 +118,46 @@ TEST(Pages, AreAllInTheIndex) {
     for (SourceFile const& page : pages()) {
         if (!page.path.starts_with("docs/") || page.path == "docs/README.md") continue;
         EXPECT_TRUE(listed.contains(page.path.substr(5))) << "docs/README.md does not list " << page.path;
+    }
+}
+
+/// What is wrong with the pictures of a folder, a line each: one that no page shows, and one that is too large.
+std::vector<std::string> picture_faults(std::vector<SourceFile> const& pictures, std::vector<SourceFile> const& shown_by) {
+    namespace fs = std::filesystem;
+    std::set<std::string> shown;
+    for (SourceFile const& page : shown_by) {
+        for (std::string const& target : links_of(page.text)) {
+            shown.insert((fs::path(page.path).parent_path() / target).lexically_normal().generic_string());
+        }
+    }
+    std::vector<std::string> faults;
+    for (SourceFile const& picture : pictures) {
+        if (!shown.contains(picture.path)) faults.push_back(picture.path + " is on no page");
+        if (picture.text.size() >= largest_picture) faults.push_back(picture.path + " is too large");
+    }
+    return faults;
+}
+
+/// That a page's pictures are there is checked with its links.
+TEST(Pages, PicturesAreShownAndSmall) {
+    auto const pictures = files_below({"docs/pictures"});
+    EXPECT_FALSE(pictures.empty());
+    for (std::string const& fault : picture_faults(pictures, pages())) ADD_FAILURE() << fault;
+}
+
+TEST(Pages, FaultsOfPicturesAreRecognised) {
+    SourceFile const page{"docs/sample.md", "![A slider](pictures/a.svg) and [b](pictures/b.svg)\n"};
+    SourceFile const small{"docs/pictures/a.svg", "<svg/>"}, large{"docs/pictures/b.svg", std::string(largest_picture, ' ')};
+    EXPECT_TRUE(picture_faults({small}, {page}).empty());
+    EXPECT_EQ(picture_faults({small, large}, {page}), std::vector<std::string>{"docs/pictures/b.svg is too large"});
+    EXPECT_EQ(picture_faults({small}, {}), std::vector<std::string>{"docs/pictures/a.svg is on no page"});
+    EXPECT_NE(broken(page, "pictures/no_such_picture.svg", {}), "");
+}
+
+/// Every picture says in words what it shows.
+TEST(Pages, PicturesHaveWords) {
+    for (SourceFile const& page : pages()) {
+        for (std::string const& line : prose_of(page.text)) EXPECT_EQ(line.find("![]("), std::string::npos) << page.path << ": " << line;
     }
 }
 

@@ -1,0 +1,155 @@
+"""The pictures of results."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import slideway
+import xarray as xr
+from matplotlib.axes import Axes
+from slideway.palette import class_colours, grey, limit_colour
+from slideway.sections import sections
+
+from .style import as_svg, law_colours, law_names, panels
+
+_standard = "scenes/slider_crank_0.1mm.toml"
+_starts = {"initial.y": {"dist": "unif", "low": "-0.05 mm", "high": "0.05 mm"}}
+
+
+def run(root: Path, scene: str, law: str, **overrides: Any) -> xr.Dataset:
+    """A scene of the repository under a law, of which nothing runs again to be checked: the documentation's tables are."""
+    varied = overrides.pop("vary", None)
+    return slideway.run(root / scene, progress=False, contact__law=law, set={"study.vary": varied} if varied else None,
+                        **{"study__verify": 0} | overrides)
+
+
+def frame(ax: Axes, x: str, y: str) -> None:
+    """Labels and a light grid."""
+    ax.set_xlabel(x)
+    ax.set_ylabel(y)
+    ax.grid(True, color="#DDDDDD", lw=0.6)
+    ax.set_axisbelow(True)
+    for side in ("top", "right"):
+        ax.spines[side].set_visible(False)
+
+
+def stretches(time: np.ndarray, there: np.ndarray, columns: int = 400) -> list[tuple[float, float]]:
+    """Starts and lengths of the stretches in which a flag is set, as fine as so many columns of the picture; none gets lost.
+
+    >>> import numpy as np
+    >>> stretches(np.arange(8.0), np.array([0, 1, 0, 0, 0, 0, 1, 1]) > 0, 4)
+    [(0.0, 1.75), (5.25, 1.75)]
+    """
+    edges = np.linspace(time[0], time[-1], columns + 1)
+    column = np.minimum(np.searchsorted(edges, time, "right") - 1, columns - 1)
+    marked = np.concatenate([[0], np.bincount(column, there, columns) > 0, [0]]).astype(int)
+    begins, ends = np.flatnonzero(np.diff(marked) > 0), np.flatnonzero(np.diff(marked) < 0)
+    return [(float(edges[b]), float(edges[e] - edges[b])) for b, e in zip(begins, ends, strict=True)]
+
+
+def modes(root: Path) -> str:
+    """Which contacts a slider has over its first 0.6 s: the hardest of each sample."""
+    classes = ("free", "point", "line", "surface")
+    figure, axes = panels(2, height=4.2, sharex=True)
+    for ax, law in zip(axes, law_names, strict=True):
+        result = run(root, _standard, law, study__revolutions=0.3, study__samples_per_revolution=0, study__samples=6001,
+                     study__quantities=["points", "lines", "surfaces", "x"])
+        points, lines, surfaces = (result[name].values[0] > 0 for name in ("points", "lines", "surfaces"))
+        hardest = np.select([surfaces, lines, points], [3, 2, 1], 0)
+        time = result["time"].values * 1e3
+        for level, name in enumerate(classes):
+            ax.broken_barh(stretches(time, hardest == level), (level - 0.4, 0.8), color=class_colours[name], lw=0)
+        ax.set_yticks(range(4), [f"{name} {np.mean(hardest == level):.0%}" for level, name in enumerate(classes)])
+        ax.set_title(law_names[law], loc="left")
+        ax.set_xlim(time[0], time[-1])
+        ax.set_ylim(-0.6, 3.6)
+        frame(ax, "time [ms]" if ax is axes[-1] else "", "")
+    return as_svg(figure)
+
+
+def energy_residual(root: Path) -> str:
+    """Energy that each law makes over a turn of the crank, from eight starts; the share is that of the median start."""
+    times = np.array([0.1, 0.3, 0.6, 1.2, 2.0])
+    figure, axes = panels(1, 2, height=3.2, sharey=True)
+    for ax, law in zip(axes, law_names, strict=True):
+        rows = []
+        for time in times:
+            result = run(root, _standard, law, vary=_starts, study__members=8, study__samples_per_revolution=0,
+                         study__revolutions=float(time / 2), study__quantities=["energy_residual", "crank_work"])
+            rows.append([1e3 * result[name].values for name in ("energy_residual", "crank_work")])
+        residual, work = np.transpose(rows, (1, 2, 0))
+        for row in residual:
+            ax.plot(np.concatenate([[0], times]), np.concatenate([[0], row]), color=law_colours[law], lw=1.2, alpha=0.8)
+        ax.set_title({"paper": "as published", "conservative": "conservative"}[law], loc="left")
+        share = np.median(np.abs(residual[:, -1]) / work[:, -1])
+        words = f"{share:.0%} of the\ncrank's work" if share > 0.01 else f"{share:.0e} of the\ncrank's work"
+        ax.text(0.04, 0.96, words, transform=ax.transAxes, va="top", color=law_colours[law])
+        frame(ax, "time [s]", "energy made by the law [mJ]" if ax is axes[0] else "")
+    return as_svg(figure)
+
+
+def poincare(root: Path) -> str:
+    """Sections at crank angle 0 under both laws."""
+    figure, axes = panels(1, 2, height=3.6, sharey=True)
+    for ax, law in zip(axes, law_names, strict=True):
+        result = run(root, "scenes/poincare_0.1mm.toml", law, vary=_starts, study__members=16, study__transient_revolutions=2,
+                     study__revolutions=20)
+        rows = sections(result)
+        ax.scatter(1e6 * rows["y"], 1e3 * rows["vy"], s=7, color=law_colours[law], lw=0)
+        ax.set_xlim(-115, 65)
+        ax.set_title({"paper": "as published", "conservative": "conservative"}[law], loc="left")
+        frame(ax, "y [µm]", "vy [mm/s]" if ax is axes[0] else "")
+    axes[1].text(-90, 0, f"all {result.sizes['section']} sections", va="center", color=law_colours["conservative"])
+    return as_svg(figure)
+
+
+def bifurcation(root: Path) -> str:
+    """Sections over the clearance, under the law as published and under the conservative one."""
+    figure, axes = panels(2, height=5.4, sharex=True)
+    for ax, law in zip(axes, law_names, strict=True):
+        result = run(root, "scenes/sweep_clearance.toml", law, study__points=16, study__revolutions=10, study__transient_revolutions=2,
+                     study__exponents=0)
+        slideway.plot.bifurcation(result, "y", ax=ax)
+        for dots in ax.collections:
+            dots.set_color(law_colours[law])
+        gap = np.array([50.0, 500.0])
+        ax.plot(gap, gap, color=grey, lw=1, ls=":")
+        ax.plot(gap, -gap, color=grey, lw=1, ls=":")
+        ax.set_title(law_names[law], loc="left")
+        frame(ax, "clearance per side [µm]" if ax is axes[-1] else "", "y at angle 0 [µm]")
+    return as_svg(figure)
+
+
+def tolerance(root: Path) -> str:
+    """Peak normal forces of the mechanisms of a tolerance study, with the limit and the yield."""
+    figure, axes = panels(2, height=4.4, sharex=True)
+    edges = np.geomspace(250, 6000, 61)
+    for ax, law in zip(axes, law_names, strict=True):
+        result = run(root, "scenes/tolerance_0.1mm.toml", law, study__base=128)
+        force = result["peak_normal_force"].values
+        met = np.mean(force <= 1000.0)
+        shares = 100 * np.histogram(force, edges)[0] / force.size
+        ax.stairs(shares, edges, fill=True, color=law_colours[law], alpha=0.85)
+        ax.axvline(1000, color=limit_colour, lw=1.8, ls="--")
+        ax.set_title(f"{law_names[law]}: {met:.0%} meet the limit", loc="left")
+        ax.set_ylim(0, 1.25 * shares.max())
+        ax.text(1040, 1.22 * shares.max(), "limit 1 kN", color=limit_colour, va="top")
+        ax.set_xscale("log")
+        ax.set_xticks([300, 500, 1000, 2000, 5000], ["300", "500", "1000", "2000", "5000"])
+        ax.minorticks_off()
+        frame(ax, "peak normal force [N]" if ax is axes[-1] else "", "members [%]")
+    return as_svg(figure)
+
+
+def work_precision(root: Path) -> str:
+    """Error against run time of one crank turn with its impacts (bench/results)."""
+    figure, (ax,) = panels(height=4.6)
+    slideway.plot.work_precision(root / "bench/results/work_precision.csv", "turn_energy", ax)
+    ax.set_title("")
+    ax.set_title("one crank turn with its impacts", loc="left")
+    handles, words = ax.get_legend_handles_labels()
+    ax.get_legend().remove()
+    figure.legend(handles, words, loc="outside lower center", ncols=2, frameon=False)
+    return as_svg(figure)

@@ -1,0 +1,49 @@
+"""How pictures look and how they are written: narrow, with large letters, on white, and the same bytes each time."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from io import StringIO
+from pathlib import Path
+
+import matplotlib
+import matplotlib.pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from slideway.palette import colours
+
+matplotlib.use("svg")
+matplotlib.rcParams.update({
+    "svg.fonttype": "none",  # text stays text
+    "svg.hashsalt": "slideway",
+    "font.family": "sans-serif",
+    "font.size": 11,
+    "axes.titlesize": 11,
+    "legend.fontsize": 10,
+    "figure.facecolor": "white",
+    "axes.facecolor": "white",
+    "path.simplify_threshold": 0.5,
+})
+
+largest = 200_000  # bytes of a picture
+law_colours = {"paper": colours[1], "conservative": colours[0]}
+law_names = {"paper": "law as published (paper)", "conservative": "conservative law"}
+
+Picture = Callable[[Path], str]  # makes the text of an SVG file; its argument is the root of the repository
+
+
+def panels(rows: int = 1, columns: int = 1, height: float = 3.4, **options: object) -> tuple[Figure, list[Axes]]:
+    """A figure of 5.4 inches, which a telephone's 390 pixels shrink by a quarter."""
+    figure, axes = plt.subplots(rows, columns, figsize=(5.4, height), layout="constrained", squeeze=False, **options)  # type: ignore[arg-type]
+    return figure, list(axes.flat)
+
+
+def as_svg(figure: Figure) -> str:
+    """The figure as SVG without dates, names of programs or fonts of one machine."""
+    text = StringIO()
+    figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
+    plt.close(figure)
+    svg = re.sub(r"<metadata>.*?</metadata>\s*", "", text.getvalue(), flags=re.DOTALL)
+    svg = re.sub(r"font-family: [^;\"]*", "font-family: sans-serif", svg)
+    return "\n".join(line.rstrip() for line in svg.splitlines()) + "\n"
