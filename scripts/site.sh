@@ -13,10 +13,12 @@ stop() {
 }
 
 command -v python3 >/dev/null || stop "no python3; install it (Debian: python3 python3-venv python3-pip)"
-[[ ! -e $output || -f $output/index.html || -z $(ls -A "$output") ]] || stop "$output is there and no site; give another folder"
+[[ ! -e $output || -f $output/index.html || -z $(ls -A "$output") ]] ||
+    stop "$output is there and no site; give another folder"
+[[ ! -e $output.part ]] || stop "$output.part is there; remove it"
 environment=$root/build/site_environment
 stamp=$environment/requirements.txt
-needs="mkdocs>=1.6,<2 mkdocs-material>=9.6,<10 mkdocstrings[python]>=0.30,<2"
+needs="mkdocs>=1.6,<2 mkdocs-material>=9.6,<10 mkdocstrings[python]>=1,<2"
 mkdir -p build
 exec 9>build/site.lock
 flock 9
@@ -27,6 +29,11 @@ if [[ $(cat "$stamp" 2>/dev/null) != "$needs" ]]; then
     "$environment/bin/python" -m pip --disable-pip-version-check --quiet install $needs || stop "pip could not install mkdocs (see above)"
     echo "$needs" >"$stamp"
 fi
-PYTHONDONTWRITEBYTECODE=1 NO_MKDOCS_2_WARNING=1 "$environment/bin/mkdocs" build --quiet --strict --clean --config-file scripts/site/mkdocs.yml --site-dir "$output" ||
-    stop "the site was not made (see above)"
+PYTHONDONTWRITEBYTECODE=1 NO_MKDOCS_2_WARNING=1 "$environment/bin/mkdocs" build --strict \
+    --config-file scripts/site/mkdocs.yml --site-dir "$output.part" 2>&1 | sed '/^INFO/d' >&2 || {  # --quiet would let warnings pass
+    rm -rf "$output.part"
+    stop "the site was not made, one made before is as it was (see above)"
+}
+rm -rf "$output"
+mv "$output.part" "$output"
 echo "site         $output/index.html"

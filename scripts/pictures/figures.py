@@ -61,7 +61,8 @@ def modes(root: Path) -> str:
         time = result["time"].values * 1e3
         for level, name in enumerate(classes):
             ax.broken_barh(stretches(time, hardest == level), (level - 0.4, 0.8), color=class_colours[name], lw=0)
-        ax.set_yticks(range(4), [f"{name} {np.mean(hardest == level):.0%}" for level, name in enumerate(classes)])
+        shares = [np.mean(hardest == level) for level in range(4)]
+        ax.set_yticks(range(4), [f"{name} {'<1%' if 0 < share < 0.01 else f'{share:.0%}'}" for name, share in zip(classes, shares, strict=True)])
         ax.set_title(law_names[law], loc="left")
         ax.set_xlim(time[0], time[-1])
         ax.set_ylim(-0.6, 3.6)

@@ -67,7 +67,8 @@ def _film_row(root: Path, law: str, top: float, made: np.ndarray, most: float) -
         f'<rect x="{_size * 120:g}" y="{-_size * width / 2:g}" width="{_size * 106:g}" height="{_size * width:g}" fill="#d9d9d9" stroke="#444"/>',
         f'<g>{_turns_by("translate", places)}<g>{_turns_by("rotate", _list(tilt))}{plates}</g></g>',
         f'<line x1="0" y1="0" stroke="#222" stroke-width="8" stroke-linecap="round">{_moves("x2", pin_x)}{_moves("y2", pin_y)}</line>',
-        f'<line stroke="#666" stroke-width="5" stroke-linecap="round">{_moves("x1", pin_x)}{_moves("y1", pin_y)}{_moves("x2", at_x)}{_moves("y2", at_y)}</line>',
+        f'<line stroke="#666" stroke-width="5" stroke-linecap="round">{_moves("x1", pin_x)}{_moves("y1", pin_y)}'
+        f'{_moves("x2", at_x)}{_moves("y2", at_y)}</line>',
         '<circle r="6" fill="#fff" stroke="#222" stroke-width="2"/>',
         f'<text x="{_size * 55:g}" y="-84" fill="{colour}" font-weight="bold">{law_names[law]}</text>',
         f'<text x="{_size * 55:g}" y="84">energy made by the law</text>',
