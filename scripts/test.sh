@@ -2,7 +2,7 @@
 # Sets up, builds and runs all tests but those labelled slow.  Exit code 0 only when everything passed.
 # Usage: scripts/test.sh [--cuda] [--all-isas].  The GPU module and its tests are built where a GPU is found (not with CI=true) or with
 # --cuda; without a GPU for sm_90, and tested on a simulated one.  With less than four cores the instruction sets are
-# scalar and the widest of this machine, all of them with --all-isas: before a release.
+# scalar and the widest of this machine, and headers are not compiled one by one; all of that with --all-isas: before a release.
 # The last line is `N passed, N failed`, with `, N skipped` when tests were skipped.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -48,7 +48,7 @@ isas=all
 # Two cores would compile and test them for minutes.
 if [[ $all_isas == false ]]; then
     isas=native
-    echo "test.sh: less than four cores: instruction sets but scalar and the widest are left to scripts/test.sh --all-isas"
+    echo "test.sh: less than four cores: instruction sets but scalar and the widest, and headers alone, are left to scripts/test.sh --all-isas"
 fi
 environment=$(bash scripts/python_environment.sh --without-package) || stop "no Python environment, no test ran"
 options=("-DSLIDEWAY_CUDA=$cuda" "-DSLIDEWAY_ISAS=$isas" -DSLIDEWAY_PYTHON=ON "-DPython_EXECUTABLE=$environment/bin/python")
@@ -56,6 +56,7 @@ options=("-DSLIDEWAY_CUDA=$cuda" "-DSLIDEWAY_ISAS=$isas" -DSLIDEWAY_PYTHON=ON "-
 SECONDS=0
 cmake --preset release --log-level=WARNING "${options[@]}" || stop "the configuration failed, no test ran"
 cmake --build "$build" --parallel "$jobs" || stop "the build failed, no test ran"
+[[ $all_isas == false ]] || cmake --build "$build" --parallel "$jobs" --target header_check || stop "a header does not compile alone, no test ran"
 # The wheel, before tests run in this build.
 bash scripts/python_environment.sh "$build" >/dev/null || stop "the Python package could not be made, no test ran"
 echo "build: $SECONDS s"
