@@ -69,3 +69,16 @@ def test_pages_are_reached_from_the_package_alone() -> None:
     code = "import slideway; print('report' in dir(slideway), slideway.report.write.__name__, 'report' in slideway.__all__)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.stdout.split() == ["True", "write", "True"], done.stderr
+
+
+def test_the_page_of_quantities_is_that_of_the_program(program: str) -> None:
+    listed = subprocess.run([program, "list"], capture_output=True, text=True, check=True).stdout
+    page = (root / "docs" / "quantities.md").read_text(encoding="utf-8")
+    told = {match[1]: (match[2], match[3].replace("\\|", "|")) for match in re.finditer(r"^\| `(\w+)` \| (.*?) \| (.*) \| .* \|$", page, re.MULTILINE)}
+    for part in ("quantities (study.quantities)", "series (study.quantities)"):
+        rows = listed[listed.index(part) :].split("\n\n")[0].splitlines()[1:]
+        for row in rows:
+            name = row.split()[0]
+            unit, meaning = told.pop(name)
+            assert " ".join(row.split()).startswith(f"{name} {unit} {meaning}"), name
+    assert not told
