@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <mutex>
+
+#include <fmt/format.h>
 
 #include "host/backend/backend.hpp"
 #include "host/config/scene.hpp"
@@ -12,7 +15,6 @@
 #include "host/store/output_target.hpp"
 #include "host/store/provenance.hpp"
 #include "host/run/ensemble.hpp"
-#include "host/store/result_check.hpp"
 #include "host/store/result_merge.hpp"
 #include "host/store/result_seal.hpp"
 #include "host/study/backend_choice.hpp"
@@ -34,6 +36,22 @@ template <class Call> auto told(Call&& call) -> decltype(call()) {
         throw Error(4, error.what());
     } catch (DeviceError const& error) {
         throw Error(4, error.what());
+    } catch (Error const&) {
+        throw;
+    } catch (std::exception const& error) {
+        throw Error(1, error.what());
+    }
+}
+
+/// netCDF and HDF5 are not thread-safe.
+std::mutex files;
+
+/// Whether a file is a result.  In this process: a host with threads must not be forked.
+bool is_result(std::string const& path) {
+    try {
+        return NetcdfFile::open(path).text(DataFile::global, "source").starts_with("slideway");
+    } catch (FileError const&) {
+        return false;
     }
 }
 
@@ -50,6 +68,10 @@ template <class Visit> void for_each_variable(MemoryFile const& file, std::strin
 }
 
 BackendRequest request_of(RunOptions const& options) {
+    constexpr int most_threads = 4096;  // beyond it the OpenMP runtime ends the process
+    if (options.threads < 0 || options.threads > most_threads) {
+        throw SceneError(fmt::format("threads is {}; use 0 for all that this process may use, or 1 to {}", options.threads, most_threads));
+    }
     BackendRequest request;
     request.kind = BackendRequest::Kind::cpu;
     request.threads = options.threads > 0 ? options.threads : default_threads();
@@ -99,7 +121,7 @@ bool Result::is_complete() const { return attribute("completeness") == "complete
 
 bool Result::has(std::string const& name) const { return std::ranges::count(names(), name) > 0; }
 
-Column Result::column(std::string const& wanted) const {
+Column Result::column(std::string const& wanted) const& {
     std::optional<Column> found;
     for_each_variable(data_->file, "", [&](MemoryFile const& file, DataFile::Variable const& variable, std::string const& name) {
         if (name == wanted) found = column_of(file, variable, name);
@@ -114,7 +136,8 @@ std::string Result::payload_hash() const { return slideway::payload_hash(data_->
 
 void Result::write(std::string const& path, bool replace) const {
     told([&] {
-        OutputTarget const target(path, {{}, replace, is_result_file, "allow to replace it, or give another name"});
+        std::lock_guard const lock(files);
+        OutputTarget const target(path, {{}, replace, is_result, "allow to replace it, or give another name"});
         write_result(target.path(), attribute("completeness"), [&](NetcdfFile& file) { data_->file.copy_to(file); }, target.existing());
     });
 }
@@ -125,36 +148,40 @@ Ensemble Ensemble::read(std::string const& path, Settings const& settings) {
     return told([&] {
         std::string text = read_scene_text(path);
         Scene scene = parse_scene(text, path, settings);
-        return Ensemble(std::make_shared<State>(State{std::move(text), path, settings, std::move(scene)}));
+        return Ensemble(std::make_shared<State>(State{std::move(text), path, settings, std::move(scene), {}}));
     });
 }
 
 Ensemble Ensemble::parse(std::string const& text, std::string const& name, Settings const& settings) {
-    return told([&] { return Ensemble(std::make_shared<State>(State{text, name, settings, parse_scene(text, name, settings)})); });
+    return told([&] { return Ensemble(std::make_shared<State>(State{text, name, settings, parse_scene(text, name, settings), {}})); });
 }
 
 Ensemble Ensemble::with(Settings const& settings) const {
     Settings all = state_->settings;
     all.insert(all.end(), settings.begin(), settings.end());
-    return parse(state_->text, state_->name, all);
+    Ensemble const other = parse(state_->text, state_->name, all);
+    return state_->given.names.empty() ? other : other.with_members(state_->given);
 }
 
 Ensemble Ensemble::with_members(Table const& inputs) const {
     return told([&] {
         auto state = std::make_shared<State>(*state_);
         take_members(state->scene, inputs.names, inputs.values);
+        state->given = inputs;
         return Ensemble(std::move(state));
     });
 }
 
 Table Ensemble::draws() const {
-    Scene const& scene = state_->scene;
-    Table table;
-    for (Variation const& variation : scene.variations) table.names.emplace_back(variation.key->name);
-    for (std::uint64_t member = 0; member < member_count(scene) && !table.names.empty(); ++member) {
-        for (Variation const& variation : scene.variations) table.values.push_back(draw(scene, variation, member));
-    }
-    return table;
+    return told([&] {
+        Scene const& scene = state_->scene;
+        Table table;
+        for (Variation const& variation : scene.variations) table.names.emplace_back(variation.key->name);
+        for (std::uint64_t member = 0; member < member_count(scene) && !table.names.empty(); ++member) {
+            for (Variation const& variation : scene.variations) table.values.push_back(draw(scene, variation, member));
+        }
+        return table;
+    });
 }
 
 std::vector<std::string> Ensemble::state_names() const {
@@ -185,9 +212,11 @@ Table Ensemble::probe(std::span<double const> states, std::span<double const> ti
 std::uint64_t Ensemble::members() const { return member_count(state_->scene); }
 std::string Ensemble::resolved() const { return resolved_toml(state_->scene); }
 std::vector<std::string> Ensemble::warnings() const {
-    std::vector<std::string> warnings = state_->scene.warnings;
-    if (auto wrong = impossible_starts(state_->scene, best_isa())) warnings.push_back(*std::move(wrong));
-    return warnings;
+    return told([&] {
+        std::vector<std::string> warnings = state_->scene.warnings;
+        if (auto wrong = impossible_starts(state_->scene, best_isa())) warnings.push_back(*std::move(wrong));
+        return warnings;
+    });
 }
 
 std::uint64_t Ensemble::result_bytes() const { return memory_bytes(state_->scene); }

@@ -8,6 +8,7 @@
 //
 // Link with slideway::slideway (find_package(slideway)).  Numbers are SI.  A member's numbers depend on its own inputs alone: not on
 // threads, instruction sets or on who else runs.  Objects may be used by one thread at a time; different ones by different threads.
+// A process that was forked after a run must not run with more than one thread: OpenMP's threads do not survive a fork.
 #pragma once
 
 #include <atomic>
@@ -25,7 +26,7 @@
 namespace slideway {
 
 /// What cannot be done, in one line.  `code` is the exit code that the program has for it: 2 a scene or a setting that cannot be used,
-/// 4 a file or a device.
+/// 4 a file or a device, 1 anything else.
 class SLIDEWAY_API Error : public std::runtime_error {
 public:
     Error(int code, std::string const& line) : std::runtime_error(line), code_(code) {}
@@ -67,8 +68,9 @@ public:
     /// False of a run that was stopped: members that had not ended have the status not_run.
     bool is_complete() const;
     bool has(std::string const& name) const;
-    /// @throws Error if there is none of that name
-    Column column(std::string const& name) const;
+    /// Valid as long as this or a copy of it.  @throws Error if there is none of that name
+    Column column(std::string const& name) const&;
+    Column column(std::string const& name) const&& = delete;
     /// An attribute of the whole, as text: "scene", "version", "seed"; "" if there is none.
     std::string attribute(std::string const& name) const;
     /// The hash of all numbers that `slideway info` tells of a result file.
@@ -107,7 +109,7 @@ public:
     static Ensemble read(std::string const& path, Settings const& settings = {});
     /// The text of a scene; `name` stands for the path in messages.
     static Ensemble parse(std::string const& text, std::string const& name = "scene", Settings const& settings = {});
-    /// The same scene with other values.
+    /// The same scene with other values, and the same given members.
     Ensemble with(Settings const& settings) const;
 
     /// The same scene with members of these inputs, one a row; the columns are dotted keys, which vary no more otherwise.  Of studies

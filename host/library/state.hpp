@@ -17,6 +17,7 @@ struct Ensemble::State {
     std::string text, name;
     Settings settings;
     Scene scene;
+    Table given;  // by with_members
 };
 
 }  // namespace slideway

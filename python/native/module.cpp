@@ -24,8 +24,8 @@ std::atomic<bool> interrupted = false;
 class InterruptScope {
 public:
     explicit InterruptScope(bool active) : active_(active) {
-        interrupted = false;
         if (!active_) return;
+        interrupted = false;
         struct sigaction action = {};
         action.sa_handler = [](int) { interrupted = true; };
         sigemptyset(&action.sa_mask);
@@ -61,8 +61,9 @@ nb::dict attributes_of(MemoryFile const& file, int variable) {
 nb::object array_of(Result const& result, MemoryFile const& file, DataFile::Variable const& variable) {
     nb::capsule owner(new Result(result), [](void* held) noexcept { delete static_cast<Result*>(held); });
     auto const array = [&]<class T>(T const*) {
-        auto* const data = const_cast<T*>(reinterpret_cast<T const*>(file.data(variable.id)));
-        return nb::ndarray<nb::numpy, T>(data, variable.shape.size(), variable.shape.data(), owner).cast();
+        // Read-only: copies and the file that is written later share them.
+        auto const* const data = reinterpret_cast<T const*>(file.data(variable.id));
+        return nb::ndarray<nb::numpy, T const>(data, variable.shape.size(), variable.shape.data(), owner).cast();
     };
     switch (variable.type) {
         case DataFile::Type::float64:
@@ -128,8 +129,13 @@ nb::dict arrays_of(Result const& result) {
 /// @param is_main_thread whose Ctrl-C ends the run
 Result run(Ensemble const& ensemble, int threads, std::string const& isa, bool verify, bool progress, bool is_main_thread) {
     InterruptScope const scope(is_main_thread);
-    nb::gil_scoped_release const released;
-    return ensemble.run({threads, isa, verify, progress, &interrupted});
+    Result result = [&] {
+        nb::gil_scoped_release const released;
+        return ensemble.run({threads, isa, verify, progress, is_main_thread ? &interrupted : nullptr});
+    }();
+    // One that came too late to end the run is Python's to raise.
+    if (is_main_thread && interrupted && result.is_complete()) PyErr_SetInterrupt();
+    return result;
 }
 
 using Numbers = nb::ndarray<double const, nb::c_contig, nb::device::cpu>;

@@ -26,6 +26,7 @@ except ImportError as error:  # the sources alone, without what pip builds
     _missing = str(error)
 
 _kept_forms = 8
+_process = os.getpid()
 
 
 def is_available() -> bool:
@@ -140,7 +141,9 @@ class Ensemble:
         if inputs is not None:
             native = self._told(native.with_members, *self._rows(inputs))
         is_main = threading.current_thread() is threading.main_thread()
-        result = self._told(native.run, self._threads, self._isa, self._verify, progress, is_main)
+        # OpenMP's threads do not survive a fork.
+        threads = self._threads if os.getpid() == _process else 1
+        result = self._told(native.run, threads, self._isa, self._verify, progress, is_main)
         dataset = self._dataset(result)
         if not result.is_complete:
             line = f"stopped early (signal): {dataset.attrs['completeness']}"

@@ -259,3 +259,46 @@ def test_what_needs_the_program_goes_to_it(tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.setattr("slideway.runs._largest_in_memory", 100)
     slideway.run(small, progress=False)
     assert len(asked) == 4
+
+
+def test_numbers_of_a_result_are_read_only() -> None:
+    result = slideway.Ensemble(small).run()
+    with pytest.raises(ValueError, match="read-only"):
+        result.peak_normal_force.values[0] = 1
+
+
+def test_given_members_stay_with_other_values() -> None:
+    native = slideway.Ensemble(small)._native.with_members(["joint.clearance"], np.linspace(5e-5, 1e-4, 9).reshape(9, 1))
+    assert native.members == native.with_settings([("study.duration", '"1 ms"')]).members == 9
+
+
+@pytest.mark.parametrize("threads", [100000])
+def test_threads_beyond_the_runtime_are_refused(threads: int) -> None:
+    with pytest.raises(slideway.SceneError, match="threads is 100000"):
+        slideway.Ensemble(small, threads=threads).run()
+
+
+def test_a_forked_process_runs_too() -> None:
+    ensemble = slideway.Ensemble(small, threads=2)
+    before = ensemble.run()
+    child = os.fork()
+    if child == 0:
+        same = np.array_equal(ensemble.run().peak_normal_force, before.peak_normal_force)
+        os._exit(0 if same else 1)
+    deadline = time.monotonic() + 30
+    while (ended := os.waitpid(child, os.WNOHANG))[0] == 0 and time.monotonic() < deadline:
+        time.sleep(0.05)
+    if ended[0] == 0:
+        os.kill(child, signal.SIGKILL)
+        os.waitpid(child, 0)
+    assert ended[0] == child and os.waitstatus_to_exitcode(ended[1]) == 0
+
+
+def test_results_are_written_by_several_threads_at_once(tmp_path: Path) -> None:
+    computed = [slideway.Ensemble(small).run() for _ in range(4)]
+    threads = [threading.Thread(target=slideway.results.path_of, args=(result,)) for result in computed]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len({payload(slideway.results.path_of(result)) for result in computed}) == 1
