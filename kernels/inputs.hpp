@@ -63,14 +63,14 @@ struct Parts {
     row(slider_inertia_z, "mechanism.slider_inertia_z", follows, "kg m2", positive, slider, "inertia of the slider about Z") \
     row(crank_inertia, "mechanism.crank_inertia", follows, "kg m2", not_negative, planar, "inertia of the crank about its centre of mass")  /* J1: m_c r²/12 */ \
     row(carriage_speed, "mechanism.carriage_speed", 0.06, "m/s", positive, carriage, "speed of the carriage")  /* v */ \
-    row(stroke, "mechanism.stroke", 0.15, "m", positive, carriage, "way of the carriage at constant speed") \
-    row(reversal_time, "mechanism.reversal_time", 0.02, "s", positive, carriage, "time in which the carriage turns round")  /* t_r */ \
+    row(stroke, "mechanism.stroke", 0.15, "m", positive, carriage, "distance that the carriage travels at constant speed") \
+    row(reversal_time, "mechanism.reversal_time", 0.02, "s", positive, carriage, "time in which the carriage reverses its direction")  /* t_r */ \
     /* [joint] */ \
     row(slider_length, "joint.slider_length", 0.04, "m", positive, slider, "length of the slider")  /* L_k */ \
     row(way_width, "joint.way_width", 0.02, "m", positive, spatial, "width of the way along Y")  /* w_a */ \
     row(way_depth, "joint.way_depth", 0.03, "m", positive, spatial, "depth of the way along Z")  /* w_b */ \
-    row(thickness_y, "joint.thickness_y", follows, "m", positive, spatial, "compressed thickness behind the Y faces")  /* l_a: way_width */ \
-    row(thickness_z, "joint.thickness_z", follows, "m", positive, spatial, "compressed thickness behind the Z faces")  /* l_b: way_depth */ \
+    row(thickness_y, "joint.thickness_y", follows, "m", positive, spatial, "thickness of material that a Y face compresses")  /* l_a: way_width */ \
+    row(thickness_z, "joint.thickness_z", follows, "m", positive, spatial, "thickness of material that a Z face compresses")  /* l_b: way_depth */ \
     row(clearance_y, "joint.clearance_y", 1e-4, "m", gap, slider, "clearance per side along Y")  /* c_a */ \
     row(clearance_z, "joint.clearance_z", 1e-4, "m", gap, spatial, "clearance per side along Z")  /* c_b */ \
     row(slider_height, "joint.slider_height", 0.02, "m", positive, planar, "height of the planar slider")  /* 2b */ \
@@ -96,8 +96,8 @@ struct Parts {
     /* [friction] */ \
     row(friction_static, "friction.static", 0.15, "1", not_negative, slider, "static friction coefficient")  /* μs */ \
     row(friction_kinetic, "friction.kinetic", 0.10, "1", not_negative, slider, "kinetic friction coefficient")  /* μd */ \
-    row(friction_stick_speed, "friction.stick_speed", 1e-3, "m/s", positive, slider, "speed of the largest friction")  /* Vs */ \
-    row(friction_slip_speed, "friction.slip_speed", 1e-2, "m/s", positive, slider, "speed where kinetic friction begins")  /* Vd */ \
+    row(friction_stick_speed, "friction.stick_speed", 1e-3, "m/s", positive, slider, "sliding speed at which friction is largest: the static coefficient")  /* Vs */ \
+    row(friction_slip_speed, "friction.slip_speed", 1e-2, "m/s", positive, slider, "sliding speed from which the kinetic coefficient holds")  /* Vd */ \
     /* [initial] */ \
     row(y, "initial.y", 0, "m", any, slider, "vertical position at the start") \
     row(z, "initial.z", 0, "m", any, spatial, "lateral position at the start") \

@@ -3,7 +3,7 @@
 
 namespace slideway {
 
-enum class Method { automatic, dopri5, bs32, ros34pw2, rk4 };
+enum class Method { automatic, dopri5, dop853, bs32, ros34pw2, rk4 };
 
 struct MethodInfo {
     char const* name;
@@ -13,6 +13,7 @@ struct MethodInfo {
 inline constexpr MethodInfo method_table[] = {
     {"auto", "explicit pair in flight and impacts, ros34pw2 where lasting contact makes a member stiff"},
     {"dopri5", "Dormand-Prince 5(4); the explicit pair of auto for rtol below 1e-5"},
+    {"dop853", "Dormand-Prince 8(5,3): for smooth motion at tight tolerances; contacts gain nothing"},
     {"bs32", "Bogacki-Shampine 3(2); the explicit pair of auto from rtol 1e-5 on"},
     {"ros34pw2", "Rosenbrock W-method 3(2) alone: for lasting contact, it loses energy in impacts"},
     {"rk4", "classical Runge-Kutta with the fixed step integrator.step"},
@@ -22,6 +23,11 @@ inline constexpr int method_count = sizeof(method_table) / sizeof(method_table[0
 /// Methods that do not notice when they fail: rk4 has no error control, and that of ros34pw2 does not see what an impact loses. Their
 /// members carry the energy audit along whether or not it is asked for, so that their status can tell.
 constexpr bool is_always_audited(Method method) { return method == Method::ros34pw2 || method == Method::rk4; }
+
+/// Explicit Runge-Kutta methods with error control.
+constexpr bool is_explicit_pair(Method method) {
+    return method == Method::dopri5 || method == Method::dop853 || method == Method::bs32;
+}
 
 constexpr char const* name_of(Method method) { return method_table[static_cast<int>(method)].name; }
 

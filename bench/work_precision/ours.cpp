@@ -24,7 +24,7 @@ struct Choice {
 
 constexpr Choice choices[] = {
     {::slideway::Method::automatic}, {::slideway::Method::dopri5},       {::slideway::Method::bs32},
-    {::slideway::Method::ros34pw2},  {::slideway::Method::dopri5, true},
+    {::slideway::Method::dop853},    {::slideway::Method::ros34pw2},      {::slideway::Method::dopri5, true},
 };
 
 bool past_deadline(void const* deadline, double) { return Clock::now() > *static_cast<Clock::time_point const*>(deadline); }
@@ -128,7 +128,7 @@ template <class Ensemble> Outcome run_block(Isa isa, Choice const& choice, Ensem
 bool serves(Choice const& choice, Problem const& problem) {
     using enum ::slideway::Method;
     auto const* const cranks = std::get_if<SliderCrankEnsemble>(&problem.ensemble);
-    if (cranks == nullptr) return !choice.locate_modes && (choice.method == dopri5 || choice.method == bs32);
+    if (cranks == nullptr) return !choice.locate_modes && is_explicit_pair(choice.method);
     return !choice.locate_modes || info(cranks->parts.law).switches;
 }
 

@@ -41,7 +41,7 @@ public:
         return option;
     }
 
-    void force(bool& to) { flag("--force", to, "Replace a file of slideway that is there already; inputs and other files never"); }
+    void force(bool& to) { flag("--force", to, "Replace an existing result of slideway; inputs and other files are never replaced"); }
     CLI::Option* json(bool& to) { return flag("--json", to, "One object in JSON in place of text (docs/json.md)"); }
     void threads(std::optional<int>& to) {
         constexpr unsigned most = 4096;  // beyond it the OpenMP runtime ends the process instead of complaining
@@ -82,7 +82,7 @@ void add_scene(Options& options, SceneArguments& scene) {
 
 void add_backend(Options& options, SceneArguments& scene) {
     auto const word = std::make_shared<std::string>("auto");
-    options.text("--backend", "BACKEND", *word, "auto (a card where it pays), cpu or cuda");
+    options.text("--backend", "BACKEND", *word, "auto (a GPU where it is faster), cpu or cuda");
     options.at_end([&scene, word] { scene.backend = parse_backend(*word, scene.isa); });
 }
 
@@ -98,7 +98,7 @@ Finish add_run(Options& options) {
     options.text("-o,--output", "OUT.nc", run->output, "Result file (default: in this folder, the scene's name and what --set changes)");
     options.threads(run->threads);
     add_backend(options, run->scene);
-    options.flag("--resume", run->resume, "Go on with what an earlier run has left in OUT.nc.shards");
+    options.flag("--resume", run->resume, "Continue an interrupted run from what it left in OUT.nc.shards");
     options.force(run->force);
     options.value("--max-hours", "H", run->max_hours, "Stop after this time and keep what is finished in OUT.nc.shards (exit code 5)", parse_hours);
     options.value("--max-failures", "N|P%", run->max_failures, "Members that may fail before the exit code is 3 (default 1%)", parse_failure_limit);
@@ -107,8 +107,8 @@ Finish add_run(Options& options) {
     options.value("--shard", "I/N", run->part, "Run the I-th of N parts, as a job of an array; the jobs share OUT.nc.shards, and merge makes OUT.nc",
                   parse_part);
     options.value("--block-members", "N", run->block_members,
-                  "Members that a thread takes at once (default: by their cost); a crash loses those under way", whole_number(1, most_block_members));
-    options.flag("--verify", *verify, "Run 16 members again to check the study, whatever it costs (study.verify = 16)");
+                  "Members that a thread takes at once (default: by their cost); a crash loses the unfinished ones", whole_number(1, most_block_members));
+    options.flag("--verify", *verify, "Repeat 16 members to check the study, whatever it costs (study.verify = 16)");
     options.flag("--no-progress", run->no_progress, "No lines of progress on stderr");
     options.flag("--quiet", run->quiet, "No progress and no summary: warnings and errors alone");
     options.json(run->json);
@@ -147,7 +147,7 @@ Finish add_info(Options& options) {
     options.positional("FILE", info->path, "Result file");
     CLI::Option* const json = options.json(info->json);
     options.flag("--scene", info->scene, "Show its scene, too")->excludes(json);
-    options.flag("--check", info->check, "Only say whether the file is what was written (exit code 4 if not)")->excludes(json);
+    options.flag("--check", info->check, "Only check the file against its stored hashes (exit code 4 if not)")->excludes(json);
     options.text("--members", "A..B", *members, "Show its members, or these of them, too: number, status, end time, steps")
         ->expected(0, 1)->default_str(std::string(all_members));
     return [=]() -> Arguments {
@@ -244,23 +244,23 @@ std::vector<CommandRow> const& command_rows() {
           {"slideway run scenes/slider_crank_0.1mm.toml --set joint.clearance=\"0.2 mm\" study.revolutions=4", "The same scene with other numbers."},
           {"slideway run scenes/tolerance_0.1mm.toml -o result.nc --resume", "What an earlier run that was stopped has left to do."},
           {"slideway run scenes/tolerance_0.1mm.toml -o result.nc --shard 3/8", "The third of eight jobs of an array, which share result.nc.shards."}}},
-        {"check", "Validate a scene; print it resolved, and what a run will take", add_check,
+        {"check", "Check a scene; print it with all keys, and the cost of a run", add_check,
          {{"slideway check scenes/tolerance_0.1mm.toml", "The scene in SI units, parts of the kernels, memory and cost."},
           {"slideway check scenes/tolerance_0.1mm.toml --resolved >resolved.toml", "A scene file with every key."}}},
-        {"probe", "Forces, contact mode and derivative of single states", add_probe,
+        {"probe", "Compute forces, contact mode and derivative of single states", add_probe,
          {{"slideway probe scenes/slider_crank_0.1mm.toml --set initial.z=\"0.1 mm\"", "The start of a scene, a tenth of a millimetre higher."},
           {"slideway probe scenes/slider_crank_0.1mm.toml --csv states.csv -o forces.csv", "A table of states to a table of forces."}}},
-        {"info", "Provenance, statuses and statistics of a result file", add_info,
+        {"info", "Show provenance, statuses and statistics of a result file", add_info,
          {{"slideway info result.nc", "Where a result comes from, how its members ended, their statistics."},
           {"slideway info result.nc --members 0..9", "The same with a row for each of its first ten members."}}},
-        {"stats", "Chaos statistics of a stored series (NetCDF result or CSV)", add_stats,
+        {"stats", "Compute chaos statistics of a stored series (NetCDF result or CSV)", add_stats,
          {{"slideway stats result.nc --variable y --member 3 --skip 2", "The series y of member 3, without its first two seconds."},
           {"slideway stats measured.csv --column 2 --dt 1e-4", "The second column of a measured table."}}},
-        {"merge", "Shards of a run or of a job array to one result file", add_merge,
+        {"merge", "Merge the shards of a run or of a job array into one result file", add_merge,
          {{"slideway merge result.nc.shards -o result.nc", "Whatever is finished, to one result file."}}},
-        {"report", "A page to look at, without a network, of a result file (uses the Python companion)", add_report,
+        {"report", "Write an HTML page of a result file (uses the Python package)", add_report,
          {{"slideway report result.nc -o result.html", "A page for a browser."}}},
-        {"list", "Mechanisms, laws, quantities, keys: what a scene may ask for", add_list,
+        {"list", "List mechanisms, laws, quantities and keys", add_list,
          {{"slideway list", "All that a scene may ask for, with units, domains and defaults."},
           {"slideway list --schema >scene.schema.json", "For completion and hover in editors of TOML."}}},
         {"help", "What a command does, and its options", add_help,

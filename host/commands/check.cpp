@@ -76,8 +76,8 @@ std::string cost_text(Scene const& scene, Prediction const& prediction, std::opt
                            duration_text(trial ? trial->seconds : prediction.most_seconds), threads);
     }
     if (trial) {
-        return fmt::format("about {} on {}, some {:.2g} steps, as {} of its members {}", duration_text(trial->seconds), threads, trial->steps,
-                           trial->members, trial->members == 1 ? "tells" : "tell");
+        return fmt::format("about {} on {}, some {:.2g} steps, estimated from {}", duration_text(trial->seconds), threads, trial->steps,
+                           counted(trial->members, "member"));
     }
     return fmt::format(
         "{} steps, {} on {}; a rough range: all in free flight to all in contact that rings",

@@ -89,7 +89,7 @@ void print_instability(Scene const& scene, EndedMembers const& ended) {
 void print_spent(Scene const& scene, EndedMembers const& ended) {
     std::uint64_t const spent = ended.count(Status::max_steps);
     if (spent == 0) return;
-    bool const pair = scene.integrator.method == Method::dopri5 || scene.integrator.method == Method::bs32;
+    bool const pair = is_explicit_pair(scene.integrator.method);
     print_text(0, "\n{} spent integrator.max_steps = {}: try a larger one, {}looser rtol and atol, or look at one with --member K.",
                counted(spent, "member"), scene.integrator.max_steps, pair ? "method = \"auto\", " : "");
 }

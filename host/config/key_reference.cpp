@@ -190,7 +190,7 @@ std::string scene_schema(std::vector<KeyReference> const& keys) {
 
 std::string keys_markdown(std::vector<KeyReference> const& keys) {
     std::string text =
-        "# Keys of a scene\n\nAll of them, as `slideway list --markdown` writes this page; `slideway list --json` gives the same to programs, and "
+        "# Keys of a scene\n\nEvery key that a scene may have. `slideway list --markdown` writes this page, `slideway list --json` the same for programs, and "
         "`slideway list --schema` a JSON Schema to editors of TOML\n(put `#:schema scene.schema.json` into a scene's first line for Taplo and Even Better "
         "TOML). Numbers are in SI units, or texts with a unit: `\"0.1 mm\"`, `\"30 rpm\"`.\n";
     std::string_view table = "none yet";
@@ -198,7 +198,7 @@ std::string keys_markdown(std::vector<KeyReference> const& keys) {
         if (key.table() != table) {
             table = key.table();
             text += table.empty() ? "\n## At the top\n" : fmt::format("\n## [{}]\n", table);
-            text += "| key | type | unit | domain | default | what it is | of |\n|---|---|---|---|---|---|---|\n";
+            text += "| key | type | unit | domain | default | meaning | applies to |\n|---|---|---|---|---|---|---|\n";
         }
         auto const cell = [](std::string_view words) {
             std::string safe;

@@ -65,7 +65,7 @@ void check_located_modes(Node const& node, Scene const& scene) {
     }
     if (scene.integrator.method == Method::ros34pw2 || scene.integrator.method == Method::rk4) {
         refuse(node, {fmt::format("{} cannot end its steps there", name_of(scene.integrator.method)),
-                      "use method \"auto\", \"dopri5\" or \"bs32\""});
+                      "use method \"auto\", \"dopri5\", \"dop853\" or \"bs32\""});
     }
 }
 
@@ -86,7 +86,7 @@ void read_located_modes(Node const& root, Scene& scene) {
                     can ? std::string("integrator.locate_modes is false")
                         : fmt::format("integrator.method is {}", name_of(settings.method)),
                     info(scene.parts.law).name,
-                    can ? "leave it out" : "use method \"auto\", \"dopri5\" or \"bs32\""));
+                    can ? "leave it out" : "use method \"auto\", \"dopri5\", \"dop853\" or \"bs32\""));
 }
 
 void warn_of_idle_keys(Node const& table, Scene& scene) {
@@ -160,7 +160,7 @@ void read_integrator(Node const& root, Scene& scene) {
     if (settings.method == Method::ros34pw2 && !info(scene.parts.mechanism).spatial) {
         refuse(*root.find_path("integrator.method"),
                {fmt::format("the method has no Jacobian of a {}", info(scene.parts.mechanism).name),
-                "use method \"auto\", \"dopri5\", \"bs32\" or \"rk4\""});
+                "use method \"auto\", \"dopri5\", \"dop853\", \"bs32\" or \"rk4\""});
     }
     Node const* const step = root.find_path("integrator.step");
     if (settings.method == Method::rk4 && step == nullptr) {
@@ -169,7 +169,7 @@ void read_integrator(Node const& root, Scene& scene) {
     if (settings.method == Method::rk4 && scene.parts.damping == Damping::restitution) {
         refuse(*root.find_path("integrator.method"),
                {"contact.restitution wants the speed at each touch, where the method's steps do not end",
-                "use method \"auto\", \"dopri5\", \"bs32\" or \"ros34pw2\""});
+                "use method \"auto\", \"dopri5\", \"dop853\", \"bs32\" or \"ros34pw2\""});
     }
     read_located_modes(root, scene);
     auto const is_given = [&](std::string_view name) { return root.find_path(name) != nullptr; };

@@ -22,7 +22,7 @@ namespace {
 double contact_steps(IntegratorSettings const& settings) {
     double const finer = 1e-6 / std::min(settings.rtol, settings.atol);
     bool const low_order =
-        settings.method == Method::bs32 || (settings.method != Method::dopri5 && settings.rtol >= 1e-5);
+        settings.method == Method::bs32 || (settings.method == Method::automatic && settings.rtol >= 1e-5);
     return low_order ? 15 * std::cbrt(finer) : 5 * std::pow(finer, 0.2);
 }
 

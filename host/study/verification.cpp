@@ -33,7 +33,7 @@ std::string describe(Verification const& v, Scene const& scene) {
     std::string unfinished;
     for (std::size_t i = 0; i < v.methods.size(); ++i) {
         if (v.finished[i] < v.members.size())
-            unfinished += fmt::format("\n  by {} {} of {} came to their end", v.methods[i], v.finished[i], v.members.size());
+            unfinished += fmt::format("\n  by {} {} of {} finished", v.methods[i], v.finished[i], v.members.size());
     }
     std::string const energy =
         v.energy ? fmt::format("energy audit: the integration makes {:.2g} % of the energy of the slider's fall through its clearance in a period of the drive{}",
@@ -122,10 +122,10 @@ Verification concluded(Verification v, Scene const& scene, bool was_asked) {
     });
     bool const differs = (v.energy && v.energy->is_too_much) || std::ranges::any_of(v.findings, &CheckedColumn::differs);
     if (!enough && !differs) {
-        if (v.numbers.front().finished() < least_members) return not_checked(std::move(v), "too few of its members came to their end");
+        if (v.numbers.front().finished() < least_members) return not_checked(std::move(v), "too few of its members finished");
         std::vector<std::string> ends;
         for (std::size_t i = 0; i < v.methods.size(); ++i) ends.push_back(fmt::format("{} of {} by {}", v.finished[i], v.members.size(), v.methods[i]));
-        return not_checked(std::move(v), fmt::format("too few members came to their end again ({}){}", fmt::join(ends, ", "),
+        return not_checked(std::move(v), fmt::format("too few members finished again ({}){}", fmt::join(ends, ", "),
                                                      was_asked ? "" : "; run --verify gives them more time"));
     }
     v.resolution = differs ? Resolution::not_resolved : Resolution::resolved;

@@ -24,6 +24,7 @@ void tighten(IntegratorSettings& settings) {
 Method other_method(Method method, MechanismInfo const& mechanism) {
     switch (method) {
         case Method::automatic:
+        case Method::dop853:
         case Method::bs32:
             return Method::dopri5;
         case Method::dopri5:
@@ -35,7 +36,9 @@ Method other_method(Method method, MechanismInfo const& mechanism) {
 
 /// Right-hand sides of a member beside those at the study's own settings, as found for settled and rattling sliders (docs/integrators.md).
 double cost_of(Method study, Method check) {
-    if (study == check) return study == Method::dopri5 ? 2.5 : 4;
+    bool const high_order = study == Method::dopri5 || study == Method::dop853;
+    if (study == check) return high_order ? 2.5 : 4;
+    if (study == Method::dop853) return 1;
     if (study == Method::dopri5) return 0.2;  // in lasting contact, where it is needed most
     return check == Method::dopri5 ? 10 : 4;
 }

@@ -20,7 +20,7 @@ public:
 
     /// Finds the events; `fraction()` then tells where the steps end.  @param accepted lanes with an accepted step.
     template <class Stepper>
-    SLIDEWAY_HD void run(Pack<Model, Real>& pack, Stepper const& stepper, Attempt<Model, Real> const& attempt,
+    SLIDEWAY_HD void run(Pack<Model, Real>& pack, Stepper& stepper, Attempt<Model, Real> const& attempt,
                          Mask<Real> accepted) {
         ended_ = mask_of<Real>(false);
         fraction_ = Real(1.0);
@@ -28,7 +28,9 @@ public:
         auto candidates = mask_of<Real>(false);
         for (int event = 0; event < events; ++event) candidates = candidates | may_cross(attempt.step, start, end, event);
         candidates = candidates & accepted;
-        if (any(candidates)) search(pack, Step<Stepper>{stepper, attempt}, candidates, Each{});
+        if (none(candidates)) return;
+        stepper.prepare_dense(pack, attempt, candidates);
+        search(pack, Step<Stepper>{stepper, attempt}, candidates, Each{});
     }
 
     /// Puts lanes whose step an event ended into the state after its reset: the attempt's `end` and `end_rates` hold it.  Before that

@@ -14,20 +14,37 @@ public:
     static constexpr bool adaptive = Pair::adaptive;
     static constexpr bool stiff = false;
     static constexpr int evaluations = Pair::stages - 1;  // per attempt
+    static constexpr bool has_two_estimates = Pair::has_two_estimates;
     static constexpr int jacobians = 0;
 
     /// Idle lanes step in place.
     SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
         for (int i = 0; i < size; ++i) k_[0][i] = from.rates[i];
         to.faults = Faults<Real>::none();
-        constexpr typename Pair::Tableau w{};  // not Pair's own: device code has no constants of the host
-        if (from.needs.stages) pack.begin_integrals(w.b[0], w.e[0]);
+        if (from.needs.stages) pack.begin_integrals(weights<0>());
+        prepared_ = mask_of<Real>(false);
         stages(pack, from, to, std::make_integer_sequence<int, Pair::stages - 1>{});
         for (int i = 0; i < size; ++i) to.end_rates[i] = k_[Pair::stages - 1][i];
     }
 
     /// Error estimate of one component.
     SLIDEWAY_HD Real error(Attempt<Model, Real> const& to, int i) const { return to.step * Pair::error_slope(k_, i); }
+
+    /// The second estimate, of a pair that has two.
+    SLIDEWAY_HD Real coarse_error(Attempt<Model, Real> const& to, int i) const {
+        return to.step * Pair::coarse_error_slope(k_, i);
+    }
+
+    /// Evaluates what the continuous extension needs beyond the step; to be called before `dense` with the lanes that ask for it.
+    SLIDEWAY_HD void prepare_dense(Pack<Model, Real>& pack, Attempt<Model, Real> const& to, Mask<Real> wanted) {
+        if constexpr (Pair::dense_stages > 0) {
+            Mask<Real> const missing = wanted & !prepared_;
+            if (none(missing)) return;
+            extension(pack, to, std::make_integer_sequence<int, Pair::dense_stages>{});
+            pack.count_evaluations(missing, Pair::dense_stages);
+            prepared_ = prepared_ | missing;
+        }
+    }
 
     /// One component inside the step, at fraction θ of it.
     SLIDEWAY_HD Real dense(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to, int i, Real theta) const {
@@ -54,11 +71,30 @@ private:
             pack.evaluate(t, at, from.memory, k_[s], last ? from.needs.ends : from.needs.stages, to.report);
         // A fault of one stage is NaN in those after it, whose own faults say nothing.
         to.faults = to.faults.or_else(faults);
-        if (from.needs.stages) pack.add_integrands(w.b[s], w.e[s], to.report);
+        if (from.needs.stages) pack.add_integrands(weights<s>(), to.report);
     }
 
-    Real k_[Pair::stages][size];
-    Real at_[size];  // where a stage evaluates the derivative
+    /// Of a stage in the integrals over the step.
+    template <int s> SLIDEWAY_FN static constexpr StageWeights weights() {
+        constexpr typename Pair::Tableau w{};  // not Pair's own: device code has no constants of the host
+        if constexpr (has_two_estimates) return {w.b[s], w.e[s], w.coarse[s]};
+        else return {w.b[s], w.e[s]};
+    }
+
+    template <int... i>
+    SLIDEWAY_NOINLINE void extension(Pack<Model, Real> const& pack, Attempt<Model, Real> const& to,
+                                     std::integer_sequence<int, i...>) {
+        constexpr typename Pair::Tableau w{};
+        auto const from = pack.start();
+        typename Model::template Report<Real> report;
+        ((Pair::template stage_state<Pair::stages + i>(from.y, k_, to.step, at_),
+          pack.evaluate(fma(to.step, Real(w.c[Pair::stages + i]), from.t), at_, from.memory, k_[Pair::stages + i], false, report)),
+         ...);
+    }
+
+    Real k_[Pair::stages + Pair::dense_stages][size];
+    Real at_[size];        // where a stage evaluates the derivative
+    Mask<Real> prepared_;  // lanes whose continuous extension is complete
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

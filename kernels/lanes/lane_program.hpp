@@ -14,6 +14,7 @@
 #include "kernels/lanes/stint.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/bogacki_shampine.hpp"
+#include "kernels/steppers/dop853.hpp"
 #include "kernels/steppers/dormand_prince.hpp"
 #include "kernels/steppers/runge_kutta4.hpp"
 
@@ -65,6 +66,7 @@ private:
     static constexpr int size = Model::size;
     static constexpr int width = lanes<Real>;
     static constexpr int seats = width == 1 ? 1 : 8 * width;
+    static constexpr bool is_smooth = !Model::has_contacts && !Model::has_linearisation;
     // Attempts of a stint: few where lanes are regrouped by what they touch, many where all have the same work.
     static constexpr int attempts = Model::has_patterns ? 16 : 512;
     using Kind = typename Roster<seats, width>::Kind;
@@ -202,6 +204,9 @@ private:
             if constexpr (Model::has_linearisation) work<StiffStep<Model, Real>>();
         } else if (settings.method == Method::rk4) {
             work<ExplicitStep<RungeKutta4, Model, Real>>();
+        } else if (settings.method == Method::dop853 || (settings.method == Method::automatic && is_smooth)) {
+            // Where nothing breaks the smoothness of the motion, it beats the others at every tolerance (docs/integrators.md).
+            work<ExplicitStep<Dop853, Model, Real>>();
         } else if (settings.method == Method::bs32 ||
                    (settings.method == Method::automatic && settings.rtol >= bs32_from)) {
             work<ExplicitStep<BogackiShampine, Model, Real>>();

@@ -9,6 +9,9 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
+/// Of a stage in an integral over a step, and in the estimates of its error.
+struct StageWeights { double value, error, coarse_error = 0; };
+
 /// The lanes at work: their members' states, and the step that they attempt.
 template <class Model, class Real> struct Pack {
     static constexpr int size = Model::size;
@@ -27,6 +30,7 @@ template <class Model, class Real> struct Pack {
     // Of the members' own attempt, if needs.stages.
     Real integral[room(Observer::integrals)];           // Σ b_s · integrand of the stages
     Real audit_error[room(Observer::audit_integrals)];  // Σ e_s · integrand
+    Real coarse_audit_error[room(Observer::audit_integrals)];  // of the second estimate, of a method that has two
 
     /// Where the members' next step starts.
     SLIDEWAY_FN StepStart<Model, Real> start() const {
@@ -53,20 +57,26 @@ template <class Model, class Real> struct Pack {
     }
 
     /// Begins the integrals over a step with the stage at its start.
-    SLIDEWAY_HD void begin_integrals(double b, double e) {
-        for (int i = 0; i < Observer::integrals; ++i) integral[i] = Real(b) * state.observation.integrand[i];
-        with_accelerations([&](auto& record) { record.begin_step(b); });
-        for (int i = 0; i < Observer::audit_integrals; ++i) audit_error[i] = Real(e) * state.observation.integrand[i];
+    SLIDEWAY_HD void begin_integrals(StageWeights const& w) {
+        for (int i = 0; i < Observer::integrals; ++i) integral[i] = Real(w.value) * state.observation.integrand[i];
+        with_accelerations([&](auto& record) { record.begin_step(w.value); });
+        for (int i = 0; i < Observer::audit_integrals; ++i) {
+            audit_error[i] = Real(w.error) * state.observation.integrand[i];
+            if (w.coarse_error != 0) coarse_audit_error[i] = Real(w.coarse_error) * state.observation.integrand[i];
+        }
     }
 
     /// Adds a stage.
-    SLIDEWAY_HD void add_integrands(double b, double e, Report const& report) {
-        if (b == 0 && e == 0) return;
+    SLIDEWAY_HD void add_integrands(StageWeights const& w, Report const& report) {
+        if (w.value == 0 && w.error == 0) return;
         Real values[room(Observer::integrals)];
         Observer::integrands(report, values);
-        for (int i = 0; i < Observer::integrals; ++i) integral[i] = fma(Real(b), values[i], integral[i]);
-        with_accelerations([&](auto& record) { record.add_stage(b, report); });
-        for (int i = 0; i < Observer::audit_integrals; ++i) audit_error[i] = fma(Real(e), values[i], audit_error[i]);
+        for (int i = 0; i < Observer::integrals; ++i) integral[i] = fma(Real(w.value), values[i], integral[i]);
+        with_accelerations([&](auto& record) { record.add_stage(w.value, report); });
+        for (int i = 0; i < Observer::audit_integrals; ++i) {
+            audit_error[i] = fma(Real(w.error), values[i], audit_error[i]);
+            if (w.coarse_error != 0) coarse_audit_error[i] = fma(Real(w.coarse_error), values[i], coarse_audit_error[i]);
+        }
     }
 
     /// What the next step starts from, in the lanes of the mask.

@@ -94,7 +94,7 @@ public:
 
     /// Series values at the sample times inside the accepted steps, from the stepper's dense output.
     template <class Stepper, class Real>
-    SLIDEWAY_HD void take_samples(Pack<Model, Real>& pack, Stepper const& stepper, Attempt<Model, Real> const& attempt,
+    SLIDEWAY_HD void take_samples(Pack<Model, Real>& pack, Stepper& stepper, Attempt<Model, Real> const& attempt,
                                   Mask<Real> accepted, Real t_end) {
         auto& c = pack.state.course;
         for (;;) {
@@ -110,6 +110,7 @@ public:
             }
             auto const due = due_lanes > Real(0.5);
             if (none(due)) return;
+            stepper.prepare_dense(pack, attempt, due);
             auto const from = pack.start();
             Real const theta = select(accepted, (at - c.t) / select(accepted, attempt.step, Real(1.0)), Real(0.0));
             Real state[Model::size];

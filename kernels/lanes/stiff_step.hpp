@@ -13,6 +13,7 @@ public:
     static constexpr int order = 3;
     static constexpr bool adaptive = true;
     static constexpr bool stiff = true;
+    static constexpr bool has_two_estimates = false;
     static constexpr int evaluations = Ros34pw2Tableau::stages;  // per attempt, the end's included
     static constexpr int jacobians = 1;
     /// Largest sum of the relative residuals of the linear solves; without pivoting a bad matrix shows here.
@@ -25,7 +26,7 @@ public:
         matrix_.factor(hg_);
         residual_ = Real(0.0);
         to.faults = Faults<Real>::none();
-        if (from.needs.stages) pack.begin_integrals(w.b[0], w.e[0]);
+        if (from.needs.stages) pack.begin_integrals({w.b[0], w.e[0]});
         for (int i = 0; i < size; ++i) right_[i] = hg_ * from.rates[i];
         solve(0);
         stage<1>(pack, from, to);
@@ -63,6 +64,8 @@ public:
         return select(abs(lasting_error_[i]) < abs(whole), lasting_error_[i], whole);
     }
 
+    SLIDEWAY_HD void prepare_dense(Pack<Model, Real>&, Attempt<Model, Real> const&, Mask<Real>) {}
+
     /// One component inside the step: the straight line, for the derivatives at its ends belong to fast motions that the method
     /// damps.  Steps end where samples are wanted.
     SLIDEWAY_HD Real dense(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to, int i, Real theta) const {
@@ -87,7 +90,7 @@ private:
         Real const t = fma(to.step, Real(w.node[s]), from.t);
         auto const faults = pack.evaluate(t, at_, from.memory, right_, from.needs.stages, to.report);
         to.faults = to.faults.or_else(faults);
-        if (from.needs.stages) pack.add_integrands(w.b[s], w.e[s], to.report);
+        if (from.needs.stages) pack.add_integrands({w.b[s], w.e[s]}, to.report);
         for (int i = 0; i < size; ++i) {
             Real sum = hg_ * right_[i];
             for (int j = 0; j < s; ++j) sum = fma(Real(w.gamma * w.c[s][j]), u_[j][i], sum);

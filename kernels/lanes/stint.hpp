@@ -104,7 +104,7 @@ private:
     SLIDEWAY_HD Real squared_error_norm(Start const& from, Tried const& to) {
         Real const rtol(settings_.rtol), atol(settings_.atol);
         auto const& s = pack_.state;
-        SquaredRatios<Real> sum;
+        SquaredRatios<Real> sum, coarse;
         if constexpr (Stepper::stiff) stepper_.filter_error(Real(max_step_));
         for (int i = 0; i < size; ++i) {
             Real const amount = max(abs(from.y[i]), abs(to.end[i])), scale = s.constants.scale[i];
@@ -115,18 +115,30 @@ private:
                 sum.add(stepper_.error(to, i), fma(max(rtol, least), amount, max(atol, least) * scale));
             } else {
                 sum.add(stepper_.error(to, i), tolerance);
+                if constexpr (Stepper::has_two_estimates) coarse.add(stepper_.coarse_error(to, i), tolerance);
             }
         }
         // The damping power has a kink where a contact begins, which the states hardly feel: the audit controls its own error.
         constexpr int audit_integrals = Pack<Model, Real>::Observer::audit_integrals;
         if constexpr (audit_integrals > 0) {
-            if (!from.needs.audit) return sum.total() * Real(1.0 / size);
+            if (!from.needs.audit) return mean_square(sum, coarse);
             Real const energy = atol * Model::energy_scale(s.constants.parameters);
             for (int i = 0; i < audit_integrals; ++i) {
-                sum.add(to.step * pack_.audit_error[i], fma(rtol, abs(s.observation.observer.integral(i)), energy));
+                Real const tolerance = fma(rtol, abs(s.observation.observer.integral(i)), energy);
+                sum.add(to.step * pack_.audit_error[i], tolerance);
+                if constexpr (Stepper::has_two_estimates) coarse.add(to.step * pack_.coarse_audit_error[i], tolerance);
             }
         }
-        return sum.total() * Real(1.0 / size);
+        return mean_square(sum, coarse);
+    }
+
+    /// Of two estimates a norm that falls with the order of the method: a²/(a² + b²/100) of the sums of squares a of the fine and b of the
+    /// coarse one times a² (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I (1993), II.10).
+    SLIDEWAY_FN static Real mean_square(SquaredRatios<Real> const& sum, SquaredRatios<Real> const& coarse) {
+        Real const fine = sum.total();
+        if constexpr (!Stepper::has_two_estimates) return fine * Real(1.0 / size);
+        Real const both = max(Real(1e-300), fma(Real(0.01), coarse.total(), fine));
+        return fine * (fine / both) * Real(1.0 / size);
     }
 
     /// Accepts or rejects per lane.

@@ -5,11 +5,13 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// What all explicit Runge–Kutta pairs share.  @tparam Tableau holds the nodes c, stage weights a, weights b, and the error's
-/// weights e; @tparam count the number of stages, of which the last is the first of the next step.
+/// weights e; of two estimates of the error the second's are `coarse`; @tparam count the number of stages, of which the last is the first of the next step.
 template <class Tableau_, int count> struct ExplicitPair {
     using Tableau = Tableau_;
     static constexpr bool adaptive = true;
     static constexpr int stages = count;
+    static constexpr int dense_stages = 0;  // beyond those, of the continuous extension
+    static constexpr bool has_two_estimates = requires(Tableau w) { w.coarse; };
 
     /// State at which stage `s` evaluates the derivative: y + h Σ_j a_sj k_j.
     template <int s, int size, class Real>
@@ -19,7 +21,10 @@ template <class Tableau_, int count> struct ExplicitPair {
 
     /// Σ_j e_j k_j of one component: the error estimate is h times this.
     template <int size, class Real> SLIDEWAY_FN static Real error_slope(Real const (*k)[size], int i) {
-        return weighted_error<1>(k, i, Real(Tableau{}.e[0]) * k[0][i]);
+        return weighted_error<&Tableau::e, 1>(k, i, Real(Tableau{}.e[0]) * k[0][i]);
+    }
+    template <int size, class Real> SLIDEWAY_FN static Real coarse_error_slope(Real const (*k)[size], int i) {
+        return weighted_error<&Tableau::coarse, 1>(k, i, Real(Tableau{}.coarse[0]) * k[0][i]);
     }
 
 private:
@@ -40,14 +45,14 @@ private:
         }
     }
 
-    template <int j, int size, class Real>
+    template <auto weights, int j, int size, class Real>
     SLIDEWAY_FN static Real weighted_error(Real const (*k)[size], int i, Real sum) {
         if constexpr (j == stages) {
             return sum;
         } else {
-            constexpr double e = Tableau{}.e[j];
+            constexpr double e = (Tableau{}.*weights)[j];
             if constexpr (e != 0) sum = fma(Real(e), k[j][i], sum);
-            return weighted_error<j + 1>(k, i, sum);
+            return weighted_error<weights, j + 1>(k, i, sum);
         }
     }
 };

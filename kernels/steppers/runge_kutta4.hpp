@@ -20,6 +20,8 @@ struct RungeKutta4 {
     static constexpr int stages = 5;
     static constexpr int order = 4;
     static constexpr bool adaptive = false;
+    static constexpr int dense_stages = 0;
+    static constexpr bool has_two_estimates = false;
 
     using Tableau = RungeKutta4Tableau;
 

@@ -112,7 +112,7 @@ TEST_F(Usage, ListShowsWhatEachMechanismHas) {
              "  peak_crank_torque              N m      largest magnitude of the drive torque, crank weight included "
              "(slider_crank, planar_slider_crank)\n",
              "  crank_angle                    rad      angle of the crank (planar_slider_crank)\n",
-             "  mechanism.stroke               m        way of the carriage at constant speed: > 0; default 0.15 (carriage)\n",
+             "  mechanism.stroke               m        distance that the carriage travels at constant speed: > 0; default 0.15 (carriage)\n",
              "  mechanism.gravity              m/s2     gravity; default 9.81\n",
              "  mechanism.slider_mass          kg       mass of the slider: > 0; default follows from others\n",
              "  mechanism.crank_length         m        crank length: > 0; default 0.05 (slider_crank, scotch_yoke, "

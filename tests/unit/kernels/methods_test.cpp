@@ -14,10 +14,11 @@ namespace {
 TEST(Methods, AreNamedInTheirOrder) {
     EXPECT_STREQ(name_of(Method::automatic), "auto");
     EXPECT_STREQ(name_of(Method::dopri5), "dopri5");
+    EXPECT_STREQ(name_of(Method::dop853), "dop853");
     EXPECT_STREQ(name_of(Method::bs32), "bs32");
     EXPECT_STREQ(name_of(Method::ros34pw2), "ros34pw2");
     EXPECT_STREQ(name_of(Method::rk4), "rk4");
-    EXPECT_EQ(method_count, 5);
+    EXPECT_EQ(method_count, 6);
     for (auto const& info : method_table) EXPECT_GT(std::string_view(info.description).size(), 20u) << info.name;
     EXPECT_EQ(IntegratorSettings{}.method, Method::automatic);
 }

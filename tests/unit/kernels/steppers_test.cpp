@@ -46,9 +46,28 @@ double observed_order(Method method, OscillatorInputs const& in, double step) {
 TEST_F(Steppers, HaveTheirOrderOnAForcedOscillator) {
     OscillatorInputs const in{.frequency = 2, .force = 1.5, .x = 0.7, .v = -0.4};
     EXPECT_NEAR(observed_order(Method::dopri5, in, 0.05), 5, 0.2);
+    EXPECT_NEAR(observed_order(Method::dop853, in, 0.5), 8, 0.3);
     EXPECT_NEAR(observed_order(Method::bs32, in, 0.01), 3, 0.2);
     EXPECT_NEAR(observed_order(Method::rk4, in, 0.02), 4, 0.2);
     EXPECT_NEAR(observed_order(Method::ros34pw2, in, 0.01), 3, 0.2);
+}
+
+TEST_F(Steppers, SamplesOfDop853AreAsGoodAsItsSteps) {
+    OscillatorInputs const in{.frequency = 2, .force = 1.5, .x = 0.7, .v = -0.4};
+    std::vector<double> times;
+    for (int i = 0; i <= 30; ++i) times.push_back(0.1 * i);
+    auto const largest_error = [&](double step) {
+        auto const r = testing::run(isa, testing::equal_steps(Method::dop853, step, 3), std::vector{in}, times);
+        double largest = 0;
+        for (std::size_t k = 0; k < times.size(); ++k) {
+            auto const want = oscillation(in, times[k]);
+            largest = std::max(largest, std::hypot(r.series[k] - want[0], r.series[times.size() + k] - want[1]));
+        }
+        return largest;
+    };
+    // Steps three times as long as the samples are apart: without the continuous extension's own stages this is 1e-3.
+    EXPECT_LT(largest_error(0.3), 2e-8);
+    EXPECT_NEAR(std::log2(largest_error(0.5) / largest_error(0.25)), 8, 0.7);
 }
 
 TEST_F(Steppers, StiffMethodKeepsItsOrderWithAnyJacobian) {
