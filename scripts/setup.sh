@@ -13,7 +13,7 @@ packages=(
     libopenmpi-dev openmpi-bin
 )
 python=(python3 python3-dev python3-pip python3-venv)
-[[ ${1:-} == tests ]] && packages+=(libopenturns-dev "${python[@]}" chromium)
+[[ ${1:-} == tests ]] && packages+=(libopenturns-dev "${python[@]}" chromium valgrind)
 [[ ${1:-} == python ]] && packages+=("${python[@]}")
 [[ ${1:-} == clang ]] && packages+=(clang-14 clang-tidy-14 libclang-rt-14-dev libomp-14-dev)
 

@@ -1,0 +1,73 @@
+// What hot paths cost, in numbers that no other work on the machine changes: right-hand sides of the members, and, under valgrind's
+// callgrind, instructions.  Prints a line for each scene; callgrind's counts of it are in a file of their own.
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <valgrind/callgrind.h>
+
+#include "bench/spread.hpp"
+#include "tests/support/ensemble.hpp"
+
+namespace slideway {
+namespace {
+
+constexpr double pi = 3.141592653589793;
+constexpr std::size_t members = 8;
+
+struct CostCase {
+    char const* name;
+    Parts parts;
+    double clearance, crank_speed, chi, end_time, rtol;
+    Selection quantities = 0;
+};
+
+constexpr CostCase cases[] = {
+    {"paper", {Law::paper, Damping::point, true, false}, 1e-4, pi, 0, 0.01, 1e-6},
+    {"conservative", {Law::conservative, Damping::point, true, false}, 1e-4, pi, 0, 0.01, 1e-6},
+    {"rattling", {Law::conservative, Damping::rate, true, false}, 5e-4, 47, 10, 0.05, 1e-6},
+    {"rattling_order_3", {Law::conservative, Damping::rate, true, false}, 5e-4, 47, 10, 0.05, 1e-4},
+    {"settling", {Law::conservative, Damping::rate, true, false}, 1e-4, pi, 10, 0.2, 1e-4},
+    {"audited_restitution", {Law::conservative, Damping::restitution, true, true}, 5e-4, 47, 0, 0.05, 1e-6, testing::all_quantities},
+};
+
+std::vector<Inputs> members_of(CostCase const& c) {
+    auto starts = testing::scattered_starts(members, c.clearance, c.crank_speed);
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+        bench::spread_inputs(starts[i], c.chi, [&](double irrational) {
+            double const x = static_cast<double>(i + 1) * irrational;
+            return 0.8 + 0.4 * (x - static_cast<double>(static_cast<std::uint64_t>(x)));
+        });
+        starts[i].restitution = 0.7;
+    }
+    return starts;
+}
+
+void measure(Isa isa, CostCase const& c) {
+    testing::RunOptions options;
+    options.parts = c.parts;
+    options.settings.end_time = c.end_time;
+    options.settings.rtol = options.settings.atol = c.rtol;
+    options.quantities = c.quantities;
+    auto const starts = members_of(c);
+    std::string const name = std::string(name_of(isa)) + " " + c.name;
+    CALLGRIND_ZERO_STATS;
+    auto const result = testing::run(isa, options, starts);
+    CALLGRIND_DUMP_STATS_AT(name.c_str());
+    std::uint64_t evaluations = 0;
+    for (auto const& record : result.records) evaluations += record.rhs_evaluations;
+    std::printf("%s evaluations %llu\n", name.c_str(), static_cast<unsigned long long>(evaluations));
+}
+
+}  // namespace
+}  // namespace slideway
+
+int main() {
+    using namespace slideway;
+    // Valgrind knows no AVX-512.
+    for (Isa const isa : testing::supported_isas()) {
+        if (name_of(isa) != std::string("scalar") && name_of(isa) != std::string("avx2")) continue;
+        for (CostCase const& c : cases) measure(isa, c);
+    }
+}
