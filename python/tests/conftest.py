@@ -25,12 +25,13 @@ recipes: dict[str, tuple[str, dict[str, object]]] = {
     "ensemble": ("ensemble_starts.toml", {"study.members": 64, "study.samples": 401, "study.duration": "20 ms"}),
     "lyapunov": ("lyapunov_0.1mm.toml", {
         "study.members": 16, "study.transient_revolutions": 0, "study.revolutions": 0.1, "study.history": 40}),
-    "poincare": ("poincare_0.1mm.toml", {"study.members": 3, "study.transient_revolutions": 0, "study.revolutions": 2}),
+    "poincare": ("poincare_0.1mm.toml", {
+        "study.members": 3, "study.transient_revolutions": 0, "study.revolutions": 2, "mechanism.crank_speed": "120 rpm"}),
     "crossings": ("poincare_0.1mm.toml", {
         "study.members": 3, "study.transient_revolutions": 0, "study.revolutions": 0.05, "study.section": {"on": "vy"},
         "study.vary": {"initial.y": {"dist": "unif", "low": "-0.03 mm", "high": "0.03 mm"}}}),
     "sweep": ("sweep_clearance.toml", {
-        "study.members": 2, "study.points": 5, "study.transient_revolutions": 0, "study.revolutions": 2}),
+        "study.members": 2, "study.points": 5, "study.transient_revolutions": 0, "study.revolutions": 2, "mechanism.crank_speed": "600 rpm"}),
     "columns": ("sweep_clearance.toml", {
         "study.members": 3, "study.points": 4, "study.transient_revolutions": 0, "study.revolutions": 2, "contact.law": "conservative",
         "mechanism.crank_speed": "600 rpm",

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import slideway
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.collections import PathCollection
 
 Result = Callable[[str], xr.Dataset]
@@ -40,21 +41,31 @@ SELECTIONS: dict[str, Callable[[xr.Dataset], xr.Dataset]] = {
 }
 
 
+def points_of(ax: Axes) -> list[np.ndarray]:
+    """What lines and dots are drawn through."""
+    dots = [np.asarray(one.get_offsets()) for one in ax.collections if isinstance(one, PathCollection)]
+    return [np.array(line.get_xydata()) for line in ax.lines] + dots
+
+
+@pytest.fixture(scope="module")
+def alone() -> dict[object, list[np.ndarray]]:
+    """Points of members alone, which several selections come to."""
+    return {}
+
+
 @pytest.mark.parametrize("selection", SELECTIONS)
 @pytest.mark.parametrize(("recipe", "function", "given"), PLOTS, ids=[f"{recipe}-{function.__name__}" for recipe, function, _ in PLOTS])
-def test_one_member_is_drawn_alone(recipe: str, function: Callable[..., Any], given: dict[str, Any], selection: str, result_of: Result) -> None:
+def test_one_member_is_drawn_alone(recipe: str, function: Callable[..., Any], given: dict[str, Any], selection: str, result_of: Result,
+                                      alone: dict[object, list[np.ndarray]]) -> None:
     with result_of(recipe) as result:
         one = SELECTIONS[selection](result)
         ax = function(one, **given)
         ax.figure.canvas.draw()
-        drawn = [np.asarray(line.get_xydata()) for line in ax.lines] + [
-            np.asarray(dots.get_offsets()) for dots in ax.collections if isinstance(dots, PathCollection)
-        ]
         # The same as of this member alone, with its dimension.
-        again = function(result.sel(member=[int(np.ravel(one.member)[0])]), **given)
-        expected = [np.asarray(line.get_xydata()) for line in again.lines] + [
-            np.asarray(dots.get_offsets()) for dots in again.collections if isinstance(dots, PathCollection)
-        ]
+        key = recipe, function, str(given), int(np.ravel(one.member)[0])
+        if key not in alone:
+            alone[key] = points_of(function(result.sel(member=[key[-1]]), **given))
+        drawn, expected = points_of(ax), alone[key]
     assert len(drawn) == len(expected) > 0 or ax.patches
     for mine, theirs in zip(drawn, expected, strict=True):
         np.testing.assert_array_equal(mine, theirs)

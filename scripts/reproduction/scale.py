@@ -81,13 +81,13 @@ TINY = Scale(
     revolutions=0.02,
     maps=2,
     map_transient=0,
-    map_revolutions=12,
+    map_revolutions=10,
     exponents=2,
     exponent_transient=0,
     exponent_revolutions=0.02,
     exponent_history=10,
     series=2,
-    series_revolutions=10,
+    series_revolutions=4,
     series_samples=100,
 )
 SCALES = {"full": FULL, "tiny": TINY}

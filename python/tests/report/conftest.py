@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import functools
 import json
 import shutil
 from collections.abc import Callable, Iterator
@@ -16,7 +17,8 @@ import pytest
 import xarray as xr
 from slideway import report
 
-from .browser import Browser
+from . import surveys
+from .browser import Browser, Seen
 
 kinds = {"f4": "<f4", "f8": "<f8", "u1": "<u1", "u2": "<u2"}
 
@@ -112,3 +114,14 @@ def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
     opened = Browser(program, tmp_path_factory.mktemp("profile"))
     yield opened
     opened.close()
+
+
+@pytest.fixture(scope="session")
+def seen_of(page_of: Callable[[str], Page], browser: Browser) -> Callable[..., Seen]:
+    """What all surveys found on the page about a recipe's result, opened once for each size and colours."""
+
+    @functools.cache
+    def of(name: str, width: int = 1200, dark: bool = False) -> Seen:
+        return browser.look(page_of(name).path, surveys.ALL, width, dark)
+
+    return lambda name, width=1200, dark=False: of(name, width, dark)

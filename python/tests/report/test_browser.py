@@ -9,28 +9,19 @@ import pytest
 import xarray as xr
 from slideway import report
 
-from .browser import Browser
+from .browser import Browser, Seen
 from .conftest import Page
 from .test_page import SUITED, hostile
 
 Pages = Callable[[str], Page]
-
-SURVEY = """
-  const drawn = [...document.querySelectorAll(".plot")].map((plot) =>
-    [plot.id, plot.querySelectorAll(".scatterlayer .trace, .barlayer .point").length]);
-  const wide = [...document.querySelectorAll(".plot, .views svg")].map((one) =>
-    Math.max(...[one, ...one.querySelectorAll(".main-svg")].map((part) => part.getBoundingClientRect().right)));
-  return { drawn: Object.fromEntries(drawn), beyond: Math.max(...wide) - document.documentElement.clientWidth,
-           overflow: document.documentElement.scrollWidth - document.documentElement.clientWidth };
-"""
-
+Looks = Callable[..., Seen]
 
 @pytest.mark.parametrize("name", ["ensemble", "lyapunov", "poincare", "sweep", "tolerance", "stored", "failing"])
-def test_a_page_draws_all_its_plots_and_fetches_nothing(name: str, page_of: Pages, browser: Browser) -> None:
-    seen = browser.look(page_of(name).path, SURVEY)
+def test_a_page_draws_all_its_plots_and_fetches_nothing(name: str, seen_of: Looks) -> None:
+    seen = seen_of(name)
     assert seen.complaints == []
     assert seen.fetched == []
-    drawn = seen.found["drawn"]
+    drawn = seen.found["plots"]["drawn"]
     assert SUITED[name] - {"convergence"} <= set(drawn)
     assert all(count > 0 for count in drawn.values()), drawn
 
@@ -111,24 +102,17 @@ def test_what_is_lit_touches_in_the_drawing(page_of: Pages, browser: Browser) ->
     assert sum(clear) / len(clear) > 0.5
 
 
-COLOURS = """
-  const light = (text) => { const [r, g, b] = text.match(/[\\d.]+/g).map(Number); return (0.3 * r + 0.6 * g + 0.1 * b) / 255; };
-  return { paper: light(getComputedStyle(document.body).backgroundColor), ink: light(getComputedStyle(document.body).color),
-           label: light(getComputedStyle(document.querySelector(".plot text")).fill) };
-"""
-
-
 @pytest.mark.parametrize("dark", [False, True])
-def test_a_page_follows_the_readers_colours(dark: bool, page_of: Pages, browser: Browser) -> None:
-    found = browser.look(page_of("stored").path, COLOURS, dark=dark).found
+def test_a_page_follows_the_readers_colours(dark: bool, seen_of: Looks) -> None:
+    found = seen_of("stored", dark=dark).found["colours"]
     assert (found["paper"] < 0.3) == dark
     assert (found["ink"] > 0.7) == dark
     assert (found["label"] > 0.7) == dark
 
 
 @pytest.mark.parametrize("name", ["ensemble", "failing"])
-def test_a_page_fits_a_phone(name: str, page_of: Pages, browser: Browser) -> None:
-    found = browser.look(page_of(name).path, SURVEY, width=390).found
+def test_a_page_fits_a_phone(name: str, seen_of: Looks) -> None:
+    found = seen_of(name, width=390).found["plots"]
     assert found["overflow"] <= 0
     assert found["beyond"] <= 0
 

@@ -13,10 +13,11 @@ import xarray as xr
 from slideway import palette
 from slideway.report.numbers import amount, number, scaled
 
-from .browser import Browser
+from .browser import Seen
 from .conftest import Page, unpacked
 
 Pages = Callable[[str], Page]
+Looks = Callable[..., Seen]
 Results = Callable[[str], xr.Dataset]
 
 
@@ -133,19 +134,9 @@ def test_colours_of_the_page_are_those_of_the_plots(page_of: Pages) -> None:
     assert with_total[:2] == palette.colours[:2]
 
 
-PHONE = """
-  const inside = [...document.querySelectorAll("#summary .scroll, #endings .scroll")];
-  const small = [...document.querySelectorAll("#summary td, #summary th, #summary p")].map((one) => one.getBoundingClientRect());
-  return { beyond: Math.max(...inside.map((one) => one.scrollWidth - one.clientWidth)), tables: inside.length,
-           right: Math.max(...small.map((one) => one.right)), left: Math.min(...small.map((one) => one.left)),
-           size: Math.min(...[...document.querySelectorAll("#summary td")].map((one) => parseFloat(getComputedStyle(one).fontSize))),
-           named: getComputedStyle(document.querySelector("#summary td"), "::before").content };
-"""
-
-
 @pytest.mark.parametrize("name", ["tolerance", "ensemble", "columns", "stored", "correlations"])
-def test_the_summary_is_read_on_a_phone_without_scrolling(name: str, page_of: Pages, browser: Browser) -> None:
-    found = browser.look(page_of(name).path, PHONE, width=390).found
+def test_the_summary_is_read_on_a_phone_without_scrolling(name: str, seen_of: Looks) -> None:
+    found = seen_of(name, width=390).found["phone"]
     assert found["tables"] > 0
     assert found["beyond"] <= 0
     assert 0 <= found["left"] < found["right"] <= 390
@@ -153,20 +144,10 @@ def test_the_summary_is_read_on_a_phone_without_scrolling(name: str, page_of: Pa
     assert json.loads(found["named"]) in ("unit", "met by")  # the column's name beside the number
 
 
-LEGENDS = """
-  const meets = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1;
-  return [...document.querySelectorAll(".plot")].filter((plot) => {
-    const legend = plot.querySelector(".legend .bg");
-    return legend && [...plot.querySelectorAll(".plot > rect, .bglayer rect, .nsewdrag")].some((area) =>
-      meets(legend.getBoundingClientRect(), area.getBoundingClientRect()));
-  }).map((plot) => plot.id);
-"""
-
-
 @pytest.mark.parametrize(
     ("name", "width"),
     [("single", 390), ("ensemble", 1200), ("ensemble", 390), ("lyapunov", 1200), ("poincare", 390), ("sweep", 1200), ("columns", 390),
      ("tolerance", 1200), ("coarse", 390)],
 )
-def test_legends_stand_outside_the_axes(name: str, width: int, page_of: Pages, browser: Browser) -> None:
-    assert browser.look(page_of(name).path, LEGENDS, width=width).found == []
+def test_legends_stand_outside_the_axes(name: str, width: int, seen_of: Looks) -> None:
+    assert seen_of(name, width=width).found["legends"] == []
