@@ -51,6 +51,7 @@ void take_damping_out(Case& c) {
     switch (c.parts.law) {
         case Law::paper:
         case Law::conservative:
+        case Law::foundation:
             c.inputs.eta = 0;
             return;
         case Law::kelvin_voigt:
