@@ -33,8 +33,10 @@ enum class KeyGroup {
     // of contacts
     elastic,        // two bodies of Young's moduli
     hertz,          // point contacts K δⁿ
-    point_damping,  // η, or a coefficient of restitution
-    edges,          // line and surface contacts
+    point_damping,  // η of point contacts
+    edges,          // line contacts
+    surfaces,       // χ of surface contacts
+    restitution,    // a coefficient of restitution in place of η and χ
     law,            // what a contact law has of its own
 };
 using KeyGroups = unsigned;
@@ -44,7 +46,7 @@ template <class... Groups> constexpr KeyGroups groups_of(Groups... groups) {
 constexpr bool has_group(KeyGroups groups, KeyGroup group) { return (groups & groups_of(group)) != 0; }
 /// Those of which contact.law says whether they count.
 inline constexpr KeyGroups contact_groups =
-    groups_of(KeyGroup::elastic, KeyGroup::hertz, KeyGroup::point_damping, KeyGroup::edges);
+    groups_of(KeyGroup::elastic, KeyGroup::hertz, KeyGroup::point_damping, KeyGroup::edges, KeyGroup::surfaces, KeyGroup::restitution);
 
 struct Key {
     std::string_view name;  // dotted, as in the scene: "mechanism.crank_length"

@@ -14,17 +14,19 @@
 namespace slideway::cli {
 namespace {
 
+/// The contacts that χ damps.
+char const* rate_damped(LawInfo const& law) { return has_group(law.groups, KeyGroup::edges) ? "line and surface" : "surface"; }
+
 /// What damps the contacts; a mechanism with corners has the point law's.
 std::string damping_text(Parts const& parts) {
     LawInfo const& law = info(parts.law);
+    bool const of_points = !info(parts.mechanism).spatial || has_group(law.groups, KeyGroup::point_damping);
     switch (parts.damping) {
         case Damping::point:
-            if (!info(parts.mechanism).spatial || has_group(law.groups, KeyGroup::point_damping)) {
-                return "damping of point contacts";
-            }
-            return fmt::format("damping of the {} law", law.name);
+            if (of_points) return "damping of point contacts";
+            return law.keys.empty() ? "no damping" : fmt::format("damping of the {} law", law.name);
         case Damping::rate:
-            return "damping of point, line and surface contacts";
+            return fmt::format("damping of {}{} contacts", of_points ? "point, " : "", rate_damped(law));
         case Damping::restitution:
             return "restitution";
     }
@@ -43,11 +45,11 @@ void print_parts(Scene const& scene) {
     }
     sort(true, damping_text(scene.parts));
     // Which the scene might have had.
-    auto const sort_out = [&](Damping damping, char const* name) {
+    auto const sort_out = [&](Damping damping, std::string name) {
         bool const may = mechanism.spatial ? info(scene.parts.law).has(damping) : damping == Damping::restitution;
-        if (may && scene.parts.damping != damping) sort(false, name);
+        if (may && scene.parts.damping != damping) sort(false, std::move(name));
     };
-    sort_out(Damping::rate, "damping of line and surface contacts");
+    sort_out(Damping::rate, fmt::format("damping of {} contacts", rate_damped(info(scene.parts.law))));
     sort_out(Damping::restitution, "restitution");
     sort(scene.parts.friction, "friction");
     if (mechanism.spatial) sort(scene.parts.misaligned_way, "pose of a misaligned way");

@@ -80,7 +80,8 @@ void print_laws() {
         print_row("  {:<30} {}", law.name, law.words);
         std::vector<std::string_view> dampings;
         for (int i = 0; i < damping_count; ++i) {
-            bool const has = law.has(static_cast<Damping>(i)) && has_group(law.groups, KeyGroup::point_damping);
+            auto const damping = static_cast<Damping>(i);
+            bool const has = damping == Damping::point ? has_group(law.groups, KeyGroup::point_damping) : law.has(damping);
             if (has) dampings.push_back(damping_names[i]);
         }
         print_row("  {:<30} damping: {}", "", dampings.empty() ? "its own alone" : fmt::format("{}", fmt::join(dampings, ", ")));

@@ -18,15 +18,15 @@ struct LawInfo {
     /// Stiffness of a face [N/m] of which all apices are in contact, for predictions.  @param surface that of its surface, E_s A/l; none: it is that
     double (*face_stiffness)(Inputs const&, double surface) = nullptr;
 
-    /// Which kinds of damping it has: η and a coefficient of restitution on points, χ on edges; `point` stands for what is its own.
+    /// Which kinds of damping it has: χ of surfaces, a coefficient of restitution; `point` stands for what it has without these, η of points, its own or none.
     constexpr bool has(Damping damping) const {
         switch (damping) {
             case Damping::point:
                 return true;
             case Damping::rate:
-                return has_group(groups, KeyGroup::edges);
+                return has_group(groups, KeyGroup::surfaces);
             case Damping::restitution:
-                return has_group(groups, KeyGroup::point_damping);
+                return has_group(groups, KeyGroup::restitution);
         }
         return false;
     }

@@ -5,4 +5,5 @@
 #define SLIDEWAY_LAWS(row)             \
     row(paper, PaperLaw)               \
     row(conservative, ConservativeLaw) \
-    row(kelvin_voigt, KelvinVoigt)
+    row(kelvin_voigt, KelvinVoigt)     \
+    row(foundation, Foundation)

@@ -32,7 +32,7 @@ struct PlanarBase {
             selections::all_quantities & ~selections::apex_quantities & ~selections::sensor_quantities &
             ~selection_of(Quantity::switching_energy);
         info.keys = groups_of(KeyGroup::slider, KeyGroup::planar, KeyGroup::crank, KeyGroup::links, KeyGroup::elastic,
-                              KeyGroup::hertz, KeyGroup::point_damping);
+                              KeyGroup::hertz, KeyGroup::point_damping, KeyGroup::restitution);
         info.drive = DriveKind::crank;
         info.spatial = false;
         info.prescribed = 1u << 0 | 1u << 3;  // angle and speed of a driven crank

@@ -20,7 +20,7 @@ class Key:
         name: dotted, as in ``set={"joint.clearance": "0.2 mm"}``; with two underscores for the dot a keyword of :func:`slideway.run`.
         type: "number", "integer", "boolean", "choice", "text", "list" or "table".
         unit: SI unit of its numbers; "1" for plain ones, "" for what is no number.
-        domain: what it may be: "> 0", "≥ 1, ≤ 3", "one of paper, conservative, kelvin_voigt"; "" for anything of its type.
+        domain: what it may be: "> 0", "≥ 1, ≤ 3", "one of paper, conservative, kelvin_voigt, foundation"; "" for anything of its type.
         default: what it is where nobody gives it; "" for nothing.
         meaning: one sentence.
         counts_for: mechanisms, laws, studies and methods that know it, where not all do: ``{"laws": ["paper"]}``.

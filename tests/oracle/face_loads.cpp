@@ -39,6 +39,8 @@ void FaceLoads::load() {
             return load_by_conservative();
         case Law::kelvin_voigt:
             return load_by_kelvin_voigt();
+        case Law::foundation:
+            return load_by_foundation();
     }
 }
 
@@ -102,6 +104,30 @@ void FaceLoads::load_by_kelvin_voigt() {
         Real const depth = at(p).depth, elastic = stiffness * depth;
         add(p, elastic, std::max(elastic + damping * at(p).rate, Real(0)));
         potential_ += stiffness * depth * depth / 2;
+    }
+}
+
+void FaceLoads::load_by_foundation() {
+    std::vector<int> touching;
+    for (int p : face_.corners)
+        if (touches(p)) touching.push_back(p);
+    Real const inner = 1 / std::sqrt(Real(5));
+    for (Real const along : {Real(-1), -inner, inner, Real(1)}) {
+        for (Real const across : {Real(-1), -inner, inner, Real(1)}) {
+            auto const shape = [&](int p) {
+                Apex const& apex = apices[p - 1];
+                return (1 + along * apex.s3) / 2 * (1 + across * (face_.axis == 1 ? apex.s2 : apex.s1)) / 2;
+            };
+            Real depth = 0, rate = 0;
+            for (int p : face_.corners) depth += shape(p) * at(p).depth, rate += shape(p) * at(p).rate;
+            if (depth <= 0) continue;
+            // Of the quadrature on [-1, 1], whose weights come to two: 1/6 at the ends, 5/6 within.
+            Real const weight = (std::abs(along) < 1 ? 5 : 1) * (std::abs(across) < 1 ? 5 : 1) / Real(6 * 6 * 4);
+            Real const elastic = surface_stiffness_ * weight * depth;
+            Real const force = damped(elastic, rate, in_.chi_surface, touching);
+            for (int p : face_.corners) add(p, shape(p) * elastic, shape(p) * force);
+            potential_ += elastic * depth / 2;
+        }
     }
 }
 

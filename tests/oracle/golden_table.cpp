@@ -86,7 +86,8 @@ void read_law(Table const& table, std::size_t row, Case& result) {
     result.parts.law = oracle::law_named(table.text(row, "contact.law"));
     switch (result.parts.law) {
         case slideway::Law::paper:
-        case slideway::Law::conservative: {
+        case slideway::Law::conservative:
+        case slideway::Law::foundation: {
             bool const dissipates = in.chi_line != 0 || in.chi_surface != 0;
             result.parts.damping = dissipates ? slideway::Damping::rate : slideway::Damping::point;
             return;

@@ -1,7 +1,7 @@
 // Writes a golden table of a law that model.md's tables do not have: the states and parameters of one of them, under
 // that law, with numbers drawn for what the law has of its own, computed by the oracle in 80 bits.
-//   golden_writer STATES.csv kelvin_voigt given|follows ROWS > TABLE.csv
-// `given`: a stiffness in every row; `follows`: no column for it.  Rows are taken evenly from the states.
+//   golden_writer STATES.csv LAW given|follows ROWS > TABLE.csv
+// `given`: of kelvin_voigt, a stiffness in every row; `follows`: no column for it.  Rows are taken evenly from the states.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -30,6 +30,7 @@ std::vector<OwnColumn> own_columns(slideway::Law law, bool stiffness_is_given) {
     switch (law) {
         case slideway::Law::paper:
         case slideway::Law::conservative:
+        case slideway::Law::foundation:
             return {};
         case slideway::Law::kelvin_voigt: {
             std::vector<OwnColumn> columns;
@@ -44,9 +45,10 @@ std::vector<OwnColumn> own_columns(slideway::Law law, bool stiffness_is_given) {
 }
 
 /// What the published laws have and this one has not.
-bool is_of_other_laws(std::string const& column) {
+bool is_of_other_laws(std::string const& column, slideway::Law law) {
+    if (column == "contact.chi_surface") return law != slideway::Law::foundation;
     static Strings const list = {
-        "contact.eta",         "contact.chi_line",       "contact.chi_surface",          "contact.edge_radius",
+        "contact.eta",         "contact.chi_line",       "contact.edge_radius",
         "contact.apex_radius", "contact.hertz_exponent", "contact.slider_poisson_ratio", "contact.way_poisson_ratio"};
     return std::find(list.begin(), list.end(), column) != list.end();
 }
@@ -69,7 +71,7 @@ void write(std::string const& file, slideway::Law law, bool stiffness_is_given, 
     Strings given;
     for (auto const& column : states.columns()) {
         bool const is_computed = std::find(computed.begin(), computed.end(), column) != computed.end();
-        if (!is_computed && !is_of_other_laws(column)) given.push_back(column);
+        if (!is_computed && !is_of_other_laws(column, law)) given.push_back(column);
     }
     Strings header = {given.front()};  // contact.law
     for (auto const& column : own) header.push_back(column.name);

@@ -30,7 +30,7 @@ JointLoads joint_loads(Inputs const& in, Parts const& parts, SliderMotion const&
             friction_torque = Vector3::Zero();
     for (int axis : {1, 2}) {
         for (Pair const& pair : loads.pairs[axis]) {
-            if (!(pair.depth > 0)) continue;
+            if (!(pair.elastic > 0)) continue;  // a spring of the bed pushes apices that do not touch, too
             Vector3 const push = pair.side * pair.force * pair.normal;
             normal += Vector3(0, push.y(), push.z());
             normal_torque += pair.arm.cross(push);

@@ -48,6 +48,7 @@ void set_law(Dice& dice, Law law, Parts& parts, Inputs& in) {
     switch (law) {
         case Law::paper:
         case Law::conservative:
+        case Law::foundation:
             in.law_a = in.law_b = 0;
             return;
         case Law::kelvin_voigt:

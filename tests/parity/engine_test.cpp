@@ -24,6 +24,8 @@ PartsCase const parts_cases[] = {
     {"conservative_point_way", {Law::conservative, Damping::point, true, true}},
     {"paper_restitution", {Law::paper, Damping::restitution, false, false}},
     {"conservative_restitution_way", {Law::conservative, Damping::restitution, true, true}},
+    {"foundation_rate_friction", {Law::foundation, Damping::rate, true, false}},
+    {"foundation_restitution_way", {Law::foundation, Damping::restitution, false, true, Mechanism::free_slider}},
     {"kelvin_voigt_friction", {Law::kelvin_voigt, Damping::point, true, false}},
     {"scotch_yoke_kelvin_voigt_way", {Law::kelvin_voigt, Damping::point, true, true, Mechanism::scotch_yoke}},
     {"scotch_yoke_paper_friction", {Law::paper, Damping::point, true, false, Mechanism::scotch_yoke}},

@@ -56,7 +56,7 @@ TEST_F(Completion, OfBashKnowsKeysAndTheirChoices) {
     if (!is_there("bash")) GTEST_SKIP() << "bash is not installed";
     written({"--completion", "bash"}, "s.bash");
     EXPECT_EQ(in_bash({"slideway", "run", "--set", "joint.clearance"}), "joint.clearance=\njoint.clearance_y=\njoint.clearance_z=\n");
-    EXPECT_EQ(in_bash({"slideway", "run", "--set", "contact.law", "="}), "conservative\nkelvin_voigt\npaper\n");
+    EXPECT_EQ(in_bash({"slideway", "run", "--set", "contact.law", "="}), "conservative\nfoundation\nkelvin_voigt\npaper\n");
     EXPECT_EQ(in_bash({"slideway", "run", "--set", "contact.law", "=", "k"}), "kelvin_voigt\n");
     EXPECT_EQ(in_bash({"slideway", "run", "--set", "contact.law=k"}), "contact.law=kelvin_voigt\n") << "where = breaks no words";
     EXPECT_EQ(in_bash({"slideway", "run", "--set", "study.seed", "=", "3", "friction.en"}), "friction.enabled=\n") << "--set takes many";
@@ -87,7 +87,7 @@ TEST_F(Completion, OfFishKnowsCommandsOptionsAndValues) {
     EXPECT_EQ(offered("slideway run --max"), "--max-failures\n--max-hours\n");
     EXPECT_EQ(offered("slideway check --max"), "");
     EXPECT_EQ(offered("slideway run --backend "), "auto\ncpu\ncuda\n");
-    EXPECT_EQ(offered("slideway run --set contact.law="), "contact.law=conservative\ncontact.law=kelvin_voigt\ncontact.law=paper\n");
+    EXPECT_EQ(offered("slideway run --set contact.law="), "contact.law=conservative\ncontact.law=foundation\ncontact.law=kelvin_voigt\ncontact.law=paper\n");
     EXPECT_EQ(offered("slideway run --set joint.clearance_"), "joint.clearance_y=\njoint.clearance_z=\n");
     write("x1.toml", "");
     EXPECT_EQ(offered("slideway run x1"), "x1.toml\n");

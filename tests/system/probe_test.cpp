@@ -37,7 +37,8 @@ TEST_P(GoldenTable, IsMetInEveryColumn) {
 INSTANTIATE_TEST_SUITE_P(Probe, GoldenTable,
                          ::testing::Combine(::testing::Values("rhs_paper.csv", "rhs_conservative.csv",
                                                               "rhs_parameters.csv", "rhs_kelvin_voigt.csv",
-                                                              "rhs_kelvin_voigt_parameters.csv"),
+                                                              "rhs_kelvin_voigt_parameters.csv", "rhs_foundation.csv",
+                                                              "rhs_foundation_parameters.csv"),
                                             ::testing::ValuesIn(built_isas())),
                          [](auto const& info) {
                              std::string const& name = std::get<0>(info.param);

@@ -59,7 +59,7 @@ TEST_F(Usage, CheckShowsThePartsOfEachMechanism) {
     };
     EXPECT_EQ(parts("kind = \"carriage\""),
               "parts in     carriage mechanism; paper law; damping of point contacts\n"
-              "parts out    conservative law; kelvin_voigt law; damping of line and surface contacts; restitution; friction; pose of a "
+              "parts out    conservative law; kelvin_voigt law; foundation law; damping of line and surface contacts; restitution; friction; pose of a "
               "misaligned way; time series");
     EXPECT_EQ(parts("kind = \"planar_slider_crank\"\ncrank = \"free\"\n[contact]\nrestitution = 0.5"),
               "parts in     planar_slider_crank mechanism; free crank; contact of corners; restitution\n"
@@ -75,13 +75,15 @@ TEST_F(Usage, CheckShowsThePartsOfEachLaw) {
         auto const after = out.find("parts out");
         std::string const left = out.substr(after, out.find('\n', after) - after);
         EXPECT_EQ(in, fmt::format("parts in     slider_crank mechanism; {} law; {}", law.name,
-                                  law.has(Damping::restitution) ? std::string("damping of point contacts")
-                                                                : fmt::format("damping of the {} law", law.name)));
+                                  has_group(law.groups, KeyGroup::point_damping) ? std::string("damping of point contacts")
+                                  : law.keys.empty()                             ? "no damping"
+                                                                                 : fmt::format("damping of the {} law", law.name)));
         for (LawInfo const& other : laws()) {
             EXPECT_EQ(left.find(fmt::format(" {} law;", other.name)) != left.npos, other.name != law.name) << left;
         }
         EXPECT_EQ(left.find("restitution") != left.npos, law.has(Damping::restitution)) << left;
-        EXPECT_EQ(left.find("line and surface") != left.npos, law.has(Damping::rate)) << left;
+        EXPECT_EQ(left.find("surface contacts") != left.npos, law.has(Damping::rate)) << left;
+        EXPECT_EQ(left.find("line and surface") != left.npos, has_group(law.groups, KeyGroup::edges)) << left;
         for (Key const& key : law.keys) EXPECT_NE(out.find(key.name.substr(8)), out.npos) << key.name;
     }
 }
@@ -95,10 +97,12 @@ TEST_F(Usage, ListShowsWhatEachLawHas) {
     for (char const* const lines : {
              "one mode per face: surface, lines or points (makes energy where it switches)\n"
              "                                 damping: point, rate, restitution\n  conservative ",
-             "no modes\n"
+             "a linear spring and damper at each apex, no modes\n"
              "                                 damping: its own alone\n"
              "                                 contact.apex_stiffness [N/m]: stiffness of an apex\n"
              "                                 contact.apex_damping [N s/m]: damping of an apex\n",
+             "a bed of linear springs over each face, no modes\n"
+             "                                 damping: rate, restitution\n",
          }) {
         EXPECT_NE(list.find(lines), list.npos) << lines;
     }

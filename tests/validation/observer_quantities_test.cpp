@@ -46,7 +46,8 @@ std::vector<Inputs> soft_members() {
 
 testing::RunOptions dense_options(Law law) {
     testing::RunOptions o;
-    o.parts = {law, Damping::point, true, false};
+    bool const damps = has_group(info(law).groups, KeyGroup::point_damping) || !info(law).keys.empty();
+    o.parts = {law, damps ? Damping::point : Damping::rate, true, false};
     o.settings.rtol = o.settings.atol = 1e-9;
     o.settings.end_time = end_time;
     o.settings.max_step = end_time / static_cast<double>(intervals);
@@ -63,6 +64,7 @@ protected:
     void SetUp() override {
         members_ = soft_members();
         for (auto& in : members_) in = testing::with_own(in, GetParam(), 50);  // which no touch shorter than the samples' distance follows
+        for (auto& in : members_) in.chi_surface = 5;
         options_ = dense_options(GetParam());
         result_ = testing::run(best_isa(), options_, members_);
         for (auto const& record : result_.records) ASSERT_EQ(record.status, Status::finished);

@@ -100,11 +100,13 @@ protected:
         testing::RunOptions o;
         o.parts = {GetParam(), info(GetParam()).has(Damping::rate) ? Damping::rate : Damping::point, true, false};
         o.settings.method = Method::rk4;
-        o.settings.fixed_step = fraction * 2 * std::numbers::sqrt2 / Rocking().rate;
+        o.settings.fixed_step = fraction * limit() * 2 * std::numbers::sqrt2 / Rocking().rate;
         o.settings.end_time = end_time;
         o.quantities = 0;
         return count_ends(testing::run(best_isa(), o, testing::scattered_starts(members, 1e-4, crank_speed, GetParam())));
     }
+    /// A bed of springs is stiff at the apices by a third of what it is in all, and meets the way with few of its springs.
+    static double limit() { return GetParam() == Law::foundation ? 2 : 1; }
     static bool has_points() { return has_group(info(GetParam()).groups, KeyGroup::hertz); }
     static constexpr int members = 16;
 };

@@ -29,7 +29,7 @@ def numbers(rows: list[dict[str, str]], names: list[str]) -> np.ndarray:
     return np.array([[float(row[name]) for name in names] for row in rows])
 
 
-@pytest.mark.parametrize("name", ["rhs_paper.csv", "rhs_conservative.csv", "rhs_kelvin_voigt.csv"])
+@pytest.mark.parametrize("name", ["rhs_paper.csv", "rhs_conservative.csv", "rhs_kelvin_voigt.csv", "rhs_foundation.csv"])
 def test_penetrations_are_the_golden_ones(name: str) -> None:
     rows = table(name)
     y, z, roll, yaw, pitch = numbers(rows, STATES).T

@@ -39,7 +39,7 @@ TEST(Keys, EveryInputHasOneKey) {
 TEST(Keys, CoverTheParametersOfTheGoldenTables) {
     int parameters = 0;
     for (char const* file : {"rhs_paper.csv", "rhs_conservative.csv", "rhs_parameters.csv", "rhs_kelvin_voigt.csv",
-                             "rhs_kelvin_voigt_parameters.csv"}) {
+                             "rhs_kelvin_voigt_parameters.csv", "rhs_foundation.csv", "rhs_foundation_parameters.csv"}) {
         std::ifstream table(std::string(SLIDEWAY_TEST_DATA "/golden/") + file);
         std::string header, column;
         ASSERT_TRUE(std::getline(table, header)) << file;

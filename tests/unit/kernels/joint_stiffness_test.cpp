@@ -203,7 +203,8 @@ TEST(JointStiffness, IsTheDerivativeOfTheContactForcesOfEveryLaw) {
 
 TEST(JointStiffness, IsTheDerivativeOfTheContactForcesOnTheGoldenStates) {
     int compared = 0, bent = 0;
-    for (auto const* name : {"rhs_paper.csv", "rhs_conservative.csv", "rhs_parameters.csv", "rhs_kelvin_voigt.csv", "rhs_kelvin_voigt_parameters.csv"}) {
+    for (auto const* name : {"rhs_paper.csv", "rhs_conservative.csv", "rhs_parameters.csv", "rhs_kelvin_voigt.csv", "rhs_kelvin_voigt_parameters.csv",
+                             "rhs_foundation.csv", "rhs_foundation_parameters.csv"}) {
         auto const table = golden::Table::read(std::filesystem::path(SLIDEWAY_TEST_DATA) / "golden" / name);
         for (std::size_t row = 0; row < table.rows(); ++row) {
             auto const g = golden::case_of(table, row);

@@ -43,7 +43,8 @@ TEST_P(GoldenRows, AreMetByTheOracle) {
 INSTANTIATE_TEST_SUITE_P(Oracle, GoldenRows,
                          testing::Values(std::tuple{"rhs_paper.csv", 300}, std::tuple{"rhs_conservative.csv", 300},
                                          std::tuple{"rhs_parameters.csv", 400}, std::tuple{"rhs_kelvin_voigt.csv", 240},
-                                         std::tuple{"rhs_kelvin_voigt_parameters.csv", 80}));
+                                         std::tuple{"rhs_kelvin_voigt_parameters.csv", 80}, std::tuple{"rhs_foundation.csv", 240},
+                                         std::tuple{"rhs_foundation_parameters.csv", 80}));
 
 TEST(GoldenCase, HasTheNumbersOfItsLawAndNoOthers) {
     using slideway::Law;

@@ -144,7 +144,7 @@ TEST(StateTable, SaysWhereItCannotBeUsed) {
     EXPECT_NE(error_of(with_column("initial.y", "1")), "");
     EXPECT_NE(error_of(with_column("joint.clearance_y,joint.clearance", "1,1")), "");
     EXPECT_EQ(error_of(with_column("contact.law", "hertz")),
-              "states.csv:2: column contact.law: 'hertz' is no law; use one of paper, conservative, kelvin_voigt");
+              "states.csv:2: column contact.law: 'hertz' is no law; use one of paper, conservative, kelvin_voigt, foundation");
     EXPECT_EQ(error_of(with_column("joint.clearance_y", "-1")).substr(0, 37), "states.csv:2: joint.clearance_y is -1");
     EXPECT_NE(error_of(header + "0,nan,0,0,0,0,0,0,0,0,0\n"), "");
     EXPECT_NE(error_of(header + "inf,0,0,0,0,0,0,0,0,0,0\n"), "");
