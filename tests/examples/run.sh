@@ -15,6 +15,38 @@ for example in library kernels; do
     "$cmake" --build "$work/$example" >>"$work/$example.log" || { cat "$work/$example.log"; exit 1; }
 done
 
+# A unit that uses what headers have outside of its namespace shares no function with the program, and sees what the target sees.
+mkdir -p "$work/units/headers"
+cat >"$work/units/CMakeLists.txt" <<'END'
+cmake_minimum_required(VERSION 3.25)
+project(units LANGUAGES CXX)
+find_package(slideway REQUIRED)
+add_library(units STATIC)
+target_include_directories(units PRIVATE headers)
+target_compile_definitions(units PRIVATE WANTED=2)
+slideway_add_kernels(units SOURCES unit.cpp ISAS scalar)
+file(GENERATE OUTPUT objects.txt CONTENT "slideway_kernels_scalar_unit $<TARGET_OBJECTS:units_scalar_1>\n")
+END
+echo 'static_assert(WANTED == 2);' >"$work/units/headers/of_the_target.hpp"
+cat >"$work/units/unit.cpp" <<'END'
+#include <of_the_target.hpp>
+#include <slideway/kernels.hpp>
+#include <slideway/dispatch.hpp>
+#include <slideway/kernels/members/drive_period.hpp>
+#include <slideway/kernels/members/stiffest_rate.hpp>
+
+namespace slideway::inline SLIDEWAY_ISA {
+void const* used(int i) {
+    void const* const all[] = {(void*)&complete_inputs, (void*)&start_of,       (void*)&set_start, (void*)&drive_period,
+                               (void*)&first_time_at,   (void*)&stiffest_rate, (void*)&runs_here};
+    return all[i];
+}
+}  // namespace slideway::inline SLIDEWAY_ISA
+END
+"$cmake" -S "$work/units" -B "$work/units/build" -G Ninja -DCMAKE_PREFIX_PATH="$work/prefix" >"$work/units.log"
+"$cmake" --build "$work/units/build" >>"$work/units.log" 2>&1 || { cat "$work/units.log"; exit 1; }
+bash "$root/tests/structure/isa_purity.sh" "$work/units/build/objects.txt"
+
 cd "$work"
 awk 'BEGIN { print "joint.clearance"; for (i = 0; i < 64; ++i) printf "%.17g\n", 5e-5 + 5e-5 * i / 63 }' >clearances.csv
 cat >cranks.toml <<'END'
