@@ -1,11 +1,15 @@
 #!/usr/bin/env bash
-# run.sh CMAKE ROOT BUILD WORK: installs a build and builds the projects of examples/ against it, outside the tree.  They print what the
-# program says of the same members.
+# run.sh CMAKE ROOT BUILD WORK: installs a build (or takes what is installed already, where BUILD is a prefix) and builds the projects of
+# examples/ against it, outside the tree.  They print what the program says of the same members.
 set -euo pipefail
 cmake=$1 root=$2 build=$3 work=$4
 rm -rf "$work"
 mkdir -p "$work"
-"$cmake" --install "$build" --prefix "$work/prefix" >"$work/install.log"
+if [[ -f $build/CMakeCache.txt ]]; then
+    "$cmake" --install "$build" --prefix "$work/prefix" >"$work/install.log"
+else
+    ln -s "$build" "$work/prefix"
+fi
 program=$work/prefix/bin/slideway
 
 for example in library kernels; do
