@@ -1,7 +1,7 @@
 # slideway_add_kernels(<target> SOURCES <file>... [ISAS <name>...]): compiles the files once for each instruction set (all that there are for the
 # processor, unless they are named or SLIDEWAY_ISAS says native or some) with the flags of slideway's own kernels, and links them to the target.
 #
-# Each file is a unit of kernels: it defines its functions in `namespace slideway::inline SLIDEWAY_ISA` for the number type IsaReal
+# They see the target's include directories and definitions.  Each file is a unit of kernels: it defines its functions in `namespace slideway::inline SLIDEWAY_ISA` for the number type IsaReal
 # (kernels/isa_real.hpp).  In the target's other sources SLIDEWAY_KERNEL(Return, name, (parameters)) of <slideway/dispatch.hpp> declares such a
 # function, and name_kernel() is the widest that runs on the machine.
 function(slideway_add_kernels target)
@@ -39,7 +39,8 @@ function(slideway_add_kernels target)
             target_include_directories(${unit} SYSTEM PRIVATE ${SLIDEWAY_XSIMD})
             set_target_properties(${unit} PROPERTIES POSITION_INDEPENDENT_CODE ON)
             target_compile_options(${unit} PRIVATE -O3 ${flags} -fno-math-errno -Wno-ignored-attributes)
-            target_compile_definitions(${unit} PRIVATE SLIDEWAY_LANES=${SLIDEWAY_LANES_${isa}})
+            target_compile_definitions(${unit} PRIVATE SLIDEWAY_LANES=${SLIDEWAY_LANES_${isa}} $<TARGET_PROPERTY:${target},COMPILE_DEFINITIONS>)
+            target_include_directories(${unit} PRIVATE $<TARGET_PROPERTY:${target},INCLUDE_DIRECTORIES>)
             target_sources(${target} PRIVATE $<TARGET_OBJECTS:${unit}>)
         endforeach()
     endforeach()

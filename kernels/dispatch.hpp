@@ -13,7 +13,7 @@
 namespace slideway {
 
 /// Whether this machine runs code of an instruction set; scalar_libm only where nothing better does.
-inline bool runs_here(std::string_view isa) {
+static inline bool runs_here(std::string_view isa) {
 #if defined(__x86_64__)
     bool const avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     if (isa == "scalar_libm") return !avx2;
@@ -38,7 +38,7 @@ inline bool runs_here(std::string_view isa) {
 #define SLIDEWAY_KERNEL(Return, name, parameters)                                 \
     namespace slideway {                                                          \
     SLIDEWAY_FOR_EACH_ISA(SLIDEWAY_DECLARE_KERNEL, Return, name, parameters)      \
-    inline auto name##_kernel() {                                                 \
+    static inline auto name##_kernel() {                                          \
         Return(*found) parameters = nullptr;                                      \
         SLIDEWAY_FOR_EACH_ISA(SLIDEWAY_CHOOSE_KERNEL, name)                       \
         return found;                                                             \

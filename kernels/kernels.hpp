@@ -5,6 +5,7 @@
 //     using Model = MechanismModel<SliderCrank, SliderBase, Laws>;
 //     integrate<Model, IsaReal>(block, Model{Conditions<Laws>{{}, Conservative::info.switches, Parts{}}});
 //
+// Functions outside of a unit's namespace are static (kernels/members), so that no program takes a unit's copy, of wider instructions, for its own.
 // kernels/block.hpp says what a block is, kernels/inputs.hpp what a member is; complete_inputs() fills in masses and inertias.
 #pragma once
 

@@ -32,8 +32,8 @@ cmake --build "$tree" --parallel "$(nproc)" || stop "the build failed (see above
     stop "pip could not make the wheel (see above)"
 PATH=$PWD/$environment/bin:$PATH "$environment/bin/auditwheel" repair --strip -w "$work" "$work"/raw/*.whl >"$work/auditwheel.log" 2>&1 || { cat "$work/auditwheel.log"; stop "auditwheel failed (see above)"; }
 
-# scikit-build-core left its own prefix there.
-cmake -S . -B "$tree" --log-level=ERROR
+# scikit-build-core left SKBUILD and its own prefix in the cache: CPack's files are made again without them.
+cmake -S . -B "$tree" -USKBUILD -UCMAKE_INSTALL_PREFIX --log-level=ERROR || stop "the configuration failed (see above)"
 (cd "$tree" && cpack -G DEB -B .. --config CPackConfig.cmake >cpack.log) || { cat "$tree/cpack.log"; stop "cpack failed"; }
 rm -rf "$work/raw" "$work/_CPack_Packages"
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Tries what scripts/package.sh made in bare roots of Debian 12 without compilers: each package installs and runs the first examples.
+# Tries what scripts/package.sh made in bare roots of Debian 12 without compilers: each package installs and runs the first examples.  Projects
+# that find_package(slideway) are built against the Debian package, unpacked on this machine.
 # Usage: scripts/package_check.sh; needs root, mmdebstrap and the network; some minutes, most of them for the two roots.
 # Exit code 0 when all went well, and where something is missing that it needs: the last line then is `skipped: ` and what.
 set -euo pipefail
@@ -44,8 +45,13 @@ inside debian 'slideway run /usr/share/slideway/scenes/ensemble_starts.toml --se
 inside debian 'slideway info --check /tmp/a.nc'
 inside debian 'test -s /usr/share/man/man1/slideway.1 && test -s /usr/share/bash-completion/completions/slideway'
 payload() { sed -n 's/^payload  *\([0-9a-f]*\):.*/\1/p'; }
+inside debian 'test -s /usr/share/doc/slideway/copyright && test -s /usr/share/doc/slideway/changelog.gz'
 of_deb=$(inside debian 'slideway info /tmp/a.nc' | payload)
 echo "Debian package: installed, ran, payload $of_deb"
+
+# Its library and kernels, with the compilers of this machine.
+dpkg -x "$deb" "$bare/installed"
+bash tests/examples/run.sh cmake "$root" "$bare/installed/usr" "$bare/examples" || stop "the examples do not build against the Debian package (see above)"
 
 new_root python ca-certificates,python3-minimal,python3-venv
 for file in /etc/pip.conf "$HOME/.config/pip/pip.conf" "$HOME/.pip/pip.conf"; do

@@ -106,7 +106,18 @@ std::vector<double> Column::values() const {
         case Type::text:
             break;
     }
-    throw Error(2, name + ": holds text");
+    throw Error(2, name + ": holds text; take texts()");
+}
+
+std::vector<std::string> Column::texts() const {
+    if (type != Type::text) throw Error(2, name + ": holds numbers; take values()");
+    std::size_t const width = shape.empty() ? 1 : shape.back();
+    std::vector<std::string> texts;
+    for (std::size_t at = 0; at < size(); at += width) {
+        std::string_view const padded(static_cast<char const*>(data) + at, width);
+        texts.emplace_back(padded.substr(0, padded.find('\0')));
+    }
+    return texts;
 }
 
 // ---- result ---------------------------------------------------------------------------------------------------

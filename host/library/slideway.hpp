@@ -7,7 +7,8 @@
 //     for (double const force : result.column("peak_normal_force").numbers()) …
 //
 // Link with slideway::slideway (find_package(slideway)).  Numbers are SI.  A member's numbers depend on its own inputs alone: not on
-// threads, instruction sets or on who else runs.  Objects may be used by one thread at a time; different ones by different threads.
+// threads, instruction sets or on who else runs.  An object may be used by one thread at a time; different ones, copies among them, by
+// different threads at once.
 // A process that was forked after a run must not run with more than one thread: OpenMP's threads do not survive a fork.
 #pragma once
 
@@ -45,7 +46,7 @@ struct Column {
     std::string unit;                     // UDUNITS; "1" of plain numbers, "" of labels and statuses
     std::string long_name;
     std::vector<std::string> dimensions;  // "member", "sample", "apex", …; slowest first
-    std::vector<std::size_t> shape;
+    std::vector<std::size_t> shape;       // of text the last is the longest label's length in bytes
     enum class Type { int8, int32, float64, text } type = Type::float64;
     void const* data = nullptr;           // in C order
 
@@ -58,6 +59,8 @@ struct Column {
     SLIDEWAY_API std::span<double const> numbers() const;
     /// The same of a column of any type but text, converted.
     SLIDEWAY_API std::vector<double> values() const;
+    /// The labels of a column of text, one for each place of all dimensions but the last.  @throws Error if it holds numbers
+    SLIDEWAY_API std::vector<std::string> texts() const;
 };
 
 /// What a run gave: the variables, groups and attributes of a result file.  Copies share the numbers.

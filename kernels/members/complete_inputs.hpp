@@ -8,7 +8,7 @@
 namespace slideway {
 
 /// Fills what was left to follow from other inputs (masses, inertias, thicknesses, point stiffness; model.md 2): what is `follows`, not a number.
-inline Inputs complete_inputs(Inputs given) {
+static inline Inputs complete_inputs(Inputs given) {
     // The paper's bodies (Tables 6 and 7): sections and block in steel.
     constexpr double steel_density = 7800;                        // [kg/m³]
     constexpr double crank_section = 0.005 * 0.0025;              // [m²]

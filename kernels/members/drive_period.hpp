@@ -10,7 +10,7 @@
 namespace slideway {
 
 /// T [s]: 2π/|ω| of a driven crank, 2 (stroke/v + t_r) of the carriage (model.md 7); infinite where the crank rests or nothing drives.
-inline double drive_period(MechanismInfo const& mechanism, bool free_crank, Inputs const& in) {
+static inline double drive_period(MechanismInfo const& mechanism, bool free_crank, Inputs const& in) {
     if (free_crank || mechanism.drive == DriveKind::none) return std::numeric_limits<double>::infinity();
     if (mechanism.drive == DriveKind::carriage) return 2 * (in.stroke / in.carriage_speed + in.reversal_time);
     return 2 * std::numbers::pi / std::abs(in.crank_speed);
@@ -18,7 +18,7 @@ inline double drive_period(MechanismInfo const& mechanism, bool free_crank, Inpu
 
 /// First time in (0, T] at which the drive has this phase [s]: the crank an angle, the carriage a share phase/2π of its period.
 /// @param phase [rad], any turn of it  @param in whose drive has a period
-inline double first_time_at(double phase, MechanismInfo const& mechanism, bool free_crank, Inputs const& in) {
+static inline double first_time_at(double phase, MechanismInfo const& mechanism, bool free_crank, Inputs const& in) {
     double const turn = drive_period(mechanism, free_crank, in);
     double const from_start = mechanism.drive == DriveKind::carriage ? phase * (turn / (2 * std::numbers::pi))
                                                                      : (phase - in.start_angle) / in.crank_speed;

@@ -17,7 +17,7 @@ inline constexpr double Inputs::*slider_inputs[most_states] = {
 
 /// The state in which a member starts.  Of a planar mechanism the rod's angle θ2 and its rate follow from the slider's:
 /// y = r sin θ1 + L sin θ2.  @param in complete
-inline StateNumbers start_of(MechanismInfo const& mechanism, Inputs const& in) {
+static inline StateNumbers start_of(MechanismInfo const& mechanism, Inputs const& in) {
     if (mechanism.spatial) {
         StateNumbers state{};
         for (int i = 0; i < mechanism.states; ++i) state[i] = in.*slider_inputs[i];
@@ -30,7 +30,7 @@ inline StateNumbers start_of(MechanismInfo const& mechanism, Inputs const& in) {
 }
 
 /// Makes a member start in a state.  The planar rod is to point along the way: |θ2| < π/2.
-inline void set_start(MechanismInfo const& mechanism, StateNumbers const& state, Inputs& in) {
+static inline void set_start(MechanismInfo const& mechanism, StateNumbers const& state, Inputs& in) {
     if (mechanism.spatial) {
         for (int i = 0; i < mechanism.states; ++i) in.*slider_inputs[i] = state[i];
         return;

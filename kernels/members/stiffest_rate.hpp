@@ -13,7 +13,7 @@ namespace slideway {
 /// whole at √(k/M), rocks at √(k (L_k/2)²/I) and rolls at √(k (w/2)²/I) (docs/stability.md).
 /// Of the planar block, whose corners stiffen with depth: at two corners' largest stiffness in an impact at the speed of the crank's pin,
 /// M v²/2 = 2 K δ^(n+1)/(n+1); inputs complete.
-inline double stiffest_rate(MechanismInfo const& mechanism, LawInfo const& law, Inputs const& in) {
+static inline double stiffest_rate(MechanismInfo const& mechanism, LawInfo const& law, Inputs const& in) {
     if (!mechanism.spatial) {
         double const n = in.hertz_exponent, speed = std::abs(in.crank_speed) * in.crank_length;
         double const depth = std::pow((n + 1) * in.slider_mass * speed * speed / (4 * in.point_stiffness), 1 / (n + 1));

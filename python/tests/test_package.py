@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import inspect
+import os
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
 
+import nbformat
 import pytest
 import slideway
+from nbclient import NotebookClient
 
 root = Path(__file__).resolve().parents[2]
 
@@ -48,7 +52,7 @@ def test_every_plot_takes_an_axis(function: object) -> None:
     assert inspect.signature(function).parameters["ax"].default is None  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("document", ["README.md", "docs/python.md", "python/README.md"])
+@pytest.mark.parametrize("document", ["README.md", "docs/python.md", "docs/quantities.md", "python/README.md"])
 def test_examples_of_documents_run(document: str, program: str, tmp_path: Path) -> None:
     blocks = python_blocks(document)
     assert blocks
@@ -57,6 +61,34 @@ def test_examples_of_documents_run(document: str, program: str, tmp_path: Path) 
     script = "import matplotlib\nmatplotlib.use('Agg')\n" + "\n".join(blocks)
     done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
+
+
+def test_commands_of_the_tutorial_run(program: str, tmp_path: Path) -> None:
+    """With fewer members and shorter runs: each is accepted, and reads what those before it wrote."""
+    text = (root / "docs" / "tutorial.md").read_text(encoding="utf-8")
+    commands = [shlex.split(line, comments=True) for line in re.findall(r"^\$ (slideway .*)$", text, re.MULTILINE)]
+    assert {command[1] for command in commands} == {"check", "run", "info", "stats", "report"}
+    (scene,) = re.findall(r"^```toml\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    (tmp_path / "mine.toml").write_text(scene, encoding="utf-8")
+    (tmp_path / "scenes").symlink_to(root / "scenes")
+    environment = {**os.environ, "SLIDEWAY_PYTHON": sys.executable}
+    for command in commands:
+        shorter = {"mine.toml": ["--set", "study.members=16", "--set", "study.duration=20 ms"]}.get(command[2], ["--set", "study.revolutions=0.6"])
+        line = [program, *command[1:], *(shorter if command[1] == "run" else [])]
+        done = subprocess.run(line, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, (line, done.stderr)
+    assert (tmp_path / "one.html").exists()
+
+
+def test_the_notebook_runs(program: str, tmp_path: Path) -> None:
+    notebook = nbformat.read(root / "python" / "examples" / "first_study.ipynb", as_version=4)
+    assert not any(cell.get("outputs") for cell in notebook.cells)
+    NotebookClient(notebook, timeout=60, kernel_name="python3", resources={"metadata": {"path": str(tmp_path)}}).execute()
+    outputs = [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
+    (printed,) = [output.text for output in outputs if output.output_type == "stream" and output.name == "stdout"]
+    shares = {law: float(share) for law, share in (line.split() for line in printed.splitlines())}
+    assert abs(shares["conservative"]) < 1e-4 < 1e-2 < shares["paper"]
+    assert any("image/png" in output.get("data", {}) for output in outputs)
 
 
 def test_importing_the_package_leaves_matplotlib_alone() -> None:

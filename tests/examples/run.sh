@@ -1,11 +1,15 @@
 #!/usr/bin/env bash
-# run.sh CMAKE ROOT BUILD WORK: installs a build and builds the projects of examples/ against it, outside the tree.  They print what the
-# program says of the same members.
+# run.sh CMAKE ROOT BUILD WORK: installs a build (or takes what is installed already, where BUILD is a prefix) and builds the projects of
+# examples/ against it, outside the tree.  They print what the program says of the same members.
 set -euo pipefail
 cmake=$1 root=$2 build=$3 work=$4
 rm -rf "$work"
 mkdir -p "$work"
-"$cmake" --install "$build" --prefix "$work/prefix" >"$work/install.log"
+if [[ -f $build/CMakeCache.txt ]]; then
+    "$cmake" --install "$build" --prefix "$work/prefix" >"$work/install.log"
+else
+    ln -s "$build" "$work/prefix"
+fi
 program=$work/prefix/bin/slideway
 
 for example in library kernels; do
@@ -14,6 +18,56 @@ for example in library kernels; do
     "$cmake" -S "$root/examples/$example" -B "$work/$example" -G Ninja -DCMAKE_PREFIX_PATH="$work/prefix" -DSLIDEWAY_ISAS=native >"$work/$example.log"
     "$cmake" --build "$work/$example" >>"$work/$example.log" || { cat "$work/$example.log"; exit 1; }
 done
+
+# A unit that uses what headers have outside of its namespace shares no function with the program, and sees what the target sees.
+mkdir -p "$work/units/headers"
+cat >"$work/units/CMakeLists.txt" <<'END'
+cmake_minimum_required(VERSION 3.25)
+project(units LANGUAGES CXX)
+find_package(slideway REQUIRED)
+add_library(units STATIC)
+target_include_directories(units PRIVATE headers)
+target_compile_definitions(units PRIVATE WANTED=2)
+slideway_add_kernels(units SOURCES unit.cpp ISAS scalar)
+file(GENERATE OUTPUT objects.txt CONTENT "slideway_kernels_scalar_unit $<TARGET_OBJECTS:units_scalar_1>\n")
+END
+echo 'static_assert(WANTED == 2);' >"$work/units/headers/of_the_target.hpp"
+cat >"$work/units/unit.cpp" <<'END'
+#include <of_the_target.hpp>
+#include <slideway/kernels.hpp>
+#include <slideway/dispatch.hpp>
+#include <slideway/kernels/members/drive_period.hpp>
+#include <slideway/kernels/members/stiffest_rate.hpp>
+
+namespace slideway::inline SLIDEWAY_ISA {
+void const* used(int i) {
+    void const* const all[] = {(void*)&complete_inputs, (void*)&start_of,       (void*)&set_start, (void*)&drive_period,
+                               (void*)&first_time_at,   (void*)&stiffest_rate, (void*)&runs_here};
+    return all[i];
+}
+}  // namespace slideway::inline SLIDEWAY_ISA
+END
+"$cmake" -S "$work/units" -B "$work/units/build" -G Ninja -DCMAKE_PREFIX_PATH="$work/prefix" >"$work/units.log"
+"$cmake" --build "$work/units/build" >>"$work/units.log" 2>&1 || { cat "$work/units.log"; exit 1; }
+bash "$root/tests/structure/isa_purity.sh" "$work/units/build/objects.txt"
+
+# The blocks of docs/cpp.md, one program, run in the root of the repository.
+mkdir -p "$work/page"
+sed '1,/^project/s/library_example/page/' "$root/examples/library/CMakeLists.txt" >"$work/page/CMakeLists.txt"
+blocks=$(sed -n '/^```cpp$/,/^```$/{/^```/!p}' "$root/docs/cpp.md")
+{
+    grep '^#include' <<<"$blocks"
+    printf '#include <cstdio>\nint main() try {\n'
+    grep -v '^#include' <<<"$blocks"
+    printf 'auto const modes = ensemble.with({{"study.quantities", "[\\"mode_time\\"]"}}).run();\n'
+    printf 'std::printf("%%.17g %%d %%s\\n", first, static_cast<int>(finished), modes.column("mode_class_name").texts()[0].c_str());\n'
+    printf '} catch (slideway::Error const& error) { return std::fprintf(stderr, "%%s\\n", error.what()), error.code(); }\n'
+} >"$work/page/main.cpp"
+"$cmake" -S "$work/page" -B "$work/page/build" -G Ninja -DCMAKE_PREFIX_PATH="$work/prefix" >"$work/page.log"
+"$cmake" --build "$work/page/build" >>"$work/page.log" || { cat "$work/page.log"; exit 1; }
+ln -sfn "$root/scenes" "$work/scenes"
+printed=$(cd "$work" && page/build/example)
+[[ $printed =~ ^[0-9.]+\ 64\ free$ && -s $work/starts.nc ]] || { echo "the blocks of docs/cpp.md print $printed"; exit 1; }
 
 cd "$work"
 awk 'BEGIN { print "joint.clearance"; for (i = 0; i < 64; ++i) printf "%.17g\n", 5e-5 + 5e-5 * i / 63 }' >clearances.csv

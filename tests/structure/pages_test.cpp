@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kernels/status.hpp"
 #include "tests/structure/source_tree.hpp"
 
 namespace slideway::structure {
@@ -159,6 +160,16 @@ TEST(Pages, PicturesHaveWords) {
     for (SourceFile const& page : pages()) {
         for (std::string const& line : prose_of(page.text)) EXPECT_EQ(line.find("![]("), std::string::npos) << page.path << ": " << line;
     }
+}
+
+/// Each status has a section that says what to do.
+TEST(Pages, StatusesAreExplained) {
+    std::string page;
+    for (SourceFile const& one : pages()) {
+        if (one.path == "docs/troubleshooting.md") page = one.text;
+    }
+    for (std::string name : status_names) EXPECT_NE(page.find("\n### `" + name + "`\n"), std::string::npos) << name;
+    EXPECT_NE(page.find("\n### `not_run`\n"), std::string::npos);
 }
 
 /// Rows of tables cannot be broken, fenced blocks show what a program prints, and the program writes docs/keys.md.
