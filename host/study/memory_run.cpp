@@ -52,7 +52,11 @@ MemoryFile run_in_memory(Scene const& scene, MemoryRun const& run) {
     EnsemblePlan plan = ensemble_plan(scene, members, *run.backend, run.threads);
     BlockKernel const kernel = run.backend->kernel(scene.parts, plan.request.shadows.count > 0);
     if (is_continued(scene)) continue_columns(scene, plan, members, kernel, {}, run.stop);
-    ResultMerge merge{result_layout(scene, members), provenance(scene, *run.backend, run.threads), "complete"};
+    ResultMerge merge{.layout = result_layout(scene, members),
+                      .provenance = provenance(scene, *run.backend, run.threads),
+                      .completeness = "complete",
+                      .conclude = {},
+                      .pause = {}};
     std::uint64_t left = 0;
     auto const check = resolution_check(scene, *run.backend, run.threads, run.stop, run.progress);
     merge.conclude = [&](DataFile& file) {
