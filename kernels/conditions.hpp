@@ -15,6 +15,7 @@ template <class Laws> struct Conditions {
     bool switches = false;   // LawInfo::switches
     bool remembers = false;  // impact speeds: Damping::restitution
     bool free_crank = false;
+    bool holds_contacts = false;  // steps of the block take their contacts as given (ContactMemory)
 
     constexpr Conditions(Laws const& of_law, bool law_switches, Parts const& parts)
         : law(of_law),
@@ -24,8 +25,8 @@ template <class Laws> struct Conditions {
           remembers(parts.damping == Damping::restitution),
           free_crank(parts.free_crank) {}
 
-    /// Whether a step may hold its contacts.
-    SLIDEWAY_FN bool can_hold() const { return switches && !remembers; }
+    /// Whether there are switches that steps may end at.
+    SLIDEWAY_FN bool can_locate_modes() const { return switches && !remembers; }
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

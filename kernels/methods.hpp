@@ -3,7 +3,7 @@
 
 namespace slideway {
 
-enum class Method { automatic, dopri5, dop853, bs32, ros34pw2, rk4 };
+enum class Method { automatic, dopri5, dop853, bs32, ros34pw2, rk4, verner65 };
 
 struct MethodInfo {
     char const* name;
@@ -17,6 +17,7 @@ inline constexpr MethodInfo method_table[] = {
     {"bs32", "Bogacki-Shampine 3(2); the explicit pair of auto from rtol 1e-5 on"},
     {"ros34pw2", "Rosenbrock W-method 3(2) alone: for lasting contact, it loses energy in impacts"},
     {"rk4", "classical Runge-Kutta with the fixed step integrator.step"},
+    {"verner65", "Verner 6(5) with steps that end where contacts begin and end, and a clock within them: for impacts"},
 };
 inline constexpr int method_count = sizeof(method_table) / sizeof(method_table[0]);
 
@@ -26,7 +27,7 @@ constexpr bool is_always_audited(Method method) { return method == Method::ros34
 
 /// Explicit Runge-Kutta methods with error control.
 constexpr bool is_explicit_pair(Method method) {
-    return method == Method::dopri5 || method == Method::dop853 || method == Method::bs32;
+    return method == Method::dopri5 || method == Method::dop853 || method == Method::bs32 || method == Method::verner65;
 }
 
 constexpr char const* name_of(Method method) { return method_table[static_cast<int>(method)].name; }

@@ -24,7 +24,7 @@ struct Choice {
 
 constexpr Choice choices[] = {
     {::slideway::Method::automatic}, {::slideway::Method::dopri5},       {::slideway::Method::bs32},
-    {::slideway::Method::dop853},    {::slideway::Method::ros34pw2},      {::slideway::Method::dopri5, true},
+    {::slideway::Method::dop853},    {::slideway::Method::verner65}, {::slideway::Method::ros34pw2},      {::slideway::Method::dopri5, true},
 };
 
 bool past_deadline(void const* deadline, double) { return Clock::now() > *static_cast<Clock::time_point const*>(deadline); }

@@ -51,6 +51,10 @@ public:
         return w;
     }
 
+    /// Whether the depth of a pair is the clock's in any lane, and then its rate δ' [m/s].
+    SLIDEWAY_FN bool has_clock() const { return block_.holds_contacts && any(memory_.clock > Real(-0.5)); }
+    SLIDEWAY_FN Real clock_rate() const { return clock_rate_; }
+
 private:
     /// What all that is pushed on one pair of faces comes to, in their frame.
     struct Push {
@@ -75,7 +79,7 @@ private:
     template <Axis axis> SLIDEWAY_CARD_CALL void add_faces(Mask<Real>& outside, Wrench<Real>& w) {
         using Faces = FacePair<axis>;
         auto depths = Faces::depths(motion_, p_.geometry);
-        bool const holding = block_.can_hold() && any(memory_.holding > Real(0.5));
+        bool const holding = block_.holds_contacts && any(memory_.holding > Real(0.5));
         auto touched = sides<axis>(depths, holding);
         bool const rates_reported = Full && (block_.remembers || holding);
         if constexpr (Full) {
@@ -108,6 +112,7 @@ private:
             FaceMotion<Real> face;
             set_motion<axis>(face, depths.on(side), rates.on(side), is_plus);
             set_touching<axis>(face, seen, holding, is_plus);
+            if (holding && has_clock()) set_clock<axis>(face, is_plus);
             auto f = loads(face, contact);
             outside = outside | f.outside;
             push.add(side, f.normal);
@@ -181,6 +186,21 @@ private:
             Mask<Real>(seen & (select(is_plus, plus.d, minus.d) > half))};
     }
 
+    /// The pair of the clock has its depth from there; its rate is what the clock goes by.
+    template <Axis axis> SLIDEWAY_FN void set_clock(FaceMotion<Real>& face, Mask<Real> is_plus) {
+        constexpr int first = FacePair<axis>::first_face;
+        Real const place = memory_.clock - select(is_plus, Real(4.0 * first), Real(4.0 * (first + 1)));
+        auto const set = [&](ApexMotion<Real>& apex, double number) {
+            auto const here = place == Real(number);
+            apex.depth = select(here, memory_.clock_depth, apex.depth);
+            clock_rate_ = select(here, apex.rate, clock_rate_);
+        };
+        set(face.apex.a, 0);
+        set(face.apex.b, 1);
+        set(face.apex.c, 2);
+        set(face.apex.d, 3);
+    }
+
     /// Nothing where the scene has none.
     template <Axis axis>
     SLIDEWAY_FN FrictionLoad<Real> friction_of(SlidingFace<Real> const& sliding, Quad<Real> const& normal) const {
@@ -204,6 +224,7 @@ private:
     JointParameters<Real> const& p_;
     Conditions<Laws> const& block_;
     ContactReport<Real>* const report_;
+    Real clock_rate_{0.0};
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "kernels/block.hpp"
+#include "kernels/lanes/clock_step.hpp"
 #include "kernels/lanes/explicit_step.hpp"
 #include "kernels/lanes/member_state.hpp"
 #include "kernels/lanes/pack.hpp"
@@ -17,6 +18,7 @@
 #include "kernels/steppers/dop853.hpp"
 #include "kernels/steppers/dormand_prince.hpp"
 #include "kernels/steppers/runge_kutta4.hpp"
+#include "kernels/steppers/verner65.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -38,7 +40,8 @@ public:
         // What is observed for the status alone is not written.
         Selection const for_status =
             is_always_audited(block.settings.method) ? MemberState<Model, Real>::Observer::audit_quantities : 0;
-        pack_.needs = ReportNeeds::of<Model, Real>(model, block.quantities | for_status, block.settings.locate_modes);
+        pack_.needs = ReportNeeds::of<Model, Real>(model, block.quantities | for_status, block.settings);
+        if constexpr (Model::has_contacts) pack_.model.hold_contacts(holds_contacts(pack_.needs.watching));
         start_memory(pack_.state.contacts.memory);
     }
 
@@ -100,6 +103,7 @@ private:
             c.shadowed.fine_time = c.shadowed.uncut = c.shadowed.lost = c.shadowed.grown = 0;
             place_shadows(r, member);
         }
+        if constexpr (has_clocks<Model>) c.impacts = {c.h, 0.0, 0.0};
         c.accepted = c.rejected = c.evaluations = c.jacobians = c.stiff_steps = 0;
         c.rejections = c.stiffness = c.rate_squared = 0;
         // A model without linearisation is left to the explicit pair.
@@ -207,6 +211,9 @@ private:
         } else if (settings.method == Method::dop853 || (settings.method == Method::automatic && is_smooth)) {
             // Where nothing breaks the smoothness of the motion, it beats the others at every tolerance (docs/integrators.md).
             work<ExplicitStep<Dop853, Model, Real>>();
+        } else if (settings.method == Method::verner65) {
+            if constexpr (has_clocks<Model>) work<ClockStep<Verner65, Model, Real>>();
+            else work<ExplicitStep<Verner65, Model, Real>>();
         } else if (settings.method == Method::bs32 ||
                    (settings.method == Method::automatic && settings.rtol >= bs32_from)) {
             work<ExplicitStep<BogackiShampine, Model, Real>>();
@@ -237,11 +244,11 @@ private:
         pack_.begin_next(pack_.busy, rates, report);
         if constexpr (Model::has_contacts) {
             if (pack_.needs.watch()) contacts.watch.begin(pack_.busy, report.contact, contacts.memory, pack_.needs.watching);
-            if (pack_.needs.watching == Watching::modes) {
+            if (holds_contacts(pack_.needs.watching)) {
                 // Rates are reported only once contacts are held, and the first step is searched too.
                 pack_.evaluate(c.t, c.y, contacts.memory, rates, true, report);
                 pack_.count_evaluations(pack_.busy, 1);
-                contacts.watch.keep(pack_.busy, report.contact);
+                contacts.watch.begin(pack_.busy, report.contact, contacts.memory, pack_.needs.watching);
             }
         }
         Mask<Real> broken = pack_.busy & !whole;

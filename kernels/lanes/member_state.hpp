@@ -41,6 +41,17 @@ template <class Real> struct ShadowCourse {
 };
 struct NoShadowCourse {};
 
+/// Whether steps of a model may go by the clock of a contact (ContactClock).
+template <class Model> inline constexpr bool has_clocks = Model::has_patterns && !Model::has_shadows;
+
+/// What a member remembers for its next impact, of a method with clocks.
+template <class Real> struct ImpactCourse {
+    Real flight_step;   // that its impacts interrupt [s]
+    Real first_step;    // by the clock, of the last impact
+    Real first_speed;   // δ' with which that began [m/s]
+};
+struct NoImpactCourse {};
+
 /// All that a member takes along from one stint in the lanes to the next.  `Real = double` is one member's record, a pack is the
 /// transpose of its lanes' records; both hold nothing but Reals, so that a record moves in and out number by number.
 template <class Model, class Real> struct MemberState {
@@ -68,6 +79,7 @@ template <class Model, class Real> struct MemberState {
         Real stiffness;     // explicit: looks that found the member stiff; stiff: calm steps in a row
         Real rate_squared;  // Ω² [1/s²] of its stiffest contacts, of late
         [[no_unique_address]] std::conditional_t<Model::has_shadows, ShadowCourse<Real>, NoShadowCourse> shadowed;
+        [[no_unique_address]] std::conditional_t<has_clocks<Model>, ImpactCourse<Real>, NoImpactCourse> impacts;
         [[no_unique_address]] std::conditional_t<(Model::events > 0), ResetHistory<Real>, NoResets> resets;
     };
 

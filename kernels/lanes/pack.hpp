@@ -12,6 +12,11 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// Of a stage in an integral over a step, and in the estimates of its error.
 struct StageWeights { double value, error, coarse_error = 0; };
 
+/// The pace dt/ds of a stage whose step goes by time.
+struct ByTime {
+    template <class Real> friend SLIDEWAY_FN Real operator*(Real const& value, ByTime) { return value; }
+};
+
 /// The lanes at work: their members' states, and the step that they attempt.
 template <class Model, class Real> struct Pack {
     static constexpr int size = Model::size;
@@ -56,27 +61,37 @@ template <class Model, class Real> struct Pack {
         }
     }
 
-    /// Begins the integrals over a step with the stage at its start.
-    SLIDEWAY_HD void begin_integrals(StageWeights const& w) {
-        for (int i = 0; i < Observer::integrals; ++i) integral[i] = Real(w.value) * state.observation.integrand[i];
-        with_accelerations([&](auto& record) { record.begin_step(w.value); });
+    /// Begins the integrals over a step with the stage at its start.  @param pace dt/ds, of a step by a clock
+    template <class Pace = ByTime> SLIDEWAY_HD void begin_integrals(StageWeights const& w, Pace const& pace = {}) {
+        for (int i = 0; i < Observer::integrals; ++i) integral[i] = Real(w.value) * (state.observation.integrand[i] * pace);
+        with_accelerations([&](auto& record) { record.begin_step(w.value, pace); });
         for (int i = 0; i < Observer::audit_integrals; ++i) {
-            audit_error[i] = Real(w.error) * state.observation.integrand[i];
-            if (w.coarse_error != 0) coarse_audit_error[i] = Real(w.coarse_error) * state.observation.integrand[i];
+            Real const value = state.observation.integrand[i] * pace;
+            audit_error[i] = Real(w.error) * value;
+            if (w.coarse_error != 0) coarse_audit_error[i] = Real(w.coarse_error) * value;
         }
     }
 
     /// Adds a stage.
-    SLIDEWAY_HD void add_integrands(StageWeights const& w, Report const& report) {
+    template <class Pace = ByTime>
+    SLIDEWAY_HD void add_integrands(StageWeights const& w, Report const& report, Pace const& pace = {}) {
         if (w.value == 0 && w.error == 0) return;
         Real values[room(Observer::integrals)];
         Observer::integrands(report, values);
+        for (int i = 0; i < Observer::integrals; ++i) values[i] = values[i] * pace;
         for (int i = 0; i < Observer::integrals; ++i) integral[i] = fma(Real(w.value), values[i], integral[i]);
-        with_accelerations([&](auto& record) { record.add_stage(w.value, report); });
+        with_accelerations([&](auto& record) { record.add_stage(w.value, report, pace); });
         for (int i = 0; i < Observer::audit_integrals; ++i) {
             audit_error[i] = fma(Real(w.error), values[i], audit_error[i]);
             if (w.coarse_error != 0) coarse_audit_error[i] = fma(Real(w.coarse_error), values[i], coarse_audit_error[i]);
         }
+    }
+
+    /// Makes integrals by a clock those by time.  @param own step by the clock over that by time
+    SLIDEWAY_HD void end_integrals(Real const& own) {
+        for (int i = 0; i < Observer::integrals; ++i) integral[i] = integral[i] * own;
+        for (int i = 0; i < Observer::audit_integrals; ++i) audit_error[i] = audit_error[i] * own;
+        with_accelerations([&](auto& record) { record.end_step(own); });
     }
 
     /// What the next step starts from, in the lanes of the mask.

@@ -20,7 +20,7 @@ struct ReportNeeds {
     SLIDEWAY_HD bool watch() const { return watching != Watching::nothing; }
 
     template <class Model, class Real>
-    SLIDEWAY_HD static ReportNeeds of(Model const& model, Selection quantities, bool locate_modes) {
+    SLIDEWAY_HD static ReportNeeds of(Model const& model, Selection quantities, IntegratorSettings const& settings) {
         using Observer = typename Model::template Observer<Real>;
         ReportNeeds needs;
         needs.quantities = quantities != 0;
@@ -32,7 +32,8 @@ struct ReportNeeds {
         }
         needs.audit = Observer::audits(quantities);
         if constexpr (Model::has_contacts) {
-            needs.watching = model.watching(locate_modes, Model::has_shadows);
+            needs.watching = model.watching(settings.locate_modes, Model::has_shadows);
+            if (has_clocks<Model> && settings.method == Method::verner65) needs.watching = Watching::impacts;
             needs.switches = model.switches();
         }
         needs.ends = needs.stages || Observer::needs_reports(quantities) || needs.watch();

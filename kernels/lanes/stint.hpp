@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdio>
+#include <cstdlib>
 #include <type_traits>
 
 #include "kernels/lanes/crossing_search.hpp"
@@ -54,6 +56,8 @@ private:
     /// Least step, in units of the end time.
     static constexpr double time_resolution = Model::has_shadows ? 1e-19 : 8 * 2.220446049250313e-16;
     static constexpr bool impacts_end_it = Stepper::stiff && Model::has_patterns;
+    /// Whether its steps go by the clocks of contacts.
+    static constexpr bool has_clock = requires(Stepper const& stepper) { stepper.step(); };
     using Control = StepControl<Stepper::order>;
     using Start = StepStart<Model, Real>;
     using Tried = Attempt<Model, Real>;
@@ -93,9 +97,20 @@ private:
         // A last step a hair short of the end would leave a crumb below the resolution of time.
         auto const lands = remaining <= h * Real(1.000001);
         attempt_.step = select(pack_.busy, select(lands, remaining, h), Real(0.0));
+        if constexpr (has_clock) choose_clock(remaining, lands);
         pack_.template count_attempt<Stepper>(pack_.busy);
         results_.count_attempt(width, held_lanes(pack_.busy));
         return {time, lands};
+    }
+
+    /// A step that lands goes by time; one that would come near to landing is halved, for a clock is a little late or early.
+    SLIDEWAY_HD void choose_clock(Real remaining, Mask<Real> lands) {
+        auto const& contacts = pack_.state.contacts;
+        auto clock = contacts.watch.clock(contacts.memory);
+        Mask<Real> const near = clock.runs() & !lands & (remaining < Real(2.0) * attempt_.step);
+        attempt_.step = select(pack_.busy & near, Real(0.5) * remaining, attempt_.step);
+        clock.pair = select(pack_.busy & !lands, clock.pair, Real(-1.0));
+        stepper_.go_by(clock);
     }
 
     /// Squared errors of the components, each against its tolerance, over the number of states; the integrals of the audit, where it
@@ -159,6 +174,16 @@ private:
             if constexpr (Model::events > 0) stuck = stuck | search_.piled_up(pack_, attempt_.step);
         }
         c.h = select(busy, min(verdict.next, Real(max_step_)), c.h);
+        if constexpr (has_clock) {
+            if (any(verdict.accepted)) choose_after_turn();
+        }
+        if constexpr (has_clock && std::is_same_v<Real, double>) {
+            static int debug_count = 0;
+            if (getenv("DEBUG_STEPS") && ++debug_count < 400) {
+                auto const& st = stepper_.step();
+                printf("%llu t %.12g dt %.4g own %.4g pair %g u0 %.6g v0 %.5g u1 %.6g v1 %.5g acc %d cut %d next %.4g h %.4g turned %d\n", (unsigned long long)c.evaluations, c.t, attempt_.step, st.own, st.start.pair, st.start.root, st.start.rate, st.end.root, st.end.rate, int(verdict.accepted), int(verdict.cut), verdict.next, c.h, int(turned_));
+            }
+        }
         auto const spent =
             busy & !finished & (c.accepted + c.rejected >= Real(static_cast<double>(settings_.max_steps)));
         Mask<Real> const ended = finished | stuck | spent, divergent = stuck & verdict.divergent;
@@ -203,10 +228,29 @@ private:
         divergent = !(squared_norm < Real(1e300));
         // Whether what is beyond all bounds came out infinite or NaN may be the neighbours' doing.
         squared_norm = select(divergent, Real(not_a_number), squared_norm);
-        Real const next =
-            attempt_.step * Control::factor(squared_norm, accepted, c.rejections > Real(0.5), c.error_memory);
+        Real const factor = Control::factor(squared_norm, accepted, c.rejections > Real(0.5), c.error_memory);
+        Real const next = next_step(accepted, factor);
         // A step that was shortened to land says little of what the next may be.
         return {accepted, select(accepted & landing.lands, max(next, c.h), next)};
+    }
+
+    /// The step to try next, if the last one is to grow by a factor [s].
+    SLIDEWAY_HD Real next_step(Mask<Real> accepted, Real factor) {
+        if constexpr (!has_clock) {
+            return attempt_.step * factor;
+        } else {
+            auto const& step = stepper_.step();
+            Real const own = step.own * factor;
+            auto& impacts = pack_.state.course.impacts;
+            // Not of what an event has left over of a step.
+            auto const whole = (own > impacts.flight_step) | (step.own > Real(0.1) * impacts.flight_step);
+            impacts.flight_step = select(accepted & !step.start.runs() & whole, own, impacts.flight_step);
+            // Where the pair of the clock has just touched.
+            auto const first = accepted & step.start.runs() & (step.start.root < Real(0.1) * step.end.root);
+            impacts.first_step = select(first, own, impacts.first_step);
+            impacts.first_speed = select(first, step.start.rate, impacts.first_speed);
+            return select(accepted, step.end.time_of(own), step.start.time_of(own));
+        }
     }
 
     SLIDEWAY_HD Allowance allowed_if_finite(Mask<Real>& divergent) {
@@ -223,7 +267,9 @@ private:
         auto const watching = pack_.needs.watching;
         double tolerance = Model::template Watch<Real>::tolerance(watching);
         if constexpr (Model::has_shadows) tolerance = Shadows<Model, Real>::located;
+        if constexpr (has_clock) tolerance = 1e-3 * sqrt(settings_.rtol);
         Real const located = Real(tolerance) * Model::touch_scale(pack_.state.constants.parameters);
+        if constexpr (has_clock) return allowed_by_impacts(before, early, located);
         Real fraction = pack_.state.contacts.watch.earliest(early, attempt_.report.contact, step, located, watching);
         if constexpr (Model::has_shadows) fraction = min(fraction, shadows_.earliest(pack_, early, located));
         auto const cut = fraction < Real(1.0);
@@ -236,6 +282,15 @@ private:
             uncut = select(allowed.accepted, Real(0.0), select(cut, max(uncut, step), uncut));
         }
         return allowed;
+    }
+
+    SLIDEWAY_HD Allowance allowed_by_impacts(Allowance const& before, Mask<Real> early, Real located) {
+        auto const& step = stepper_.step();
+        Real const fraction = pack_.state.contacts.watch.earliest(early, attempt_.report.contact, step, located);
+        auto const cut = fraction < Real(1.0);
+        Real const shorter = step.start.time_of(step.own * fraction);
+        return {Mask<Real>(before.accepted & !cut),
+                select(cut, max(shorter, resolution() * Real(32.0)), before.next)};
     }
 
     /// Moves the accepted lanes to the end of their step.  @return those that reached the end time.
@@ -286,9 +341,14 @@ private:
         if constexpr (Model::has_contacts) {
             if (!pack_.needs.watch()) return;
             auto& [memory, watch] = pack_.state.contacts;
-            auto const touched =
-                watch.update(accepted, attempt_.report.contact, memory, pack_.state.course.y, pack_.needs.watching);
-            if (any(touched)) restart(touched);
+            if constexpr (has_clock) {
+                turned_ = watch.update(accepted, attempt_.report.contact, memory, stepper_.step());
+                if (any(turned_)) restart(turned_);
+            } else {
+                auto const touched =
+                    watch.update(accepted, attempt_.report.contact, memory, pack_.state.course.y, pack_.needs.watching);
+                if (any(touched)) restart(touched);
+            }
         }
     }
 
@@ -328,6 +388,24 @@ private:
             pack_.state.observation.observer.switch_over(touched, attempt_.report, pack_.needs.switches);
         }
         pack_.begin_next(touched, attempt_.end_rates, attempt_.report);
+    }
+
+    /// The step after a touch or a parting: the first of an impact as of the last one, whose length by the clock falls with the speed
+    /// roughly as v^-0.6; that of a flight as before the impact.
+    SLIDEWAY_HD void choose_after_turn() {
+        if (none(turned_)) return;
+        auto& s = pack_.state;
+        auto const& impacts = s.course.impacts;
+        auto const clock = s.contacts.watch.clock(s.contacts.memory);
+        auto const before = stepper_.step().start.runs();
+        Mask<Real> const lands = turned_ & clock.runs() & (clock.rate > Real(0.0)), flies = turned_ & !clock.runs() & before;
+        auto const known = impacts.first_step > Real(0.0);
+        Real const speed = max(clock.rate, Real(1e-12));
+        Real const as_before = impacts.first_step * sqrt(impacts.first_speed / speed);
+        Real const guess = sqrt(Real(1e-3) * impacts.flight_step / speed);
+        auto const goes_on = turned_ & clock.runs() & before & !lands;
+        Real const h = select(goes_on, clock.time_of(Real(0.5) * impacts.first_step), s.course.h);
+        s.course.h = select(lands, clock.time_of(select(known, as_before, guess)), select(flies, impacts.flight_step, h));
     }
 
     /// Lanes whose step brought an apex into contact at speed.  The stiff method would swallow the impact's energy without a
@@ -372,6 +450,7 @@ private:
     Attempt<Model, Real> attempt_;  // the members' own
     double max_step_;
     Mask<Real> left_;
+    Mask<Real> turned_ = mask_of<Real>(false);  // lanes whose last step ended at a touch or a parting
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

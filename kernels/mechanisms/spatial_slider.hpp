@@ -25,7 +25,8 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
     using typename Guide_::Base;
 
     /// Time derivative of the state.
-    /// @param t time [s]; @param s the state, `size` values; @param rates their derivatives, NaN where a fault is set.
+    /// @param t time [s]; @param s the state, `size` values; @param rates their derivatives, NaN where a fault is set, and behind them the
+    /// δ' [m/s] of the pair whose depth the memory has from a clock, if it has.
     /// @param report filled if Full; the derivative has the same bits without.
     template <bool Full, class Real, class Laws>
     SLIDEWAY_NOINLINE static Faults<Real> derivative(Real t, Real const* s, SliderParameters<Real> const& p,
@@ -47,6 +48,7 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
         rates[3] = acceleration.z;
         turning.put_rates(wrench.torque, motion.axes, p.inertia, p.inverse_inertia, rates);
         guide.put_rates(acceleration, rates);
+        if (joint.has_clock()) rates[Base::size] = joint.clock_rate();
         if constexpr (Full) guide.tell({position, velocity, acceleration}, turning, force, p, *report);
         return faults;
     }

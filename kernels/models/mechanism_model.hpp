@@ -13,10 +13,11 @@ template <class Laws> struct ConditionsOfBlock {
     Conditions<Laws> block;
 
     SLIDEWAY_HD bool switches() const { return block.switches; }
+    SLIDEWAY_HD void hold_contacts(bool held) { block.holds_contacts = held; }
     /// At which events of the contacts steps end.  @param neighbours members have some beside them
     SLIDEWAY_HD Watching watching(bool locate_modes, bool neighbours) const {
         if (block.remembers) return neighbours && block.switches ? Watching::touches_and_parts : Watching::touches;
-        return block.can_hold() && locate_modes ? Watching::modes : Watching::nothing;
+        return block.can_locate_modes() && locate_modes ? Watching::modes : Watching::nothing;
     }
 };
 

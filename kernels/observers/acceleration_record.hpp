@@ -32,14 +32,18 @@ public:
         raise(fresh, r);
     }
 
-    /// Begins a step with the stage at its start.
-    SLIDEWAY_FN void begin_step(double weight) {
-        for (int i = 0; i < count; ++i) mean_[i] = Real(weight) * at_start_[i];
+    /// Begins a step with the stage at its start.  @param pace dt/ds of a step by a clock
+    template <class Pace> SLIDEWAY_FN void begin_step(double weight, Pace const& pace) {
+        for (int i = 0; i < count; ++i) mean_[i] = Real(weight) * (at_start_[i] * pace);
     }
-    template <class Report> SLIDEWAY_FN void add_stage(double weight, Report const& r) {
+    template <class Report, class Pace> SLIDEWAY_FN void add_stage(double weight, Report const& r, Pace const& pace) {
         Real values[count];
         integrands(r, values);
-        for (int i = 0; i < count; ++i) mean_[i] = fma(Real(weight), values[i], mean_[i]);
+        for (int i = 0; i < count; ++i) mean_[i] = fma(Real(weight), values[i] * pace, mean_[i]);
+    }
+    /// Makes the means those over time.  @param own step by the clock over that by time
+    SLIDEWAY_FN void end_step(Real const& own) {
+        for (auto& mean : mean_) mean = mean * own;
     }
     /// What the next step starts from, in the lanes of the mask.
     template <class Report> SLIDEWAY_FN void begin_next(Mask<Real> in, Report const& r) {

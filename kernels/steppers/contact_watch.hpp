@@ -2,6 +2,7 @@
 
 #include "kernels/joint/contact_memory.hpp"
 #include "kernels/real.hpp"
+#include "kernels/steppers/contact_clock.hpp"
 #include "kernels/steppers/gap_history.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -11,9 +12,12 @@ enum class Watching {
     nothing,
     touches,           // pairs meet: what restitution needs, v0 changing only at accepted touch events (model.md 4)
     touches_and_parts, // pairs part too: for a law that switches there, between shadows and their member
+    impacts,           // touches and parts alike, held within a step as with `modes`; √δ of the shallowest pair is the step's clock
     modes,             // a law that switches has its contacts held within a step, so that the derivative is smooth and the stepper keeps its
                        // order; a pair whose depth changes sign ends the step and is turned over explicitly
 };
+
+constexpr bool holds_contacts(Watching watching) { return watching == Watching::modes || watching == Watching::impacts; }
 
 /// Ends steps where pairs touch or part, and keeps what a member remembers of it.
 /// With `modes` what is held is always the sign of the depth at the start.  A pair may change twice in a step and seem untouched at its end, and
@@ -28,11 +32,92 @@ public:
 
     /// What the first step starts from.
     template <class Contact> SLIDEWAY_FN void begin(Mask<Real> fresh, Contact const& r, Memory& memory, Watching watching) {
-        if (watching == Watching::modes) {
+        if (holds_contacts(watching)) {
             memory.holding = select(fresh, Real(1.0), memory.holding);
             turn_pairs(fresh, r, memory);
         }
         this->keep(fresh, r);
+        if (watching == Watching::impacts) hold_signs(memory);
+    }
+
+    /// The clock of the next step: the shallowest of the pairs that touch, none where a member flies.
+    SLIDEWAY_FN ContactClock<Real> clock(Memory const& memory) const {
+        Real depth(1e300);
+        ContactClock<Real> found{Real(-1.0), Real(0.0), Real(0.0)};
+        for (int face = 0; face < quads; ++face) {
+            auto const& d = this->start_depth_[face];
+            auto const& v = this->start_rate_[face];
+            auto const& held = memory.held[face];
+            auto const look = [&](int place, Real const& depth_here, Real const& rate_here, Real const& is_held) {
+                auto const shallower = (is_held > Real(0.5)) & (depth_here < depth);
+                depth = select(shallower, depth_here, depth);
+                found.pair = select(shallower, Real(static_cast<double>(4 * face + place)), found.pair);
+                found.rate = select(shallower, rate_here, found.rate);
+            };
+            look(0, d.a, v.a, held.a);
+            look(1, d.b, v.b, held.b);
+            look(2, d.c, v.c, held.c);
+            look(3, d.d, v.d, held.d);
+        }
+        found.root = select(found.runs(), sqrt(max(depth, Real(0.0))), found.root);
+        return found;
+    }
+
+    /// As `earliest`, of a step by a clock: fraction of what it is by the clock.
+    template <class Contact>
+    SLIDEWAY_FN Real earliest(Mask<Real> candidates, Contact const& end, ClockedStep<Real> const& step, Real located) const {
+        Real const pace0 = step.start.pace(), pace1 = step.end.pace();
+        auto const change = [&](Mask<Real> in, Real d0, Real v0, Real d1, Real v1, Real within) {
+            return GapHistory<Real, quads>::first_change(in, d0, v0, d1, v1, step.own, within).fraction;
+        };
+        Mask<Real> const by_clock = candidates & step.start.runs();
+        Real fraction = change(by_clock & !step.parts(), step.start.root, step.start.rate, step.end.root, step.end.rate, Real(0.0));
+        for (int face = 0; face < quads; ++face) {
+            auto const& d0 = this->start_depth_[face];
+            auto const& v0 = this->start_rate_[face];
+            auto const& d1 = end.penetration[face];
+            auto const& v1 = end.rate[face];
+            auto const of = [&](int place, Real d0i, Real v0i, Real d1i, Real v1i) {
+                Mask<Real> const in = candidates & !(step.start.pair == Real(static_cast<double>(4 * face + place)));
+                fraction = min(fraction, change(in, d0i, pace0 * v0i, d1i, pace1 * v1i, located));
+            };
+            of(0, d0.a, v0.a, d1.a, v1.a);
+            of(1, d0.b, v0.b, d1.b, v1.b);
+            of(2, d0.c, v0.c, d1.c, v1.c);
+            of(3, d0.d, v0.d, d1.d, v1.d);
+        }
+        return fraction;
+    }
+
+    /// As `update`, after a step by a clock.  A pair touches where it comes nearer: one that has just parted may be left within its face by
+    /// what its parting was located to.  That of the clock parts where its clock says so, for its depth in the state is off by what the
+    /// step's error is.
+    template <class Contact>
+    SLIDEWAY_FN Mask<Real> update(Mask<Real> accepted, Contact const& end, Memory& memory, ClockedStep<Real> const& step) {
+        take_speeds(accepted, end, memory);
+        auto changed = mask_of<Real>(false);
+        Mask<Real> const over = step.parts();
+        for (int face = 0; face < quads; ++face) {
+            auto const& d = end.penetration[face];
+            auto const& v = end.rate[face];
+            auto& held = memory.held[face];
+            auto const turn = [&](int place, Real const& depth, Real const& rate, Real& is_held) {
+                auto const touches = is_held > Real(0.5);
+                Mask<Real> const parts = over & (step.start.pair == Real(static_cast<double>(4 * face + place)));
+                Mask<Real> const stays = touches & (depth > Real(0.0)) & !parts;
+                Mask<Real> const begins = (!touches) & (depth > Real(0.0)) & (rate > Real(0.0));
+                Real const now = select(stays | begins, Real(1.0), Real(0.0));
+                changed = changed | (accepted & (now != is_held));
+                is_held = select(accepted, now, is_held);
+            };
+            turn(0, d.a, v.a, held.a);
+            turn(1, d.b, v.b, held.b);
+            turn(2, d.c, v.c, held.c);
+            turn(3, d.d, v.d, held.d);
+        }
+        this->keep(accepted, end);
+        hold_signs(memory);
+        return changed;
     }
 
     /// Fraction of the step at which the first pair touches or parts, 1 where none does before the end or the end is the event.
@@ -62,6 +147,17 @@ public:
     }
 
 private:
+    /// A pair that is held apart starts apart, though its depth may be above zero by what its parting was located to.
+    SLIDEWAY_FN void hold_signs(Memory const& memory) {
+        Real const zero(0.0), half(0.5);
+        for (int face = 0; face < quads; ++face) {
+            auto& d = this->start_depth_[face];
+            auto const& held = memory.held[face];
+            d = {select(held.a > half, d.a, min(d.a, zero)), select(held.b > half, d.b, min(d.b, zero)),
+                 select(held.c > half, d.c, min(d.c, zero)), select(held.d > half, d.d, min(d.d, zero))};
+        }
+    }
+
     /// Sets the impact speed of pairs that have just touched.
     template <class Contact>
     SLIDEWAY_FN Mask<Real> take_speeds(Mask<Real> accepted, Contact const& end, Memory& memory) const {

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// The clock of a step within an impact.  A point contact's force ~ δ^1.5 has no second derivative where the contact begins and ends, and a
+/// method of high order gains nothing there.  By the clock s with dt = 2u ds and u = √δ of a pair that touches, δ^1.5 = u³, du/ds = δ' and
+/// the whole motion is smooth in s from the touch to the parting.
+template <class Real> struct ContactClock {
+    Real pair;  // its number, 4 face + place in the face; −1 where time itself is the clock
+    Real root;  // u [√m], at one end of the step
+    Real rate;  // δ' [m/s] there
+
+    SLIDEWAY_FN Mask<Real> runs() const { return pair > Real(-0.5); }
+    /// dt/ds.
+    SLIDEWAY_FN Real pace() const { return select(runs(), root + root, Real(1.0)); }
+
+    /// What a step by the clock takes of time if δ' stays as it is, until u = 0 at the longest; and the other way round.
+    SLIDEWAY_FN Real time_of(Real own) const {
+        Real const falling = min(rate, Real(-1e-300));
+        Real const s = select(rate < Real(0.0), min(own, root / negated(falling)), own);
+        return select(runs(), s * fma(rate, s, root + root), own);
+    }
+    SLIDEWAY_FN Real own_of(Real time) const {
+        Real const left = max(fma(rate, time, root * root), Real(0.0));
+        return select(runs(), time / max(root + sqrt(left), Real(1e-150)), time);
+    }
+};
+
+/// A step by the clock, whose ends are events where a pair touches or parts.
+template <class Real> struct ClockedStep {
+    Real own;  // by the clock: [√m s/m], or [s] where time is
+    ContactClock<Real> start, end;
+
+    /// Whether the pair of the clock parts at the end: what is left of u is little, either way.  The impulse that is left goes with u⁵.
+    SLIDEWAY_FN Mask<Real> parts() const {
+        return start.runs() & (end.rate < Real(0.0)) & (abs(end.root) < Real(0.03) * start.root);
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

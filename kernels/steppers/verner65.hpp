@@ -1,0 +1,60 @@
+#pragma once
+
+#include "kernels/real.hpp"
+#include "kernels/steppers/explicit_pair.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Coefficients of the pair below.
+struct Verner65Tableau {
+    double c[9] = {0, 0.06, 1439.0 / 15000, 0.1439, 0.4973, 0.9725, 0.9995, 1, 1};
+    double a[9][8] = {
+        {},
+        {0.06},
+        {0.01923996296296296, 0.07669337037037037},
+        {0.035975, 0, 0.107925},
+        {1.318683415233148, 0, -5.042058063628562, 4.220674648395414},
+        {-41.872591664327516, 0, 159.43256216313748, -122.11921356501003, 5.531743066200054},
+        {-54.430156935316504, 0, 207.06725136501847, -158.6108137845899, 6.991816585950242, -0.018597231062203234},
+        {-54.66374178728198, 0, 207.95280625538936, -159.2889574744995, 7.018743740796944, -0.018338785905045722,
+         -0.0005119484997882099},
+        {0.034389578683570357, 0, 0, 0.2582624555633503, 0.4209371189673537, 4.40539646966931, -176.48311902429866,
+         172.36413340141507},
+    };
+    double b[9] = {0.034389578683570357, 0, 0, 0.2582624555633503, 0.4209371189673537, 4.40539646966931,
+                   -176.48311902429866, 172.36413340141507, 0};
+    // b minus the weights of the fifth order.
+    double e[9] = {-0.014710097800254537, 0, 0, 0.033151232611697925, -0.04853110633560249, 3.5988172446704234,
+                   -176.48311902429866, 172.97125289059287, -0.056861139440475692};
+    // What θ²(1 − θ)² adds to the cubic through both ends, so that the extension has order 4; of those that have, the one with the least
+    // conditions of order 5 left.
+    double d[9] = {-2.204323210244519, 0, 0, 3.255194242022575, -0.6922719883571204, -8.58278766030833,
+                   3.1664177091814185, 3.4088148933233358, 1.6489560143826372};
+};
+
+/// Explicit Runge–Kutta pair of order 6(5) with nine stages, the last of which is the first of the next step.  Source: Verner, "Strategies
+/// for deriving new explicit Runge–Kutta pairs", Annals of Numerical Mathematics 1 (1994) 225–244, the pair that he calls most efficient.
+/// Its continuous extension, of order 4 and without further stages, is ours.
+struct Verner65 : ExplicitPair<Verner65Tableau, 9> {
+    static constexpr int order = 6;
+
+    /// One component inside the step, at fraction θ of it.  @param y0, y1 the component at both ends of the step.
+    template <int size, class Real>
+    SLIDEWAY_FN static Real dense(Real const (*k)[size], int i, Real y0, Real y1, Real h, Real theta) {
+        constexpr Tableau w{};
+        Real bend = Real(w.d[0]) * k[0][i];
+        bend = fma(Real(w.d[3]), k[3][i], bend);
+        bend = fma(Real(w.d[4]), k[4][i], bend);
+        bend = fma(Real(w.d[5]), k[5][i], bend);
+        bend = fma(Real(w.d[6]), k[6][i], bend);
+        bend = fma(Real(w.d[7]), k[7][i], bend);
+        bend = fma(Real(w.d[8]), k[8][i], bend);
+        Real const rest = Real(1.0) - theta;
+        Real const change = y1 - y0;
+        Real const start = fms(h, k[0][i], change);
+        Real const end = fnma(h, k[8][i], change) - start;
+        return fma(theta, fma(rest, fma(theta, fma(rest, h * bend, end), start), change), y0);
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA
