@@ -20,12 +20,15 @@ public:
     static constexpr int jacobians = 0;
     static_assert(Pair::adaptive && !Pair::has_two_estimates && Pair::dense_stages == 0);
 
-    /// Says by what clock the next attempt goes.
-    SLIDEWAY_HD void go_by(ContactClock<Real> const& clock) { step_.start = clock; }
+    /// Says by what clock the next attempt goes, and how far.
+    SLIDEWAY_HD void go_by(ContactClock<Real> const& clock, Real own) {
+        step_.start = clock;
+        step_.own = own;
+    }
 
-    /// Idle lanes step in place.  @param to its `step` is in [s]; by a clock it comes out as what the clock makes of it
+    /// Idle lanes step in place.  @param to its `step` [s] comes out as what the clock makes of it
     SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
-        begin(from, to.step);
+        begin(from);
         to.faults = Faults<Real>::none();
         if (from.needs.stages) pack.begin_integrals(weights<0>(), pace_);
         stages(pack, from, to, std::make_integer_sequence<int, Pair::stages - 1>{});
@@ -57,9 +60,8 @@ private:
     static constexpr int size = Model::size;
     static constexpr int time = size, root = size + 1;
 
-    SLIDEWAY_HD void begin(StepStart<Model, Real> const& from, Real h) {
+    SLIDEWAY_HD void begin(StepStart<Model, Real> const& from) {
         auto const& clock = step_.start;
-        step_.own = clock.own_of(h);
         pace_ = clock.pace();
         memory_ = from.memory;
         memory_.clock = clock.pair;

@@ -46,6 +46,7 @@ template <class Model> inline constexpr bool has_clocks = Model::has_patterns &&
 
 /// What a member remembers for its next impact, of a method with clocks.
 template <class Real> struct ImpactCourse {
+    Real step;          // the next by its clock
     Real flight_step;   // that its impacts interrupt [s]
     Real first_step;    // by the clock, of the last impact
     Real first_speed;   // δ' with which that began [m/s]

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <cstdio>
-#include <cstdlib>
 #include <type_traits>
 
 #include "kernels/lanes/crossing_search.hpp"
 #include "kernels/lanes/event_search.hpp"
+#include "kernels/lanes/impact_steps.hpp"
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/results.hpp"
 #include "kernels/lanes/shadows.hpp"
@@ -17,6 +16,7 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 struct NoSearch {};
+struct NoImpactSteps {};
 struct NoShadowSteps {
     explicit SLIDEWAY_HD NoShadowSteps(ShadowPlan const&) {}
 };
@@ -56,8 +56,8 @@ private:
     /// Least step, in units of the end time.
     static constexpr double time_resolution = Model::has_shadows ? 1e-19 : 8 * 2.220446049250313e-16;
     static constexpr bool impacts_end_it = Stepper::stiff && Model::has_patterns;
-    /// Whether its steps go by the clocks of contacts.
-    static constexpr bool has_clock = requires(Stepper const& stepper) { stepper.step(); };
+    static constexpr bool by_clock = requires(Stepper const& stepper) { stepper.step(); };
+    using Impacts = ImpactSteps<Stepper, Model, Real>;
     using Control = StepControl<Stepper::order>;
     using Start = StepStart<Model, Real>;
     using Tried = Attempt<Model, Real>;
@@ -93,24 +93,18 @@ private:
             if (results_.samples() > 0) time = results_.next_sample_times(c.sample, c.t, time);
         }
         Real const remaining = time - c.t;
-        Real const h = Stepper::adaptive ? c.h : Real(settings_.fixed_step);
-        // A last step a hair short of the end would leave a crumb below the resolution of time.
-        auto const lands = remaining <= h * Real(1.000001);
-        attempt_.step = select(pack_.busy, select(lands, remaining, h), Real(0.0));
-        if constexpr (has_clock) choose_clock(remaining, lands);
+        auto lands = mask_of<Real>(false);
+        if constexpr (by_clock) {
+            lands = impacts_.choose(pack_, stepper_, remaining);
+        } else {
+            Real const h = Stepper::adaptive ? c.h : Real(settings_.fixed_step);
+            // A last step a hair short of the end would leave a crumb below the resolution of time.
+            lands = remaining <= h * Real(1.000001);
+            attempt_.step = select(pack_.busy, select(lands, remaining, h), Real(0.0));
+        }
         pack_.template count_attempt<Stepper>(pack_.busy);
         results_.count_attempt(width, held_lanes(pack_.busy));
         return {time, lands};
-    }
-
-    /// A step that lands goes by time; one that would come near to landing is halved, for a clock is a little late or early.
-    SLIDEWAY_HD void choose_clock(Real remaining, Mask<Real> lands) {
-        auto const& contacts = pack_.state.contacts;
-        auto clock = contacts.watch.clock(contacts.memory);
-        Mask<Real> const near = clock.runs() & !lands & (remaining < Real(2.0) * attempt_.step);
-        attempt_.step = select(pack_.busy & near, Real(0.5) * remaining, attempt_.step);
-        clock.pair = select(pack_.busy & !lands, clock.pair, Real(-1.0));
-        stepper_.go_by(clock);
     }
 
     /// Squared errors of the components, each against its tolerance, over the number of states; the integrals of the audit, where it
@@ -163,26 +157,28 @@ private:
         auto const verdict = judge(landing);
         c.accepted = c.accepted + count<Real>(verdict.accepted);
         c.rejected = c.rejected + count<Real>(verdict.rejected);
-        c.rejections = select(busy, count<Real>(verdict.rejected & !verdict.cut), c.rejections);
-        Mask<Real> const still = verdict.rejected & (verdict.next <= resolution());
+        auto failed = verdict.rejected & !verdict.cut;
+        Real next_time = verdict.next;
+        if constexpr (by_clock) {
+            failed = failed | (verdict.rejected & impacts_.landed_in_contact(landing.lands));
+            next_time = Impacts::time_of(stepper_, verdict.next);
+        }
+        c.rejections = select(busy, count<Real>(failed), c.rejections);
+        Mask<Real> const still = verdict.rejected & (next_time <= resolution());
         Mask<Real> stuck = Stepper::adaptive ? still : verdict.rejected;
         if constexpr (Model::has_shadows) attempt_.faults = attempt_.faults.or_else(shadows_.faults());
 
         auto finished = mask_of<Real>(false);
+        turned_ = mask_of<Real>(false);
         if (any(verdict.accepted)) {
             finished = advance(verdict.accepted, landing);
             if constexpr (Model::events > 0) stuck = stuck | search_.piled_up(pack_, attempt_.step);
         }
-        c.h = select(busy, min(verdict.next, Real(max_step_)), c.h);
-        if constexpr (has_clock) {
-            if (any(verdict.accepted)) choose_after_turn();
-        }
-        if constexpr (has_clock && std::is_same_v<Real, double>) {
-            static int debug_count = 0;
-            if (getenv("DEBUG_STEPS") && ++debug_count < 400) {
-                auto const& st = stepper_.step();
-                printf("%llu t %.12g dt %.4g own %.4g pair %g u0 %.6g v0 %.5g u1 %.6g v1 %.5g acc %d cut %d next %.4g h %.4g turned %d\n", (unsigned long long)c.evaluations, c.t, attempt_.step, st.own, st.start.pair, st.start.root, st.start.rate, st.end.root, st.end.rate, int(verdict.accepted), int(verdict.cut), verdict.next, c.h, int(turned_));
-            }
+        if constexpr (by_clock) {
+            impacts_.keep(pack_.state, stepper_, busy, verdict.next, Real(max_step_));
+            if (any(turned_)) impacts_.turn(pack_.state, stepper_, turned_, Real(max_step_));
+        } else {
+            c.h = select(busy, min(verdict.next, Real(max_step_)), c.h);
         }
         auto const spent =
             busy & !finished & (c.accepted + c.rejected >= Real(static_cast<double>(settings_.max_steps)));
@@ -229,28 +225,10 @@ private:
         // Whether what is beyond all bounds came out infinite or NaN may be the neighbours' doing.
         squared_norm = select(divergent, Real(not_a_number), squared_norm);
         Real const factor = Control::factor(squared_norm, accepted, c.rejections > Real(0.5), c.error_memory);
-        Real const next = next_step(accepted, factor);
+        Real next = attempt_.step * factor;
+        if constexpr (by_clock) next = impacts_.next(pack_.state, stepper_, accepted, factor);
         // A step that was shortened to land says little of what the next may be.
         return {accepted, select(accepted & landing.lands, max(next, c.h), next)};
-    }
-
-    /// The step to try next, if the last one is to grow by a factor [s].
-    SLIDEWAY_HD Real next_step(Mask<Real> accepted, Real factor) {
-        if constexpr (!has_clock) {
-            return attempt_.step * factor;
-        } else {
-            auto const& step = stepper_.step();
-            Real const own = step.own * factor;
-            auto& impacts = pack_.state.course.impacts;
-            // Not of what an event has left over of a step.
-            auto const whole = (own > impacts.flight_step) | (step.own > Real(0.1) * impacts.flight_step);
-            impacts.flight_step = select(accepted & !step.start.runs() & whole, own, impacts.flight_step);
-            // Where the pair of the clock has just touched.
-            auto const first = accepted & step.start.runs() & (step.start.root < Real(0.1) * step.end.root);
-            impacts.first_step = select(first, own, impacts.first_step);
-            impacts.first_speed = select(first, step.start.rate, impacts.first_speed);
-            return select(accepted, step.end.time_of(own), step.start.time_of(own));
-        }
     }
 
     SLIDEWAY_HD Allowance allowed_if_finite(Mask<Real>& divergent) {
@@ -264,12 +242,11 @@ private:
     SLIDEWAY_HD Allowance allowed_by_contacts(Allowance const& before) {
         Real const step = attempt_.step;
         auto const early = before.accepted & (step > resolution() * Real(64.0));
+        if constexpr (by_clock) return allowed_by_impacts(before, early);
         auto const watching = pack_.needs.watching;
         double tolerance = Model::template Watch<Real>::tolerance(watching);
         if constexpr (Model::has_shadows) tolerance = Shadows<Model, Real>::located;
-        if constexpr (has_clock) tolerance = 1e-3 * sqrt(settings_.rtol);
         Real const located = Real(tolerance) * Model::touch_scale(pack_.state.constants.parameters);
-        if constexpr (has_clock) return allowed_by_impacts(before, early, located);
         Real fraction = pack_.state.contacts.watch.earliest(early, attempt_.report.contact, step, located, watching);
         if constexpr (Model::has_shadows) fraction = min(fraction, shadows_.earliest(pack_, early, located));
         auto const cut = fraction < Real(1.0);
@@ -284,13 +261,13 @@ private:
         return allowed;
     }
 
-    SLIDEWAY_HD Allowance allowed_by_impacts(Allowance const& before, Mask<Real> early, Real located) {
+    SLIDEWAY_HD Allowance allowed_by_impacts(Allowance const& before, Mask<Real> early) {
         auto const& step = stepper_.step();
+        Real const located = Real(Impacts::located(settings_.rtol)) * Model::touch_scale(pack_.state.constants.parameters);
         Real const fraction = pack_.state.contacts.watch.earliest(early, attempt_.report.contact, step, located);
         auto const cut = fraction < Real(1.0);
-        Real const shorter = step.start.time_of(step.own * fraction);
-        return {Mask<Real>(before.accepted & !cut),
-                select(cut, max(shorter, resolution() * Real(32.0)), before.next)};
+        Real const least = select(step.start.runs(), Real(0.0), resolution() * Real(32.0));
+        return {Mask<Real>(before.accepted & !cut), select(cut, max(step.own * fraction, least), before.next)};
     }
 
     /// Moves the accepted lanes to the end of their step.  @return those that reached the end time.
@@ -341,14 +318,14 @@ private:
         if constexpr (Model::has_contacts) {
             if (!pack_.needs.watch()) return;
             auto& [memory, watch] = pack_.state.contacts;
-            if constexpr (has_clock) {
-                turned_ = watch.update(accepted, attempt_.report.contact, memory, stepper_.step());
-                if (any(turned_)) restart(turned_);
+            auto touched = mask_of<Real>(false);
+            if constexpr (by_clock) {
+                touched = turned_ = watch.update(accepted, attempt_.report.contact, memory, stepper_.step());
             } else {
-                auto const touched =
+                touched =
                     watch.update(accepted, attempt_.report.contact, memory, pack_.state.course.y, pack_.needs.watching);
-                if (any(touched)) restart(touched);
             }
+            if (any(touched)) restart(touched);
         }
     }
 
@@ -390,24 +367,6 @@ private:
         pack_.begin_next(touched, attempt_.end_rates, attempt_.report);
     }
 
-    /// The step after a touch or a parting: the first of an impact as of the last one, whose length by the clock falls with the speed
-    /// roughly as v^-0.6; that of a flight as before the impact.
-    SLIDEWAY_HD void choose_after_turn() {
-        if (none(turned_)) return;
-        auto& s = pack_.state;
-        auto const& impacts = s.course.impacts;
-        auto const clock = s.contacts.watch.clock(s.contacts.memory);
-        auto const before = stepper_.step().start.runs();
-        Mask<Real> const lands = turned_ & clock.runs() & (clock.rate > Real(0.0)), flies = turned_ & !clock.runs() & before;
-        auto const known = impacts.first_step > Real(0.0);
-        Real const speed = max(clock.rate, Real(1e-12));
-        Real const as_before = impacts.first_step * sqrt(impacts.first_speed / speed);
-        Real const guess = sqrt(Real(1e-3) * impacts.flight_step / speed);
-        auto const goes_on = turned_ & clock.runs() & before & !lands;
-        Real const h = select(goes_on, clock.time_of(Real(0.5) * impacts.first_step), s.course.h);
-        s.course.h = select(lands, clock.time_of(select(known, as_before, guess)), select(flies, impacts.flight_step, h));
-    }
-
     /// Lanes whose step brought an apex into contact at speed.  The stiff method would swallow the impact's energy without a
     /// sign: `auto` leaves impacts to the explicit pair.  What counts is how fast the apex approached its face: a slider that glides along
     /// one, with a corner that rattles on it at next to no speed, has no impacts.
@@ -447,10 +406,11 @@ private:
     Stepper stepper_;
     [[no_unique_address]] std::conditional_t<(Model::events > 0), EventSearch<Model, Real>, NoSearch> search_;
     [[no_unique_address]] std::conditional_t<Model::has_shadows, Shadows<Model, Real>, NoShadowSteps> shadows_;
+    [[no_unique_address]] std::conditional_t<by_clock, Impacts, NoImpactSteps> impacts_;
     Attempt<Model, Real> attempt_;  // the members' own
+    Mask<Real> turned_;             // lanes whose step ended at a touch or a parting, of a stepper with clocks
     double max_step_;
     Mask<Real> left_;
-    Mask<Real> turned_ = mask_of<Real>(false);  // lanes whose last step ended at a touch or a parting
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

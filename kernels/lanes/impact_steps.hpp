@@ -1,0 +1,84 @@
+#pragma once
+
+#include "kernels/lanes/pack.hpp"
+#include "kernels/real.hpp"
+#include "kernels/steppers/contact_clock.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// The lengths of steps by the clocks of impacts (ClockStep), beside those by time: a member remembers its step in flight while it is in
+/// contact, and the first one of an impact until the next.
+template <class Stepper, class Model, class Real> class ImpactSteps {
+public:
+    using State = MemberState<Model, Real>;
+
+    /// Depth [clearances] up to which a touch counts as located: it errs by the impulse up to there, which goes with δ^2.5.
+    SLIDEWAY_HD static double located(double rtol) { return 1e-4 * ::sqrt(rtol); }
+
+    /// Chooses the clocks and how far to go.  A step that lands goes by time; within an impact that may fail, and then, or where it would
+    /// nearly land, half of the way goes by the clock.
+    /// @param remaining time until the lanes must land [s]  @return lanes that land
+    SLIDEWAY_HD Mask<Real> choose(Pack<Model, Real> const& pack, Stepper& stepper, Real remaining) {
+        auto const& s = pack.state;
+        auto clock = s.contacts.watch.clock(s.contacts.memory);
+        in_contact_ = clock.runs();
+        Real const by_time = s.course.h, by_clock = s.course.impacts.step;
+        Real const h = select(in_contact_, Real(1.02) * clock.time_of(by_clock), by_time);
+        auto const failed = in_contact_ & (s.course.rejections > Real(0.5));
+        Mask<Real> const lands = (remaining <= h * Real(1.000001)) & !failed;
+        auto const halves = in_contact_ & !lands & (remaining < Real(2.0) * h);
+        clock.pair = select(pack.busy & !lands, clock.pair, Real(-1.0));
+        Real const half = clock.own_of(Real(0.5) * remaining);
+        Real const own = select(clock.runs(), select(halves, half, by_clock), select(lands, remaining, h));
+        stepper.go_by(clock, select(pack.busy, own, Real(0.0)));
+        return lands;
+    }
+
+    /// Lanes that tried to land within an impact: a step that goes past what the clock is for.
+    SLIDEWAY_HD Mask<Real> landed_in_contact(Mask<Real> lands) const { return in_contact_ & lands; }
+
+    /// The step that is to follow if the last one is to grow by a factor, by the clock that it went by.
+    SLIDEWAY_HD Real next(State& s, Stepper const& stepper, Mask<Real> accepted, Real factor) const {
+        auto const& step = stepper.step();
+        Real const own = step.own * factor;
+        auto& impacts = s.course.impacts;
+        // Not of what an event has left over of a step.
+        auto const whole = (own > impacts.flight_step) | (step.own > Real(0.1) * impacts.flight_step);
+        impacts.flight_step = select(accepted & !in_contact_ & whole, own, impacts.flight_step);
+        auto const begins = step.start.runs() & (step.start.rate > Real(0.0)) & (step.start.root < Real(0.1) * step.end.root);
+        impacts.first_step = select(accepted & begins, own, impacts.first_step);
+        impacts.first_speed = select(accepted & begins, step.start.rate, impacts.first_speed);
+        return select(accepted, step.end.ending(own), own);
+    }
+
+    /// What such a step takes of time, at least where it is tried again [s].
+    SLIDEWAY_HD static Real time_of(Stepper const& stepper, Real next) { return stepper.step().start.time_of(next); }
+
+    /// Keeps it for the next attempt.
+    SLIDEWAY_HD void keep(State& s, Stepper const& stepper, Mask<Real> busy, Real next, Real longest) const {
+        auto& c = s.course;
+        c.h = select(busy & !in_contact_, min(next, longest), c.h);
+        c.impacts.step = select(busy & stepper.step().start.runs(), next, c.impacts.step);
+    }
+
+    /// The step after a touch or a parting: the first of an impact as of the last one, whose length by the clock falls with the speed
+    /// roughly as v^-0.6; beside another contact it is shorter; that of a flight as before the impact.
+    SLIDEWAY_HD void turn(State& s, Stepper const& stepper, Mask<Real> turned, Real longest) const {
+        auto& impacts = s.course.impacts;
+        auto const clock = s.contacts.watch.clock(s.contacts.memory);
+        auto const before = stepper.step().start.runs();
+        Mask<Real> const touches = turned & clock.runs() & (clock.rate > Real(0.0));
+        Mask<Real> const goes_on = turned & clock.runs() & !touches, flies = turned & !clock.runs();
+        Real const speed = max(clock.rate, Real(1e-12));
+        Real const as_before = impacts.first_step * sqrt(impacts.first_speed / speed);
+        Real const guess = sqrt(Real(1e-3) * impacts.flight_step / speed);
+        Real const first = select(impacts.first_step > Real(0.0), select(before, Real(0.2), Real(1.0)) * as_before, guess);
+        impacts.step = select(touches, first, select(goes_on, Real(0.5) * impacts.first_step, impacts.step));
+        s.course.h = select(flies, min(impacts.flight_step, longest), s.course.h);
+    }
+
+private:
+    Mask<Real> in_contact_ = mask_of<Real>(false);  // lanes whose step is within an impact, by whatever clock
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA
