@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # The clearances of Fig. 17 of Qian et al. (2020) under the published and the conservative law, and 0.1 mm under undamped springs, at
-# the apices and as a bed, with an eighth of the members, because their contacts vibrate long: largest Lyapunov exponents and energy audit from perturbed starts, the
-# table of docs/chaos.md.  Usage: scripts/chaos_table.sh [FOLDER [MEMBERS [THREADS]]]; on two cores some minutes a row under the published
-# law, some ten minutes under the others.
+# the apices and as a bed, with an eighth of the members, because their contacts vibrate long: largest Lyapunov exponents and energy
+# audit from perturbed starts, the table of docs/chaos.md.  Usage: scripts/chaos_table.sh [FOLDER [MEMBERS [THREADS]]]; on two cores
+# some minutes a row under the published law, some ten minutes under the others, half an hour under the last.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 folder=${1:-$root/demo/chaos}

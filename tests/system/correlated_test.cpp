@@ -62,6 +62,13 @@ TEST_F(CorrelatedHypercube, IsOneOverRanks) {
     EXPECT_EQ(hash_of("o.nc"), hash);
 }
 
+TEST_F(CorrelatedHypercube, TellsWhatItsOrderTakes) {
+    // 60 members of 20 bytes and 4 for each of two keys.
+    std::string const text = run({"check", "s.toml"}).out;
+    EXPECT_NE(text.find(", 1.7 kB for the order of the members"), std::string::npos) << text;
+    EXPECT_EQ(run({"check", "s.toml", "--set", "study.design=mc"}).out.find("order of the members"), std::string::npos);
+}
+
 TEST_F(CorrelatedHypercube, RepeatsAMemberAlone) {
     expect_done({});
     auto const y = results("o.nc").values("initial_y");
