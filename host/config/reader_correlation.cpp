@@ -114,9 +114,10 @@ void read_correlation(Node const& root, Scene& scene) {
         refuse(*matrix, {"not positive definite: no values are correlated so", "use entries nearer to 0"});
     }
     if (kind == DesignKind::sobol) {
-        scene.warnings.push_back(fmt::format(
-            "study.correlation mixes points of design \"{}\": of the correlated keys only {} keeps its even spread; \"lhs\" keeps all",
-            name_of(kind), scene.variations[correlation.variations.front()].key->name));
+        scene.warnings.push_back(
+            fmt::format("study.correlation mixes points of design \"{}\": of the correlated keys only {} keeps its "
+                        "even spread; \"lhs\" keeps all",
+                        name_of(kind), scene.variations[correlation.variations.front()].key->name));
     }
 }
 

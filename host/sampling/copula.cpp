@@ -34,7 +34,8 @@ std::optional<Matrix> factor(std::span<double const> matrix, std::size_t n) {
 
 /// What makes of columns of scores others with the matrix L Lᵀ: L Q⁻¹, Q Qᵀ the matrix that they have by chance.
 /// @param factor L.  @return L itself where so few members leave Q singular.
-Matrix mixing(std::span<std::vector<std::uint32_t> const> orders, std::span<double const> score, std::span<double const> factor) {
+Matrix mixing(std::span<std::vector<std::uint32_t> const> orders, std::span<double const> score,
+              std::span<double const> factor) {
     auto const size = static_cast<Eigen::Index>(orders.size());
     Matrix const own = Matrix::NullaryExpr(size, size, [&](Eigen::Index i, Eigen::Index j) {
         auto const &a = orders[static_cast<std::size_t>(i)], &b = orders[static_cast<std::size_t>(j)];
@@ -46,7 +47,8 @@ Matrix mixing(std::span<std::vector<std::uint32_t> const> orders, std::span<doub
     Matrix const lower = cholesky.matrixL();
     // Columns that follow from others leave a pivot of the size of rounding.
     constexpr double least_pivot = 1e-6;
-    bool const singular = cholesky.info() != Eigen::Success || !(lower.diagonal().minCoeff() > least_pivot * lower(0, 0));
+    bool const singular =
+        cholesky.info() != Eigen::Success || !(lower.diagonal().minCoeff() > least_pivot * lower(0, 0));
     if (singular) return wanted;
     return lower.transpose().triangularView<Eigen::Upper>().solve(wanted.transpose()).transpose();
 }

@@ -107,7 +107,8 @@ void check_table(Design const& design, std::span<Variation const> variations, st
 
 void check_correlation(Design const& design, std::span<Variation const> variations, std::uint64_t members) {
     if (design.kind == DesignKind::lhs && members > std::numeric_limits<std::uint32_t>::max()) {
-        refuse_members(members, "of a correlated Latin hypercube all are ordered at once", "use fewer than 2^32, or \"mc\"");
+        refuse_members(members, "of a correlated Latin hypercube all are ordered at once",
+                       "use fewer than 2^32, or \"mc\"");
     }
     if (design.kind == DesignKind::saltelli || design.kind == DesignKind::grid) {
         refuse_design(design.kind, "its members do not follow study.correlation",

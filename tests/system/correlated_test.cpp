@@ -11,10 +11,13 @@ class CorrelatedHypercube : public ShardedRun {
 protected:
     static constexpr int members = 60;
     CorrelatedHypercube() {
-        write("s.toml",
-              "schema = 1\n[friction]\n[study]\ndesign = \"lhs\"\nmembers = 60\nduration = \"1 ms\"\nquantities = [\"energy_residual\"]\n"
-              "[study.correlation]\nkeys = [\"initial.z\", \"initial.y\"]\nmatrix = [[1, 0.9], [0.9, 1]]\n[study.vary]\n"
-              "\"initial.y\" = { dist = \"unif\", low = -6e-5, high = 6e-5 }\n\"initial.z\" = { dist = \"unif\", low = 0, high = 6e-5 }\n");
+        write(
+            "s.toml",
+            "schema = 1\n[friction]\n[study]\ndesign = \"lhs\"\nmembers = 60\nduration = \"1 ms\"\nquantities = "
+            "[\"energy_residual\"]\n"
+            "[study.correlation]\nkeys = [\"initial.z\", \"initial.y\"]\nmatrix = [[1, 0.9], [0.9, 1]]\n[study.vary]\n"
+            "\"initial.y\" = { dist = \"unif\", low = -6e-5, high = 6e-5 }\n\"initial.z\" = { dist = \"unif\", low = "
+            "0, high = 6e-5 }\n");
     }
     void expect_done(std::vector<std::string> const& options) const {
         Outcome const outcome = run_scene(options);
@@ -40,7 +43,8 @@ TEST_F(CorrelatedHypercube, HasStrataAndCorrelation) {
 
 TEST_F(CorrelatedHypercube, IsOneOverThreadsBlocksShardsAndResumedRuns) {
     std::string const hash = undisturbed_hash();
-    for (auto const& options : {std::vector<std::string>{"--threads", "1", "--block-members", "7"}, {"--threads", "2", "--block-members", "8"}}) {
+    for (auto const& options : {std::vector<std::string>{"--threads", "1", "--block-members", "7"},
+                                {"--threads", "2", "--block-members", "8"}}) {
         expect_done(options);
         EXPECT_EQ(hash_of("o.nc"), hash);
         std::filesystem::remove(path("o.nc"));

@@ -56,7 +56,8 @@ double score_correlation(std::vector<double> const& a, std::vector<double> const
 TEST(CorrelatedLatin, HypercubesHaveOneMemberPerStratumOfEveryKey) {
     for (std::uint64_t const members : {1u, 2u, 3u, 4u, 5u, 64u, 1000u, 10007u}) {
         for (std::uint64_t const seed : {1u, 2u, 3u}) {
-            for (auto const& column : columns_of(correlated({3, 0, 1}, three), variations_of(4, unit_uniform()), members, seed)) {
+            for (auto const& column :
+                 columns_of(correlated({3, 0, 1}, three), variations_of(4, unit_uniform()), members, seed)) {
                 auto strata = strata_of(column);
                 std::sort(strata.begin(), strata.end());
                 std::vector<double> each(members);
@@ -79,9 +80,10 @@ TEST(CorrelatedLatin, HypercubesHaveTheMatrixToWithinAFewPartsOfTheirMembers) {
                 for (std::size_t j = 0; j < i; ++j) {
                     double const r = three[i * 3 + j];
                     double const miss = score_correlation(x[order[i]], x[order[j]]) - r;
-                    double const rank_miss =
-                        correlation_of(strata_of(x[order[i]]), strata_of(x[order[j]])) - 6 / std::numbers::pi * std::asin(r / 2);
-                    EXPECT_LT(std::abs(miss), 10.0 / static_cast<double>(members)) << members << ' ' << seed << ' ' << r;
+                    double const rank_miss = correlation_of(strata_of(x[order[i]]), strata_of(x[order[j]])) -
+                                             6 / std::numbers::pi * std::asin(r / 2);
+                    EXPECT_LT(std::abs(miss), 10.0 / static_cast<double>(members))
+                        << members << ' ' << seed << ' ' << r;
                     squares += miss * miss / 60;
                     rank_squares += rank_miss * rank_miss / 60;
                 }
@@ -137,7 +139,8 @@ TEST(CorrelatedLatin, MeansOfSumsAreFarBetterThanThoseOfDraws) {
     // Where only the first kept its strata, x₁ would err like √(1 − r²) of independent draws: 0.07 of 100.
     double squares = 0;
     for (std::uint64_t seed = 1; seed <= 50; ++seed) {
-        auto const x = columns_of(correlated({0, 1}, {1, 0.7, 0.7, 1}), variations_of(2, {Kind::normal, 0, 1}), 100, seed);
+        auto const x =
+            columns_of(correlated({0, 1}, {1, 0.7, 0.7, 1}), variations_of(2, {Kind::normal, 0, 1}), 100, seed);
         double const mean = testing::mean_of(x[1]);
         squares += mean * mean / 50;
     }
@@ -145,7 +148,9 @@ TEST(CorrelatedLatin, MeansOfSumsAreFarBetterThanThoseOfDraws) {
 }
 
 TEST(CorrelatedLatin, MoreMembersThanAnOrderHasPlacesForAreRefused) {
-    EXPECT_THROW(Sampler(correlated({0, 1}, {1, 0.5, 0.5, 1}), variations_of(2, unit_uniform()), 1, std::uint64_t{1} << 32), SceneError);
+    EXPECT_THROW(
+        Sampler(correlated({0, 1}, {1, 0.5, 0.5, 1}), variations_of(2, unit_uniform()), 1, std::uint64_t{1} << 32),
+        SceneError);
 }
 
 }  // namespace

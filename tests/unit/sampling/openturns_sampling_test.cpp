@@ -126,9 +126,11 @@ TEST(OpenTurns, CorrelatedLatinHypercubesFollowTheSameCopula) {
         for (double const b : {0.2, 0.7}) {
             for (double const c : {0.3, 0.8}) {
                 double below = 0;
-                for (std::size_t m = 0; m < members; ++m) below += u[0][m] < a && u[1][m] < b && u[2][m] < c ? 1.0 / members : 0.0;
+                for (std::size_t m = 0; m < members; ++m)
+                    below += u[0][m] < a && u[1][m] < b && u[2][m] < c ? 1.0 / members : 0.0;
                 double const expected = copula.computeCDF(OT::Point({a, b, c}));
-                EXPECT_NEAR(below, expected, 4 * std::sqrt(expected * (1 - expected) / members) + 1e-4) << a << ' ' << b << ' ' << c;
+                EXPECT_NEAR(below, expected, 4 * std::sqrt(expected * (1 - expected) / members) + 1e-4)
+                    << a << ' ' << b << ' ' << c;
             }
         }
     }

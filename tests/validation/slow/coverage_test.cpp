@@ -365,8 +365,9 @@ TEST(DesignCoverage, OfARoughFunctionOfACorrelatedLatinHypercubeIsNominal) {
                                 [&](std::uint64_t seed) { return holds(mean_interval(summarise(values(seed))), 0); }));
         for (double const p : {0.5, 0.9}) {
             double const truth = std::sin(std::numbers::pi * (p - 0.5));
-            expect_nominal(coverage(fmt::format("{} quantile of rough of correlated ({}) lhs, 100 members", p, rho),
-                                    [&](std::uint64_t seed) { return holds(quantile_interval(values(seed), p), truth); }));
+            expect_nominal(
+                coverage(fmt::format("{} quantile of rough of correlated ({}) lhs, 100 members", p, rho),
+                         [&](std::uint64_t seed) { return holds(quantile_interval(values(seed), p), truth); }));
         }
     }
 }
