@@ -183,11 +183,16 @@ int check(CheckArguments const& arguments) {
     print_field("members", fmt::format("{}, each over {:.6g} s", member_count(scene), schedule.end));
     print_design(scene);
     print_orbits(scene, schedule);
-    print_field("memory",
-                fmt::format("{} for blocks in work, {} for shards on their way, {} for the statistics at the end{}",
-                            bytes_text(static_cast<double>(prediction.buffer_bytes)),
-                            bytes_text(static_cast<double>(prediction.image_bytes)),
-                            bytes_text(static_cast<double>(prediction.summary_bytes)), card_memory_text(prediction)));
+    print_field(
+        "memory",
+        fmt::format("{} for blocks in work, {} for shards on their way, {} for the statistics at the end{}{}",
+                    bytes_text(static_cast<double>(prediction.buffer_bytes)),
+                    bytes_text(static_cast<double>(prediction.image_bytes)),
+                    bytes_text(static_cast<double>(prediction.summary_bytes)),
+                    prediction.design_bytes > 0 ? fmt::format(", {} for the order of the members",
+                                                              bytes_text(static_cast<double>(prediction.design_bytes)))
+                                                : "",
+                    card_memory_text(prediction)));
     print_field("disk",
                 fmt::format("{} for the result, {} for its shards until it is whole",
                             bytes_text(static_cast<double>(prediction.output_bytes)), shards_text(scene, prediction)));

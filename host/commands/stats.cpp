@@ -81,8 +81,10 @@ void add_growth(Rows& row, SeriesAnalysis const& a, SeriesOptions const& given) 
     Growth const& g = *a.growth;
     row("exponent", fmt::format("{:.4g} ± {:.2g} 1/s, {:.3g} ± {:.2g} per average period", g.exponent, g.half_width(),
                                 g.exponent * a.average_period, g.half_width() * a.average_period));
-    row("", fmt::format("95 % interval: ± {:.2g} of chance, ± {:.2g} of window, dimension{}", g.chance(), g.systematic,
-                        a.from_map ? "" : " and bend"));
+    row("",
+        fmt::format(
+            "95 % interval: ± {:.2g} (statistical), ± {:.2g} (systematic: choice of the fitted window and dimension{})",
+            g.chance(), g.systematic, a.from_map ? "" : ", curvature"));
     row("fit window", fmt::format("samples {} to {}{}, R² = {:.4f}, distances grow by e^{:.2f}, {} pairs",
                                   g.window.first, g.window.last, given.fit ? ", as given" : "", g.line.r_squared,
                                   g.rise, a.divergence.pairs[g.window.first]));

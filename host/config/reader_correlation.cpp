@@ -113,10 +113,11 @@ void read_correlation(Node const& root, Scene& scene) {
     if (matrix_defect(correlation.matrix, n)) {
         refuse(*matrix, {"not positive definite: no values are correlated so", "use entries nearer to 0"});
     }
-    if (kind == DesignKind::lhs || kind == DesignKind::sobol) {
-        scene.warnings.push_back(fmt::format(
-            "study.correlation mixes points of design \"{}\": of the correlated keys only {} keeps its even spread",
-            name_of(kind), scene.variations[correlation.variations.front()].key->name));
+    if (kind == DesignKind::sobol) {
+        scene.warnings.push_back(
+            fmt::format("study.correlation mixes points of design \"{}\": of the correlated keys only {} keeps its "
+                        "even spread; \"lhs\" keeps all",
+                        name_of(kind), scene.variations[correlation.variations.front()].key->name));
     }
 }
 

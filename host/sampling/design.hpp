@@ -37,7 +37,8 @@ struct MemberTable {
 };
 
 /// Correlated variations: a normal copula.  x_i = Q_i(Φ(z_i)), z normal with this correlation matrix; for normal
-/// marginals the matrix is that of the values themselves.
+/// marginals the matrix is that of the values themselves.  Of a Latin hypercube the strata of each variation stay and
+/// change their order (`correlate_orders`).
 struct Correlation {
     std::vector<std::size_t> variations;  // indices into those of the scene
     std::vector<double> matrix;           // [n][n], symmetric, positive definite, ones on the diagonal
@@ -62,6 +63,12 @@ struct Design {
     std::shared_ptr<MemberTable const> table;
 };
 
+/// Memory that a sampler needs for so many members, while its first draw orders them: of a correlated Latin hypercube, else 0.
+inline std::uint64_t design_bytes(Design const& design, std::uint64_t members) {
+    std::size_t const keys = design.kind == DesignKind::lhs ? design.correlation.variations.size() : 0;
+    return keys == 0 ? 0 : members * (20 + 4 * keys);
+}
+
 /// One limit of [study.limits]: met where low <= value <= high.
 struct Limit {
     std::string quantity;  // name of the variable in the result file: "peak_normal_force", "mode_time"
@@ -72,7 +79,7 @@ struct Limit {
 };
 
 /// Draws members of a design.  A member's values depend on the design, the seed and its number only: any member can be
-/// drawn alone, on any thread or machine.
+/// drawn alone, on any thread or machine.  (Of a correlated Latin hypercube the first draw orders all.)
 class Sampler {
 public:
     /// @param members of the whole design (lhs stratifies over them).

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <limits>
+#include <mutex>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -26,8 +28,13 @@ struct Sampler::Plan {
     std::vector<std::size_t> correlated;  // indices of variations
     std::vector<char> is_correlated;      // [variations]
     std::vector<double> factor;           // [correlated][correlated], lower triangular
+    // lhs, of correlated variations: the strata of all members, made by the first draw.
+    mutable std::once_flag ordered;
+    mutable std::vector<std::vector<std::uint32_t>> strata;  // [variations][members]
 
     void check_member(std::uint64_t member) const;
+    void order_strata() const;
+    std::uint64_t stratum(std::size_t variation, std::uint64_t member) const;
     double fraction(std::size_t variation, std::uint64_t member) const;
     double value(std::size_t variation, std::uint64_t member) const;
     void correlate(std::uint64_t member, std::span<double> values) const;
@@ -98,7 +105,11 @@ void check_table(Design const& design, std::span<Variation const> variations, st
     }
 }
 
-void check_correlation(Design const& design, std::span<Variation const> variations) {
+void check_correlation(Design const& design, std::span<Variation const> variations, std::uint64_t members) {
+    if (design.kind == DesignKind::lhs && members > std::numeric_limits<std::uint32_t>::max()) {
+        refuse_members(members, "of a correlated Latin hypercube all are ordered at once",
+                       "use fewer than 2^32, or \"mc\"");
+    }
     if (design.kind == DesignKind::saltelli || design.kind == DesignKind::grid) {
         refuse_design(design.kind, "its members do not follow study.correlation",
                       "remove the correlation, or use \"mc\", \"lhs\" or \"sobol\"");
@@ -161,7 +172,7 @@ Sampler::Sampler(Design const& design, std::span<Variation const> variations, st
     }
     plan->is_correlated.resize(n);
     if (!design.correlation.variations.empty()) {
-        check_correlation(design, variations);
+        check_correlation(design, variations, members);
         plan->correlated = design.correlation.variations;
         for (std::size_t const index : plan->correlated) plan->is_correlated[index] = 1;
         plan->factor = cholesky_factor(design.correlation.matrix, plan->correlated.size());
@@ -174,13 +185,29 @@ void Sampler::Plan::check_member(std::uint64_t member) const {
     if (!endless && member >= members) throw std::out_of_range("Sampler: the design has no such member");
 }
 
+void Sampler::Plan::order_strata() const {
+    std::vector<std::vector<std::uint32_t>> made;
+    for (std::size_t const index : correlated) {
+        auto& column = made.emplace_back(members);
+        for (std::uint64_t m = 0; m < members; ++m) column[m] = static_cast<std::uint32_t>(orders[index](m));
+    }
+    correlate_orders(made, factor);
+    strata.resize(variations.size());
+    for (std::size_t i = 0; i < made.size(); ++i) strata[correlated[i]] = std::move(made[i]);
+}
+
+/// Of a Latin hypercube.
+std::uint64_t Sampler::Plan::stratum(std::size_t variation, std::uint64_t member) const {
+    return is_correlated[variation] != 0 ? strata[variation][member] : orders[variation](member);
+}
+
 /// u of a variation, in (0, 1).
 double Sampler::Plan::fraction(std::size_t variation, std::uint64_t member) const {
     switch (kind) {
         case DesignKind::lhs: {
             // Rounding must not take the last stratum to 1, where quantiles may be infinite.
             double const place =
-                static_cast<double>(orders[variation](member)) + keys[variation].uniform(Stream::jitter, member);
+                static_cast<double>(stratum(variation, member)) + keys[variation].uniform(Stream::jitter, member);
             return std::clamp(place / static_cast<double>(members), 0x1p-53, 1 - 0x1p-53);
         }
         case DesignKind::sobol:
@@ -225,9 +252,14 @@ void Sampler::Plan::correlate(std::uint64_t member, std::span<double> values) co
 void Sampler::draw(std::uint64_t member, std::span<double> values) const {
     if (values.size() != plan_->variations.size()) throw std::invalid_argument("Sampler: one value per variation");
     plan_->check_member(member);
-    plan_->correlate(member, values);
+    bool const stratified = plan_->kind == DesignKind::lhs;
+    if (!stratified) {
+        plan_->correlate(member, values);
+    } else if (!plan_->correlated.empty()) {
+        std::call_once(plan_->ordered, [this] { plan_->order_strata(); });
+    }
     for (std::size_t i = 0; i < values.size(); ++i) {
-        if (plan_->is_correlated[i] == 0) values[i] = plan_->value(i, member);
+        if (stratified || plan_->is_correlated[i] == 0) values[i] = plan_->value(i, member);
     }
 }
 

@@ -175,6 +175,7 @@ Prediction predict(Scene const& scene, Backend const& backend, int threads, std:
                       ? payload_bytes(of_block) + header_bytes(of_block, provenance(scene, backend, threads))
                       : statistics_image_bytes(scene, largest));
     prediction.summary_bytes = summary_bytes(scene);
+    prediction.design_bytes = design_bytes(scene.design, scene.members);
     prediction.output_bytes = result_bytes(scene, all, backend, threads);
     prediction.shard_bytes = shard_bytes(scene, all, backend, threads, block_members);
     auto const [least, most] = steps_of_member(scene);

@@ -16,6 +16,7 @@ struct Prediction {
     std::uint64_t buffer_bytes;   // of all threads' blocks; the program itself needs some tens of MB more
     std::uint64_t image_bytes;    // of blocks on their way to the disk
     std::uint64_t summary_bytes;  // of the statistics over all members at the end
+    std::uint64_t design_bytes;   // of the order of all members, while it is made: of a correlated Latin hypercube
     std::uint64_t card_bytes;     // that are to be free on a card: blocks and their threads' stacks; 0 without one
     std::uint64_t output_bytes;
     std::uint64_t shard_bytes;       // beside the output, until it is whole; a bound
@@ -24,7 +25,7 @@ struct Prediction {
     double least_steps, most_steps;  // of all members; the same where steps are fixed
     double least_seconds, most_seconds;
 
-    std::uint64_t memory() const { return buffer_bytes + image_bytes + summary_bytes; }
+    std::uint64_t memory() const { return buffer_bytes + image_bytes + summary_bytes + design_bytes; }
 };
 
 /// What a scene that keeps statistics needs on the disk: of the result, and at most of its shards.  A column's sketch

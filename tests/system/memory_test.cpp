@@ -67,5 +67,20 @@ TEST_F(Needs, OfTheDiskHoldWhatSmallBlocksTake) {
     EXPECT_LT(told.output_bytes, 2 * result);
 }
 
+TEST_F(Needs, OfACorrelatedHypercubeHoldItsOrder) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "sanitizers need more memory than the program";
+#endif
+    constexpr char const* correlation =
+        "[study.correlation]\nkeys = [\"joint.clearance\", \"contact.eta\"]\nmatrix = [[1, 0.5], [0.5, 1]]\n";
+    std::string const alone = scene("design = \"lhs\"\nmembers = 400000"), together = alone + correlation;
+    auto const told = [](std::string const& text) {
+        return predict(scene_of(text), *cpu_backend(Isa::scalar), 2).memory();
+    };
+    // Scores, a sum of them, its order; strata of two keys.  The scene is longer, too.
+    EXPECT_NEAR(static_cast<double>(told(together) - told(alone)), 400000.0 * (8 + 8 + 4 + 2 * 4), 1000);
+    EXPECT_LT(peak_of(together) - peak_of(scene("design = \"mc\"\nmembers = 10")), static_cast<double>(told(together)));
+}
+
 }  // namespace
 }  // namespace slideway::testing

@@ -55,6 +55,7 @@ TEST_F(Stats, OfATableWithTimes) {
     EXPECT_EQ(field(outcome.out, "points"), "3000, every 0.02 s");
     EXPECT_NEAR(std::stod(field(outcome.out, "exponent")), 0.9056, 0.25) << outcome.out;
     EXPECT_NE(field(outcome.out, "exponent").find(" ± "), std::string::npos);
+    EXPECT_NE(outcome.out.find(" (statistical), ± "), std::string::npos) << outcome.out;
     // 3,000 samples, thinned to four a period, are fewer than the 300 of the 0–1 test.
     EXPECT_TRUE(field(outcome.out, "0-1 test").starts_with("none from")) << outcome.out;
     EXPECT_TRUE(field(outcome.out, "verdict").starts_with("neighbours part exponentially")) << outcome.out;

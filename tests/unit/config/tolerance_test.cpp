@@ -110,11 +110,10 @@ TEST(SceneCorrelation, OfAnEvenDesignIsWarnedOf) {
         three_keys +
         "[study.correlation]\nkeys = [\"joint.clearance\", \"initial.y\"]\nmatrix = [[1, 0.5], [0.5, 1]]\n";
     EXPECT_TRUE(study("members = 7", correlated).warnings.empty());
-    for (char const* const design : {"lhs", "sobol"}) {
-        auto const warnings = study(fmt::format("members = 7\ndesign = \"{}\"", design), correlated).warnings;
-        ASSERT_EQ(warnings.size(), 1u);
-        EXPECT_NE(warnings[0].find("only joint.clearance keeps its even spread"), std::string::npos) << warnings[0];
-    }
+    EXPECT_TRUE(study("members = 7\ndesign = \"lhs\"", correlated).warnings.empty());
+    auto const warnings = study("members = 7\ndesign = \"sobol\"", correlated).warnings;
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("only joint.clearance keeps its even spread"), std::string::npos) << warnings[0];
 }
 
 TEST(SceneDesigns, AGridHasTheProductOfItsLevels) {

@@ -110,5 +110,36 @@ TEST(OpenTurns, CorrelatedDrawsAgree) {
     }
 }
 
+TEST(OpenTurns, CorrelatedLatinHypercubesFollowTheSameCopula) {
+    // Shares of members below a point in three keys at once, and Spearman's ρ, which OpenTURNS knows of the copula.
+    constexpr std::uint64_t members = 20000;
+    std::vector<double> const matrix = {1, 0.8, -0.5, 0.8, 1, -0.2, -0.5, -0.2, 1};
+    OT::CorrelationMatrix correlation(3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < i; ++j) correlation(i, j) = matrix[i * 3 + j];
+    }
+    OT::NormalCopula const copula(correlation);
+    Design design = testing::design_of(DesignKind::lhs);
+    design.correlation = {{0, 1, 2}, matrix};
+    auto const u = testing::columns_of(design, testing::variations_of(3, testing::unit_uniform()), members);
+    for (double const a : {0.1, 0.5, 0.9}) {
+        for (double const b : {0.2, 0.7}) {
+            for (double const c : {0.3, 0.8}) {
+                double below = 0;
+                for (std::size_t m = 0; m < members; ++m)
+                    below += u[0][m] < a && u[1][m] < b && u[2][m] < c ? 1.0 / members : 0.0;
+                double const expected = copula.computeCDF(OT::Point({a, b, c}));
+                EXPECT_NEAR(below, expected, 4 * std::sqrt(expected * (1 - expected) / members) + 1e-4)
+                    << a << ' ' << b << ' ' << c;
+            }
+        }
+    }
+    auto const spearman = copula.getSpearmanCorrelation();
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < i; ++j)
+            EXPECT_NEAR(testing::correlation_of(u[i], u[j]), spearman(i, j), 4 * 0.4 / std::sqrt(members));
+    }
+}
+
 }  // namespace
 }  // namespace slideway

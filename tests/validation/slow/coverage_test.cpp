@@ -347,5 +347,30 @@ TEST(DesignCoverage, OfACorrelatedLatinHypercubeIsAtLeastNominal) {
     }
 }
 
+TEST(DesignCoverage, OfARoughFunctionOfACorrelatedLatinHypercubeIsNominal) {
+    // Strata of a hundredth and correlations tell nothing of a sine of a thousand periods: intervals of independent draws are right.
+    // Uniform in phase, its mean is 0 and its p quantile sin(π(p − ½)).  These quantiles have intervals of whole ranks near 95 %.
+    auto const rough = [](double x, double y) { return std::sin(2 * std::numbers::pi * (977 * x + 1409 * y)); };
+    for (double const rho : {0.7, -0.7}) {
+        auto const values = [&](std::uint64_t seed) {
+            Planned plan = planned(DesignKind::lhs, 2, 100);
+            plan.design.correlation = {{0, 1}, {1, rho, rho, 1}};
+            auto const u = columns_of(plan.design, variations_of(2, unit_uniform()), plan.members, seed);
+            std::vector<double> found;
+            for (std::size_t i = 0; i < plan.members; ++i) found.push_back(rough(u[0][i], u[1][i]));
+            std::sort(found.begin(), found.end());
+            return found;
+        };
+        expect_nominal(coverage(fmt::format("mean of rough of correlated ({}) lhs, 100 members", rho),
+                                [&](std::uint64_t seed) { return holds(mean_interval(summarise(values(seed))), 0); }));
+        for (double const p : {0.5, 0.9}) {
+            double const truth = std::sin(std::numbers::pi * (p - 0.5));
+            expect_nominal(
+                coverage(fmt::format("{} quantile of rough of correlated ({}) lhs, 100 members", p, rho),
+                         [&](std::uint64_t seed) { return holds(quantile_interval(values(seed), p), truth); }));
+        }
+    }
+}
+
 }  // namespace
 }  // namespace slideway::testing

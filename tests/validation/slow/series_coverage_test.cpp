@@ -86,7 +86,7 @@ void expect_held(std::size_t points) {
         }
         auto const n = static_cast<double>(found);
         fmt::print(
-            "{:<26} {:>6} samples: {} of {} held, mean {:.4f} for {:.4f}, ± {:.4f} of chance ± {:.4f} systematic\n",
+            "{:<26} {:>6} samples: {} of {} held, mean {:.4f} for {:.4f}, ± {:.4f} statistical ± {:.4f} systematic\n",
             system.name, points, held, found, mean / n, system.exponent, chance / n, systematic / n);
         EXPECT_GE(found, 15u) << system.name;
         EXPECT_GE(20 * held, 19 * found) << system.name;
