@@ -26,6 +26,7 @@ Method other_method(Method method, MechanismInfo const& mechanism) {
         case Method::automatic:
         case Method::dop853:
         case Method::bs32:
+        case Method::verner65:
             return Method::dopri5;
         case Method::dopri5:
             return mechanism.spatial ? Method::automatic : Method::bs32;
@@ -36,9 +37,10 @@ Method other_method(Method method, MechanismInfo const& mechanism) {
 
 /// Right-hand sides of a member beside those at the study's own settings, as found for settled and rattling sliders (docs/integrators.md).
 double cost_of(Method study, Method check) {
-    bool const high_order = study == Method::dopri5 || study == Method::dop853;
+    bool const high_order = study == Method::dopri5 || study == Method::dop853 || study == Method::verner65;
     if (study == check) return high_order ? 2.5 : 4;
     if (study == Method::dop853) return 1;
+    if (study == Method::verner65) return 3;
     if (study == Method::dopri5) return 0.2;  // in lasting contact, where it is needed most
     return check == Method::dopri5 ? 10 : 4;
 }

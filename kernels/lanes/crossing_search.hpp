@@ -12,11 +12,11 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// there, so that a section has the accuracy of the steps themselves, and the orbit does not know of it.
 template <class Stepper, class Model, class Real> class CrossingSearch {
 public:
-    /// @param accepted lanes with an accepted step.
-    SLIDEWAY_HD static void run(Pack<Model, Real>& pack, Results<Model>& results, Attempt<Model, Real> const& whole,
-                                Mask<Real> accepted) {
+    /// @param stepper that made the step  @param accepted lanes with an accepted step.
+    SLIDEWAY_HD static void run(Pack<Model, Real>& pack, Results<Model>& results, Stepper const& stepper,
+                                Attempt<Model, Real> const& whole, Mask<Real> accepted) {
         auto const& c = pack.state.course;
-        Surface const surface{pack, results.crossings(), whole.step};
+        Surface const surface{pack, stepper, results.crossings(), whole.step};
         auto const recorded = accepted & (c.t + whole.step > pack.state.constants.first_stop);
         if (none(recorded)) return;
         Span span;
@@ -24,10 +24,10 @@ public:
         span.v1 = surface.value(c.t + whole.step, whole.end);
         // Derivatives at the ends of a stiff step belong to fast motions that the method damps.
         Real const chord = span.v1 - span.v0;
-        span.s0 = Stepper::stiff ? chord : whole.step * surface.slope(c.t, c.y, c.rates, span.v0);
+        span.s0 = Stepper::stiff ? chord : surface.time_at_start() * surface.slope(c.t, c.y, c.rates, span.v0);
         span.s1 = Stepper::stiff
                       ? chord
-                      : whole.step * surface.slope(c.t + whole.step, whole.end, whole.end_rates, span.v1);
+                      : surface.time_at_end(stepper) * surface.slope(c.t + whole.step, whole.end, whole.end_rates, span.v1);
         auto const candidates = recorded & may_cross(span.v0, span.s0, span.v1, span.s1);
         if (any(candidates)) record(pack, results, candidates, surface, span);
     }
@@ -36,10 +36,24 @@ private:
     static constexpr int size = Model::size;
     static constexpr int corrections = 5;  // of Newton's method
 
+    static constexpr bool by_clock = requires(Stepper const& stepper) { stepper.step(); };
+
     struct Surface {
         Pack<Model, Real> const& pack;
+        Stepper const& stepper;  // that made the step
         CrossingPlan const& plan;
         Real const& whole;  // the step that is searched
+
+        /// What the time would change by over the whole step, as it passes at the step's start and at the end of a part of it: of a step
+        /// by a clock these differ.
+        SLIDEWAY_HD Real time_at_start() const {
+            if constexpr (by_clock) return stepper.step().own * stepper.step().start.pace();
+            else return whole;
+        }
+        SLIDEWAY_HD Real time_at_end(Stepper const& part) const {
+            if constexpr (by_clock) return stepper.step().own * part.step().end.pace();
+            else return whole;
+        }
 
         SLIDEWAY_HD Real value(Real t, Real const* state) const {
             if (plan.on == CrossingPlan::On::state) return state[plan.index] - Real(plan.level);
@@ -99,8 +113,9 @@ private:
         Real low = select(bracketed, Real(0.0), zero.low), high = select(bracketed, Real(1.0), zero.high);
         Real of_low = span.v0, of_high = span.v1;
         auto wanted = at;
+        Stepper part;
         for (int i = 0; i < 60 && any(wanted); ++i) {
-            Real const here = value_after(pack, surface, attempt, theta, wanted);
+            Real const here = value_after(pack, surface, part, attempt, theta, wanted);
             auto const below = here < Real(0.0), low_below = of_low < Real(0.0);
             auto const as_low = (below & low_below) | ((!below) & (!low_below));
             auto const is_low = wanted & bracketed & as_low, is_high = wanted & bracketed & !as_low;
@@ -112,7 +127,7 @@ private:
             if (!Stepper::stiff && i < corrections) {
                 Real const t = pack.state.course.t + attempt.step;
                 Real const slope =
-                    surface.whole * surface.slope(t, attempt.end, attempt.end_rates, here, attempt.step);
+                    surface.time_at_end(part) * surface.slope(t, attempt.end, attempt.end_rates, here, attempt.step);
                 Real const moved = theta - here / slope;
                 // A grazing zero has no slope to go by, and a NaN goes nowhere.
                 auto const inside = (moved > low) & (moved < high);
@@ -123,17 +138,20 @@ private:
             wanted = wanted & (next > low) & (next < high) & !(next == theta) & !(here == Real(0.0));
             theta = select(wanted, next, theta);
         }
-        value_after(pack, surface, attempt, theta, at);
+        value_after(pack, surface, part, attempt, theta, at);
     }
 
     /// The surface's value after a step of a fraction of the whole one.
     /// @param at lanes that need it: what it costs must not depend on what others need.
-    SLIDEWAY_NOINLINE static Real value_after(Pack<Model, Real>& pack, Surface const& surface,
+    SLIDEWAY_NOINLINE static Real value_after(Pack<Model, Real>& pack, Surface const& surface, Stepper& stepper,
                                               Attempt<Model, Real>& attempt, Real theta, Mask<Real> at) {
         attempt.step = select(at, surface.whole * theta, Real(0.0));
+        if constexpr (by_clock) {
+            auto const& step = surface.stepper.step();
+            stepper.go_by(step.start, select(at, step.own * theta, Real(0.0)));
+        }
         auto from = pack.start();
         from.needs = {};
-        Stepper stepper;
         stepper.attempt(pack, from, attempt);
         pack.template count_attempt<Stepper>(at);
         return surface.value(pack.state.course.t + attempt.step, attempt.end);

@@ -12,11 +12,6 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// Of a stage in an integral over a step, and in the estimates of its error.
 struct StageWeights { double value, error, coarse_error = 0; };
 
-/// The pace dt/ds of a stage whose step goes by time.
-struct ByTime {
-    template <class Real> friend SLIDEWAY_FN Real operator*(Real const& value, ByTime) { return value; }
-};
-
 /// The lanes at work: their members' states, and the step that they attempt.
 template <class Model, class Real> struct Pack {
     static constexpr int size = Model::size;

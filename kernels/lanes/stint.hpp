@@ -282,7 +282,7 @@ private:
         }
         if constexpr (Model::has_crossings && !Model::has_shadows) {
             if (results_.crossings().room > 0) {
-                CrossingSearch<Stepper, Model, Real>::run(pack_, results_, attempt_, accepted);
+                CrossingSearch<Stepper, Model, Real>::run(pack_, results_, stepper_, attempt_, accepted);
             }
         }
         if (results_.samples() > 0) results_.take_samples(pack_, stepper_, attempt_, accepted, t_end);

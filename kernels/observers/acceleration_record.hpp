@@ -5,6 +5,11 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
+/// The pace dt/ds of a stage whose step goes by time.
+struct ByTime {
+    template <class Real> friend SLIDEWAY_FN Real operator*(Real const& value, ByTime) { return value; }
+};
+
 /// A model whose accelerations nobody may ask for.
 struct NoAccelerations {};
 
@@ -33,10 +38,11 @@ public:
     }
 
     /// Begins a step with the stage at its start.  @param pace dt/ds of a step by a clock
-    template <class Pace> SLIDEWAY_FN void begin_step(double weight, Pace const& pace) {
+    template <class Pace = ByTime> SLIDEWAY_FN void begin_step(double weight, Pace const& pace = {}) {
         for (int i = 0; i < count; ++i) mean_[i] = Real(weight) * (at_start_[i] * pace);
     }
-    template <class Report, class Pace> SLIDEWAY_FN void add_stage(double weight, Report const& r, Pace const& pace) {
+    template <class Report, class Pace = ByTime>
+    SLIDEWAY_FN void add_stage(double weight, Report const& r, Pace const& pace = {}) {
         Real values[count];
         integrands(r, values);
         for (int i = 0; i < count; ++i) mean_[i] = fma(Real(weight), values[i] * pace, mean_[i]);

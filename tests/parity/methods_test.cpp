@@ -14,7 +14,8 @@
 namespace slideway {
 namespace {
 
-constexpr Method methods[] = {Method::automatic, Method::dopri5, Method::dop853, Method::bs32, Method::ros34pw2, Method::rk4};
+constexpr Method methods[] = {Method::automatic, Method::dopri5, Method::dop853, Method::bs32, Method::ros34pw2, Method::rk4,
+                              Method::verner65};
 constexpr double tolerance = 1e-4, end_time = 0.01;
 std::vector<double> const sample_times = {0, 1e-3, 2.5e-3, 7e-3, 1e-2};
 

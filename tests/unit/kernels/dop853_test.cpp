@@ -3,9 +3,9 @@
 
 #include <array>
 #include <cmath>
-#include <utility>
 
 #include "kernels/steppers/dop853.hpp"
+#include "tests/unit/kernels/logistic.hpp"
 
 namespace slideway {
 namespace {
@@ -37,66 +37,29 @@ TEST(Dop853, QuadraturesHaveTheirOrders) {
     EXPECT_GT(std::abs(dot_b(w.coarse, 3)), 1e-6);
 }
 
-/// y' = y (1 − y): nonlinear, with a known solution.
-struct Logistic {
-    static constexpr double start = 0.2;
-    static double exact(double t) { return 1 / (1 + (1 / start - 1) * std::exp(-t)); }
-    double y[1] = {start}, end[1], k[16][1];
-
-    static void rates(double const* s, double* d) { d[0] = s[0] * (1 - s[0]); }
-
-    void step(double h) {
-        rates(y, k[0]);
-        stages(h, std::make_integer_sequence<int, 15>{});
-    }
-    void advance() { y[0] = end[0]; }
-
-private:
-    template <int... s> void stages(double h, std::integer_sequence<int, s...>) { (stage<s + 1>(h), ...); }
-    template <int s> void stage(double h) {
-        double at[1];
-        Dop853::stage_state<s>(y, k, h, at);
-        if (s == 12) end[0] = at[0];
-        rates(at, k[s]);
-    }
-};
-
-double observed_order(auto const& error, double h) { return std::log2(error(h) / error(h / 2)); }
-
-TEST(Dop853, HasOrderEight) {
-    auto const error = [](double h) {
-        Logistic o;
-        for (int i = 0; i < static_cast<int>(std::lround(4 / h)); ++i) o.step(h), o.advance();
-        return std::abs(o.y[0] - Logistic::exact(4));
-    };
-    EXPECT_NEAR(observed_order(error, 0.5), 8, 0.5);
-}
+TEST(Dop853, HasOrderEight) { EXPECT_NEAR(testing::observed_order(testing::logistic_error<Dop853>, 0.5), 8, 0.5); }
 
 TEST(Dop853, EstimatesFallWithOrdersSixAndFour) {
     auto const estimate = [](bool coarse) {
         return [coarse](double h) {
-            Logistic o;
+            testing::Logistic<Dop853> o;
             o.step(h);
             return std::abs(h * (coarse ? Dop853::coarse_error_slope(o.k, 0) : Dop853::error_slope(o.k, 0)));
         };
     };
-    EXPECT_NEAR(observed_order(estimate(false), 0.1), 6, 0.3);
-    EXPECT_NEAR(observed_order(estimate(true), 0.1), 4, 0.3);
+    EXPECT_NEAR(testing::observed_order(estimate(false), 0.1), 6, 0.3);
+    EXPECT_NEAR(testing::observed_order(estimate(true), 0.1), 4, 0.3);
 }
 
 TEST(Dop853, DenseOutputHasOrderSevenInsideTheStep) {
     for (double const theta : {0.1, 0.37, 0.5, 0.8}) {
-        auto const local = [theta](double h) {
-            Logistic o;
-            o.step(h);
-            return std::abs(Dop853::dense(o.k, 0, o.y[0], o.end[0], h, theta) - Logistic::exact(theta * h));
-        };
-        EXPECT_GT(observed_order(local, 1.0), 7.5) << "local error of order h^8 at " << theta;
+        auto const local = [theta](double h) { return testing::dense_error<Dop853>(h, theta); };
+        EXPECT_GT(testing::observed_order(local, 1.0), 7.5) << "local error of order h^8 at " << theta;
     }
 }
 
 TEST(Dop853, DenseOutputMeetsBothEnds) {
-    Logistic o;
+    testing::Logistic<Dop853> o;
     o.step(0.3);
     EXPECT_EQ(Dop853::dense(o.k, 0, o.y[0], o.end[0], 0.3, 0.0), o.y[0]);
     EXPECT_NEAR(Dop853::dense(o.k, 0, o.y[0], o.end[0], 0.3, 1.0), o.end[0], 1e-16);

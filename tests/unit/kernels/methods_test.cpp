@@ -18,7 +18,8 @@ TEST(Methods, AreNamedInTheirOrder) {
     EXPECT_STREQ(name_of(Method::bs32), "bs32");
     EXPECT_STREQ(name_of(Method::ros34pw2), "ros34pw2");
     EXPECT_STREQ(name_of(Method::rk4), "rk4");
-    EXPECT_EQ(method_count, 6);
+    EXPECT_STREQ(name_of(Method::verner65), "verner65");
+    EXPECT_EQ(method_count, 7);
     for (auto const& info : method_table) EXPECT_GT(std::string_view(info.description).size(), 20u) << info.name;
     EXPECT_EQ(IntegratorSettings{}.method, Method::automatic);
 }

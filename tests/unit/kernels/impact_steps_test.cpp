@@ -1,0 +1,136 @@
+// Steps by the clocks of impacts: the same motion as by steps of time, for less, whatever law, damping and friction there are.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "kernels/steppers/contact_clock.hpp"
+#include "tests/support/ensemble.hpp"
+
+namespace slideway::impact_steps_test {
+namespace {
+
+constexpr double clearance = 5e-4, crank_speed = 47;
+
+testing::RunOptions options_of(Parts const& parts, Method method, double tolerance, double end) {
+    testing::RunOptions o;
+    o.parts = parts;
+    o.settings.method = method;
+    o.settings.rtol = o.settings.atol = tolerance;
+    o.settings.end_time = end;
+    return o;
+}
+
+std::vector<Inputs> starts(Parts const& parts, std::size_t count) {
+    auto members = testing::scattered_starts(count, clearance, crank_speed, parts.law);
+    for (auto& in : members) {
+        in = testing::with_own(in, parts.law, 50);
+        in.chi_line = in.chi_surface = 10;
+        in.restitution = 0.6;
+    }
+    return members;
+}
+
+/// Largest distance of two runs' states, in the scales of the joint.
+double distance(testing::EnsembleResult const& a, testing::EnsembleResult const& b, std::size_t i) {
+    double const tilt = 1e-2;  // 2c/L
+    double const scale[state_size] = {clearance, clearance, clearance * crank_speed, clearance * crank_speed, tilt, tilt, tilt,
+                                      tilt * crank_speed, tilt * crank_speed, tilt * crank_speed};
+    double largest = 0;
+    for (int k = 0; k < state_size; ++k) {
+        auto const at = static_cast<std::size_t>(k);
+        largest = std::max(largest, std::abs(a.states[i][at] - b.states[i][at]) / scale[k]);
+    }
+    return largest;
+}
+
+TEST(ImpactSteps, GoWhereStepsOfTimeGoUnderEveryLaw) {
+    for (Law const law : testing::every_law()) {
+        for (Damping const damping : testing::dampings_of(info(law))) {
+            for (bool const friction : {false, true}) {
+                Parts const parts{law, damping, friction, friction};
+                // The first impact or two; the law that switches needs its switches located by the other method too.
+                double const end = 6e-3;
+                auto const members = starts(parts, 8);
+                auto by_time = options_of(parts, Method::dopri5, 1e-12, end);
+                by_time.settings.locate_modes = info(law).switches && damping != Damping::restitution;
+                auto const want = testing::run(best_isa(), by_time, members);
+                auto const found = testing::run(best_isa(), options_of(parts, Method::verner65, 1e-9, end), members);
+                double onsets = 0;
+                for (std::size_t i = 0; i < members.size(); ++i) {
+                    auto const what = std::string(info(law).name) + ", damping " + std::to_string(static_cast<int>(damping)) +
+                                      (friction ? ", friction" : "") + ", member " + std::to_string(i);
+                    ASSERT_EQ(found.records[i].status, Status::finished) << what;
+                    ASSERT_EQ(want.records[i].status, Status::finished) << what;
+                    EXPECT_LT(distance(found, want, i), 2e-6) << what;
+                    EXPECT_EQ(found.value(i, Quantity::contact_onsets), want.value(i, Quantity::contact_onsets)) << what;
+                    onsets += want.value(i, Quantity::contact_onsets);
+                }
+                EXPECT_GE(onsets, 8) << "nothing to see without impacts";
+            }
+        }
+    }
+}
+
+double percentile95(testing::EnsembleResult const& r) {
+    std::vector<double> residuals;
+    for (std::size_t i = 0; i < r.records.size(); ++i) residuals.push_back(std::abs(r.value(i, Quantity::energy_residual)));
+    std::ranges::sort(residuals);
+    return residuals[residuals.size() * 95 / 100];
+}
+
+double evaluations(testing::EnsembleResult const& r) {
+    double sum = 0;
+    for (auto const& record : r.records) sum += static_cast<double>(record.rhs_evaluations);
+    return sum / static_cast<double>(r.records.size());
+}
+
+TEST(ImpactSteps, NeedHalfTheEvaluationsForTheSameEnergy) {
+    Parts const parts{Law::conservative, Damping::rate, true, false};
+    auto const members = starts(parts, 48);
+    auto const by_time = testing::run(best_isa(), options_of(parts, Method::dopri5, 1e-7, 0.05), members);
+    auto const by_clock = testing::run(best_isa(), options_of(parts, Method::verner65, 3e-5, 0.05), members);
+    EXPECT_LT(percentile95(by_clock), percentile95(by_time));
+    EXPECT_LT(evaluations(by_clock), 0.6 * evaluations(by_time));
+}
+
+TEST(ImpactSteps, SampleInsideImpacts) {
+    Parts const parts{Law::conservative, Damping::rate, true, false};
+    auto const members = starts(parts, 8);
+    std::vector<double> times;
+    for (int i = 0; i <= 3000; ++i) times.push_back(2e-6 * i);  // an impact takes some 2e-4 s
+    auto const sampled = [&](Method method, double tolerance) {
+        auto o = options_of(parts, method, tolerance, times.back());
+        o.series = selection_of(Series::normal_force);
+        o.sample_times = times;
+        return testing::run(best_isa(), o, members);
+    };
+    auto const want = sampled(Method::dopri5, 1e-11), found = sampled(Method::verner65, 1e-8);
+    double const highest = *std::ranges::max_element(want.series);
+    ASSERT_GT(highest, 100) << "there are impacts [N]";
+    for (std::size_t k = 0; k < want.series.size(); ++k) {
+        ASSERT_NEAR(found.series[k], want.series[k], 2e-4 * highest) << "sample " << k % times.size();
+    }
+}
+
+TEST(ContactClock, StepsToTheTimeThatIsAskedFor) {
+    // u = 3e-3 √m and δ' = 0.2 m/s: δ = u² + δ' t, and the clock's step is the change of u over δ'.
+    ContactClock<double> const sinking{5, 3e-3, 0.2};
+    double const time = 1e-5, end = std::sqrt(9e-6 + 0.2 * time);
+    EXPECT_NEAR(sinking.own_of(time), (end - 3e-3) / 0.2, 1e-15);
+    EXPECT_NEAR(sinking.time_of(sinking.own_of(time)), time, 1e-18);
+    // Going out at 0.2 m/s it parts after u²/0.2 s; longer steps take no longer.
+    ContactClock<double> const rising{5, 3e-3, -0.2};
+    EXPECT_NEAR(rising.time_of(1), 9e-6 / 0.2, 1e-15);
+    EXPECT_NEAR(rising.ending(0.0145), 0.015, 1e-15) << "what would nearly get there goes there";
+    EXPECT_EQ(rising.ending(0.01), 0.01);
+    ContactClock<double> const none{-1, 0, 0};
+    EXPECT_EQ(none.pace(), 1.0);
+    EXPECT_EQ(none.own_of(1e-3), 1e-3);
+    EXPECT_EQ(none.time_of(1e-3), 1e-3);
+}
+
+}  // namespace
+}  // namespace slideway::impact_steps_test

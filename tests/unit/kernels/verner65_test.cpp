@@ -1,0 +1,59 @@
+// The coefficients against conditions that are independent of them, and the method's orders on a problem with a closed form.
+#include "kernels/steppers/verner65.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/kernels/logistic.hpp"
+
+namespace slideway::verner65_test {
+namespace {
+
+constexpr Verner65Tableau w{};
+constexpr int stages = 9;
+
+double moment(double const* weights, int power) {
+    double sum = 0;
+    for (int i = 0; i < stages; ++i) sum += weights[i] * std::pow(w.c[i], power);
+    return sum;
+}
+
+TEST(Verner65, RowsSumToTheirNodes) {
+    for (int i = 0; i < stages; ++i) {
+        double sum = 0;
+        for (int j = 0; j < i; ++j) sum += w.a[i][j];
+        EXPECT_NEAR(sum, w.c[i], 5e-14) << "row " << i;
+    }
+    for (int j = 0; j < stages - 1; ++j) EXPECT_EQ(w.a[8][j], w.b[j]) << "the last stage is the step's end";
+}
+
+TEST(Verner65, QuadraturesHaveTheirOrders) {
+    for (int p = 0; p < 6; ++p) EXPECT_NEAR(moment(w.b, p), 1.0 / (p + 1), 5e-14) << p;
+    for (int p = 0; p < 5; ++p) EXPECT_NEAR(moment(w.e, p), 0, 5e-14) << p;
+    EXPECT_GT(std::abs(moment(w.e, 5)), 1e-6);
+}
+
+TEST(Verner65, HasOrderSixAndAnEstimateOfOrderFive) {
+    EXPECT_NEAR(testing::observed_order(testing::logistic_error<Verner65>, 0.25), 6, 0.3);
+    auto const estimate = [](double h) {
+        testing::Logistic<Verner65> o;
+        o.step(h);
+        return std::abs(h * Verner65::error_slope(o.k, 0));
+    };
+    EXPECT_NEAR(testing::observed_order(estimate, 0.1), 6, 0.3) << "of one step: h^6";
+}
+
+TEST(Verner65, DenseOutputHasOrderFourInsideTheStepAndMeetsItsEnds) {
+    for (double const theta : {0.1, 0.37, 0.5, 0.8}) {
+        auto const local = [theta](double h) { return testing::dense_error<Verner65>(h, theta); };
+        EXPECT_GT(testing::observed_order(local, 0.2), 4.6) << "local error of order h^5 at " << theta;
+    }
+    testing::Logistic<Verner65> o;
+    o.step(0.3);
+    EXPECT_EQ(Verner65::dense(o.k, 0, o.y[0], o.end[0], 0.3, 0.0), o.y[0]);
+    EXPECT_NEAR(Verner65::dense(o.k, 0, o.y[0], o.end[0], 0.3, 1.0), o.end[0], 1e-15);
+}
+
+}  // namespace
+}  // namespace slideway::verner65_test
