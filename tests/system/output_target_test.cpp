@@ -7,7 +7,7 @@
 #include "tests/support/shell.hpp"
 #include "tests/system/small_run.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::output_target_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -236,4 +236,4 @@ TEST_F(OutputTargets, ByDefaultDifferWhereOverridesDo) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::output_target_test

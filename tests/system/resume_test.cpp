@@ -3,7 +3,7 @@
 
 #include "tests/system/resumed.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::resume_test {
 namespace {
 
 class Resume : public Resumed {};
@@ -211,4 +211,4 @@ TEST_F(Resume, TakesOneMemberThatItRanAlone) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::resume_test

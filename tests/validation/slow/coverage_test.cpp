@@ -22,7 +22,7 @@
 #include "host/statistics/summary.hpp"
 #include "tests/unit/sampling/samples.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::coverage_test {
 namespace {
 
 constexpr int studies = 1000;
@@ -348,4 +348,4 @@ TEST(DesignCoverage, OfACorrelatedLatinHypercubeIsAtLeastNominal) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::coverage_test
