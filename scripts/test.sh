@@ -49,7 +49,8 @@ isas=all unity=OFF
 # Two cores would compile and test them for minutes; a file of tests by itself takes twice the time that it takes among others.
 if [[ $all_isas == false ]]; then
     isas=native unity=ON
-    echo "test.sh: less than four cores: instruction sets but scalar and the widest, and headers and files of tests alone, are left to scripts/test.sh --all-isas"
+    echo "test.sh: less than four cores: instruction sets but scalar and the widest, and headers and files of tests alone," \
+        "are left to scripts/test.sh --all-isas"
 fi
 environment=$(bash scripts/python_environment.sh --without-package) || stop "no Python environment, no test ran"
 options=("-DSLIDEWAY_CUDA=$cuda" "-DSLIDEWAY_ISAS=$isas" "-DSLIDEWAY_UNITY_TESTS=$unity" -DSLIDEWAY_PYTHON=ON "-DPython_EXECUTABLE=$environment/bin/python")

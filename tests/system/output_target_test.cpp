@@ -163,7 +163,7 @@ TEST_F(OutputTargets, ThatAreNoFilesAreRefused) {
 }
 
 TEST_F(OutputTargets, ThatComeUpWhileItRunsAreKept) {
-    std::string const seconds = "study.duration=400 ms";
+    std::string const seconds = "study.duration=200 ms";
     pid_t const child = start({"run", "s.toml", "--no-progress", "-o", "late.nc", "--set", seconds, "study.members=500", "study.verify=0"});
     ASSERT_TRUE(comes_true([&] { return fs::exists(path("late.nc.shards/run.toml")); }));
     write("late.nc", "of somebody else");
