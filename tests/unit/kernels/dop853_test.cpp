@@ -7,7 +7,7 @@
 
 #include "kernels/steppers/dop853.hpp"
 
-namespace slideway {
+namespace slideway::dop853_test {
 namespace {
 
 constexpr Dop853Tableau w{};
@@ -103,4 +103,4 @@ TEST(Dop853, DenseOutputMeetsBothEnds) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::dop853_test
