@@ -87,7 +87,7 @@ TINY = Scale(
     exponent_revolutions=0.02,
     exponent_history=10,
     series=2,
-    series_revolutions=4,
+    series_revolutions=2,
     series_samples=100,
 )
 SCALES = {"full": FULL, "tiny": TINY}

@@ -1,7 +1,7 @@
 // A card leaves what the processor leaves, bit for bit.
 #include "tests/cuda/card.hpp"
 
-namespace slideway {
+namespace slideway::card_bits_test {
 namespace {
 
 using testing::BlockPlan;
@@ -68,4 +68,4 @@ TEST_F(CardBits, OfABlocksOrderThatIsItsOwn) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::card_bits_test

@@ -6,7 +6,7 @@
 
 #include "tests/cuda/card.hpp"
 
-namespace slideway {
+namespace slideway::card_blocks_test {
 namespace {
 
 using testing::difference;
@@ -116,4 +116,4 @@ TEST_F(CardBlocks, EndSoonWhenTheyAreToldTo) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::card_blocks_test

@@ -2,7 +2,7 @@
 #include "tests/cuda/card.hpp"
 #include "tests/cuda/closeness.hpp"
 
-namespace slideway {
+namespace slideway::card_closeness_test {
 namespace {
 
 using testing::OwnedBlock;
@@ -28,4 +28,4 @@ TEST_F(CardCloseness, InDistributionAfter) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::card_closeness_test

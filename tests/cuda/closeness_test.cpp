@@ -1,7 +1,7 @@
 // The comparisons of tests/cuda/closeness.hpp, on runs of the processor and on known distributions.
 #include "tests/cuda/closeness.hpp"
 
-namespace slideway {
+namespace slideway::closeness_test {
 namespace {
 
 using testing::OwnedBlock;
@@ -42,4 +42,4 @@ TEST(Closeness, TellsDistributionsApart) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::closeness_test

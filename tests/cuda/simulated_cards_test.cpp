@@ -4,7 +4,7 @@
 
 #include "tests/cuda/cards_run.hpp"
 
-namespace slideway {
+namespace slideway::simulated_cards_test {
 namespace {
 
 using testing::Lines;
@@ -106,4 +106,4 @@ TEST_F(SimulatedCards, AreMissedInOneLine) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::simulated_cards_test

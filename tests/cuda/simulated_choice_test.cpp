@@ -7,7 +7,7 @@
 #include "tests/cuda/simulated_run.hpp"
 #include "tests/system/orbits.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::simulated_choice_test {
 namespace {
 
 constexpr char const* scene = R"(
@@ -176,4 +176,4 @@ TEST_F(CardMemory, ThatABlockAskedForDoesNotFitIsToldBeforeTheStart) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::simulated_choice_test

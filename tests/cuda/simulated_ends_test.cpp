@@ -8,7 +8,7 @@
 
 #include "tests/cuda/simulated_run.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::simulated_ends_test {
 namespace {
 
 constexpr char const* scene = R"(
@@ -115,4 +115,4 @@ TEST_F(EarlyEnds, ByASignalAreSoonAndGoOn) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::simulated_ends_test

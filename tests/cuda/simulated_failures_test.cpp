@@ -8,7 +8,7 @@
 
 #include "tests/cuda/cards_run.hpp"
 
-namespace slideway {
+namespace slideway::simulated_failures_test {
 namespace {
 
 using testing::Lines;
@@ -108,4 +108,4 @@ TEST_F(SimulatedCard, AKernelAtWorkEndsWithTheCallThatFailed) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::simulated_failures_test

@@ -2,7 +2,7 @@
 #include "tests/cuda/simulated_run.hpp"
 #include "tests/system/orbits.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::simulated_studies_test {
 namespace {
 
 namespace orbits = ::slideway::testing::orbits;
@@ -95,4 +95,4 @@ TEST_F(SimulatedRun, OfAMemberReplaysWithTheBitsOfItsEnsemble) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::simulated_studies_test

@@ -11,7 +11,7 @@
 #include "kernels/members/start.hpp"
 #include "tests/support/scene_fixture.hpp"
 
-namespace slideway {
+namespace slideway::continued_sweep_test {
 namespace {
 
 constexpr std::uint64_t starts = 5, columns = 4, total = starts * columns;
@@ -157,4 +157,4 @@ TEST(ContinuedSweepResumed, RunsNothingBeforeAnEndThatItRecalls) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::continued_sweep_test

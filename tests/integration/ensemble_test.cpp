@@ -5,11 +5,11 @@
 
 #include "tests/support/known_results.hpp"
 
-namespace slideway {
+namespace slideway::ensemble_test {
 namespace {
 
 using BlocksAndThreads = std::tuple<std::size_t, int>;
-class EnsembleOverBlocks : public testing::TestWithParam<BlocksAndThreads> {};
+class EnsembleOverBlocks : public ::testing::TestWithParam<BlocksAndThreads> {};
 
 TEST_P(EnsembleOverBlocks, GivesEveryMemberItsOwnResultOnce) {
     auto const [block_members, threads] = GetParam();
@@ -82,7 +82,7 @@ TEST_P(EnsembleOverBlocks, RunsTheMembersOfASetWithGapsAndNoOthers) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, EnsembleOverBlocks,
-                         testing::Combine(testing::Values(1, 7, 64, 1000), testing::Values(1, 2, 4)));
+                         ::testing::Combine(::testing::Values(1, 7, 64, 1000), ::testing::Values(1, 2, 4)));
 
 TEST(Ensemble, OfUnusableMembersAloneNeverCallsTheKernel) {
     Collected collected;
@@ -223,4 +223,4 @@ TEST(Ensemble, TellsOfARequestThatCameWithItsLastBlock) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::ensemble_test

@@ -11,7 +11,7 @@
 #include "host/store/result_view.hpp"
 #include "tests/support/output_fixture.hpp"
 
-namespace slideway {
+namespace slideway::mechanism_results_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -153,4 +153,4 @@ TEST_F(DirectionsFile, HasAValueForEach) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::mechanism_results_test

@@ -8,7 +8,7 @@
 #include "host/store/result_view.hpp"
 #include "tests/support/output_fixture.hpp"
 
-namespace slideway {
+namespace slideway::merged_results_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -283,4 +283,4 @@ TEST_F(Merge, OfABlockThatWasCutShortAltogetherHasNoShard) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::merged_results_test

@@ -10,7 +10,7 @@
 #include "tests/support/known_results.hpp"
 #include "tests/support/scene_fixture.hpp"
 
-namespace slideway {
+namespace slideway::progress_test {
 namespace {
 
 /// A kernel's block with every question whether to stop, and what the progress is at each of them.
@@ -120,4 +120,4 @@ TEST(ProgressOfARun, StandsStillWhereMembersAreGivenUp) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::progress_test

@@ -16,7 +16,7 @@
 #include "host/run/ranks.hpp"
 #include "tests/support/mpirun.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::ranks_test {
 namespace {
 
 std::optional<Launch> launch_in(std::map<std::string, std::string> const& variables) {
@@ -243,4 +243,4 @@ TEST(RankAlone, HasAllToItselfWithoutMpi) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::ranks_test

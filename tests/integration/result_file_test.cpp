@@ -13,7 +13,7 @@
 #include "host/store/result_view.hpp"
 #include "tests/support/output_fixture.hpp"
 
-namespace slideway {
+namespace slideway::result_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -301,4 +301,4 @@ TEST_F(ResultFile, HasTheBytesThatItsLayoutTells) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::result_file_test

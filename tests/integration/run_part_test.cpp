@@ -5,7 +5,7 @@
 
 #include "host/study/study_run.hpp"
 
-namespace slideway {
+namespace slideway::run_part_test {
 namespace {
 
 RunPart part(std::uint64_t number, std::uint64_t parts) { return {number, parts, true}; }
@@ -84,4 +84,4 @@ TEST(ErrorsOfRanks, AreOfTheirKindAtRankZero) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::run_part_test

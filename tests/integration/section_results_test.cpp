@@ -10,7 +10,7 @@
 #include "host/store/result_view.hpp"
 #include "tests/support/output_fixture.hpp"
 
-namespace slideway {
+namespace slideway::section_results_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -291,4 +291,4 @@ TEST(PayloadBytes, CountSectionsAndColumnsOfAStudy) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::section_results_test

@@ -5,7 +5,7 @@
 #include "host/store/shard_claim.hpp"
 #include "tests/support/output_fixture.hpp"
 
-namespace slideway {
+namespace slideway::shard_claim_rivals_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -136,4 +136,4 @@ TEST_F(ClaimAmongRivals, OnALockThatIsHeldAgainAfterItsRemovalWaits) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::shard_claim_rivals_test

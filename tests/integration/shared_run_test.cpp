@@ -4,7 +4,7 @@
 
 #include "tests/support/known_results.hpp"
 
-namespace slideway {
+namespace slideway::shared_run_test {
 namespace {
 
 TEST(SharedQueue, LeavesToOthersWhatTheyTookFromTheQueue) {
@@ -100,4 +100,4 @@ TEST(EnsembleTotals, AddUpOverRanks) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::shared_run_test

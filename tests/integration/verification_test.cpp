@@ -9,7 +9,7 @@
 
 #include "tests/support/scene_fixture.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::verification_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -93,8 +93,10 @@ TEST(EnergyCheck, IsAskedOfExponentsUnderALawThatKeepsEnergyByOneCheckAlone) {
         auto const methods = check_methods(study);
         for (CheckMethod const& m : methods) {
             // The study's own orbits, with their energy.
-            if (m.audits_energy) EXPECT_EQ(m.scene.integrator.rtol, study.integrator.rtol);
-            if (m.audits_energy) EXPECT_TRUE(selects(m.scene.quantities, Quantity::energy_residual));
+            if (m.audits_energy) {
+                EXPECT_EQ(m.scene.integrator.rtol, study.integrator.rtol);
+                EXPECT_TRUE(selects(m.scene.quantities, Quantity::energy_residual));
+            }
         }
         return std::ranges::count_if(methods, &CheckMethod::audits_energy);
     };
@@ -192,4 +194,4 @@ TEST(CheckedNumbers, LeaveOutTheResidualOfALawThatKeepsEnergy) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::verification_test

@@ -6,7 +6,7 @@
 #include <sys/file.h>
 #include <sys/wait.h>
 
-namespace slideway {
+namespace slideway::write_result_test {
 namespace {
 
 class WrittenResult : public testing::OutputFolder {
@@ -111,4 +111,4 @@ TEST_F(WrittenResult, ClosesWhereItsNameIsGone) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::write_result_test

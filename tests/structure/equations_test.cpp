@@ -9,7 +9,7 @@
 
 #include "tests/structure/source_tree.hpp"
 
-namespace slideway::structure {
+namespace slideway::structure::equations_test {
 namespace {
 
 struct Row { std::string label, file, name; };
@@ -120,4 +120,4 @@ TEST(Equations, AreToldFromText) {
 }
 
 }  // namespace
-}  // namespace slideway::structure
+}  // namespace slideway::structure::equations_test

@@ -1,11 +1,13 @@
 #include <algorithm>
+#include <set>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "tests/structure/source_tree.hpp"
 
-namespace slideway::structure {
+namespace slideway::structure::hygiene_test {
 namespace {
 
 constexpr std::size_t longest_source = 500;  // lines
@@ -84,5 +86,56 @@ TEST(Repository, HeadersAreGuarded) {
     }
 }
 
+/// Lines of code, comments and blank lines left aside.
+std::vector<std::string> code_lines(std::string const& text) {
+    auto lines = lines_of(code_only(text));
+    for (auto& line : lines) line.erase(line.find_last_not_of(' ') + 1);
+    std::erase(lines, "");
+    return lines;
+}
+
+bool opens_namespace(std::string const& line) { return line.starts_with("namespace ") && line.ends_with('{'); }
+
+/// What is wrong with a test that shares a unit with others: all it has stands in a namespace without a name, and that alone
+/// in one that ends with the file's name.
+std::string wrong_as_a_part(SourceFile const& file, std::set<std::string>& names) {
+    auto const lines = code_lines(file.text);
+    auto const first = std::ranges::find_if(lines, [](auto const& line) { return !line.starts_with("#include"); });
+    if (first == lines.end() || !first->starts_with("namespace ") || !first->ends_with("_test {")) return "no namespace of its own comes first";
+    if (*(first + 1) != "namespace {") return "what it has is not in a namespace without a name";
+    std::string const name = first->substr(0, first->size() - 2), file_name = file.path.substr(file.path.rfind('/') + 1);
+    if (!name.ends_with(file_name.substr(0, file_name.size() - 4))) return "its namespace has not the file's name";
+    if (!names.insert(file.path.substr(0, file.path.find('/', 6)) + name.substr(name.find_last_of(": ") + 1)).second) return "another file has its namespace";
+    bool const closed = lines.back() == "}" && *(lines.end() - 2) == "}" && std::ranges::count_if(lines, opens_namespace) == 2;
+    return closed ? "" : "its namespaces do not end the file";
+}
+
+TEST(Repository, TestsMayShareAUnit) {
+    std::set<std::string> names;
+    Pattern const gtest(R"((^|[^:\w])testing::(Test|TestWithParam|Values|ValuesIn|Combine|Assertion\w+)\b)");
+    for (SourceFile const& file : files_below({"tests"})) {
+        // Those of parity declare what is there once for each instruction set, and stay units of their own.
+        if (!file.path.ends_with("_test.cpp") || file.path.starts_with("tests/parity/")) continue;
+        EXPECT_EQ(wrong_as_a_part(file, names), "") << file.path;
+        // In a unit with others slideway::testing is there, where this file alone has gtest's.
+        EXPECT_EQ(gtest.match_in(code_only(file.text)), std::nullopt) << file.path;
+    }
+    EXPECT_GT(names.size(), 100U);
+}
+
+TEST(Repository, TestsThatMayNotShareAUnitAreFound) {
+    auto const wrong = [](std::string const& path, std::string const& text) {
+        std::set<std::string> names{"tests/unittaken_test"};
+        return wrong_as_a_part({path, text}, names);
+    };
+    std::string const whole = "#include <set>\n// Words.\nnamespace a::b_test {\nnamespace {\nint f();\n}  // namespace\n}  // namespace a::b_test\n";
+    EXPECT_EQ(wrong("tests/unit/c/b_test.cpp", whole), "");
+    EXPECT_EQ(wrong("tests/unit/c/d_test.cpp", whole), "its namespace has not the file's name");
+    EXPECT_EQ(wrong("tests/unit/b_test.cpp", "int f();\n" + whole), "no namespace of its own comes first");
+    EXPECT_EQ(wrong("tests/unit/b_test.cpp", whole + "int g();\n"), "its namespaces do not end the file");
+    EXPECT_EQ(wrong("tests/unit/b_test.cpp", "namespace b_test {\nint f();\n}\n"), "what it has is not in a namespace without a name");
+    EXPECT_EQ(wrong("tests/unit/taken_test.cpp", "namespace taken_test {\nnamespace {\n}\n}\n"), "another file has its namespace");
+}
+
 }  // namespace
-}  // namespace slideway::structure
+}  // namespace slideway::structure::hygiene_test

@@ -5,7 +5,7 @@
 
 #include "tests/structure/layers.hpp"
 
-namespace slideway::structure {
+namespace slideway::structure::layers_test {
 namespace {
 
 std::vector<SourceFile> layered_sources() {
@@ -150,4 +150,4 @@ TEST(LayerRules, ThrowAndAllocationInKernelsAreFound) {
 }
 
 }  // namespace
-}  // namespace slideway::structure
+}  // namespace slideway::structure::layers_test

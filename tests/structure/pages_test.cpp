@@ -13,7 +13,7 @@
 #include "kernels/status.hpp"
 #include "tests/structure/source_tree.hpp"
 
-namespace slideway::structure {
+namespace slideway::structure::pages_test {
 namespace {
 
 constexpr std::size_t longest_line = 160;         // characters
@@ -184,4 +184,4 @@ TEST(Pages, LinesFit) {
 }
 
 }  // namespace
-}  // namespace slideway::structure
+}  // namespace slideway::structure::pages_test

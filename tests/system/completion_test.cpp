@@ -7,7 +7,7 @@
 #include "tests/support/shell.hpp"
 #include "tests/system/process.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::completion_test {
 namespace {
 
 class Completion : public Program {
@@ -159,4 +159,4 @@ TEST_F(Completion, IsLeftOutWhereTheProgramDoesNotRun) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::completion_test

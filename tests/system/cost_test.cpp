@@ -3,7 +3,7 @@
 
 #include "tests/system/small_run.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::cost_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -34,4 +34,4 @@ TEST_F(Cost, IsToldWithinAFactorOfThree) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::cost_test

@@ -7,7 +7,7 @@
 #include "host/store/result_check.hpp"
 #include "tests/system/resumed.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::damage_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -194,4 +194,4 @@ TEST_F(Damage, OfBothFilesOfTheIdentityIsRefused) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::damage_test

@@ -10,7 +10,7 @@ namespace slideway::testing {
 class FailingDisk : public ShardedRun {
 protected:
     FailingDisk() {
-        write_scene(37, "1 ms");
+        write_scene(20, "1 ms");  // two whole blocks and a part of one
         std::filesystem::create_directories(path("disk"));
         std::filesystem::rename(path("s.toml"), path("disk/s.toml"));
     }

@@ -2,7 +2,7 @@
 // every call fail.
 #include "tests/system/disk_failures.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::failing_calls_test {
 namespace {
 
 constexpr char const* rare_calls = "open,sync,rename,link,truncate,mkdir,unlink";
@@ -28,4 +28,4 @@ TEST_F(FailingDisk, GoesOnAfterAWriteThatWasShort) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::failing_calls_test

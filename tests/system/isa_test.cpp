@@ -5,7 +5,7 @@
 #include "tests/support/shell.hpp"
 #include "tests/system/results.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::isa_test {
 namespace {
 
 constexpr char const* scene = R"(
@@ -80,4 +80,4 @@ TEST_F(InstructionSets, HaveOneHashOnAProcessorOf2006) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::isa_test

@@ -7,7 +7,7 @@
 
 #include "tests/system/small_run.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::json_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -160,4 +160,4 @@ TEST_F(JsonOutput, QuietRunsSayNothing) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::json_test

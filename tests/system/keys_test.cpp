@@ -6,7 +6,7 @@
 #include "host/config/key_reference.hpp"
 #include "tests/system/process.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::keys_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -115,4 +115,4 @@ TEST(KeyRules, HaveTheRangesThatTheyCheck) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::keys_test

@@ -1,13 +1,13 @@
 #include "tests/system/kills.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::kill_test {
 namespace {
 
 TEST_F(KilledRun, GoesOnWhereItWas) { kill_and_resume(12, {"--threads", "2", "--block-members", "8"}); }
 
 TEST_F(KilledRun, KeepsWhatItFinishedWhenItIsAskedToStop) {
     std::string const hash = undisturbed_hash();
-    write_scene(400, "0.4 s");
+    write_scene(400, "0.2 s");
     std::string const long_hash = undisturbed_hash();
     EXPECT_NE(hash, long_hash);
     pid_t const child = start(run_words({"--threads", "2", "--block-members", "8"}));
@@ -54,6 +54,7 @@ TEST_F(KilledRun, IsDoneInStretchesOfLimitedTime) {
 }
 
 TEST_F(KilledRun, StartsFreshWhereThereIsNothingToResume) {
+    write_scene(400, "5 ms");
     std::string const hash = undisturbed_hash();
     EXPECT_EQ(run_scene({"--resume"}).code, 0);
     EXPECT_EQ(hash_of("o.nc"), hash);
@@ -61,4 +62,4 @@ TEST_F(KilledRun, StartsFreshWhereThereIsNothingToResume) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::kill_test

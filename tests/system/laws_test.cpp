@@ -10,7 +10,7 @@
 #include "tests/support/scene_fixture.hpp"
 #include "tests/system/results.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::laws_test {
 namespace {
 
 /// The keys of a study of a few milliseconds.
@@ -73,4 +73,4 @@ INSTANTIATE_TEST_SUITE_P(All, LawInStudies, ::testing::ValuesIn(mechanisms_and_l
 });
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::laws_test

@@ -2,7 +2,7 @@
 
 #include "tests/system/process.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::members_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -58,4 +58,4 @@ TEST_F(MembersOfAResult, AreNotInOneOfStatistics) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::members_test

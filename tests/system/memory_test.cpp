@@ -7,7 +7,7 @@
 #include "tests/support/scene_fixture.hpp"
 #include "tests/system/process.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::memory_test {
 namespace {
 
 class Needs : public Program {
@@ -83,4 +83,4 @@ TEST_F(Needs, OfACorrelatedHypercubeHoldItsOrder) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::memory_test

@@ -6,7 +6,7 @@
 #include "host/backend/backend.hpp"
 #include "kernels/status.hpp"
 
-namespace slideway::testing::orbits {
+namespace slideway::testing::orbits::orbit_test {
 namespace {
 
 struct Study {
@@ -218,4 +218,4 @@ TEST_F(ExponentsOfARun, OfMembersThatFailAtOnceAreNone) {
 }
 
 }  // namespace
-}  // namespace slideway::testing::orbits
+}  // namespace slideway::testing::orbits::orbit_test

@@ -7,7 +7,7 @@
 #include "tests/support/shell.hpp"
 #include "tests/system/small_run.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::output_target_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -163,7 +163,7 @@ TEST_F(OutputTargets, ThatAreNoFilesAreRefused) {
 }
 
 TEST_F(OutputTargets, ThatComeUpWhileItRunsAreKept) {
-    std::string const seconds = "study.duration=400 ms";
+    std::string const seconds = "study.duration=200 ms";
     pid_t const child = start({"run", "s.toml", "--no-progress", "-o", "late.nc", "--set", seconds, "study.members=500", "study.verify=0"});
     ASSERT_TRUE(comes_true([&] { return fs::exists(path("late.nc.shards/run.toml")); }));
     write("late.nc", "of somebody else");
@@ -236,4 +236,4 @@ TEST_F(OutputTargets, ByDefaultDifferWhereOverridesDo) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::output_target_test

@@ -3,7 +3,7 @@
 
 #include "host/backend/backend.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::parts_test {
 namespace {
 
 class Parts : public Resumed {};
@@ -138,4 +138,4 @@ TEST_F(MergeOfShards, TakesShardsThatAreResultsThemselves) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::parts_test

@@ -5,7 +5,7 @@
 #include "host/backend/backend.hpp"
 #include "tests/oracle/golden_table.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::probe_test {
 namespace {
 
 std::filesystem::path golden_file(std::string const& name) {
@@ -102,4 +102,4 @@ TEST_F(Probe, NamesTheCellThatIsWrong) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::probe_test

@@ -4,7 +4,7 @@
 
 #include "tests/system/small_run.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::progress_test {
 namespace {
 
 class ProgressLines : public SmallRun {
@@ -39,4 +39,4 @@ TEST_F(ProgressLines, TellHowFarTheCheckIs) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::progress_test

@@ -4,7 +4,7 @@
 #include "host/backend/backend.hpp"
 #include "tests/support/failing_calls.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::ranks_test {
 namespace {
 
 class SharedRun : public ShardedRun {
@@ -165,4 +165,4 @@ TEST_F(SharedRun, OfABrokenSceneEndsAtEveryRank) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::ranks_test

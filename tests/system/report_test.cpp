@@ -5,7 +5,7 @@
 #include <netcdf.h>
 #include <sys/stat.h>
 
-namespace slideway::testing {
+namespace slideway::testing::report_test {
 namespace {
 
 /// A result, and in place of the interpreter a script: what it answers to the question for the package, and what it says then.
@@ -84,4 +84,4 @@ TEST_F(Report, NeverReplacesTheResult) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::report_test

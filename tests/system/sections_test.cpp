@@ -5,7 +5,7 @@
 
 #include "tests/oracle/oracle.hpp"
 
-namespace slideway::testing::orbits {
+namespace slideway::testing::orbits::sections_test {
 namespace {
 
 class SectionsByPhase : public OrbitProgram {};
@@ -224,4 +224,4 @@ TEST_F(SectionsByCrossing, OfALevelThatNobodyReachesAreWarnedOf) {
 }
 
 }  // namespace
-}  // namespace slideway::testing::orbits
+}  // namespace slideway::testing::orbits::sections_test

@@ -1,7 +1,7 @@
 // Starts that no mechanism has.
 #include "tests/system/small_run.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::start_test {
 namespace {
 
 class Starts : public SmallRun {};
@@ -38,4 +38,4 @@ TEST_F(Starts, OfAFewMembersAreCounted) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::start_test

@@ -7,7 +7,7 @@
 #include "tests/support/mpirun.hpp"
 #include "tests/system/statistics.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::statistics_bits_test {
 namespace {
 
 TEST_F(StatisticsRun, HasTheSameBitsWithAnyThreadsBlocksAndParts) {
@@ -129,4 +129,4 @@ TEST_F(StatisticsRun, ADiskThatFailsInAJoinLosesNothing) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::statistics_bits_test

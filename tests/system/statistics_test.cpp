@@ -6,7 +6,7 @@
 #include "kernels/status.hpp"
 #include "tests/system/statistics.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::statistics_test {
 namespace {
 
 /// A column of the members that finished.
@@ -154,4 +154,4 @@ TEST_F(StatisticsRun, AnEnsembleWithoutLimitsHasItsReport) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::statistics_test

@@ -7,7 +7,7 @@
 
 #include "tests/system/process.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::stats_test {
 namespace {
 
 class Stats : public Program {
@@ -174,4 +174,4 @@ TEST_F(Stats, RefusesWithOneLine) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::stats_test

@@ -4,7 +4,7 @@
 
 #include "tests/system/small_run.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::stop_test {
 namespace {
 
 class StoppedRun : public SmallRun {};
@@ -128,4 +128,4 @@ TEST_F(RunOnAFullDisk, KeepsItsShardsIfTheResultHasNoRoom) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::stop_test

@@ -1,7 +1,7 @@
 // Sweeps as a user runs them: columns that start afresh, and columns that follow one another.
 #include "tests/system/orbits.hpp"
 
-namespace slideway::testing::orbits {
+namespace slideway::testing::orbits::sweep_test {
 namespace {
 
 class Sweep : public OrbitProgram {};
@@ -195,4 +195,4 @@ TEST_F(ContinuedSweep, OfAFewMembersIsThatOfAll) {
 }
 
 }  // namespace
-}  // namespace slideway::testing::orbits
+}  // namespace slideway::testing::orbits::sweep_test

@@ -4,7 +4,7 @@
 #include "host/store/result_view.hpp"
 #include "tests/system/process.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::table_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -112,4 +112,4 @@ TEST_F(TableRun, IsNotMergedWithAnotherTableInPlaceOfTheCopy) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::table_test

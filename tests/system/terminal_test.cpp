@@ -5,7 +5,7 @@
 #include "host/commands/description.hpp"
 #include "tests/system/process.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::terminal_test {
 namespace {
 
 std::size_t columns_of(std::string const& line) {
@@ -63,4 +63,4 @@ TEST_F(Terminal, HasRoomForResults) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::terminal_test

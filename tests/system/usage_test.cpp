@@ -9,7 +9,7 @@
 #include "host/sampling/design.hpp"
 #include "host/sampling/distribution_forms.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::usage_test {
 namespace {
 
 class Usage : public Program {
@@ -304,4 +304,4 @@ TEST_F(Usage, OfCheckKnowsTheNumberOfFixedSteps) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::usage_test

@@ -1,7 +1,7 @@
 // What a run says of its own numbers.
 #include "tests/system/small_run.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::verification_test {
 namespace {
 
 class VerifiedRun : public SmallRun {
@@ -114,4 +114,4 @@ TEST_F(VerifiedRun, IsAskedForByTheScene) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::verification_test

@@ -13,7 +13,7 @@
 #include "tests/oracle/oracle.hpp"
 #include "tests/support/ensemble.hpp"
 
-namespace slideway {
+namespace slideway::carriage_test {
 namespace {
 
 /// Case 1 of Table 1, with a slope and friction as they are wanted.
@@ -234,4 +234,4 @@ TEST(Carriage, RingsAtTheFrequenciesOfTheConservativeContact) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::carriage_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/ensemble.hpp"
 
-namespace slideway {
+namespace slideway::energy_test {
 namespace {
 
 /// Largest |value| of a quantity over the members.
@@ -143,4 +143,4 @@ TEST(PaperLaw, ResidualDoesNotFallWithTheTolerance) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::energy_test

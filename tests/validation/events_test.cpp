@@ -10,7 +10,7 @@
 #include "tests/models/models.hpp"
 #include "tests/support/valve_golden.hpp"
 
-namespace slideway {
+namespace slideway::events_test {
 namespace {
 
 /// Largest difference of a record of lifts from the repeated period, begun where it fits best: a transient of other length shifts it.
@@ -54,4 +54,4 @@ TEST(ReliefValveLanes, HaveTheExtremaOfEveryPeriodicOrbit) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::events_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/ensemble.hpp"
 
-namespace slideway {
+namespace slideway::extremes_test {
 namespace {
 
 struct Extreme {
@@ -114,4 +114,4 @@ INSTANTIATE_TEST_SUITE_P(Laws, Extremes, ::testing::ValuesIn(testing::every_law(
                          [](auto const& p) { return std::string(slideway::info(p.param).name); });
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::extremes_test

@@ -6,7 +6,7 @@
 #include "kernels/members/complete_inputs.hpp"
 #include "tests/support/ensemble.hpp"
 
-namespace slideway {
+namespace slideway::free_slider_test {
 namespace {
 
 testing::RunOptions options(Law law, Damping damping, bool friction, double seconds) {
@@ -108,4 +108,4 @@ TEST(FreeSlider, IsBrakedByFrictionAlongItsWay) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::free_slider_test

@@ -7,7 +7,7 @@
 #include "kernels/members/complete_inputs.hpp"
 #include "tests/support/ensemble.hpp"
 
-namespace slideway {
+namespace slideway::graze_test {
 namespace {
 
 /// Flat over a crank at rest.
@@ -80,4 +80,4 @@ TEST(Graze, IsTheSameOnEveryInstructionSet) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::graze_test

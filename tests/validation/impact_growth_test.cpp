@@ -18,7 +18,7 @@
 
 #include "tests/models/models.hpp"
 
-namespace slideway {
+namespace slideway::impact_growth_test {
 namespace {
 
 using testing::Following;
@@ -243,4 +243,4 @@ TEST(TableBallShadows, OfAChaoticBallContractAreasByEverySingleImpact) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::impact_growth_test

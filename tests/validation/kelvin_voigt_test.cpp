@@ -8,7 +8,7 @@
 #include "kernels/members/complete_inputs.hpp"
 #include "tests/support/ensemble.hpp"
 
-namespace slideway {
+namespace slideway::kelvin_voigt_test {
 namespace {
 
 constexpr double speed = 0.05, clearance = 1e-4;  // [m/s], [m]
@@ -91,4 +91,4 @@ TEST(KelvinVoigtImpact, ThatIsDampedNeverPulls) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::kelvin_voigt_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/ensemble.hpp"
 
-namespace slideway {
+namespace slideway::locate_modes_test {
 namespace {
 
 // Two to four impacts; later the orbits part too fast for states to be compared.
@@ -97,4 +97,4 @@ TEST(LocatedModes, AreTheSameOnEveryInstructionSet) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::locate_modes_test

@@ -10,7 +10,7 @@
 
 #include "tests/models/models.hpp"
 
-namespace slideway {
+namespace slideway::lyapunov_test {
 namespace {
 
 using testing::Following;
@@ -294,4 +294,4 @@ TEST(LorenzShadows, OfAMemberThatFailsAreNaNFromThere) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::lyapunov_test

@@ -12,7 +12,7 @@
 #include "tests/oracle/oracle.hpp"
 #include "tests/support/ensemble.hpp"
 
-namespace slideway {
+namespace slideway::observer_quantities_test {
 namespace {
 
 constexpr std::size_t intervals = 4000;
@@ -282,4 +282,4 @@ INSTANTIATE_TEST_SUITE_P(Laws, SampledRun, ::testing::ValuesIn(testing::every_la
                          [](auto const& p) { return std::string(slideway::info(p.param).name); });
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::observer_quantities_test

@@ -9,7 +9,7 @@
 #include "kernels/members/complete_inputs.hpp"
 #include "tests/support/ensemble.hpp"
 
-namespace slideway {
+namespace slideway::observer_run_test {
 namespace {
 
 /// Members on a soft way, which meet it a few times in 0.02 s with few steps.
@@ -247,4 +247,4 @@ TEST(Quantities, AskedForAloneAreWhatTheyAreTogether) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::observer_run_test

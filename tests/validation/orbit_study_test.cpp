@@ -14,7 +14,7 @@
 #include "host/study/ensemble_plan.hpp"
 #include "host/study/exponent_table.hpp"
 
-namespace slideway {
+namespace slideway::orbit_study_test {
 namespace {
 
 constexpr std::size_t row_size = section_columns(state_size);
@@ -244,4 +244,4 @@ TEST(SectionsOfStiffSteps, LieOnTheirSurfaceAndCostWhatTheirMemberNeeds) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::orbit_study_test

@@ -7,6 +7,7 @@
 
 #include "tests/oracle/planar_runs.hpp"
 
+namespace planar_rigid_test {
 namespace {
 
 using oracle::PlanarSample;
@@ -77,3 +78,4 @@ TEST(RigidPlanarCrank, IsTheLimitOfAStiffCompliantBlock) {
 }
 
 }  // namespace
+}  // namespace planar_rigid_test

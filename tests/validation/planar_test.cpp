@@ -9,7 +9,7 @@
 #include "tests/oracle/planar_runs.hpp"
 #include "tests/support/ensemble.hpp"
 
-namespace slideway {
+namespace slideway::planar_test {
 namespace {
 
 constexpr std::size_t milliseconds = 200;
@@ -113,4 +113,4 @@ TEST(PlanarSliderCrank, IsDrivenByTheTorqueThatItTells) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::planar_test

@@ -10,7 +10,7 @@
 #include "host/run/ensemble.hpp"
 #include "tests/support/ensemble.hpp"
 
-namespace slideway {
+namespace slideway::poisoned_member_test {
 namespace {
 
 constexpr std::size_t members = 1000;
@@ -161,4 +161,4 @@ TEST_F(PoisonedMember, OfEveryKindFailsAloneInEveryIsa) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::poisoned_member_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/ensemble.hpp"
 
-namespace slideway {
+namespace slideway::refill_test {
 namespace {
 
 testing::RunOptions options_of(Method method, double end_time) {
@@ -65,4 +65,4 @@ TEST(Refill, KeepsTheLanesBusyWhereCostsDifferTenfold) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::refill_test

@@ -10,7 +10,7 @@
 #include "tests/models/relief_valve.hpp"
 #include "tests/support/valve_golden.hpp"
 
-namespace slideway {
+namespace slideway::relief_valve_test {
 namespace {
 
 using State = std::array<double, 3>;
@@ -104,4 +104,4 @@ TEST(ReliefValveOrbits, EndAtRestWhereTheInflowIsLarge) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::relief_valve_test

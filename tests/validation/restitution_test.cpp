@@ -7,7 +7,7 @@
 #include "kernels/members/complete_inputs.hpp"
 #include "tests/support/ensemble.hpp"
 
-namespace slideway {
+namespace slideway::restitution_test {
 namespace {
 
 /// A slider without weight flies flat at the lower wall of a resting mechanism.  @return speed after over before.
@@ -84,4 +84,4 @@ TEST(Restitution, LosesTheEnergyOfTheImpact) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::restitution_test

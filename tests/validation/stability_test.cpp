@@ -11,7 +11,7 @@
 #include "kernels/members/complete_inputs.hpp"
 #include "tests/support/ensemble.hpp"
 
-namespace slideway {
+namespace slideway::stability_test {
 namespace {
 
 constexpr Selection audit = selection_of(Quantity::energy_residual);
@@ -244,4 +244,4 @@ TEST(Scenes, AreNeverAccused) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::stability_test

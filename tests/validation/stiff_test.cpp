@@ -9,7 +9,7 @@
 #include "kernels/members/complete_inputs.hpp"
 #include "tests/support/ensemble.hpp"
 
-namespace slideway {
+namespace slideway::stiff_test {
 namespace {
 
 using std::numbers::pi;
@@ -240,4 +240,4 @@ TEST(StiffMethod, SaysWhyAMemberCannotGoOn) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::stiff_test

@@ -8,7 +8,7 @@
 #include "tests/oracle/names.hpp"
 #include "tests/support/ensemble.hpp"
 
-namespace slideway {
+namespace slideway::trajectories_test {
 namespace {
 
 class GoldenTrajectories : public ::testing::TestWithParam<Isa> {};
@@ -49,4 +49,4 @@ INSTANTIATE_TEST_SUITE_P(Isas, GoldenTrajectories, ::testing::ValuesIn(built_isa
                          [](auto const& p) { return std::string(name_of(p.param)); });
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::trajectories_test

@@ -2,16 +2,15 @@
 
 import re
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+import reproduction.__main__
+from reproduction import maps, modes
 from reproduction.__main__ import reproduce
 from reproduction.claims import LAWS
 from reproduction.sections import Section
-
-from conftest import ROOT
 
 Made = tuple[Path, list[Section], list[str]]
 
@@ -62,15 +61,19 @@ def test_the_page_shows_all_of_it_without_a_network(made: Made) -> None:
     assert "prefers-color-scheme: dark" in text and 'name="viewport"' in text
 
 
-def test_a_part_that_fails_is_one_line_and_the_rest_is_there(made: Made, scenes: Path, tmp_path: Path) -> None:
+def test_a_part_that_fails_is_one_line_and_the_rest_is_there(
+    made: Made, scenes: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     output, broken = tmp_path / "output", tmp_path / "scenes"
     shutil.copytree(made[0], output)
     shutil.copytree(scenes, broken)
     (broken / "slider_crank_0.15mm.toml").write_text("schema = 1\n[joint]\nclearance = -1\n")
-    command = [sys.executable, "-m", "reproduction", str(output), "--scale", "tiny", "--scenes", str(broken)]
-    done = subprocess.run(command, cwd=ROOT / "scripts", capture_output=True, text=True, check=False)
-    assert done.returncode == 1
-    assert len(done.stderr.splitlines()) == 1 and "crank_0.15mm" in done.stderr
+    # A section that needs the scene, and one that does not: the others were drawn above.
+    monkeypatch.setattr(reproduction.__main__, "SECTIONS", (modes.section, maps.section))
+    monkeypatch.setattr(sys, "argv", ["reproduction", str(output), "--scale", "tiny", "--scenes", str(broken)])
+    assert reproduction.__main__.main() == 1
+    words = capsys.readouterr().err
+    assert len(words.splitlines()) == 1 and "crank_0.15mm" in words
     text = (output / "reproduction.html").read_text(encoding="utf-8")
     assert "the section cannot be made" in text
     assert "Fig. 17: the map" in text

@@ -13,7 +13,7 @@
 
 #include "tests/support/varied_blocks.hpp"
 
-namespace slideway {
+namespace slideway::block_image_test {
 namespace {
 
 using testing::BlockPlan;
@@ -203,4 +203,4 @@ TEST(BlockImage, OfNoMembers) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::block_image_test

@@ -10,7 +10,7 @@
 #include "tests/support/shell.hpp"
 #include "tests/system/small_run.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::cuda_module_test {
 namespace {
 
 std::string module_file(std::string const& kind) { return fmt::format("{}/card_module_{}.so", SLIDEWAY_CARD_MODULES, kind); }
@@ -150,4 +150,4 @@ TEST_F(RunWithoutCard, ForNoModuleLiesWhereItIsLookedFor) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::cuda_module_test

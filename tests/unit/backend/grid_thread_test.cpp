@@ -13,7 +13,7 @@
 #include "tests/support/grid_cranks/grid_cranks.hpp"
 #include "tests/support/varied_blocks.hpp"
 
-namespace slideway {
+namespace slideway::grid_thread_test {
 namespace {
 
 using testing::BlockPlan;
@@ -264,4 +264,4 @@ TEST_F(GridThread, AStopLeavesNoMemberHalfWritten) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::grid_thread_test

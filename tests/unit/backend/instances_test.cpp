@@ -6,7 +6,7 @@
 
 #include "tests/support/varied_blocks.hpp"
 
-namespace slideway {
+namespace slideway::instances_test {
 namespace {
 
 TEST(Instances, AreThereForEveryDampingThatALawHas) {
@@ -39,4 +39,4 @@ TEST(Instances, OfCornersKnowEveryDampingOfPoints) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::instances_test

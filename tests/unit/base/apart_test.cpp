@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-namespace slideway {
+namespace slideway::apart_test {
 namespace {
 
 constexpr ApartLimits limits{5, std::uint64_t{1} << 30};
@@ -79,4 +79,4 @@ TEST(WorkApart, SaysNothingAndRunsNoHandlers) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::apart_test

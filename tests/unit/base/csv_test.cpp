@@ -6,7 +6,7 @@
 #include "host/base/csv.hpp"
 #include "host/base/error.hpp"
 
-namespace slideway {
+namespace slideway::csv_test {
 namespace {
 
 using Fields = std::vector<std::string>;
@@ -72,4 +72,4 @@ TEST(Csv, NumbersStandAlone) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::csv_test

@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <thread>
 
-namespace slideway {
+namespace slideway::durable_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -167,4 +167,4 @@ TEST_F(Lines, NeverGoIntoAFileThatIsThere) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::durable_file_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/scene_fixture.hpp"
 
-namespace slideway {
+namespace slideway::error_test {
 namespace {
 
 TEST(Errors, AreOneLineWhateverIsInThem) {
@@ -27,4 +27,4 @@ TEST(Errors, OfUnitsShowWhatStandsThere) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::error_test

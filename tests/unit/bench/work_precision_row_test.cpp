@@ -6,7 +6,7 @@
 
 #include "bench/work_precision/row.hpp"
 
-namespace slideway::bench {
+namespace slideway::bench::work_precision_row_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -56,4 +56,4 @@ TEST(TimeToReach, KeepsMethodsApart) {
 }
 
 }  // namespace
-}  // namespace slideway::bench
+}  // namespace slideway::bench::work_precision_row_test

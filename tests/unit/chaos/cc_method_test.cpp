@@ -7,7 +7,7 @@
 
 #include "tests/unit/chaos/series.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::cc_method_test {
 namespace {
 
 double deviation(std::vector<double> const& x) {
@@ -119,4 +119,4 @@ TEST(CcMethod, OfAConstantIsEmpty) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::cc_method_test

@@ -6,7 +6,7 @@
 
 #include "tests/unit/chaos/series.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::divergence_test {
 namespace {
 
 struct Embedding {
@@ -143,4 +143,4 @@ TEST(Growth, ErrorIsThatOfTheJackknife) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::divergence_test

@@ -8,7 +8,7 @@
 
 #include "host/chaos/exponents.hpp"
 
-namespace slideway {
+namespace slideway::exponents_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -141,4 +141,4 @@ TEST(MeanOfMembers, OfFewSaysSo) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::exponents_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace slideway::testing {
+namespace slideway::testing::linear_fit_test {
 namespace {
 
 TEST(LinearFit, IsThatOfTheTextbook) {
@@ -45,4 +45,4 @@ TEST(LinearFit, HasNoAnswerOutsideItsDomain) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::linear_fit_test

@@ -6,7 +6,7 @@
 
 #include "tests/unit/chaos/series.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::nearest_neighbours_test {
 namespace {
 
 Neighbour brute_force(DelayEmbedding const& embedding, std::size_t points, std::size_t theiler, std::size_t i) {
@@ -88,4 +88,4 @@ TEST(NearestNeighbours, AreNoneWhereNoPointIsLeft) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::nearest_neighbours_test

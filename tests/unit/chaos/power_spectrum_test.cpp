@@ -8,7 +8,7 @@
 
 #include "tests/unit/chaos/series.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::power_spectrum_test {
 namespace {
 
 double integral(PowerSpectrum const& spectrum) {
@@ -87,4 +87,4 @@ TEST(AveragePeriod, OfAConstantIsNone) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::power_spectrum_test

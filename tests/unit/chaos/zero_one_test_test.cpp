@@ -8,7 +8,7 @@
 
 #include "tests/unit/chaos/series.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::zero_one_test_test {
 namespace {
 
 TEST(ZeroOneTest, ChaosIsOne) {
@@ -85,4 +85,4 @@ TEST(ZeroOneTest, HasNoAnswerOutsideItsDomain) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::zero_one_test_test

@@ -11,7 +11,7 @@
 #include "host/commands/text.hpp"
 #include "host/config/key_reference.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::description_test {
 namespace {
 
 using namespace slideway::cli;
@@ -117,4 +117,4 @@ TEST(WrappedText, EndsBeforeItsColumnAndLosesNothing) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::description_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/tolerance_file.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::tolerance_text_test {
 namespace {
 
 using ToleranceText = ToleranceFile;
@@ -94,4 +94,4 @@ TEST_F(ToleranceText, SaysWhenThereIsNothingToTell) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::tolerance_text_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/scene_fixture.hpp"
 
-namespace slideway {
+namespace slideway::chaos_errors_test {
 namespace {
 
 using testing::contains;
@@ -180,4 +180,4 @@ TEST(SceneChaosErrors, MistypedKeysComeWithASuggestion) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::chaos_errors_test

@@ -10,7 +10,7 @@
 
 #include "tests/support/scene_fixture.hpp"
 
-namespace slideway {
+namespace slideway::chaos_test {
 namespace {
 
 using testing::contains;
@@ -323,4 +323,4 @@ TEST(SceneChaos, OptionsReplaceWhatSaysTheSame) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::chaos_test

@@ -10,7 +10,7 @@
 
 #include "tests/support/scene_fixture.hpp"
 
-namespace slideway {
+namespace slideway::drive_period_test {
 namespace {
 
 using testing::contains;
@@ -196,4 +196,4 @@ TEST(ContinuedSweeps, OfACarriageTakeTheirSectionsAtItsStart) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::drive_period_test

@@ -5,7 +5,7 @@
 
 #include "tests/support/scene_fixture.hpp"
 
-namespace slideway {
+namespace slideway::error_examples_test {
 namespace {
 
 TEST(ErrorExamples, AreRefusedByTheLineThatStandsThere) {
@@ -29,4 +29,4 @@ TEST(ErrorExamples, AreRefusedByTheLineThatStandsThere) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::error_examples_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/scene_fixture.hpp"
 
-namespace slideway {
+namespace slideway::errors_test {
 namespace {
 
 using testing::contains;
@@ -273,4 +273,4 @@ TEST(SceneErrors, NamesAndValuesStayOnOneLine) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::errors_test

@@ -10,7 +10,7 @@
 #include "kernels/members/complete_inputs.hpp"
 #include "tests/support/scene_fixture.hpp"
 
-namespace slideway {
+namespace slideway::files_test {
 namespace {
 
 using testing::contains;
@@ -324,4 +324,4 @@ TEST(SceneFiles, ResolveToThemselves) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::files_test

@@ -4,7 +4,7 @@
 #include "tests/support/scene_fixture.hpp"
 #include "tests/support/scene_tables.hpp"
 
-namespace slideway {
+namespace slideway::fuzz_test {
 namespace {
 
 std::string standard_scene() { return testing::read_text(SLIDEWAY_SCENES "/slider_crank_0.1mm.toml"); }
@@ -106,4 +106,4 @@ TEST(SceneFuzz, ForeignBytesReadOrAreRefused) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::fuzz_test

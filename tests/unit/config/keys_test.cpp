@@ -12,7 +12,7 @@
 #include "kernels/members/complete_inputs.hpp"
 #include "tests/support/scene_fixture.hpp"
 
-namespace slideway {
+namespace slideway::keys_test {
 namespace {
 
 TEST(Keys, EveryInputHasOneKey) {
@@ -290,4 +290,4 @@ TEST(Suggestion, IsNearOrNothing) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::keys_test

@@ -11,7 +11,7 @@
 #include "tests/support/scene_fixture.hpp"
 #include "tests/support/scene_tables.hpp"
 
-namespace slideway {
+namespace slideway::config_laws_test {
 namespace {
 
 using testing::contains;
@@ -217,4 +217,4 @@ TEST(SceneLaws, ResolveToThemselves) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::config_laws_test

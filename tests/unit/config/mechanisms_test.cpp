@@ -9,7 +9,7 @@
 #include "tests/support/scene_fixture.hpp"
 #include "tests/support/scene_tables.hpp"
 
-namespace slideway {
+namespace slideway::mechanisms_test {
 namespace {
 
 using testing::contains;
@@ -298,4 +298,4 @@ TEST(SceneMechanisms, ResolveToThemselves) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::mechanisms_test

@@ -8,7 +8,7 @@
 #include "host/config/settings.hpp"
 #include "tests/support/scene_fixture.hpp"
 
-namespace slideway {
+namespace slideway::config_methods_test {
 namespace {
 
 using testing::contains;
@@ -142,4 +142,4 @@ TEST(SceneMethods, WarnOfKeysWithoutEffect) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::config_methods_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/scene_fixture.hpp"
 
-namespace slideway {
+namespace slideway::reader_test {
 namespace {
 
 using testing::scene_of;
@@ -232,4 +232,4 @@ TEST(Override, MakesRivalsInTheFileVoid) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::reader_test

@@ -5,7 +5,7 @@
 #include "tests/support/scene_fixture.hpp"
 #include "tests/support/scene_tables.hpp"
 
-namespace slideway {
+namespace slideway::resolved_test {
 namespace {
 
 using testing::contains;
@@ -279,4 +279,4 @@ TEST(ResolvedScene, WhatFollowsStillFollowsWhenItsSourceVaries) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::resolved_test

@@ -6,7 +6,7 @@
 #include "host/config/reader.hpp"
 #include "tests/support/scene_fixture.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::settings_test {
 namespace {
 
 using Type = Setting::Type;
@@ -69,4 +69,4 @@ TEST(SceneSettings, AreReadAndWrittenByTheirRow) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::settings_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/scene_fixture.hpp"
 
-namespace slideway {
+namespace slideway::store_test {
 namespace {
 
 using testing::contains;
@@ -60,4 +60,4 @@ TEST(SceneStore, NoSamplesAreNoObstacle) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::store_test

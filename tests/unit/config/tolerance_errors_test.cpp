@@ -4,7 +4,7 @@
 #include "tests/support/scene_fixture.hpp"
 #include "tests/support/scene_tables.hpp"
 
-namespace slideway {
+namespace slideway::tolerance_errors_test {
 namespace {
 
 using testing::contains;
@@ -271,4 +271,4 @@ TEST(SceneToleranceErrors, Limits) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::tolerance_errors_test

@@ -8,7 +8,7 @@
 #include "tests/support/scene_fixture.hpp"
 #include "tests/support/scene_tables.hpp"
 
-namespace slideway {
+namespace slideway::tolerance_test {
 namespace {
 
 using testing::contains;
@@ -292,4 +292,4 @@ TEST(SceneLimits, AskForTheirQuantities) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::tolerance_test

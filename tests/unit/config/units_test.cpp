@@ -8,7 +8,7 @@
 
 #include "host/config/units.hpp"
 
-namespace slideway {
+namespace slideway::units_test {
 namespace {
 
 double value_of(std::string_view text, std::string_view unit) {
@@ -174,4 +174,4 @@ TEST(Units, ThreadsMayConvertAtOnce) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::units_test

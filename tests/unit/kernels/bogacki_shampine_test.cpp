@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace slideway {
+namespace slideway::bogacki_shampine_test {
 namespace {
 
 TEST(BogackiShampine, SatisfiesEveryOrderConditionUpToThree) {
@@ -85,4 +85,4 @@ TEST(BogackiShampine, DenseOutputHasOrderThreeInsideTheStepAndMeetsBothEnds) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::bogacki_shampine_test

@@ -9,7 +9,7 @@
 
 #include "kernels/steppers/cubic_roots.hpp"
 
-namespace slideway {
+namespace slideway::cubic_zeros_test {
 namespace {
 
 /// Values and slopes at both ends of a step.
@@ -199,4 +199,4 @@ TEST(CubicZeros, ALaneThatIsNoCandidateHasNone) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::cubic_zeros_test

@@ -7,7 +7,7 @@
 #include "kernels/steppers/dop853.hpp"
 #include "tests/unit/kernels/logistic.hpp"
 
-namespace slideway {
+namespace slideway::dop853_test {
 namespace {
 
 constexpr Dop853Tableau w{};
@@ -66,4 +66,4 @@ TEST(Dop853, DenseOutputMeetsBothEnds) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::dop853_test

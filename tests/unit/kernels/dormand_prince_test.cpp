@@ -6,7 +6,7 @@
 
 #include "kernels/steppers/dormand_prince.hpp"
 
-namespace slideway {
+namespace slideway::dormand_prince_test {
 namespace {
 
 constexpr DormandPrinceTableau w{};
@@ -113,4 +113,4 @@ TEST(DormandPrince, DenseOutputMeetsBothEnds) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::dormand_prince_test

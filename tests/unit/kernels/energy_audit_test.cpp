@@ -8,7 +8,7 @@
 
 #include "kernels/methods.hpp"
 
-namespace slideway {
+namespace slideway::energy_audit_test {
 namespace {
 
 using Audit = EnergyAudit<double>;
@@ -102,4 +102,4 @@ TEST(Methods, WithoutASafeErrorControlAreAlwaysAudited) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::energy_audit_test

@@ -9,7 +9,7 @@
 
 #include "tests/models/models.hpp"
 
-namespace slideway {
+namespace slideway::event_search_test {
 namespace {
 
 using testing::BallEvent;
@@ -317,4 +317,4 @@ TEST_F(EventSearch, BouncesThatPileUpSpendTheStepsOfTheMemberAtMost) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::event_search_test

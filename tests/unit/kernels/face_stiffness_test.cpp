@@ -12,7 +12,7 @@
 #include "kernels/mechanisms/slider_parameters.hpp"
 #include "tests/oracle/oracle.hpp"
 
-namespace slideway {
+namespace slideway::face_stiffness_test {
 namespace {
 
 using Values = std::array<double, 4>;
@@ -188,4 +188,4 @@ TEST(FrictionStiffness, IsIsotropicAtRest) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::face_stiffness_test

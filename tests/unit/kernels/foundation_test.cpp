@@ -6,7 +6,7 @@
 
 #include "kernels/laws/foundation.hpp"
 
-namespace slideway {
+namespace slideway::foundation_test {
 namespace {
 
 constexpr double k = 3e9, depth = 2e-7;  // [N/m], [m]
@@ -92,4 +92,4 @@ TEST(Foundation, TakesTheImpactSpeedOfApicesThatTouch) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::foundation_test

@@ -16,7 +16,7 @@
 #include "tests/oracle/random_states.hpp"
 #include "tests/support/compiled_laws.hpp"
 
-namespace slideway {
+namespace slideway::joint_stiffness_test {
 namespace {
 
 using Vector5 = Eigen::Matrix<double, 5, 1>;
@@ -218,4 +218,4 @@ TEST(JointStiffness, IsTheDerivativeOfTheContactForcesOnTheGoldenStates) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::joint_stiffness_test

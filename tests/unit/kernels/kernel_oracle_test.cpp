@@ -10,7 +10,7 @@
 #include "tests/oracle/random_states.hpp"
 #include "tests/unit/kernels/oracle_comparison.hpp"
 
-namespace slideway {
+namespace slideway::kernel_oracle_test {
 namespace {
 
 using testing::compare_probe;
@@ -34,4 +34,4 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::kernel_oracle_test

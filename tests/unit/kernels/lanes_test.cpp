@@ -8,7 +8,7 @@
 
 #include "tests/models/models.hpp"
 
-namespace slideway {
+namespace slideway::lanes_test {
 namespace {
 
 using testing::BallInputs;
@@ -170,4 +170,4 @@ INSTANTIATE_TEST_SUITE_P(Isas, Lanes, ::testing::ValuesIn(built_isas()),
                          [](auto const& info) { return std::string(name_of(info.param)); });
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::lanes_test

@@ -14,7 +14,7 @@
 #include "kernels/math/vec3.hpp"
 #include "tests/oracle/laws.hpp"
 
-namespace slideway {
+namespace slideway::math_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -283,4 +283,4 @@ TEST(Vec3, KnowsItsProducts) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::math_test

@@ -14,7 +14,7 @@
 #include "tests/oracle/random_states.hpp"
 #include "tests/unit/kernels/oracle_comparison.hpp"
 
-namespace slideway {
+namespace slideway::mechanism_oracle_test {
 namespace {
 
 using testing::compare_probe;
@@ -110,4 +110,4 @@ INSTANTIATE_TEST_SUITE_P(Isas, PlanarKernelsAgainstOracle, isas,
                          [](auto const& p) { return std::string(name_of(p.param)); });
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::mechanism_oracle_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/ensemble.hpp"
 
-namespace slideway {
+namespace slideway::kernels_methods_test {
 namespace {
 
 TEST(Methods, AreNamedInTheirOrder) {
@@ -48,4 +48,4 @@ TEST(Methods, AutoIsThePairThatItsToleranceAsksFor) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::kernels_methods_test

@@ -6,7 +6,7 @@
 #include "host/backend/backend.hpp"
 #include "tests/oracle/oracle.hpp"
 
-namespace slideway {
+namespace slideway::observer_probe_test {
 namespace {
 
 TEST(MisalignedWay, GivesThePenetrationsOfASliderUpsideDown) {
@@ -36,4 +36,4 @@ TEST(MisalignedWay, GivesThePenetrationsOfASliderUpsideDown) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::observer_probe_test

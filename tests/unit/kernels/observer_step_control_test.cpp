@@ -9,7 +9,7 @@
 #include "kernels/members/complete_inputs.hpp"
 #include "kernels/steppers/step_control.hpp"
 
-namespace slideway {
+namespace slideway::observer_step_control_test {
 namespace {
 
 using Model = SliderCrank;
@@ -81,4 +81,4 @@ TEST(ErrorScales, TakeACrankAtRestForOneRadianPerSecond) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::observer_step_control_test

@@ -11,7 +11,7 @@
 #include "kernels/observers/acceleration_record.hpp"
 #include "kernels/observers/slider_observer.hpp"
 
-namespace slideway {
+namespace slideway::observer_test {
 namespace {
 
 using Observer = SliderObserver<double>;
@@ -374,4 +374,4 @@ TEST(Observer, AMemberThatNeverMovedHasFiniteMeans) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::observer_test

@@ -7,7 +7,7 @@
 #include "kernels/joint/contact_report.hpp"
 #include "kernels/steppers/contact_watch.hpp"
 
-namespace slideway {
+namespace slideway::observer_touch_test {
 namespace {
 
 using Watch = ContactWatch<double>;
@@ -226,4 +226,4 @@ TEST(ContactWatch, LeaveAStepThatStartsOrEndsAtAChange) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::observer_touch_test

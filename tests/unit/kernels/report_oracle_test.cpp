@@ -20,7 +20,7 @@
 #include "tests/support/compiled_laws.hpp"
 #include "tests/unit/kernels/oracle_comparison.hpp"
 
-namespace slideway {
+namespace slideway::report_oracle_test {
 namespace {
 
 using testing::compare;
@@ -176,4 +176,4 @@ TEST(PlanarRestitutionKernels, AgreeWithTheOracleAtAnyImpactSpeeds) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::report_oracle_test

@@ -10,7 +10,7 @@
 
 #include "tests/oracle/linear_solve.hpp"
 
-namespace slideway {
+namespace slideway::ros34pw2_test {
 namespace {
 
 using Matrix = Eigen::Matrix4d;
@@ -136,4 +136,4 @@ TEST(Ros34pw2, HasOrderThreeWithAnyMatrix) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::ros34pw2_test

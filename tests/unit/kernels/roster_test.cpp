@@ -8,7 +8,7 @@
 
 #include "kernels/lanes/roster.hpp"
 
-namespace slideway {
+namespace slideway::roster_test {
 namespace {
 
 constexpr int width = 4, seats = 16;
@@ -117,4 +117,4 @@ TEST(Roster, ChoosesDistinctMembersOfOneKindAndAsManyAsThereAre) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::roster_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace slideway {
+namespace slideway::rough_powers_test {
 namespace {
 
 TEST(RoughPowers, LogarithmHasFourDigits) {
@@ -39,4 +39,4 @@ TEST(RoughPowers, ExponentialHasFourDigits) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::rough_powers_test

@@ -9,7 +9,7 @@
 #include "tests/models/fixed_step.hpp"
 #include "tests/models/lorenz.hpp"
 
-namespace slideway {
+namespace slideway::runge_kutta4_test {
 namespace {
 
 constexpr RungeKutta4Tableau w{};
@@ -160,4 +160,4 @@ TEST(FixedStep, TakesTheStepsOfTheStepper) {
 TEST(FixedStep, NoMembersTouchNoMemory) { fixed_step<Lorenz, double>({nullptr, 0, 0.01, 50, nullptr}); }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::runge_kutta4_test

@@ -14,7 +14,7 @@
 #include "tests/oracle/random_states.hpp"
 #include "tests/support/compiled_laws.hpp"
 
-namespace slideway {
+namespace slideway::slider_crank_linearisation_test {
 namespace {
 
 constexpr Parts parts{Law::conservative, Damping::rate, true, true};
@@ -185,4 +185,4 @@ TEST(SliderLinearisation, IsNothingInFreeFlightAndNanOutOfReach) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::slider_crank_linearisation_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace slideway {
+namespace slideway::squared_ratios_test {
 namespace {
 
 TEST(SquaredRatios, SumForAnyNumberOfPairs) {
@@ -46,4 +46,4 @@ TEST(SquaredRatios, NanOrInfinityShows) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::squared_ratios_test

@@ -7,7 +7,7 @@
 
 #include "tests/models/models.hpp"
 
-namespace slideway {
+namespace slideway::steppers_test {
 namespace {
 
 using testing::OscillatorInputs;
@@ -246,4 +246,4 @@ TEST_F(Steppers, StiffToleranceIsAFloorForRingingAlone) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::steppers_test

@@ -7,7 +7,7 @@
 #include "tests/models/fixed_step.hpp"
 #include "tests/models/lorenz.hpp"
 
-namespace slideway {
+namespace slideway::lorenz_test {
 namespace {
 
 using State = std::array<double, 3>;
@@ -70,4 +70,4 @@ TEST(Lorenz, MaximumOfZIsItsEvent) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::lorenz_test

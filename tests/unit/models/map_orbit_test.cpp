@@ -7,7 +7,7 @@
 
 #include "tests/models/models.hpp"
 
-namespace slideway {
+namespace slideway::map_orbit_test {
 namespace {
 
 using testing::Following;
@@ -142,4 +142,4 @@ INSTANTIATE_TEST_SUITE_P(Isas, Maps, ::testing::ValuesIn(built_isas()),
                          [](auto const& info) { return std::string(name_of(info.param)); });
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::map_orbit_test

@@ -7,7 +7,7 @@
 
 #include "tests/models/relief_valve.hpp"
 
-namespace slideway {
+namespace slideway::relief_valve_test {
 namespace {
 
 using State = std::array<double, 3>;
@@ -115,4 +115,4 @@ TEST(ReliefValve, EventsAreImpactsAndExtrema) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::relief_valve_test

@@ -16,6 +16,7 @@
 #include "tests/oracle/random_states.hpp"
 #include "tests/unit/oracle/oracle_fixture.hpp"
 
+namespace conservation_test {
 namespace {
 
 using oracle::Case;
@@ -212,3 +213,4 @@ TEST(Oracle, WayAndSliderTurnedTogetherPressAlike) {
 }
 
 }  // namespace
+}  // namespace conservation_test

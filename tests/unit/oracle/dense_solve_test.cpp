@@ -8,7 +8,7 @@
 
 #include "tests/oracle/linear_solve.hpp"
 
-namespace slideway {
+namespace slideway::dense_solve_test {
 namespace {
 
 template <int n> using Matrix = Eigen::Matrix<double, n, n>;
@@ -86,4 +86,4 @@ TEST(LuFactors, LeaveNoFiniteAnswerForAVanishingPivot) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::dense_solve_test

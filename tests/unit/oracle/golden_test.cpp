@@ -11,6 +11,7 @@
 #include "tests/oracle/golden_table.hpp"
 #include "tests/oracle/oracle.hpp"
 
+namespace golden_test {
 namespace {
 
 using oracle::State;
@@ -30,7 +31,7 @@ golden::Table oracle_table(golden::Table const& reference) {
     return table;
 }
 
-class GoldenRows : public testing::TestWithParam<std::tuple<char const*, std::size_t>> {};
+class GoldenRows : public ::testing::TestWithParam<std::tuple<char const*, std::size_t>> {};
 
 TEST_P(GoldenRows, AreMetByTheOracle) {
     auto const [name, rows] = GetParam();
@@ -41,7 +42,7 @@ TEST_P(GoldenRows, AreMetByTheOracle) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Oracle, GoldenRows,
-                         testing::Values(std::tuple{"rhs_paper.csv", 300}, std::tuple{"rhs_conservative.csv", 300},
+                         ::testing::Values(std::tuple{"rhs_paper.csv", 300}, std::tuple{"rhs_conservative.csv", 300},
                                          std::tuple{"rhs_parameters.csv", 400}, std::tuple{"rhs_kelvin_voigt.csv", 240},
                                          std::tuple{"rhs_kelvin_voigt_parameters.csv", 80}, std::tuple{"rhs_foundation.csv", 240},
                                          std::tuple{"rhs_foundation_parameters.csv", 80}));
@@ -102,3 +103,4 @@ TEST(GoldenMeasure, HoldsTrajectoriesToTheirUncertainty) {
 }
 
 }  // namespace
+}  // namespace golden_test

@@ -13,6 +13,7 @@
 #include "tests/oracle/spatial_runs.hpp"
 #include "tests/unit/oracle/oracle_fixture.hpp"
 
+namespace kelvin_voigt_test {
 namespace {
 
 using oracle::Case;
@@ -283,3 +284,4 @@ TEST(KelvinVoigt, LeavesAWallAtTheSpeedOfALinearOscillatorThatNothingPulls) {
 }
 
 }  // namespace
+}  // namespace kelvin_voigt_test

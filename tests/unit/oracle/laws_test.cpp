@@ -11,6 +11,7 @@
 #include "tests/oracle/random_states.hpp"
 #include "tests/unit/oracle/oracle_fixture.hpp"
 
+namespace oracle_laws_test {
 namespace {
 
 using oracle::Case;
@@ -182,3 +183,4 @@ TEST(Oracle, FlagsALineBeyondItsDomain) {
 }
 
 }  // namespace
+}  // namespace oracle_laws_test

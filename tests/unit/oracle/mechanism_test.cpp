@@ -5,6 +5,7 @@
 
 #include "tests/oracle/oracle.hpp"
 
+namespace mechanism_test {
 namespace {
 
 using oracle::Result;
@@ -37,3 +38,4 @@ TEST(Oracle, CrankTorqueCarriesItsOwnWeight) {
 }
 
 }  // namespace
+}  // namespace mechanism_test

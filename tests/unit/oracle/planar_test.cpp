@@ -15,6 +15,7 @@
 #include "tests/oracle/planar.hpp"
 #include "tests/oracle/planar_runs.hpp"
 
+namespace planar_test {
 namespace {
 
 using oracle::Corners;
@@ -280,3 +281,4 @@ TEST(RandomPlanarStates, TouchInEveryWayWithAllParts) {
 }
 
 }  // namespace
+}  // namespace planar_test

@@ -15,6 +15,7 @@
 #include "tests/oracle/random_states.hpp"
 #include "tests/unit/oracle/oracle_fixture.hpp"
 
+namespace random_states_test {
 namespace {
 
 using oracle::Case;
@@ -172,3 +173,4 @@ TEST(RandomStates, AreTheSameForTheSameSeed) {
 }
 
 }  // namespace
+}  // namespace random_states_test

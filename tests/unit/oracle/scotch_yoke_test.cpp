@@ -9,6 +9,7 @@
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/spatial_runs.hpp"
 
+namespace scotch_yoke_test {
 namespace {
 
 using oracle::Result;
@@ -147,3 +148,4 @@ TEST(SpatialOracle, RefusesThePlanarMechanism) {
 }
 
 }  // namespace
+}  // namespace scotch_yoke_test

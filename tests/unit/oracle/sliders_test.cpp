@@ -9,6 +9,7 @@
 #include "tests/oracle/random_states.hpp"
 #include "tests/unit/oracle/oracle_fixture.hpp"
 
+namespace sliders_test {
 namespace {
 
 using oracle::Case;
@@ -197,3 +198,4 @@ TEST(Sensors, FeelTheCentreTheSpinAndNoWeight) {
 }
 
 }  // namespace
+}  // namespace sliders_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace slideway {
+namespace slideway::block_sizes_test {
 namespace {
 
 BlockSizes sizes_of(std::size_t lanes) {
@@ -146,4 +146,4 @@ TEST(BlockSizes, AreWhatWasAskedFor) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::block_sizes_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace slideway {
+namespace slideway::member_queue_test {
 namespace {
 
 TEST(LocalQueue, GivesEachPlaceOnceHoweverManyThreadsTake) {
@@ -56,4 +56,4 @@ TEST(LocalQueue, GivesNothingOnceItIsAbandoned) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::member_queue_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace slideway {
+namespace slideway::member_set_test {
 namespace {
 
 using Plain = std::set<std::uint64_t>;
@@ -171,4 +171,4 @@ TEST(MemberSet, RefusesAMemberBehindWhichThereIsNoNumber) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::member_set_test

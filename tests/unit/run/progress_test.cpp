@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace slideway {
+namespace slideway::progress_test {
 namespace {
 
 std::string written_by(Progress::Style style, int milliseconds, std::uint64_t done, std::uint64_t before = 0) {
@@ -110,4 +110,4 @@ TEST(Progress, TakesAFileForNoTerminal) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::progress_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace slideway {
+namespace slideway::stop_test {
 namespace {
 
 using std::chrono::duration;
@@ -55,4 +55,4 @@ TEST(SignalScope, GivesTheFormerHandlerBack) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::stop_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace slideway {
+namespace slideway::time_left_test {
 namespace {
 
 constexpr double tick = 0.25;
@@ -68,4 +68,4 @@ TEST(TimeLeft, GoesOnWhereWorkPauses) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::time_left_test

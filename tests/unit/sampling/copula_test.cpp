@@ -8,7 +8,7 @@
 #include "host/sampling/copula.hpp"
 #include "tests/unit/sampling/samples.hpp"
 
-namespace slideway {
+namespace slideway::copula_test {
 namespace {
 
 using Kind = Distribution::Kind;
@@ -131,4 +131,4 @@ TEST(Correlation, DesignsWithoutRoomForItRefuse) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::copula_test

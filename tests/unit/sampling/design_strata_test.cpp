@@ -8,7 +8,7 @@
 
 #include "tests/unit/sampling/samples.hpp"
 
-namespace slideway {
+namespace slideway::design_strata_test {
 namespace {
 
 using Kind = Distribution::Kind;
@@ -155,4 +155,4 @@ TEST(Design, GridsOfManyValuesMissNone) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::design_strata_test

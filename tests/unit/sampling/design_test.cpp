@@ -12,7 +12,7 @@
 #include "tests/support/scene_fixture.hpp"
 #include "tests/unit/sampling/samples.hpp"
 
-namespace slideway {
+namespace slideway::design_test {
 namespace {
 
 using Kind = Distribution::Kind;
@@ -211,4 +211,4 @@ points = 3
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::design_test

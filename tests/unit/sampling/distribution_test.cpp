@@ -9,7 +9,7 @@
 #include "host/sampling/distribution.hpp"
 #include "tests/unit/sampling/samples.hpp"
 
-namespace slideway {
+namespace slideway::distribution_test {
 namespace {
 
 using Kind = Distribution::Kind;
@@ -215,4 +215,4 @@ TEST(Distribution, QuantilesDoNotFall) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::distribution_test

@@ -20,7 +20,7 @@
 
 #include "tests/unit/sampling/samples.hpp"
 
-namespace slideway {
+namespace slideway::openturns_sampling_test {
 namespace {
 
 using Kind = Distribution::Kind;
@@ -142,4 +142,4 @@ TEST(OpenTurns, CorrelatedLatinHypercubesFollowTheSameCopula) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::openturns_sampling_test

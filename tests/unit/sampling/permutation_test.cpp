@@ -8,7 +8,7 @@
 
 #include "host/sampling/permutation.hpp"
 
-namespace slideway {
+namespace slideway::permutation_test {
 namespace {
 
 std::vector<std::uint64_t> order(std::uint64_t size, StreamKey const& key) {
@@ -84,4 +84,4 @@ TEST(Permutation, PairsOfPlacesAreEquallyLikely) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::permutation_test

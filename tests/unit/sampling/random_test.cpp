@@ -9,7 +9,7 @@
 #include "host/sampling/random.hpp"
 #include "tests/support/scene_fixture.hpp"
 
-namespace slideway {
+namespace slideway::random_test {
 namespace {
 
 double uniform_draw(std::uint64_t seed, std::uint64_t member, std::string_view name) {
@@ -181,4 +181,4 @@ TEST(Sampling, UnboundedDrawsCanHaveDefects) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::random_test

@@ -8,7 +8,7 @@
 
 #include "host/sampling/sobol_points.hpp"
 
-namespace slideway {
+namespace slideway::sobol_points_test {
 namespace {
 
 using Axes = std::vector<SobolAxis>;
@@ -166,4 +166,4 @@ TEST(SobolPoints, HaveFiftyTwoBits) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::sobol_points_test

@@ -11,7 +11,7 @@
 
 #include "host/statistics/column_accumulator.hpp"
 
-namespace slideway {
+namespace slideway::column_accumulator_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
@@ -172,4 +172,4 @@ TEST(ColumnAccumulator, BytesOfNoAccumulatorAreRefused) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::column_accumulator_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace slideway {
+namespace slideway::correlation_test {
 namespace {
 
 double uniform(std::mt19937_64& engine) { return (static_cast<double>(engine() >> 11) + 0.5) * 0x1p-53; }
@@ -116,4 +116,4 @@ TEST(StandardisedRegression, NeedsMoreRowsThanInputsAndAnOutputThatVaries) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::correlation_test

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
-namespace slideway {
+namespace slideway::exact_sum_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -115,4 +115,4 @@ TEST(ExactSum, HasTheRulesOfInfinitiesAndNan) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::exact_sum_test

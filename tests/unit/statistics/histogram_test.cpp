@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace slideway {
+namespace slideway::histogram_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -81,4 +81,4 @@ TEST(Histogram, SpansTheRangeOfDoubles) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::histogram_test

@@ -9,7 +9,7 @@
 #include "host/statistics/proportion.hpp"
 #include "host/statistics/quantile_interval.hpp"
 
-namespace slideway {
+namespace slideway::intervals_test {
 namespace {
 
 double uniform(std::mt19937_64& engine) { return (static_cast<double>(engine() >> 11) + 0.5) * 0x1p-53; }
@@ -108,4 +108,4 @@ TEST(Proportion, OfNothingIsUnknown) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::intervals_test

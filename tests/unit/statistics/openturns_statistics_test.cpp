@@ -12,7 +12,7 @@
 #include "host/statistics/sobol_indices.hpp"
 #include "host/statistics/summary.hpp"
 
-namespace slideway {
+namespace slideway::openturns_statistics_test {
 namespace {
 
 double uniform(std::mt19937_64& engine) { return (static_cast<double>(engine() >> 11) + 0.5) * 0x1p-53; }
@@ -120,4 +120,4 @@ TEST(BesideOpenTurns, MomentsAndQuantilesAreTheSame) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::openturns_statistics_test

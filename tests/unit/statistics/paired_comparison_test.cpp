@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace slideway {
+namespace slideway::paired_comparison_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -152,4 +152,4 @@ TEST(HolmAdjusted, RaisesAFalseAlarmAsOftenAsItSays) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::paired_comparison_test

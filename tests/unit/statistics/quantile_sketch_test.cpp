@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace slideway {
+namespace slideway::quantile_sketch_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -123,4 +123,4 @@ TEST(QuantileSketch, RefusesOtherBytes) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::quantile_sketch_test

@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-namespace slideway {
+namespace slideway::sobol_indices_test {
 namespace {
 
 using Function = std::function<double(std::vector<double> const&)>;
@@ -214,4 +214,4 @@ TEST(SobolIndices, UseAsManyThreadsAsTheyAreTold) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::sobol_indices_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace slideway {
+namespace slideway::summary_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -101,4 +101,4 @@ TEST(MeanInterval, NeedsASpread) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::summary_test

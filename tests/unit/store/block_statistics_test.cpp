@@ -15,7 +15,7 @@
 #include "host/store/shard_store.hpp"
 #include "host/store/statistics_shard.hpp"
 
-namespace slideway {
+namespace slideway::block_statistics_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -284,4 +284,4 @@ TEST_F(StatisticsFolder, ADamagedShardIsTold) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::block_statistics_test

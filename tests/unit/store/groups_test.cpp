@@ -13,14 +13,14 @@
 #include "host/store/result_seal.hpp"
 #include "host/store/result_view.hpp"
 
-namespace slideway {
+namespace slideway::groups_test {
 namespace {
 
 namespace fs = std::filesystem;
 using Type = DataFile::Type;
 using Lengths = std::vector<std::size_t>;
 
-class Groups : public testing::Test {
+class Groups : public ::testing::Test {
 protected:
     Groups() : folder_(fs::temp_directory_path() / ("slideway_groups_test_" + std::to_string(getpid()))) {
         fs::remove_all(folder_);
@@ -157,4 +157,4 @@ TEST_F(Groups, AViewReadsAResultThatIsStillOpen) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::groups_test

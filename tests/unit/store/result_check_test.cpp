@@ -10,7 +10,7 @@
 #include "host/base/error.hpp"
 #include "tests/support/output_fixture.hpp"
 
-namespace slideway {
+namespace slideway::result_check_test {
 namespace {
 
 using Type = DataFile::Type;
@@ -208,4 +208,4 @@ TEST_F(Sealed, ThatIsNoFileIsRefusedAtOnce) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::result_check_test

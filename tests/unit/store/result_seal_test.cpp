@@ -7,7 +7,7 @@
 #include "host/store/provenance.hpp"
 #include "tests/support/output_fixture.hpp"
 
-namespace slideway {
+namespace slideway::result_seal_test {
 namespace {
 
 class PayloadHash : public testing::OutputFolder {};
@@ -60,4 +60,4 @@ TEST(CreationTime, IgnoresAnEpochThatIsNoNumber) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::result_seal_test

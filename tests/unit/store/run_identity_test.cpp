@@ -3,7 +3,7 @@
 #include "host/base/error.hpp"
 #include "tests/support/scene_fixture.hpp"
 
-namespace slideway {
+namespace slideway::run_identity_test {
 namespace {
 
 using testing::contains;
@@ -195,4 +195,4 @@ TEST(RunIdentity, RemembersWhereTheTableLay) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::run_identity_test

@@ -5,7 +5,7 @@
 #include "host/base/error.hpp"
 #include "tests/support/output_fixture.hpp"
 
-namespace slideway {
+namespace slideway::shard_claim_removal_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -211,4 +211,4 @@ TEST_F(Removal, TakesTheCopyOfTheTableAlong) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::shard_claim_removal_test

@@ -5,7 +5,7 @@
 #include "host/base/error.hpp"
 #include "tests/support/output_fixture.hpp"
 
-namespace slideway {
+namespace slideway::shard_claim_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -263,4 +263,4 @@ TEST_F(Claim, RemovesNothingThatIsNotOfTheRun) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::shard_claim_test

@@ -7,7 +7,7 @@
 #include "host/base/error.hpp"
 #include "tests/support/output_fixture.hpp"
 
-namespace slideway {
+namespace slideway::shard_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -303,4 +303,4 @@ TEST_F(Shards, AreListedOnlyOnceTheyAreThere) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::shard_folder_test

@@ -9,7 +9,7 @@
 #include "host/store/result_view.hpp"
 #include "tests/support/output_fixture.hpp"
 
-namespace slideway {
+namespace slideway::shard_writer_test {
 namespace {
 
 struct Block {
@@ -150,4 +150,4 @@ TEST_F(Writer, TellsOfADiskThatFailed) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::shard_writer_test

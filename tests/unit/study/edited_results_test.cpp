@@ -7,7 +7,7 @@
 #include "host/study/series_file.hpp"
 #include "tests/support/output_fixture.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::edited_results_test {
 namespace {
 
 class EditedResult : public OutputFolder {
@@ -125,4 +125,4 @@ TEST_F(EditedResult, ExponentsAndSectionsAreOfTheMembers) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::edited_results_test

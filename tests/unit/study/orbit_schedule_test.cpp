@@ -13,7 +13,7 @@
 #include "host/config/drive_period.hpp"
 #include "tests/support/scene_fixture.hpp"
 
-namespace slideway {
+namespace slideway::orbit_schedule_test {
 namespace {
 
 using testing::scene_of;
@@ -375,4 +375,4 @@ TEST(ShadowDirections, FavourNoSide) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::orbit_schedule_test

@@ -9,7 +9,7 @@
 #include "kernels/members/stiffest_rate.hpp"
 #include "tests/support/scene_fixture.hpp"
 
-namespace slideway {
+namespace slideway::prediction_test {
 namespace {
 
 Prediction prediction_of(std::string const& lines, int members = 1) {
@@ -117,4 +117,4 @@ TEST(Prediction, ContinuedSweepsMakeAShardOfEachColumnOfABlock) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::prediction_test

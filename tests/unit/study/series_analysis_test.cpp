@@ -7,7 +7,7 @@
 #include "host/base/error.hpp"
 #include "tests/unit/chaos/series.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::series_analysis_test {
 namespace {
 
 bool contains(std::vector<std::string> const& lines, std::string const& part) {
@@ -109,4 +109,4 @@ TEST(SeriesAnalysis, RefusesWhatItCannotUse) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::series_analysis_test

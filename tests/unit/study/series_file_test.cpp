@@ -6,7 +6,7 @@
 
 #include "host/base/error.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::series_file_test {
 namespace {
 
 using Values = std::vector<double>;
@@ -72,4 +72,4 @@ TEST(SeriesFile, TimesMayBeRounded) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::series_file_test

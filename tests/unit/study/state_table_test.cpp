@@ -9,7 +9,7 @@
 #include "host/study/probe.hpp"
 #include "kernels/members/start.hpp"
 
-namespace slideway {
+namespace slideway::state_table_test {
 namespace {
 
 constexpr char const* states = "t,y,z,vy,vz,roll,yaw,pitch,wx,wy,wz";
@@ -248,4 +248,4 @@ TEST(ProbeTable, HasTheColumnsOfTheInputThenTheGoldenOnes) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::state_table_test

@@ -9,7 +9,7 @@
 #include "host/store/result_seal.hpp"
 #include "tests/support/tolerance_file.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::statistics_groups_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -143,4 +143,4 @@ TEST_F(StatisticsGroups, HoldIndices) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::statistics_groups_test

@@ -8,7 +8,7 @@
 #include "tests/support/scene_fixture.hpp"
 #include "tests/support/tolerance_file.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::tolerance_correlation_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -106,4 +106,4 @@ TEST_F(ToleranceCorrelations, OfNoMoreMembersThanTheLimitUseAll) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::tolerance_correlation_test

@@ -8,7 +8,7 @@
 #include "tests/support/scene_fixture.hpp"
 #include "tests/support/tolerance_file.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::tolerance_report_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -287,4 +287,4 @@ TEST_F(ToleranceReportOf, AnotherScenesResultIsRefused) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::tolerance_report_test

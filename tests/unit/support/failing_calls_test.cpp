@@ -7,7 +7,7 @@
 
 #include "tests/support/mpirun.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::failing_calls_test {
 namespace {
 
 class FailingCalls : public ::testing::Test {
@@ -82,4 +82,4 @@ TEST_F(FailingCalls, AreOfTheFamiliesAskedFor) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::failing_calls_test

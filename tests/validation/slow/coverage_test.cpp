@@ -22,7 +22,7 @@
 #include "host/statistics/summary.hpp"
 #include "tests/unit/sampling/samples.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::coverage_test {
 namespace {
 
 constexpr int studies = 1000;
@@ -373,4 +373,4 @@ TEST(DesignCoverage, OfARoughFunctionOfACorrelatedLatinHypercubeIsNominal) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::coverage_test

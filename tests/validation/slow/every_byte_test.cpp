@@ -12,7 +12,7 @@
 #include "host/base/error.hpp"
 #include "host/store/result_check.hpp"
 
-namespace slideway {
+namespace slideway::every_byte_test {
 namespace {
 
 std::string bytes_of(std::filesystem::path const& path) {
@@ -56,4 +56,4 @@ TEST(EveryByte, OfAResultIsToldOrDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::every_byte_test

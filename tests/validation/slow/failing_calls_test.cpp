@@ -1,7 +1,7 @@
 // Every call on files of a small run fails in turn, in every way: the whole sweep of tests/system/failing_calls_test.
 #include "tests/system/disk_failures.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::failing_calls_test {
 namespace {
 
 TEST_F(FailingDisk, FullFromAnyCallOnCostsNoResult) { EXPECT_GT(sweep({}, 1, 1), 100); }
@@ -17,4 +17,4 @@ TEST_F(FailingDisk, GoesOnAfterAnyWriteThatWasShort) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::failing_calls_test

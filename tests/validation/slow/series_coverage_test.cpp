@@ -11,7 +11,7 @@
 #include "host/study/series_analysis.hpp"
 #include "tests/unit/chaos/series.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::series_coverage_test {
 namespace {
 
 constexpr std::size_t stretches = 20;
@@ -98,4 +98,4 @@ TEST(SeriesExponentCoverage, OfFiveThousandSamplesIsNineteenInTwenty) { expect_h
 TEST(SeriesExponentCoverage, OfTwentyThousandSamplesIsNineteenInTwenty) { expect_held(20'000); }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::series_coverage_test

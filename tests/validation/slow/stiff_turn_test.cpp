@@ -8,7 +8,7 @@
 
 #include "tests/support/ensemble.hpp"
 
-namespace slideway {
+namespace slideway::stiff_turn_test {
 namespace {
 
 struct Turn {
@@ -53,4 +53,4 @@ TEST(AutoMethodTurn, TakesASixtiethOfTheExplicitWorkAtTheSameResidual) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::stiff_turn_test
