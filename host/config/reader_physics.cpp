@@ -65,7 +65,7 @@ void check_located_modes(Node const& node, Scene const& scene) {
     }
     if (scene.integrator.method == Method::ros34pw2 || scene.integrator.method == Method::rk4) {
         refuse(node, {fmt::format("{} cannot end its steps there", name_of(scene.integrator.method)),
-                      "use method \"auto\", \"dopri5\", \"dop853\" or \"bs32\""});
+                      "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\" or \"bs32\""});
     }
 }
 
@@ -76,7 +76,11 @@ void read_located_modes(Node const& root, Scene& scene) {
     bool const orbits = !runs_to_end(scene.study), neighbours = scene.chaos.exponents > 0;
     bool const can = has_effect(setting("integrator.locate_modes"), settings.method, info(scene.parts.mechanism));
     // Long orbits under the law that switches take half the steps so, and neighbours need it.
-    if (node == nullptr) settings.locate_modes = switches && orbits && can;
+    bool const always = settings.method == Method::verner65 && !neighbours;
+    if (node == nullptr) settings.locate_modes = switches && (orbits || always) && can;
+    if (node != nullptr && switches && always && !settings.locate_modes) {
+        refuse(*node, {"verner65 ends its steps at contacts in any case", "remove it, or use method \"dopri5\""});
+    }
     if (node != nullptr && settings.locate_modes) check_located_modes(*node, scene);
     if (!switches || !neighbours || settings.locate_modes) return;
     // In trials exponents came out up to half as large again.
@@ -86,7 +90,7 @@ void read_located_modes(Node const& root, Scene& scene) {
                     can ? std::string("integrator.locate_modes is false")
                         : fmt::format("integrator.method is {}", name_of(settings.method)),
                     info(scene.parts.law).name,
-                    can ? "leave it out" : "use method \"auto\", \"dopri5\", \"dop853\" or \"bs32\""));
+                    can ? "leave it out" : "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\" or \"bs32\""));
 }
 
 void warn_of_idle_keys(Node const& table, Scene& scene) {
@@ -160,7 +164,7 @@ void read_integrator(Node const& root, Scene& scene) {
     if (settings.method == Method::ros34pw2 && !info(scene.parts.mechanism).spatial) {
         refuse(*root.find_path("integrator.method"),
                {fmt::format("the method has no Jacobian of a {}", info(scene.parts.mechanism).name),
-                "use method \"auto\", \"dopri5\", \"dop853\", \"bs32\" or \"rk4\""});
+                "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\", \"bs32\" or \"rk4\""});
     }
     Node const* const step = root.find_path("integrator.step");
     if (settings.method == Method::rk4 && step == nullptr) {
@@ -169,7 +173,7 @@ void read_integrator(Node const& root, Scene& scene) {
     if (settings.method == Method::rk4 && scene.parts.damping == Damping::restitution) {
         refuse(*root.find_path("integrator.method"),
                {"contact.restitution wants the speed at each touch, where the method's steps do not end",
-                "use method \"auto\", \"dopri5\", \"dop853\", \"bs32\" or \"ros34pw2\""});
+                "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\", \"bs32\" or \"ros34pw2\""});
     }
     read_located_modes(root, scene);
     auto const is_given = [&](std::string_view name) { return root.find_path(name) != nullptr; };

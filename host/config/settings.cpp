@@ -70,7 +70,7 @@ Settings settings() {
          .range = time_of_steps, .methods = method_sets::fixed, .number = of_integrator<&IntegratorSettings::fixed_step>},
         {.name = "integrator.locate_modes", .type = Type::truth, .unit = "",
          .meaning = "end steps where the contact mode switches; for laws that switch",
-         .preset = "true for lyapunov, poincare and sweep under a law that switches, else false", .methods = method_sets::explicit_pairs,
+         .preset = "true for lyapunov, poincare and sweep, and with verner65, under a law that switches; else false", .methods = method_sets::explicit_pairs,
          .of_faces = true, .truth = [](Scene& scene) -> bool& { return scene.integrator.locate_modes; }},
         {.name = "integrator.max_steps", .type = Type::count, .unit = "1", .meaning = "largest number of steps of a member, rejected ones included; a member that needs more ends as failed",
          .preset = "1e7, and as many for each second", .what = "number of steps", .least = 1, .most = most_steps,

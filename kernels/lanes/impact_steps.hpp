@@ -3,6 +3,7 @@
 #include "kernels/lanes/pack.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/contact_clock.hpp"
+#include "kernels/steppers/contact_watch.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -12,8 +13,11 @@ template <class Stepper, class Model, class Real> class ImpactSteps {
 public:
     using State = MemberState<Model, Real>;
 
-    /// Depth [clearances] up to which a touch counts as located: it errs by the impulse up to there, which goes with δ^2.5.
-    SLIDEWAY_HD static double located(double rtol) { return 1e-4 * ::sqrt(rtol); }
+    /// Depth [clearances] up to which a touch counts as located: it errs by the impulse up to there, which goes with δ^2.5, or by that of
+    /// a jump.  @param switches of the law: its forces jump there
+    SLIDEWAY_HD static double located(double rtol, bool switches) {
+        return switches ? ContactWatch<Real>::tolerance(Watching::modes) : 1e-4 * ::sqrt(rtol);
+    }
 
     /// Chooses the clocks and how far to go.  A step that lands goes by time; within an impact that may fail, and then, or where it would
     /// nearly land, half of the way goes by the clock.
@@ -22,14 +26,14 @@ public:
         auto const& s = pack.state;
         auto clock = s.contacts.watch.clock(s.contacts.memory);
         in_contact_ = clock.runs();
-        Real const by_time = s.course.h, by_clock = s.course.impacts.step;
+        Real const by_time = s.course.h, by_clock = min(s.course.impacts.step, clock.way_out());
         Real const h = select(in_contact_, Real(1.02) * clock.time_of(by_clock), by_time);
         auto const failed = in_contact_ & (s.course.rejections > Real(0.5));
         Mask<Real> const lands = (remaining <= h * Real(1.000001)) & !failed;
         auto const halves = in_contact_ & !lands & (remaining < Real(2.0) * h);
         clock.pair = select(pack.busy & !lands, clock.pair, Real(-1.0));
         Real const half = clock.own_of(Real(0.5) * remaining);
-        Real const own = select(clock.runs(), select(halves, half, by_clock), select(lands, remaining, h));
+        Real const own = select(clock.runs(), select(halves, min(half, by_clock), by_clock), select(lands, remaining, h));
         stepper.go_by(clock, select(pack.busy, own, Real(0.0)));
         return lands;
     }

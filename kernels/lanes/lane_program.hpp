@@ -41,7 +41,7 @@ public:
         Selection const for_status =
             is_always_audited(block.settings.method) ? MemberState<Model, Real>::Observer::audit_quantities : 0;
         pack_.needs = ReportNeeds::of<Model, Real>(model, block.quantities | for_status, block.settings);
-        if constexpr (Model::has_contacts) pack_.model.hold_contacts(holds_contacts(pack_.needs.watching));
+        if constexpr (can_hold_contacts<Model>) pack_.model.hold_contacts(holds_contacts(pack_.needs.watching));
         start_memory(pack_.state.contacts.memory);
     }
 

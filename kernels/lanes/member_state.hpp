@@ -41,8 +41,10 @@ template <class Real> struct ShadowCourse {
 };
 struct NoShadowCourse {};
 
-/// Whether steps of a model may go by the clock of a contact (ContactClock).
-template <class Model> inline constexpr bool has_clocks = Model::has_patterns && !Model::has_shadows;
+/// Whether the steps of a model may take its contacts as given, and go by the clock of one (ContactClock).
+template <class Model> inline constexpr bool can_hold_contacts = requires(Model& model) { model.hold_contacts(true); };
+template <class Model>
+inline constexpr bool has_clocks = can_hold_contacts<Model> && Model::has_patterns && !Model::has_shadows;
 
 /// What a member remembers for its next impact, of a method with clocks.
 template <class Real> struct ImpactCourse {

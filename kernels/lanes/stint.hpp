@@ -241,8 +241,8 @@ private:
     /// A touch, or a change of mode, must end its step: it sets the impact speed of what follows, or the law that holds.
     SLIDEWAY_HD Allowance allowed_by_contacts(Allowance const& before) {
         Real const step = attempt_.step;
+        if constexpr (by_clock) return allowed_by_impacts(before);
         auto const early = before.accepted & (step > resolution() * Real(64.0));
-        if constexpr (by_clock) return allowed_by_impacts(before, early);
         auto const watching = pack_.needs.watching;
         double tolerance = Model::template Watch<Real>::tolerance(watching);
         if constexpr (Model::has_shadows) tolerance = Shadows<Model, Real>::located;
@@ -261,9 +261,11 @@ private:
         return allowed;
     }
 
-    SLIDEWAY_HD Allowance allowed_by_impacts(Allowance const& before, Mask<Real> early) {
+    SLIDEWAY_HD Allowance allowed_by_impacts(Allowance const& before) {
         auto const& step = stepper_.step();
-        Real const located = Real(Impacts::located(settings_.rtol)) * Model::touch_scale(pack_.state.constants.parameters);
+        // A clock has steps of any size; what it does to time may round to nothing.
+        Mask<Real> const early = before.accepted & (step.start.runs() | (step.own > resolution() * Real(64.0)));
+        Real const located = Real(Impacts::located(settings_.rtol, pack_.needs.switches)) * Model::touch_scale(pack_.state.constants.parameters);
         Real const fraction = pack_.state.contacts.watch.earliest(early, attempt_.report.contact, step, located);
         auto const cut = fraction < Real(1.0);
         Real const least = select(step.start.runs(), Real(0.0), resolution() * Real(32.0));

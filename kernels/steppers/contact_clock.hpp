@@ -26,11 +26,15 @@ template <class Real> struct ContactClock {
         Real const left = max(fma(rate, time, root * root), Real(0.0));
         return select(runs(), time / max(root + sqrt(left), Real(1e-150)), time);
     }
-    /// The step that goes to u = 0, if δ' stays as it is, in place of one that would nearly go there or further.
+    /// The step that goes to u = 0, if δ' stays as it is; none where the pair does not rise from its face.
+    SLIDEWAY_FN Real way_out() const {
+        auto const rises = runs() & (rate < Real(0.0)) & (root > Real(0.0));
+        return select(rises, root / negated(select(rises, rate, Real(-1.0))), Real(1e300));
+    }
+    /// That step in place of one that would nearly go there, or further.
     SLIDEWAY_FN Real ending(Real own) const {
-        auto const falls = runs() & (rate < Real(0.0)) & (root > Real(0.0));
-        Real const whole = root / negated(select(falls, rate, Real(-1.0)));
-        return select(falls & (own > Real(0.9) * whole), whole, own);
+        Real const whole = way_out();
+        return select(own > Real(0.9) * whole, whole, own);
     }
 };
 

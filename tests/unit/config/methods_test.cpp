@@ -41,7 +41,7 @@ TEST(SceneMethods, FixedStepsFindNoTouchesForRestitution) {
     EXPECT_EQ(refusal_of("method = \"rk4\"\nstep = 1e-6\n[contact]\nrestitution = 0.5"),
               "scene.toml:3: integrator.method is \"rk4\" (contact.restitution wants the speed at each touch, where "
               "the method's steps do "
-              "not end); use method \"auto\", \"dopri5\", \"dop853\", \"bs32\" or \"ros34pw2\"");
+              "not end); use method \"auto\", \"dopri5\", \"dop853\", \"verner65\", \"bs32\" or \"ros34pw2\"");
     EXPECT_EQ(refusal_of("method = \"dopri5\"\n[contact]\nrestitution = 0.5"), "");
 }
 
@@ -119,8 +119,8 @@ TEST(SceneMethods, WarnOfKeysWithoutEffect) {
         char const *key, *methods;  // with which it has an effect
     };
     for (auto const& [key, methods] :
-         {Case{"step", "rk4"}, Case{"rtol", "auto dopri5 dop853 bs32 ros34pw2"}, Case{"atol", "auto dopri5 dop853 bs32 ros34pw2"},
-          Case{"max_step", "auto dopri5 dop853 bs32 ros34pw2"}, Case{"stiff_max_step", "auto ros34pw2"},
+         {Case{"step", "rk4"}, Case{"rtol", "auto dopri5 dop853 bs32 ros34pw2 verner65"}, Case{"atol", "auto dopri5 dop853 bs32 ros34pw2 verner65"},
+          Case{"max_step", "auto dopri5 dop853 bs32 ros34pw2 verner65"}, Case{"stiff_max_step", "auto ros34pw2"},
           Case{"stiff_tolerance", "auto ros34pw2"}}) {
         for (MethodInfo const& method : method_table) {
             std::string const fixed = std::string_view(method.name) == "rk4" ? "step = 1e-5\n" : "";

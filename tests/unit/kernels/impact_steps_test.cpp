@@ -29,6 +29,7 @@ std::vector<Inputs> starts(Parts const& parts, std::size_t count) {
         in = testing::with_own(in, parts.law, 50);
         in.chi_line = in.chi_surface = 10;
         in.restitution = 0.6;
+        in.vy = in.y > 0 ? 0.1 : -0.1;
     }
     return members;
 }
@@ -58,13 +59,15 @@ TEST(ImpactSteps, GoWhereStepsOfTimeGoUnderEveryLaw) {
                 by_time.settings.locate_modes = info(law).switches && damping != Damping::restitution;
                 auto const want = testing::run(best_isa(), by_time, members);
                 auto const found = testing::run(best_isa(), options_of(parts, Method::verner65, 1e-9, end), members);
+                by_time.settings.rtol = by_time.settings.atol = 1e-9;
+                auto const usual = testing::run(best_isa(), by_time, members);
                 double onsets = 0;
                 for (std::size_t i = 0; i < members.size(); ++i) {
                     auto const what = std::string(info(law).name) + ", damping " + std::to_string(static_cast<int>(damping)) +
                                       (friction ? ", friction" : "") + ", member " + std::to_string(i);
                     ASSERT_EQ(found.records[i].status, Status::finished) << what;
                     ASSERT_EQ(want.records[i].status, Status::finished) << what;
-                    EXPECT_LT(distance(found, want, i), 2e-6) << what;
+                    EXPECT_LT(distance(found, want, i), std::max(1e-6, 10 * distance(usual, want, i))) << what;
                     EXPECT_EQ(found.value(i, Quantity::contact_onsets), want.value(i, Quantity::contact_onsets)) << what;
                     onsets += want.value(i, Quantity::contact_onsets);
                 }
@@ -91,7 +94,7 @@ TEST(ImpactSteps, NeedHalfTheEvaluationsForTheSameEnergy) {
     Parts const parts{Law::conservative, Damping::rate, true, false};
     auto const members = starts(parts, 48);
     auto const by_time = testing::run(best_isa(), options_of(parts, Method::dopri5, 1e-7, 0.05), members);
-    auto const by_clock = testing::run(best_isa(), options_of(parts, Method::verner65, 3e-5, 0.05), members);
+    auto const by_clock = testing::run(best_isa(), options_of(parts, Method::verner65, 2e-5, 0.05), members);
     EXPECT_LT(percentile95(by_clock), percentile95(by_time));
     EXPECT_LT(evaluations(by_clock), 0.6 * evaluations(by_time));
 }
@@ -126,6 +129,7 @@ TEST(ContactClock, StepsToTheTimeThatIsAskedFor) {
     EXPECT_NEAR(rising.time_of(1), 9e-6 / 0.2, 1e-15);
     EXPECT_NEAR(rising.ending(0.0145), 0.015, 1e-15) << "what would nearly get there goes there";
     EXPECT_EQ(rising.ending(0.01), 0.01);
+    EXPECT_GT(sinking.way_out(), 1e10);
     ContactClock<double> const none{-1, 0, 0};
     EXPECT_EQ(none.pace(), 1.0);
     EXPECT_EQ(none.own_of(1e-3), 1e-3);
