@@ -245,19 +245,24 @@ TEST(SectionsOfStiffSteps, LieOnTheirSurfaceAndCostWhatTheirMemberNeeds) {
 }
 
 TEST(SectionsOfImpactSteps, AreThoseOfStepsOfTime) {
-    // vy is zero in the middle of impacts; the first ones come before the end of 12 ms.
-    Sections const found = sections(best_isa(), "verner65", 1e-9, 0.006), want = sections(best_isa(), "dopri5", 1e-11, 0.006);
-    std::vector<double> late;
-    for (std::size_t i = 0; i < want.records.size(); ++i) EXPECT_EQ(found.records[i].crossings, want.records[i].crossings) << i;
-    for (std::size_t i = 0; i < want.rows.size(); i += row_size) {
-        if (std::isnan(want.rows[i])) continue;
-        late.push_back(std::abs(found.rows[i] - want.rows[i]));
-        EXPECT_LT(late.back(), 1e-6) << "time [s]: errors grow a hundredfold with each impact";
-        EXPECT_LT(std::abs(found.rows[i + 3]), 1e-11) << "vy [m/s]";
-    }
-    ASSERT_GT(late.size(), 20u);
-    std::ranges::nth_element(late, late.begin() + static_cast<std::ptrdiff_t>(late.size() / 2));
-    EXPECT_LT(late[late.size() / 2], 1e-9);
+    // vy is zero in the middle of impacts.  From one to the next errors grow a hundredfold, so that they are judged by another method's.
+    Sections const want = sections(best_isa(), "dopri5", 1e-11, 0.006);
+    auto const errors = [&](std::string_view method) {
+        Sections const found = sections(best_isa(), method, 1e-9, 0.006);
+        for (std::size_t i = 0; i < want.records.size(); ++i) EXPECT_EQ(found.records[i].crossings, want.records[i].crossings) << i;
+        std::vector<double> late;
+        for (std::size_t i = 0; i < want.rows.size(); i += row_size) {
+            if (std::isnan(want.rows[i])) continue;
+            late.push_back(std::abs(found.rows[i] - want.rows[i]));
+            EXPECT_LT(std::abs(found.rows[i + 3]), 1e-11) << "vy [m/s]";
+        }
+        std::ranges::sort(late);
+        return late;
+    };
+    auto const by_clock = errors("verner65"), by_time = errors("dopri5");
+    ASSERT_GT(by_clock.size(), 20u);
+    EXPECT_LT(by_clock[by_clock.size() / 2], 1e-9) << "median [s]";
+    for (std::size_t i = by_clock.size() / 2; i < by_clock.size(); ++i) EXPECT_LT(by_clock[i], 10 * by_time[i]) << i;
 }
 
 }  // namespace
