@@ -4,7 +4,7 @@
 
 #include "tests/system/shards.hpp"
 
-namespace slideway::testing {
+namespace slideway::testing::correlated_test {
 namespace {
 
 class CorrelatedHypercube : public ShardedRun {
@@ -81,4 +81,4 @@ TEST_F(CorrelatedHypercube, RepeatsAMemberAlone) {
 }
 
 }  // namespace
-}  // namespace slideway::testing
+}  // namespace slideway::testing::correlated_test

@@ -11,7 +11,7 @@
 #include "host/base/error.hpp"
 #include "tests/unit/sampling/samples.hpp"
 
-namespace slideway {
+namespace slideway::correlated_latin_test {
 namespace {
 
 using Kind = Distribution::Kind;
@@ -154,4 +154,4 @@ TEST(CorrelatedLatin, MoreMembersThanAnOrderHasPlacesForAreRefused) {
 }
 
 }  // namespace
-}  // namespace slideway
+}  // namespace slideway::correlated_latin_test
