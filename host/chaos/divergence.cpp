@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "host/base/nan.hpp"
 #include "host/chaos/nearest_neighbours.hpp"
 
 namespace slideway {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t parts = 10;
 constexpr std::size_t fewest_points = 4;  // of a window that is chosen
 constexpr double share_of_rise = 0.7;

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "host/base/nan.hpp"
 #include "host/statistics/summary.hpp"
 
 namespace slideway {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double sum_of(GrowthLog const& log, std::size_t offset, std::size_t first, std::size_t last) {
     double sum = 0;

@@ -9,6 +9,8 @@
 
 #include <unsupported/Eigen/FFT>
 
+#include "host/base/nan.hpp"
+
 namespace slideway {
 namespace {
 
@@ -68,7 +70,6 @@ PowerSpectrum power_spectrum(std::span<double const> series, double spacing, Tap
 }
 
 double average_period(std::span<double const> series, double spacing, Taper taper) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     if (series.empty() || is_constant(series)) return nan;
     PowerSpectrum const spectrum = power_spectrum(series, spacing, taper);
     double power = 0, moment = 0;

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "host/base/nan.hpp"
 #include "host/statistics/correlation.hpp"
 
 namespace slideway {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> thinned(std::span<double const> series, ZeroOneOptions const& options) {
     std::vector<double> out;

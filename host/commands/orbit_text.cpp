@@ -11,9 +11,9 @@
 namespace slideway::cli {
 namespace {
 
-std::string number(double value) { return cell(value, 4); }
+std::string short_number(double value) { return cell(value, 4); }
 
-std::string text(MeanOfMembers const& mean) { return fmt::format("{} ± {}", number(mean.mean), number(mean.half_width)); }
+std::string text(MeanOfMembers const& mean) { return fmt::format("{} ± {}", short_number(mean.mean), short_number(mean.half_width)); }
 
 void print_history(std::vector<HistoryPoint> const& history) {
     if (history.empty()) return;
@@ -46,7 +46,7 @@ void print_doubts(ResultReader const& results, ExponentSummary const& largest) {
 }
 
 /// Columns of a sweep, all of them or every n-th.
-void print_columns(ResultReader const& results) {
+void print_sweep_columns(ResultReader const& results) {
     auto const columns = summarise_columns(results);
     if (columns.empty()) return;
     constexpr std::size_t most = 60;
@@ -72,7 +72,7 @@ void print_exponents(ResultReader const& results) {
         return;
     }
     if (!results.attribute("sweep_parameter").empty()) {
-        print_columns(results);
+        print_sweep_columns(results);
         print_doubts(results, exponents.front());
         return;
     }
@@ -98,8 +98,8 @@ void print_exponents(ResultReader const& results) {
     print_history(exponent_history(results));
     if (results.has("kaplan_yorke_dimension")) {
         Summary const dimension = summarise(results.values("kaplan_yorke_dimension"));
-        print_text(4, "  Kaplan-Yorke dimension of the map over a turn: median {}, {} to {}", number(dimension.median),
-                   number(dimension.min), number(dimension.max));
+        print_text(4, "  Kaplan-Yorke dimension of the map over a turn: median {}, {} to {}", short_number(dimension.median),
+                   short_number(dimension.min), short_number(dimension.max));
     }
     print_doubts(results, largest);
 }

@@ -38,7 +38,7 @@ OutputTarget table_target(ProbeArguments const& arguments, Scene const& scene) {
     return {arguments.output, {inputs, arguments.force, is_ours}};
 }
 
-std::string table_text(StateTable const& table, std::vector<ProbeResult> const& results) {
+std::string probed_text(StateTable const& table, std::vector<ProbeResult> const& results) {
     std::ostringstream out;
     write_probe_csv(out, table, results);
     return out.str();
@@ -100,7 +100,7 @@ int probe(ProbeArguments const& arguments) {
         arguments.output.empty() ? std::nullopt : std::optional(table_target(arguments, scene));
     StateTable const table = arguments.table.empty() ? start_state(scene) : load_table(arguments.table, scene);
     std::vector<ProbeResult> const results = slideway::probe(table, isa);
-    if (target) target->write(table_text(table, results));
+    if (target) target->write(probed_text(table, results));
     if (arguments.json)
         fmt::print("{}", probe_json(scene, table, results));
     else if (target)

@@ -58,7 +58,7 @@ void print_quantiles(ToleranceReport const& report) {
     print_table(rows, 3, 1, 8);
 }
 
-std::string range_text(Limit const& limit, std::string const& unit) {
+std::string limit_text(Limit const& limit, std::string const& unit) {
     bool const low = std::isfinite(limit.low), high = std::isfinite(limit.high);
     if (low && high) return fmt::format("{:.6g} to {:.6g} {}", limit.low, limit.high, unit);
     return low ? fmt::format(">= {:.6g} {}", limit.low, unit) : fmt::format("<= {:.6g} {}", limit.high, unit);
@@ -72,7 +72,7 @@ void print_yields(ToleranceReport const& report) {
     auto const add = [&](std::string const& limit, std::string const& range, Proportion const& met) {
         table.push_back({limit, range, std::to_string(met.successes), percent(met.value), percent(met.interval.low), percent(met.interval.high)});
     };
-    for (LimitYield const& limit : report.limits) add(limit.limit.name(), range_text(limit.limit, limit.unit), limit.met);
+    for (LimitYield const& limit : report.limits) add(limit.limit.name(), limit_text(limit.limit, limit.unit), limit.met);
     add("all limits", "", *report.all_met);
     print_table([&](int) { return table; }, 3, 2, 9);
 }

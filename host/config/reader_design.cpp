@@ -102,7 +102,7 @@ void read_levels(Node const& root, Scene& scene) {
 }
 
 /// Keys that count with another design alone: what an option replaced may leave them in the file.
-void warn_of_idle_keys(Node const& root, Scene& scene) {
+void warn_of_idle_design_keys(Node const& root, Scene& scene) {
     DesignKind const kind = scene.design.kind;
     auto const warn = [&](Node const* node) {
         if (node == nullptr) return;
@@ -138,7 +138,7 @@ void read_design(Node const& root, Scene& scene) {
     }
     if (design.kind == DesignKind::saltelli) read_base(root, scene);
     if (design.kind == DesignKind::grid) read_levels(root, scene);
-    warn_of_idle_keys(root, scene);
+    warn_of_idle_design_keys(root, scene);
     read_correlation(root, scene);
 }
 

@@ -93,7 +93,7 @@ void read_located_modes(Node const& root, Scene& scene) {
                     can ? "leave it out" : "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\" or \"bs32\""));
 }
 
-void warn_of_idle_keys(Node const& table, Scene& scene) {
+void warn_of_idle_integrator_keys(Node const& table, Scene& scene) {
     for (Node const& node : table.children) {
         if (has_effect(setting(node.name), scene.integrator.method, info(scene.parts.mechanism))) continue;
         // Said to be off where it cannot be on, it is as it was asked for.
@@ -194,7 +194,7 @@ void read_integrator(Node const& root, Scene& scene) {
     // The stiff method runs in lasting contact alone, where nothing is to be leapt over.
     double const stiff_step = reverses ? std::min(10 * settings.max_step, reversal) : 10 * settings.max_step;
     if (!is_given("integrator.stiff_max_step")) settings.stiff_max_step = stiff_step;
-    if (Node const* const table = root.find("integrator")) warn_of_idle_keys(*table, scene);
+    if (Node const* const table = root.find("integrator")) warn_of_idle_integrator_keys(*table, scene);
 }
 
 }  // namespace slideway

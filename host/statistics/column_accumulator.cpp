@@ -5,11 +5,11 @@
 #include <cstring>
 
 #include "host/base/byte_stream.hpp"
+#include "host/base/nan.hpp"
 
 namespace slideway {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace

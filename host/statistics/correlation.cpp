@@ -6,12 +6,11 @@
 #include <numeric>
 
 #include <Eigen/Dense>
+#include "host/base/nan.hpp"
 #include "host/sampling/distribution.hpp"
 
 namespace slideway {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 struct Scaling {
     double mean, spread;  // √Σ(x - mean)²

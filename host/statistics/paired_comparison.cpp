@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <boost/math/distributions/students_t.hpp>
 
+#include "host/base/nan.hpp"
 #include "host/statistics/summary.hpp"
 
 namespace slideway {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// P(|T| >= t) of Student's t.
 double two_sided_p(double freedom, double t) {

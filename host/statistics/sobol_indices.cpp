@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <boost/math/distributions/normal.hpp>
 
+#include "host/base/nan.hpp"
 #include "host/sampling/random.hpp"
 #include "host/statistics/exact_sum.hpp"
 #include "host/statistics/summary.hpp"
@@ -13,7 +13,6 @@
 namespace slideway {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_groups = std::size_t{1} << 16;
 
 /// Sums over rows from which all estimates follow: rows, a + b, a² + b², and for each input b (ab - a), ab - a, (ab -

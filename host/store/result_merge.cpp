@@ -128,7 +128,7 @@ void require_sound(std::string const& part) {
 std::string lock_file_of(std::string const& path) { return path + ".part.lock"; }
 
 /// The right to write the file: HDF5's own locks may be switched off, and it takes them only once the file is emptied.
-FileLock lock_of(std::string const& path) {
+FileLock lock_on(std::string const& path) {
     return {lock_file_of(path), FileLock::Kind::alone, FileLock::Wait::no,
             path + ": another process is writing it; wait for its end or give another name with -o"};
 }
@@ -189,7 +189,7 @@ void write_result(std::string const& path, std::string const& completeness,
                   std::function<void(NetcdfFile& file)> const& write, Existing existing) {
     std::string const part = path + ".part", lock_file = lock_file_of(path);
     require_room_beside(path);
-    FileLock lock = lock_of(path);
+    FileLock lock = lock_on(path);
     bool ours = false;
     try {
         remove_file(part);
@@ -206,7 +206,7 @@ void write_result(std::string const& path, std::string const& completeness,
 }
 
 void remove_merge_lock(std::string const& path) {
-    if (is_there(lock_file_of(path))) lock_of(path).remove();
+    if (is_there(lock_file_of(path))) lock_on(path).remove();
 }
 
 void merge_shards(ShardFolder const& folder, std::vector<Shard> const& shards, ResultMerge merge,

@@ -15,7 +15,7 @@ template <class T> std::vector<double> read_as(DataFile const& file, DataFile::V
 }
 
 /// As text, also a number.
-std::string text_of(DataFile const& file, std::string const& attribute) {
+std::string attribute_text(DataFile const& file, std::string const& attribute) {
     double number = 0;
     if (file.number(DataFile::global, attribute, number)) return fmt::format("{}", number);
     return file.text(DataFile::global, attribute);
@@ -34,11 +34,11 @@ DataFile::Variable const& ResultView::find(std::string const& variable) const {
     return *found;
 }
 
-std::string ResultView::attribute(std::string const& name) const { return text_of(*file_, name); }
+std::string ResultView::attribute(std::string const& name) const { return attribute_text(*file_, name); }
 
 std::string ResultView::group_attribute(std::string const& group, std::string const& name) const {
     if (!file_->has_group(group)) return {};
-    return text_of(*file_->group(group), name);
+    return attribute_text(*file_->group(group), name);
 }
 
 bool ResultView::has(std::string const& variable) const { return std::ranges::count(variables_, variable, &DataFile::Variable::name) > 0; }

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <span>
 
 #include <fmt/format.h>
 
+#include "host/base/nan.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/run/ensemble.hpp"
 #include "host/study/ensemble_plan.hpp"
@@ -21,7 +21,6 @@
 namespace slideway {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double jacobian_work = 1.5;  // right-hand sides
 constexpr char const* contact_names[] = {"surfaces at the end", "lines at the end", "points at the end"};
 using EndContacts = std::array<double, std::size(contact_names)>;

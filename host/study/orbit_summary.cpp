@@ -17,7 +17,7 @@ std::vector<char> finished_members(ResultReader const& results) {
 }
 
 /// Column j of the rows of `width` numbers whose member finished.
-std::vector<double> column_of(std::vector<double> const& values, std::vector<char> const& finished, std::size_t width,
+std::vector<double> finished_column(std::vector<double> const& values, std::vector<char> const& finished, std::size_t width,
                               std::size_t j) {
     std::vector<double> column;
     for (std::size_t i = 0; i < finished.size(); ++i) {
@@ -56,11 +56,11 @@ std::vector<ExponentSummary> summarise_exponents(ResultReader const& results) {
     std::size_t const count = finished.size() * exponents;
     auto const values = results.values("lyapunov_exponent", count), late = results.values("lyapunov_exponent_late", count);
     auto const half_widths = results.values("lyapunov_exponent_half_width", count);
-    double const resolution = largest_of(column_of(results.values("lyapunov_resolution", finished.size()), finished, 1, 0));
+    double const resolution = largest_of(finished_column(results.values("lyapunov_resolution", finished.size()), finished, 1, 0));
     for (std::size_t j = 0; j < exponents; ++j) {
-        auto const of_members = column_of(values, finished, exponents, j);
-        auto const reach = column_of(half_widths, finished, exponents, j);
-        auto const of_late = column_of(late, finished, exponents, j);
+        auto const of_members = finished_column(values, finished, exponents, j);
+        auto const reach = finished_column(half_widths, finished, exponents, j);
+        auto const of_late = finished_column(late, finished, exponents, j);
         ExponentSummary& summary = summaries.emplace_back();
         summary.mean = mean_with_rounding(of_members, resolution);
         summary.late = mean_with_rounding(of_late, resolution);
@@ -89,8 +89,8 @@ OffsetHealth offset_health(ResultReader const& results) {
     auto const finished = finished_members(results);
     double const exponents = static_cast<double>(exponents_of(results));
     auto const share = [&](char const* name) {
-        auto const counts = column_of(results.values(name, finished.size()), finished, 1, 0);
-        auto const rescalings = column_of(results.values("rescalings", finished.size()), finished, 1, 0);
+        auto const counts = finished_column(results.values(name, finished.size()), finished, 1, 0);
+        auto const rescalings = finished_column(results.values("rescalings", finished.size()), finished, 1, 0);
         double counted = 0, all = 0;
         for (std::size_t i = 0; i < counts.size(); ++i) counted += counts[i], all += exponents * rescalings[i];
         return all > 0 ? counted / all : 0.0;
@@ -132,7 +132,7 @@ std::vector<HistoryPoint> exponent_history(ResultReader const& results) {
     std::size_t const exponents = results.shape("lyapunov_history").at(2);
     auto const values = results.values("lyapunov_history", finished.size() * rescalings.size() * exponents);
     for (std::size_t n = 0; n < rescalings.size(); ++n) {
-        history.push_back({rescalings[n], mean_of_members(column_of(values, finished, rescalings.size() * exponents, n * exponents))});
+        history.push_back({rescalings[n], mean_of_members(finished_column(values, finished, rescalings.size() * exponents, n * exponents))});
     }
     return history;
 }

@@ -49,7 +49,7 @@ std::optional<std::size_t> time_column(Table const& table) {
     return found == table.names.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - table.names.begin()));
 }
 
-std::size_t column_of(Table const& table, std::string const& table_name, std::string const& wanted) {
+std::size_t column_place(Table const& table, std::string const& table_name, std::string const& wanted) {
     std::size_t const count = table.columns.size();
     if (wanted.empty()) return time_column(table) == count - 1 && count > 1 ? count - 2 : count - 1;
     auto const named = std::ranges::find(table.names, wanted);
@@ -170,7 +170,7 @@ StoredSeries read_csv_series(std::istream& in, std::string const& name, std::str
                              std::optional<double> spacing) {
     Table table = read_table(in, name);
     if (in.bad()) throw FileError(fmt::format("{}: cannot read", name));
-    std::size_t const place = column_of(table, name, column);
+    std::size_t const place = column_place(table, name, column);
     if (!spacing) {
         auto const time = time_column(table);
         if (!time) throw SceneError(fmt::format("{}: has no column time or t; give --dt SECONDS", name));

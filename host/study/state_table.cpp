@@ -44,7 +44,7 @@ bool starts_a_state(std::string_view name, Mechanism mechanism) {
     lines.fail(fmt::format("column {}: has no meaning for kind = \"{}\"; remove it", name, info(mechanism).name));
 }
 
-Column column_of(std::string_view name, Mechanism mechanism, CsvReader const& lines) {
+Column input_column(std::string_view name, Mechanism mechanism, CsvReader const& lines) {
     Column column;
     column.name = name;
     if (name == "t") {
@@ -80,7 +80,7 @@ Column column_of(std::string_view name, Mechanism mechanism, CsvReader const& li
 std::vector<Column> read_header(Mechanism mechanism, CsvReader const& lines) {
     std::vector<Column> columns;
     for (std::string const& name : lines.fields()) {
-        Column column = column_of(name, mechanism, lines);
+        Column column = input_column(name, mechanism, lines);
         if (column.kind != Column::Kind::ignored) {
             for (Column const& other : columns) {
                 if (other.name == column.name) lines.fail(fmt::format("column {}: stands there twice", name));

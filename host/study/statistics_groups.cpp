@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include <fmt/ranges.h>
 
+#include "host/base/nan.hpp"
 #include "host/store/group_writer.hpp"
 
 namespace slideway {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Entries of a report, one per column of a quantity, that belong to the same quantity.
 template <class Entry> std::vector<std::span<Entry const>> by_quantity(std::vector<Entry> const& entries) {

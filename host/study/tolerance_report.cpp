@@ -29,7 +29,7 @@ std::string policy_of(DesignKind design) {
 }
 
 /// @param complete whether every member ran: the slow ones are missing otherwise, and what is left is no fair sample.
-std::string intervals_of(DesignKind design, bool complete) {
+std::string interval_words(DesignKind design, bool complete) {
     if (!complete) {
         return "none: members have not run, and not at random: the slow ones are missing, and quick ones are too many "
                "among the others";
@@ -126,7 +126,7 @@ ToleranceReport statistics_report(ResultView const& results, Scene const& scene)
     ToleranceReport report;
     report.design = scene.design.kind;
     report.policy = policy_of(report.design) + " Members are not stored, so there are no correlations with what varies.";
-    report.intervals = intervals_of(report.design, complete);
+    report.intervals = interval_words(report.design, complete);
     report.quantile_error = "relative error of at most 2^-10 of a member of that rank";
     static_assert(QuantileSketch::error == 0x1p-10);
     report.statuses = report.draws = count_statuses(results);
@@ -156,7 +156,7 @@ ToleranceReport tolerance_report(ResultView const& results, Scene const& scene, 
     report.policy = policy_of(report.design);
     report.statuses = members.count(false);
     bool const complete = std::ranges::count(report.statuses, Status::not_run, &StatusCount::status) == 0;
-    report.intervals = intervals_of(report.design, complete);
+    report.intervals = interval_words(report.design, complete);
     report.draws = members.count(true);
     for (Variation const& variation : scene.variations) report.inputs.emplace_back(variation.key->name);
     bool const random = is_random(report.design) && complete;

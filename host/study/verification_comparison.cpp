@@ -1,8 +1,8 @@
 // What the study says of its members beside what they say when they run again.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "host/base/nan.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/config/drive_period.hpp"
 #include "host/study/orbit_schedule.hpp"
@@ -12,7 +12,6 @@
 namespace slideway {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double level = 0.95;
 constexpr double false_alarms = 0.02;    // of studies
 constexpr double least_relative = 1e-3;  // differences of a mean that nobody prints

@@ -160,7 +160,8 @@ DRAWN: dict[str, tuple[str, Callable[..., Axes], dict[str, Any]]] = {
 def hidden(ax: Axes) -> float:
     """Share of the pixels under the legend that show more than paper and grid when the legend is away."""
     figure = ax.figure
-    figure.canvas.draw()
+    if figure.get_layout_engine() is not None:
+        figure.draw_without_rendering()  # which moves axes
     legend = ax.get_legend()
     assert legend is not None
     box = legend.get_window_extent()

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -135,6 +136,43 @@ TEST(Repository, TestsThatMayNotShareAUnitAreFound) {
     EXPECT_EQ(wrong("tests/unit/b_test.cpp", whole + "int g();\n"), "its namespaces do not end the file");
     EXPECT_EQ(wrong("tests/unit/b_test.cpp", "namespace b_test {\nint f();\n}\n"), "what it has is not in a namespace without a name");
     EXPECT_EQ(wrong("tests/unit/taken_test.cpp", "namespace taken_test {\nnamespace {\n}\n}\n"), "another file has its namespace");
+}
+
+/// Names that a source declares in namespaces without a name: of functions, types and constants, but not of aliases.
+std::set<std::string> private_names(std::string const& text) {
+    static Pattern const declared(R"(^(?:(?:struct|class|enum class|enum) (\w+)|(?!using |[ }])(?:[\w:<>,&*\[\]. ]*[ &*>])(\w+)(?: = |\(|\[|\{|;)))");
+    std::set<std::string> names;
+    bool is_private = false;
+    for (auto const& line : lines_of(text)) {
+        if (opens_namespace(line)) is_private = line == "namespace {";
+        if (line == "}  // namespace") is_private = false;
+        if (!is_private) continue;
+        for (std::size_t const group : {1U, 2U}) {
+            if (auto const name = declared.match_in(line, group); name && !name->empty()) names.insert(*name);
+        }
+    }
+    return names;
+}
+
+TEST(Repository, SourcesOfALayerMayShareAUnit) {
+    std::map<std::string, std::string> owners;  // of a name of a layer
+    for (SourceFile const& file : files_below({"host"})) {
+        // These are of units of their own: the host's side of kernels, and the program.
+        if (!file.path.ends_with(".cpp") || file.path.starts_with("host/backend/")) continue;
+        for (auto const& name : private_names(file.text)) {
+            auto const [owner, is_first] = owners.try_emplace(file.path.substr(0, file.path.rfind('/') + 1) + name, file.path);
+            EXPECT_TRUE(is_first) << file.path << ": " << name << " is a private name of " << owner->second << " too";
+        }
+    }
+    EXPECT_GT(owners.size(), 500U);
+}
+
+TEST(Repository, PrivateNamesAreFound) {
+    std::set<std::string> const expected{"Some", "Kind", "words", "of", "one_of", "least"};
+    EXPECT_EQ(private_names("namespace a {\nint open();\nnamespace {\nusing Other = int;\nstruct Some {\n    int inner;\n};\nenum class Kind {};\n"
+                            "constexpr char const* words[] = {\"x\"};\nstd::vector<int> of(int x) { return {x}; }\nauto const& one_of(int i) {\n}\n"
+                            "std::size_t const least = 4;\n}  // namespace\nint late();\n}  // namespace a\n"),
+              expected);
 }
 
 }  // namespace

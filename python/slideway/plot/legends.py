@@ -7,6 +7,7 @@ from typing import Any, Literal
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import Collection, PathCollection, QuadMesh
+from matplotlib.figure import Figure
 from matplotlib.patches import StepPatch
 from matplotlib.transforms import Bbox
 from numpy.typing import ArrayLike
@@ -19,7 +20,7 @@ def place_legend(ax: Axes) -> None:
     """Draws the legend where nothing else is; where no corner is empty, to the right of the axes."""
     style: dict[str, Any] = {"frameon": False, "fontsize": "small"}
     figure = ax.figure.canvas.figure
-    figure.draw_without_rendering()  # sizes are known once it is laid out
+    _lay_out(figure)
     for corner in _corners:
         legend = ax.legend(loc=corner, **style)
         if not covered(ax, legend.get_window_extent().padded(_room)):
@@ -27,11 +28,20 @@ def place_legend(ax: Axes) -> None:
     legend = ax.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0, **style)
     if figure.get_layout_engine() is None:
         # Nobody else leaves room for it. A second plot on the same axes starts again from their whole place.
-        figure.draw_without_rendering()
         cell = ax.get_subplotspec()
         place = ax.get_position() if cell is None else cell.get_position(figure)
         wide = legend.get_window_extent().width / (place.width * figure.bbox.width)
         ax.set_position((place.x0, place.y0, place.width * max(0.97 - wide, 0.3), place.height))
+
+
+def _lay_out(figure: Figure) -> None:
+    """Gives axes the places and limits that they will be drawn with, in half the time of drawing them."""
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        engine.execute(figure)
+    for ax in figure.axes:
+        ax.apply_aspect()
+        ax.get_xlim()  # limits follow the data once somebody asks for them
 
 
 def covered(ax: Axes, box: Bbox) -> bool:
