@@ -224,7 +224,7 @@ private:
     JointParameters<Real> const& p_;
     Conditions<Laws> const& block_;
     ContactReport<Real>* const report_;
-    Real clock_rate_{0.0};
+    Real clock_rate_ = Real(0.0);
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -41,7 +41,7 @@ testing::RunOptions options_of(Method method) {
     o.settings.rtol = o.settings.atol = tolerance;
     o.settings.end_time = end_time;
     o.settings.fixed_step = 4e-6;
-    o.settings.max_steps = 30'000;
+    o.settings.max_steps = 6'000;
     o.series = testing::state_selection;
     o.sample_times = sample_times;
     return o;
