@@ -364,7 +364,9 @@ private:
         pack_.evaluate(c.t, c.y, pack_.state.contacts.memory, attempt_.end_rates, true, attempt_.report);
         pack_.count_evaluations(touched, 1);
         if (pack_.needs.quantities) {
-            pack_.state.observation.observer.switch_over(touched, attempt_.report, pack_.needs.switches);
+            auto& observer = pack_.state.observation.observer;
+            observer.switch_over(touched, attempt_.report, pack_.needs.switches);
+            if constexpr (by_clock) observer.turn_mode(touched, attempt_.report);
         }
         pack_.begin_next(touched, attempt_.end_rates, attempt_.report);
     }

@@ -120,6 +120,14 @@ public:
         resume(in, r, switches);
     }
 
+    /// Where other contacts are held from here on: the mode of the step that follows.  Its share of that step would else be of the mode
+    /// before, and steps by the clocks of impacts are long.
+    SLIDEWAY_FN void turn_mode(Mask<Real> in, Report const& r) {
+        Real const zero(0.0), mode = mode_class(r);
+        onsets_ = onsets_ + count<Real>(in & (mode_ == zero) & (mode > zero));
+        mode_ = select(in, mode, mode_);
+    }
+
     /// Integral of an integrand up to the last accepted step.
     SLIDEWAY_FN Real integral(int i) const { return integral_[i]; }
 

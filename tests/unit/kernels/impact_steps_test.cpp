@@ -69,6 +69,10 @@ TEST(ImpactSteps, GoWhereStepsOfTimeGoUnderEveryLaw) {
                     ASSERT_EQ(want.records[i].status, Status::finished) << what;
                     EXPECT_LT(distance(found, want, i), std::max(1e-6, 10 * distance(usual, want, i))) << what;
                     EXPECT_EQ(found.value(i, Quantity::contact_onsets), want.value(i, Quantity::contact_onsets)) << what;
+                    for (int mode = 0; mode < 4; ++mode) {
+                        EXPECT_NEAR(found.value(i, Quantity::mode_time, mode), want.value(i, Quantity::mode_time, mode), 1e-3 * end)
+                            << what << ", mode " << mode;
+                    }
                     onsets += want.value(i, Quantity::contact_onsets);
                 }
                 EXPECT_GE(onsets, 8) << "nothing to see without impacts";
