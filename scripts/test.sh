@@ -52,10 +52,18 @@ if [[ $all_isas == false ]]; then
     echo "test.sh: less than four cores: instruction sets but scalar and the widest, and headers and files alone," \
         "are left to scripts/test.sh --all-isas"
 fi
-environment=$(bash scripts/python_environment.sh --without-package) || stop "no Python environment, no test ran"
-options=("-DSLIDEWAY_CUDA=$cuda" "-DSLIDEWAY_ISAS=$isas" "-DSLIDEWAY_UNITY=$unity" -DSLIDEWAY_PYTHON=ON "-DPython_EXECUTABLE=$environment/bin/python")
+options=("-DSLIDEWAY_CUDA=$cuda" "-DSLIDEWAY_ISAS=$isas" "-DSLIDEWAY_UNITY=$unity")
 
 SECONDS=0
+# A new Python environment waits for its packages most of the time: the program is compiled meanwhile.
+if [[ ! -e build/python/requirements.txt ]]; then
+    bash scripts/python_environment.sh --without-package >/dev/null &
+    cmake --preset release --log-level=WARNING "${options[@]}" -DSLIDEWAY_PYTHON=OFF || stop "the configuration failed, no test ran"
+    cmake --build "$build" --parallel "$jobs" --target slideway || stop "the build failed, no test ran"
+    wait $! || stop "no Python environment, no test ran"
+fi
+environment=$(bash scripts/python_environment.sh --without-package) || stop "no Python environment, no test ran"
+options+=(-DSLIDEWAY_PYTHON=ON "-DPython_EXECUTABLE=$environment/bin/python")
 cmake --preset release --log-level=WARNING "${options[@]}" || stop "the configuration failed, no test ran"
 cmake --build "$build" --parallel "$jobs" || stop "the build failed, no test ran"
 [[ $all_isas == false ]] || cmake --build "$build" --parallel "$jobs" --target header_check || stop "a header does not compile alone, no test ran"
