@@ -1,4 +1,4 @@
-// What bench/lorenz asks of each instruction set.
+// What the benchmark of the Lorenz equations asks of each instruction set.
 #pragma once
 
 #include <cstddef>

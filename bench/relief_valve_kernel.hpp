@@ -1,4 +1,4 @@
-// What bench/relief_valve asks of each instruction set.
+// What the benchmark of the relief valve asks of each instruction set.
 #pragma once
 
 #include <cstddef>

@@ -111,6 +111,7 @@ struct BlockBase {
     std::size_t members = 0;
     std::uint32_t const* order = nullptr;  // [members] who is taken when, dearest first; nullptr: as they stand
     std::uint64_t* taken = nullptr;        // how many are, where several share the block; nullptr: one has it alone
+    std::size_t seats = 0;                 // who shares it takes so many at the start, at most; 0: as many as it can
     IntegratorSettings settings;
     double const* sample_times = nullptr;  // [samples], ascending, within [0, end_time]
     std::size_t samples = 0;

@@ -1,51 +1,38 @@
 #!/usr/bin/env bash
-# Builds and runs the work-precision benchmark, with SUNDIALS CVODE among the peers.
-# Usage: scripts/bench.sh [arguments of work_precision], e.g. --quick.  Results: bench/results/.
-#
-# Debian 12 builds its SUNDIALS without optimisation (debian/rules sets CMAKE_C_FLAGS, which replaces -O2), and CVODE's
-# own work then takes twice as long.  The comparison should be with CVODE at its best, so the same source is built here
-# with the peers' flags; where it cannot be fetched, Debian's library is taken and the tables say so.
+# What slideway does in a second on this machine: builds bench_throughput, runs it, and makes a table and a picture of it.
+# Usage: scripts/bench.sh [--quick] [OUTDIR].  OUTDIR: build/bench; --quick: right-hand sides, engine, Lorenz and relief valve, scalar and
+# the widest instruction set, under three minutes.  OUTDIR/throughput.json is Google Benchmark's, for bench/compare.py.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+exec </dev/null
+
+stop() {
+    echo "bench.sh: $1" >&2
+    exit 1
+}
+quick=false
+if [[ ${1:-} == --quick ]]; then
+    quick=true
+    shift
+fi
+(($# <= 1)) && [[ ${1:-} != -* ]] || stop "cannot make sense of: $*; use [--quick] [OUTDIR]"
+output=$(realpath -m "${1:-$root/build/bench}")
 cd "$root"
 
 build=build/release
-sundials=build/sundials
-flags="-O3 -mavx2 -mfma"
+bash scripts/setup.sh tests || stop "the set-up failed (see above)"
+cmake --preset release --log-level=WARNING || stop "the configuration failed (see above)"
+cmake --build "$build" --parallel "$(nproc)" --target bench_throughput || stop "the build failed (see above)"
+environment=$(bash scripts/python_environment.sh) || stop "no Python environment (see above)"
+mkdir -p "$output"
 
-as_root=()
-((EUID == 0)) || as_root=(sudo)
-
-# The system's package sources with source packages in place of binary ones, in a folder of their own.
-fetch_sundials() {
-    mkdir -p "$sundials"/{sources,lists/partial}
-    find /etc/apt -name '*.sources' -exec sed -s -e 's/^Types:.*/Types: deb-src/' -e '$s/$/\n/' {} + >"$sundials/sources/source.sources"
-    find /etc/apt -name '*.list' -exec sed -n 's/^deb /deb-src /p' {} + >"$sundials/sources/source.list"
-    local options=(-o Dir::Etc::sourcelist=/dev/null -o "Dir::Etc::sourceparts=$root/$sundials/sources"
-        -o "Dir::State::lists=$root/$sundials/lists" -o APT::Sandbox::User="$(id -un)")
-    (cd "$sundials" && apt-get -qq "${options[@]}" update && apt-get -qq "${options[@]}" source --download-only sundials) &&
-        mkdir -p "$sundials/source" && tar -xf "$sundials"/sundials_*.orig.tar.* -C "$sundials/source" --strip-components=1
-}
-
-build_sundials() {
-    cmake -S "$sundials/source" -B "$sundials/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS="$flags" \
-        -DBUILD_ARKODE=OFF -DBUILD_CVODE=OFF -DBUILD_IDA=OFF -DBUILD_IDAS=OFF -DBUILD_KINSOL=OFF -DBUILD_SHARED_LIBS=OFF \
-        -DEXAMPLES_ENABLE_C=OFF -DEXAMPLES_INSTALL=OFF -DCMAKE_INSTALL_PREFIX="$root/$sundials/install" \
-        -DCMAKE_INSTALL_LIBDIR=lib >"$sundials/configure.log" 2>&1 &&
-        cmake --build "$sundials/build" --target install >"$sundials/build.log"
-}
-
-bash scripts/setup.sh
-if [[ -d $sundials/install ]] || { fetch_sundials && build_sundials; }; then
-    cvode=(-DSUNDIALS_DIR="$root/$sundials/install/lib/cmake/sundials" -DSLIDEWAY_CVODE_BUILD="built with $flags")
-else
-    echo "bench.sh: no source of SUNDIALS; taking Debian's library, which is built without optimisation" >&2
-    dpkg-query -W libsundials-dev >/dev/null 2>&1 ||
-        "${as_root[@]}" apt-get install -y -qq --no-install-recommends libsundials-dev
-    cvode=(-USUNDIALS_DIR -DSLIDEWAY_CVODE_BUILD="Debian's library, built without optimisation")
+options=(--benchmark_repetitions=5 --benchmark_enable_random_interleaving=true --benchmark_out="$output/throughput.json"
+    --benchmark_out_format=json)
+if [[ $quick == true ]]; then
+    isas=$("$build/bin/bench_throughput" --benchmark_list_tests | sed -n 's|^peak/multiply_add/||p')
+    widest=$(tail -1 <<<"$isas")
+    options=("${options[@]/repetitions=5/repetitions=3}" --benchmark_min_time=0.05
+        "--benchmark_filter=^(peak/.*|rhs/.*lean|lorenz/.*|valve/.*|engine/(standard|rattling|settling).*)/(scalar|$widest|odeint)(/threads:1)?$")
 fi
-
-cmake --preset release --log-level=WARNING "${cvode[@]}"
-cmake --build "$build" --parallel "$(nproc)" --target work_precision
-mkdir -p bench/results
-"$build/bin/work_precision" --output bench/results "$@"
+"$build/bin/bench_throughput" "${options[@]}" >/dev/null || stop "bench_throughput failed"
+PYTHONPATH=$root "$environment/bin/python" bench/throughput_report.py "$output/throughput.json" "$output"

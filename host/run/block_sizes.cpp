@@ -6,7 +6,6 @@ namespace slideway {
 namespace {
 
 constexpr std::uint64_t blocks_per_worker = 2;  // of what is left, so that several workers end together
-constexpr std::uint64_t untried = 512;          // members of a block whose cost nobody knows, at most
 constexpr std::uint64_t enough_for_trials = 16;
 // The last members of a block leave lanes idle, as much work as that of some members, whatever the block's size: 2 where all cost
 // about the same, 25 where some settle and some rattle (scenes/tolerance_0.1mm.toml).

@@ -22,6 +22,7 @@ struct BlockSizes {
 /// take as long as one that fills it, and the ends of some blocks overlap with others.
 class BlockSizer {
 public:
+    static constexpr std::uint64_t untried = 512;  // members of a block whose cost nobody knows, at most
     /// @param workers threads of all ranks.
     BlockSizer(BlockSizes const& sizes, std::uint64_t members, int workers);
     /// @param left members that nobody has taken.

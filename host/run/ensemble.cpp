@@ -11,6 +11,8 @@
 
 #include <omp.h>
 
+#include "host/run/shared_block.hpp"
+
 namespace slideway {
 namespace {
 
@@ -56,6 +58,13 @@ int default_threads() { return omp_get_max_threads(); }
 
 namespace {
 
+/// Whether all threads work on one block: of so few members the ends of each thread's blocks would leave a good part of the lanes idle.
+/// Not where members are the program's, or another process takes some, or the user said how large blocks are.
+bool is_one_block(EnsemblePlan const& plan) {
+    return plan.threads > 1 && plan.workers <= plan.threads && !plan.program && plan.blocks.fixed == 0 && !plan.blocks.bounds.shared &&
+           plan.members.count() <= BlockSizer::untried && plan.members.count() <= plan.blocks.bounds.most;
+}
+
 /// The threads' common part of a run.
 class Team {
 public:
@@ -64,7 +73,7 @@ public:
           queue_(queue),
           sink_(sink),
           stop_(stop),
-          sizer_(plan.blocks, plan.members.count(), std::max(plan.workers, plan.threads)) {}
+          sizer_(plan.blocks, plan.members.count(), is_one_block(plan) ? 1 : std::max(plan.workers, plan.threads)) {}
 
     /// Empty: there is nothing more to do.
     std::vector<std::uint64_t> next_places() {
@@ -206,13 +215,15 @@ EnsembleTotals run_ensemble(EnsemblePlan const& plan, MemberQueue& queue, BlockK
     };
     BlockProgram const& program = plan.program ? plan.program : once;
 
-#pragma omp parallel num_threads(plan.threads)
+    bool const one_block = is_one_block(plan);
+    BlockKernel const instance = one_block ? shared_by_threads(kernel, plan.threads, plan.blocks.bounds.lanes) : kernel;
+#pragma omp parallel num_threads(one_block ? 1 : plan.threads)
     {
         // No exception may leave the parallel region.
         try {
             BlockBuffers buffers;
             Worker worker(team, progress, weight);
-            BlockKernel const watched = [&](Block& block) { worker.run(kernel, block); };
+            BlockKernel const watched = [&](Block& block) { worker.run(instance, block); };
             BlockEmit const emit = [&](BlockBuffers const& block) { return worker.emit(block); };
             for (auto places = team.next_places(); !places.empty(); places = team.next_places()) {
                 auto const begin = std::chrono::steady_clock::now();

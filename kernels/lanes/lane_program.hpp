@@ -46,7 +46,8 @@ public:
     }
 
     SLIDEWAY_HD void run() {
-        for (int seat = 0; seat < seats; ++seat) admit(seat);
+        int const first = block_.seats > 0 && block_.seats < seats ? static_cast<int>(block_.seats) : seats;
+        for (int seat = 0; seat < first; ++seat) admit(seat);
         for (;;) {
             int chosen[width];
             int const members = roster_.choose(chosen);

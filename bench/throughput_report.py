@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+"""Table and picture of what bench_throughput measured.
+
+usage: bench/throughput_report.py RESULTS.json OUTDIR
+
+Writes OUTDIR/throughput.md, a row for what was measured with the rate of each instruction set and of the peer and the ratio of the
+widest to `scalar`, and OUTDIR/throughput.svg, these ratios as bars.  Times are medians of the repetitions.
+"""
+
+from __future__ import annotations
+
+import json
+import statistics
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+
+# What a row is told by: the first of these that it counts.
+RATES = ("members/s", "rhs/s", "member-steps/s", "faces/s", "values/s", "flop/s")
+UNIT = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
+
+
+@dataclass
+class Row:
+    """One thing that was measured, by who did it: an instruction set or a peer."""
+
+    group: str
+    what: str
+    rate: str = ""
+    rates: dict[str, float] = field(default_factory=dict)
+
+    def widest(self) -> str:
+        return [name for name in self.rates if name != "odeint"][-1]
+
+    def ratio(self, other: str) -> float | None:
+        return self.rates[self.widest()] / self.rates[other] if other in self.rates and other != self.widest() else None
+
+
+def rows_of(results: dict) -> list[Row]:
+    measured: dict[str, list[dict]] = {}
+    for one in results["benchmarks"]:
+        if one.get("run_type") != "aggregate" and not one.get("error_occurred"):
+            measured.setdefault(one["run_name"], []).append(one)
+    rows: dict[tuple[str, str], Row] = {}
+    for name, runs in measured.items():
+        parts = name.split("/")
+        group, what, who = parts[:3]
+        notes = [part for part in parts[3:] if part.startswith("threads:") and part != "threads:1"]
+        what = ", ".join([what, *(note.replace("threads:", "threads: ") for note in notes)])
+        rate = next((r for r in RATES if r in runs[0]), "")
+        if not rate:
+            continue
+        row = rows.setdefault((group, what), Row(group, what, rate))
+        row.rates[who] = statistics.median(run[rate] for run in runs)
+    return list(rows.values())
+
+
+def machine_lines(context: dict) -> list[str]:
+    told = [key for key in context if key in ("cpu", "compiler", "commit") or key.startswith("flags, ")]
+    return [f"- {key}: {context[key]}" for key in told] + [f"- date: {context['date']}", f"- load: {context.get('load_avg', [])}"]
+
+
+def table_of(results: dict, rows: list[Row]) -> str:
+    names = list(dict.fromkeys(name for row in rows for name in row.rates))
+    lines = ["# Throughput", "", *machine_lines(results["context"]), "", "Medians of interleaved repetitions; one thread unless a row says two.", ""]
+    lines += ["| | " + " | ".join(["rate", *names, "widest over scalar", "over Odeint"]) + " |", "|---" * (len(names) + 4) + "|"]
+    for row in rows:
+        numbers = [f"{row.rates[name]:.3g}" if name in row.rates else "" for name in names]
+        ratios = [f"{ratio:.2f}" if ratio else "" for ratio in (row.ratio("scalar"), row.ratio("odeint"))]
+        lines.append("| " + " | ".join([f"{row.group}: {row.what}", row.rate, *numbers, *ratios]) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def draw(rows: list[Row], file: Path) -> None:
+    """The widest instruction set over `scalar`, a bar for each row that has both."""
+    # Here, so that the table needs Python alone.
+    import matplotlib
+
+    matplotlib.use("svg")
+    import matplotlib.pyplot as plt
+
+    bars = [(f"{row.group}: {row.what}", ratio, row.widest()) for row in rows if (ratio := row.ratio("scalar"))]
+    figure, axes = plt.subplots(figsize=(7, 0.8 + 0.24 * len(bars)), layout="constrained")
+    axes.barh([name for name, _, _ in bars], [ratio for _, ratio, _ in bars], color="#3b6ea5")
+    axes.bar_label(axes.containers[0], fmt="%.1f", padding=3, fontsize=8)
+    axes.axvline(1, color="#444444", linewidth=0.8)
+    axes.invert_yaxis()
+    axes.margins(x=0.1)
+    axes.tick_params(axis="y", labelsize=8)
+    axes.set_xlabel(f"times as fast with {bars[0][2]} as with scalar code, one core")
+    axes.spines[["top", "right"]].set_visible(False)
+    figure.savefig(file, metadata={"Date": None})
+    plt.close(figure)
+
+
+def main() -> int:
+    if len(sys.argv) != 3:
+        print(__doc__, file=sys.stderr)
+        return 2
+    results = json.loads(Path(sys.argv[1]).read_text())
+    rows = rows_of(results)
+    if not rows:
+        print(f"throughput_report.py: {sys.argv[1]} has no rates", file=sys.stderr)
+        return 1
+    folder = Path(sys.argv[2])
+    table = table_of(results, rows)
+    (folder / "throughput.md").write_text(table)
+    if any(row.ratio("scalar") for row in rows):
+        draw(rows, folder / "throughput.svg")
+    print(table)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
