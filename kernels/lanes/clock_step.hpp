@@ -1,8 +1,7 @@
 #pragma once
 
-#include <utility>
-
 #include "kernels/lanes/pack.hpp"
+#include "kernels/lanes/pair_stages.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/contact_clock.hpp"
 
@@ -30,8 +29,8 @@ public:
     SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
         begin(from);
         to.faults = Faults<Real>::none();
-        if (from.needs.stages) pack.begin_integrals(weights<0>(), pace_);
-        stages(pack, from, to, std::make_integer_sequence<int, Pair::stages - 1>{});
+        if (from.needs.stages) pack.begin_integrals(Stages::template weights<0>(), pace_);
+        Stages::run([&](auto s) { stage<s>(pack, from, to); });
         for (int i = 0; i < size; ++i) to.end[i] = at_[i], to.end_rates[i] = rates_[i];
         auto const moves = step_.own > Real(0.0);
         to.step = select(moves, at_[time], step_.own);
@@ -59,6 +58,7 @@ public:
 private:
     static constexpr int size = Model::size;
     static constexpr int time = size, root = size + 1;
+    using Stages = PairStages<Pair>;
 
     SLIDEWAY_HD void begin(StepStart<Model, Real> const& from) {
         auto const& clock = step_.start;
@@ -73,12 +73,6 @@ private:
         start_[root] = clock.root;
         k_[0][time] = pace_;
         k_[0][root] = select(clock.runs(), clock.rate, Real(0.0));
-    }
-
-    template <int... s>
-    SLIDEWAY_HD void stages(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to,
-                            std::integer_sequence<int, s...>) {
-        (stage<s + 1>(pack, from, to), ...);
     }
 
     template <int s>
@@ -96,12 +90,7 @@ private:
         for (int i = 0; i < size; ++i) k_[s][i] = pace * rates_[i];
         k_[s][time] = pace;
         k_[s][root] = select(runs, rates_[size], Real(0.0));
-        if (from.needs.stages) pack.add_integrands(weights<s>(), to.report, pace);
-    }
-
-    template <int s> SLIDEWAY_FN static constexpr StageWeights weights() {
-        constexpr typename Pair::Tableau w{};
-        return {w.b[s], w.e[s]};
+        if (from.needs.stages) pack.add_integrands(Stages::template weights<s>(), to.report, pace);
     }
 
     /// Fraction of the step by its clock at fraction θ of its time: Newton's method on the continuous extension of t.
