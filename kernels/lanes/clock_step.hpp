@@ -36,16 +36,15 @@ public:
         to.step = select(moves, at_[time], step_.own);
         step_.end = {step_.start.pair, at_[root], k_[Pair::stages - 1][root]};
         if (from.needs.stages) pack.end_integrals(select(moves, step_.own / select(moves, to.step, Real(1.0)), Real(1.0)));
-        for (int i = 0; i < size; ++i) end_rates_[i] = rates_[i];
     }
 
     /// The last step by its clock.
     SLIDEWAY_HD ClockedStep<Real> const& step() const { return step_; }
 
     /// Error estimate of one component at the time of the step's end: that of the time counts with the rate there.
-    SLIDEWAY_HD Real error(Attempt<Model, Real> const&, int i) const {
+    SLIDEWAY_HD Real error(Attempt<Model, Real> const& to, int i) const {
         Real const of_time = select(step_.start.runs(), Pair::error_slope(k_, time), Real(0.0));
-        return step_.own * fnma(end_rates_[i], of_time, Pair::error_slope(k_, i));
+        return step_.own * fnma(to.end_rates[i], of_time, Pair::error_slope(k_, i));
     }
 
     SLIDEWAY_HD void prepare_dense(Pack<Model, Real>&, Attempt<Model, Real> const&, Mask<Real>) {}
@@ -115,7 +114,6 @@ private:
     Real k_[Pair::stages][size + 2];
     Real start_[size + 2], at_[size + 2];
     Real rates_[size + 1];  // the derivative, and the clock's
-    Real end_rates_[size];
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA
