@@ -49,9 +49,10 @@ public:
 
     SLIDEWAY_HD void prepare_dense(Pack<Model, Real>&, Attempt<Model, Real> const&, Mask<Real>) {}
 
-    /// One component inside the step, at fraction θ of its time.
-    SLIDEWAY_HD Real dense(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to, int i, Real theta) const {
-        return Pair::dense(k_, i, from.y[i], to.end[i], step_.own, fraction_of(to.step, theta));
+    /// The state inside the step, at fraction θ of its time.
+    SLIDEWAY_HD void dense(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to, Real theta, Real* state) const {
+        Real const fraction = fraction_of(to.step, theta);
+        for (int i = 0; i < size; ++i) state[i] = Pair::dense(k_, i, from.y[i], to.end[i], step_.own, fraction);
     }
 
 private:

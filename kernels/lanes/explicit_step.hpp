@@ -45,9 +45,9 @@ public:
         }
     }
 
-    /// One component inside the step, at fraction θ of it.
-    SLIDEWAY_HD Real dense(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to, int i, Real theta) const {
-        return Pair::dense(k_, i, from.y[i], to.end[i], to.step, theta);
+    /// The state inside the step, at fraction θ of it.
+    SLIDEWAY_FN void dense(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to, Real theta, Real* state) const {
+        for (int i = 0; i < size; ++i) state[i] = Pair::dense(k_, i, from.y[i], to.end[i], to.step, theta);
     }
 
 private:
