@@ -14,6 +14,7 @@ public:
     static constexpr int order = Pair::order;
     static constexpr bool adaptive = true;
     static constexpr bool stiff = false;
+    static constexpr bool by_clock = true;
     static constexpr int evaluations = Pair::stages - 1;  // per attempt
     static constexpr bool has_two_estimates = false;
     static constexpr int jacobians = 0;

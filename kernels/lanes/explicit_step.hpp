@@ -12,6 +12,7 @@ public:
     static constexpr int order = Pair::order;
     static constexpr bool adaptive = Pair::adaptive;
     static constexpr bool stiff = false;
+    static constexpr bool by_clock = false;
     static constexpr int evaluations = Pair::stages - 1;  // per attempt
     static constexpr bool has_two_estimates = Pair::has_two_estimates;
     static constexpr int jacobians = 0;

@@ -26,6 +26,7 @@ public:
         auto const& s = pack.state;
         auto clock = s.contacts.watch.clock(s.contacts.memory);
         in_contact_ = clock.runs();
+        turned_ = mask_of<Real>(false);
         Real const by_time = s.course.h, by_clock = min(s.course.impacts.step, clock.way_out());
         Real const h = select(in_contact_, Real(1.02) * clock.time_of(by_clock), by_time);
         auto const failed = in_contact_ & (s.course.rejections > Real(0.5));
@@ -58,21 +59,31 @@ public:
     /// What such a step takes of time, at least where it is tried again [s].
     SLIDEWAY_HD static Real time_of(Stepper const& stepper, Real next) { return stepper.step().start.time_of(next); }
 
-    /// Keeps it for the next attempt.
+    /// What an accepted step leaves of its contacts.  @return lanes whose step ended at a touch or a parting
+    template <class Contact>
+    SLIDEWAY_HD Mask<Real> update(State& s, Stepper const& stepper, Mask<Real> accepted, Contact const& end) {
+        auto& [memory, watch] = s.contacts;
+        turned_ = watch.update(accepted, end, memory, stepper.step());
+        return turned_;
+    }
+
+    /// Keeps the step that is to follow for the next attempt; after a touch or a parting another one.
     SLIDEWAY_HD void keep(State& s, Stepper const& stepper, Mask<Real> busy, Real next, Real longest) const {
         auto& c = s.course;
         c.h = select(busy & !in_contact_, min(next, longest), c.h);
         c.impacts.step = select(busy & stepper.step().start.runs(), next, c.impacts.step);
+        if (any(turned_)) turn(s, stepper, longest);
     }
 
+private:
     /// The step after a touch or a parting: the first of an impact as of the last one, whose length by the clock falls with the speed
     /// roughly as v^-0.6; beside another contact it is shorter; that of a flight as before the impact.
-    SLIDEWAY_HD void turn(State& s, Stepper const& stepper, Mask<Real> turned, Real longest) const {
+    SLIDEWAY_HD void turn(State& s, Stepper const& stepper, Real longest) const {
         auto& impacts = s.course.impacts;
         auto const clock = s.contacts.watch.clock(s.contacts.memory);
         auto const before = stepper.step().start.runs();
-        Mask<Real> const touches = turned & clock.runs() & (clock.rate > Real(0.0));
-        Mask<Real> const goes_on = turned & clock.runs() & !touches, flies = turned & !clock.runs();
+        Mask<Real> const touches = turned_ & clock.runs() & (clock.rate > Real(0.0));
+        Mask<Real> const goes_on = turned_ & clock.runs() & !touches, flies = turned_ & !clock.runs();
         Real const speed = max(clock.rate, Real(1e-12));
         Real const as_before = impacts.first_step * sqrt(impacts.first_speed / speed);
         Real const guess = sqrt(Real(1e-3) * impacts.flight_step / speed);
@@ -81,8 +92,8 @@ public:
         s.course.h = select(flies, min(impacts.flight_step, longest), s.course.h);
     }
 
-private:
     Mask<Real> in_contact_ = mask_of<Real>(false);  // lanes whose step is within an impact, by whatever clock
+    Mask<Real> turned_ = mask_of<Real>(false);      // lanes whose step ended at a touch or a parting
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -56,7 +56,7 @@ private:
     /// Least step, in units of the end time.
     static constexpr double time_resolution = Model::has_shadows ? 1e-19 : 8 * 2.220446049250313e-16;
     static constexpr bool impacts_end_it = Stepper::stiff && Model::has_patterns;
-    static constexpr bool by_clock = requires(Stepper const& stepper) { stepper.step(); };
+    static constexpr bool by_clock = Stepper::by_clock;
     using Impacts = ImpactSteps<Stepper, Model, Real>;
     using Control = StepControl<Stepper::order>;
     using Start = StepStart<Model, Real>;
@@ -169,14 +169,12 @@ private:
         if constexpr (Model::has_shadows) attempt_.faults = attempt_.faults.or_else(shadows_.faults());
 
         auto finished = mask_of<Real>(false);
-        turned_ = mask_of<Real>(false);
         if (any(verdict.accepted)) {
             finished = advance(verdict.accepted, landing);
             if constexpr (Model::events > 0) stuck = stuck | search_.piled_up(pack_, attempt_.step);
         }
         if constexpr (by_clock) {
             impacts_.keep(pack_.state, stepper_, busy, verdict.next, Real(max_step_));
-            if (any(turned_)) impacts_.turn(pack_.state, stepper_, turned_, Real(max_step_));
         } else {
             c.h = select(busy, min(verdict.next, Real(max_step_)), c.h);
         }
@@ -319,11 +317,11 @@ private:
     SLIDEWAY_HD void remember_contacts([[maybe_unused]] Mask<Real> accepted) {
         if constexpr (Model::has_contacts) {
             if (!pack_.needs.watch()) return;
-            auto& [memory, watch] = pack_.state.contacts;
             auto touched = mask_of<Real>(false);
             if constexpr (by_clock) {
-                touched = turned_ = watch.update(accepted, attempt_.report.contact, memory, stepper_.step());
+                touched = impacts_.update(pack_.state, stepper_, accepted, attempt_.report.contact);
             } else {
+                auto& [memory, watch] = pack_.state.contacts;
                 touched =
                     watch.update(accepted, attempt_.report.contact, memory, pack_.state.course.y, pack_.needs.watching);
             }
@@ -412,7 +410,6 @@ private:
     [[no_unique_address]] std::conditional_t<Model::has_shadows, Shadows<Model, Real>, NoShadowSteps> shadows_;
     [[no_unique_address]] std::conditional_t<by_clock, Impacts, NoImpactSteps> impacts_;
     Attempt<Model, Real> attempt_;  // the members' own
-    Mask<Real> turned_;             // lanes whose step ended at a touch or a parting, of a stepper with clocks
     double max_step_;
     Mask<Real> left_;
 };
