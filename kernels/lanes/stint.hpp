@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "kernels/lanes/crossing_search.hpp"
+#include "kernels/lanes/error_norm.hpp"
 #include "kernels/lanes/event_search.hpp"
 #include "kernels/lanes/impact_steps.hpp"
 #include "kernels/lanes/pack.hpp"
@@ -59,8 +60,6 @@ private:
     static constexpr bool by_clock = Stepper::by_clock;
     using Impacts = ImpactSteps<Stepper, Model, Real>;
     using Control = StepControl<Stepper::order>;
-    using Start = StepStart<Model, Real>;
-    using Tried = Attempt<Model, Real>;
 
     /// A known time at which the step ends at the latest, and the lanes where it ends there.
     struct Landing {
@@ -107,47 +106,8 @@ private:
         return {time, lands};
     }
 
-    /// Squared errors of the components, each against its tolerance, over the number of states; the integrals of the audit, where it
-    /// runs, come on top.  NaN where any is NaN.
-    /// Of the stiff method's errors what lasts meets the tolerance, the whole with its ringing `stiff_tolerance` at least.
-    SLIDEWAY_HD Real squared_error_norm(Start const& from, Tried const& to) {
-        Real const rtol(settings_.rtol), atol(settings_.atol);
-        auto const& s = pack_.state;
-        SquaredRatios<Real> sum, coarse;
-        if constexpr (Stepper::stiff) stepper_.filter_error(Real(max_step_));
-        for (int i = 0; i < size; ++i) {
-            Real const amount = max(abs(from.y[i]), abs(to.end[i])), scale = s.constants.scale[i];
-            Real const tolerance = fma(rtol, amount, atol * scale);
-            if constexpr (Stepper::stiff) {
-                Real const least(settings_.stiff_tolerance);
-                sum.add(stepper_.lasting_error(to, i), tolerance);
-                sum.add(stepper_.error(to, i), fma(max(rtol, least), amount, max(atol, least) * scale));
-            } else {
-                sum.add(stepper_.error(to, i), tolerance);
-                if constexpr (Stepper::has_two_estimates) coarse.add(stepper_.coarse_error(to, i), tolerance);
-            }
-        }
-        // The damping power has a kink where a contact begins, which the states hardly feel: the audit controls its own error.
-        constexpr int audit_integrals = Pack<Model, Real>::Observer::audit_integrals;
-        if constexpr (audit_integrals > 0) {
-            if (!from.needs.audit) return mean_square(sum, coarse);
-            Real const energy = atol * Model::energy_scale(s.constants.parameters);
-            for (int i = 0; i < audit_integrals; ++i) {
-                Real const tolerance = fma(rtol, abs(s.observation.observer.integral(i)), energy);
-                sum.add(to.step * pack_.audit_error[i], tolerance);
-                if constexpr (Stepper::has_two_estimates) coarse.add(to.step * pack_.coarse_audit_error[i], tolerance);
-            }
-        }
-        return mean_square(sum, coarse);
-    }
-
-    /// Of two estimates a norm that falls with the order of the method: a²/(a² + b²/100) of the sums of squares a of the fine and b of the
-    /// coarse one times a² (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I (1993), II.10).
-    SLIDEWAY_FN static Real mean_square(SquaredRatios<Real> const& sum, SquaredRatios<Real> const& coarse) {
-        Real const fine = sum.total();
-        if constexpr (!Stepper::has_two_estimates) return fine * Real(1.0 / size);
-        Real const both = max(Real(1e-300), fma(Real(0.01), coarse.total(), fine));
-        return fine * (fine / both) * Real(1.0 / size);
+    SLIDEWAY_HD Real squared_error_norm(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to) {
+        return ErrorNorm<Stepper, Model, Real>::squared(pack_, stepper_, settings_, from, to);
     }
 
     /// Accepts or rejects per lane.
