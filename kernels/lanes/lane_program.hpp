@@ -7,11 +7,11 @@
 #include "kernels/lanes/clock_step.hpp"
 #include "kernels/lanes/explicit_step.hpp"
 #include "kernels/lanes/member_state.hpp"
+#include "kernels/lanes/method_choice.hpp"
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/results.hpp"
 #include "kernels/lanes/roster.hpp"
 #include "kernels/lanes/stiff_step.hpp"
-#include "kernels/lanes/stiffness.hpp"
 #include "kernels/lanes/stint.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/bogacki_shampine.hpp"
@@ -273,36 +273,11 @@ private:
             if (width == 1 && !switching) return;
             pattern_ = pack_.model.contact_pattern(s.course.t, s.course.y, s.constants.parameters);
             if constexpr (Model::has_linearisation) {
-                if (switching && kind == Kind::explicit_pair) look_for_stiffness();
+                if (switching && kind == Kind::explicit_pair) {
+                    MethodChoice<Model, Real>::look_for_stiffness(pack_, pack_.busy & (pattern_ > Real(0.5)));
+                }
             }
         }
-    }
-
-    SLIDEWAY_HD void look_for_stiffness() {
-        auto& c = pack_.state.course;
-        auto const touching = pack_.busy & (pattern_ > Real(0.5));
-        Real rate_squared(0.0);
-        auto creeping = touching;
-        if (any(touching)) {
-            typename Model::template Linearisation<Real> matrix;
-            pack_.model.linearise(c.t, c.y, pack_.state.constants.parameters, pack_.state.contacts.memory, matrix);
-            rate_squared = select(touching, matrix.rate_squared(), rate_squared);
-            c.jacobians = c.jacobians + count<Real>(touching);
-            Real const little = Real(Stiffness::creep_below * Stiffness::creep_below) *
-                                Model::energy_scale(pack_.state.constants.parameters);
-            creeping = creeping & (matrix.vibration_energy(c.y) < little);
-        }
-        c.rate_squared =
-            select(pack_.busy, max(rate_squared, Real(Stiffness::memory) * c.rate_squared), c.rate_squared);
-        Real const squared_step = c.h * c.h;
-        auto const held_up = squared_step * rate_squared > Real(Stiffness::held_up_above * Stiffness::held_up_above);
-        auto const lasting =
-            touching & (squared_step * c.rate_squared > Real(Stiffness::lasting_above * Stiffness::lasting_above));
-        Real const sign = select(held_up, Real(1.0), select(lasting, Real(Stiffness::lasting_share), Real(-1.0)));
-        Real const looks = max(c.stiffness + sign, Real(0.0));
-        auto const change = pack_.busy & creeping & (looks >= Real(Stiffness::enough));
-        c.stiff = select(change, Real(1.0), c.stiff);
-        c.stiffness = select(change, Real(0.0), looks);
     }
 
     /// Leaves the members under way as if they had never begun.

@@ -6,10 +6,10 @@
 #include "kernels/lanes/error_norm.hpp"
 #include "kernels/lanes/event_search.hpp"
 #include "kernels/lanes/impact_steps.hpp"
+#include "kernels/lanes/method_choice.hpp"
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/results.hpp"
 #include "kernels/lanes/shadows.hpp"
-#include "kernels/lanes/stiffness.hpp"
 #include "kernels/math/squared_ratios.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/step_control.hpp"
@@ -59,6 +59,7 @@ private:
     static constexpr bool impacts_end_it = Stepper::stiff && Model::has_patterns;
     static constexpr bool by_clock = Stepper::by_clock;
     using Impacts = ImpactSteps<Stepper, Model, Real>;
+    using Choice = MethodChoice<Model, Real>;
     using Control = StepControl<Stepper::order>;
 
     /// A known time at which the step ends at the latest, and the lanes where it ends there.
@@ -145,7 +146,17 @@ private:
             results_.retire(pack_, {ended, finished, stuck, divergent}, attempt_.faults.within(stuck));
             pack_.busy = pack_.busy & !ended;
         }
-        if constexpr (Stepper::stiff) watch_stiffness(verdict.accepted, verdict.impact);
+        if constexpr (Stepper::stiff) {
+            if (is_auto()) leave_stiffness(verdict);
+        }
+    }
+
+    SLIDEWAY_HD bool is_auto() const { return settings_.method == Method::automatic; }
+
+    SLIDEWAY_HD void leave_stiffness(Verdict const& verdict) {
+        auto const leaving = Choice::leave_stiffness(pack_, stepper_, attempt_.step, verdict.accepted, verdict.impact, settings_.max_step);
+        left_ = left_ | leaving;
+        pack_.busy = pack_.busy & !leaving;
     }
 
     /// Least step [s] that still moves time.
@@ -166,7 +177,9 @@ private:
                 allowed = by_contacts;
             }
         }
-        if constexpr (impacts_end_it) verdict.impact = find_impacts(allowed.accepted);
+        if constexpr (impacts_end_it) {
+            if (is_auto()) verdict.impact = Choice::find_impacts(pack_, attempt_, allowed.accepted);
+        }
         verdict.accepted = allowed.accepted & !verdict.impact;
         verdict.rejected = pack_.busy & !verdict.accepted;
         verdict.next = allowed.next;
@@ -327,39 +340,6 @@ private:
             if constexpr (by_clock) observer.turn_mode(touched, attempt_.report);
         }
         pack_.begin_next(touched, attempt_.end_rates, attempt_.report);
-    }
-
-    /// Lanes whose step brought an apex into contact at speed.  The stiff method would swallow the impact's energy without a
-    /// sign: `auto` leaves impacts to the explicit pair.  What counts is how fast the apex approached its face: a slider that glides along
-    /// one, with a corner that rattles on it at next to no speed, has no impacts.
-    SLIDEWAY_HD Mask<Real> find_impacts(Mask<Real> accepted) {
-        auto const& s = pack_.state;
-        if (settings_.method != Method::automatic) return mask_of<Real>(false);
-        // At either end: a slider lifted from rest meets the other face within one long step.
-        Real const squared_speed = max(Model::squared_speed(s.course.y, s.constants.scale),
-                                       Model::squared_speed(attempt_.end, s.constants.scale));
-        auto const moves = squared_speed > Real(Stiffness::creep_below * Stiffness::creep_below);
-        if (none(accepted & moves)) return mask_of<Real>(false);
-        auto const& p = s.constants.parameters;
-        Real const speed = pack_.model.approach_speed(s.course.t, s.course.y, attempt_.step, attempt_.end, p);
-        return accepted & moves & (speed > Real(Stiffness::impact_above));
-    }
-
-    /// A lane leaves the stiff method where contact is lost or an impact begins, or its steps stay far below what that method is for.
-    SLIDEWAY_HD void watch_stiffness(Mask<Real> accepted, Mask<Real> impact) {
-        auto& c = pack_.state.course;
-        Real const rate = sqrt(max(stepper_.rate_squared(), Real(0.0)));
-        auto const calm = attempt_.step * rate < Real(Stiffness::calm_below);
-        c.stiffness = select(accepted, select(calm, c.stiffness + Real(1.0), Real(0.0)), c.stiffness);
-        auto const free = stepper_.touching() < Real(0.5);
-        auto const leaving = pack_.busy & (free | impact | (c.stiffness >= Real(Stiffness::calm_steps)));
-        if (none(leaving) || settings_.method != Method::automatic) return;
-        c.stiffness = select(leaving, Real(0.0), c.stiffness);
-        c.stiff = select(leaving, Real(0.0), c.stiff);
-        Real const explicit_step = min(Real(1.0) / max(rate, Real(1e-9)), Real(settings_.max_step));
-        c.h = select(leaving, min(c.h, explicit_step), c.h);
-        left_ = left_ | leaving;
-        pack_.busy = pack_.busy & !leaving;
     }
 
     Pack<Model, Real>& pack_;
