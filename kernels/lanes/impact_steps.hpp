@@ -13,12 +13,6 @@ template <class Stepper, class Model, class Real> class ImpactSteps {
 public:
     using State = MemberState<Model, Real>;
 
-    /// Depth [clearances] up to which a touch counts as located: it errs by the impulse up to there, which goes with δ^2.5, or by that of
-    /// a jump.  @param switches of the law: its forces jump there
-    SLIDEWAY_HD static double located(double rtol, bool switches) {
-        return switches ? ContactWatch<Real>::tolerance(Watching::modes) : 1e-4 * ::sqrt(rtol);
-    }
-
     /// Chooses the clocks and how far to go.  A step that lands goes by time; within an impact that may fail, and then, or where it would
     /// nearly land, half of the way goes by the clock.
     /// @param remaining time until the lanes must land [s]  @return lanes that land
@@ -41,6 +35,19 @@ public:
 
     /// Lanes that tried to land within an impact: a step that goes past what the clock is for.
     SLIDEWAY_HD Mask<Real> landed_in_contact(Mask<Real> lands) const { return in_contact_ & lands; }
+
+    /// A touch or a parting must end its step.  @param resolution least step that moves time [s]
+    SLIDEWAY_HD Allowance<Real> allowed(Pack<Model, Real> const& pack, Stepper const& stepper, Attempt<Model, Real> const& to,
+                                        Allowance<Real> const& before, double rtol, Real resolution) const {
+        auto const& step = stepper.step();
+        // A clock has steps of any size; what it does to time may round to nothing.
+        Mask<Real> const early = before.accepted & (step.start.runs() | (step.own > resolution * Real(64.0)));
+        Real const depth = Real(located(rtol, pack.needs.switches)) * Model::touch_scale(pack.state.constants.parameters);
+        Real const fraction = pack.state.contacts.watch.earliest(early, to.report.contact, step, depth);
+        auto const cut = fraction < Real(1.0);
+        Real const least = select(step.start.runs(), Real(0.0), resolution * Real(32.0));
+        return {Mask<Real>(before.accepted & !cut), select(cut, max(step.own * fraction, least), before.next)};
+    }
 
     /// The step that is to follow if the last one is to grow by a factor, by the clock that it went by.
     SLIDEWAY_HD Real next(State& s, Stepper const& stepper, Mask<Real> accepted, Real factor) const {
@@ -76,6 +83,12 @@ public:
     }
 
 private:
+    /// Depth [clearances] up to which a touch counts as located: it errs by the impulse up to there, which goes with δ^2.5, or by that of
+    /// a jump.  @param switches of the law: its forces jump there
+    SLIDEWAY_HD static double located(double rtol, bool switches) {
+        return switches ? ContactWatch<Real>::tolerance(Watching::modes) : 1e-4 * ::sqrt(rtol);
+    }
+
     /// The step after a touch or a parting: the first of an impact as of the last one, whose length by the clock falls with the speed
     /// roughly as v^-0.6; beside another contact it is shorter; that of a flight as before the impact.
     SLIDEWAY_HD void turn(State& s, Stepper const& stepper, Real longest) const {

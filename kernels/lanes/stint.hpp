@@ -68,12 +68,6 @@ private:
         Mask<Real> lands;
     };
 
-    /// What one of those who may shorten a step says of it.
-    struct Allowance {
-        Mask<Real> accepted;
-        Real next;  // the step to try next [s]
-    };
-
     /// What all of them come to.
     struct Verdict {
         Mask<Real> accepted;
@@ -81,7 +75,7 @@ private:
         Mask<Real> cut;        // rejected because an event must end the step
         Mask<Real> divergent;  // the error is beyond all bounds
         Mask<Real> impact;     // rejected because the stiff method would swallow an impact
-        Real next;
+        Real next;             // as of an Allowance
     };
 
     /// Chooses the step.
@@ -186,7 +180,7 @@ private:
         return verdict;
     }
 
-    SLIDEWAY_HD Allowance allowed_by_error(Landing const& landing, Mask<Real>& divergent) {
+    SLIDEWAY_HD Allowance<Real> allowed_by_error(Landing const& landing, Mask<Real>& divergent) {
         auto& c = pack_.state.course;
         Real squared_norm(0.0);
         if constexpr (Stepper::adaptive) squared_norm = squared_error_norm(pack_.start(), attempt_);
@@ -202,7 +196,7 @@ private:
         return {accepted, select(accepted & landing.lands, max(next, c.h), next)};
     }
 
-    SLIDEWAY_HD Allowance allowed_if_finite(Mask<Real>& divergent) {
+    SLIDEWAY_HD Allowance<Real> allowed_if_finite(Mask<Real>& divergent) {
         Mask<Real> accepted = pack_.busy & is_finite(attempt_.end, attempt_.end_rates);
         if constexpr (Model::has_shadows) accepted = accepted & shadows_.finite();
         divergent = pack_.busy & !accepted;
@@ -210,9 +204,9 @@ private:
     }
 
     /// A touch, or a change of mode, must end its step: it sets the impact speed of what follows, or the law that holds.
-    SLIDEWAY_HD Allowance allowed_by_contacts(Allowance const& before) {
+    SLIDEWAY_HD Allowance<Real> allowed_by_contacts(Allowance<Real> const& before) {
+        if constexpr (by_clock) return impacts_.allowed(pack_, stepper_, attempt_, before, settings_.rtol, resolution());
         Real const step = attempt_.step;
-        if constexpr (by_clock) return allowed_by_impacts(before);
         auto const early = before.accepted & (step > resolution() * Real(64.0));
         auto const watching = pack_.needs.watching;
         double tolerance = Model::template Watch<Real>::tolerance(watching);
@@ -221,33 +215,19 @@ private:
         Real fraction = pack_.state.contacts.watch.earliest(early, attempt_.report.contact, step, located, watching);
         if constexpr (Model::has_shadows) fraction = min(fraction, shadows_.earliest(pack_, early, located));
         auto const cut = fraction < Real(1.0);
-        Allowance allowed{Mask<Real>(before.accepted & !cut),
-                          select(cut, max(step * fraction, resolution() * Real(32.0)), before.next)};
-        if constexpr (Model::has_shadows) {
-            // Events of member and shadow are next to each other: after the second nothing would be left of the step.
-            Real& uncut = pack_.state.course.shadowed.uncut;
-            allowed.next = select(allowed.accepted, max(allowed.next, uncut), allowed.next);
-            uncut = select(allowed.accepted, Real(0.0), select(cut, max(uncut, step), uncut));
-        }
+        Allowance<Real> allowed{Mask<Real>(before.accepted & !cut),
+                                select(cut, max(step * fraction, resolution() * Real(32.0)), before.next)};
+        if constexpr (Model::has_shadows) shadows_.go_on(pack_, step, cut, allowed);
         return allowed;
-    }
-
-    SLIDEWAY_HD Allowance allowed_by_impacts(Allowance const& before) {
-        auto const& step = stepper_.step();
-        // A clock has steps of any size; what it does to time may round to nothing.
-        Mask<Real> const early = before.accepted & (step.start.runs() | (step.own > resolution() * Real(64.0)));
-        Real const located = Real(Impacts::located(settings_.rtol, pack_.needs.switches)) * Model::touch_scale(pack_.state.constants.parameters);
-        Real const fraction = pack_.state.contacts.watch.earliest(early, attempt_.report.contact, step, located);
-        auto const cut = fraction < Real(1.0);
-        Real const least = select(step.start.runs(), Real(0.0), resolution() * Real(32.0));
-        return {Mask<Real>(before.accepted & !cut), select(cut, max(step.own * fraction, least), before.next)};
     }
 
     /// Moves the accepted lanes to the end of their step.  @return those that reached the end time.
     SLIDEWAY_HD Mask<Real> advance(Mask<Real> accepted, Landing const& landing) {
         auto& c = pack_.state.course;
         auto landed = accepted & landing.lands;
-        Real t_end = select(landed, landing.time, time_after_step(accepted, landed));
+        Real t_end = c.t + attempt_.step;
+        if constexpr (Model::has_shadows) t_end = shadows_.time_after(pack_, attempt_.step, accepted, landed);
+        t_end = select(landed, landing.time, t_end);
         if constexpr (Model::events > 0) {
             search_.run(pack_, stepper_, attempt_, accepted);
             t_end = select(search_.ended(), fma(attempt_.step, search_.fraction(), c.t), t_end);
@@ -299,20 +279,6 @@ private:
                     watch.update(accepted, attempt_.report.contact, memory, pack_.state.course.y, pack_.needs.watching);
             }
             if (any(touched)) restart(touched);
-        }
-    }
-
-    SLIDEWAY_HD Real time_after_step(Mask<Real> accepted, Mask<Real> landed) {
-        auto& c = pack_.state.course;
-        if constexpr (!Model::has_shadows) {
-            return c.t + attempt_.step;
-        } else {
-            // The sum and what it rounds off (Knuth's two-sum); a landing starts a new count.
-            Real const step = attempt_.step + c.shadowed.fine_time, sum = c.t + step;
-            Real const of_step = sum - c.t;
-            Real const rest = (c.t - (sum - of_step)) + (step - of_step);
-            c.shadowed.fine_time = select(accepted, select(landed, Real(0.0), rest), c.shadowed.fine_time);
-            return sum;
         }
     }
 
