@@ -21,7 +21,9 @@ public:
         auto clock = s.contacts.watch.clock(s.contacts.memory);
         in_contact_ = clock.runs();
         turned_ = mask_of<Real>(false);
-        Real const by_time = s.course.h, by_clock = min(s.course.impacts.step, clock.way_out());
+        // Who starts in contact, or is left in one before any impact began, knows of no step by the clock yet.
+        Real const known = s.course.impacts.step, by_time = s.course.h;
+        Real const by_clock = min(select(known > Real(0.0), known, clock.own_of(by_time)), clock.way_out());
         Real const h = select(in_contact_, Real(1.02) * clock.time_of(by_clock), by_time);
         auto const failed = in_contact_ & (s.course.rejections > Real(0.5));
         Mask<Real> const lands = (remaining <= h * Real(1.000001)) & !failed;
