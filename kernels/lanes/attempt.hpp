@@ -23,6 +23,12 @@ template <class Model, class Real> struct Attempt {
     Faults<Real> faults;
 };
 
+/// What one of those who may shorten a step says of it.
+template <class Real> struct Allowance {
+    Mask<Real> accepted;
+    Real next;  // the step to try next [s], of a method with clocks by the step's clock
+};
+
 /// Lanes whose numbers are all finite.
 template <int size, class Real> SLIDEWAY_HD Mask<Real> is_finite(Real const (&a)[size], Real const (&b)[size]) {
     Real sum(0.0);

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <utility>
-
 #include "kernels/lanes/pack.hpp"
+#include "kernels/lanes/pair_stages.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/contact_clock.hpp"
 
@@ -15,6 +14,7 @@ public:
     static constexpr int order = Pair::order;
     static constexpr bool adaptive = true;
     static constexpr bool stiff = false;
+    static constexpr bool by_clock = true;
     static constexpr int evaluations = Pair::stages - 1;  // per attempt
     static constexpr bool has_two_estimates = false;
     static constexpr int jacobians = 0;
@@ -30,35 +30,36 @@ public:
     SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
         begin(from);
         to.faults = Faults<Real>::none();
-        if (from.needs.stages) pack.begin_integrals(weights<0>(), pace_);
-        stages(pack, from, to, std::make_integer_sequence<int, Pair::stages - 1>{});
+        if (from.needs.stages) pack.begin_integrals(Stages::template weights<0>(), pace_);
+        Stages::run([&](auto s) { stage<s>(pack, from, to); });
         for (int i = 0; i < size; ++i) to.end[i] = at_[i], to.end_rates[i] = rates_[i];
         auto const moves = step_.own > Real(0.0);
         to.step = select(moves, at_[time], step_.own);
         step_.end = {step_.start.pair, at_[root], k_[Pair::stages - 1][root]};
         if (from.needs.stages) pack.end_integrals(select(moves, step_.own / select(moves, to.step, Real(1.0)), Real(1.0)));
-        for (int i = 0; i < size; ++i) end_rates_[i] = rates_[i];
     }
 
     /// The last step by its clock.
     SLIDEWAY_HD ClockedStep<Real> const& step() const { return step_; }
 
     /// Error estimate of one component at the time of the step's end: that of the time counts with the rate there.
-    SLIDEWAY_HD Real error(Attempt<Model, Real> const&, int i) const {
+    SLIDEWAY_HD Real error(Attempt<Model, Real> const& to, int i) const {
         Real const of_time = select(step_.start.runs(), Pair::error_slope(k_, time), Real(0.0));
-        return step_.own * fnma(end_rates_[i], of_time, Pair::error_slope(k_, i));
+        return step_.own * fnma(to.end_rates[i], of_time, Pair::error_slope(k_, i));
     }
 
     SLIDEWAY_HD void prepare_dense(Pack<Model, Real>&, Attempt<Model, Real> const&, Mask<Real>) {}
 
-    /// One component inside the step, at fraction θ of its time.
-    SLIDEWAY_HD Real dense(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to, int i, Real theta) const {
-        return Pair::dense(k_, i, from.y[i], to.end[i], step_.own, fraction_of(to.step, theta));
+    /// The state inside the step, at fraction θ of its time.
+    SLIDEWAY_HD void dense(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to, Real theta, Real* state) const {
+        Real const fraction = fraction_of(to.step, theta);
+        for (int i = 0; i < size; ++i) state[i] = Pair::dense(k_, i, from.y[i], to.end[i], step_.own, fraction);
     }
 
 private:
     static constexpr int size = Model::size;
     static constexpr int time = size, root = size + 1;
+    using Stages = PairStages<Pair>;
 
     SLIDEWAY_HD void begin(StepStart<Model, Real> const& from) {
         auto const& clock = step_.start;
@@ -73,12 +74,6 @@ private:
         start_[root] = clock.root;
         k_[0][time] = pace_;
         k_[0][root] = select(clock.runs(), clock.rate, Real(0.0));
-    }
-
-    template <int... s>
-    SLIDEWAY_HD void stages(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to,
-                            std::integer_sequence<int, s...>) {
-        (stage<s + 1>(pack, from, to), ...);
     }
 
     template <int s>
@@ -96,12 +91,7 @@ private:
         for (int i = 0; i < size; ++i) k_[s][i] = pace * rates_[i];
         k_[s][time] = pace;
         k_[s][root] = select(runs, rates_[size], Real(0.0));
-        if (from.needs.stages) pack.add_integrands(weights<s>(), to.report, pace);
-    }
-
-    template <int s> SLIDEWAY_FN static constexpr StageWeights weights() {
-        constexpr typename Pair::Tableau w{};
-        return {w.b[s], w.e[s]};
+        if (from.needs.stages) pack.add_integrands(Stages::template weights<s>(), to.report, pace);
     }
 
     /// Fraction of the step by its clock at fraction θ of its time: Newton's method on the continuous extension of t.
@@ -126,7 +116,6 @@ private:
     Real k_[Pair::stages][size + 2];
     Real start_[size + 2], at_[size + 2];
     Real rates_[size + 1];  // the derivative, and the clock's
-    Real end_rates_[size];
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -36,8 +36,6 @@ private:
     static constexpr int size = Model::size;
     static constexpr int corrections = 5;  // of Newton's method
 
-    static constexpr bool by_clock = requires(Stepper const& stepper) { stepper.step(); };
-
     struct Surface {
         Pack<Model, Real> const& pack;
         Stepper const& stepper;  // that made the step
@@ -47,11 +45,11 @@ private:
         /// What the time would change by over the whole step, as it passes at the step's start and at the end of a part of it: of a step
         /// by a clock these differ.
         SLIDEWAY_HD Real time_at_start() const {
-            if constexpr (by_clock) return stepper.step().own * stepper.step().start.pace();
+            if constexpr (Stepper::by_clock) return stepper.step().own * stepper.step().start.pace();
             else return whole;
         }
         SLIDEWAY_HD Real time_at_end(Stepper const& part) const {
-            if constexpr (by_clock) return stepper.step().own * part.step().end.pace();
+            if constexpr (Stepper::by_clock) return stepper.step().own * part.step().end.pace();
             else return whole;
         }
 
@@ -146,7 +144,7 @@ private:
     SLIDEWAY_NOINLINE static Real value_after(Pack<Model, Real>& pack, Surface const& surface, Stepper& stepper,
                                               Attempt<Model, Real>& attempt, Real theta, Mask<Real> at) {
         attempt.step = select(at, surface.whole * theta, Real(0.0));
-        if constexpr (by_clock) {
+        if constexpr (Stepper::by_clock) {
             auto const& step = surface.stepper.step();
             stepper.go_by(step.start, select(at, step.own * theta, Real(0.0)));
         }

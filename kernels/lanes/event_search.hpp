@@ -121,7 +121,7 @@ private:
         Real theta = select(present, zero.theta, Real(0.5));
         for (int i = 0; i < 3; ++i) {
             Real state[size];
-            dense_state(pack, step, theta, state);  // the compiler drops what the event does not depend on
+            step.stepper.dense(pack.start(), step.attempt, theta, state);  // the compiler drops what the event does not depend on
             auto const here = values(pack, fma(step.attempt.step, theta, pack.state.course.t), state, step.attempt.end_rates);
             Real const moved = theta - here.value[event] / zero.slope;
             // A grazing zero has no slope to go by, and a NaN stays where the cubic has it.
@@ -129,13 +129,6 @@ private:
             theta = select(inside, moved, theta);
         }
         return select(present, theta, zero.theta);
-    }
-
-    template <class Stepper>
-    SLIDEWAY_FN static void dense_state(Pack<Model, Real> const& pack, Step<Stepper> const& step, Real theta,
-                                        Real* state) {
-        auto const from = pack.start();
-        for (int i = 0; i < size; ++i) state[i] = step.stepper.dense(from, step.attempt, i, theta);
     }
 
     SLIDEWAY_NOINLINE void place_resets(Pack<Model, Real>& pack, Attempt<Model, Real>& attempt) {
@@ -173,7 +166,7 @@ private:
         Real const theta = select(due, first, Real(1.0));
         Real const t = fma(step.attempt.step, theta, pack.state.course.t);
         Real state[size];
-        dense_state(pack, step, theta, state);
+        step.stepper.dense(pack.start(), step.attempt, theta, state);
         for (int event = 0; event < events; ++event) {
             auto const here = due & (which == Real(static_cast<double>(event)));
             if (none(here)) continue;

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <utility>
-
 #include "kernels/lanes/pack.hpp"
+#include "kernels/lanes/pair_stages.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -13,6 +12,7 @@ public:
     static constexpr int order = Pair::order;
     static constexpr bool adaptive = Pair::adaptive;
     static constexpr bool stiff = false;
+    static constexpr bool by_clock = false;
     static constexpr int evaluations = Pair::stages - 1;  // per attempt
     static constexpr bool has_two_estimates = Pair::has_two_estimates;
     static constexpr int jacobians = 0;
@@ -21,9 +21,9 @@ public:
     SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
         for (int i = 0; i < size; ++i) k_[0][i] = from.rates[i];
         to.faults = Faults<Real>::none();
-        if (from.needs.stages) pack.begin_integrals(weights<0>());
+        if (from.needs.stages) pack.begin_integrals(Stages::template weights<0>());
         prepared_ = mask_of<Real>(false);
-        stages(pack, from, to, std::make_integer_sequence<int, Pair::stages - 1>{});
+        Stages::run([&](auto s) { stage<s>(pack, from, to); });
         for (int i = 0; i < size; ++i) to.end_rates[i] = k_[Pair::stages - 1][i];
     }
 
@@ -40,25 +40,20 @@ public:
         if constexpr (Pair::dense_stages > 0) {
             Mask<Real> const missing = wanted & !prepared_;
             if (none(missing)) return;
-            extension(pack, to, std::make_integer_sequence<int, Pair::dense_stages>{});
+            extension(pack, to);
             pack.count_evaluations(missing, Pair::dense_stages);
             prepared_ = prepared_ | missing;
         }
     }
 
-    /// One component inside the step, at fraction θ of it.
-    SLIDEWAY_HD Real dense(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to, int i, Real theta) const {
-        return Pair::dense(k_, i, from.y[i], to.end[i], to.step, theta);
+    /// The state inside the step, at fraction θ of it.
+    SLIDEWAY_FN void dense(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to, Real theta, Real* state) const {
+        for (int i = 0; i < size; ++i) state[i] = Pair::dense(k_, i, from.y[i], to.end[i], to.step, theta);
     }
 
 private:
     static constexpr int size = Model::size;
-
-    template <int... s>
-    SLIDEWAY_HD void stages(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to,
-                            std::integer_sequence<int, s...>) {
-        (stage<s + 1>(pack, from, to), ...);
-    }
+    using Stages = PairStages<Pair>;
 
     template <int s>
     SLIDEWAY_HD void stage(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
@@ -71,25 +66,17 @@ private:
             pack.evaluate(t, at, from.memory, k_[s], last ? from.needs.ends : from.needs.stages, to.report);
         // A fault of one stage is NaN in those after it, whose own faults say nothing.
         to.faults = to.faults.or_else(faults);
-        if (from.needs.stages) pack.add_integrands(weights<s>(), to.report);
+        if (from.needs.stages) pack.add_integrands(Stages::template weights<s>(), to.report);
     }
 
-    /// Of a stage in the integrals over the step.
-    template <int s> SLIDEWAY_FN static constexpr StageWeights weights() {
-        constexpr typename Pair::Tableau w{};  // not Pair's own: device code has no constants of the host
-        if constexpr (has_two_estimates) return {w.b[s], w.e[s], w.coarse[s]};
-        else return {w.b[s], w.e[s]};
-    }
-
-    template <int... i>
-    SLIDEWAY_NOINLINE void extension(Pack<Model, Real> const& pack, Attempt<Model, Real> const& to,
-                                     std::integer_sequence<int, i...>) {
-        constexpr typename Pair::Tableau w{};
+    SLIDEWAY_NOINLINE void extension(Pack<Model, Real> const& pack, Attempt<Model, Real> const& to) {
         auto const from = pack.start();
         typename Model::template Report<Real> report;
-        ((Pair::template stage_state<Pair::stages + i>(from.y, k_, to.step, at_),
-          pack.evaluate(fma(to.step, Real(w.c[Pair::stages + i]), from.t), at_, from.memory, k_[Pair::stages + i], false, report)),
-         ...);
+        Stages::extend([&](auto s) {
+            constexpr typename Pair::Tableau w{};
+            Pair::template stage_state<s>(from.y, k_, to.step, at_);
+            pack.evaluate(fma(to.step, Real(w.c[s]), from.t), at_, from.memory, k_[s], false, report);
+        });
     }
 
     Real k_[Pair::stages + Pair::dense_stages][size];

@@ -13,12 +13,6 @@ template <class Stepper, class Model, class Real> class ImpactSteps {
 public:
     using State = MemberState<Model, Real>;
 
-    /// Depth [clearances] up to which a touch counts as located: it errs by the impulse up to there, which goes with δ^2.5, or by that of
-    /// a jump.  @param switches of the law: its forces jump there
-    SLIDEWAY_HD static double located(double rtol, bool switches) {
-        return switches ? ContactWatch<Real>::tolerance(Watching::modes) : 1e-4 * ::sqrt(rtol);
-    }
-
     /// Chooses the clocks and how far to go.  A step that lands goes by time; within an impact that may fail, and then, or where it would
     /// nearly land, half of the way goes by the clock.
     /// @param remaining time until the lanes must land [s]  @return lanes that land
@@ -26,7 +20,10 @@ public:
         auto const& s = pack.state;
         auto clock = s.contacts.watch.clock(s.contacts.memory);
         in_contact_ = clock.runs();
-        Real const by_time = s.course.h, by_clock = min(s.course.impacts.step, clock.way_out());
+        turned_ = mask_of<Real>(false);
+        // Who starts in contact, or is left in one before any impact began, knows of no step by the clock yet.
+        Real const known = s.course.impacts.step, by_time = s.course.h;
+        Real const by_clock = min(select(known > Real(0.0), known, clock.own_of(by_time)), clock.way_out());
         Real const h = select(in_contact_, Real(1.02) * clock.time_of(by_clock), by_time);
         auto const failed = in_contact_ & (s.course.rejections > Real(0.5));
         Mask<Real> const lands = (remaining <= h * Real(1.000001)) & !failed;
@@ -40,6 +37,19 @@ public:
 
     /// Lanes that tried to land within an impact: a step that goes past what the clock is for.
     SLIDEWAY_HD Mask<Real> landed_in_contact(Mask<Real> lands) const { return in_contact_ & lands; }
+
+    /// A touch or a parting must end its step.  @param resolution least step that moves time [s]
+    SLIDEWAY_HD Allowance<Real> allowed(Pack<Model, Real> const& pack, Stepper const& stepper, Attempt<Model, Real> const& to,
+                                        Allowance<Real> const& before, double rtol, Real resolution) const {
+        auto const& step = stepper.step();
+        // A clock has steps of any size; what it does to time may round to nothing.
+        Mask<Real> const early = before.accepted & (step.start.runs() | (step.own > resolution * Real(64.0)));
+        Real const depth = Real(located(rtol, pack.needs.switches)) * Model::touch_scale(pack.state.constants.parameters);
+        Real const fraction = pack.state.contacts.watch.earliest(early, to.report.contact, step, depth);
+        auto const cut = fraction < Real(1.0);
+        Real const least = select(step.start.runs(), Real(0.0), resolution * Real(32.0));
+        return {Mask<Real>(before.accepted & !cut), select(cut, max(step.own * fraction, least), before.next)};
+    }
 
     /// The step that is to follow if the last one is to grow by a factor, by the clock that it went by.
     SLIDEWAY_HD Real next(State& s, Stepper const& stepper, Mask<Real> accepted, Real factor) const {
@@ -58,21 +68,37 @@ public:
     /// What such a step takes of time, at least where it is tried again [s].
     SLIDEWAY_HD static Real time_of(Stepper const& stepper, Real next) { return stepper.step().start.time_of(next); }
 
-    /// Keeps it for the next attempt.
+    /// What an accepted step leaves of its contacts.  @return lanes whose step ended at a touch or a parting
+    template <class Contact>
+    SLIDEWAY_HD Mask<Real> update(State& s, Stepper const& stepper, Mask<Real> accepted, Contact const& end) {
+        auto& [memory, watch] = s.contacts;
+        turned_ = watch.update(accepted, end, memory, stepper.step());
+        return turned_;
+    }
+
+    /// Keeps the step that is to follow for the next attempt; after a touch or a parting another one.
     SLIDEWAY_HD void keep(State& s, Stepper const& stepper, Mask<Real> busy, Real next, Real longest) const {
         auto& c = s.course;
         c.h = select(busy & !in_contact_, min(next, longest), c.h);
         c.impacts.step = select(busy & stepper.step().start.runs(), next, c.impacts.step);
+        if (any(turned_)) turn(s, stepper, longest);
+    }
+
+private:
+    /// Depth [clearances] up to which a touch counts as located: it errs by the impulse up to there, which goes with δ^2.5, or by that of
+    /// a jump.  @param switches of the law: its forces jump there
+    SLIDEWAY_HD static double located(double rtol, bool switches) {
+        return switches ? ContactWatch<Real>::tolerance(Watching::modes) : 1e-4 * ::sqrt(rtol);
     }
 
     /// The step after a touch or a parting: the first of an impact as of the last one, whose length by the clock falls with the speed
     /// roughly as v^-0.6; beside another contact it is shorter; that of a flight as before the impact.
-    SLIDEWAY_HD void turn(State& s, Stepper const& stepper, Mask<Real> turned, Real longest) const {
+    SLIDEWAY_HD void turn(State& s, Stepper const& stepper, Real longest) const {
         auto& impacts = s.course.impacts;
         auto const clock = s.contacts.watch.clock(s.contacts.memory);
         auto const before = stepper.step().start.runs();
-        Mask<Real> const touches = turned & clock.runs() & (clock.rate > Real(0.0));
-        Mask<Real> const goes_on = turned & clock.runs() & !touches, flies = turned & !clock.runs();
+        Mask<Real> const touches = turned_ & clock.runs() & (clock.rate > Real(0.0));
+        Mask<Real> const goes_on = turned_ & clock.runs() & !touches, flies = turned_ & !clock.runs();
         Real const speed = max(clock.rate, Real(1e-12));
         Real const as_before = impacts.first_step * sqrt(impacts.first_speed / speed);
         Real const guess = sqrt(Real(1e-3) * impacts.flight_step / speed);
@@ -81,8 +107,8 @@ public:
         s.course.h = select(flies, min(impacts.flight_step, longest), s.course.h);
     }
 
-private:
     Mask<Real> in_contact_ = mask_of<Real>(false);  // lanes whose step is within an impact, by whatever clock
+    Mask<Real> turned_ = mask_of<Real>(false);      // lanes whose step ended at a touch or a parting
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -7,11 +7,12 @@
 #include "kernels/lanes/clock_step.hpp"
 #include "kernels/lanes/explicit_step.hpp"
 #include "kernels/lanes/member_state.hpp"
+#include "kernels/lanes/method_choice.hpp"
+#include "kernels/lanes/new_member.hpp"
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/results.hpp"
 #include "kernels/lanes/roster.hpp"
 #include "kernels/lanes/stiff_step.hpp"
-#include "kernels/lanes/stiffness.hpp"
 #include "kernels/lanes/stint.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/bogacki_shampine.hpp"
@@ -83,51 +84,8 @@ private:
         std::uint64_t const place = block_.taken != nullptr ? fetch_add(*block_.taken, 1) : next_++;
         if (place >= block_.members) return;
         std::size_t const member = block_.order != nullptr ? block_.order[place] : place;
-        auto const& inputs = block_.inputs[member];
-        Record& r = record(seat);
-        r.constants.parameters = pack_.model.parameters(inputs);
-        Model::scales(r.constants.parameters, r.constants.scale);
-        auto& c = r.course;
-        c.member = static_cast<double>(member);
-        c.sample = 0;
-        c.t = 0;
-        c.h = 1e-3 * block_.settings.max_step;
-        c.error_memory = step_control_start;
-        Model::initial_state(inputs, c.y);
-        c.stop = c.crossings = 0;
-        MemberClock const clock =
-            block_.clocks != nullptr ? block_.clocks[member] : MemberClock{block_.settings.end_time};
-        r.constants.end = clock.end;
-        r.constants.first_stop = clock.first_stop;
-        r.constants.stop_period = clock.period;
-        if constexpr (Model::has_shadows) {
-            c.shadowed.fine_time = c.shadowed.uncut = c.shadowed.lost = c.shadowed.grown = 0;
-            place_shadows(r, member);
-        }
-        if constexpr (has_clocks<Model>) c.impacts = {0.0, c.h, 0.0, 0.0};
-        c.accepted = c.rejected = c.evaluations = c.jacobians = c.stiff_steps = 0;
-        c.rejections = c.stiffness = c.rate_squared = 0;
-        // A model without linearisation is left to the explicit pair.
-        c.stiff = Model::has_linearisation && block_.settings.method == Method::ros34pw2 ? 1 : 0;
-        start_memory(r.contacts.memory);
-        if constexpr (Model::events > 0) c.resets = {-1.0, 0.0};
+        NewMember<Model>::begin(record(seat), pack_.model, block_, member);
         roster_[seat].kind = Kind::fresh;
-    }
-
-    /// Puts a new member's shadows beside it.
-    SLIDEWAY_HD void place_shadows(Record& r, std::size_t member) {
-        ShadowPlan const& plan = block_.shadows;
-        for (int s = 0; s < plan.count; ++s) {
-            auto const row = member * static_cast<std::size_t>(plan.count) + static_cast<std::size_t>(s);
-            double const* const direction = plan.directions + row * size;
-            auto& shadow = r.shadows[s];
-            for (int i = 0; i < size; ++i) {
-                shadow.y[i] = fma(plan.d0 * r.constants.scale[i], direction[i], r.course.y[i]);
-            }
-            shadow.distance = plan.d0;
-            shadow.growth = 0;
-            start_memory(shadow.contacts.memory);
-        }
     }
 
     /// A single lane works on its record in place.
@@ -146,15 +104,7 @@ private:
             if constexpr (width > 1) {
                 Record const& r = records_[chosen[i < members ? i : 0]];
                 load_lane(pack_.state.constants, i, r.constants);
-                load_lane(pack_.state.course, i, r.course);
-                if constexpr (Model::has_contacts) {
-                    if (pack_.needs.watch()) load_lane(pack_.state.contacts, i, r.contacts);
-                }
-                if (pack_.needs.quantities) load_lane(pack_.state.observation, i, r.observation);
-                pack_.with_accelerations([&](auto& a) { load_lane(a, i, r.accelerations); });
-                if constexpr (Model::has_shadows) {
-                    for (int s = 0; s < block_.shadows.count; ++s) load_lane(pack_.state.shadows[s], i, r.shadows[s]);
-                }
+                each_moving_part(r, [i](auto& packed, auto const& own) { load_lane(packed, i, own); });
             }
         }
         pack_.busy = occupied > Real(0.5);
@@ -171,22 +121,25 @@ private:
             }
             auto const& c = pack_.state.course;
             if constexpr (width > 1) {
-                store_lane(c, i, records_[seat].course);
-                if constexpr (Model::has_contacts) {
-                    if (pack_.needs.watch()) store_lane(pack_.state.contacts, i, records_[seat].contacts);
-                }
-                if (pack_.needs.quantities) {
-                    store_lane(pack_.state.observation, i, records_[seat].observation);
-                }
-                pack_.with_accelerations([&](auto& a) { store_lane(a, i, records_[seat].accelerations); });
-                if constexpr (Model::has_shadows) {
-                    auto& shadows = records_[seat].shadows;
-                    for (int s = 0; s < block_.shadows.count; ++s) store_lane(pack_.state.shadows[s], i, shadows[s]);
-                }
+                each_moving_part(records_[seat], [i](auto const& packed, auto& own) { store_lane(packed, i, own); });
             }
             roster_[seat].kind = lane(c.stiff, i) > 0.5 ? Kind::stiff : Kind::explicit_pair;
             roster_[seat].pattern = static_cast<std::uint32_t>(lane(pattern_, i));
             roster_[seat].time = lane(c.t, i);
+        }
+    }
+
+    /// Has a function see what changes of a member in a stint, in the pack and in the member's record.
+    template <class OneRecord, class Function> SLIDEWAY_HD void each_moving_part(OneRecord& r, Function const& move) {
+        auto& s = pack_.state;
+        move(s.course, r.course);
+        if constexpr (Model::has_contacts) {
+            if (pack_.needs.watch()) move(s.contacts, r.contacts);
+        }
+        if (pack_.needs.quantities) move(s.observation, r.observation);
+        pack_.with_accelerations([&](auto& a) { move(a, r.accelerations); });
+        if constexpr (Model::has_shadows) {
+            for (int i = 0; i < block_.shadows.count; ++i) move(s.shadows[i], r.shadows[i]);
         }
     }
 
@@ -274,36 +227,11 @@ private:
             if (width == 1 && !switching) return;
             pattern_ = pack_.model.contact_pattern(s.course.t, s.course.y, s.constants.parameters);
             if constexpr (Model::has_linearisation) {
-                if (switching && kind == Kind::explicit_pair) look_for_stiffness();
+                if (switching && kind == Kind::explicit_pair) {
+                    MethodChoice<Model, Real>::look_for_stiffness(pack_, pack_.busy & (pattern_ > Real(0.5)));
+                }
             }
         }
-    }
-
-    SLIDEWAY_HD void look_for_stiffness() {
-        auto& c = pack_.state.course;
-        auto const touching = pack_.busy & (pattern_ > Real(0.5));
-        Real rate_squared(0.0);
-        auto creeping = touching;
-        if (any(touching)) {
-            typename Model::template Linearisation<Real> matrix;
-            pack_.model.linearise(c.t, c.y, pack_.state.constants.parameters, pack_.state.contacts.memory, matrix);
-            rate_squared = select(touching, matrix.rate_squared(), rate_squared);
-            c.jacobians = c.jacobians + count<Real>(touching);
-            Real const little = Real(Stiffness::creep_below * Stiffness::creep_below) *
-                                Model::energy_scale(pack_.state.constants.parameters);
-            creeping = creeping & (matrix.vibration_energy(c.y) < little);
-        }
-        c.rate_squared =
-            select(pack_.busy, max(rate_squared, Real(Stiffness::memory) * c.rate_squared), c.rate_squared);
-        Real const squared_step = c.h * c.h;
-        auto const held_up = squared_step * rate_squared > Real(Stiffness::held_up_above * Stiffness::held_up_above);
-        auto const lasting =
-            touching & (squared_step * c.rate_squared > Real(Stiffness::lasting_above * Stiffness::lasting_above));
-        Real const sign = select(held_up, Real(1.0), select(lasting, Real(Stiffness::lasting_share), Real(-1.0)));
-        Real const looks = max(c.stiffness + sign, Real(0.0));
-        auto const change = pack_.busy & creeping & (looks >= Real(Stiffness::enough));
-        c.stiff = select(change, Real(1.0), c.stiff);
-        c.stiffness = select(change, Real(0.0), looks);
     }
 
     /// Leaves the members under way as if they had never begun.

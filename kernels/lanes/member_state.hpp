@@ -48,7 +48,7 @@ inline constexpr bool has_clocks = can_hold_contacts<Model> && Model::has_patter
 
 /// What a member remembers for its next impact, of a method with clocks.
 template <class Real> struct ImpactCourse {
-    Real step;          // the next by its clock
+    Real step;          // the next by its clock, 0 before there is one
     Real flight_step;   // that its impacts interrupt [s]
     Real first_step;    // by the clock, of the last impact
     Real first_speed;   // δ' with which that began [m/s]

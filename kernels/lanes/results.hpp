@@ -114,7 +114,7 @@ public:
             auto const from = pack.start();
             Real const theta = select(accepted, (at - c.t) / select(accepted, attempt.step, Real(1.0)), Real(0.0));
             Real state[Model::size];
-            for (int i = 0; i < Model::size; ++i) state[i] = stepper.dense(from, attempt, i, theta);
+            stepper.dense(from, attempt, theta, state);
             typename Model::template Report<Real> report;
             if (sampler_.beyond_state()) {
                 Real rates[Model::size];

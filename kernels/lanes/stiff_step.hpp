@@ -13,6 +13,7 @@ public:
     static constexpr int order = 3;
     static constexpr bool adaptive = true;
     static constexpr bool stiff = true;
+    static constexpr bool by_clock = false;
     static constexpr bool has_two_estimates = false;
     static constexpr int evaluations = Ros34pw2Tableau::stages;  // per attempt, the end's included
     static constexpr int jacobians = 1;
@@ -66,10 +67,10 @@ public:
 
     SLIDEWAY_HD void prepare_dense(Pack<Model, Real>&, Attempt<Model, Real> const&, Mask<Real>) {}
 
-    /// One component inside the step: the straight line, for the derivatives at its ends belong to fast motions that the method
+    /// The state inside the step: the straight line, for the derivatives at its ends belong to fast motions that the method
     /// damps.  Steps end where samples are wanted.
-    SLIDEWAY_HD Real dense(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to, int i, Real theta) const {
-        return fma(theta, to.end[i] - from.y[i], from.y[i]);
+    SLIDEWAY_HD void dense(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to, Real theta, Real* state) const {
+        for (int i = 0; i < size; ++i) state[i] = fma(theta, to.end[i] - from.y[i], from.y[i]);
     }
 
     /// Ω² [1/s²] of the stiffest motions and the number of touching pairs, at the start of the step.

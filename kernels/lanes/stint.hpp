@@ -3,12 +3,13 @@
 #include <type_traits>
 
 #include "kernels/lanes/crossing_search.hpp"
+#include "kernels/lanes/error_norm.hpp"
 #include "kernels/lanes/event_search.hpp"
 #include "kernels/lanes/impact_steps.hpp"
+#include "kernels/lanes/method_choice.hpp"
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/results.hpp"
 #include "kernels/lanes/shadows.hpp"
-#include "kernels/lanes/stiffness.hpp"
 #include "kernels/math/squared_ratios.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/step_control.hpp"
@@ -56,22 +57,15 @@ private:
     /// Least step, in units of the end time.
     static constexpr double time_resolution = Model::has_shadows ? 1e-19 : 8 * 2.220446049250313e-16;
     static constexpr bool impacts_end_it = Stepper::stiff && Model::has_patterns;
-    static constexpr bool by_clock = requires(Stepper const& stepper) { stepper.step(); };
+    static constexpr bool by_clock = Stepper::by_clock;
     using Impacts = ImpactSteps<Stepper, Model, Real>;
+    using Choice = MethodChoice<Model, Real>;
     using Control = StepControl<Stepper::order>;
-    using Start = StepStart<Model, Real>;
-    using Tried = Attempt<Model, Real>;
 
     /// A known time at which the step ends at the latest, and the lanes where it ends there.
     struct Landing {
         Real time;
         Mask<Real> lands;
-    };
-
-    /// What one of those who may shorten a step says of it.
-    struct Allowance {
-        Mask<Real> accepted;
-        Real next;  // the step to try next [s]
     };
 
     /// What all of them come to.
@@ -81,7 +75,7 @@ private:
         Mask<Real> cut;        // rejected because an event must end the step
         Mask<Real> divergent;  // the error is beyond all bounds
         Mask<Real> impact;     // rejected because the stiff method would swallow an impact
-        Real next;
+        Real next;             // as of an Allowance
     };
 
     /// Chooses the step.
@@ -107,47 +101,8 @@ private:
         return {time, lands};
     }
 
-    /// Squared errors of the components, each against its tolerance, over the number of states; the integrals of the audit, where it
-    /// runs, come on top.  NaN where any is NaN.
-    /// Of the stiff method's errors what lasts meets the tolerance, the whole with its ringing `stiff_tolerance` at least.
-    SLIDEWAY_HD Real squared_error_norm(Start const& from, Tried const& to) {
-        Real const rtol(settings_.rtol), atol(settings_.atol);
-        auto const& s = pack_.state;
-        SquaredRatios<Real> sum, coarse;
-        if constexpr (Stepper::stiff) stepper_.filter_error(Real(max_step_));
-        for (int i = 0; i < size; ++i) {
-            Real const amount = max(abs(from.y[i]), abs(to.end[i])), scale = s.constants.scale[i];
-            Real const tolerance = fma(rtol, amount, atol * scale);
-            if constexpr (Stepper::stiff) {
-                Real const least(settings_.stiff_tolerance);
-                sum.add(stepper_.lasting_error(to, i), tolerance);
-                sum.add(stepper_.error(to, i), fma(max(rtol, least), amount, max(atol, least) * scale));
-            } else {
-                sum.add(stepper_.error(to, i), tolerance);
-                if constexpr (Stepper::has_two_estimates) coarse.add(stepper_.coarse_error(to, i), tolerance);
-            }
-        }
-        // The damping power has a kink where a contact begins, which the states hardly feel: the audit controls its own error.
-        constexpr int audit_integrals = Pack<Model, Real>::Observer::audit_integrals;
-        if constexpr (audit_integrals > 0) {
-            if (!from.needs.audit) return mean_square(sum, coarse);
-            Real const energy = atol * Model::energy_scale(s.constants.parameters);
-            for (int i = 0; i < audit_integrals; ++i) {
-                Real const tolerance = fma(rtol, abs(s.observation.observer.integral(i)), energy);
-                sum.add(to.step * pack_.audit_error[i], tolerance);
-                if constexpr (Stepper::has_two_estimates) coarse.add(to.step * pack_.coarse_audit_error[i], tolerance);
-            }
-        }
-        return mean_square(sum, coarse);
-    }
-
-    /// Of two estimates a norm that falls with the order of the method: a²/(a² + b²/100) of the sums of squares a of the fine and b of the
-    /// coarse one times a² (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I (1993), II.10).
-    SLIDEWAY_FN static Real mean_square(SquaredRatios<Real> const& sum, SquaredRatios<Real> const& coarse) {
-        Real const fine = sum.total();
-        if constexpr (!Stepper::has_two_estimates) return fine * Real(1.0 / size);
-        Real const both = max(Real(1e-300), fma(Real(0.01), coarse.total(), fine));
-        return fine * (fine / both) * Real(1.0 / size);
+    SLIDEWAY_HD Real squared_error_norm(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to) {
+        return ErrorNorm<Stepper, Model, Real>::squared(pack_, stepper_, settings_, from, to);
     }
 
     /// Accepts or rejects per lane.
@@ -169,14 +124,12 @@ private:
         if constexpr (Model::has_shadows) attempt_.faults = attempt_.faults.or_else(shadows_.faults());
 
         auto finished = mask_of<Real>(false);
-        turned_ = mask_of<Real>(false);
         if (any(verdict.accepted)) {
             finished = advance(verdict.accepted, landing);
             if constexpr (Model::events > 0) stuck = stuck | search_.piled_up(pack_, attempt_.step);
         }
         if constexpr (by_clock) {
             impacts_.keep(pack_.state, stepper_, busy, verdict.next, Real(max_step_));
-            if (any(turned_)) impacts_.turn(pack_.state, stepper_, turned_, Real(max_step_));
         } else {
             c.h = select(busy, min(verdict.next, Real(max_step_)), c.h);
         }
@@ -187,7 +140,17 @@ private:
             results_.retire(pack_, {ended, finished, stuck, divergent}, attempt_.faults.within(stuck));
             pack_.busy = pack_.busy & !ended;
         }
-        if constexpr (Stepper::stiff) watch_stiffness(verdict.accepted, verdict.impact);
+        if constexpr (Stepper::stiff) {
+            if (is_auto()) leave_stiffness(verdict);
+        }
+    }
+
+    SLIDEWAY_HD bool is_auto() const { return settings_.method == Method::automatic; }
+
+    SLIDEWAY_HD void leave_stiffness(Verdict const& verdict) {
+        auto const leaving = Choice::leave_stiffness(pack_, stepper_, attempt_.step, verdict.accepted, verdict.impact, settings_.max_step);
+        left_ = left_ | leaving;
+        pack_.busy = pack_.busy & !leaving;
     }
 
     /// Least step [s] that still moves time.
@@ -208,14 +171,16 @@ private:
                 allowed = by_contacts;
             }
         }
-        if constexpr (impacts_end_it) verdict.impact = find_impacts(allowed.accepted);
+        if constexpr (impacts_end_it) {
+            if (is_auto()) verdict.impact = Choice::find_impacts(pack_, attempt_, allowed.accepted);
+        }
         verdict.accepted = allowed.accepted & !verdict.impact;
         verdict.rejected = pack_.busy & !verdict.accepted;
         verdict.next = allowed.next;
         return verdict;
     }
 
-    SLIDEWAY_HD Allowance allowed_by_error(Landing const& landing, Mask<Real>& divergent) {
+    SLIDEWAY_HD Allowance<Real> allowed_by_error(Landing const& landing, Mask<Real>& divergent) {
         auto& c = pack_.state.course;
         Real squared_norm(0.0);
         if constexpr (Stepper::adaptive) squared_norm = squared_error_norm(pack_.start(), attempt_);
@@ -231,7 +196,7 @@ private:
         return {accepted, select(accepted & landing.lands, max(next, c.h), next)};
     }
 
-    SLIDEWAY_HD Allowance allowed_if_finite(Mask<Real>& divergent) {
+    SLIDEWAY_HD Allowance<Real> allowed_if_finite(Mask<Real>& divergent) {
         Mask<Real> accepted = pack_.busy & is_finite(attempt_.end, attempt_.end_rates);
         if constexpr (Model::has_shadows) accepted = accepted & shadows_.finite();
         divergent = pack_.busy & !accepted;
@@ -239,9 +204,9 @@ private:
     }
 
     /// A touch, or a change of mode, must end its step: it sets the impact speed of what follows, or the law that holds.
-    SLIDEWAY_HD Allowance allowed_by_contacts(Allowance const& before) {
+    SLIDEWAY_HD Allowance<Real> allowed_by_contacts(Allowance<Real> const& before) {
+        if constexpr (by_clock) return impacts_.allowed(pack_, stepper_, attempt_, before, settings_.rtol, resolution());
         Real const step = attempt_.step;
-        if constexpr (by_clock) return allowed_by_impacts(before);
         auto const early = before.accepted & (step > resolution() * Real(64.0));
         auto const watching = pack_.needs.watching;
         double tolerance = Model::template Watch<Real>::tolerance(watching);
@@ -250,33 +215,19 @@ private:
         Real fraction = pack_.state.contacts.watch.earliest(early, attempt_.report.contact, step, located, watching);
         if constexpr (Model::has_shadows) fraction = min(fraction, shadows_.earliest(pack_, early, located));
         auto const cut = fraction < Real(1.0);
-        Allowance allowed{Mask<Real>(before.accepted & !cut),
-                          select(cut, max(step * fraction, resolution() * Real(32.0)), before.next)};
-        if constexpr (Model::has_shadows) {
-            // Events of member and shadow are next to each other: after the second nothing would be left of the step.
-            Real& uncut = pack_.state.course.shadowed.uncut;
-            allowed.next = select(allowed.accepted, max(allowed.next, uncut), allowed.next);
-            uncut = select(allowed.accepted, Real(0.0), select(cut, max(uncut, step), uncut));
-        }
+        Allowance<Real> allowed{Mask<Real>(before.accepted & !cut),
+                                select(cut, max(step * fraction, resolution() * Real(32.0)), before.next)};
+        if constexpr (Model::has_shadows) shadows_.go_on(pack_, step, cut, allowed);
         return allowed;
-    }
-
-    SLIDEWAY_HD Allowance allowed_by_impacts(Allowance const& before) {
-        auto const& step = stepper_.step();
-        // A clock has steps of any size; what it does to time may round to nothing.
-        Mask<Real> const early = before.accepted & (step.start.runs() | (step.own > resolution() * Real(64.0)));
-        Real const located = Real(Impacts::located(settings_.rtol, pack_.needs.switches)) * Model::touch_scale(pack_.state.constants.parameters);
-        Real const fraction = pack_.state.contacts.watch.earliest(early, attempt_.report.contact, step, located);
-        auto const cut = fraction < Real(1.0);
-        Real const least = select(step.start.runs(), Real(0.0), resolution() * Real(32.0));
-        return {Mask<Real>(before.accepted & !cut), select(cut, max(step.own * fraction, least), before.next)};
     }
 
     /// Moves the accepted lanes to the end of their step.  @return those that reached the end time.
     SLIDEWAY_HD Mask<Real> advance(Mask<Real> accepted, Landing const& landing) {
         auto& c = pack_.state.course;
         auto landed = accepted & landing.lands;
-        Real t_end = select(landed, landing.time, time_after_step(accepted, landed));
+        Real t_end = c.t + attempt_.step;
+        if constexpr (Model::has_shadows) t_end = shadows_.time_after(pack_, attempt_.step, accepted, landed);
+        t_end = select(landed, landing.time, t_end);
         if constexpr (Model::events > 0) {
             search_.run(pack_, stepper_, attempt_, accepted);
             t_end = select(search_.ended(), fma(attempt_.step, search_.fraction(), c.t), t_end);
@@ -319,29 +270,15 @@ private:
     SLIDEWAY_HD void remember_contacts([[maybe_unused]] Mask<Real> accepted) {
         if constexpr (Model::has_contacts) {
             if (!pack_.needs.watch()) return;
-            auto& [memory, watch] = pack_.state.contacts;
             auto touched = mask_of<Real>(false);
             if constexpr (by_clock) {
-                touched = turned_ = watch.update(accepted, attempt_.report.contact, memory, stepper_.step());
+                touched = impacts_.update(pack_.state, stepper_, accepted, attempt_.report.contact);
             } else {
+                auto& [memory, watch] = pack_.state.contacts;
                 touched =
                     watch.update(accepted, attempt_.report.contact, memory, pack_.state.course.y, pack_.needs.watching);
             }
             if (any(touched)) restart(touched);
-        }
-    }
-
-    SLIDEWAY_HD Real time_after_step(Mask<Real> accepted, Mask<Real> landed) {
-        auto& c = pack_.state.course;
-        if constexpr (!Model::has_shadows) {
-            return c.t + attempt_.step;
-        } else {
-            // The sum and what it rounds off (Knuth's two-sum); a landing starts a new count.
-            Real const step = attempt_.step + c.shadowed.fine_time, sum = c.t + step;
-            Real const of_step = sum - c.t;
-            Real const rest = (c.t - (sum - of_step)) + (step - of_step);
-            c.shadowed.fine_time = select(accepted, select(landed, Real(0.0), rest), c.shadowed.fine_time);
-            return sum;
         }
     }
 
@@ -371,39 +308,6 @@ private:
         pack_.begin_next(touched, attempt_.end_rates, attempt_.report);
     }
 
-    /// Lanes whose step brought an apex into contact at speed.  The stiff method would swallow the impact's energy without a
-    /// sign: `auto` leaves impacts to the explicit pair.  What counts is how fast the apex approached its face: a slider that glides along
-    /// one, with a corner that rattles on it at next to no speed, has no impacts.
-    SLIDEWAY_HD Mask<Real> find_impacts(Mask<Real> accepted) {
-        auto const& s = pack_.state;
-        if (settings_.method != Method::automatic) return mask_of<Real>(false);
-        // At either end: a slider lifted from rest meets the other face within one long step.
-        Real const squared_speed = max(Model::squared_speed(s.course.y, s.constants.scale),
-                                       Model::squared_speed(attempt_.end, s.constants.scale));
-        auto const moves = squared_speed > Real(Stiffness::creep_below * Stiffness::creep_below);
-        if (none(accepted & moves)) return mask_of<Real>(false);
-        auto const& p = s.constants.parameters;
-        Real const speed = pack_.model.approach_speed(s.course.t, s.course.y, attempt_.step, attempt_.end, p);
-        return accepted & moves & (speed > Real(Stiffness::impact_above));
-    }
-
-    /// A lane leaves the stiff method where contact is lost or an impact begins, or its steps stay far below what that method is for.
-    SLIDEWAY_HD void watch_stiffness(Mask<Real> accepted, Mask<Real> impact) {
-        auto& c = pack_.state.course;
-        Real const rate = sqrt(max(stepper_.rate_squared(), Real(0.0)));
-        auto const calm = attempt_.step * rate < Real(Stiffness::calm_below);
-        c.stiffness = select(accepted, select(calm, c.stiffness + Real(1.0), Real(0.0)), c.stiffness);
-        auto const free = stepper_.touching() < Real(0.5);
-        auto const leaving = pack_.busy & (free | impact | (c.stiffness >= Real(Stiffness::calm_steps)));
-        if (none(leaving) || settings_.method != Method::automatic) return;
-        c.stiffness = select(leaving, Real(0.0), c.stiffness);
-        c.stiff = select(leaving, Real(0.0), c.stiff);
-        Real const explicit_step = min(Real(1.0) / max(rate, Real(1e-9)), Real(settings_.max_step));
-        c.h = select(leaving, min(c.h, explicit_step), c.h);
-        left_ = left_ | leaving;
-        pack_.busy = pack_.busy & !leaving;
-    }
-
     Pack<Model, Real>& pack_;
     Results<Model>& results_;
     IntegratorSettings const& settings_;
@@ -412,7 +316,6 @@ private:
     [[no_unique_address]] std::conditional_t<Model::has_shadows, Shadows<Model, Real>, NoShadowSteps> shadows_;
     [[no_unique_address]] std::conditional_t<by_clock, Impacts, NoImpactSteps> impacts_;
     Attempt<Model, Real> attempt_;  // the members' own
-    Mask<Real> turned_;             // lanes whose step ended at a touch or a parting, of a stepper with clocks
     double max_step_;
     Mask<Real> left_;
 };

@@ -45,19 +45,13 @@ public:
         Real depth(1e300);
         ContactClock<Real> found{Real(-1.0), Real(0.0), Real(0.0)};
         for (int face = 0; face < quads; ++face) {
-            auto const& d = this->start_depth_[face];
-            auto const& v = this->start_rate_[face];
-            auto const& held = memory.held[face];
-            auto const look = [&](int place, Real const& depth_here, Real const& rate_here, Real const& is_held) {
+            auto const look = [&](Real number, Real depth_here, Real rate_here, Real is_held) {
                 auto const shallower = (is_held > Real(0.5)) & (depth_here < depth);
                 depth = select(shallower, depth_here, depth);
-                found.pair = select(shallower, Real(static_cast<double>(4 * face + place)), found.pair);
+                found.pair = select(shallower, number, found.pair);
                 found.rate = select(shallower, rate_here, found.rate);
             };
-            look(0, d.a, v.a, held.a);
-            look(1, d.b, v.b, held.b);
-            look(2, d.c, v.c, held.c);
-            look(3, d.d, v.d, held.d);
+            each_pair(face, look, this->start_depth_[face], this->start_rate_[face], memory.held[face]);
         }
         found.root = select(found.runs(), sqrt(max(depth, Real(0.0))), found.root);
         return found;
@@ -73,18 +67,11 @@ public:
         Mask<Real> const by_clock = candidates & step.start.runs();
         Real fraction = change(by_clock & !step.parts(), step.start.root, step.start.rate, step.end.root, step.end.rate, Real(0.0));
         for (int face = 0; face < quads; ++face) {
-            auto const& d0 = this->start_depth_[face];
-            auto const& v0 = this->start_rate_[face];
-            auto const& d1 = end.penetration[face];
-            auto const& v1 = end.rate[face];
-            auto const of = [&](int place, Real d0i, Real v0i, Real d1i, Real v1i) {
-                Mask<Real> const in = candidates & !(step.start.pair == Real(static_cast<double>(4 * face + place)));
-                fraction = min(fraction, change(in, d0i, pace0 * v0i, d1i, pace1 * v1i, located));
+            auto const look = [&](Real number, Real d0, Real v0, Real d1, Real v1) {
+                Mask<Real> const in = candidates & !(step.start.pair == number);
+                fraction = min(fraction, change(in, d0, pace0 * v0, d1, pace1 * v1, located));
             };
-            of(0, d0.a, v0.a, d1.a, v1.a);
-            of(1, d0.b, v0.b, d1.b, v1.b);
-            of(2, d0.c, v0.c, d1.c, v1.c);
-            of(3, d0.d, v0.d, d1.d, v1.d);
+            each_pair(face, look, this->start_depth_[face], this->start_rate_[face], end.penetration[face], end.rate[face]);
         }
         return fraction;
     }
@@ -98,22 +85,16 @@ public:
         auto changed = mask_of<Real>(false);
         Mask<Real> const over = step.parts();
         for (int face = 0; face < quads; ++face) {
-            auto const& d = end.penetration[face];
-            auto const& v = end.rate[face];
-            auto& held = memory.held[face];
-            auto const turn = [&](int place, Real const& depth, Real const& rate, Real& is_held) {
+            auto const turn_over = [&](Real number, Real depth, Real rate, Real& is_held) {
                 auto const touches = is_held > Real(0.5);
-                Mask<Real> const parts = over & (step.start.pair == Real(static_cast<double>(4 * face + place)));
+                Mask<Real> const parts = over & (step.start.pair == number);
                 Mask<Real> const stays = touches & (depth > Real(0.0)) & !parts;
                 Mask<Real> const begins = (!touches) & (depth > Real(0.0)) & (rate > Real(0.0));
                 Real const now = select(stays | begins, Real(1.0), Real(0.0));
                 changed = changed | (accepted & (now != is_held));
                 is_held = select(accepted, now, is_held);
             };
-            turn(0, d.a, v.a, held.a);
-            turn(1, d.b, v.b, held.b);
-            turn(2, d.c, v.c, held.c);
-            turn(3, d.d, v.d, held.d);
+            each_pair(face, turn_over, end.penetration[face], end.rate[face], memory.held[face]);
         }
         this->keep(accepted, end);
         hold_signs(memory);
@@ -147,14 +128,21 @@ public:
     }
 
 private:
+    /// Has a function see each pair of a face: its number, and what it has in each of the quads.
+    template <class Function, class... Quads> SLIDEWAY_FN static void each_pair(int face, Function const& see, Quads&... of) {
+        double const first = 4.0 * face;
+        see(Real(first), of.a...);
+        see(Real(first + 1), of.b...);
+        see(Real(first + 2), of.c...);
+        see(Real(first + 3), of.d...);
+    }
+
     /// A pair that is held apart starts apart, though its depth may be above zero by what its parting was located to.
     SLIDEWAY_FN void hold_signs(Memory const& memory) {
         Real const zero(0.0), half(0.5);
         for (int face = 0; face < quads; ++face) {
-            auto& d = this->start_depth_[face];
-            auto const& held = memory.held[face];
-            d = {select(held.a > half, d.a, min(d.a, zero)), select(held.b > half, d.b, min(d.b, zero)),
-                 select(held.c > half, d.c, min(d.c, zero)), select(held.d > half, d.d, min(d.d, zero))};
+            auto const hold = [&](Real, Real& depth, Real is_held) { depth = select(is_held > half, depth, min(depth, zero)); };
+            each_pair(face, hold, this->start_depth_[face], memory.held[face]);
         }
     }
 
@@ -163,20 +151,13 @@ private:
     SLIDEWAY_FN Mask<Real> take_speeds(Mask<Real> accepted, Contact const& end, Memory& memory) const {
         auto touched = mask_of<Real>(false);
         for (int face = 0; face < quads; ++face) {
-            auto const& d0 = this->start_depth_[face];
-            auto const& d1 = end.penetration[face];
-            auto const& v1 = end.rate[face];
-            auto& speed = memory.impact_speed[face];
-            auto const a = touch(accepted, d0.a, d1.a, v1.a, speed.a), b = touch(accepted, d0.b, d1.b, v1.b, speed.b);
-            auto const c = touch(accepted, d0.c, d1.c, v1.c, speed.c), d = touch(accepted, d0.d, d1.d, v1.d, speed.d);
-            touched = touched | a | b | c | d;
+            auto const take = [&](Real, Real before, Real after, Real rate, Real& speed) {
+                auto const now = accepted & (before <= Real(0.0)) & (after > Real(0.0));
+                speed = select(now, max(rate, Real(least_impact_speed)), speed);
+                touched = touched | now;
+            };
+            each_pair(face, take, this->start_depth_[face], end.penetration[face], end.rate[face], memory.impact_speed[face]);
         }
-        return touched;
-    }
-
-    SLIDEWAY_FN static Mask<Real> touch(Mask<Real> accepted, Real before, Real after, Real rate, Real& speed) {
-        auto const touched = accepted & (before <= Real(0.0)) & (after > Real(0.0));
-        speed = select(touched, max(rate, Real(least_impact_speed)), speed);
         return touched;
     }
 
@@ -185,20 +166,14 @@ private:
     SLIDEWAY_FN static Mask<Real> turn_pairs(Mask<Real> accepted, Contact const& end, Memory& memory) {
         auto changed = mask_of<Real>(false);
         for (int face = 0; face < quads; ++face) {
-            auto const& d = end.penetration[face];
-            auto& held = memory.held[face];
-            auto const a = turn(accepted, d.a, held.a), b = turn(accepted, d.b, held.b);
-            auto const c = turn(accepted, d.c, held.c), e = turn(accepted, d.d, held.d);
-            changed = changed | a | b | c | e;
+            auto const turn_over = [&](Real, Real depth, Real& is_held) {
+                Real const now = select(depth > Real(0.0), Real(1.0), Real(0.0));
+                changed = changed | (accepted & (now != is_held));
+                is_held = select(accepted, now, is_held);
+            };
+            each_pair(face, turn_over, end.penetration[face], memory.held[face]);
         }
         return changed;
-    }
-
-    SLIDEWAY_FN static Mask<Real> turn(Mask<Real> accepted, Real depth, Real& held) {
-        Real const now = select(depth > Real(0.0), Real(1.0), Real(0.0));
-        auto const turned = accepted & (now != held);
-        held = select(accepted, now, held);
-        return turned;
     }
 };
 

@@ -5,7 +5,8 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// What all explicit Runge–Kutta pairs share.  @tparam Tableau holds the nodes c, stage weights a, weights b, and the error's
-/// weights e; of two estimates of the error the second's are `coarse`; @tparam count the number of stages, of which the last is the first of the next step.
+/// weights e; of two estimates of the error the second's are `coarse`; d is for `dense` below, where a pair has no other of its own.
+/// @tparam count the number of stages, of which the last is the first of the next step.
 template <class Tableau_, int count> struct ExplicitPair {
     using Tableau = Tableau_;
     static constexpr bool adaptive = true;
@@ -21,10 +22,22 @@ template <class Tableau_, int count> struct ExplicitPair {
 
     /// Σ_j e_j k_j of one component: the error estimate is h times this.
     template <int size, class Real> SLIDEWAY_FN static Real error_slope(Real const (*k)[size], int i) {
-        return weighted_error<&Tableau::e, 1>(k, i, Real(Tableau{}.e[0]) * k[0][i]);
+        return combined<&Tableau::e>(k, i);
     }
     template <int size, class Real> SLIDEWAY_FN static Real coarse_error_slope(Real const (*k)[size], int i) {
-        return weighted_error<&Tableau::coarse, 1>(k, i, Real(Tableau{}.coarse[0]) * k[0][i]);
+        return combined<&Tableau::coarse>(k, i);
+    }
+
+    /// One component inside the step, at fraction θ of it: the cubic through both ends, and what Σ_j d_j k_j adds with θ²(1 − θ)².
+    /// @param y0, y1 the component at both ends of the step.
+    template <int size, class Real>
+    SLIDEWAY_FN static Real dense(Real const (*k)[size], int i, Real y0, Real y1, Real h, Real theta) {
+        Real const rest = Real(1.0) - theta;
+        Real const change = y1 - y0;
+        Real const start = fms(h, k[0][i], change);
+        Real const end = fnma(h, k[stages - 1][i], change) - start;
+        Real const bend = h * combined<&Tableau::d>(k, i);
+        return fma(theta, fma(rest, fma(theta, fma(rest, bend, end), start), change), y0);
     }
 
 private:
@@ -45,14 +58,18 @@ private:
         }
     }
 
+    /// Σ_j w_j k_j of all stages.
+    template <auto weights, int size, class Real> SLIDEWAY_FN static Real combined(Real const (*k)[size], int i) {
+        return combined<weights, 1>(k, i, Real((Tableau{}.*weights)[0]) * k[0][i]);
+    }
     template <auto weights, int j, int size, class Real>
-    SLIDEWAY_FN static Real weighted_error(Real const (*k)[size], int i, Real sum) {
+    SLIDEWAY_FN static Real combined(Real const (*k)[size], int i, Real sum) {
         if constexpr (j == stages) {
             return sum;
         } else {
-            constexpr double e = (Tableau{}.*weights)[j];
-            if constexpr (e != 0) sum = fma(Real(e), k[j][i], sum);
-            return weighted_error<weights, j + 1>(k, i, sum);
+            constexpr double w = (Tableau{}.*weights)[j];
+            if constexpr (w != 0) sum = fma(Real(w), k[j][i], sum);
+            return combined<weights, j + 1>(k, i, sum);
         }
     }
 };

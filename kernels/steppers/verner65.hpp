@@ -37,24 +37,6 @@ struct Verner65Tableau {
 /// Its continuous extension, of order 4 and without further stages, is ours.
 struct Verner65 : ExplicitPair<Verner65Tableau, 9> {
     static constexpr int order = 6;
-
-    /// One component inside the step, at fraction θ of it.  @param y0, y1 the component at both ends of the step.
-    template <int size, class Real>
-    SLIDEWAY_FN static Real dense(Real const (*k)[size], int i, Real y0, Real y1, Real h, Real theta) {
-        constexpr Tableau w{};
-        Real bend = Real(w.d[0]) * k[0][i];
-        bend = fma(Real(w.d[3]), k[3][i], bend);
-        bend = fma(Real(w.d[4]), k[4][i], bend);
-        bend = fma(Real(w.d[5]), k[5][i], bend);
-        bend = fma(Real(w.d[6]), k[6][i], bend);
-        bend = fma(Real(w.d[7]), k[7][i], bend);
-        bend = fma(Real(w.d[8]), k[8][i], bend);
-        Real const rest = Real(1.0) - theta;
-        Real const change = y1 - y0;
-        Real const start = fms(h, k[0][i], change);
-        Real const end = fnma(h, k[8][i], change) - start;
-        return fma(theta, fma(rest, fma(theta, fma(rest, h * bend, end), start), change), y0);
-    }
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "tests/unit/kernels/logistic.hpp"
+
 namespace slideway::bogacki_shampine_test {
 namespace {
 
@@ -78,10 +80,7 @@ TEST(BogackiShampine, DenseOutputHasOrderThreeInsideTheStepAndMeetsBothEnds) {
     }
     Oscillator o;
     o.step(0.3);
-    for (int i = 0; i < 2; ++i) {
-        EXPECT_EQ(BogackiShampine::dense(o.k, i, o.y[i], o.end[i], 0.3, 0.0), o.y[i]);
-        EXPECT_NEAR(BogackiShampine::dense(o.k, i, o.y[i], o.end[i], 0.3, 1.0), o.end[i], 1e-16);
-    }
+    testing::expect_dense_meets_ends<BogackiShampine>(o, 0.3, 1e-16);
 }
 
 }  // namespace

@@ -61,8 +61,7 @@ TEST(Dop853, DenseOutputHasOrderSevenInsideTheStep) {
 TEST(Dop853, DenseOutputMeetsBothEnds) {
     testing::Logistic<Dop853> o;
     o.step(0.3);
-    EXPECT_EQ(Dop853::dense(o.k, 0, o.y[0], o.end[0], 0.3, 0.0), o.y[0]);
-    EXPECT_NEAR(Dop853::dense(o.k, 0, o.y[0], o.end[0], 0.3, 1.0), o.end[0], 1e-16);
+    testing::expect_dense_meets_ends<Dop853>(o, 0.3, 1e-16);
 }
 
 }  // namespace

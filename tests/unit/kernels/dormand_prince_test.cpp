@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kernels/steppers/dormand_prince.hpp"
+#include "tests/unit/kernels/logistic.hpp"
 
 namespace slideway::dormand_prince_test {
 namespace {
@@ -106,10 +107,7 @@ TEST(DormandPrince, DenseOutputHasOrderFourInsideTheStep) {
 TEST(DormandPrince, DenseOutputMeetsBothEnds) {
     Oscillator o;
     o.step(0.3);
-    for (int i = 0; i < 2; ++i) {
-        EXPECT_EQ(DormandPrince::dense(o.k, i, o.y[i], o.end[i], 0.3, 0.0), o.y[i]);
-        EXPECT_NEAR(DormandPrince::dense(o.k, i, o.y[i], o.end[i], 0.3, 1.0), o.end[i], 1e-16);
-    }
+    testing::expect_dense_meets_ends<DormandPrince>(o, 0.3, 1e-16);
 }
 
 }  // namespace

@@ -81,6 +81,29 @@ TEST(ImpactSteps, GoWhereStepsOfTimeGoUnderEveryLaw) {
     }
 }
 
+TEST(ImpactSteps, BeginInsideImpactsToo) {
+    Parts const parts{Law::conservative, Damping::rate, true, false};
+    auto members = starts(parts, 8);
+    for (auto& in : members) {
+        in.y = in.y > 0 ? 1.002 * clearance : -1.002 * clearance;
+        in.z = in.roll = in.yaw = in.pitch = 0;
+        in.vy = in.vz > 0 ? 0.05 : -0.05;
+    }
+    members[1].pitch = members[2].roll = 1e-5;
+    members[3].y = -clearance - 1e-12;
+    auto const run = [&](Method method, double tolerance) {
+        auto options = options_of(parts, method, tolerance, 2e-3);
+        options.settings.max_steps = 10'000;
+        return testing::run(best_isa(), options, members);
+    };
+    auto const want = run(Method::dopri5, 1e-11), usual = run(Method::dopri5, 1e-9), found = run(Method::verner65, 1e-9);
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        ASSERT_EQ(want.records[i].status, Status::finished) << i;
+        ASSERT_EQ(found.records[i].status, Status::finished) << i;
+        EXPECT_LT(distance(found, want, i), std::max(1e-6, 10 * distance(usual, want, i))) << i;
+    }
+}
+
 double percentile95(testing::EnsembleResult const& r) {
     std::vector<double> residuals;
     for (std::size_t i = 0; i < r.records.size(); ++i) residuals.push_back(std::abs(r.value(i, Quantity::energy_residual)));

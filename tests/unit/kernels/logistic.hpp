@@ -1,7 +1,11 @@
-// Single steps of an explicit pair on a nonlinear problem with a known solution.
+// Single steps of an explicit method on a nonlinear problem with a known solution.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <utility>
 
 namespace slideway::testing {
@@ -45,6 +49,17 @@ template <class Pair> double dense_error(double h, double theta) {
     Logistic<Pair> o;
     o.step(h);
     return std::abs(Pair::dense(o.k, 0, o.y[0], o.end[0], h, theta) - o.exact(theta * h));
+}
+
+/// @param step that was made with stages `k` of components `y`, which are at `end` after it  @param rounding of the end
+template <class Pair> void expect_dense_meets_ends(auto const& step, double h, double rounding) {
+    for (std::size_t i = 0; i < std::size(step.y); ++i) {
+        auto const at = [&](double theta) {
+            return Pair::dense(step.k, static_cast<int>(i), step.y[i], step.end[i], h, theta);
+        };
+        EXPECT_EQ(at(0.0), step.y[i]) << "component " << i;
+        EXPECT_NEAR(at(1.0), step.end[i], rounding) << "component " << i;
+    }
 }
 
 }  // namespace slideway::testing

@@ -225,5 +225,70 @@ TEST(ContactWatch, LeaveAStepThatStartsOrEndsAtAChange) {
     }
 }
 
+/// A watch at the start of a step by a clock, and what it holds.
+struct Impacts {
+    Watch watch;
+    Memory memory;
+    explicit Impacts(ContactReport<double> const& start) {
+        start_memory(memory);
+        watch.begin(true, start, memory, Watching::impacts);
+    }
+    bool holds(Pair const& p) const { return memory.held[p.face].*p.apex == 1.0; }
+};
+
+TEST(ImpactWatch, GoesByTheShallowestPairThatTouches) {
+    EXPECT_FALSE(Impacts(apart()).watch.clock(memory_of(0.05)).runs()) << "who flies has no clock";
+    for (std::size_t deep = 0; deep < pairs().size(); ++deep) {
+        std::size_t const shallow = (deep + 7) % pairs().size();
+        auto start = apart();
+        depth(start, pairs()[deep]) = 4e-8, rate(start, pairs()[deep]) = 0.3;
+        depth(start, pairs()[shallow]) = 1e-8, rate(start, pairs()[shallow]) = -0.2;
+        Impacts const impacts(start);
+        auto const clock = impacts.watch.clock(impacts.memory);
+        EXPECT_EQ(clock.pair, static_cast<double>(shallow));
+        EXPECT_NEAR(clock.root, 1e-4, 1e-18);
+        EXPECT_EQ(clock.rate, -0.2);
+    }
+}
+
+TEST(ImpactWatch, LetsAPairGoOutThatHasPartedWithinItsFace) {
+    for (std::size_t i = 0; i < pairs().size(); ++i) {
+        auto const p = pairs()[i];
+        auto report = apart();
+        depth(report, p) = 1e-8, rate(report, p) = -0.1;
+        Impacts impacts(report);
+        ASSERT_TRUE(impacts.holds(p));
+        // u has come to zero; by the error of the step the depth in the state has not.
+        ClockedStep<double> const parting{1e-3, impacts.watch.clock(impacts.memory), {static_cast<double>(i), 1e-7, -0.1}};
+        depth(report, p) = 1e-13;
+        EXPECT_TRUE(impacts.watch.update(true, report, impacts.memory, parting)) << i;
+        EXPECT_FALSE(impacts.holds(p)) << i;
+        ClockedStep<double> const flight{1e-5, {-1, 0, 0}, {-1, 0, 0}};
+        depth(report, p) = 0.5e-13;
+        EXPECT_FALSE(impacts.watch.update(true, report, impacts.memory, flight)) << i << " still goes out";
+        EXPECT_FALSE(impacts.holds(p)) << i;
+        rate(report, p) = 0.1;
+        EXPECT_TRUE(impacts.watch.update(true, report, impacts.memory, flight)) << i << " comes back";
+        EXPECT_TRUE(impacts.holds(p)) << i;
+    }
+}
+
+TEST(ImpactWatch, FindsTheTouchOfAnotherPairByTheClock) {
+    // The other pair's depth is an arch over the clock's step; its rate in time is the slope over dt/ds = 2u.
+    double const own = 0.02, u0 = 1e-4, u1 = 3e-4, touch = 0.3;
+    for (std::size_t i = 0; i < pairs().size(); ++i) {
+        Arc arc(pairs()[i], -clearance, touch, 1.4);
+        rate(arc.start, pairs()[i]) /= own * 2 * u0;
+        rate(arc.end, pairs()[i]) /= own * 2 * u1;
+        double const other = static_cast<double>((i + 3) % pairs().size()), itself = static_cast<double>(i);
+        auto const earliest = [&](double pair) {
+            ClockedStep<double> const step{own, {pair, u0, 0.01}, {pair, u1, 0.01}};
+            return Impacts(arc.start).watch.earliest(true, arc.end, step, 1e-9 * clearance);
+        };
+        EXPECT_NEAR(earliest(other), touch, 1e-6) << i;
+        EXPECT_EQ(earliest(itself), 1.0) << "its own pair is the clock's affair";
+    }
+}
+
 }  // namespace
 }  // namespace slideway::observer_touch_test

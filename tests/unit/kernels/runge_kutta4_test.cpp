@@ -8,6 +8,7 @@
 #include "kernels/steppers/runge_kutta4.hpp"
 #include "tests/models/fixed_step.hpp"
 #include "tests/models/lorenz.hpp"
+#include "tests/unit/kernels/logistic.hpp"
 
 namespace slideway::runge_kutta4_test {
 namespace {
@@ -86,10 +87,7 @@ TEST(RungeKutta4, CubicInsideTheStepIsOffByTheFourthPower) {
 TEST(RungeKutta4, CubicInsideTheStepMeetsBothEnds) {
     Oscillator o;
     o.step(0.3);
-    for (int i = 0; i < 2; ++i) {
-        EXPECT_EQ(RungeKutta4::dense(o.k, i, o.y[i], o.end[i], 0.3, 0.0), o.y[i]);
-        EXPECT_NEAR(RungeKutta4::dense(o.k, i, o.y[i], o.end[i], 0.3, 1.0), o.end[i], 1e-16);
-    }
+    testing::expect_dense_meets_ends<RungeKutta4>(o, 0.3, 1e-16);
 }
 
 /// x' = λ x + t^3, whose equal steps have a closed form per step: R(z) x plus Simpson's rule where λ = 0.

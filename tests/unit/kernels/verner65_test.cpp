@@ -52,8 +52,7 @@ TEST(Verner65, DenseOutputHasOrderFourInsideTheStepAndMeetsItsEnds) {
     }
     testing::Logistic<Verner65> o;
     o.step(0.3);
-    EXPECT_EQ(Verner65::dense(o.k, 0, o.y[0], o.end[0], 0.3, 0.0), o.y[0]);
-    EXPECT_NEAR(Verner65::dense(o.k, 0, o.y[0], o.end[0], 0.3, 1.0), o.end[0], 1e-15);
+    testing::expect_dense_meets_ends<Verner65>(o, 0.3, 1e-15);
 }
 
 }  // namespace

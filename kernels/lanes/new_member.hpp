@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+
+#include "kernels/block.hpp"
+#include "kernels/lanes/member_state.hpp"
+#include "kernels/real.hpp"
+#include "kernels/steppers/step_control.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// What a member starts from, before its first evaluation.
+template <class Model> struct NewMember {
+    using Block = BlockOf<typename Model::Inputs>;
+    using Record = MemberState<Model, double>;
+
+    SLIDEWAY_HD static void begin(Record& r, Model const& model, Block const& block, std::size_t member) {
+        auto const& inputs = block.inputs[member];
+        r.constants.parameters = model.parameters(inputs);
+        Model::scales(r.constants.parameters, r.constants.scale);
+        auto& c = r.course;
+        c.member = static_cast<double>(member);
+        c.sample = 0;
+        c.t = 0;
+        c.h = 1e-3 * block.settings.max_step;
+        c.error_memory = step_control_start;
+        Model::initial_state(inputs, c.y);
+        c.stop = c.crossings = 0;
+        MemberClock const clock = block.clocks != nullptr ? block.clocks[member] : MemberClock{block.settings.end_time};
+        r.constants.end = clock.end;
+        r.constants.first_stop = clock.first_stop;
+        r.constants.stop_period = clock.period;
+        if constexpr (Model::has_shadows) {
+            c.shadowed.fine_time = c.shadowed.uncut = c.shadowed.lost = c.shadowed.grown = 0;
+            place_shadows(r, block.shadows, member);
+        }
+        if constexpr (has_clocks<Model>) c.impacts = {0.0, c.h, 0.0, 0.0};
+        c.accepted = c.rejected = c.evaluations = c.jacobians = c.stiff_steps = 0;
+        c.rejections = c.stiffness = c.rate_squared = 0;
+        // A model without linearisation is left to the explicit pair.
+        c.stiff = Model::has_linearisation && block.settings.method == Method::ros34pw2 ? 1 : 0;
+        start_memory(r.contacts.memory);
+        if constexpr (Model::events > 0) c.resets = {-1.0, 0.0};
+    }
+
+private:
+    /// Puts its shadows beside it.
+    SLIDEWAY_HD static void place_shadows(Record& r, ShadowPlan const& plan, std::size_t member) {
+        for (int s = 0; s < plan.count; ++s) {
+            auto const row = member * static_cast<std::size_t>(plan.count) + static_cast<std::size_t>(s);
+            double const* const direction = plan.directions + row * Model::size;
+            auto& shadow = r.shadows[s];
+            for (int i = 0; i < Model::size; ++i) {
+                shadow.y[i] = fma(plan.d0 * r.constants.scale[i], direction[i], r.course.y[i]);
+            }
+            shadow.distance = plan.d0;
+            shadow.growth = 0;
+            start_memory(shadow.contacts.memory);
+        }
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA
