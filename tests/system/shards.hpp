@@ -48,7 +48,8 @@ protected:
     }
     Outcome run_scene(std::vector<std::string> const& options) const { return run(run_words(options)); }
     /// The same as a command of a shell.
-    static std::string run_text(std::string const& options, std::string const& output = "o.nc", std::string const& isa = "scalar") {
+    static std::string run_text(std::string const& options, std::string const& output = "o.nc",
+                                std::string const& isa = "scalar") {
         return "'" SLIDEWAY_BINARY "' run s.toml --no-progress --isa " + isa + " -o " + output + " " + options;
     }
     ShellOutcome shell(std::string const& command) const { return run_shell(path(""), command); }
