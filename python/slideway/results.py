@@ -49,8 +49,8 @@ def open(path: StrPath, group: str | None = None, *, check: bool = True) -> xr.D
     0.01
     """
     name = path_text(path, "path")
-    _check(name, check)
-    if group is not None and text(group, "group") not in (known := _group_names(name)):
+    known = _check(name, check)
+    if group is not None and text(group, "group") not in known:
         there = ", ".join(known) or "no groups"
         raise SlidewayError(f'{name}: has no group "{group}", but {there}; see slideway.groups(path)')
     raw = None
@@ -77,15 +77,7 @@ def groups(result: StrPath | xr.Dataset) -> list[str]:
     ['verification']
     """
     name = file_of(result)
-    _check(name, not isinstance(result, xr.Dataset))
-    return _group_names(name)
-
-
-def _group_names(name: str) -> list[str]:
-    import netCDF4
-
-    with netCDF4.Dataset(name) as file:
-        return list(file.groups)
+    return _check(name, not isinstance(result, xr.Dataset))
 
 
 def path_of(result: xr.Dataset) -> str:
@@ -180,8 +172,8 @@ def _opened(name: str, group: str | None) -> xr.Dataset:
     return xr.open_dataset(name, engine="netcdf4", group=group, decode_times=False, decode_timedelta=False)
 
 
-def _check(name: str, whole: bool) -> None:
-    """Raises where there is no result of slideway, or, if the `whole` file counts, one that is damaged."""
+def _check(name: str, whole: bool) -> list[str]:
+    """The groups of a file; raises where there is no result of slideway, or, if the `whole` file counts, one that is damaged."""
     import netCDF4
 
     if not os.path.exists(name):
@@ -195,7 +187,7 @@ def _check(name: str, whole: bool) -> None:
         _require_intact(name)
     try:
         with netCDF4.Dataset(name) as file:
-            source, version = getattr(file, "source", ""), getattr(file, "format_version", 1)
+            source, version, groups_there = getattr(file, "source", ""), getattr(file, "format_version", 1), list(file.groups)
     except (OSError, RuntimeError, ValueError, AttributeError) as error:
         why = getattr(error, "strerror", None) or error
         raise SlidewayError(f"{name}: is no NetCDF file that can be read ({why}); check the path") from error
@@ -203,6 +195,7 @@ def _check(name: str, whole: bool) -> None:
         raise SlidewayError(f"{name}: is a NetCDF file, but not a result of slideway; open it with xarray.open_dataset")
     if not isinstance(version, (int, np.integer)) or version > _newest_format:
         raise SlidewayError(f"{name}: is of format {version}, and this package reads formats 1 to {_newest_format}; install a newer one")
+    return groups_there
 
 
 def _require_intact(name: str) -> None:

@@ -62,15 +62,18 @@ def program() -> str:
 
 
 @pytest.fixture(scope="session")
-def result_of(program: str, tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], xr.Dataset]:
-    """The result of a recipe, run when it is first asked for."""
+def result_of(program: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[str], xr.Dataset]]:
+    """The result of a recipe, run and opened when it is first asked for; each test has a copy, which reads the file when it is used."""
     folder = tmp_path_factory.mktemp("results")
+    opened: dict[str, xr.Dataset] = {}
 
     def of(name: str) -> xr.Dataset:
-        path = folder / f"{name}.nc"
-        if not path.exists():
+        if name not in opened:
             scene, changes = recipes[name]
-            slideway.run(scenes / scene, path, set=changes, threads=2, progress=False, max_failures="100%").close()
-        return slideway.open(path)
+            slideway.run(scenes / scene, folder / f"{name}.nc", set=changes, threads=2, progress=False, max_failures="100%").close()
+            opened[name] = slideway.open(folder / f"{name}.nc")
+        return opened[name].copy()
 
-    return of
+    yield of
+    for result in opened.values():
+        result.close()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import json
 import os
 import re
 import shlex
@@ -52,15 +53,47 @@ def test_every_plot_takes_an_axis(function: object) -> None:
     assert inspect.signature(function).parameters["ax"].default is None  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("document", ["README.md", "docs/python.md", "docs/quantities.md", "python/README.md"])
-def test_examples_of_documents_run(document: str, program: str, tmp_path: Path) -> None:
-    blocks = python_blocks(document)
-    assert blocks
-    (tmp_path / "scenes").symlink_to(root / "scenes")
-    # The blocks of a page follow each other, in the root of the repository.
-    script = "import matplotlib\nmatplotlib.use('Agg')\n" + "\n".join(blocks)
-    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, check=False)
+DOCUMENTS = ["README.md", "docs/python.md", "docs/quantities.md", "python/README.md"]
+# Runs each script that is given on stdin, in a folder and with names of its own, and tells what came of it: libraries are loaded once.
+EACH = """
+import json, os, sys, traceback
+import matplotlib
+matplotlib.use("Agg")
+ends = {}
+for name, (folder, script) in json.load(sys.stdin).items():
+    os.chdir(folder)
+    try:
+        exec(compile(script, name, "exec"), {"__name__": "__main__"})
+    except BaseException:
+        ends[name] = traceback.format_exc()
+    else:
+        ends[name] = ""
+    sys.modules["matplotlib"].pyplot.close("all")
+json.dump(ends, open(sys.argv[1], "w"))
+"""
+
+
+@pytest.fixture(scope="module")
+def ends_of_documents(program: str, tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """What the examples of each document were ended by: nothing where they came to their end."""
+    scripts = {}
+    for document in DOCUMENTS:
+        blocks = python_blocks(document)
+        assert blocks
+        # The blocks of a page follow each other, in the root of the repository.
+        folder = tmp_path_factory.mktemp("document")
+        (folder / "scenes").symlink_to(root / "scenes")
+        scripts[document] = str(folder), "\n".join(blocks)
+    said = folder / "ends.json"
+    done = subprocess.run([sys.executable, "-c", EACH, str(said)], input=json.dumps(scripts), capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
+    ends: dict[str, str] = json.loads(said.read_text())
+    return ends
+
+
+@pytest.mark.parametrize("document", DOCUMENTS)
+def test_examples_of_documents_run(document: str, ends_of_documents: dict[str, str]) -> None:
+    assert ends_of_documents[document] == ""
 
 
 def test_commands_of_the_tutorial_run(program: str, tmp_path: Path) -> None:
@@ -73,7 +106,7 @@ def test_commands_of_the_tutorial_run(program: str, tmp_path: Path) -> None:
     (tmp_path / "scenes").symlink_to(root / "scenes")
     environment = {**os.environ, "SLIDEWAY_PYTHON": sys.executable}
     for command in commands:
-        shorter = {"mine.toml": ["--set", "study.members=16", "--set", "study.duration=20 ms"]}.get(command[2], ["--set", "study.revolutions=0.6"])
+        shorter = {"mine.toml": ["--set", "study.members=16", "--set", "study.duration=20 ms"]}.get(command[2], ["--set", "study.revolutions=0.2", "study.samples_per_revolution=1000"])
         line = [program, *command[1:], *(shorter if command[1] == "run" else [])]
         done = subprocess.run(line, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
         assert done.returncode == 0, (line, done.stderr)
@@ -91,16 +124,14 @@ def test_the_notebook_runs(program: str, tmp_path: Path) -> None:
     assert any("image/png" in output.get("data", {}) for output in outputs)
 
 
-def test_importing_the_package_leaves_matplotlib_alone() -> None:
-    code = "import sys, slideway; print('matplotlib' in sys.modules, slideway.plot.__name__, 'matplotlib' in sys.modules)"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.split() == ["False", "slideway.plot", "True"]
-
-
-def test_pages_are_reached_from_the_package_alone() -> None:
-    code = "import slideway; print('report' in dir(slideway), slideway.report.write.__name__, 'report' in slideway.__all__)"
+def test_pages_and_plots_are_reached_from_the_package_alone_which_leaves_matplotlib_alone() -> None:
+    code = """
+import sys, slideway
+print('matplotlib' in sys.modules, 'report' in dir(slideway), slideway.report.write.__name__, 'report' in slideway.__all__)
+print(slideway.plot.__name__, 'matplotlib' in sys.modules)
+"""
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-    assert done.stdout.split() == ["True", "write", "True"], done.stderr
+    assert done.stdout.split() == ["False", "True", "write", "True", "slideway.plot", "True"], done.stderr
 
 
 def test_the_page_of_quantities_is_that_of_the_program(program: str) -> None:

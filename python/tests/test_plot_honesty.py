@@ -160,8 +160,10 @@ DRAWN: dict[str, tuple[str, Callable[..., Axes], dict[str, Any]]] = {
 def hidden(ax: Axes) -> float:
     """Share of the pixels under the legend that show more than paper and grid when the legend is away."""
     figure = ax.figure
-    if figure.get_layout_engine() is not None:
-        figure.draw_without_rendering()  # which moves axes
+    if (engine := figure.get_layout_engine()) is not None:
+        engine.execute(figure)  # which moves axes
+        for each in figure.axes:
+            each.apply_aspect()
     legend = ax.get_legend()
     assert legend is not None
     box = legend.get_window_extent()

@@ -60,6 +60,7 @@ def test_one_member_is_drawn_alone(recipe: str, function: Callable[..., Any], gi
     with result_of(recipe) as result:
         one = SELECTIONS[selection](result)
         ax = function(one, **given)
+        ax.figure.set_layout_engine("none")  # it is laid out already
         ax.figure.canvas.draw()
         # The same as of this member alone, with its dimension.
         key = recipe, function, str(given), int(np.ravel(one.member)[0])

@@ -128,18 +128,19 @@ TEST_F(RanksOfAJob, GetNoPlaceOnceOneAbandons) {
 
 TEST_F(RanksOfAJob, TellEachOtherTextsOfAnyLength) {
     for (int const ranks : {1, 2, 3}) {
-        for (char const* const bytes : {"0", "1", "5000", "10000000"}) {
-            SCOPED_TRACE(std::to_string(ranks) + " ranks, " + bytes + " bytes");
-            ShellOutcome const outcome = job(ranks, std::string("texts ") + bytes);
-            EXPECT_EQ(outcome.code, 0) << outcome.err;
-            std::string expected = "ranks " + std::to_string(ranks) + "\n";
+        SCOPED_TRACE(std::to_string(ranks) + " ranks");
+        ShellOutcome const outcome = job(ranks, "texts 0 1 5000 10000000");
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        std::string expected = "ranks " + std::to_string(ranks) + "\n";
+        for (std::string const bytes : {"0", "1", "5000", "10000000"}) {
+            expected += bytes + " bytes\n";
             for (char const* const code : {"7", "42"}) {
                 expected += "gathered all\n";
                 for (int i = 0; i < ranks; ++i)
                     expected += "rank " + std::to_string(i) + " got the text and " + code + "\n";
             }
-            EXPECT_EQ(outcome.out, expected);
         }
+        EXPECT_EQ(outcome.out, expected);
     }
 }
 

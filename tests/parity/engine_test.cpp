@@ -112,7 +112,9 @@ TEST_P(EngineParity, ABadNeighbourChangesNothing) {
     for (Isa const isa : all_isas()) {
         if (!is_supported(isa)) continue;
         auto const clean = testing::run(isa, o, good);
-        for (std::size_t position = 0; position <= good.size(); ++position) {
+        // One lane has the same place for all, beside whatever neighbours: a third of them, of every kind, and the ends.
+        std::size_t const stride = lanes_of(isa) == 1 ? 3 : 1;
+        for (std::size_t position = 0; position <= good.size(); position += stride) {
             auto members = good;
             auto bad = good[0];
             switch (position % 4) {

@@ -124,6 +124,7 @@ TEST_P(MethodParity, BitsDependOnTheMemberAlone) {
         for (std::size_t const block : {std::size_t(1), std::size_t(7), std::size_t(64), std::size_t(512)}) {
             if (isa == Isa::scalar && block != 512) continue;
             for (auto const& order : {forwards, backwards}) {
+                if (block == 1 && order == backwards) continue;  // the same blocks
                 auto const got = outcomes(isa, GetParam(), members, order, block);
                 for (std::size_t i = 0; i < members.size(); ++i) {
                     EXPECT_TRUE(same(reference[i], got[i])) << name_of(isa) << " member " << i << ", blocks of "

@@ -1,5 +1,5 @@
 // What ranks of a job tell each other, printed by rank 0 for tests/integration/ranks_test.cpp.
-// ranks_program places N THREADS WANTED | abandon | texts BYTES | failure | waiting | desertion RANK | crowded | deaf |
+// ranks_program places N THREADS WANTED | abandon | texts BYTES... | failure | waiting | desertion RANK | crowded | deaf |
 // machine
 #include <atomic>
 #include <chrono>
@@ -108,6 +108,7 @@ std::string pattern(std::size_t bytes, int key) {
 
 /// Texts of a length go from rank 0 to all and from all to rank 0, and so does a code, twice over.
 int texts(Ranks& ranks, std::size_t bytes) {
+    if (ranks.rank() == 0) fmt::print("{} bytes\n", bytes);
     for (int const code : {7, 42}) {
         std::string const got = ranks.broadcast(ranks.rank() == 0 ? pattern(bytes, code) : std::string("mine"));
         std::string const own = pattern(bytes, 100 + ranks.rank());
@@ -124,7 +125,7 @@ int texts(Ranks& ranks, std::size_t bytes) {
         print_all(ranks.gather(fmt::format("rank {} got {} and {}\n", ranks.rank(),
                                            got == pattern(bytes, code) ? "the text" : "something else", agreed)));
     }
-    return ranks.agree(0);
+    return 0;
 }
 
 /// The last rank fails at work: the others stop, rank 0 hears why, and all end with its code.
@@ -226,7 +227,11 @@ int run(std::vector<std::string> const& words) {
     if (ranks->rank() == 0) fmt::print("ranks {}\n", ranks->count());
     if (words.at(0) == "places") return places(*ranks, number(1), static_cast<int>(number(2)), number(3));
     if (words.at(0) == "abandon") return abandon(*ranks);
-    if (words.at(0) == "texts") return texts(*ranks, number(1));
+    if (words.at(0) == "texts") {
+        int failed = 0;
+        for (std::size_t i = 1; i < words.size() && failed == 0; ++i) failed = texts(*ranks, number(i));
+        return failed != 0 ? failed : ranks->agree(0);
+    }
     if (words.at(0) == "failure") return failure(*ranks);
     if (words.at(0) == "waiting") return waiting(*ranks);
     if (words.at(0) == "desertion") return desertion(*ranks, static_cast<int>(number(1)));

@@ -38,6 +38,7 @@ TEST_F(KilledRun, KeepsWhatItFinishedWhenItIsAskedToStop) {
 }
 
 TEST_F(KilledRun, IsDoneInStretchesOfLimitedTime) {
+    write_scene(200, "0.1 s");
     std::string const hash = undisturbed_hash();
     int stretches = 0;
     for (int code = 5; code == 5 && stretches < 100; ++stretches) {

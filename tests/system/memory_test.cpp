@@ -38,7 +38,7 @@ TEST_F(Needs, OfMemoryAreMoreThanWhatARunTakesButNotThrice) {
     GTEST_SKIP() << "sanitizers need more memory than the program";
 #endif
     double const program = peak_of(scene("design = \"mc\"\nmembers = 10"));
-    for (std::string const design : {"design = \"mc\"\nmembers = 400000", "design = \"saltelli\"\nbase = 131072"}) {
+    for (std::string const design : {"design = \"mc\"\nmembers = 150000", "design = \"saltelli\"\nbase = 49152"}) {
         double const taken = peak_of(scene(design)) - program;
         auto const told = static_cast<double>(predict(scene_of(scene(design)), *cpu_backend(Isa::scalar), 2).memory());
         EXPECT_LT(taken, told) << design;
@@ -73,12 +73,12 @@ TEST_F(Needs, OfACorrelatedHypercubeHoldItsOrder) {
 #endif
     constexpr char const* correlation =
         "[study.correlation]\nkeys = [\"joint.clearance\", \"contact.eta\"]\nmatrix = [[1, 0.5], [0.5, 1]]\n";
-    std::string const alone = scene("design = \"lhs\"\nmembers = 400000"), together = alone + correlation;
+    std::string const alone = scene("design = \"lhs\"\nmembers = 150000"), together = alone + correlation;
     auto const told = [](std::string const& text) {
         return predict(scene_of(text), *cpu_backend(Isa::scalar), 2).memory();
     };
     // Scores, a sum of them, its order; strata of two keys.  The scene is longer, too.
-    EXPECT_NEAR(static_cast<double>(told(together) - told(alone)), 400000.0 * (8 + 8 + 4 + 2 * 4), 1000);
+    EXPECT_NEAR(static_cast<double>(told(together) - told(alone)), 150000.0 * (8 + 8 + 4 + 2 * 4), 1000);
     EXPECT_LT(peak_of(together) - peak_of(scene("design = \"mc\"\nmembers = 10")), static_cast<double>(told(together)));
 }
 

@@ -41,21 +41,22 @@ protected:
 
     /// `run s.toml -o o.nc` with these options, as words.
     static std::vector<std::string> run_words(std::vector<std::string> const& options,
-                                              std::string const& output = "o.nc") {
-        std::vector<std::string> words{"run", "s.toml", "-o", output, "--no-progress", "--isa", "scalar"};
+                                              std::string const& output = "o.nc", std::string const& isa = "scalar") {
+        std::vector<std::string> words{"run", "s.toml", "-o", output, "--no-progress", "--isa", isa};
         words.insert(words.end(), options.begin(), options.end());
         return words;
     }
     Outcome run_scene(std::vector<std::string> const& options) const { return run(run_words(options)); }
     /// The same as a command of a shell.
-    static std::string run_text(std::string const& options, std::string const& output = "o.nc") {
-        return "'" SLIDEWAY_BINARY "' run s.toml --no-progress --isa scalar -o " + output + " " + options;
+    static std::string run_text(std::string const& options, std::string const& output = "o.nc",
+                                std::string const& isa = "scalar") {
+        return "'" SLIDEWAY_BINARY "' run s.toml --no-progress --isa " + isa + " -o " + output + " " + options;
     }
     ShellOutcome shell(std::string const& command) const { return run_shell(path(""), command); }
 
-    /// The hash of the scene's results, from a run that nothing disturbed.
+    /// The hash of the scene's results, from a run that nothing disturbed; with the widest instructions, which is soon done.
     std::string undisturbed_hash() const {
-        EXPECT_EQ(run(run_words({"--force"}, "whole.nc")).code, 0) << file_text(path("err"));
+        EXPECT_EQ(run(run_words({"--force"}, "whole.nc", "auto")).code, 0) << file_text(path("err"));
         return hash_of("whole.nc");
     }
 

@@ -13,7 +13,7 @@
 namespace slideway::poisoned_member_test {
 namespace {
 
-constexpr std::size_t members = 1000;
+constexpr std::size_t members = 400;  // several blocks
 constexpr Selection selected = Selection{1} << static_cast<int>(Quantity::energy_residual) |
                                Selection{1} << static_cast<int>(Quantity::mode_time) |
                                Selection{1} << static_cast<int>(Quantity::peak_tilt);
@@ -117,7 +117,7 @@ TEST_F(PoisonedMember, FailsAloneAtEveryPlace) {
         touched += free_time < 0.999 * 2e-4;
     }
     EXPECT_GT(touched, 20);
-    EXPECT_LT(touched, 500);
+    EXPECT_LT(touched, static_cast<int>(members / 2));
 
     for (std::size_t position = 0; position < members; ++position) {
         Poison const& poison = poisons[position % std::size(poisons)];

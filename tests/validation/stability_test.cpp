@@ -222,9 +222,10 @@ TEST(Scenes, AreNeverAccused) {
         if (entry.path().extension() != ".toml") continue;
         bool const spatial = info(read_scene(entry.path().string()).parts.mechanism).spatial;
         for (LawInfo const& law : laws()) {
+            if (!spatial && &law != &laws().front()) continue;  // a plane has no faces: one run is that of every law
             for (std::string const method : {"auto", "dopri5"}) {
                 Overrides overrides{{"integrator.method", method}};
-                if (spatial) overrides.emplace_back("contact.law", law.name);  // a plane has no faces
+                if (spatial) overrides.emplace_back("contact.law", law.name);
                 Scene const scene = read_scene(entry.path().string(), overrides);
                 testing::RunOptions o;
                 o.parts = scene.parts;
@@ -232,7 +233,7 @@ TEST(Scenes, AreNeverAccused) {
                 o.settings.end_time = std::min(o.settings.end_time, 0.1);
                 o.quantities = scene.quantities | audit;
                 std::vector<Inputs> members;
-                for (std::uint64_t i = 0; i < std::min<std::uint64_t>(scene.members, 32); ++i) {
+                for (std::uint64_t i = 0; i < std::min<std::uint64_t>(scene.members, 16); ++i) {
                     members.push_back(member_inputs(scene, i));
                 }
                 auto const ended = count_ends(testing::run(best_isa(), o, members));

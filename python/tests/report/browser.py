@@ -21,6 +21,7 @@ class Seen:
     complaints: list[str] = field(default_factory=list)
     fetched: list[str] = field(default_factory=list)
     found: Any = None
+    after: dict[str, Seen] = field(default_factory=dict)  # what later probes of the same page found, each with all complaints so far
 
 
 class Browser:
@@ -49,8 +50,11 @@ class Browser:
         os.close(self._read)
         os.close(self._write)
 
-    def look(self, page: Path, probe: str, width: int = 1200, dark: bool = False) -> Seen:
-        """Opens a page, waits for its plots and runs a probe: a body of JavaScript that returns what it found."""
+    def look(self, page: Path, probe: str, width: int = 1200, dark: bool = False, after: dict[str, str] | None = None) -> Seen:
+        """Opens a page, waits for its plots and runs a probe: a body of JavaScript that returns what it found.
+
+        Probes that change the page come `after`, one by one.
+        """
         seen = Seen()
         target = self._ask("Target.createTarget", {"url": "about:blank"})["targetId"]
         session = self._ask("Target.attachToTarget", {"targetId": target, "flatten": True})["sessionId"]
@@ -64,17 +68,25 @@ class Browser:
         scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
         ask("Emulation.setEmulatedMedia", features=[scheme])
         ask("Page.navigate", url=page.as_uri())
-        body = f"""(async () => {{
-            const pause = () => new Promise((done) => setTimeout(done, 20));
-            while (document.readyState !== "complete" || document.documentElement.dataset.drawn === undefined) await pause();
-            {probe}
-        }})()"""
-        answer = ask("Runtime.evaluate", expression=body, awaitPromise=True, returnByValue=True)
-        assert "exceptionDetails" not in answer, answer["exceptionDetails"]
-        seen.found = answer["result"].get("value")
-        seen.fetched = [url for url in seen.fetched if url != page.as_uri()]
+
+        def found(one: str) -> Any:
+            body = f"""(async () => {{
+                const pause = () => new Promise((done) => setTimeout(done, 20));
+                while (document.readyState !== "complete" || document.documentElement.dataset.drawn === undefined) await pause();
+                {one}
+            }})()"""
+            answer = ask("Runtime.evaluate", expression=body, awaitPromise=True, returnByValue=True)
+            assert "exceptionDetails" not in answer, answer["exceptionDetails"]
+            return answer["result"].get("value")
+
+        def so_far(value: Any) -> Seen:
+            return Seen(list(seen.complaints), [url for url in seen.fetched if url != page.as_uri()], value)
+
+        first = so_far(found(probe))
+        for name, one in (after or {}).items():
+            first.after[name] = so_far(found(one))
         self._ask("Target.closeTarget", {"targetId": target}, None, seen)
-        return seen
+        return first if after else so_far(first.found)
 
     def _ask(
         self, method: str, given: dict[str, Any], session: str | None = None, seen: Seen | None = None

@@ -122,6 +122,7 @@ def seen_of(page_of: Callable[[str], Page], browser: Browser) -> Callable[..., S
 
     @functools.cache
     def of(name: str, width: int = 1200, dark: bool = False) -> Seen:
-        return browser.look(page_of(name).path, surveys.ALL, width, dark)
+        after = surveys.CHANGING.get(name) if (width, dark) == (1200, False) else None
+        return browser.look(page_of(name).path, surveys.ALL, width, dark, after)
 
     return lambda name, width=1200, dark=False: of(name, width, dark)

@@ -51,9 +51,11 @@ GridState run_grid(OwnedBlock& owned, int threads) {
     return state;
 }
 
-void expect_as_alone(BlockPlan const& plan, int threads) {
+/// Runs a block alone, and another with its plan by the threads of a grid.
+void expect_as_alone(OwnedBlock& alone, int threads) {
+    BlockPlan const& plan = alone.plan();
     SCOPED_TRACE(testing::name_of(plan.parts) + ", " + std::to_string(threads) + " threads");
-    OwnedBlock alone(plan), shared(plan);
+    OwnedBlock shared(plan);
     run_alone(alone);
     GridState const state = run_grid(shared, threads);
     EXPECT_EQ(difference(shared, alone), "");
@@ -66,9 +68,8 @@ void expect_as_alone(BlockPlan const& plan, int threads) {
 TEST_F(GridThread, GivesTheBitsOfAProgramAlone) {
     double onsets = 0;
     for (Parts const& parts : testing::all_parts()) {
-        expect_as_alone(testing::sampled_block(7, parts), 3);
         OwnedBlock block(testing::sampled_block(7, parts));
-        run_alone(block);
+        expect_as_alone(block, 3);
         onsets += block.value(0, Quantity::contact_onsets);
     }
     EXPECT_GT(onsets, 24) << "the members must meet the way";
@@ -76,10 +77,8 @@ TEST_F(GridThread, GivesTheBitsOfAProgramAlone) {
 
 TEST_F(GridThread, GivesTheShadowsOfAProgramAlone) {
     for (Parts const& parts : testing::all_parts()) {
-        auto const plan = testing::shadowed_block(5, parts);
-        expect_as_alone(plan, 3);
-        OwnedBlock block(plan);
-        run_alone(block);
+        OwnedBlock block(testing::shadowed_block(5, parts));
+        expect_as_alone(block, 3);
         for (Left const& left : block.left_by(0)) {
             EXPECT_EQ(std::ranges::count(left.numbers, testing::untouched), 0) << left.name;
         }
@@ -94,9 +93,8 @@ TEST_F(GridThread, GivesTheCrossingsOfAProgramAlone) {
             auto plan = testing::crossing_block(5, parts);
             plan.crossings.on = on;
             if (on != state) plan.crossings.level = 1e-4;  // m, of a slider in the middle of the way
-            expect_as_alone(plan, 3);
             OwnedBlock block(plan);
-            run_alone(block);
+            expect_as_alone(block, 3);
             for (std::size_t i = 0; i < plan.members.size(); ++i) crossings += block.record(i).crossings;
         }
         EXPECT_GT(crossings, 24u);
@@ -109,10 +107,9 @@ TEST_F(GridThread, GivesTheHeldContactsOfAProgramAlone) {
         for (auto plan : {testing::sampled_block(5, parts), testing::shadowed_block(5, parts)}) {
             OwnedBlock passed(plan);
             plan.settings.locate_modes = true;
-            expect_as_alone(plan, 3);
             OwnedBlock held(plan);
+            expect_as_alone(held, 3);
             run_alone(passed);
-            run_alone(held);
             EXPECT_NE(difference(passed, held), "") << "contacts must change";
         }
     }
@@ -120,8 +117,12 @@ TEST_F(GridThread, GivesTheHeldContactsOfAProgramAlone) {
 
 TEST_F(GridThread, AreAsManyAsYouLike) {
     auto const plan = testing::sampled_block(13, {Law::conservative, Damping::rate, true, false});
-    for (int const threads : {1, 2, 13, 40}) expect_as_alone(plan, threads);
-    expect_as_alone(testing::sampled_block(1, plan.parts), 5);
+    for (int const threads : {1, 2, 13, 40}) {
+        OwnedBlock block(plan);
+        expect_as_alone(block, threads);
+    }
+    OwnedBlock lone(testing::sampled_block(1, plan.parts));
+    expect_as_alone(lone, 5);
     GridState state;
     OwnedBlock empty{BlockPlan{}};
     testing::run_grid_thread({empty.block, &state, {}}, false);

@@ -151,7 +151,7 @@ TEST_F(Sealed, WithAnyByteChangedIsRefusedOrTheSame) {
     std::string const whole = testing::bytes_of(path());
     SealCheck const before = check_result(path());
     std::size_t refused = 0, same = 0;
-    for (std::size_t at = 0; at < whole.size(); at += 37) {
+    for (std::size_t at = 0; at < whole.size(); at += 53) {  // the slow tests change every byte
         std::string changed = whole;
         changed[at] = static_cast<char>(changed[at] ^ 0x55);
         testing::put_bytes(path(), changed);
