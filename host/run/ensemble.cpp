@@ -58,22 +58,15 @@ int default_threads() { return omp_get_max_threads(); }
 
 namespace {
 
-/// Whether all threads work on one block: of so few members the ends of each thread's blocks would leave a good part of the lanes idle.
-/// Not where members are the program's, or another process takes some, or the user said how large blocks are.
-bool is_one_block(EnsemblePlan const& plan) {
-    return plan.threads > 1 && plan.workers <= plan.threads && !plan.program && plan.blocks.fixed == 0 && !plan.blocks.bounds.shared &&
-           plan.members.count() <= BlockSizer::untried && plan.members.count() <= plan.blocks.bounds.most;
-}
-
 /// The threads' common part of a run.
 class Team {
 public:
-    Team(EnsemblePlan const& plan, MemberQueue& queue, BlockSink const& sink, StopRequest const& stop)
+    Team(EnsemblePlan const& plan, MemberQueue& queue, BlockSink const& sink, StopRequest const& stop, int workers)
         : plan_(plan),
           queue_(queue),
           sink_(sink),
           stop_(stop),
-          sizer_(plan.blocks, plan.members.count(), is_one_block(plan) ? 1 : std::max(plan.workers, plan.threads)) {}
+          sizer_(plan.blocks, plan.members.count(), workers) {}
 
     /// Empty: there is nothing more to do.
     std::vector<std::uint64_t> next_places() {
@@ -198,32 +191,30 @@ private:
     double ended_ = 0;  // members of the blocks before
 };
 
+/// What a run has beside its plan.
+struct Outside {
+    BlockSink const& sink;
+    StopRequest const& stop;
+    Progress* progress;
+    double weight;
+};
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-}  // namespace
-
-EnsembleTotals run_ensemble(EnsemblePlan const& plan, MemberQueue& queue, BlockKernel const& kernel,
-                            BlockSink const& sink, StopRequest const& stop, Progress* progress, double weight) {
+/// A run of `workers` threads, each with blocks of its own.
+EnsembleTotals run_blocks(EnsemblePlan const& plan, MemberQueue& queue, BlockProgram const& program, BlockKernel const& kernel, int workers,
+                          Outside const& outside) {
     auto const start = std::chrono::steady_clock::now();
-    Team team(plan, queue, sink, stop);
-    BlockProgram const once = [&](BlockKernel const& watched, BlockBuffers& buffers, std::span<std::uint64_t const> members,
-                                  BlockEmit const& emit) {
-        buffers.run(watched, plan.request, plan.source, stop, members);
-        emit(buffers);
-    };
-    BlockProgram const& program = plan.program ? plan.program : once;
-
-    bool const one_block = is_one_block(plan);
-    BlockKernel const instance = one_block ? shared_by_threads(kernel, plan.threads, plan.blocks.bounds.lanes) : kernel;
-#pragma omp parallel num_threads(one_block ? 1 : plan.threads)
+    Team team(plan, queue, outside.sink, outside.stop, workers);
+#pragma omp parallel num_threads(std::min(workers, plan.threads))
     {
         // No exception may leave the parallel region.
         try {
             BlockBuffers buffers;
-            Worker worker(team, progress, weight);
-            BlockKernel const watched = [&](Block& block) { worker.run(instance, block); };
+            Worker worker(team, outside.progress, outside.weight);
+            BlockKernel const watched = [&](Block& block) { worker.run(kernel, block); };
             BlockEmit const emit = [&](BlockBuffers const& block) { return worker.emit(block); };
             for (auto places = team.next_places(); !places.empty(); places = team.next_places()) {
                 auto const begin = std::chrono::steady_clock::now();
@@ -237,6 +228,41 @@ EnsembleTotals run_ensemble(EnsemblePlan const& plan, MemberQueue& queue, BlockK
     EnsembleTotals totals = team.totals();
     totals.seconds = seconds_since(start);
     return totals;
+}
+
+/// Whether all threads may work on one block: of so few members the ends of each thread's blocks would leave a good part of the lanes
+/// idle.  Not where members are the program's, or another process takes some, or the user said how large blocks are.
+bool may_be_one_block(EnsemblePlan const& plan) {
+    return plan.threads > 1 && plan.workers <= plan.threads && !plan.program && plan.blocks.fixed == 0 && !plan.blocks.bounds.shared &&
+           plan.members.count() <= std::min<std::uint64_t>(BlockSizer::untried, plan.blocks.bounds.most);
+}
+
+}  // namespace
+
+EnsembleTotals run_ensemble(EnsemblePlan const& plan, MemberQueue& queue, BlockKernel const& kernel,
+                            BlockSink const& sink, StopRequest const& stop, Progress* progress, double weight) {
+    Outside const outside{sink, stop, progress, weight};
+    bool is_given_up = false;
+    BlockProgram const once = [&](BlockKernel const& watched, BlockBuffers& buffers, std::span<std::uint64_t const> members,
+                                  BlockEmit const& emit) {
+        buffers.run(watched, plan.request, plan.source, stop, members);
+        if (!is_given_up) emit(buffers);
+    };
+    if (!may_be_one_block(plan)) {
+        return run_blocks(plan, queue, plan.program ? plan.program : once, kernel, std::max(plan.workers, plan.threads), outside);
+    }
+    EnsemblePlan whole = plan;
+    whole.blocks.fixed = plan.members.count();
+    SharedBlockKernel const shared(kernel, plan.threads, plan.blocks.bounds.lanes, {.most = 2 * plan.blocks.seconds});
+    BlockKernel const together = [&](Block& block) { is_given_up = shared.run(block) && stop.reason() == StopReason::none; };
+    auto const totals = run_blocks(whole, queue, once, together, 1, outside);
+    if (!is_given_up) return totals;
+    // Its second was lost; a process that is killed loses no more than blocks.
+    is_given_up = false;
+    LocalQueue again(plan.members.count());
+    auto blocks = run_blocks(plan, again, once, kernel, plan.threads, outside);
+    blocks.seconds += totals.seconds;
+    return blocks;
 }
 
 EnsembleTotals run_ensemble(EnsemblePlan const& plan, BlockKernel const& kernel, BlockSink const& sink,

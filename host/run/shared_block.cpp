@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <exception>
-#include <utility>
 #include <vector>
 
 #include <omp.h>
@@ -15,7 +15,8 @@ namespace {
 /// What the threads at work on a block have in common.
 class SharedBlock {
 public:
-    SharedBlock(Block const& block, int threads) : whole_(block), covered_(static_cast<std::size_t>(threads)) {}
+    SharedBlock(Block const& block, int threads, SharedBlockKernel::Patience patience)
+        : whole_(block), patience_(patience), covered_(static_cast<std::size_t>(threads)) {}
 
     /// The part of one thread.
     void run(BlockKernel const& kernel, int thread, std::size_t seats) {
@@ -40,10 +41,11 @@ public:
     }
 
     /// After all threads have ended.
-    void finish(Block& block) const {
+    bool finish(Block& block) const {
         if (failure_) std::rethrow_exception(failure_);
         block.lane_steps_executed = executed_;
         block.lane_steps_useful = useful_;
+        return is_given_up_;
     }
 
 private:
@@ -52,36 +54,44 @@ private:
         std::atomic<double>* covered;
     };
 
-    bool must_stop() const {
-        if (has_failed_) return true;
-        if (whole_.stop == nullptr) return false;
+    bool must_stop() {
+        if (has_failed_ || is_given_up_) return true;
         double covered = 0;
         for (auto const& thread : covered_) covered += thread.load(std::memory_order_relaxed);
-        return whole_.stop(whole_.stop_context, covered);
+        if (whole_.stop != nullptr && whole_.stop(whole_.stop_context, covered)) return true;
+        judge(covered);
+        return is_given_up_;
+    }
+
+    /// Once: the rest is then known to be short, or somebody else's.
+    void judge(double covered) {
+        if (is_judged_.load(std::memory_order_relaxed)) return;
+        double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+        if (seconds < patience_.trial || is_judged_.exchange(true)) return;
+        is_given_up_ = seconds * static_cast<double>(whole_.members) > patience_.most * covered;
     }
 
     Block const whole_;
+    SharedBlockKernel::Patience const patience_;
+    std::chrono::steady_clock::time_point const begin_ = std::chrono::steady_clock::now();
     std::vector<std::atomic<double>> covered_;  // by each thread
     std::uint64_t taken_ = 0;                   // changed by the kernel alone, with atomic additions
     std::atomic<std::uint64_t> executed_ = 0, useful_ = 0;
-    std::atomic<bool> has_failed_ = false;
+    std::atomic<bool> has_failed_ = false, is_judged_ = false, is_given_up_ = false;
     std::exception_ptr failure_;  // of who set has_failed_
 };
 
 }  // namespace
 
-BlockKernel shared_by_threads(BlockKernel kernel, int threads, std::size_t lanes) {
-    return [kernel = std::move(kernel), threads, lanes](Block& block) {
-        std::size_t const packs = (block.members + lanes - 1) / lanes;
-        auto const team = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(threads), packs));
-        if (team <= 1) return kernel(block);
-        // Nobody takes so many at the start that nothing is left for others.
-        std::size_t const seats = (packs + static_cast<std::size_t>(team) - 1) / static_cast<std::size_t>(team) * lanes;
-        SharedBlock shared(block, team);
+bool SharedBlockKernel::run(Block& block) const {
+    std::size_t const packs = (block.members + lanes_ - 1) / lanes_;
+    auto const team = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(threads_), std::max<std::size_t>(packs, 1)));
+    // Nobody takes so many at the start that nothing is left for others.
+    std::size_t const seats = (packs + static_cast<std::size_t>(team) - 1) / static_cast<std::size_t>(team) * lanes_;
+    SharedBlock shared(block, team, patience_);
 #pragma omp parallel num_threads(team)
-        shared.run(kernel, omp_get_thread_num(), seats);
-        shared.finish(block);
-    };
+    shared.run(kernel_, omp_get_thread_num(), seats);
+    return shared.finish(block);
 }
 
 }  // namespace slideway

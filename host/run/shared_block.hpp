@@ -2,15 +2,34 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 
 #include "host/backend/backend.hpp"
 
 namespace slideway {
 
-/// The kernel run by several threads at once on one block: each has packs of its own and takes the next member when a lane falls free, so
+/// A kernel run by several threads at once on one block: each has packs of its own and takes the next member when a lane falls free, so
 /// that lanes idle once, at the end of the run, and not at the end of every thread's blocks.  No more threads than fill a pack each.
-/// What the kernel throws in one of them ends the block in all, and is thrown again.
-/// @param lanes of a pack  @param kernel from several threads
-BlockKernel shared_by_threads(BlockKernel kernel, int threads, std::size_t lanes);
+/// A process that is killed loses the block it works on: one that would take long is given up early, for the run to be cut into blocks.
+class SharedBlockKernel {
+public:
+    /// When a block is given up: the time after which it is predicted from what is covered then, and the longest that it may take [s].
+    struct Patience {
+        double trial = 1, most = 20;
+    };
+
+    /// @param lanes of a pack  @param kernel from several threads
+    SharedBlockKernel(BlockKernel kernel, int threads, std::size_t lanes, Patience patience)
+        : kernel_(std::move(kernel)), threads_(threads), lanes_(lanes), patience_(patience) {}
+
+    /// @return whether the block was given up.  @throws what the kernel throws in one of the threads; that ends the block in all
+    bool run(Block& block) const;
+
+private:
+    BlockKernel const kernel_;
+    int const threads_;
+    std::size_t const lanes_;
+    Patience const patience_;
+};
 
 }  // namespace slideway

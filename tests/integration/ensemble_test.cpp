@@ -222,5 +222,57 @@ TEST(Ensemble, TellsOfARequestThatCameWithItsLastBlock) {
     EXPECT_EQ(totals.stopped, StopReason::signal);
 }
 
+/// known_results of the members that a thread takes from the block's queue, `pause` for each.
+BlockKernel sharing(std::chrono::milliseconds pause) {
+    return [pause](Block& block) {
+        Block all = block;
+        std::vector<MemberRecord> records(block.members);
+        all.records = records.data();
+        known_results(all);
+        std::uint64_t own = 0, ended = 0;
+        for (;;) {
+            std::uint64_t const place = block.taken != nullptr ? __atomic_fetch_add(block.taken, 1, __ATOMIC_RELAXED) : own++;
+            if (place >= block.members) return;
+            if (block.stop(block.stop_context, static_cast<double>(ended))) return;
+            std::this_thread::sleep_for(pause);
+            block.records[place] = records[place];
+            ++ended;
+        }
+    };
+}
+
+TEST(Ensemble, OfFewMembersIsOneBlockOfAllThreads) {
+    Collected collected;
+    StopRequest const stop;
+    auto const totals = run_ensemble(small_plan(300, 0, 2), sharing(std::chrono::milliseconds(0)), collected.sink(), stop);
+    EXPECT_EQ(collected.calls, 1);
+    EXPECT_EQ(collected.members.size(), 300u);
+    EXPECT_EQ(totals.ended[0], 300u);
+}
+
+TEST(Ensemble, OfFewMembersThatTakeLongHasBlocksThatAKilledProcessKeeps) {
+    Collected collected;
+    StopRequest const stop;
+    auto plan = small_plan(100, 0, 2);
+    plan.blocks.seconds = 0.5;
+    // A second and a half for two threads, a second of which was to be enough.
+    auto const totals = run_ensemble(plan, sharing(std::chrono::milliseconds(30)), collected.sink(), stop);
+    EXPECT_GT(collected.calls, 4);
+    EXPECT_EQ(collected.twice, 0);
+    EXPECT_EQ(collected.members.size(), 100u);
+    EXPECT_EQ(totals.ended[0], 100u);
+    EXPECT_EQ(totals.stopped, StopReason::none);
+}
+
+TEST(Ensemble, OfOneBlockKeepsWhatHadEndedWhenItWasStopped) {
+    Collected collected;
+    StopRequest stop;
+    stop.stop_after(std::chrono::milliseconds(200));
+    auto const totals = run_ensemble(small_plan(400, 0, 2), sharing(std::chrono::milliseconds(10)), collected.sink(), stop);
+    EXPECT_EQ(totals.stopped, StopReason::time_limit);
+    EXPECT_GT(totals.ended[0], 4u);
+    EXPECT_LT(totals.ended[0], 200u);
+}
+
 }  // namespace
 }  // namespace slideway::ensemble_test

@@ -49,10 +49,15 @@ Block block_of(std::size_t members) {
     return block;
 }
 
+/// Never given up.
+bool run_shared(BlockKernel const& kernel, int threads, std::size_t lanes, Block& block) {
+    return SharedBlockKernel(kernel, threads, lanes, {1e9, 1e9}).run(block);
+}
+
 TEST(SharedBlock, GivesEveryMemberToOneThread) {
     Seen seen;
     auto block = block_of(40);
-    shared_by_threads(taking(seen), 3, 8)(block);
+    run_shared(taking(seen), 3, 8, block);
     EXPECT_EQ(seen.members.size(), 40u);
     EXPECT_EQ(std::set(seen.members.begin(), seen.members.end()).size(), 40u);
     EXPECT_EQ(seen.threads.size(), 3u);
@@ -64,20 +69,20 @@ TEST(SharedBlock, FillsPacksBeforeItTakesThreads) {
     for (std::size_t const members : {1, 8}) {
         Seen seen;
         auto block = block_of(members);
-        shared_by_threads(taking(seen), 4, 8)(block);
+        run_shared(taking(seen), 4, 8, block);
         EXPECT_EQ(seen.threads.size(), 1u) << members;
         EXPECT_EQ(seen.members.size(), members);
     }
     Seen seen;
     auto block = block_of(17);
-    shared_by_threads(taking(seen), 4, 8)(block);
+    run_shared(taking(seen), 4, 8, block);
     EXPECT_EQ(seen.seats, std::vector<std::size_t>(3, 8)) << "three packs, one for each";
 }
 
 TEST(SharedBlock, NoThreadBeginsWithMoreThanItsShare) {
     Seen seen;
     auto block = block_of(100);
-    shared_by_threads(taking(seen), 2, 8)(block);
+    run_shared(taking(seen), 2, 8, block);
     EXPECT_EQ(seen.seats, std::vector<std::size_t>(2, 56)) << "thirteen packs, seven for each";
 }
 
@@ -104,9 +109,30 @@ TEST(SharedBlock, IsStoppedForAllWithWhatAllCovered) {
         }
         if (std::chrono::steady_clock::now() < until) ++ended;
     };
-    shared_by_threads(kernel, 2, 8)(block);
+    run_shared(kernel, 2, 8, block);
     EXPECT_EQ(ended, 2);
     EXPECT_GE(most.load(), 5);
+}
+
+/// Covers `rate` members a second until it is told to stop, or all are.
+BlockKernel covering(double rate) {
+    return [=](Block& part) {
+        auto const begin = std::chrono::steady_clock::now();
+        for (double covered = 0; covered < 40;) {
+            covered = rate * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+            if (part.stop(part.stop_context, std::min(covered, 40.0))) return;
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    };
+}
+
+TEST(SharedBlock, IsGivenUpWhereItWouldTakeLong) {
+    auto block = block_of(80);
+    auto const begin = std::chrono::steady_clock::now();
+    // 80 members at 2 · 4 a second: ten seconds.
+    EXPECT_TRUE(SharedBlockKernel(covering(4), 2, 8, {0.1, 5}).run(block));
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+    EXPECT_FALSE(SharedBlockKernel(covering(200), 2, 8, {0.1, 5}).run(block)) << "half a second";
 }
 
 TEST(SharedBlock, ThrowsOnWhatOneThreadThrewAndEndsTheOthers) {
@@ -116,7 +142,7 @@ TEST(SharedBlock, ThrowsOnWhatOneThreadThrewAndEndsTheOthers) {
         while (!part.stop(part.stop_context, 0)) std::this_thread::yield();
     };
     auto block = block_of(64);
-    EXPECT_THROW(shared_by_threads(kernel, 2, 8)(block), std::runtime_error);
+    EXPECT_THROW(run_shared(kernel, 2, 8, block), std::runtime_error);
 }
 
 TEST(SharedBlock, GivesMembersTheBitsThatTheyHaveAlone) {
@@ -125,7 +151,7 @@ TEST(SharedBlock, GivesMembersTheBitsThatTheyHaveAlone) {
         testing::OwnedBlock alone(plan), shared(plan);
         auto const kernel = cpu_backend(isa)->kernel(plan.parts, false);
         kernel(alone.block);
-        shared_by_threads(kernel, 3, static_cast<std::size_t>(lanes_of(isa)))(shared.block);
+        run_shared(kernel, 3, static_cast<std::size_t>(lanes_of(isa)), shared.block);
         for (std::size_t i = 0; i < plan.members.size(); ++i) {
             EXPECT_EQ(difference(shared, i, alone, i), "") << name_of(isa) << ", member " << i;
         }

@@ -31,7 +31,7 @@ TEST(SignalScope, TurnsTheFirstSignalIntoARequest) {
 }
 
 TEST(SignalScopeDeathTest, LetsASecondSignalEndTheProcess) {
-    testing::FLAGS_gtest_death_test_style = "threadsafe";
+    ::testing::FLAGS_gtest_death_test_style = "threadsafe";
     EXPECT_EXIT(
         {
             StopRequest stop;
@@ -39,7 +39,7 @@ TEST(SignalScopeDeathTest, LetsASecondSignalEndTheProcess) {
             std::raise(SIGINT);
             std::raise(SIGINT);
         },
-        testing::KilledBySignal(SIGINT), "");
+        ::testing::KilledBySignal(SIGINT), "");
 }
 
 TEST(SignalScope, GivesTheFormerHandlerBack) {
