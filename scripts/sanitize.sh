@@ -19,7 +19,7 @@ failed=0
 check() {
     local preset=$1 filter=$2
     shift 2
-    cmake --preset "$preset" --log-level=WARNING "-DSLIDEWAY_ISAS=${SLIDEWAY_ISAS:-native}" || stop "the configuration of $preset failed"
+    cmake --preset "$preset" --log-level=WARNING -DSLIDEWAY_UNITY=ON "-DSLIDEWAY_ISAS=${SLIDEWAY_ISAS:-native}" || stop "the configuration of $preset failed"
     cmake --build "build/$preset" --parallel "${SLIDEWAY_JOBS:-$(nproc)}" --target "$@" || stop "the build of $preset failed"
     local program
     for program in "$@"; do

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <map>
-#include <ranges>
+#include <span>
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -105,7 +105,7 @@ std::string RunIdentity::difference(RunIdentity const& earlier) const {
         constexpr std::size_t named = 3;
         if (found.empty()) return "the scene's text changed";
         std::string const more = found.size() > named ? fmt::format("; and {} more", found.size() - named) : "";
-        return fmt::format("{}{}", fmt::join(found | std::views::take(named), "; "), more);
+        return fmt::format("{}{}", fmt::join(std::span(found).first(std::min(named, found.size())), "; "), more);
     }
     if (!(members == earlier.members)) {
         return fmt::format("the members were {}, are {}", earlier.members.text(), members.text());
