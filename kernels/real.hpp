@@ -211,6 +211,15 @@ SLIDEWAY_FN std::uint64_t fetch_add(std::uint64_t& number, std::uint64_t amount)
 #endif
 }
 
+/// Whether a flag, which may be nullptr, is not 0; another thread or the host of a card may raise it meanwhile.
+SLIDEWAY_FN bool is_raised(int const volatile* flag) {
+#if defined(__CUDA_ARCH__)
+    return flag != nullptr && *flag != 0;
+#else
+    return flag != nullptr && __atomic_load_n(flag, __ATOMIC_RELAXED) != 0;
+#endif
+}
+
 /// What a function of the host says, which may be nullptr, to a number; no on a card, where it cannot be called.
 SLIDEWAY_FN bool host_says([[maybe_unused]] bool (*question)(void const*, double), [[maybe_unused]] void const* context,
                            [[maybe_unused]] double number) {

@@ -1,6 +1,8 @@
 #include "host/base/suggest.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <vector>
 
 namespace slideway {
@@ -9,6 +11,23 @@ namespace {
 std::string_view leaf(std::string_view name) {
     auto const dot = name.rfind('.');
     return dot == std::string_view::npos ? name : name.substr(dot + 1);
+}
+
+/// Which letters a name has, by their last six bits.
+std::uint64_t letters_of(std::string_view name) {
+    std::uint64_t letters = 0;
+    for (char const c : name) letters |= std::uint64_t{1} << (static_cast<unsigned char>(c) & 63u);
+    return letters;
+}
+
+/// The distance of two names where it is less than the limit, else the limit.  An edit changes the length by one at most, and takes at most one letter that
+/// the other name has not: most names are told apart so, without a distance that costs the product of their lengths.
+int distance_below(int limit, std::string_view a, std::string_view b) {
+    auto const least = static_cast<int>(std::max(a.size(), b.size()) - std::min(a.size(), b.size()));
+    if (least >= limit) return limit;
+    std::uint64_t const of_a = letters_of(a), of_b = letters_of(b);
+    if (std::max(std::popcount(of_a & ~of_b), std::popcount(of_b & ~of_a)) >= limit) return limit;
+    return std::min(edit_distance(a, b), limit);
 }
 
 }  // namespace
@@ -41,7 +60,7 @@ std::string_view nearest_name(std::string_view name, std::span<std::string_view 
     int best_distance = 1 + static_cast<int>(std::max<std::size_t>(1, leaf(name).size() / 3));
     for (std::string_view const candidate : names) {
         // A key in the wrong table is likelier mistaken than one in the right table mistyped by two letters.
-        int distance = std::min(edit_distance(name, candidate), 1 + edit_distance(leaf(name), leaf(candidate)));
+        int distance = std::min(distance_below(best_distance, name, candidate), 1 + distance_below(best_distance - 1, leaf(name), leaf(candidate)));
         if (abbreviates(name, candidate) || abbreviates(candidate, name)) distance = std::min(distance, 1);
         if (distance < best_distance) {
             best = candidate;

@@ -180,7 +180,8 @@ std::optional<FitWindow> growth_window(DivergenceCurve const& curve, std::size_t
     if (curve.mean_log.size() < fewest_points) return std::nullopt;
     std::size_t const end = end_of_growth(curve), start = std::min(span / 2, end / 3);
     if (end - start < fewest_points) return std::nullopt;
-    auto const most = static_cast<double>((end - start) * 2 / 3);
+    std::size_t const two_thirds = (end - start) * 2 / 3;
+    auto const most = static_cast<double>(two_thirds);
     double const wanted = std::isfinite(period) ? std::min(periods_wanted * period, most) : most;
     std::size_t const shortest = std::max(fewest_points, static_cast<std::size_t>(wanted));
 

@@ -26,6 +26,7 @@ public:
     NearestOutsideWindow(std::size_t self, std::size_t theiler, double resolution)
         : self_(self), theiler_(theiler), least_(resolution * resolution) {}
 
+    // NOLINTNEXTLINE(readability-identifier-naming): the tree calls it so
     bool addPoint(double squared, std::size_t index) {
         std::size_t const apart = index > self_ ? index - self_ : self_ - index;
         if (apart <= theiler_ || !(squared > least_)) return true;
@@ -37,6 +38,7 @@ public:
         return true;
     }
     // The tree asks for less than this; equally near ones shall come too.
+    // NOLINTNEXTLINE(readability-identifier-naming): the tree calls it so
     double worstDist() const { return std::nextafter(squared_, std::numeric_limits<double>::infinity()); }
     bool full() const { return index_ != Neighbour::none; }
     std::size_t size() const { return full() ? 1 : 0; }

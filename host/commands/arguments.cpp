@@ -3,6 +3,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -330,15 +331,16 @@ OptionDescription described(CLI::Option const& option) {
     return description;
 }
 
-/// The parser of all commands, and of each what it finishes with.
+/// The parser of all commands, or of the one that a command line begins with, and of each what it finishes with.
 struct Parser {
     CLI::App app{"", "slideway"};
     std::map<CLI::App const*, std::pair<Options, Finish>> commands;
 
-    Parser() {
+    explicit Parser(std::optional<std::string_view> only = {}) {
         app.set_version_flag("--version", fmt::format("slideway {} ({})", build_info().version, build_info().commit));
         app.require_subcommand(1);
         for (CommandRow const& row : command_rows()) {
+            if (only && *only != row.name) continue;
             CLI::App* const command = app.add_subcommand(row.name, row.summary);
             auto& [options, finish] = commands.try_emplace(command, Options(*command), nullptr).first->second;
             finish = row.add(options);
@@ -350,7 +352,7 @@ struct Parser {
 
 std::string help_of(std::string const& command) {
     std::size_t const width = line_width() > 0 ? line_width() : usual_width;
-    std::vector<CommandDescription> const all = command_descriptions();
+    std::vector<CommandDescription> const& all = command_descriptions();
     if (command.empty()) return help_text(all, width);
     require_known_command(command);
     return help_text(*std::ranges::find(all, command, &CommandDescription::name), width);
@@ -358,24 +360,28 @@ std::string help_of(std::string const& command) {
 
 }  // namespace
 
-std::vector<CommandDescription> command_descriptions() {
-    Parser const parser;
-    std::vector<CommandDescription> all;
-    for (CommandRow const& row : command_rows()) {
-        CLI::App const& app = *parser.app.get_subcommand(row.name);
-        CommandDescription command{.name = row.name, .summary = row.summary, .note = app.get_footer(), .options = {}, .examples = row.examples};
-        for (CLI::Option const* const option : app.get_options()) command.options.push_back(described(*option));
-        all.push_back(std::move(command));
-    }
-    return all;
+std::vector<CommandDescription> const& command_descriptions() {
+    static std::vector<CommandDescription> const descriptions = [] {
+        Parser const parser;
+        std::vector<CommandDescription> all;
+        for (CommandRow const& row : command_rows()) {
+            CLI::App const& app = *parser.app.get_subcommand(row.name);
+            CommandDescription command{.name = row.name, .summary = row.summary, .note = app.get_footer(), .options = {}, .examples = row.examples};
+            for (CLI::Option const* const option : app.get_options()) command.options.push_back(described(*option));
+            all.push_back(std::move(command));
+        }
+        return all;
+    }();
+    return descriptions;
 }
 
 Arguments parse_arguments(int argc, char const* const* argv) {
     std::string_view const first = argc > 1 ? argv[1] : "";
     std::vector<std::string> given(argv + 1, argv + argc);
     if (first == "__complete") return TextOnly{candidates(command_descriptions(), std::span(given).subspan(std::min<std::size_t>(2, given.size())))};
-    if (first != "--help" && first != "-h" && first != "--version") require_known_command(first);
-    Parser parser;
+    bool const of_program = first == "--help" || first == "-h" || first == "--version";
+    if (!of_program) require_known_command(first);
+    Parser parser(of_program ? std::nullopt : std::optional(first));
     std::reverse(given.begin(), given.end());  // as CLI11 wants them
     try {
         parser.app.parse(given);

@@ -60,7 +60,7 @@ void print_parts(Scene const& scene) {
     std::vector<std::string_view> asked, left;
     for (int q = 0; q < quantity_count; ++q) {
         if (!selects(mechanism.quantities, static_cast<Quantity>(q))) continue;
-        (selects(scene.quantities, static_cast<Quantity>(q)) ? asked : left).push_back(quantity_table[q].name);
+        (selects(scene.quantities, static_cast<Quantity>(q)) ? asked : left).emplace_back(quantity_table[q].name);
     }
     auto const listed = [](auto const& names) { return names.empty() ? "no quantity" : fmt::format("{}", fmt::join(names, ", ")); };
     print_field("asked for", listed(asked));
@@ -106,7 +106,7 @@ void print_orbits(Scene const& scene, OrbitSchedule const& schedule) {
 
 std::string design_text(Scene const& scene) {
     Design const& design = scene.design;
-    std::string const name(name_of(design.kind)), keys = counted(scene.variations.size(), "key");
+    std::string name(name_of(design.kind)), keys = counted(scene.variations.size(), "key");
     switch (design.kind) {
         case DesignKind::mc:
         case DesignKind::lhs:

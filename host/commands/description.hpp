@@ -36,7 +36,7 @@ struct CommandDescription {
 };
 
 /// All commands, as the parser of the command line has them.
-std::vector<CommandDescription> command_descriptions();
+std::vector<CommandDescription> const& command_descriptions();
 
 /// What `slideway help COMMAND` prints, in lines of at most `width` columns.
 std::string help_text(CommandDescription const& command, std::size_t width);

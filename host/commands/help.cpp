@@ -30,7 +30,7 @@ std::string shell_lines(std::string const& command, std::size_t width) {
 std::string OptionDescription::label(Style const& word, Style const& metavariable) const {
     std::vector<std::string> set;
     for (std::string const& name : names) set.push_back(positional ? metavariable(name) : word(name));
-    std::string const text = fmt::format("{}", fmt::join(set, ", "));
+    std::string text = fmt::format("{}", fmt::join(set, ", "));
     if (value.empty() || positional) return text;
     std::string const taken = metavariable(value) + (repeats ? " ..." : "");
     return text + (optional ? " [" + taken + "]" : " " + taken);

@@ -25,7 +25,7 @@ template <class... Values> void print_row(fmt::format_string<Values...> format, 
 template <class Has> std::string owners_text(Has has) {
     std::vector<std::string_view> names;
     for (MechanismInfo const& mechanism : mechanisms()) {
-        if (has(mechanism)) names.push_back(mechanism.name);
+        if (has(mechanism)) names.emplace_back(mechanism.name);
     }
     return names.size() == mechanisms().size() ? std::string() : fmt::format(" ({})", fmt::join(names, ", "));
 }
@@ -37,11 +37,11 @@ void print_mechanisms() {
         std::vector<std::string_view> states, beside;
         Selection left = mechanism.always;
         for (int i = 0; i < mechanism.states; ++i) {
-            states.push_back(state_info(mechanism, i).name);
+            states.emplace_back(state_info(mechanism, i).name);
             left &= ~selection_of(mechanism.state[i]);
         }
         for (int s = 0; s < series_count; ++s) {
-            if (selects(left, static_cast<Series>(s))) beside.push_back(series_table[s].name);
+            if (selects(left, static_cast<Series>(s))) beside.emplace_back(series_table[s].name);
         }
         print_row("  {:<30} {}", mechanism.name, mechanism.meaning);
         print_row("  {:<30} {}{}", "", fmt::join(states, ", "), beside.empty() ? "" : fmt::format("; series have {} too", fmt::join(beside, ", ")));

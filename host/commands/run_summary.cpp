@@ -48,7 +48,7 @@ std::string_view replay_backend(std::string_view isa) {
 std::string replay_command(RunArguments const& arguments, Scene const& scene, std::string_view isa,
                            std::uint64_t member) {
     std::string command = "slideway run " + shell_quoted(arguments.scene.path);
-    for (auto const& [key, value] : arguments.scene.overrides) command += " --set " + shell_quoted(key + "=" + value);
+    for (auto const& [key, value] : arguments.scene.overrides) command += " --set " + shell_quoted(fmt::format("{}={}", key, value));
     // Without a row of its own there is nothing to look at.
     if (!scene.stores_members()) command += " --set study.store=members";
     std::string_view const backend = replay_backend(isa);

@@ -92,8 +92,8 @@ std::vector<double> uniform_times(double end_time, std::size_t count);
 /// What is given of the bound settings of a table.
 void read_bound(Node const& root, std::string_view table, Scene& scene, Settings rows = settings());
 
-/// Refuses what is given, or the study whose default it is; `key` is the dotted name.
-[[noreturn]] void refuse_study(Node const& root, Node const* given, std::string_view key, Problem const& problem);
+/// Refuses what `node` gives, or the study whose default it is; `key` is the dotted name.
+[[noreturn]] void refuse_study(Node const& root, Node const* node, std::string_view key, Problem const& problem);
 
 /// Refuses what is no argument of an inline table.  @param what it describes: "limit"
 void check_arguments(Node const& table, std::string_view what, std::initializer_list<std::string_view> known);

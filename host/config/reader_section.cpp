@@ -32,6 +32,7 @@ void read_phase(Node const& root, Scene& scene) {
 /// Names of what a section may be taken of: states, then gaps.
 std::vector<std::string> surface_names(MechanismInfo const& mechanism) {
     std::vector<std::string> names;
+    names.reserve(static_cast<std::size_t>(mechanism.states) + 2 * std::size_t{apices});
     for (int i = 0; i < mechanism.states; ++i) names.emplace_back(state_info(mechanism, i).name);
     if (!mechanism.spatial) return names;
     for (char const* const face : {"gap_y", "gap_z"}) {

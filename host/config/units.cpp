@@ -192,7 +192,8 @@ bool has_factor(std::string_view unit) {
 
 bool is_unit_text(std::string_view text) {
     constexpr std::string_view never_first = "+-.,";
-    return text.size() <= longest_unit && text.find('\0') == std::string_view::npos && !has_factor(text) &&
+    constexpr std::string_view never{"\0\n", 2};  // UDUNITS-2 writes a line's end that it meets to the standard output
+    return text.size() <= longest_unit && text.find_first_of(never) == text.npos && !has_factor(text) &&
            (text.empty() || never_first.find(text.front()) == text.npos);
 }
 

@@ -132,12 +132,12 @@ bool Result::is_complete() const { return attribute("completeness") == "complete
 
 bool Result::has(std::string const& name) const { return std::ranges::count(names(), name) > 0; }
 
-Column Result::column(std::string const& wanted) const& {
+Column Result::column(std::string const& name) const& {
     std::optional<Column> found;
-    for_each_variable(data_->file, "", [&](MemoryFile const& file, DataFile::Variable const& variable, std::string const& name) {
-        if (name == wanted) found = column_of(file, variable, name);
+    for_each_variable(data_->file, "", [&](MemoryFile const& file, DataFile::Variable const& variable, std::string const& one) {
+        if (one == name) found = column_of(file, variable, one);
     });
-    if (!found) throw Error(2, wanted + ": is no column of this result; names() has them all, and study.quantities of the scene says which there are");
+    if (!found) throw Error(2, name + ": is no column of this result; names() has them all, and study.quantities of the scene says which there are");
     return *found;
 }
 
@@ -198,6 +198,7 @@ Table Ensemble::draws() const {
 std::vector<std::string> Ensemble::state_names() const {
     MechanismInfo const& mechanism = info(state_->scene.parts.mechanism);
     std::vector<std::string> names;
+    names.reserve(static_cast<std::size_t>(mechanism.states));
     for (int i = 0; i < mechanism.states; ++i) names.emplace_back(state_info(mechanism, i).name);
     return names;
 }

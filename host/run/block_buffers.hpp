@@ -50,11 +50,11 @@ inline double lane_utilisation(std::uint64_t useful, std::uint64_t executed) {
 
 class BlockBuffers {
 public:
-    /// Draws these members and integrates those with usable inputs.  The others get status `invalid_inputs` and NaN results;
+    /// Draws the members of these numbers and integrates those with usable inputs.  The others get status `invalid_inputs` and NaN results;
     /// those that `stop` cut short get `not_run` and NaN.
     /// @throws what the kernel throws; there are no results then
     void run(BlockKernel const& kernel, BlockRequest const& request, MemberSource const& source,
-             StopRequest const& stop, std::span<std::uint64_t const> members);
+             StopRequest const& stop, std::span<std::uint64_t const> numbers);
 
     /// Views of the last run.
     BlockResult result() const;

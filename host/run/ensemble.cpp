@@ -36,17 +36,17 @@ std::uint64_t EnsembleTotals::done() const { return std::accumulate(ended.begin(
 
 std::uint64_t EnsembleTotals::failed() const { return done() - ended[static_cast<std::size_t>(Status::finished)]; }
 
-EnsembleTotals& EnsembleTotals::operator+=(EnsembleTotals const& later) {
-    for (std::size_t i = 0; i < ended.size(); ++i) ended[i] += later.ended[i];
-    steps_accepted += later.steps_accepted;
-    steps_rejected += later.steps_rejected;
-    stiff_steps += later.stiff_steps;
-    rhs_evaluations += later.rhs_evaluations;
-    jacobian_evaluations += later.jacobian_evaluations;
-    lane_steps_executed += later.lane_steps_executed;
-    lane_steps_useful += later.lane_steps_useful;
-    seconds += later.seconds;
-    if (stopped == StopReason::none) stopped = later.stopped;
+EnsembleTotals& EnsembleTotals::operator+=(EnsembleTotals const& other) {
+    for (std::size_t i = 0; i < ended.size(); ++i) ended[i] += other.ended[i];
+    steps_accepted += other.steps_accepted;
+    steps_rejected += other.steps_rejected;
+    stiff_steps += other.stiff_steps;
+    rhs_evaluations += other.rhs_evaluations;
+    jacobian_evaluations += other.jacobian_evaluations;
+    lane_steps_executed += other.lane_steps_executed;
+    lane_steps_useful += other.lane_steps_useful;
+    seconds += other.seconds;
+    if (stopped == StopReason::none) stopped = other.stopped;
     return *this;
 }
 

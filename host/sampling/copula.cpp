@@ -42,7 +42,7 @@ Matrix mixing(std::span<std::vector<std::uint32_t> const> orders, std::span<doub
         return std::transform_reduce(a.begin(), a.end(), b.begin(), 0.0, std::plus<>(),
                                      [&](std::uint32_t p, std::uint32_t q) { return score[p] * score[q]; });
     });
-    Matrix const wanted = Eigen::Map<Matrix const>(factor.data(), size, size);
+    Matrix wanted = Eigen::Map<Matrix const>(factor.data(), size, size);
     Eigen::LLT<Matrix> const cholesky(own);
     Matrix const lower = cholesky.matrixL();
     // Columns that follow from others leave a pivot of the size of rounding.

@@ -130,9 +130,16 @@ std::optional<ColumnAccumulator> ColumnAccumulator::from_bytes(std::span<std::by
     column.sum_ = *sum;
     column.squares_ = *squares;
     column.sketch_ = *sketch;
-    std::uint64_t const infinite = column.negative_infinities_ + column.positive_infinities_;
-    if (infinite > sketch->count() || std::isnan(column.least_) || std::isnan(column.largest_)) return std::nullopt;
-    if ((column.finite() > 0) != (column.least_ <= column.largest_)) return std::nullopt;
+    // What is said twice is said the same: the sketch has the infinities too, and the ends are of finite numbers, where there are any.
+    auto const buckets = sketch->buckets();
+    auto const sketched = [&](double number) {
+        auto const found = std::ranges::find(buckets, number, &QuantileSketch::Bucket::value);
+        return found == buckets.end() ? 0 : found->count;
+    };
+    if (column.negative_infinities_ != sketched(-infinity) || column.positive_infinities_ != sketched(infinity)) return std::nullopt;
+    bool const has_ends = std::isfinite(column.least_) && std::isfinite(column.largest_) && column.least_ <= column.largest_;
+    bool const has_none = column.least_ == infinity && column.largest_ == -infinity;
+    if (!(column.finite() > 0 ? has_ends : has_none)) return std::nullopt;
     return column;
 }
 

@@ -123,6 +123,7 @@ std::optional<QuantileSketch> QuantileSketch::from_bytes(std::span<std::byte con
         for (std::uint64_t i = 0; i < used; ++i) {
             if (!take(bin) || !take(count)) return std::nullopt;
             if (bin < first_normal_bin || bin > infinity_bin || bin <= last || count == 0) return std::nullopt;
+            if (count > std::numeric_limits<std::uint64_t>::max() - sketch.count_) return std::nullopt;
             store->add(static_cast<std::uint32_t>(bin), count);
             sketch.count_ += count;
             last = bin;

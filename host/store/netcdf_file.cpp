@@ -206,6 +206,7 @@ std::vector<std::string> NetcdfFile::groups() const {
     std::vector<int> ids(static_cast<std::size_t>(count));
     require(nc_inq_grps(id_, &count, ids.data()), of_header);
     std::vector<std::string> names;
+    names.reserve(ids.size());
     for (int const id : ids) names.push_back(name_by([&](char* name) { return nc_inq_grpname(id, name); }));
     return names;
 }
@@ -259,6 +260,7 @@ std::vector<std::string> NetcdfFile::attribute_names(int variable) const {
     int count = 0;
     require(variable == global ? nc_inq_natts(id_, &count) : nc_inq_varnatts(id_, variable, &count), of_header);
     std::vector<std::string> names;
+    names.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) names.push_back(name_by([&](char* name) { return nc_inq_attname(id_, variable, i, name); }));
     std::ranges::sort(names);
     return names;
@@ -269,6 +271,7 @@ std::vector<std::string> NetcdfFile::strings(int variable, std::string const& na
     std::vector<char*> strings(count, nullptr);
     require(nc_get_att_string(id_, variable, name.c_str(), strings.data()), "read attribute " + name);
     std::vector<std::string> texts;
+    texts.reserve(count);
     for (char const* const one : strings) texts.emplace_back(one != nullptr ? one : "");
     nc_free_string(count, strings.data());
     return texts;

@@ -22,7 +22,7 @@ public:
     static NetcdfFile open_in_memory(std::string const& name, std::span<std::byte const> bytes);
     NetcdfFile(NetcdfFile&& other) noexcept;
     NetcdfFile& operator=(NetcdfFile&&) = delete;
-    ~NetcdfFile();  // closes; what fails then is lost: call close()
+    ~NetcdfFile() override;  // closes; what fails then is lost: call close()
     void close();
 
     std::string const& path() const override { return path_; }

@@ -212,6 +212,7 @@ void remove_merge_lock(std::string const& path) {
 void merge_shards(ShardFolder const& folder, std::vector<Shard> const& shards, ResultMerge merge,
                   std::string const& path) {
     std::vector<MergedShard> merged;
+    merged.reserve(shards.size());
     for (Shard const& shard : shards) {
         merged.push_back({shard.members, [&folder, &shard](MergedShard::Use const& use) {
                               std::vector<std::byte> const bytes = folder.read(shard);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <map>
-#include <ranges>
+#include <span>
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -44,16 +44,22 @@ std::map<std::string, std::string> scene_values(std::string const& scene) {
     return values;
 }
 
+/// Where a resolved scene has a key of [study], from the end of the line before on: offset, or npos.  @param key "\nverify = "
+std::size_t place_in_study(std::string_view scene, std::string_view key) {
+    auto const start = scene.find("\n[study]\n");
+    if (start == scene.npos) return scene.npos;
+    auto const at = scene.find(key, start);
+    return scene.find("\n[", start + 1) < at ? scene.npos : at;
+}
+
 /// Where a resolved scene quotes the path of its table: offset and length, none without one.
 struct Quoted {
     std::size_t at = 0, length = 0;
 };
 Quoted quoted_table(std::string_view scene) {
-    constexpr std::string_view study = "\n[study]\n", key = "\ntable = ", comment = "\"  # ";
-    auto const start = scene.find(study);
-    if (start == scene.npos) return {};
-    auto const at = scene.find(key, start);
-    if (at == scene.npos || scene.find("\n[", start + 1) < at) return {};
+    constexpr std::string_view key = "\ntable = ", comment = "\"  # ";
+    auto const at = place_in_study(scene, key);
+    if (at == scene.npos) return {};
     std::size_t const first = at + key.size();
     std::string_view const line = scene.substr(first, scene.find('\n', first) - first);
     // From the end: a path may hold anything, the comment does not.
@@ -105,7 +111,7 @@ std::string RunIdentity::difference(RunIdentity const& earlier) const {
         constexpr std::size_t named = 3;
         if (found.empty()) return "the scene's text changed";
         std::string const more = found.size() > named ? fmt::format("; and {} more", found.size() - named) : "";
-        return fmt::format("{}{}", fmt::join(found | std::views::take(named), "; "), more);
+        return fmt::format("{}{}", fmt::join(std::span(found).first(std::min(named, found.size())), "; "), more);
     }
     if (!(members == earlier.members)) {
         return fmt::format("the members were {}, are {}", earlier.members.text(), members.text());
@@ -127,7 +133,8 @@ std::string with_table(std::string const& scene, std::string_view quoted) {
 std::string portable_scene(std::string const& scene) {
     std::string text = with_table(scene, fmt::format("\"{}\"", shard_names::table));
     constexpr std::string_view checked = "\nverify = ";
-    if (auto const at = text.find(checked, text.find("\n[study]\n")); at != text.npos) text.erase(at, text.find('\n', at + 1) - at);
+    // Once in a scene; a text that was edited may have it more often, or in other tables.
+    for (auto at = place_in_study(text, checked); at != text.npos; at = place_in_study(text, checked)) text.erase(at, text.find('\n', at + 1) - at);
     return text;
 }
 

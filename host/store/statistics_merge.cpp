@@ -52,7 +52,7 @@ void write_merged(DataFile& file, BlockStatistics const& statistics, ResultMerge
     LabelAxes axes(file);
     std::vector<std::string_view> names;
     for (Quantity const q : selected_quantities(merge.layout.quantities)) {
-        names.push_back(info(q).name);
+        names.emplace_back(info(q).name);
         if (info(q).dimension != nullptr) axes.axis(info(q).dimension);
     }
     file.put_text(DataFile::global, "quantities", fmt::format("{}", fmt::join(names, " ")));

@@ -18,7 +18,7 @@ std::string objection_to(Backend const& card, BackendRequest const& request, Isa
     int const threads = request.threads * request.share.ranks;
     std::uint64_t const enough = pays_from(isa, threads);
     if (members < enough) return fmt::format("{} pays from about {} members on", card.machine(), enough);
-    if (std::string const objection = card.objection(); !objection.empty()) return objection;
+    if (std::string objection = card.objection(); !objection.empty()) return objection;
     if (card.peak() < worth_the_trouble * peak_of_a_lane * threads * lanes_of(isa)) {
         return card.machine() + " is not made for double precision";
     }

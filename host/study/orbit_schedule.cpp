@@ -115,7 +115,7 @@ void draw_directions(std::uint64_t seed, std::uint64_t member, int shadows, Part
         double* const w = directions + shadow * states;
         double squares = 0;
         for (int i = 0; i < states; ++i) {
-            auto const place = static_cast<std::uint64_t>(shadow * states + i);
+            std::uint64_t const place = static_cast<std::uint64_t>(shadow) * static_cast<std::uint64_t>(states) + static_cast<std::uint64_t>(i);
             std::uint64_t const word = philox({member, place, 0, 0}, {seed, name_hash("shadow")})[0];
             w[i] = is_prescribed(parts, i)
                        ? 0

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -10,7 +11,7 @@
 namespace slideway {
 namespace {
 
-std::vector<char> finished_members(ResultReader const& results) {
+std::vector<char> finished_members(ResultView const& results) {
     std::vector<char> finished;
     for (double const status : results.values("status")) finished.push_back(status_of(status) == Status::finished);
     return finished;
@@ -39,16 +40,17 @@ double largest_of(std::vector<double> const& values) {
     return largest;
 }
 
-/// Of a member.  @throws FileError of a variable that says nothing of the kind
-std::size_t exponents_of(ResultReader const& results) {
-    auto const shape = results.shape("lyapunov_exponent");
-    if (shape.size() != 2) throw FileError(fmt::format("{}: lyapunov_exponent is not (member, exponent)", results.path()));
-    return shape[1];
+/// Of a member: the last of a variable's dimensions.  @throws FileError of a variable that has others, or none of them
+std::size_t exponents_of(ResultView const& results, char const* variable = "lyapunov_exponent", char const* dimensions = "member, exponent") {
+    auto const shape = results.shape(variable);
+    auto const rank = static_cast<std::size_t>(std::ranges::count(std::string_view(dimensions), ',')) + 1;
+    if (shape.size() == rank && shape.back() > 0) return shape.back();
+    throw FileError(fmt::format("{}: {} is not ({})", results.path(), variable, dimensions));
 }
 
 }  // namespace
 
-std::vector<ExponentSummary> summarise_exponents(ResultReader const& results) {
+std::vector<ExponentSummary> summarise_exponents(ResultView const& results) {
     std::vector<ExponentSummary> summaries;
     if (!results.has("lyapunov_exponent")) return summaries;
     auto const finished = finished_members(results);
@@ -85,7 +87,7 @@ std::vector<ExponentSummary> summarise_exponents(ResultReader const& results) {
     return summaries;
 }
 
-OffsetHealth offset_health(ResultReader const& results) {
+OffsetHealth offset_health(ResultView const& results) {
     auto const finished = finished_members(results);
     double const exponents = static_cast<double>(exponents_of(results));
     auto const share = [&](char const* name) {
@@ -98,7 +100,7 @@ OffsetHealth offset_health(ResultReader const& results) {
     return {share("lost_offsets"), share("grown_offsets")};
 }
 
-std::vector<SweepColumn> summarise_columns(ResultReader const& results) {
+std::vector<SweepColumn> summarise_columns(ResultView const& results) {
     std::vector<SweepColumn> columns;
     std::string const parameter = results.attribute("sweep_parameter");
     if (parameter.empty()) return columns;
@@ -124,12 +126,12 @@ std::vector<SweepColumn> summarise_columns(ResultReader const& results) {
     return columns;
 }
 
-std::vector<HistoryPoint> exponent_history(ResultReader const& results) {
+std::vector<HistoryPoint> exponent_history(ResultView const& results) {
     std::vector<HistoryPoint> history;
     if (!results.has("lyapunov_history")) return history;
     auto const finished = finished_members(results);
     auto const rescalings = results.values("history");
-    std::size_t const exponents = results.shape("lyapunov_history").at(2);
+    std::size_t const exponents = exponents_of(results, "lyapunov_history", "member, history, exponent");
     auto const values = results.values("lyapunov_history", finished.size() * rescalings.size() * exponents);
     for (std::size_t n = 0; n < rescalings.size(); ++n) {
         history.push_back({rescalings[n], mean_of_members(finished_column(values, finished, rescalings.size() * exponents, n * exponents))});
@@ -137,7 +139,7 @@ std::vector<HistoryPoint> exponent_history(ResultReader const& results) {
     return history;
 }
 
-std::optional<SectionSummary> summarise_sections(ResultReader const& results) {
+std::optional<SectionSummary> summarise_sections(ResultView const& results) {
     if (!results.has("section_count")) return std::nullopt;
     auto const finished = finished_members(results);
     auto const counts = results.values("section_count", finished.size());

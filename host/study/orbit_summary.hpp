@@ -22,13 +22,13 @@ struct ExponentSummary {
 };
 
 /// The largest mean first; empty if the file holds none.
-std::vector<ExponentSummary> summarise_exponents(ResultReader const& results);
+std::vector<ExponentSummary> summarise_exponents(ResultView const& results);
 
 /// Shares of the rescalings at which an offset had shrunk into rounding, or grown to the size of the joint.
 struct OffsetHealth {
     double lost, grown;
 };
-OffsetHealth offset_health(ResultReader const& results);
+OffsetHealth offset_health(ResultView const& results);
 
 /// Members of one value of a sweep's parameter.
 struct SweepColumn {
@@ -37,14 +37,14 @@ struct SweepColumn {
     MeanOfMembers exponent;  // the largest one; of no members without exponents
 };
 /// In the file's order; empty if it is no sweep.
-std::vector<SweepColumn> summarise_columns(ResultReader const& results);
+std::vector<SweepColumn> summarise_columns(ResultView const& results);
 
 /// Ensemble mean of the largest exponent after so many rescalings, with its confidence interval.
 struct HistoryPoint {
     double rescalings;
     MeanOfMembers mean;
 };
-std::vector<HistoryPoint> exponent_history(ResultReader const& results);
+std::vector<HistoryPoint> exponent_history(ResultView const& results);
 
 struct SectionSummary {
     std::uint64_t sections = 0;  // of all members
@@ -52,6 +52,6 @@ struct SectionSummary {
     std::uint64_t beyond = 0;    // crossings for which there was no room
 };
 /// Nothing if the file holds no sections.
-std::optional<SectionSummary> summarise_sections(ResultReader const& results);
+std::optional<SectionSummary> summarise_sections(ResultView const& results);
 
 }  // namespace slideway

@@ -42,6 +42,7 @@ std::vector<ProbeResult> probe(StateTable const& table, Isa isa) {
 std::vector<std::pair<std::string, double>> result_columns(Mechanism mechanism, ProbeResult const& result) {
     MechanismInfo const& has = info(mechanism);
     std::vector<std::pair<std::string, double>> columns;
+    columns.reserve(static_cast<std::size_t>(has.states));
     for (int i = 0; i < has.states; ++i) {
         columns.emplace_back(fmt::format("d_{}", state_info(has, i).name), result.derivative[i]);
     }

@@ -83,11 +83,11 @@ std::vector<MemberRow> member_rows(ResultView const& results, MemberRange const&
                rejected = of_members("steps_rejected");
     std::vector<MemberRow> ends;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-        auto const member = static_cast<std::uint64_t>(numbers[i]);
+        std::uint64_t const member = count_of(numbers[i]);
         if (member < range.first || member >= range.end()) continue;
         Status const status = status_of(statuses[i]);
         bool const ran = status != Status::not_run;
-        auto const steps = [&](std::vector<double> const& of) { return ran ? static_cast<std::uint64_t>(of[i]) : 0; };
+        auto const steps = [&](std::vector<double> const& of) { return ran ? count_of(of[i]) : 0; };
         ends.push_back({member, status, ran ? times[i] : NAN, steps(accepted), steps(rejected)});
     }
     if (ends.empty() && !numbers.empty()) {

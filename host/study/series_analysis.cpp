@@ -69,9 +69,9 @@ void require_room(SeriesAnalysis const& analysis) {
 
 /// Ten periods, but no more than a sixth of the points: those behind them cannot be reference points.
 std::size_t longest_growth(SeriesAnalysis const& analysis, SeriesOptions const& options) {
-    std::size_t const points = analysis.points - analysis.window;
+    std::size_t const points = analysis.points - analysis.window, most = points / 6;
     auto const wanted = std::max(50.0, 10 * analysis.average_period / analysis.spacing);
-    auto const found = static_cast<std::size_t>(std::min(wanted, static_cast<double>(points / 6)));
+    auto const found = static_cast<std::size_t>(std::min(wanted, static_cast<double>(most)));
     if (!options.fit) return found;
     if (options.fit->last >= points / 2) {
         throw SceneError(

@@ -12,7 +12,6 @@
 #include "host/base/csv.hpp"
 #include "host/base/error.hpp"
 #include "host/base/numbers.hpp"
-#include "host/store/result_view.hpp"
 
 namespace slideway {
 namespace {
@@ -61,26 +60,25 @@ std::size_t column_place(Table const& table, std::string const& table_name, std:
 }
 
 /// "y, z": the variables of which something holds.
-template <class Condition> std::string known_variables(ResultReader const& file, Condition const& holds) {
+template <class Condition> std::string known_variables(ResultView const& file, Condition const& holds) {
     std::vector<std::string> names = file.variable_names();
     std::erase_if(names, [&](std::string const& name) { return !holds(name); });
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::uint64_t place_of(ResultReader const& file, std::string const& path, std::optional<std::uint64_t> member) {
+std::uint64_t place_of(ResultView const& file, std::optional<std::uint64_t> member) {
     if (!member) return 0;
     auto const numbers = file.values("member");
     auto const found = std::find(numbers.begin(), numbers.end(), static_cast<double>(*member));
     if (found != numbers.end()) return static_cast<std::uint64_t>(found - numbers.begin());
-    throw SceneError(numbers.empty() ? fmt::format("{}: has no members", path)
-                                     : fmt::format("{}: has no member {}; it has {:.0f} to {:.0f}", path, *member,
+    throw SceneError(numbers.empty() ? fmt::format("{}: has no members", file.path())
+                                     : fmt::format("{}: has no member {}; it has {:.0f} to {:.0f}", file.path(), *member,
                                                    numbers.front(), numbers.back()));
 }
 
 /// The values of a variable at one member's sections.  Crossings that are not equally spaced are iterates all the same, their mean
 /// spacing apart.
-StoredSeries read_sections(ResultReader const& file, std::string const& path, std::string variable,
-                           std::uint64_t place) {
+StoredSeries read_sections(ResultView const& file, std::string variable, std::uint64_t place) {
     if (file.has("section_" + variable)) variable = "section_" + variable;
     auto const times = file.values("section_time");
     auto const is_column = [&](std::string const& name) {
@@ -89,7 +87,7 @@ StoredSeries read_sections(ResultReader const& file, std::string const& path, st
                name != "section_time" && name != "section_count" && name != "section_crossings";
     };
     if (!file.has(variable) || !is_column(variable))
-        throw SceneError(fmt::format("{}: has no sections of '{}'; use one of {}", path, variable, known_variables(file, is_column)));
+        throw SceneError(fmt::format("{}: has no sections of '{}'; use one of {}", file.path(), variable, known_variables(file, is_column)));
     auto const counts = file.values("section_count");
     double first = 0, all = 0;
     for (std::size_t i = 0; i < counts.size(); all += counts[i++]) {
@@ -97,11 +95,11 @@ StoredSeries read_sections(ResultReader const& file, std::string const& path, st
         if (i == place) first = all;
     }
     if (place >= counts.size() || all != static_cast<double>(times.size())) {
-        throw FileError(fmt::format("{}: is damaged (the sections of its members do not add up); run the study again", path));
+        throw FileError(fmt::format("{}: is damaged (the sections of its members do not add up); run the study again", file.path()));
     }
     double const count = counts[place];
     if (count < 2)
-        throw SceneError(fmt::format("{}: the member has {} sections; a series needs at least 2", path, count));
+        throw SceneError(fmt::format("{}: the member has {} sections; a series needs at least 2", file.path(), count));
     auto const of_member = [&](std::vector<double> const& all) {
         auto const begin = all.begin() + static_cast<std::ptrdiff_t>(first);
         return std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(count));
@@ -137,21 +135,25 @@ bool is_netcdf(std::istream& in, std::string const& path) {
     return bytes == "\x89HDF" || bytes.starts_with("CDF");
 }
 
-StoredSeries read_result_series(std::string const& path, std::string const& variable,
-                                std::optional<std::uint64_t> member) {
-    ResultReader const file(path);
+StoredSeries read_result_series(std::string const& path, std::string const& variable, std::optional<std::uint64_t> member) {
+    return read_result_series(ResultReader(path), variable, member);
+}
+
+StoredSeries read_result_series(ResultView const& file, std::string const& variable, std::optional<std::uint64_t> member) {
+    std::string const& path = file.path();
     if (!file.stores_members()) {
         throw SceneError(path +
                          ": keeps statistics, no series of members; run one with --member K --set "
                          "study.store=members --set study.samples=1000");
     }
     if (!file.has("time") && file.has("section_count")) {
-        return read_sections(file, path, variable, place_of(file, path, member));
+        return read_sections(file, variable, place_of(file, member));
     }
     if (!file.has("time"))
         throw SceneError(path + ": has no time series; run the scene as kind = \"ensemble\" with study.samples");
     std::vector<double> const times = file.values("time");
     std::size_t const members = file.values("member").size();
+    if (members == 0) throw SceneError(path + ": has no members");
     auto const is_series = [&](std::string const& name) {
         auto const shape = file.shape(name);
         return shape.size() == 2 && shape[0] == members && shape[1] == times.size();
@@ -160,7 +162,7 @@ StoredSeries read_result_series(std::string const& path, std::string const& vari
         throw SceneError(fmt::format("{}: has no series '{}'; use one of {}", path, variable, known_variables(file, is_series)));
     auto const spacing = equal_spacing(times);
     if (!spacing) throw SceneError(path + ": the sample times are not equally spaced");
-    std::uint64_t const place = place_of(file, path, member);
+    std::uint64_t const place = place_of(file, member);
     auto const all = file.values(variable);
     auto const first = all.begin() + static_cast<std::ptrdiff_t>(place * times.size());
     return {variable, file.unit(variable), {first, first + static_cast<std::ptrdiff_t>(times.size())}, *spacing};

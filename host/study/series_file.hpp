@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "host/store/result_view.hpp"
+
 namespace slideway {
 
 struct StoredSeries {
@@ -24,8 +26,9 @@ bool is_netcdf(std::istream& in, std::string const& path);
 /// @param member its number in the ensemble; nothing: the first of the file.
 /// @throws FileError for a file that is no result; SceneError for a variable or member that is not there or no series, and
 /// for sample times that are not equally spaced.
-StoredSeries read_result_series(std::string const& path, std::string const& variable,
-                                std::optional<std::uint64_t> member);
+StoredSeries read_result_series(std::string const& path, std::string const& variable, std::optional<std::uint64_t> member);
+/// The same of a result that somebody else keeps open.
+StoredSeries read_result_series(ResultView const& file, std::string const& variable, std::optional<std::uint64_t> member);
 
 /// Columns separated by commas, semicolons or blanks; lines that start with # are skipped; the first line may be a header.
 /// @param name of the table, for messages.  @param column a name of the header or a number from 1; empty: the last column that is

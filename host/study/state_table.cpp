@@ -28,6 +28,7 @@ struct Column {
 
 std::vector<std::string_view> state_names(Mechanism mechanism) {
     std::vector<std::string_view> names;
+    names.reserve(static_cast<std::size_t>(info(mechanism).states));
     for (int i = 0; i < info(mechanism).states; ++i) {
         names.emplace_back(state_info(info(mechanism), i).name);
     }
@@ -68,7 +69,7 @@ Column input_column(std::string_view name, Mechanism mechanism, CsvReader const&
         }
     } else {
         std::vector<std::string_view> names = numeric_key_names();
-        names.push_back("contact.law");
+        names.emplace_back("contact.law");
         std::string_view const meant = nearest_name(name, names);
         lines.fail(
             fmt::format("column {}: no numeric key of a scene has this name{}", name,

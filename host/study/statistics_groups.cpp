@@ -67,7 +67,7 @@ private:
             dimensions.insert(dimensions.begin(), column.dimension);
             coordinates.push_back(column.dimension + "_name");
         }
-        if (std::ranges::count(dimensions, "input") > 0) coordinates.push_back("input_name");
+        if (std::ranges::count(dimensions, "input") > 0) coordinates.emplace_back("input_name");
         group_.put({column.quantity + "_" + suffix, unit, what + ": " + column.long_name, std::move(dimensions),
                     fmt::format("{}", fmt::join(coordinates, " "))},
                    values);

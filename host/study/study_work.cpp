@@ -40,6 +40,7 @@ MemberEnds recalled_ends(std::string const& path, Mechanism mechanism, MemberSet
         ResultView const results(file);
         std::vector<double> const statuses = results.values("status", members.size());
         std::vector<std::vector<double>> states;
+        states.reserve(static_cast<std::size_t>(has.states));
         for (int k = 0; k < has.states; ++k) states.push_back(results.values(std::string("final_") + state_info(has, k).name, members.size()));
         for (std::size_t i = 0; i < members.size(); ++i) {
             if (!wanted.contains(members[i])) continue;

@@ -65,7 +65,7 @@ public:
 
 private:
     SLIDEWAY_HD bool is_stopped() const {
-        return (block_.stop_flag != nullptr && *block_.stop_flag != 0) || host_says(block_.stop, block_.stop_context, covered_);
+        return is_raised(block_.stop_flag) || host_says(block_.stop, block_.stop_context, covered_);
     }
 
     static constexpr int size = Model::size;

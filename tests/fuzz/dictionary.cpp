@@ -8,7 +8,7 @@
 int main() {
     using namespace slideway;
     std::set<std::string> words;
-    for (KeyReference const& key : key_references()) {
+    for (KeyReference const& key : known_keys()) {
         std::string const name(key.name);
         auto const dot = name.rfind('.');
         words.insert(name);

@@ -33,7 +33,9 @@ void read_manifest(std::string const& text) {
     accepted([&] {
         std::vector<DamagedShard> damaged;
         auto all = shards.intact(damaged);
-        for (DamagedShard const& one : damaged) all.push_back(one.shard);
+        for (DamagedShard const& one : damaged) {
+            if (!one.is_manifest) all.push_back(one.shard);
+        }
         for (Shard const& shard : all) require(!shard.members.empty(), "a shard holds members", manifest_line(shard));
         MemberSet done;
         for (Shard const& shard : shards.listed()) {

@@ -65,7 +65,7 @@ std::vector<double> shares_of(Scene const& scene, Isa isa, std::size_t block_mem
 /// At least `count` values of those, strictly between nothing and all, differ.
 void expect_gradual(std::vector<double> shares, std::size_t count) {
     std::erase_if(shares, [](double share) { return share <= 0 || share >= 1; });
-    shares.erase(std::ranges::unique(shares).begin(), shares.end());
+    shares.erase(std::unique(shares.begin(), shares.end()), shares.end());
     EXPECT_GE(shares.size(), count);
 }
 

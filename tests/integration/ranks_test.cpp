@@ -7,14 +7,15 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "host/run/ranks.hpp"
-#include "host/run/ranks.hpp"
 #include "tests/support/mpirun.hpp"
+#include "tests/support/sanitizer.hpp"
 
 namespace slideway::testing::ranks_test {
 namespace {
@@ -175,6 +176,7 @@ TEST_F(RanksOfAJob, EndWhenOneLeavesWithoutAWord) {
 TEST_F(RanksOfAJob, EndWhenRankZeroFailsAmidTheirWork) {
     for (char const* const what : {"crowded", "deaf"}) {
         SCOPED_TRACE(what);
+        if (memory_is_watched && std::string_view(what) == "crowded") continue;  // has no memory for another thread
         ShellOutcome const outcome = job(3, what);
         EXPECT_EQ(outcome.code, 4) << outcome.err;  // not 124, that of what hangs
         EXPECT_NE(outcome.err.find("in a round\n"), std::string::npos) << outcome.err;
@@ -199,7 +201,8 @@ TEST_F(RanksOfAJob, WaitForEachOtherWithoutLoad) {
 
 TEST_F(RanksOfAJob, OfAnotherMpiAreRefused) {
     // Another launcher's variables: this MPI does not know them, and each process would take itself for the only one.
-    ShellOutcome const outcome = shell("PMI_SIZE=2 PMI_RANK=1 " + program + "abandon");
+    // An MPI that begins, and is not ended, keeps its memory: a build that looks for leaks is not to look here.
+    ShellOutcome const outcome = shell("ASAN_OPTIONS=detect_leaks=0 PMI_SIZE=2 PMI_RANK=1 " + program + "abandon");
     EXPECT_EQ(outcome.code, 2) << outcome.out;
     EXPECT_TRUE(outcome.err.starts_with("slideway: PMI_SIZE says that this is one of 2 processes")) << outcome.err;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;

@@ -225,13 +225,13 @@ TEST_F(GridThread, AStopLeavesNoMemberHalfWritten) {
         // A thread that has asked often raises the flag of all.
         struct Flag {
             std::atomic<int> asked = 0;
-            int volatile raised = 0;
+            int raised = 0;
         } flag;
         stopped.block.stop_flag = &flag.raised;
         stopped.block.stop_context = &flag;
         stopped.block.stop = [](void const* context, double) {
             auto& mine = *static_cast<Flag*>(const_cast<void*>(context));
-            if (++mine.asked == 120) mine.raised = 1;
+            if (++mine.asked == 120) std::atomic_ref(mine.raised).store(1);
             return false;
         };
         run_grid(stopped, 3);

@@ -1,7 +1,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string_view>
 #include <thread>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -118,6 +120,13 @@ TEST(Units, RefusesTextsWithoutNumberOrUnit) {
     EXPECT_TRUE(is_refused("  ", "1"));
     EXPECT_TRUE(is_refused("- 1 m", "m"));
     EXPECT_TRUE(is_refused("0x10 m", "m"));
+}
+
+TEST(Units, RefusesSeveralLinesAndWritesNothing) {
+    ::testing::internal::CaptureStdout();
+    for (std::string_view const text : {"1 m\n", "1 \nm", "1 m\ns", "1 kg\n\nm"}) EXPECT_TRUE(is_refused(text, "m")) << text;
+    EXPECT_TRUE(std::holds_alternative<Problem>(unit_factor("m\n", "m")));
+    EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
 }
 
 TEST(Units, RefusesWhatIsNotFinite) {

@@ -189,7 +189,7 @@ TEST(Distribution, ExtremesAreFiniteAndWithinTheSupport) {
                                      {truncated(0, 1e-3, -1, 1), -1, 1},
                                      {values({1, 2, 3}), 1, 3}};
     for (auto const& [d, low, high] : cases) {
-        auto const expect_within = [&, low = low, high = high](double x, double at) {
+        auto const expect_within = [&d = d, low = low, high = high](double x, double at) {
             EXPECT_TRUE(std::isfinite(x) && x >= low && x <= high)
                 << static_cast<int>(d.kind) << " " << at << ": " << x;
         };

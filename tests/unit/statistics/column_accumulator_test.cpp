@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <random>
 #include <vector>
@@ -169,6 +170,28 @@ TEST(ColumnAccumulator, BytesOfNoAccumulatorAreRefused) {
     }
     bytes.push_back(std::byte{0});
     EXPECT_FALSE(ColumnAccumulator::from_bytes(bytes).has_value());
+}
+
+TEST(ColumnAccumulator, BytesThatContradictThemselvesAreRefused) {
+    // The ends, the numbers of either infinity, and behind the sums the sketch, which has the infinities too.
+    enum : std::size_t { least = 0, largest = 8, negative = 16, positive = 24 };
+    auto const with = [](std::vector<double> const& numbers, std::size_t at, auto value) {
+        auto bytes = accumulated(numbers).bytes();
+        std::memcpy(bytes.data() + at, &value, sizeof value);
+        return ColumnAccumulator::from_bytes(bytes).has_value();
+    };
+    std::vector<double> const mixed = {1, 2, infinity, infinity, -infinity};
+    EXPECT_TRUE(with(mixed, negative, std::uint64_t{1}));
+    EXPECT_FALSE(with(mixed, negative, std::uint64_t{0}));
+    EXPECT_FALSE(with(mixed, positive, std::uint64_t{3}));
+    EXPECT_FALSE(with({1, 2}, positive, std::uint64_t{1}));
+    EXPECT_TRUE(with(mixed, least, 1.0));
+    EXPECT_FALSE(with(mixed, least, -infinity));
+    EXPECT_FALSE(with(mixed, largest, infinity));
+    EXPECT_FALSE(with(mixed, largest, 0.5));
+    EXPECT_FALSE(with(mixed, least, nan));
+    EXPECT_TRUE(with({infinity}, least, infinity));
+    EXPECT_FALSE(with({infinity}, least, 3.0));
 }
 
 }  // namespace

@@ -120,6 +120,9 @@ TEST(QuantileSketch, RefusesOtherBytes) {
     EXPECT_FALSE(QuantileSketch::from_bytes(longer).has_value());
     EXPECT_FALSE(QuantileSketch::from_bytes(other).has_value());
     EXPECT_FALSE(QuantileSketch::from_bytes(bad_bin).has_value());
+    auto too_many = bytes;
+    for (std::size_t i = 8; i < 16; ++i) too_many[i] = std::byte{0xff};  // zeros: with the other three more than a count holds
+    EXPECT_FALSE(QuantileSketch::from_bytes(too_many).has_value());
 }
 
 }  // namespace

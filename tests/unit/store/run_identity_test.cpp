@@ -174,6 +174,8 @@ TEST(RunIdentity, OfATableDoesNotDependOnWhereItLies) {
     EXPECT_EQ(portable_scene(none), none);
     // How a study is checked makes no other members of it.
     EXPECT_EQ(portable_scene("title = \"a\"\n[study]\nmembers = 3\nverify = 16  # members\nseed = 1\n"), "title = \"a\"\n[study]\nmembers = 3\nseed = 1\n");
+    // A text that was edited: more than once, and of another table.
+    EXPECT_EQ(portable_scene("a = 1\n[study]\nverify = 1\nseed = 1\nverify = 2\n[later]\nverify = 3\n"), "a = 1\n[study]\nseed = 1\n[later]\nverify = 3\n");
     EXPECT_EQ(table_of(none), "");
 }
 

@@ -1,5 +1,7 @@
 // Result files whose variables do not belong together, as an editor of NetCDF files leaves them: refused, whatever is asked of them.
 #include <array>
+#include <cmath>
+#include <optional>
 
 #include "host/base/error.hpp"
 #include "host/study/orbit_summary.hpp"
@@ -48,8 +50,8 @@ protected:
     }
 
 private:
-    static constexpr std::array<std::pair<char const*, std::size_t>, 4> lengths = {
-        {{"member", 2}, {"sample", 3}, {"section", 4}, {"other", 1}}};
+    static constexpr std::array<std::pair<char const*, std::size_t>, 5> lengths = {
+        {{"member", 2}, {"sample", 3}, {"section", 4}, {"other", 1}, {"nobody", 0}}};
     static std::size_t length_of(std::string_view wanted) {
         for (auto const& [name, length] : lengths) {
             if (name == wanted) return length;
@@ -122,6 +124,42 @@ TEST_F(EditedResult, ExponentsAndSectionsAreOfTheMembers) {
     ResultReader const results(path());
     EXPECT_THROW(summarise_sections(results), FileError);
     EXPECT_THROW(summarise_exponents(results), FileError);
+}
+
+TEST_F(EditedResult, SeriesAreOfMembers) {
+    write({{"status", {"member"}, {0, 0}}, {"member", {"nobody"}, {}}, {"time", {"sample"}, {0, 1, 2}}, {"y", {"nobody", "sample"}, {}}});
+    try {
+        read_result_series(path(), "y", std::nullopt);
+        ADD_FAILURE() << "no refusal";
+    } catch (SceneError const& error) {
+        EXPECT_EQ(std::string(error.what()), path() + ": has no members");
+    }
+}
+
+TEST_F(EditedResult, NumbersOfMembersAndStepsAreNumbersOfAnyKind) {
+    write({{"status", {"member"}, {0, 0}},
+           {"member", {"member"}, {std::nan(""), -1}},
+           {"end_time", {"member"}, {0.5, 0.5}},
+           {"steps_accepted", {"member"}, {1e300, 7}},
+           {"steps_rejected", {"member"}, {-3, std::nan("")}}});
+    auto const rows = member_rows(ResultReader(path()), {0, 5});
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[0].number, 0u);
+    EXPECT_EQ(rows[1].number, 0u);
+    EXPECT_EQ(rows[0].steps_accepted, 0u);
+    EXPECT_EQ(rows[1].steps_accepted, 7u);
+    EXPECT_EQ(rows[0].steps_rejected + rows[1].steps_rejected, 0u);
+}
+
+TEST_F(EditedResult, ExponentsHaveTheirDimensions) {
+    write({{"status", {"member"}, {0, 0}},
+           {"history", {"sample"}, {1, 2, 3}},
+           {"lyapunov_history", {"sample"}, {1, 2, 3}},
+           {"lyapunov_exponent", {"member", "nobody"}, {}}});
+    ResultReader const results(path());
+    EXPECT_THROW(exponent_history(results), FileError);
+    EXPECT_THROW(summarise_exponents(results), FileError);
+    EXPECT_THROW(offset_health(results), FileError);
 }
 
 }  // namespace
