@@ -124,7 +124,9 @@ while :; do
     if ((code == 137)); then
         done=$((done + 1))
         killed_with["$isa, $ranks ranks, $threads threads"]=$((${killed_with["$isa, $ranks ranks, $threads threads"]:-0} + 1))
-        # Killed between the result and its folder's end: the study is done, and a resume clears the rest.
+        # Killed between the result and its folder's end: the study is done, and a resume clears the rest.  Killed after that, while it
+        # ended: the study is done, too.
+        [[ ! -f o.nc || -d o.nc.shards ]] || compare
         continue
     fi
     ((code == 0)) || fail "study $studies after $done kills ended with code $code: $(cat err)"
