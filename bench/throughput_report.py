@@ -17,7 +17,6 @@ from pathlib import Path
 
 # What a row is told by: the first of these that it counts.
 RATES = ("members/s", "rhs/s", "member-steps/s", "faces/s", "values/s", "flop/s")
-UNIT = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
 
 
 @dataclass

@@ -12,6 +12,7 @@
 #include "host/backend/by_isa.hpp"
 #include "tests/oracle/golden_table.hpp"
 #include "tests/support/ensemble.hpp"
+#include "tests/support/starting_in.hpp"
 
 namespace slideway {
 
@@ -60,13 +61,8 @@ States mixed(Law law) {
                                            (paper ? "/golden/rhs_paper.csv" : "/golden/rhs_conservative.csv"));
     States s{paper ? "mixed, paper" : "mixed, conservative", law, {}, {}};
     for (std::size_t row = 0; row < table.rows() / 8 * 8; ++row) {
-        auto c = golden::case_of(table, row);
-        auto& in = c.inputs;
-        std::size_t i = 0;
-        for (double* value : {&in.y, &in.z, &in.vy, &in.vz, &in.roll, &in.yaw, &in.pitch, &in.wx, &in.wy, &in.wz}) {
-            *value = static_cast<double>(c.state[i++]);
-        }
-        s.members.push_back(in);
+        auto const c = golden::case_of(table, row);
+        s.members.push_back(testing::starting_in(c.inputs, c.state));
         s.times.push_back(c.t);
     }
     return s;

@@ -11,6 +11,7 @@
 #include "bench/work_precision/error_norm.hpp"
 #include "host/backend/backend.hpp"
 #include "tests/oracle/oracle.hpp"
+#include "tests/support/starting_in.hpp"
 
 namespace slideway::bench {
 namespace {
@@ -52,10 +53,7 @@ auto oracle_rates(Inputs const& inputs, Parts const& parts) {
 
 auto kernel_rates(Inputs const& inputs, Parts const& parts) {
     return [&inputs, instance = find_instance(Isa::scalar, parts)](CrankState const& y, CrankState& slope, Real t) {
-        Inputs in = inputs;
-        double* const state[state_size] = {&in.y,   &in.z,     &in.vy, &in.vz, &in.roll,
-                                           &in.yaw, &in.pitch, &in.wx, &in.wy, &in.wz};
-        for (int i = 0; i < state_size; ++i) *state[i] = static_cast<double>(y[i]);
+        Inputs const in = testing::starting_in(inputs, y);
         double const time = static_cast<double>(t);
         ProbeResult result;
         instance.probe({&in, &time, 1, &result});

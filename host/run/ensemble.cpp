@@ -11,6 +11,7 @@
 
 #include <omp.h>
 
+#include "host/base/seconds_since.hpp"
 #include "host/run/shared_block.hpp"
 
 namespace slideway {
@@ -192,28 +193,24 @@ private:
 };
 
 /// What a run has beside its plan.
-struct Outside {
+struct RunContext {
     BlockSink const& sink;
     StopRequest const& stop;
     Progress* progress;
     double weight;
 };
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// A run of `workers` threads, each with blocks of its own.
+/// A run cut into blocks, a thread each.  @param workers threads that share the members; those beyond the plan's are of other ranks
 EnsembleTotals run_blocks(EnsemblePlan const& plan, MemberQueue& queue, BlockProgram const& program, BlockKernel const& kernel, int workers,
-                          Outside const& outside) {
+                          RunContext const& context) {
     auto const start = std::chrono::steady_clock::now();
-    Team team(plan, queue, outside.sink, outside.stop, workers);
+    Team team(plan, queue, context.sink, context.stop, workers);
 #pragma omp parallel num_threads(std::min(workers, plan.threads))
     {
         // No exception may leave the parallel region.
         try {
             BlockBuffers buffers;
-            Worker worker(team, outside.progress, outside.weight);
+            Worker worker(team, context.progress, context.weight);
             BlockKernel const watched = [&](Block& block) { worker.run(kernel, block); };
             BlockEmit const emit = [&](BlockBuffers const& block) { return worker.emit(block); };
             for (auto places = team.next_places(); !places.empty(); places = team.next_places()) {
@@ -241,7 +238,7 @@ bool may_be_one_block(EnsemblePlan const& plan) {
 
 EnsembleTotals run_ensemble(EnsemblePlan const& plan, MemberQueue& queue, BlockKernel const& kernel,
                             BlockSink const& sink, StopRequest const& stop, Progress* progress, double weight) {
-    Outside const outside{sink, stop, progress, weight};
+    RunContext const context{sink, stop, progress, weight};
     bool is_given_up = false;
     BlockProgram const once = [&](BlockKernel const& watched, BlockBuffers& buffers, std::span<std::uint64_t const> members,
                                   BlockEmit const& emit) {
@@ -249,18 +246,18 @@ EnsembleTotals run_ensemble(EnsemblePlan const& plan, MemberQueue& queue, BlockK
         if (!is_given_up) emit(buffers);
     };
     if (!may_be_one_block(plan)) {
-        return run_blocks(plan, queue, plan.program ? plan.program : once, kernel, std::max(plan.workers, plan.threads), outside);
+        return run_blocks(plan, queue, plan.program ? plan.program : once, kernel, std::max(plan.workers, plan.threads), context);
     }
     EnsemblePlan whole = plan;
     whole.blocks.fixed = plan.members.count();
     SharedBlockKernel const shared(kernel, plan.threads, plan.blocks.bounds.lanes, {.most = 2 * plan.blocks.seconds});
     BlockKernel const together = [&](Block& block) { is_given_up = shared.run(block) && stop.reason() == StopReason::none; };
-    auto const totals = run_blocks(whole, queue, once, together, 1, outside);
+    auto const totals = run_blocks(whole, queue, once, together, 1, context);
     if (!is_given_up) return totals;
     // Its second was lost; a process that is killed loses no more than blocks.
     is_given_up = false;
     LocalQueue again(plan.members.count());
-    auto blocks = run_blocks(plan, again, once, kernel, plan.threads, outside);
+    auto blocks = run_blocks(plan, again, once, kernel, plan.threads, context);
     blocks.seconds += totals.seconds;
     return blocks;
 }

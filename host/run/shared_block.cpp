@@ -9,14 +9,16 @@
 
 #include <omp.h>
 
+#include "host/base/seconds_since.hpp"
+
 namespace slideway {
 namespace {
 
 /// What the threads at work on a block have in common.
 class SharedBlock {
 public:
-    SharedBlock(Block const& block, int threads, SharedBlockKernel::Patience patience)
-        : whole_(block), patience_(patience), covered_(static_cast<std::size_t>(threads)) {}
+    SharedBlock(Block const& block, int threads, SharedBlockKernel::TimeLimits limits)
+        : whole_(block), limits_(limits), covered_(static_cast<std::size_t>(threads)) {}
 
     /// The part of one thread.
     void run(BlockKernel const& kernel, int thread, std::size_t seats) {
@@ -66,13 +68,13 @@ private:
     /// Once: the rest is then known to be short, or somebody else's.
     void judge(double covered) {
         if (is_judged_.load(std::memory_order_relaxed)) return;
-        double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-        if (seconds < patience_.trial || is_judged_.exchange(true)) return;
-        is_given_up_ = seconds * static_cast<double>(whole_.members) > patience_.most * covered;
+        double const seconds = seconds_since(begin_);
+        if (seconds < limits_.trial || is_judged_.exchange(true)) return;
+        is_given_up_ = seconds * static_cast<double>(whole_.members) > limits_.most * covered;
     }
 
     Block const whole_;
-    SharedBlockKernel::Patience const patience_;
+    SharedBlockKernel::TimeLimits const limits_;
     std::chrono::steady_clock::time_point const begin_ = std::chrono::steady_clock::now();
     std::vector<std::atomic<double>> covered_;  // by each thread
     std::uint64_t taken_ = 0;                   // changed by the kernel alone, with atomic additions
@@ -88,7 +90,7 @@ bool SharedBlockKernel::run(Block& block) const {
     auto const team = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(threads_), std::max<std::size_t>(packs, 1)));
     // Nobody takes so many at the start that nothing is left for others.
     std::size_t const seats = (packs + static_cast<std::size_t>(team) - 1) / static_cast<std::size_t>(team) * lanes_;
-    SharedBlock shared(block, team, patience_);
+    SharedBlock shared(block, team, limits_);
 #pragma omp parallel num_threads(team)
     shared.run(kernel_, omp_get_thread_num(), seats);
     return shared.finish(block);

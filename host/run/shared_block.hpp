@@ -13,14 +13,14 @@ namespace slideway {
 /// A process that is killed loses the block it works on: one that would take long is given up early, for the run to be cut into blocks.
 class SharedBlockKernel {
 public:
-    /// When a block is given up: the time after which it is predicted from what is covered then, and the longest that it may take [s].
-    struct Patience {
+    /// When a block is given up [s]: the time after which the whole is predicted from what is covered then, and the longest that it may take.
+    struct TimeLimits {
         double trial = 1, most = 20;
     };
 
     /// @param lanes of a pack  @param kernel from several threads
-    SharedBlockKernel(BlockKernel kernel, int threads, std::size_t lanes, Patience patience)
-        : kernel_(std::move(kernel)), threads_(threads), lanes_(lanes), patience_(patience) {}
+    SharedBlockKernel(BlockKernel kernel, int threads, std::size_t lanes, TimeLimits limits)
+        : kernel_(std::move(kernel)), threads_(threads), lanes_(lanes), limits_(limits) {}
 
     /// @return whether the block was given up.  @throws what the kernel throws in one of the threads; that ends the block in all
     bool run(Block& block) const;
@@ -29,7 +29,7 @@ private:
     BlockKernel const kernel_;
     int const threads_;
     std::size_t const lanes_;
-    Patience const patience_;
+    TimeLimits const limits_;
 };
 
 }  // namespace slideway

@@ -10,7 +10,6 @@
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/results.hpp"
 #include "kernels/lanes/shadows.hpp"
-#include "kernels/math/squared_ratios.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/step_control.hpp"
 

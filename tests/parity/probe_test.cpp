@@ -8,6 +8,7 @@
 #include "host/backend/backend.hpp"
 #include "tests/oracle/golden_table.hpp"
 #include "tests/support/ensemble.hpp"
+#include "tests/support/starting_in.hpp"
 
 namespace slideway {
 namespace {
@@ -22,13 +23,8 @@ Rows rows_of(std::string const& file) {
     auto const table = golden::Table::read(SLIDEWAY_TEST_DATA "/golden/" + file);
     Rows rows;
     for (std::size_t row = 0; row < table.rows(); ++row) {
-        auto c = golden::case_of(table, row);
-        auto& in = c.inputs;
-        std::size_t i = 0;
-        for (double* value : {&in.y, &in.z, &in.vy, &in.vz, &in.roll, &in.yaw, &in.pitch, &in.wx, &in.wy, &in.wz}) {
-            *value = c.state[i++];
-        }
-        rows.inputs.push_back(in);
+        auto const c = golden::case_of(table, row);
+        rows.inputs.push_back(testing::starting_in(c.inputs, c.state));
         rows.times.push_back(c.t);
     }
     return rows;

@@ -16,6 +16,7 @@
 #include "tests/oracle/names.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/random_states.hpp"
+#include "tests/support/starting_in.hpp"
 
 namespace slideway::testing {
 
@@ -94,10 +95,7 @@ inline bool compare_probe(Isa isa, oracle::Case const& c, std::string const& wha
     // The probe's impact speeds are their start value.
     auto const r = oracle::evaluate(c.inputs, c.parts, c.t, c.state);
     if (r.geometry || r.contact_domain) return false;
-    Inputs in = c.inputs;
-    double* const state[] = {&in.y,     &in.z,  &in.vy, &in.vz, &in.roll, &in.yaw,
-                             &in.pitch, &in.wx, &in.wy, &in.wz, &in.x,    &in.vx};
-    for (std::size_t j = 0; j < c.state.size(); ++j) *state[j] = c.state[j];
+    Inputs const in = testing::starting_in(c.inputs, c.state);
     ProbeResult p;
     find_instance(isa, c.parts).probe({&in, &c.t, 1, &p});
     std::vector<double> depths(p.penetration_y, p.penetration_y + 8), forces(p.normal_force_y, p.normal_force_y + 8);
