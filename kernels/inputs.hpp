@@ -21,7 +21,7 @@ enum class Mechanism {
 #undef SLIDEWAY_NAME
 };
 
-/// How contacts push (docs/model.md 4): the rows of laws/list.hpp.
+/// How contacts push (docs/model.md 4), where they are not rigid: the rows of laws/list.hpp.
 enum class Law {
 #define SLIDEWAY_NAME(name, Type) name,
     SLIDEWAY_LAWS(SLIDEWAY_NAME)
@@ -40,6 +40,7 @@ struct Parts {
     bool misaligned_way = false;  // only with a [way] table does the code for its pose run
     Mechanism mechanism = Mechanism::slider_crank;
     bool free_crank = false;  // of planar_slider_crank: no drive holds the crank's speed
+    bool rigid = false;       // contacts have no law: kernels/rigid
     friend bool operator==(Parts const&, Parts const&) = default;
 };
 
@@ -96,8 +97,8 @@ struct Parts {
     /* [friction] */ \
     row(friction_static, "friction.static", 0.15, "1", not_negative, slider, "static friction coefficient")  /* μs */ \
     row(friction_kinetic, "friction.kinetic", 0.10, "1", not_negative, slider, "kinetic friction coefficient")  /* μd */ \
-    row(friction_stick_speed, "friction.stick_speed", 1e-3, "m/s", positive, slider, "sliding speed at which friction is largest: the static coefficient")  /* Vs */ \
-    row(friction_slip_speed, "friction.slip_speed", 1e-2, "m/s", positive, slider, "sliding speed from which the kinetic coefficient holds")  /* Vd */ \
+    row(friction_stick_speed, "friction.stick_speed", 1e-3, "m/s", positive, smooth_friction, "sliding speed at which friction is largest: the static coefficient")  /* Vs */ \
+    row(friction_slip_speed, "friction.slip_speed", 1e-2, "m/s", positive, smooth_friction, "sliding speed from which the kinetic coefficient holds")  /* Vd */ \
     /* [initial] */ \
     row(y, "initial.y", 0, "m", any, slider, "vertical position at the start") \
     row(z, "initial.z", 0, "m", any, spatial, "lateral position at the start") \

@@ -6,20 +6,30 @@
 #include "host/backend/backend.hpp"
 #include "host/backend/built_isas.hpp"
 #include "host/backend/processor.hpp"
+#include "kernels/rigid/list.hpp"
 
 namespace slideway {
 
 // Each instruction set has kernels of every mechanism.
 #define SLIDEWAY_DECLARED(name, Type, Base) extern MechanismKernels const name##_kernels;
 #define SLIDEWAY_ADDRESS(name, Type, Base) &name##_kernels,
+#define SLIDEWAY_RIGID_DECLARED(name, Type) extern MechanismKernels const name##_rigid;
+#define SLIDEWAY_RIGID_ADDRESS(name, Type) if (mechanism == Mechanism::name) return &name##_rigid;
 #define SLIDEWAY_KERNELS_OF(isa)                                                                        \
     namespace isa {                                                                                     \
     SLIDEWAY_MECHANISMS(SLIDEWAY_DECLARED)                                                              \
     constexpr MechanismKernels const* kernels[] = {SLIDEWAY_MECHANISMS(SLIDEWAY_ADDRESS)};              \
+    SLIDEWAY_RIGID(SLIDEWAY_RIGID_DECLARED)                                                             \
+    MechanismKernels const* rigid_kernels(Mechanism mechanism) {                                        \
+        SLIDEWAY_RIGID(SLIDEWAY_RIGID_ADDRESS)                                                          \
+        return nullptr;                                                                                 \
+    }                                                                                                   \
     }
 SLIDEWAY_FOR_EACH_ISA(SLIDEWAY_KERNELS_OF)
 #undef SLIDEWAY_DECLARED
 #undef SLIDEWAY_ADDRESS
+#undef SLIDEWAY_RIGID_DECLARED
+#undef SLIDEWAY_RIGID_ADDRESS
 #undef SLIDEWAY_KERNELS_OF
 
 namespace {
@@ -37,10 +47,11 @@ constexpr std::array known_isas = {Isa::scalar, Isa::scalar_libm, Isa::avx2, Isa
 struct BuiltIsa {
     Isa isa;
     char const* flags;
-    MechanismKernels const* const* kernels;  // [mechanism]
+    MechanismKernels const* const* kernels;              // [mechanism]
+    MechanismKernels const* (*rigid)(Mechanism);  // nullptr of a mechanism that has none
 };
 
-#define SLIDEWAY_BUILT_ISA(isa) BuiltIsa{Isa::isa, SLIDEWAY_FLAGS_##isa, isa::kernels},
+#define SLIDEWAY_BUILT_ISA(isa) BuiltIsa{Isa::isa, SLIDEWAY_FLAGS_##isa, isa::kernels, &isa::rigid_kernels},
 constexpr BuiltIsa built_table[] = {SLIDEWAY_FOR_EACH_ISA(SLIDEWAY_BUILT_ISA)};
 #undef SLIDEWAY_BUILT_ISA
 
@@ -89,7 +100,9 @@ std::span<Isa const> built_isas() {
 }
 
 KernelInstance find_instance(Isa isa, Parts const& parts) {
-    auto const* const kernels = built_table[place_of(compiled_isa(isa))].kernels[static_cast<int>(parts.mechanism)];
+    BuiltIsa const& built = built_table[place_of(compiled_isa(isa))];
+    auto const* const kernels = parts.rigid ? built.rigid(parts.mechanism) : built.kernels[static_cast<int>(parts.mechanism)];
+    if (kernels == nullptr) throw std::invalid_argument("find_instance: the mechanism of these parts has no rigid contacts");
     if (!kernels->has(parts)) throw std::invalid_argument("find_instance: the law of these parts has no such damping");
     return {kernels, parts};
 }

@@ -41,7 +41,7 @@ void print_parts(Scene const& scene) {
         for (LawInfo const& law : laws()) sort(&law == &info(scene.parts.law), fmt::format("{} law", law.name));
     } else {
         sort(true, scene.parts.free_crank ? "free crank" : "driven crank");
-        sort(true, "contact of corners");
+        sort(true, scene.parts.rigid ? "rigid contact of corners" : "contact of corners");
     }
     sort(true, damping_text(scene.parts));
     // Which the scene might have had.
@@ -60,6 +60,7 @@ void print_parts(Scene const& scene) {
     std::vector<std::string_view> asked, left;
     for (int q = 0; q < quantity_count; ++q) {
         if (!selects(mechanism.quantities, static_cast<Quantity>(q))) continue;
+        if (scene.parts.rigid && selects(without_rigid_contact, static_cast<Quantity>(q))) continue;
         (selects(scene.quantities, static_cast<Quantity>(q)) ? asked : left).emplace_back(quantity_table[q].name);
     }
     auto const listed = [](auto const& names) { return names.empty() ? "no quantity" : fmt::format("{}", fmt::join(names, ", ")); };

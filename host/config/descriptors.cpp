@@ -55,8 +55,16 @@ std::span<std::string_view const> law_names() {
 
 MechanismInfo const& info(Mechanism mechanism) { return mechanism_infos[static_cast<int>(mechanism)]; }
 LawInfo const& info(Law law) { return law_infos[static_cast<int>(law)]; }
+LawInfo const& contact_info(Parts const& parts) { return parts.rigid ? rigid_contact : info(parts.law); }
 
-bool makes_energy(Parts const& parts) { return info(parts.mechanism).spatial && info(parts.law).switches; }
+std::span<std::string_view const> contact_law_names() {
+#define SLIDEWAY_NAME(name, Type) #name,
+    static constexpr std::string_view names[] = {SLIDEWAY_LAWS(SLIDEWAY_NAME) rigid_contact.name};
+#undef SLIDEWAY_NAME
+    return names;
+}
+
+bool makes_energy(Parts const& parts) { return info(parts.mechanism).spatial && contact_info(parts).switches; }
 
 bool is_prescribed(Parts const& parts, int component) {
     return !parts.free_crank && (info(parts.mechanism).prescribed >> component & 1u) != 0;

@@ -8,6 +8,7 @@
 
 #include "kernels/laws/law_info.hpp"
 #include "kernels/mechanisms/mechanism_info.hpp"
+#include "kernels/rigid/rigid_info.hpp"
 
 namespace slideway {
 
@@ -20,6 +21,10 @@ std::span<std::string_view const> law_names();
 
 MechanismInfo const& info(Mechanism mechanism);
 LawInfo const& info(Law law);
+/// What says how contacts push: the law, or `rigid_contact` where nothing gives way.
+LawInfo const& contact_info(Parts const& parts);
+/// What contact.law may say: the laws, and "rigid" behind them.
+std::span<std::string_view const> contact_law_names();
 
 /// Whether the contact law makes energy where its modes switch (model.md 8); a mechanism whose corners are points has none.
 bool makes_energy(Parts const& parts);

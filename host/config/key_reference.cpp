@@ -34,7 +34,7 @@ KeyReference reference_of(Setting const& row) {
     key.methods = owners(setting("integrator.method").choices, [&](std::size_t i) { return (row.methods & set_of(static_cast<Method>(i))) != 0; });
     bool const of_free_cranks = row.name == "mechanism.crank", of_faces = row.of_faces || row.name == "contact.law";
     key.mechanisms = owners(mechanism_names(), [&](std::size_t i) {
-        return (!of_faces || mechanisms()[i].spatial) && (!of_free_cranks || mechanisms()[i].free_crank);
+        return (!of_faces || mechanisms()[i].spatial || (row.name == "contact.law" && may_be_rigid(static_cast<Mechanism>(i)))) && (!of_free_cranks || mechanisms()[i].free_crank);
     });
     return key;
 }

@@ -99,8 +99,8 @@ void refuse_meaningless(std::string_view where, std::string_view name, Mechanism
         fmt::format("{}: {} has no meaning for kind = \"{}\"; remove it", where, name, info(mechanism).name));
 }
 
-void refuse_strange(Node const& node, Law law) {
-    refuse(node, {fmt::format("contact.law \"{}\" does not know it", info(law).name), "remove it"});
+void refuse_strange(Node const& node, Parts const& parts) {
+    refuse(node, {fmt::format("contact.law \"{}\" does not know it", contact_info(parts).name), "remove it"});
 }
 
 void refuse_foreign_quantity(Node const& node, std::string_view name, Mechanism mechanism) {

@@ -71,7 +71,7 @@ double shortest_reversal(Scene const& scene);
 /// Refuses a key, or a table, that does not count for the scene's mechanism, at a position.
 [[noreturn]] void refuse_meaningless(std::string_view where, std::string_view name, Mechanism mechanism);
 /// Refuses a key that the scene's law does not know.
-[[noreturn]] void refuse_strange(Node const& node, Law law);
+[[noreturn]] void refuse_strange(Node const& node, Parts const& parts);
 /// Refuses a quantity or a series that the scene's mechanism does not have.
 [[noreturn]] void refuse_foreign_quantity(Node const& node, std::string_view name, Mechanism mechanism);
 

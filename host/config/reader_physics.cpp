@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/config/drive_period.hpp"
 #include "host/config/reader.hpp"
@@ -29,12 +30,26 @@ void check_rivals(std::vector<GivenKey> const& given) {
     }
 }
 
+/// Whether contacts are rigid, which not every mechanism has.
+bool read_rigid(Node const& root, Mechanism mechanism) {
+    Node const* const law = root.find_path("contact.law");
+    if (law == nullptr || law->type != Node::Type::text || law->text != rigid_contact.name) return false;
+    if (may_be_rigid(mechanism)) return true;
+    std::vector<std::string_view> may;
+    for (std::size_t i = 0; i < mechanisms().size(); ++i) {
+        if (may_be_rigid(static_cast<Mechanism>(i))) may.push_back(mechanism_names()[i]);
+    }
+    refuse(*law, {fmt::format("the contacts of a {} give way", info(mechanism).name),
+                  fmt::format("use another law, or mechanism.kind = {}", fmt::join(may, " or "))});
+}
+
 /// Which mechanism, and that nothing is given that does not count for it.
 void read_mechanism(Node const& root, Parts& parts) {
     if (Node const* const kind = root.find_path("mechanism.kind")) {
         parts.mechanism =
             static_cast<Mechanism>(read_choice(*kind, setting("mechanism.kind")));
     }
+    parts.rigid = read_rigid(root, parts.mechanism);
     for (auto const& [key, node] : given_keys(root)) {
         if (!counts_for(*key, parts.mechanism)) refuse_meaningless(node->where, node->name, parts.mechanism);
     }
@@ -48,7 +63,7 @@ void read_mechanism(Node const& root, Parts& parts) {
         parts.free_crank = read_choice(*crank, setting("mechanism.crank")) == 1;
     }
     if (info(parts.mechanism).spatial) return;
-    refuse_given("contact.law");
+    if (!parts.rigid) refuse_given("contact.law");
     refuse_given("way");
 }
 
@@ -124,7 +139,7 @@ std::vector<GivenKey> given_keys(Node const& root) {
 void read_physics(Node const& root, Scene& scene) {
     read_mechanism(root, scene.parts);
     Node const* const law = root.find_path("contact.law");
-    if (law != nullptr) scene.parts.law = static_cast<Law>(read_choice(*law, setting("contact.law")));
+    if (law != nullptr && !scene.parts.rigid) scene.parts.law = static_cast<Law>(read_choice(*law, setting("contact.law")));
     scene.inputs = with_presets(scene.inputs, scene.parts.law);
     auto const given = given_keys(root);
     bool restitution = false;
@@ -132,9 +147,9 @@ void read_physics(Node const& root, Scene& scene) {
         if (!counts_for(*key, scene.parts)) {
             // An option may choose another law than the file, which has the keys of its own.
             bool const of_another = law != nullptr && law->order > 0 && node->order == 0;
-            if (!of_another) refuse_strange(*node, scene.parts.law);
+            if (!of_another) refuse_strange(*node, scene.parts);
             scene.warnings.push_back(fmt::format("{}: {} has no effect, for contact.law \"{}\" does not know it",
-                                                 node->where, node->name, info(scene.parts.law).name));
+                                                 node->where, node->name, contact_info(scene.parts).name));
             continue;
         }
         key->set(scene.inputs, read_number(*node, *key));
@@ -145,7 +160,7 @@ void read_physics(Node const& root, Scene& scene) {
         Node const* const node = restitution ? root.find_path(name) : nullptr;
         if (node != nullptr) refuse(*node, {"contact.restitution replaces it", "remove one of the two"});
     }
-    if (restitution) {
+    if (restitution || scene.parts.rigid) {
         scene.parts.damping = Damping::restitution;
     } else if (scene.inputs.chi_line != 0 || scene.inputs.chi_surface != 0) {
         scene.parts.damping = Damping::rate;
@@ -186,6 +201,8 @@ void read_integrator(Node const& root, Scene& scene) {
     // A step may not leap over an impact: between two of them the slider flies for milliseconds.
     constexpr double longest_step = 1e-3;
     double max_step = std::min(longest_step, period / 2000);
+    // Rigid contacts are found inside a step by its ends' depths and rates, and nothing happens fast between them.
+    if (scene.parts.rigid) max_step = std::min(10 * longest_step, period / 200);
     // Nor over a carriage's reversal, which accelerates it for a small part of its period.
     bool const reverses = info(scene.parts.mechanism).drive == DriveKind::carriage;
     double const reversal = reverses ? shortest_reversal(scene) / 20 : max_step;

@@ -92,6 +92,9 @@ void read_quantities(Node const& list, Scene& scene) {
                                ? selects(has.quantities, static_cast<Quantity>(index))
                                : selects(has.series, static_cast<Series>(index - quantity_count));
         if (!known) refuse_foreign_quantity(node, names[index], scene.parts.mechanism);
+        if (scene.parts.rigid && index < std::size_t{quantity_count} && selects(without_rigid_contact, static_cast<Quantity>(index))) {
+            refuse(node, {"contact.law \"rigid\" has impulses, of no duration and no largest force", "remove it, or use a law that gives way"});
+        }
         if (index == std::size_t{static_cast<int>(Quantity::switching_energy)} && makes_energy(scene.parts) &&
             !scene.integrator.locate_modes) {
             refuse(node, {"it is known where steps end at the switches, and here they leap over them", "set integrator.locate_modes = true"});

@@ -53,7 +53,7 @@ void check_varied(Node const& root, Node const& node, Key const& key, Scene cons
     }
     std::string_view const name = key.name;
     if (!counts_for(key, scene.parts.mechanism)) refuse_meaningless(node.where, name, scene.parts.mechanism);
-    if (!counts_for(key, scene.parts)) refuse_strange(node, scene.parts.law);
+    if (!counts_for(key, scene.parts)) refuse_strange(node, scene.parts);
     if (name.starts_with("friction.") && !scene.parts.friction) {
         refuse(node, {"friction is off", "add a [friction] table"});
     }

@@ -228,8 +228,8 @@ std::string resolved_toml(Scene const& scene) {
     text += physics_table(scene, complete, "joint", "");
     if (scene.parts.misaligned_way) text += physics_table(scene, complete, "way", "");
     text += physics_table(scene, complete, "contact",
-                          mechanism.spatial
-                              ? fmt::format("law = \"{}\"\n", info(scene.parts.law).name)
+                          mechanism.spatial || scene.parts.rigid
+                              ? fmt::format("law = \"{}\"\n", contact_info(scene.parts).name)
                               : std::string());
     text += physics_table(scene, complete, "friction", fmt::format("enabled = {}\n", scene.parts.friction));
     text += physics_table(scene, complete, "initial", "");

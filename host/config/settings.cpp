@@ -44,7 +44,7 @@ Settings settings() {
         {.name = "mechanism.crank", .type = Type::choice, .unit = "", .meaning = "whether a planar crank is driven, or free from its start on",
          .preset = "driven", .what = "crank", .choices = crank_names},
         {.name = "contact.law", .type = Type::choice, .unit = "", .meaning = "contact law", .preset = "paper", .what = "contact law",
-         .choices = law_names()},
+         .choices = contact_law_names()},
         {.name = "friction.enabled", .type = Type::truth, .unit = "", .meaning = "whether there is friction",
          .preset = "true where there is [friction], else false"},
         {.name = "integrator.method", .type = Type::choice, .unit = "", .meaning = "integration method", .preset = "auto", .what = "method",

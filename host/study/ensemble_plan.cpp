@@ -92,12 +92,12 @@ EnsemblePlan ensemble_plan(Scene const& scene, MemberSet const& members, Backend
 
 Provenance provenance_of(Scene const& scene) {
     MechanismInfo const& mechanism = info(scene.parts.mechanism);
-    LawInfo const& law = info(scene.parts.law);
+    LawInfo const& law = contact_info(scene.parts);
     Provenance result;
     result.title = scene.title;
     result.seed = scene.seed;
     result.mechanism = mechanism.meaning;
-    if (mechanism.spatial) result.law = law.words, result.law_switches = law.switches;
+    if (mechanism.spatial || scene.parts.rigid) result.law = law.words, result.law_switches = law.switches;
     return result;
 }
 

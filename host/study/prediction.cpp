@@ -75,6 +75,9 @@ StepRange steps_of_member(Scene const& scene) {
         return {steps, steps};
     }
     double const least = end / scene.integrator.max_step + stops;
+    // Impacts have no duration; how many there are nobody knows.
+    constexpr double rigid_steps = 20;
+    if (scene.parts.rigid) return {least, rigid_steps * least};
     return {least, least + end * stiffest_rate(info(scene.parts.mechanism), info(scene.parts.law), complete_inputs(scene.inputs)) *
                                contact_steps(scene.integrator)};
 }

@@ -196,7 +196,9 @@ private:
         if (pack_.needs.quantities) pack_.state.observation.observer.start(pack_.busy, report, c.y, pack_.needs.switches);
         pack_.with_accelerations([&](auto& a) { a.start(pack_.busy, report); });
         pack_.begin_next(pack_.busy, rates, report);
-        if constexpr (Model::has_contacts) {
+        if constexpr (has_impacts<Model>) {
+            faults = faults.or_else(settle_start(report));
+        } else if constexpr (Model::has_contacts) {
             if (pack_.needs.watch()) contacts.watch.begin(pack_.busy, report.contact, contacts.memory, pack_.needs.watching);
             if (holds_contacts(pack_.needs.watching)) {
                 // Rates are reported only once contacts are held, and the first step is searched too.
@@ -215,6 +217,20 @@ private:
         if (none(failed)) return;
         results_.retire(pack_, {failed, mask_of<Real>(false), failed, broken}, faults);
         pack_.busy = pack_.busy & !failed;
+    }
+
+    /// Impacts and lasting contacts of new members at their start.
+    template <class Report> SLIDEWAY_HD Faults<Real> settle_start(Report& report) {
+        auto& c = pack_.state.course;
+        auto& [memory, watch] = pack_.state.contacts;
+        pack_.model.settle(pack_.busy, c.t, c.y, pack_.state.constants.parameters, memory, report.contact);
+        Real rates[size];
+        auto const faults = pack_.evaluate(c.t, c.y, memory, rates, true, report);
+        pack_.count_evaluations(pack_.busy, 1);
+        if (pack_.needs.quantities) pack_.state.observation.observer.switch_over(pack_.busy, report, pack_.needs.switches);
+        pack_.begin_next(pack_.busy, rates, report);
+        watch.keep(pack_.busy, report.contact);
+        return faults;
     }
 
     /// Between stints: who touches what, and who is better off with the stiff method.

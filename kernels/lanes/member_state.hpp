@@ -46,6 +46,9 @@ template <class Model> inline constexpr bool can_hold_contacts = requires(Model&
 template <class Model>
 inline constexpr bool has_clocks = can_hold_contacts<Model> && Model::has_patterns && !Model::has_shadows;
 
+/// Whether impacts of a model have no duration: where a step ends its `settle` says what follows.
+template <class Model> inline constexpr bool has_impacts = requires { requires Model::has_impacts; };
+
 /// What a member remembers for its next impact, of a method with clocks.
 template <class Real> struct ImpactCourse {
     Real step;          // the next by its clock, 0 before there is one

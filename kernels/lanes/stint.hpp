@@ -244,7 +244,8 @@ private:
         c.t = select(accepted, t_end, c.t);
         if constexpr (Stepper::stiff) c.stiff_steps = c.stiff_steps + count<Real>(accepted);
         pack_.begin_next(accepted, attempt_.end_rates, attempt_.report);
-        remember_contacts(accepted);
+        if constexpr (has_impacts<Model>) settle_contacts(accepted);
+        else remember_contacts(accepted);
         if constexpr (Model::has_shadows) shadows_.advance(pack_, accepted);
         if (results_.stops() > 0) stop(landed);
         auto finished = landed & (c.t >= pack_.state.constants.end);
@@ -279,6 +280,15 @@ private:
             }
             if (any(touched)) restart(touched);
         }
+    }
+
+    /// Impacts at the end of an accepted step, and contacts that begin or end there.
+    SLIDEWAY_HD void settle_contacts(Mask<Real> accepted) {
+        auto& c = pack_.state.course;
+        auto& [memory, watch] = pack_.state.contacts;
+        auto const changed = pack_.model.settle(accepted, c.t, c.y, pack_.state.constants.parameters, memory, attempt_.report.contact);
+        if (any(changed)) restart(changed);
+        watch.keep(accepted, attempt_.report.contact);
     }
 
     /// Members that have landed at a stop: their section, and how their shadows have departed.

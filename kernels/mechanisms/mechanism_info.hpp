@@ -73,7 +73,7 @@ constexpr MechanismInfo spatial_slider_info() {
             .series = selections::spatial_series & ~selections::crank_series,
             .always = selections::ten_states,
             .quantities = selections::all_quantities & ~selections::crank_quantities,
-            .keys = groups_of(KeyGroup::slider, KeyGroup::spatial),
+            .keys = groups_of(KeyGroup::slider, KeyGroup::smooth_friction, KeyGroup::spatial),
             .drive = DriveKind::none,
             .spatial = true};
 }

@@ -31,7 +31,7 @@ struct PlanarBase {
         info.quantities =
             selections::all_quantities & ~selections::apex_quantities & ~selections::sensor_quantities &
             ~selection_of(Quantity::switching_energy);
-        info.keys = groups_of(KeyGroup::slider, KeyGroup::planar, KeyGroup::crank, KeyGroup::links, KeyGroup::elastic,
+        info.keys = groups_of(KeyGroup::slider, KeyGroup::smooth_friction, KeyGroup::planar, KeyGroup::crank, KeyGroup::links, KeyGroup::elastic,
                               KeyGroup::hertz, KeyGroup::point_damping, KeyGroup::restitution);
         info.drive = DriveKind::crank;
         info.spatial = false;

@@ -27,7 +27,8 @@ template <class Real> struct PlanarParameters {
     PointContact<Real> point;
     DampingParameters<Real> damping;
     FrictionParameters<Real> friction;
-    Real rate_scale;  // |ω|, at least 1 [1/s]
+    Real rate_scale;   // |ω|, at least 1 [1/s]
+    Real restitution;  // e
 };
 
 /// Source: model.md 7, after Flores, Leine & Glocker (2010).  @param in complete inputs (nothing `follows`), SI.
@@ -56,6 +57,7 @@ SLIDEWAY_FN PlanarParameters<double> planar_parameters(Inputs const& in) {
     p.damping = {0, 0, restitution_slope(in.restitution)};
     p.friction = friction_parameters(in);
     p.rate_scale = max(::fabs(in.crank_speed), 1.0);
+    p.restitution = in.restitution;
     return p;
 }
 

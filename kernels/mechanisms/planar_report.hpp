@@ -50,9 +50,10 @@ template <class Real> struct PlanarContact : ContactTotals<Real> {
 };
 
 /// All that a state of the planar slider-crank tells beside its derivative.
-template <class Real> struct PlanarReport : MechanismReport<Real> {
+/// @tparam Contact a PlanarContact, or more
+template <class Real, class Contact> struct PlanarReportOf : MechanismReport<Real> {
     static constexpr int apices = 0;  // corners, of which no quantity tells one by one
-    PlanarContact<Real> contact;
+    Contact contact;
     Real y, vy;  // slider's centre
 
     /// The pitch is the only angle that is not 0 [rad].
@@ -68,5 +69,7 @@ template <class Real> struct PlanarReport : MechanismReport<Real> {
         return MechanismReport<Real>::error_of(d, ya, y, Real(0.0), rod_length);
     }
 };
+
+template <class Real> struct PlanarReport : PlanarReportOf<Real, PlanarContact<Real>> {};
 
 }  // namespace slideway::inline SLIDEWAY_ISA

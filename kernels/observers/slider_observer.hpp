@@ -152,7 +152,7 @@ public:
         });
     }
 
-private:
+protected:
     static constexpr int turnover = Places::integrals, springs = Places::integrals + 1;
 
     /// A quantity of one lane.  @param mean 1/t, of the time integrated.

@@ -1,0 +1,83 @@
+#pragma once
+
+#include "kernels/joint/apex.hpp"
+#include "kernels/laws/face.hpp"
+#include "kernels/laws/friction.hpp"
+#include "kernels/mechanisms/planar_links.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Force on the slider's centre and torque about it.
+template <class Real> struct PlanarPush { Real fx, fy, torque; };
+
+/// δ of the corners and its parts that are linear in the signs.
+template <class Real> struct PlanarCorners {
+    Quad<Real> depth, rate;
+    Real front, rear, base;
+    Real lift, lift_slope, base_slope, tall, w3;
+
+    SLIDEWAY_FN PlanarCorners(PlanarLinks<Real> const& links, Real const* s, PlanarParameters<Real> const& p) {
+        auto tilt = sincos(s[2]);
+        w3 = s[5];
+        lift = p.half_length * tilt.sin;
+        base = fma(p.half_height, tilt.versine, p.clearance);
+        lift_slope = p.half_length * tilt.cos;
+        base_slope = p.half_height * tilt.sin;
+        tall = p.half_height * tilt.cos;
+        front = links.y + lift;
+        rear = links.y - lift;
+        depth = {front - base, negated(front) - base, negated(rear) - base, rear - base};
+        Real const front_rate = fma(lift_slope, w3, links.vy), rear_rate = fnma(lift_slope, w3, links.vy);
+        Real const base_rate = base_slope * w3;
+        rate = {front_rate - base_rate, negated(front_rate) - base_rate, negated(rear_rate) - base_rate,
+                rear_rate - base_rate};
+    }
+
+    SLIDEWAY_FN Real deepest() const { return max(max(depth.a, depth.b), max(depth.c, depth.d)); }
+
+    /// 0, or NaN in a lane whose angles are, whatever its neighbours touch.
+    SLIDEWAY_FN PlanarPush<Real> push_of_nothing() const {
+        Real const whole = front + (rear + base), nothing = whole - whole;
+        return {nothing, nothing, nothing};
+    }
+
+    /// −F ∂δ/∂q of each corner.
+    SLIDEWAY_FN void add_normal(Quad<Real> const& force, PlanarPush<Real>& push) const {
+        push.fy = push.fy + ((force.b - force.a) + (force.c - force.d));
+        push.torque = push.torque + fma(lift_slope, (force.b - force.a) + (force.d - force.c), base_slope * sum(force));
+    }
+
+    /// @return Σ μ F V [W].  @param vx of the slider's centre
+    SLIDEWAY_FN Real add_friction(Quad<Real> const& force, Real vx, PlanarParameters<Real> const& p,
+                                  PlanarPush<Real>& push) const {
+        Real power(0.0);
+        auto const rub = [&](Real load, Real height) {  // height of the corner over the slider's centre
+            Real const slip = fnma(height, w3, vx), speed = abs(slip);
+            Real const drag = StickSlipFriction::coefficient(speed, p.friction) * load;
+            Real const along = negated(drag) * (slip / max(speed, Real(1e-70)));
+            push.fx = push.fx + along;
+            push.torque = fnma(height, along, push.torque);
+            power = fma(drag, speed, power);
+        };
+        rub(force.a, lift + tall);
+        rub(force.b, lift - tall);
+        rub(force.c, negated(lift) - tall);
+        rub(force.d, tall - lift);
+        return power;
+    }
+};
+
+/// Gap of a corner: its penetration negated [m].
+template <class Real>
+SLIDEWAY_FN Real planar_gap(Real t, Real const* s, PlanarParameters<Real> const& p, bool free_crank, Apex corner) {
+    auto const crank = sincos(free_crank ? s[0] : fma(p.crank_speed, t, p.start_angle));
+    auto const tilt = sincos(s[2]);
+    Real const y = fma(p.crank_length, crank.sin, p.rod_length * sincos(s[1]).sin);
+    Real const lift = p.half_length * tilt.sin, base = fma(p.half_height, tilt.versine, p.clearance);
+    Real const height = corner.index < 2 ? y + lift : y - lift;
+    bool const upper = corner.index == 0 || corner.index == 3;
+    return base - (upper ? height : negated(height));
+}
+
+}  // namespace slideway::inline SLIDEWAY_ISA

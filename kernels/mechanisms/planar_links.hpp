@@ -1,0 +1,91 @@
+#pragma once
+
+#include "kernels/math/trigonometry.hpp"
+#include "kernels/mechanisms/planar_parameters.hpp"
+#include "kernels/mechanisms/planar_report.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Angular accelerations of crank and rod, and what the equation of the crank lacks without them.
+template <class Real> struct PlanarLinkMotion { Real a1, a2, r1, m12; };
+
+/// Crank and rod, and their common end: the slider's centre.
+template <class Real> struct PlanarLinks {
+    Real w1, w2;
+    SinCos<Real> crank, rod;
+    Real x1, y1, x2, y2;
+    Real y, vx, vy;
+
+    SLIDEWAY_FN PlanarLinks(Real t, Real const* s, PlanarParameters<Real> const& p, bool free_crank) {
+        w1 = free_crank ? s[3] : p.crank_speed;
+        w2 = s[4];
+        crank = sincos(free_crank ? s[0] : fma(p.crank_speed, t, p.start_angle));
+        rod = sincos(s[1]);
+        x1 = p.crank_length * crank.cos;
+        y1 = p.crank_length * crank.sin;
+        x2 = p.rod_length * rod.cos;
+        y2 = p.rod_length * rod.sin;
+        y = y1 + y2;
+        vx = negated(fma(y1, w1, y2 * w2));
+        vy = fma(x1, w1, x2 * w2);
+    }
+
+    /// M(θ) θ'' = R: inertia of the links, gravity, and the force on their common end.
+    SLIDEWAY_FN PlanarLinkMotion<Real> accelerations(Real fx, Real fy, PlanarParameters<Real> const& p, bool free_crank) const {
+        Real const zero(0.0), one(1.0);
+        Real const cosine = fma(crank.cos, rod.cos, crank.sin * rod.sin);
+        Real const sine = fms(crank.sin, rod.cos, crank.cos * rod.sin);
+        Real const m12 = p.m12 * cosine, centrifugal = p.m12 * sine;
+        Real const pull_1 = fms(p.gravity_y, crank.cos, p.gravity_x * crank.sin);
+        Real const pull_2 = fms(p.gravity_y, rod.cos, p.gravity_x * rod.sin);
+        Real const r1 = fma(p.crank_moment, pull_1, fms(x1, fy, y1 * fx)) - centrifugal * (w2 * w2);
+        Real const r2 = fma(p.rod_moment, pull_2, fms(x2, fy, y2 * fx)) + centrifugal * (w1 * w1);
+        if (!free_crank) return {zero, r2 / p.m22, r1, m12};
+        Real const scale = one / fms(p.m11, p.m22, m12 * m12);
+        return {fms(p.m22, r1, m12 * r2) * scale, fms(p.m11, r2, m12 * r1) * scale, r1, m12};
+    }
+
+    /// What an impulse on their common end changes their rates by.
+    SLIDEWAY_FN PlanarLinkMotion<Real> response(Real fx, Real fy, PlanarParameters<Real> const& p, bool free_crank) const {
+        Real const zero(0.0), one(1.0);
+        Real const m12 = p.m12 * fma(crank.cos, rod.cos, crank.sin * rod.sin);
+        Real const r1 = fms(x1, fy, y1 * fx), r2 = fms(x2, fy, y2 * fx);
+        if (!free_crank) return {zero, r2 / p.m22, r1, m12};
+        Real const scale = one / fms(p.m11, p.m22, m12 * m12);
+        return {fms(p.m22, r1, m12 * r2) * scale, fms(p.m11, r2, m12 * r1) * scale, r1, m12};
+    }
+
+    /// Other rates at the same place.
+    SLIDEWAY_FN void turn_at(Real first, Real second) {
+        w1 = first;
+        w2 = second;
+        vx = negated(fma(y1, w1, y2 * w2));
+        vy = fma(x1, w1, x2 * w2);
+    }
+
+    template <class Report>
+    SLIDEWAY_FN void tell(PlanarLinkMotion<Real> const& motion, Real w3, PlanarParameters<Real> const& p, bool free_crank,
+                          Report& report) const {
+        Real const zero(0.0), half(0.5);
+        Real const &a1 = motion.a1, &a2 = motion.a2;
+        report.x = x1 + x2;
+        report.y = y;
+        report.vx = vx;
+        report.vy = vy;
+        report.acceleration = {negated(fma(x1, w1 * w1, fma(y1, a1, fma(x2, w2 * w2, y2 * a2)))),
+                               fma(x1, a1, fma(x2, a2, negated(fma(y1, w1 * w1, y2 * (w2 * w2))))), zero};
+        report.top = report.front = zero;  // sensors that it has not
+        Real const drive = free_crank ? zero : fms(motion.m12, a2, motion.r1);
+        report.crank_torque = report.drive_torque = drive;  // the crank's weight is in the equations
+        report.crank_power = drive * w1;
+        Real const kinetic = half * fma(p.m11 * w1, w1, fma(p.m22 * w2, w2, p.slider_inertia * w3 * w3));
+        Real const height = fma(p.crank_moment, fma(p.gravity_x, crank.cos, p.gravity_y * crank.sin),
+                                p.rod_moment * fma(p.gravity_x, rod.cos, p.gravity_y * rod.sin));
+        report.energy = (fma(motion.m12 * w1, w2, kinetic) - height) + report.contact.potential;
+        report.position_error = report.distance_error(x2, y1, y, p.rod_length);
+        report.rod_spin = abs(w2);
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

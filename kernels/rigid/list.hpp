@@ -1,0 +1,6 @@
+// The mechanisms whose slider and way may be rigid (contact.law = "rigid"), a row each.  `name` is a row of kernels/mechanisms/list.hpp and names the header
+// kernels/rigid/<name>.hpp; `Type` is the struct in it.  CMake reads the rows too: each is a unit of kernels per instruction set.
+#pragma once
+
+#define SLIDEWAY_RIGID(row) \
+    row(planar_slider_crank, RigidPlanarSliderCrank)

@@ -1,0 +1,149 @@
+#pragma once
+
+#include "kernels/inputs.hpp"
+#include "kernels/mechanisms/faults.hpp"
+#include "kernels/mechanisms/planar_base.hpp"
+#include "kernels/mechanisms/planar_corners.hpp"
+#include "kernels/mechanisms/planar_links.hpp"
+#include "kernels/observers/energy_audit.hpp"
+#include "kernels/real.hpp"
+#include "kernels/rigid/planar_settlement.hpp"
+#include "kernels/rigid/planar_stance.hpp"
+#include "kernels/rigid/rigid_memory.hpp"
+#include "kernels/rigid/rigid_observer.hpp"
+#include "kernels/rigid/rigid_planar_report.hpp"
+#include "kernels/rigid/rigid_scales.hpp"
+#include "kernels/rigid/rigid_watch.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// The planar slider-crank whose block and walls are rigid (docs/model.md 13), as the lanes integrate it: corners fly, meet their walls in impacts without
+/// duration (`settle`), and are held there by a constraint as long as that pushes.
+struct RigidPlanarSliderCrank : PlanarBase {
+    template <class Real> using Report = RigidPlanarReport<Real>;
+    template <class Real> using Memory = RigidMemory<Real>;
+    template <class Real> using Watch = RigidWatch<Real>;
+    template <class Real> using Observer = RigidObserver<Real>;
+    static constexpr int series = series_count;
+    static constexpr int events = 0;
+    static constexpr bool has_contacts = true;
+    static constexpr bool has_impacts = true;
+    static constexpr bool has_shadows = false;
+    static constexpr bool has_crossings = true;
+    static constexpr bool has_patterns = false;
+    static constexpr bool has_linearisation = false;
+
+    bool friction = false, free_crank = false;
+
+    explicit constexpr RigidPlanarSliderCrank(Parts const& parts) : friction(parts.friction), free_crank(parts.free_crank) {}
+
+    static constexpr bool switches() { return false; }
+    static constexpr Watching watching(bool, bool) { return Watching::touches; }
+
+    /// Length [m] against which the tolerance of a located touch is meant: what rounding leaves of a height.
+    template <class Real> SLIDEWAY_FN static Real touch_scale(PlanarParameters<Real> const& p) {
+        return max(p.clearance, Real(1e-3) * p.rod_length);
+    }
+    template <class Real> SLIDEWAY_FN Real gap(Real t, Real const* s, PlanarParameters<Real> const& p, bool, int corner) const {
+        return planar_gap(t, s, p, free_crank, {false, corner});
+    }
+    template <class Real>
+    SLIDEWAY_HD static Mask<Real> left_stable_range(EnergyAudit<Real> const& audit, PlanarParameters<Real> const& p) {
+        return slideway::left_stable_range(audit, energy_scale(p));
+    }
+
+    /// Time derivative of the state.  @param report filled if Full; the derivative has the same bits without.
+    template <bool Full, class Real>
+    SLIDEWAY_NOINLINE Faults<Real> derivative(Real t, Real const* s, PlanarParameters<Real> const& p, RigidMemory<Real> const& memory,
+                                              Real* rates, RigidPlanarReport<Real>* report) const {
+        Real const zero(0.0);
+        PlanarLinks<Real> links(t, s, p, free_crank);
+        PlanarCorners<Real> corners(links, s, p);
+        if constexpr (Full) begin_report(corners, memory, report->contact);
+        // NaN in a lane whose angles are, whatever its neighbours touch.
+        auto const nothing = corners.push_of_nothing();
+        auto motion = links.accelerations(nothing.fx, nothing.fy, p, free_crank);
+        Real torque = nothing.torque;
+        auto const held = (memory.held[0].side != zero) | (memory.held[1].side != zero);
+        if (any(held)) {
+            PlanarStance<Real> const stance(links, sincos(s[2]), memory.held[0].side, memory.held[1].side, p, free_crank);
+            CentreAcceleration<Real> const centre(links, motion);
+            ContactState<Real> const state[2] = {held_state(memory.held[0], p), held_state(memory.held[1], p)};
+            auto const force = stance.pair.solve(stance.acceleration(centre.x, centre.y, s[5]), {zero, zero}, state);
+            auto const load = stance.load(force);
+            auto const pushed = links.accelerations(load.x, load.y, p, free_crank);
+            motion.a1 = select(held, pushed.a1, motion.a1);
+            motion.a2 = select(held, pushed.a2, motion.a2);
+            motion.r1 = select(held, pushed.r1, motion.r1);
+            torque = select(held, load.torque, torque);
+            if constexpr (Full) tell(stance, links, s[5], force, state, p, report->contact);
+        }
+        auto const jammed = memory.jammed > zero;
+        rates[0] = links.w1;
+        rates[1] = links.w2;
+        rates[2] = s[5];
+        rates[3] = motion.a1;
+        rates[4] = motion.a2;
+        rates[5] = select(jammed, Real(not_a_number), torque / p.slider_inertia);
+        if constexpr (Full) links.tell(motion, s[5], p, free_crank, *report);
+        auto faults = Faults<Real>::none();
+        faults.contact_domain = jammed;
+        faults.geometry = (memory.begun == zero) & (corners.deepest() > Real(1e-6) * p.clearance);
+        return faults;
+    }
+
+    /// What follows from where a step has ended: impacts, contacts that begin or end, and none of the drift of those that last.
+    /// @param contact of the report there  @return lanes where state or contacts have changed
+    template <class Real>
+    SLIDEWAY_NOINLINE Mask<Real> settle(Mask<Real> in, Real t, Real* s, PlanarParameters<Real> const& p, RigidMemory<Real>& memory,
+                                        RigidPlanarContact<Real> const& contact) const {
+        Real const located = Real(RigidWatch<Real>::tolerance(Watching::touches)) * touch_scale(p);
+        PlanarSettlement<Real> settlement(p, friction, free_crank, located);
+        return settlement.run(in, t, s, memory, contact);
+    }
+
+private:
+    template <class Real> SLIDEWAY_FN ContactState<Real> held_state(HeldContact<Real> const& held, PlanarParameters<Real> const& p) const {
+        return PlanarSettlement<Real>::state_of(held, p, friction);
+    }
+
+    /// Of corners that are not held.
+    template <class Real>
+    SLIDEWAY_FN static void begin_report(PlanarCorners<Real> const& corners, RigidMemory<Real> const& memory,
+                                         RigidPlanarContact<Real>& contact) {
+        Real const one(1.0), minus(-1.0), far(-1.0);
+        auto const& d = corners.depth;
+        contact.start(d, corners.rate);
+        auto const& front = memory.held[0].side;
+        auto const& rear = memory.held[1].side;
+        contact.watched[0] = {select(front == one, far, d.a), select(front == minus, far, d.b), select(rear == minus, far, d.c),
+                              select(rear == one, far, d.d)};
+        for (int i = 0; i < 2; ++i) contact.pressure[i] = contact.grip[i] = one;
+        contact.books = memory.books;
+    }
+
+    /// Of those that are.
+    template <class Real>
+    SLIDEWAY_FN void tell(PlanarStance<Real> const& stance, PlanarLinks<Real> const& links, Real spin, PairOf<Real> const& force,
+                          ContactState<Real> const (&state)[2], PlanarParameters<Real> const& p, RigidPlanarContact<Real>& contact) const {
+        Real const zero(0.0), one(1.0), minus(-1.0);
+        auto const motion = stance.motion(links.vx, links.vy, spin);
+        auto const of = [&](int i, Real side) { return select(stance.side[i] == side, force.normal[i], zero); };
+        contact.normal_force[0] = {of(0, one), of(0, minus), of(1, minus), of(1, one)};
+        for (int i = 0; i < 2; ++i) {
+            Real const lost = select(state[i].closed & !state[i].sticks, negated(force.along[i]) * motion.along[i], zero);
+            contact.friction_power = contact.friction_power + lost;
+            Real const push = force.normal[i] / force_scale(p);
+            contact.pressure[i] = select(state[i].closed, push, one);
+            if (!friction) continue;
+            Real const hold = (holding_coefficient(p) * force.normal[i] - abs(force.along[i])) / force_scale(p);
+            Real const slide = state[i].way * motion.along[i] / slip_scale(p);
+            contact.grip[i] = select(state[i].sticks, hold, select(state[i].closed, slide, one));
+        }
+        auto const both = state[0].closed & state[1].closed & (stance.side[0] == stance.side[1]);
+        contact.surfaces = count<Real>(both);
+        contact.points = count<Real>(state[0].closed & !both) + count<Real>(state[1].closed & !both);
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

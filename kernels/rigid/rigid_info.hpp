@@ -1,0 +1,31 @@
+// What contact.law = "rigid" is, for those who choose, check and describe it.  Plain data outside the ISA namespace: every unit may share it.
+#pragma once
+
+#include "kernels/laws/law_info.hpp"
+#include "kernels/mechanisms/mechanism_info.hpp"
+#include "kernels/rigid/list.hpp"
+
+namespace slideway {
+
+/// In the place of a law: bodies that do not give way have no forces that a law could tell.
+inline constexpr LawInfo rigid_contact{.name = "rigid",
+                                       .words = "bodies that do not give way: impacts of no duration, constraints and Coulomb friction",
+                                       .switches = false,
+                                       .groups = groups_of(KeyGroup::restitution)};
+
+/// Quantities that rigid contacts have not: the largest of forces that are impulses, and what follows from it.
+inline constexpr Selection without_rigid_contact =
+    selections::of({Quantity::peak_normal_force, Quantity::peak_apex_force, Quantity::mean_apex_force, Quantity::peak_crank_torque,
+                    Quantity::rms_crank_torque, Quantity::switching_energy, Quantity::peak_acceleration, Quantity::rms_acceleration,
+                    Quantity::peak_channel_acceleration, Quantity::acceleration_area});
+
+/// Whether a mechanism has kernels for them.
+constexpr bool may_be_rigid(Mechanism mechanism) {
+    bool answer = false;
+#define SLIDEWAY_NAME(name, Type) answer = answer || mechanism == Mechanism::name;
+    SLIDEWAY_RIGID(SLIDEWAY_NAME)
+#undef SLIDEWAY_NAME
+    return answer;
+}
+
+}  // namespace slideway

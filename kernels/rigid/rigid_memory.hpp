@@ -1,0 +1,47 @@
+#pragma once
+
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// One of the two lasting contacts that a block between two walls may have.
+template <class Real> struct HeldContact {
+    Real side;  // of the wall: 1 above, −1 below, 0 where nothing touches
+    Real slip;  // the way that it slips along the wall, 1 or −1; 0 where it sticks
+};
+
+/// What the last impact came to: booked by the observer, as no integral over time sees it.
+template <class Real> struct ImpactBooks {
+    Real work;      // of the drive [J]
+    Real friction;  // loss by friction [J]
+    Real damping;   // loss by restitution [J]
+    Real impulse;   // sum of the normal impulses [N s]
+    Real count;     // of contacts that met their wall
+    Real flight;    // how long the bounces that it ends would have gone on [s]
+
+    SLIDEWAY_FN static ImpactBooks none() {
+        Real const zero(0.0);
+        return {zero, zero, zero, zero, zero, zero};
+    }
+};
+
+/// What a member with rigid contacts remembers between its steps.
+template <class Real> struct RigidMemory {
+    static constexpr int speeds = 0;
+    HeldContact<Real> held[2];  // front and rear
+    ImpactBooks<Real> books;
+    Real begun;    // 1 after the start
+    Real jammed;   // 1 where no forces satisfy the contacts
+    Real last;     // time of the last event [s]
+    Real at_once;  // events that followed one another in no time
+};
+
+template <class Real> SLIDEWAY_FN void start_memory(RigidMemory<Real>& memory) {
+    Real const zero(0.0);
+    for (auto& contact : memory.held) contact = {zero, zero};
+    memory.books = ImpactBooks<Real>::none();
+    memory.begun = memory.jammed = memory.at_once = zero;
+    memory.last = Real(-1.0);
+}
+
+}  // namespace slideway::inline SLIDEWAY_ISA

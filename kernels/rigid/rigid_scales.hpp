@@ -1,0 +1,35 @@
+#pragma once
+
+#include "kernels/mechanisms/planar_parameters.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Bounces that would be over within this time [s] end at once, in lasting contact: the sum of a geometric series.
+inline constexpr double chatter_time = 1e-7;
+/// So do impacts of both corners in turn whose next is due within this time [s].
+inline constexpr double rattle_time = 1e-11;
+inline constexpr int rattles_tried = 48;
+/// Impacts of corners at their walls, one upon the other.
+inline constexpr int impacts_at_once = 8;
+/// A contact that slips slower than this [slip scales] is at rest along its wall.
+inline constexpr double slip_at_rest = 2e-9;
+/// Violation of the conditions of contact, in units of their motion, that still is rounding.
+inline constexpr double most_violation = 1e-9;
+/// Events that may follow one another within `no_time` [s]; more of them come to no end.
+inline constexpr double most_events_at_once = 64, no_time = 1e-10;
+
+/// Force [N] of what weight and drive do to the slider.
+template <class Real> SLIDEWAY_FN Real force_scale(PlanarParameters<Real> const& p) {
+    Real const drive = p.crank_length * p.rate_scale * p.rate_scale;
+    return p.slider_mass * (abs(p.gravity_x) + abs(p.gravity_y) + drive);
+}
+/// Speed [m/s] along the way.
+template <class Real> SLIDEWAY_FN Real slip_scale(PlanarParameters<Real> const& p) { return p.crank_length * p.rate_scale; }
+
+/// Coefficient up to which a contact sticks: a static one below the kinetic has no meaning.
+template <class Real> SLIDEWAY_FN Real holding_coefficient(PlanarParameters<Real> const& p) {
+    return max(p.friction.static_coefficient, p.friction.kinetic_coefficient);
+}
+
+}  // namespace slideway::inline SLIDEWAY_ISA

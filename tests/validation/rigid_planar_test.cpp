@@ -1,0 +1,97 @@
+// The planar slider-crank with rigid contacts (model.md 13) against two references that go from event to event in 80-bit numbers.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "tests/oracle/planar_runs.hpp"
+#include "tests/oracle/rigid_block.hpp"
+#include "tests/support/rigid.hpp"
+
+namespace slideway::rigid_planar_test {
+namespace {
+
+using testing::rigid_options;
+using testing::rigid_planar_parts;
+
+constexpr std::size_t milliseconds = 200;
+
+struct Distance {
+    double turns = 0, rod_angle = 0, offset = 0, pitch = 0;
+};
+
+Inputs with_friction_and_spin() {
+    auto in = oracle::planar_check_inputs();
+    in.friction_static = in.friction_kinetic = 0.01;
+    in.wz = -0.01;
+    return in;
+}
+
+/// Largest differences from states at each millisecond.
+Distance distance(Inputs const& in, bool friction, double tolerance, std::vector<oracle::PlanarState> const& expected, Method method = Method::automatic) {
+    auto o = rigid_options(rigid_planar_parts(friction, true), tolerance, 0.2);
+    o.settings.method = method;
+    o.series = selections::of({Series::y, Series::pitch, Series::crank_angle, Series::rod_angle});
+    for (std::size_t i = 0; i <= milliseconds; ++i) o.sample_times.push_back(std::min(1e-3 * static_cast<double>(i), 0.2));
+    auto const r = testing::run(best_isa(), o, {in});
+    EXPECT_EQ(r.records[0].status, Status::finished);
+    Distance d;
+    for (std::size_t i = 0; i <= milliseconds; ++i) {
+        auto const& s = expected[i];
+        auto const at = [&](std::size_t row) { return static_cast<long double>(r.series[row * (milliseconds + 1) + i]); };
+        long double const y = in.crank_length * std::sin(s[0]) + in.rod_length * std::sin(s[1]);
+        auto const raise = [](double& most, long double value) { most = std::max(most, static_cast<double>(std::abs(value))); };
+        raise(d.offset, (at(0) - y) / in.clearance_y);
+        raise(d.pitch, at(1) - s[2]);
+        raise(d.turns, (at(2) - s[0]) / (2 * std::numbers::pi_v<long double>));
+        raise(d.rod_angle, at(3) - s[1]);
+    }
+    return d;
+}
+
+std::vector<oracle::PlanarState> reference(Inputs const& in, bool friction, long double step = 5e-6L) {
+    auto const run = oracle::rigid_block_run(in, rigid_planar_parts(friction, true), 1e-3L, milliseconds, step);
+    EXPECT_TRUE(run.solved);
+    return run.samples;
+}
+
+TEST(RigidPlanar, ParallelBlockIsThatOfTheReference) {
+    auto const in = oracle::planar_check_inputs();
+    auto const own = reference(in, false);
+    // Both references, of different equations, and what is published: tests/validation/planar_rigid_test.cpp.
+    auto const other = oracle::rigid_run(in, 1e-3L, milliseconds);
+    for (std::size_t i = 0; i <= milliseconds; ++i) {
+        EXPECT_NEAR(static_cast<double>(own[i][1] - other.samples[i].rod_angle), 0, 1e-12) << i;
+    }
+    auto const d = distance(in, false, 1e-12, own);
+    EXPECT_LT(d.turns, 2e-12);
+    EXPECT_LT(d.rod_angle, 3e-11);
+    EXPECT_LT(d.offset, 2e-9);
+    EXPECT_LT(d.pitch, 1e-13);
+}
+
+TEST(RigidPlanar, TiltedBlockWithFrictionIsThatOfTheReference) {
+    auto const in = with_friction_and_spin();
+    auto const d = distance(in, true, 1e-12, reference(in, true));
+    EXPECT_LT(d.turns, 5e-12);
+    EXPECT_LT(d.rod_angle, 1e-10);
+    EXPECT_LT(d.offset, 1e-8);
+}
+
+TEST(RigidPlanar, ConvergesWithTheOrderOfItsMethod) {
+    auto const in = with_friction_and_spin();
+    auto const expected = reference(in, true);
+    // A tolerance bounds the error of a step: that of the run follows it with some power near 1.
+    double const coarse = distance(in, true, 1e-6, expected, Method::dopri5).turns;
+    double const fine = distance(in, true, 1e-10, expected, Method::dopri5).turns;
+    EXPECT_LT(coarse, 1e-5);
+    EXPECT_GT(std::log10(coarse / fine), 0.75 * 4) << coarse << " " << fine;
+    for (Method const method : {Method::dop853, Method::verner65}) {
+        EXPECT_LT(distance(in, true, 1e-11, expected, method).turns, 1e-10) << name_of(method);
+    }
+}
+
+}  // namespace
+}  // namespace slideway::rigid_planar_test
