@@ -34,12 +34,13 @@ int main(int argc, char** argv) {
     bool quick = false;
     std::string folder = ".", only, only_method;
     double budget = 0;
-    bool members = false;
+    bool members = false, no_scalar = false;
     words.flag("--quick", quick, "fewer members and tolerances: about half a minute instead of six");
     words.folder("-o,--output", folder, "folder for the table and the plots");
     words.option("--problem", only, "only problems whose name contains this");
     words.option("--method", only_method, "only methods whose name contains this, or one of these, separated by commas");
     words.option("--budget", budget, "seconds for one method at one tolerance (8, or 1 if quick)");
+    words.flag("--no-scalar", no_scalar, "without slideway's scalar code");
     words.flag("--members", members, "write the members and the states that count as exact, too");
     if (auto const code = words.parse(argc, argv)) return *code;
     if (!slideway::is_supported(slideway::Isa::scalar) ||
@@ -54,7 +55,8 @@ int main(int argc, char** argv) {
         std::vector<Method> methods;
         for (auto const& group : {our_methods(), peer_methods()}) {
             for (auto const& method : group) {
-                if (contains_one(method.name, only_method)) methods.push_back(method);
+                bool const left_out = no_scalar && method.ours && method.code == slideway::name_of(slideway::Isa::scalar);
+                if (!left_out && contains_one(method.name, only_method)) methods.push_back(method);
             }
         }
         std::vector<Result> results;

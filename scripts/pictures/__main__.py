@@ -10,7 +10,7 @@ from pathlib import Path
 import slideway
 
 from .drawings import apices, mechanism
-from .figures import bifurcation, energy_residual, modes, poincare, tolerance, work_precision
+from .figures import bifurcation, energy_residual, heyoka, modes, poincare, tolerance, work_precision
 from .film import film
 from .style import Picture, largest
 
@@ -24,6 +24,7 @@ PICTURES: dict[str, Picture] = {
     "bifurcation": bifurcation,
     "tolerance": tolerance,
     "work_precision": work_precision,
+    "heyoka": heyoka,
 }
 
 
