@@ -10,6 +10,7 @@ import numpy as np
 import slideway
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.ticker import LogLocator, NullFormatter
 from slideway.palette import class_colours, colours, grey, limit_colour
 from slideway.sections import sections
 
@@ -182,6 +183,9 @@ def heyoka(root: Path) -> str:
         ax.set_title(title, loc="left")
         ax.set_xscale("log")
         ax.set_yscale("log")
+        ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        ax.xaxis.set_major_formatter("{x:g}")
+        ax.xaxis.set_minor_formatter(NullFormatter())
         ax.set_ylim(1e-14, 1e-1)
     figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=3, frameon=False)
     return as_svg(figure)
