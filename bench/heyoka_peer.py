@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import heyoka as hy
 import numpy as np
 from heyoka_models import Bouncing, Lorenz, Members, Valves
-from heyoka_slider import FreeSlider, Springs
+from heyoka_slider_models import FreeSlider, Springs
 
 recorded_events = 2048 + 64  # of a valve in work_precision: its transient's and those that are compared
 least_time = 0.02  # [s] of what is timed at once
