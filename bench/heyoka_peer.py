@@ -175,7 +175,7 @@ def main() -> None:
         text += f"| {row.who} | {row.tolerance:.0e} | {row.error:.1e} | {row.microseconds:.2f} |\n"
     text += "\nAt equal median error, by straight lines in the logarithms:\n\n| error | heyoka, µs | slideway, µs | times |\n|---|---|---|---|\n"
     ours, theirs = ([row for row in rows if row.who.startswith(who)] for who in ("slideway dop853", "heyoka"))
-    for error in (1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11):
+    for error in (1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12):
         at = [
             float(np.exp(np.interp(-np.log(error), [-np.log(r.error) for r in side], [np.log(r.microseconds) for r in side])))
             for side in (theirs, ours)

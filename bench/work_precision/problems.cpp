@@ -168,7 +168,7 @@ std::vector<Problem> all_problems(bool quick) {
                      decades(3, medium)),
         long_horizon("turn_energy", "A crank turn: energy residual after 2 s", settling, 2, many, 1e-2,
                      decades(3, coarse)),
-        lorenz(5, many, decades(3, fine + 1)),
+        lorenz(5, many, decades(3, fine + 3)),
         relief_valve(decades(5, quick ? 7 : 11)),
     };
 }
