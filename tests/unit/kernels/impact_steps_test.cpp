@@ -51,12 +51,14 @@ double distance(testing::EnsembleResult const& a, testing::EnsembleResult const&
 class ImpactStepsOf : public ::testing::TestWithParam<Mechanism> {};
 
 TEST_P(ImpactStepsOf, GoWhereStepsOfTimeGoUnderEveryLaw) {
+    // A slider that nothing drives meets more edges in the same time, and errors grow with each.
+    double const leeway = GetParam() == Mechanism::free_slider ? 30 : 10;
     for (Law const law : testing::every_law()) {
         for (Damping const damping : testing::dampings_of(info(law))) {
             for (bool const friction : {false, true}) {
                 Parts const parts{law, damping, friction, friction, GetParam()};
                 // The first impact or two; the law that switches needs its switches located by the other method too.
-                double const end = GetParam() == Mechanism::free_slider ? 4e-3 : 6e-3;
+                double const end = 6e-3;
                 auto const members = starts(parts, 8);
                 auto by_time = options_of(parts, Method::dopri5, 1e-12, end);
                 by_time.settings.locate_modes = info(law).switches && damping != Damping::restitution;
@@ -70,7 +72,7 @@ TEST_P(ImpactStepsOf, GoWhereStepsOfTimeGoUnderEveryLaw) {
                                       (friction ? ", friction" : "") + ", member " + std::to_string(i);
                     ASSERT_EQ(found.records[i].status, Status::finished) << what;
                     ASSERT_EQ(want.records[i].status, Status::finished) << what;
-                    EXPECT_LT(distance(found, want, i), std::max(1e-6, 10 * distance(usual, want, i))) << what;
+                    EXPECT_LT(distance(found, want, i), std::max(1e-6, leeway * distance(usual, want, i))) << what;
                     EXPECT_EQ(found.value(i, Quantity::contact_onsets), want.value(i, Quantity::contact_onsets)) << what;
                     for (int mode = 0; mode < 4; ++mode) {
                         EXPECT_NEAR(found.value(i, Quantity::mode_time, mode), want.value(i, Quantity::mode_time, mode), 1e-3 * end)
@@ -134,7 +136,7 @@ TEST(ImpactSteps, BeginInsideImpactsToo) {
     for (std::size_t i = 0; i < members.size(); ++i) {
         ASSERT_EQ(want.records[i].status, Status::finished) << i;
         ASSERT_EQ(found.records[i].status, Status::finished) << i;
-        EXPECT_LT(distance(found, want, i), std::max(1e-6, 10 * distance(usual, want, i))) << i;
+        EXPECT_LT(distance(found, want, i), std::max(1e-6, leeway * distance(usual, want, i))) << i;
     }
 }
 
