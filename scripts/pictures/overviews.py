@@ -103,4 +103,3 @@ def layers(_: Path) -> str:
         ax.text(5, (low + high) / 2, words, rotation=90, ha="center", va="center", color=colours[side], fontsize=10)
         ax.plot([9.5, 9.5], [low, high], color=colours[side], lw=2)
     return as_svg(figure)
-
