@@ -8,8 +8,7 @@
 #include "host/study/continued_sweep.hpp"
 #include "host/study/orbit_schedule.hpp"
 #include "host/study/prediction.hpp"
-#include "host/study/start_check.hpp"
-#include "host/study/trial.hpp"
+#include "host/study/probe.hpp"
 
 namespace slideway::cli {
 namespace {

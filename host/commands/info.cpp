@@ -4,7 +4,6 @@
 #include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
 #include "host/config/scene_text.hpp"
-#include "host/store/result_check.hpp"
 #include "host/store/result_view.hpp"
 #include "host/study/result_summary.hpp"
 #include "host/study/study_run.hpp"

@@ -8,10 +8,10 @@
 
 #include "host/commands/commands.hpp"
 #include "host/commands/text.hpp"
-#include "host/config/key_reference.hpp"
 #include "host/config/descriptors.hpp"
+#include "host/config/key_reference.hpp"
 #include "host/config/settings.hpp"
-#include "host/sampling/distribution_forms.hpp"
+#include "host/sampling/distribution.hpp"
 
 namespace slideway::cli {
 namespace {

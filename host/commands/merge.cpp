@@ -8,8 +8,8 @@
 #include "host/commands/commands.hpp"
 #include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
-#include "host/store/result_check.hpp"
 #include "host/store/result_merge.hpp"
+#include "host/store/result_view.hpp"
 #include "host/study/study_run.hpp"
 
 namespace slideway::cli {

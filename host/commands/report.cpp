@@ -13,7 +13,7 @@
 #include "host/base/error.hpp"
 #include "host/commands/commands.hpp"
 #include "host/store/output_target.hpp"
-#include "host/store/result_check.hpp"
+#include "host/store/result_view.hpp"
 
 namespace slideway::cli {
 namespace {

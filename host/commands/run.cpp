@@ -12,7 +12,7 @@
 #include "host/commands/text.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/prediction.hpp"
-#include "host/study/start_check.hpp"
+#include "host/study/probe.hpp"
 
 namespace slideway::cli {
 namespace {

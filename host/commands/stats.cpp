@@ -11,7 +11,7 @@
 #include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
 #include "host/store/output_target.hpp"
-#include "host/store/result_check.hpp"
+#include "host/store/result_view.hpp"
 #include "host/study/series_analysis.hpp"
 #include "host/study/series_file.hpp"
 

@@ -6,7 +6,6 @@
 
 #include "host/config/drive_period.hpp"
 #include "host/config/reader.hpp"
-#include "host/config/values.hpp"
 
 namespace slideway {
 namespace {

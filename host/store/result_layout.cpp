@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "host/run/block_result.hpp"
+#include "host/run/block_buffers.hpp"
 
 namespace slideway {
 

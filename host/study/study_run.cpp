@@ -8,7 +8,6 @@
 #include "host/base/durable_file.hpp"
 #include "host/base/fnv1a.hpp"
 #include "host/base/numbers.hpp"
-#include "host/store/result_check.hpp"
 #include "host/store/result_merge.hpp"
 #include "host/store/result_view.hpp"
 #include "host/store/statistics_merge.hpp"

@@ -6,8 +6,8 @@
 #include <unordered_map>
 
 #include "host/config/descriptors.hpp"
+#include "host/store/shard_image.hpp"
 #include "host/store/shard_writer.hpp"
-#include "host/store/statistics_shard.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/exponent_table.hpp"
 #include "host/study/study_run.hpp"

@@ -9,7 +9,6 @@
 #include "host/base/error.hpp"
 #include "host/store/output_target.hpp"
 #include "host/store/result_seal.hpp"
-#include "host/store/result_check.hpp"
 #include "host/store/result_view.hpp"
 #include "tests/support/output_fixture.hpp"
 

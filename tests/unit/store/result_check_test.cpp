@@ -1,5 +1,5 @@
 // What damage a result tells of, and which part of it.
-#include "host/store/result_check.hpp"
+#include "host/store/result_view.hpp"
 
 #include <array>
 #include <functional>

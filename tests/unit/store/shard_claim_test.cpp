@@ -1,6 +1,6 @@
 // Who may write into a folder of shards, and what becomes of what it holds.
 #include "host/store/shard_claim.hpp"
-#include "host/store/shard_store.hpp"
+#include "host/store/shard_writer.hpp"
 
 #include "host/base/error.hpp"
 #include "tests/support/output_fixture.hpp"

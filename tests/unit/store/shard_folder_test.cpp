@@ -1,6 +1,6 @@
 // What stands in a folder of shards, and what of it can be trusted after damage.
 #include "host/store/shard_folder.hpp"
-#include "host/store/shard_store.hpp"
+#include "host/store/shard_writer.hpp"
 
 #include <numeric>
 

@@ -1,4 +1,4 @@
-#include "host/config/values.hpp"
+#include "host/config/reader.hpp"
 
 #include <cmath>
 
