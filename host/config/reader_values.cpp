@@ -23,8 +23,7 @@ std::string shown_number(Node const& node, std::string_view unit) {
 }
 
 std::optional<Problem> outside(Range const& range, std::string_view meaning, std::string_view unit, double value) {
-    bool const below = range.low_included ? value < range.low : value <= range.low;
-    if (!below && value <= range.high) return std::nullopt;
+    if (range.contains(value)) return std::nullopt;
     std::string limits = fmt::format("{} {}", range.low_included ? ">=" : ">", with_unit(range.low, unit));
     if (std::isfinite(range.high)) limits += fmt::format(" and <= {}", with_unit(range.high, unit));
     return Problem{fmt::format("out of range for the {}", meaning), fmt::format("use a value {}", limits)};
