@@ -69,7 +69,7 @@ void print_info(InfoArguments const& arguments, ResultReader const& results, Sea
 
 }  // namespace
 
-int info(InfoArguments const& arguments) {
+int execute(InfoArguments const& arguments) {
     SealCheck const seal = check_result(arguments.path);
     if (!arguments.check) {
         ResultReader const results(arguments.path);

@@ -120,7 +120,7 @@ std::string state_of(Isa isa) {
 
 }  // namespace
 
-int list(ListArguments const& arguments) {
+int execute(ListArguments const& arguments) {
     if (arguments.json || arguments.schema || arguments.markdown) {
         fmt::print("{}", arguments.json ? keys_json() : arguments.schema ? scene_schema() : keys_markdown());
         return exit_code::done;

@@ -47,7 +47,7 @@ void mend(ShardFolder const& folder) {
 
 }  // namespace
 
-int merge(MergeArguments const& arguments) {
+int execute(MergeArguments const& arguments) {
     ShardFolder const folder(arguments.folder);
     std::string const made_by = folder.identity().program, here = build_info().text();
     if (made_by != here) {

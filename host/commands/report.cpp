@@ -70,7 +70,7 @@ bool is_page(std::string const& path) {
 
 }  // namespace
 
-int report(ReportArguments const& arguments) {
+int execute(ReportArguments const& arguments) {
     std::string page = arguments.output;
     if (page.empty()) page = std::filesystem::path(arguments.path).replace_extension(".html").string();
     std::string const inputs[] = {arguments.path};

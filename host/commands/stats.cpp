@@ -146,7 +146,7 @@ Rows rows_of(StatsArguments const& arguments, std::string const& series, SeriesA
 
 }  // namespace
 
-int stats(StatsArguments const& arguments) {
+int execute(StatsArguments const& arguments) {
     std::optional<OutputTarget> const target = arguments.output.empty() ? std::nullopt : std::optional(curves_target(arguments));
     StoredSeries series = read_series(arguments);
     cut(series, arguments);
