@@ -140,7 +140,7 @@ ShardImage shard_image(std::string const& name, ResultLayout layout, Provenance 
     put_provenance(file, provenance);
     ShardImage image{write_block(file, std::move(layout), block, study), {}};
     if (image.members.empty()) return image;
-    file.put_text(DataFile::global, "completeness", "shard");
+    file.put(DataFile::global, "completeness", "shard");
     seal(file);
     image.bytes = file.close_to_bytes();
     return image;

@@ -187,7 +187,7 @@ TEST_F(ResultFile, StandsAtItsPathOnlyWhenComplete) {
 }
 
 TEST_F(ResultFile, HoldsWhatIsConcludedFromItsMembers) {
-    auto const concluding = [](DataFile& file) { file.put_number(DataFile::global, "mean_of_all", 2.5); };
+    auto const concluding = [](DataFile& file) { file.put(DataFile::global, "mean_of_all", 2.5); };
     write_file(path(), {{0, 5}}, 1, concluding);
     EXPECT_EQ(ResultReader(path()).attribute("mean_of_all"), "2.5");
 }
