@@ -6,7 +6,6 @@
 #include <fmt/ranges.h>
 
 #include "host/base/suggest.hpp"
-#include "host/config/drive_period.hpp"
 #include "host/config/key_reference.hpp"
 #include "host/config/scene_text.hpp"
 

@@ -131,6 +131,13 @@ std::size_t read_choice(Node const& node, Setting const& setting);
 /// An integer (or a real number that is one) from low to high.
 std::uint64_t read_count(Node const& node, std::string_view meaning, std::uint64_t low, std::uint64_t high);
 
+/// What is given of a setting; nothing where it is not.
+std::optional<double> given_number(Node const& root, std::string_view name);
+std::optional<std::uint64_t> given_count(Node const& root, std::string_view name);
+template <class Choice> void read_given(Node const& root, std::string_view name, Choice& to) {
+    if (Node const* const node = root.find_path(name)) to = static_cast<Choice>(read_choice(*node, setting(name)));
+}
+
 bool read_boolean(Node const& node);
 std::string const& read_text_value(Node const& node);
 

@@ -128,8 +128,8 @@ bool varies(Variation const& variation) {
 
 DesignKind read_kind(Node const& root, Scene const& scene) {
     Node const* const node = root.find_path("study.design");
-    if (node == nullptr) return DesignKind::mc;
-    auto const kind = static_cast<DesignKind>(read_choice(*node, setting("study.design")));
+    DesignKind kind = DesignKind::mc;
+    read_given(root, "study.design", kind);
     bool const drawn = kind == DesignKind::mc || kind == DesignKind::lhs || kind == DesignKind::sobol;
     if (scene.study == StudyKind::sweep && !drawn) {
         refuse(*node, {"a sweep draws the starts of its columns", "use \"mc\", \"lhs\" or \"sobol\""});

@@ -8,7 +8,6 @@
 #include <fmt/ranges.h>
 
 #include "host/base/suggest.hpp"
-#include "host/config/drive_period.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/config/reader.hpp"
 
@@ -101,9 +100,7 @@ void read_section(Node const& root, Scene& scene) {
         return read_phase(root, scene);
     }
     read_section_table(*table, scene);
-    if (crossings != nullptr) {
-        scene.chaos.max_crossings = read_count(*crossings, setting("study.max_crossings"));
-    }
+    scene.chaos.max_crossings = given_count(root, "study.max_crossings").value_or(scene.chaos.max_crossings);
 }
 
 }  // namespace slideway

@@ -91,6 +91,16 @@ std::uint64_t read_count(Node const& node, std::string_view meaning, std::uint64
     return value;
 }
 
+std::optional<double> given_number(Node const& root, std::string_view name) {
+    Node const* const node = root.find_path(name);
+    return node != nullptr ? std::optional(read_number(*node, setting(name))) : std::nullopt;
+}
+
+std::optional<std::uint64_t> given_count(Node const& root, std::string_view name) {
+    Node const* const node = root.find_path(name);
+    return node != nullptr ? std::optional(read_count(*node, setting(name))) : std::nullopt;
+}
+
 bool read_boolean(Node const& node) {
     if (node.type != Node::Type::boolean) refuse(node, {"not a truth value", "use true or false"});
     return node.boolean;
