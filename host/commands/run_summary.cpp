@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/config/drive_period.hpp"
+#include "host/config/descriptors.hpp"
 #include "host/store/run_identity.hpp"
 #include "host/study/orbit_schedule.hpp"
 #include "host/study/verification.hpp"

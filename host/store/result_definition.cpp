@@ -25,11 +25,11 @@ void put_provenance(DataFile& file, Provenance const& provenance) {
     attribute("version", build.version);
     attribute("commit", build.commit);
     attribute("compiler", build.compiler);
-    attribute("flags", provenance.flags);
-    attribute("backend", provenance.backend);
-    attribute("isa", provenance.isa);
+    attribute("flags", provenance.maker.flags);
+    attribute("backend", provenance.maker.backend);
+    attribute("isa", provenance.maker.isa);
     attribute("machine", machine_name());
-    file.put(DataFile::global, "threads", provenance.threads);
+    file.put(DataFile::global, "threads", provenance.maker.threads);
     attribute("seed", fmt::format("{}", provenance.seed));  // CF-1.8 has no 64-bit integers
     attribute("created", creation_time());
     attribute("scene", provenance.scene);

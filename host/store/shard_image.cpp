@@ -148,26 +148,26 @@ ShardImage shard_image(std::string const& name, ResultLayout layout, Provenance 
 
 std::vector<std::byte> to_bytes(StatisticsShard const& shard) {
     ByteWriter out;
-    for (std::string const* const text : {&shard.origin.backend, &shard.origin.isa, &shard.origin.flags}) {
+    for (std::string const* const text : {&shard.maker.backend, &shard.maker.isa, &shard.maker.flags}) {
         out.put(std::string_view(*text));
     }
-    out.put(static_cast<std::uint64_t>(shard.origin.threads));
+    out.put(static_cast<std::uint64_t>(shard.maker.threads));
     out.put(shard.statistics.bytes());
     return out.take();
 }
 
 StatisticsShard parse_statistics(std::span<std::byte const> bytes, std::string const& name) {
     ByteReader in(bytes, name);
-    Provenance origin;
-    for (std::string* const text : {&origin.backend, &origin.isa, &origin.flags}) *text = in.text();
-    origin.threads = static_cast<int>(in.word());
+    Maker maker;
+    for (std::string* const text : {&maker.backend, &maker.isa, &maker.flags}) *text = in.text();
+    maker.threads = static_cast<int>(in.word());
     auto const statistics = in.block();
     in.end();
-    return {std::move(origin), BlockStatistics::parse(statistics, name)};
+    return {std::move(maker), BlockStatistics::parse(statistics, name)};
 }
 
-ShardImage statistics_image(StatisticsPlan const& plan, Provenance const& origin, BlockResult const& block) {
-    StatisticsShard shard{origin, BlockStatistics(plan)};
+ShardImage statistics_image(StatisticsPlan const& plan, Maker const& maker, BlockResult const& block) {
+    StatisticsShard shard{maker, BlockStatistics(plan)};
     shard.statistics.add(block, plan);
     if (shard.statistics.members().empty()) return {};
     return {shard.statistics.members(), to_bytes(shard)};

@@ -32,7 +32,7 @@ ShardImage shard_image(std::string const& name, ResultLayout layout, Provenance 
 
 /// Statistics and who made them.
 struct StatisticsShard {
-    Provenance origin;  // backend, isa, flags and threads
+    Maker maker;
     BlockStatistics statistics;
 };
 
@@ -41,7 +41,7 @@ std::vector<std::byte> to_bytes(StatisticsShard const& shard);
 StatisticsShard parse_statistics(std::span<std::byte const> bytes, std::string const& name);
 
 /// The statistics of those members of a block that have ended.
-ShardImage statistics_image(StatisticsPlan const& plan, Provenance const& origin, BlockResult const& block);
+ShardImage statistics_image(StatisticsPlan const& plan, Maker const& maker, BlockResult const& block);
 
 /// One shard for several, of the origin of the first.  One of them at a time is in memory.  @throws FileError
 std::vector<std::byte> joined_statistics(std::string const& folder, std::span<Shard const> shards);

@@ -58,7 +58,7 @@ MemberEnds recalled_ends(std::string const& path, Mechanism mechanism, MemberSet
 /// Result files of a scene's blocks, or their statistics.
 std::unique_ptr<ShardWriter> shard_writer(Scene const& scene, std::string const& folder, Provenance const& origin) {
     if (!scene.stores_members()) {
-        auto form = [plan = statistics_plan(scene), origin](BlockResult const& block) { return statistics_image(plan, origin, block); };
+        auto form = [plan = statistics_plan(scene), maker = origin.maker](BlockResult const& block) { return statistics_image(plan, maker, block); };
         return std::make_unique<ShardWriter>(folder, std::move(form), joined_statistics);
     }
     auto form = [folder, origin, layout = result_layout(scene, {}), exponents = ExponentTable(scene)](BlockResult const& block) {

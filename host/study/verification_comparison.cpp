@@ -4,7 +4,6 @@
 
 #include "host/base/numbers.hpp"
 #include "host/config/descriptors.hpp"
-#include "host/config/drive_period.hpp"
 #include "host/study/orbit_schedule.hpp"
 #include "host/study/verification.hpp"
 #include "kernels/members/complete_inputs.hpp"

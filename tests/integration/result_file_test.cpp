@@ -61,9 +61,9 @@ Provenance provenance_of(int threads) {
     provenance.title = "a title";
     provenance.scene = "schema = 1\n";
     provenance.seed = 18446744073709551615u;
-    provenance.backend = "cpu";
-    provenance.isa = "scalar";
-    provenance.threads = threads;
+    provenance.maker.backend = "cpu";
+    provenance.maker.isa = "scalar";
+    provenance.maker.threads = threads;
     return provenance;
 }
 
