@@ -5,7 +5,7 @@
 #include "bench/relief_valve_orbit.hpp"
 #include "bench/work_precision/method.hpp"
 #include "bench/work_precision/models_kernel.hpp"
-#include "host/backend/by_isa.hpp"
+#include "tests/models/by_isa.hpp"
 #include "host/config/descriptors.hpp"
 
 namespace slideway {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "host/base/nan.hpp"
-#include "host/chaos/nearest_neighbours.hpp"
+#include "host/base/numbers.hpp"
+#include "host/chaos/delay_embedding.hpp"
 
 namespace slideway {
 namespace {

@@ -10,7 +10,7 @@
 
 namespace slideway {
 
-/// Rosenstein, Collins and De Luca, Physica D 65 (1993) 117–134: with Xⱼ the nearest neighbour of Xᵢ (nearest_neighbours.hpp),
+/// Rosenstein, Collins and De Luca, Physica D 65 (1993) 117–134: with Xⱼ the nearest neighbour of Xᵢ (delay_embedding.hpp),
 /// dᵢ(k) = |Xᵢ₊ₖ - Xⱼ₊ₖ| grows as e^(λ₁ k Δt) until it is as large as the attractor.
 struct DivergenceCurve {
     std::vector<double> mean_log;    // ⟨ln dᵢ(k)⟩ for k = 0, 1, …; d in units of the series

@@ -8,8 +8,7 @@
 #include "host/study/continued_sweep.hpp"
 #include "host/study/orbit_schedule.hpp"
 #include "host/study/prediction.hpp"
-#include "host/study/start_check.hpp"
-#include "host/study/trial.hpp"
+#include "host/study/probe.hpp"
 
 namespace slideway::cli {
 namespace {
@@ -147,9 +146,9 @@ void print_design(Scene const& scene) {
 
 }  // namespace
 
-int check(CheckArguments const& arguments) {
+int execute(CheckArguments const& arguments) {
     Scene const scene = load_scene(arguments.scene);
-    int const threads = arguments.threads.value_or(default_threads());
+    int const threads = arguments.threads;
     print_warnings(scene);
     BackendRequest request = arguments.scene.backend;
     request.threads = threads;

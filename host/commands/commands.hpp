@@ -54,29 +54,25 @@ struct SceneArguments {
 
 struct RunArguments {
     SceneArguments scene;
-    std::string output;  // empty: by the scene's name
-    std::optional<int> threads;
+    StudyOptions study{.threads = default_threads()};  // but for range, backend and progress, which follow; output is empty: by the scene's name
     std::optional<double> max_hours;
     FailureLimit max_failures;
     std::optional<MemberRange> members;  // empty: all
-    RunPart part;
-    std::size_t block_members = 0;  // 0: by their cost
-    bool resume = false, force = false;
     bool no_progress = false;
     bool quiet = false;  // no progress, no summary
     bool json = false;   // an object in place of the summary
     bool shows_progress() const { return !quiet && !no_progress; }
 };
-int run(RunArguments const& arguments);
+int execute(RunArguments const& arguments);
 
 struct CheckArguments {
     SceneArguments scene;
-    std::optional<int> threads;
+    int threads = default_threads();
     bool force = false;  // also of starts that no mechanism has
     bool json = false;
     bool resolved = false;  // the resolved scene alone, which runs as it is
 };
-int check(CheckArguments const& arguments);
+int execute(CheckArguments const& arguments);
 
 struct ProbeArguments {
     SceneArguments scene;
@@ -84,7 +80,7 @@ struct ProbeArguments {
     std::string output;  // empty: stdout
     bool force = false, json = false;
 };
-int probe(ProbeArguments const& arguments);
+int execute(ProbeArguments const& arguments);
 
 struct InfoArguments {
     std::string path;
@@ -93,7 +89,7 @@ struct InfoArguments {
     bool check = false;  // nothing but whether it is intact
     std::optional<MemberRange> members;  // a table of these, too
 };
-int info(InfoArguments const& arguments);
+int execute(InfoArguments const& arguments);
 
 struct StatsArguments {
     std::string path;
@@ -107,13 +103,13 @@ struct StatsArguments {
     std::string output;  // empty: no curves
     bool force = false, json = false;
 };
-int stats(StatsArguments const& arguments);
+int execute(StatsArguments const& arguments);
 
 struct MergeArguments {
     std::string folder, output;
     bool force = false, json = false;
 };
-int merge(MergeArguments const& arguments);
+int execute(MergeArguments const& arguments);
 
 struct ReportArguments {
     std::string path;
@@ -121,17 +117,18 @@ struct ReportArguments {
     bool force = false;
 };
 /// Ends as the companion in Python, which writes the page; returns only by an exception.
-int report(ReportArguments const& arguments);
+int execute(ReportArguments const& arguments);
 
 struct ListArguments {
     bool json = false, schema = false, markdown = false;  // one of them: of the keys of a scene
 };
-int list(ListArguments const& arguments);
+int execute(ListArguments const& arguments);
 
 /// Text for stdout and nothing to run: --help, --version.
 struct TextOnly {
     std::string text;
 };
+int execute(TextOnly const& only);
 
 using Arguments = std::variant<RunArguments, CheckArguments, ProbeArguments, InfoArguments, StatsArguments,
                                MergeArguments, ReportArguments, ListArguments, TextOnly>;

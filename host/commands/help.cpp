@@ -163,6 +163,11 @@ std::string examples_text(std::vector<CommandDescription> const& commands) {
 
 }  // namespace
 
+int execute(TextOnly const& only) {
+    fmt::print("{}", only.text);
+    return exit_code::done;
+}
+
 std::string man_page(std::vector<CommandDescription> const& commands) {
     std::string text = fmt::format(".\\\" written by: slideway help --man\n.TH SLIDEWAY 1 {} \"slideway {}\" \"User Commands\"\n",
                                    creation_time().substr(0, 10), build_info().version);

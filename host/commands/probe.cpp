@@ -93,7 +93,7 @@ void print_listing(Scene const& scene, StateTable const& table, ProbeResult cons
 
 }  // namespace
 
-int probe(ProbeArguments const& arguments) {
+int execute(ProbeArguments const& arguments) {
     Isa const isa = parse_isa(arguments.scene.isa);
     Scene const scene = load_scene(arguments.scene);
     std::optional<OutputTarget> const target =

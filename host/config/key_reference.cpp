@@ -84,21 +84,6 @@ Json value_schema(KeyReference const& key) {
 
 }  // namespace
 
-Range range_of(Rule rule) {
-    switch (rule) {
-        case Rule::any: return {};
-        case Rule::positive:
-        case Rule::gap: return {.low = 0, .low_included = false};
-        case Rule::not_negative: return {.low = 0};
-        case Rule::unit_interval: return {0, 1};
-        case Rule::half_open_unit: return {0, 1, false};
-        case Rule::poisson_ratio: return {-1, 0.5, false};
-        case Rule::hertz_exponent: return {1, 3};
-        case Rule::right_angle: return {-std::numbers::pi / 2, std::numbers::pi / 2};
-    }
-    return {};
-}
-
 std::string_view name_of(Type type) {
     static constexpr std::string_view names[] = {"boolean", "integer", "number", "choice", "text", "list", "table"};
     return names[static_cast<int>(type)];

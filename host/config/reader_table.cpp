@@ -13,7 +13,6 @@
 #include "host/config/reader.hpp"
 #include "host/config/scene_text.hpp"
 #include "host/config/units.hpp"
-#include "host/config/values.hpp"
 
 namespace slideway {
 namespace {

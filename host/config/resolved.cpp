@@ -11,7 +11,7 @@
 #include "host/config/scene.hpp"
 #include "host/config/scene_text.hpp"
 #include "host/config/settings.hpp"
-#include "host/sampling/distribution_forms.hpp"
+#include "host/sampling/distribution.hpp"
 #include "kernels/members/complete_inputs.hpp"
 
 namespace slideway {

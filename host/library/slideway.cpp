@@ -20,7 +20,6 @@
 #include "host/study/backend_choice.hpp"
 #include "host/study/memory_run.hpp"
 #include "host/study/probe.hpp"
-#include "host/study/start_check.hpp"
 #include "host/study/state_table.hpp"
 
 namespace slideway {

@@ -11,8 +11,8 @@
 
 #include <omp.h>
 
-#include "host/base/seconds_since.hpp"
 #include "host/run/shared_block.hpp"
+#include "host/run/stop.hpp"
 
 namespace slideway {
 namespace {

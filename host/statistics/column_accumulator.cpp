@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "host/base/byte_stream.hpp"
-#include "host/base/nan.hpp"
+#include "host/base/numbers.hpp"
 
 namespace slideway {
 namespace {

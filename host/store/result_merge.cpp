@@ -138,7 +138,7 @@ void write_part(std::string const& part, std::string const& completeness,
     try {
         NetcdfFile file = NetcdfFile::create(part);
         write(file);
-        file.put_text(DataFile::global, "completeness", completeness);
+        file.put(DataFile::global, "completeness", completeness);
         file.flush();
         seal(file);
         file.close();

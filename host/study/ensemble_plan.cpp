@@ -104,10 +104,7 @@ Provenance provenance_of(Scene const& scene) {
 Provenance provenance(Scene const& scene, Backend const& backend, int threads) {
     Provenance result = provenance_of(scene);
     result.scene = resolved_toml(scene);
-    result.backend = backend.name();
-    result.isa = backend.isa();
-    result.flags = backend.flags();
-    result.threads = threads;
+    result.maker = {std::string(backend.name()), backend.isa(), backend.flags(), threads};
     return result;
 }
 

@@ -7,7 +7,7 @@
 
 #include "host/chaos/exponents.hpp"
 #include "host/config/scene.hpp"
-#include "host/run/block_result.hpp"
+#include "host/run/block_buffers.hpp"
 #include "host/store/result_layout.hpp"
 #include "host/study/orbit_schedule.hpp"
 

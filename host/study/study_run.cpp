@@ -8,7 +8,6 @@
 #include "host/base/durable_file.hpp"
 #include "host/base/fnv1a.hpp"
 #include "host/base/numbers.hpp"
-#include "host/store/result_check.hpp"
 #include "host/store/result_merge.hpp"
 #include "host/store/result_view.hpp"
 #include "host/store/statistics_merge.hpp"
@@ -181,16 +180,12 @@ bool StudyRun::merge(StopRequest const& stop, std::optional<ToleranceReport>& re
 
 namespace {
 
-/// Backend, isa, flags and threads, as a result file names them.
-Provenance stored_origin(DataFile const& file) {
+/// As a result file says it.
+Maker stored_maker(DataFile const& file) {
     auto const text = [&](char const* name) { return file.text(DataFile::global, name); };
-    Provenance origin;
-    origin.backend = text("backend");
-    origin.isa = text("isa");
-    origin.flags = text("flags");
     double threads = 1;
-    if (file.number(DataFile::global, "threads", threads)) origin.threads = static_cast<int>(threads);
-    return origin;
+    file.number(DataFile::global, "threads", threads);
+    return {text("backend"), text("isa"), text("flags"), static_cast<int>(threads)};
 }
 
 }  // namespace
@@ -245,13 +240,9 @@ std::optional<std::uint64_t> asked_check(ShardFolder const& folder, std::vector<
 Provenance shard_origin(ShardFolder const& folder, std::vector<Shard> const& shards, Scene const& scene) {
     if (shards.empty()) throw FileError(folder.path() + ": holds no finished members");
     std::vector<std::byte> const bytes = folder.read(shards.front());
-    Provenance const of_shard = scene.stores_members() ? stored_origin(NetcdfFile::open_in_memory(shards.front().name, bytes))
-                                                       : parse_statistics(bytes, shards.front().name).origin;
     Provenance origin = provenance_of(scene);
-    origin.backend = of_shard.backend;
-    origin.isa = of_shard.isa;
-    origin.flags = of_shard.flags;
-    origin.threads = of_shard.threads;
+    origin.maker = scene.stores_members() ? stored_maker(NetcdfFile::open_in_memory(shards.front().name, bytes))
+                                          : parse_statistics(bytes, shards.front().name).maker;
     RunIdentity const& identity = folder.identity();
     // The copy of the table goes with the folder.
     origin.scene = identity.table.empty() ? identity.scene : with_table(identity.scene, identity.table);

@@ -1,4 +1,4 @@
-#include "host/config/values.hpp"
+#include "host/config/reader.hpp"
 
 #include <cmath>
 
@@ -23,8 +23,7 @@ std::string shown_number(Node const& node, std::string_view unit) {
 }
 
 std::optional<Problem> outside(Range const& range, std::string_view meaning, std::string_view unit, double value) {
-    bool const below = range.low_included ? value < range.low : value <= range.low;
-    if (!below && value <= range.high) return std::nullopt;
+    if (range.contains(value)) return std::nullopt;
     std::string limits = fmt::format("{} {}", range.low_included ? ">=" : ">", with_unit(range.low, unit));
     if (std::isfinite(range.high)) limits += fmt::format(" and <= {}", with_unit(range.high, unit));
     return Problem{fmt::format("out of range for the {}", meaning), fmt::format("use a value {}", limits)};
@@ -90,6 +89,16 @@ std::uint64_t read_count(Node const& node, std::string_view meaning, std::uint64
     auto const value = whole ? static_cast<std::uint64_t>(node.real) : static_cast<std::uint64_t>(node.integer);
     if (value < low || value > high) refuse(node, problem);
     return value;
+}
+
+std::optional<double> given_number(Node const& root, std::string_view name) {
+    Node const* const node = root.find_path(name);
+    return node != nullptr ? std::optional(read_number(*node, setting(name))) : std::nullopt;
+}
+
+std::optional<std::uint64_t> given_count(Node const& root, std::string_view name) {
+    Node const* const node = root.find_path(name);
+    return node != nullptr ? std::optional(read_count(*node, setting(name))) : std::nullopt;
 }
 
 bool read_boolean(Node const& node) {
