@@ -1,6 +1,5 @@
 #include "host/chaos/delay_embedding.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <nanoflann.hpp>

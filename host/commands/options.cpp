@@ -1,4 +1,4 @@
-#include "host/commands/options.hpp"
+#include "host/commands/commands.hpp"
 
 #include <algorithm>
 #include <cmath>

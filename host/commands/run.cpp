@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/base/fnv1a.hpp"
+#include "host/base/bytes.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/json.hpp"
 #include "host/commands/text.hpp"

@@ -5,7 +5,6 @@
 
 #include "host/config/descriptors.hpp"
 #include "host/config/reader.hpp"
-#include "host/config/scene_text.hpp"
 
 namespace slideway {
 namespace {

@@ -6,7 +6,6 @@
 
 #include "host/base/suggest.hpp"
 #include "host/config/reader.hpp"
-#include "host/config/scene_text.hpp"
 #include "host/sampling/distribution.hpp"
 
 namespace slideway {

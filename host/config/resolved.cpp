@@ -1,7 +1,6 @@
 // A scene as TOML with every key in SI units.  Numbers are the shortest that read back to the same double.
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <span>
 #include <string>
 

@@ -12,7 +12,6 @@
 #include <omp.h>
 
 #include "host/run/shared_block.hpp"
-#include "host/run/stop.hpp"
 
 namespace slideway {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <Random123/philox.h>
 
-#include "host/base/fnv1a.hpp"
+#include "host/base/bytes.hpp"
 
 namespace slideway {
 

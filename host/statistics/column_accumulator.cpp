@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "host/base/byte_stream.hpp"
+#include "host/base/bytes.hpp"
 #include "host/base/numbers.hpp"
 
 namespace slideway {

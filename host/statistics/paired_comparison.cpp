@@ -6,7 +6,6 @@
 #include <boost/math/distributions/students_t.hpp>
 
 #include "host/base/numbers.hpp"
-#include "host/statistics/summary.hpp"
 
 namespace slideway {
 namespace {

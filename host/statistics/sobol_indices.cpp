@@ -8,7 +8,6 @@
 #include "host/base/numbers.hpp"
 #include "host/sampling/random.hpp"
 #include "host/statistics/exact_sum.hpp"
-#include "host/statistics/summary.hpp"
 
 namespace slideway {
 namespace {

@@ -9,7 +9,6 @@
 #include <numeric>
 #include <span>
 #include <string>
-#include <string_view>
 #include <type_traits>
 #include <variant>
 #include <vector>

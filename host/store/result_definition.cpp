@@ -4,13 +4,11 @@
 #include <limits>
 #include <map>
 #include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "host/base/error.hpp"
 #include "host/store/group_writer.hpp"
-#include "host/store/result_layout.hpp"
 
 namespace slideway {
 

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "host/base/durable_file.hpp"
 #include "host/base/error.hpp"
 #include "host/base/file_lock.hpp"
 #include "host/store/result_seal.hpp"

@@ -5,10 +5,9 @@
 #include <limits>
 #include <optional>
 
-#include "host/base/byte_stream.hpp"
+#include "host/base/bytes.hpp"
 #include "host/store/netcdf_file.hpp"
 #include "host/store/result_definition.hpp"
-#include "host/store/result_layout.hpp"
 #include "host/store/result_seal.hpp"
 
 namespace slideway {

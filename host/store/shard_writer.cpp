@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "host/base/bytes.hpp"
 #include "host/base/error.hpp"
-#include "host/base/fnv1a.hpp"
 
 namespace slideway {
 

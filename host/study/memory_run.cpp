@@ -1,4 +1,3 @@
-#include "host/study/memory_run.hpp"
 
 #include <optional>
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "host/config/settings.hpp"
 #include "host/run/ensemble.hpp"

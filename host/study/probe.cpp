@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <ostream>
-#include <vector>
 
 #include <fmt/format.h>
 

@@ -5,15 +5,14 @@
 
 #include <fmt/format.h>
 
+#include "host/base/bytes.hpp"
 #include "host/base/durable_file.hpp"
-#include "host/base/fnv1a.hpp"
 #include "host/base/numbers.hpp"
 #include "host/store/result_merge.hpp"
 #include "host/store/result_view.hpp"
 #include "host/store/statistics_merge.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/prediction.hpp"
-#include "host/study/tolerance_report.hpp"
 #include "host/study/verification.hpp"
 
 namespace slideway {

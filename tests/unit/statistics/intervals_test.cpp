@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "host/statistics/quantile_interval.hpp"
 #include "host/statistics/summary.hpp"
 
 namespace slideway::intervals_test {

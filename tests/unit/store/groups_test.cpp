@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "host/base/bytes.hpp"
 #include "host/base/error.hpp"
-#include "host/base/fnv1a.hpp"
 #include "host/store/netcdf_file.hpp"
 #include "host/store/result_seal.hpp"
 #include "host/store/result_view.hpp"

@@ -1,6 +1,6 @@
 // What a run removes of its folder of shards in the end, what it leaves there, and what it makes of a removal that was cut short.
 #include "host/store/shard_claim.hpp"
-#include "host/store/shard_names.hpp"
+#include "host/store/shard_folder.hpp"
 
 #include "host/base/error.hpp"
 #include "tests/support/output_fixture.hpp"
