@@ -31,27 +31,6 @@ Moments moments(std::span<double const> x, std::span<double const> y) {
     return m;
 }
 
-}  // namespace
-
-LinearFit fit_line(std::span<double const> x, std::span<double const> y) {
-    LinearFit fit{nan, nan, nan, nan, x.size()};
-    if (x.size() != y.size() || x.size() < 2) return fit;
-    Moments const m = moments(x, y);
-    if (!(m.xx > 0) || !std::isfinite(m.xx + m.yy)) return fit;
-    fit.slope = m.xy / m.xx;
-    fit.intercept = m.mean_y - fit.slope * m.mean_x;
-    double residual = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        double const r = (y[i] - m.mean_y) - fit.slope * (x[i] - m.mean_x);
-        residual += r * r;
-    }
-    if (x.size() > 2) fit.slope_error = std::sqrt(residual / (static_cast<double>(x.size() - 2) * m.xx));
-    if (m.yy > 0) fit.r_squared = std::clamp(1 - residual / m.yy, 0.0, 1.0);
-    return fit;
-}
-
-namespace {
-
 constexpr std::size_t parts = 10;
 constexpr std::size_t fewest_points = 4;  // of a window that is chosen
 constexpr double share_of_rise = 0.7;
@@ -203,6 +182,23 @@ double change_with_window(DivergenceCurve const& curve, FitWindow window, double
 }
 
 }  // namespace
+
+LinearFit fit_line(std::span<double const> x, std::span<double const> y) {
+    LinearFit fit{nan, nan, nan, nan, x.size()};
+    if (x.size() != y.size() || x.size() < 2) return fit;
+    Moments const m = moments(x, y);
+    if (!(m.xx > 0) || !std::isfinite(m.xx + m.yy)) return fit;
+    fit.slope = m.xy / m.xx;
+    fit.intercept = m.mean_y - fit.slope * m.mean_x;
+    double residual = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        double const r = (y[i] - m.mean_y) - fit.slope * (x[i] - m.mean_x);
+        residual += r * r;
+    }
+    if (x.size() > 2) fit.slope_error = std::sqrt(residual / (static_cast<double>(x.size() - 2) * m.xx));
+    if (m.yy > 0) fit.r_squared = std::clamp(1 - residual / m.yy, 0.0, 1.0);
+    return fit;
+}
 
 DivergenceCurve divergence_curve(DelayEmbedding const& embedding, std::size_t theiler, std::size_t longest) {
     DivergenceCurve curve{{}, {}, mean_log_of_strangers(embedding), {}};

@@ -100,6 +100,7 @@ void add_run(Options& options, RunArguments& run) {
     auto const member = std::make_shared<std::optional<std::uint64_t>>();
     auto const verify = std::make_shared<bool>(false);
     constexpr unsigned most_block_members = 1'000'000;  // results of a block stay in memory while it runs
+    run.study.threads = default_threads();
     add_scene(options, run.scene);
     options.text("-o,--output", "OUT.nc", run.study.output, "Result file (default: in this folder, the scene's name and what --set changes)");
     options.threads(run.study.threads);

@@ -89,7 +89,7 @@ struct SceneArguments {
 
 struct RunArguments {
     SceneArguments scene;
-    StudyOptions study{.threads = default_threads()};  // but for range, backend and progress, which follow; output is empty: by the scene's name
+    StudyOptions study;  // but for range, backend and progress, which follow; output is empty: by the scene's name
     std::optional<double> max_hours;
     FailureLimit max_failures;
     std::optional<MemberRange> members;  // empty: all

@@ -91,8 +91,8 @@ void announce(Scene const& scene, StudyOptions const& options, std::string const
     }
     tell("backend {}{}{}\n", backend_text(*options.backend), reason.empty() ? "" : ": ", reason);
     tell("memory {}{}, disk {} and {} for the shards until the end\n",
-               bytes_text(static_cast<double>(prediction.memory())), card_memory_text(prediction),
-               bytes_text(static_cast<double>(prediction.output_bytes)), shards_text(scene, prediction));
+               bytes_text(prediction.memory()), card_memory_text(prediction),
+               bytes_text(prediction.output_bytes), shards_text(scene, prediction));
 }
 
 bool says_text(RunArguments const& arguments) { return !arguments.quiet && !arguments.json; }

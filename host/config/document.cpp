@@ -124,9 +124,7 @@ Node parse_override(std::string const& key, std::string const& value, int order)
     constexpr std::size_t longest_option = 4096;
     Origin const origin{{}, fmt::format("--set {}={}", one_line(key), one_line(value)), order};
     if (key.find_first_of("\r\n=#") == std::string::npos && key.size() <= longest_option) {
-        if (value.size() <= longest_option) {
-            if (auto node = parse_pair(key, value, origin)) return *node;
-        }
+        if (auto node = value.size() <= longest_option ? parse_pair(key, value, origin) : std::nullopt) return *node;
         auto const number = plain_number(value);
         std::string const literal = number ? fmt::format("{}", *number) : toml_string(value);
         if (auto node = parse_pair(key, literal, origin)) return *node;

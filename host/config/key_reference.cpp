@@ -81,6 +81,12 @@ Json value_schema(KeyReference const& key) {
     return Json::object();
 }
 
+/// "; default 0.0001 (law paper)"
+std::string preset_and_owners(KeyReference const& key) {
+    std::string const owners = owners_text(key);
+    return fmt::format("{}{}", key.preset.empty() ? "" : "; default " + key.preset, owners.empty() ? "" : fmt::format(" ({})", owners));
+}
+
 }  // namespace
 
 std::string_view name_of(Type type) {
@@ -124,9 +130,8 @@ std::vector<KeyReference> const& known_keys() {
 }
 
 std::string described(KeyReference const& key) {
-    std::string const domain = domain_text(key), owners = owners_text(key);
-    return fmt::format("{}{}{}{}", key.meaning, domain.empty() ? "" : ": " + domain, key.preset.empty() ? "" : "; default " + key.preset,
-                       owners.empty() ? "" : fmt::format(" ({})", owners));
+    std::string const domain = domain_text(key);
+    return fmt::format("{}{}{}", key.meaning, domain.empty() ? "" : ": " + domain, preset_and_owners(key));
 }
 
 std::string keys_json(std::vector<KeyReference> const& keys) {
@@ -151,9 +156,7 @@ std::string scene_schema(std::vector<KeyReference> const& keys) {
     for (KeyReference const& key : keys) {
         Json value = value_schema(key);
         std::string const unit = key.unit.empty() || key.unit == "1" ? std::string() : fmt::format(" [{}]", key.unit);
-        std::string const owners = owners_text(key);
-        value["description"] = fmt::format("{}{}{}{}", key.meaning, unit, key.preset.empty() ? "" : "; default " + key.preset,
-                                           owners.empty() ? "" : fmt::format(" ({})", owners));
+        value["description"] = fmt::format("{}{}{}", key.meaning, unit, preset_and_owners(key));
         if (key.table().empty()) {
             properties[std::string(key.name)] = std::move(value);
             continue;

@@ -85,28 +85,6 @@ double by_tails(Distribution const& d, Tails const& p) {
     }
 }
 
-}  // namespace
-
-double standard_normal_quantile(double u) { return boost::math::quantile(boost::math::normal(), u); }
-
-double Distribution::quantile(double u) const {
-    if (kind == Kind::uniform) return std::clamp(low + u * (high - low), low, high);
-    if (kind == Kind::normal) return mean + sd * standard_normal_quantile(u);
-    if (kind == Kind::lognormal) return lognormal(*this, standard_normal_quantile(u));
-    return by_tails(*this, {u, 1 - u});
-}
-
-double Distribution::from_standard_normal(double z) const {
-    if (kind == Kind::normal) return finite(mean + sd * z);
-    if (kind == Kind::lognormal) return lognormal(*this, z);
-    boost::math::normal const normal;
-    double const below = cdf(normal, z), above = cdf(complement(normal, z));
-    if (kind == Kind::uniform) return std::clamp(z < 0 ? low + below * (high - low) : high - above * (high - low), low, high);
-    return by_tails(*this, {below, above});
-}
-
-namespace {
-
 using D = Distribution;
 using Argument = DistributionArgument;
 
@@ -140,6 +118,24 @@ constexpr bool in_order() {
 static_assert(in_order());
 
 }  // namespace
+
+double standard_normal_quantile(double u) { return boost::math::quantile(boost::math::normal(), u); }
+
+double Distribution::quantile(double u) const {
+    if (kind == Kind::uniform) return std::clamp(low + u * (high - low), low, high);
+    if (kind == Kind::normal) return mean + sd * standard_normal_quantile(u);
+    if (kind == Kind::lognormal) return lognormal(*this, standard_normal_quantile(u));
+    return by_tails(*this, {u, 1 - u});
+}
+
+double Distribution::from_standard_normal(double z) const {
+    if (kind == Kind::normal) return finite(mean + sd * z);
+    if (kind == Kind::lognormal) return lognormal(*this, z);
+    boost::math::normal const normal;
+    double const below = cdf(normal, z), above = cdf(complement(normal, z));
+    if (kind == Kind::uniform) return std::clamp(z < 0 ? low + below * (high - low) : high - above * (high - low), low, high);
+    return by_tails(*this, {below, above});
+}
 
 bool DistributionForm::has_levels() const {
     return kind != Distribution::Kind::constant && kind != Distribution::Kind::values;

@@ -1,6 +1,7 @@
 #include "host/statistics/summary.hpp"
 
 #include <cmath>
+#include <ranges>
 
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/students_t.hpp>
@@ -9,6 +10,14 @@
 #include "host/sampling/distribution.hpp"
 
 namespace slideway {
+namespace {
+
+/// The least number up to `end` for which it does not hold, where it holds for all below that and for none above; `end` if there is none.
+template <class Condition> std::uint64_t first_without(std::uint64_t end, Condition const& holds) {
+    return *std::ranges::partition_point(std::views::iota(std::uint64_t{0}, end), holds);
+}
+
+}  // namespace
 
 double quantile(std::span<double const> sorted, double p) {
     return quantile_of(sorted.size(), p, [&](std::uint64_t rank) { return sorted[rank]; });
@@ -66,23 +75,6 @@ Proportion proportion(std::uint64_t successes, std::uint64_t trials, double leve
     result.interval.high = successes == trials ? 1 : std::min(1.0, centre + half);
     return result;
 }
-
-namespace {
-
-/// The least number up to `end` for which it does not hold, where it holds for all below that and for none above; `end` if there is none.
-template <class Condition> std::uint64_t first_without(std::uint64_t end, Condition const& holds) {
-    std::uint64_t least = 0;
-    while (least < end) {
-        std::uint64_t const middle = least + (end - least) / 2;
-        if (holds(middle))
-            least = middle + 1;
-        else
-            end = middle;
-    }
-    return least;
-}
-
-}  // namespace
 
 RankInterval quantile_ranks(std::uint64_t n, double p, double level) {
     double const tail = 0.5 * (1 - level);

@@ -50,22 +50,6 @@ bool is_lock(std::string_view name) {
     return take(name, "-") && take_number(name, 1) && take(name, "-of-") && take_number(name, 1) && name.empty();
 }
 
-}  // namespace
-
-ShardFile kind_of(std::string_view name) {
-    if (is_lock(name)) return ShardFile::lock;
-    constexpr std::string_view temporary = ".tmp";
-    if (name.ends_with(temporary)) name.remove_suffix(temporary.size());
-    for (std::string_view const identity : {shard_names::identity, shard_names::identity_copy, shard_names::finished}) {
-        if (name == identity) return ShardFile::identity;
-    }
-    if (is_shard(name) || is_manifest(name) || name == shard_names::table) return ShardFile::content;
-    return take(name, shard_names::damaged) && is_shard(name) ? ShardFile::content : ShardFile::foreign;
-}
-
-namespace fs = std::filesystem;
-namespace {
-
 /// A whole line of a manifest; nothing of any other.
 std::optional<Shard> shard_of(std::string line) {
     auto const space = line.rfind(' ');
@@ -171,6 +155,19 @@ bool read_intact(std::string const& folder, Shard const& shard, bool& is_gone) {
 
 }  // namespace
 
+ShardFile kind_of(std::string_view name) {
+    if (is_lock(name)) return ShardFile::lock;
+    constexpr std::string_view temporary = ".tmp";
+    if (name.ends_with(temporary)) name.remove_suffix(temporary.size());
+    for (std::string_view const identity : {shard_names::identity, shard_names::identity_copy, shard_names::finished}) {
+        if (name == identity) return ShardFile::identity;
+    }
+    if (is_shard(name) || is_manifest(name) || name == shard_names::table) return ShardFile::content;
+    return take(name, shard_names::damaged) && is_shard(name) ? ShardFile::content : ShardFile::foreign;
+}
+
+namespace fs = std::filesystem;
+
 std::string manifest_name(int number) { return fmt::format("{}{:06}.txt", shard_names::manifest, number); }
 
 std::string manifest_line(Shard const& shard) {
@@ -264,9 +261,7 @@ std::vector<std::string> listed_names(std::string const& folder) {
 std::vector<std::byte> read_shard(std::string const& folder, Shard const& shard) {
     std::string const path = in_folder(folder, shard.name);
     std::vector<std::byte> bytes = read_bytes(path);
-    if (!is_what_was_written(bytes, shard)) {
-        throw FileError(path + ": is not what was written (its checksum differs)");
-    }
+    if (!is_what_was_written(bytes, shard)) throw FileError(path + ": is not what was written (its checksum differs)");
     return bytes;
 }
 

@@ -107,6 +107,10 @@ std::uint64_t most_shards(Scene const& scene, MemberSet const& members, Ensemble
     return std::min(blocks, places) * of_place;
 }
 
+constexpr std::uint64_t most_tried = 32, most_steps_of_one = 100'000;
+constexpr double full_lanes = 0.9;     // of lanes in use where members are many
+constexpr double beside_members = 0.1;  // [s]: a program that starts, shards, the file made of them
+
 }  // namespace
 
 std::uint64_t statistics_bytes(Scene const& scene, std::uint64_t members) {
@@ -189,14 +193,6 @@ Prediction predict(Scene const& scene, Backend const& backend, int threads, std:
     prediction.most_seconds = prediction.most_steps * seconds_per_step;
     return prediction;
 }
-
-namespace {
-
-constexpr std::uint64_t most_tried = 32, most_steps_of_one = 100'000;
-constexpr double full_lanes = 0.9;     // of lanes in use where members are many
-constexpr double beside_members = 0.1;  // [s]: a program that starts, shards, the file made of them
-
-}  // namespace
 
 std::optional<Trial> try_members(Scene const& scene, Backend const& backend, int threads) {
     if (is_continued(scene) || backend.name() != "cpu") return std::nullopt;

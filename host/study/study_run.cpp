@@ -58,6 +58,21 @@ std::optional<ShardClaim::Companion> companion_of(Scene const& scene) {
     return ShardClaim::Companion{std::string(shard_names::table), std::move(bytes)};
 }
 
+OutputTarget target_of(Scene const& scene, StudyOptions const& options) {
+    std::vector<std::string> const inputs = inputs_of(scene);
+    return {options.output,
+            {inputs, options.force || options.resume, is_result_file,
+             "add --force to replace it, --resume to go on with it, or give another name with -o"}};
+}
+
+/// As a result file says it.
+Maker stored_maker(DataFile const& file) {
+    auto const text = [&](char const* name) { return file.text(DataFile::global, name); };
+    double threads = 1;
+    file.number(DataFile::global, "threads", threads);
+    return {text("backend"), text("isa"), text("flags"), static_cast<int>(threads)};
+}
+
 }  // namespace
 
 std::string RunPart::name() const { return of_array ? fmt::format("{}-of-{}", number, parts) : std::string(); }
@@ -104,17 +119,6 @@ std::vector<std::string> inputs_of(Scene const& scene) {
     if (scene.design.table != nullptr) inputs.push_back(scene.design.table->path);
     return inputs;
 }
-
-namespace {
-
-OutputTarget target_of(Scene const& scene, StudyOptions const& options) {
-    std::vector<std::string> const inputs = inputs_of(scene);
-    return {options.output,
-            {inputs, options.force || options.resume, is_result_file,
-             "add --force to replace it, --resume to go on with it, or give another name with -o"}};
-}
-
-}  // namespace
 
 StudyRun::StudyRun(Scene const& scene, StudyOptions const& options)
     : scene_(scene), options_(options), target_(target_of(scene, options)), members_(options.range),
@@ -176,18 +180,6 @@ bool StudyRun::merge(StopRequest const& stop, std::optional<ToleranceReport>& re
     }
     return true;
 }
-
-namespace {
-
-/// As a result file says it.
-Maker stored_maker(DataFile const& file) {
-    auto const text = [&](char const* name) { return file.text(DataFile::global, name); };
-    double threads = 1;
-    file.number(DataFile::global, "threads", threads);
-    return {text("backend"), text("isa"), text("flags"), static_cast<int>(threads)};
-}
-
-}  // namespace
 
 std::function<void(DataFile&)> resolution_check(Scene const& scene, Backend const& backend, int threads, StopRequest const& stop, Progress::Style progress) {
     return [&scene, &backend, threads, &stop, progress](DataFile& file) {
