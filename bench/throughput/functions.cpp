@@ -7,7 +7,7 @@
 #include "bench/fma_peak.hpp"
 #include "bench/throughput/functions_kernel.hpp"
 #include "bench/throughput/throughput.hpp"
-#include "host/backend/by_isa.hpp"
+#include "tests/models/by_isa.hpp"
 #include "tests/support/ensemble.hpp"
 
 namespace slideway {

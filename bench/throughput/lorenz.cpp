@@ -5,7 +5,7 @@
 
 #include "bench/lorenz_kernel.hpp"
 #include "bench/throughput/throughput.hpp"
-#include "host/backend/by_isa.hpp"
+#include "tests/models/by_isa.hpp"
 
 namespace slideway {
 

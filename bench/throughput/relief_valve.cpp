@@ -12,7 +12,7 @@
 #include "bench/relief_valve_kernel.hpp"
 #include "bench/relief_valve_odeint.hpp"
 #include "bench/throughput/throughput.hpp"
-#include "host/backend/by_isa.hpp"
+#include "tests/models/by_isa.hpp"
 
 namespace slideway {
 

@@ -9,7 +9,7 @@
 
 #include "bench/rhs_kernel.hpp"
 #include "bench/throughput/throughput.hpp"
-#include "host/backend/by_isa.hpp"
+#include "tests/models/by_isa.hpp"
 #include "tests/oracle/golden_table.hpp"
 #include "tests/support/ensemble.hpp"
 #include "tests/support/starting_in.hpp"

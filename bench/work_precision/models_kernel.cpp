@@ -3,6 +3,7 @@
 
 #include "kernels/isa_real.hpp"
 #include "kernels/integrate.hpp"
+#include "tests/models/bouncing_mass.hpp"
 #include "tests/models/lorenz.hpp"
 #include "tests/models/relief_valve.hpp"
 
@@ -30,6 +31,15 @@ void integrate_valve_members(bench::ValveMember const* members, BlockBase const&
     std::vector<ReliefValve::Inputs> inputs;
     for (std::size_t i = 0; i < block.members; ++i) inputs.push_back({.inflow = members[i].inflow});
     integrate_inputs<ReliefValve>(inputs, block);
+}
+
+void integrate_bouncing_members(bench::BouncingMember const* members, BlockBase const& block) {
+    std::vector<BouncingMass::Inputs> inputs;
+    for (std::size_t i = 0; i < block.members; ++i) {
+        auto const& m = members[i];
+        inputs.push_back({m.y, m.v, m.stiffness, m.rate});
+    }
+    integrate_inputs<BouncingMass>(inputs, block);
 }
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -5,12 +5,13 @@
 #include "bench/relief_valve_orbit.hpp"
 #include "bench/work_precision/method.hpp"
 #include "bench/work_precision/models_kernel.hpp"
-#include "host/backend/by_isa.hpp"
+#include "tests/models/by_isa.hpp"
 #include "host/config/descriptors.hpp"
 
 namespace slideway {
 SLIDEWAY_BY_ISA(LorenzMembersRun, integrate_lorenz_members)
 SLIDEWAY_BY_ISA(ValveMembersRun, integrate_valve_members)
+SLIDEWAY_BY_ISA(BouncingMembersRun, integrate_bouncing_members)
 }  // namespace slideway
 
 namespace slideway::bench {
@@ -53,7 +54,7 @@ struct Workplace {
     }
 };
 
-void run_members(Isa isa, SliderCrankEnsemble const& ensemble, Workplace& work) {
+void run_members(Isa isa, SliderEnsemble const& ensemble, Workplace& work) {
     Block block{work.block, ensemble.members.data()};
     find_instance(isa, ensemble.parts).run(block);
 }
@@ -63,27 +64,33 @@ void run_members(Isa isa, LorenzEnsemble const& ensemble, Workplace& work) {
 void run_members(Isa isa, ValveEnsemble const& ensemble, Workplace& work) {
     integrate_valve_members_by_isa(isa)(ensemble.members.data(), work.block);
 }
+void run_members(Isa isa, BouncingEnsemble const& ensemble, Workplace& work) {
+    integrate_bouncing_members_by_isa(isa)(ensemble.members.data(), work.block);
+}
 
-template <class Model> struct Shape;
-template <> struct Shape<SliderCrankEnsemble> {
-    static constexpr std::size_t states = state_size, columns = quantity_columns;
+/// How many numbers a member's state and its quantities have.
+struct Shape {
+    std::size_t states, columns;
 };
-template <> struct Shape<LorenzEnsemble> { static constexpr std::size_t states = 3, columns = 0; };
-template <> struct Shape<ValveEnsemble> { static constexpr std::size_t states = 3, columns = valve_recorded_events; };
+Shape shape_of(SliderEnsemble const& ensemble) {
+    return {static_cast<std::size_t>(info(ensemble.parts.mechanism).states), quantity_columns};
+}
+Shape shape_of(LorenzEnsemble const&) { return {3, 0}; }
+Shape shape_of(BouncingEnsemble const&) { return {3, 1}; }
+Shape shape_of(ValveEnsemble const&) { return {3, valve_recorded_events}; }
 
 /// What the problem's measure needs of one member.
-template <class Ensemble> MemberOutcome outcome_of(Workplace const& work, Measure measure, std::size_t i) {
+MemberOutcome outcome_of(Workplace const& work, Shape shape, Measure measure, std::size_t i) {
     MemberOutcome member;
     auto const& record = work.records[i];
     member.finished = record.status == Status::finished;
     member.evaluations = record.rhs_evaluations + record.jacobian_evaluations;
-    using S = Shape<Ensemble>;
-    auto const quantities = work.quantities.begin() + static_cast<std::ptrdiff_t>(i * S::columns);
+    auto const quantities = work.quantities.data() + i * shape.columns;
     if (measure == Measure::extrema) {
-        member.state.assign(quantities, quantities + S::columns);
+        member.state.assign(quantities, quantities + shape.columns);
     } else {
-        auto const state = work.states.begin() + static_cast<std::ptrdiff_t>(i * S::states);
-        member.state.assign(state, state + S::states);
+        auto const state = work.states.data() + i * shape.states;
+        member.state.assign(state, state + shape.states);
     }
     if (measure == Measure::energy) {
         auto const value = [&](Quantity q) { return quantities[quantity_column(q)]; };
@@ -95,7 +102,8 @@ template <class Ensemble> MemberOutcome outcome_of(Workplace const& work, Measur
 
 template <class Ensemble> Outcome run_block(Isa isa, Choice const& choice, Ensemble const& ensemble, Task const& task) {
     auto const& problem = task.problem;
-    Workplace work(task.members, Shape<Ensemble>::states, Shape<Ensemble>::columns);
+    Shape const shape = shape_of(ensemble);
+    Workplace work(task.members, shape.states, shape.columns);
     auto& settings = work.block.settings;
     settings.method = choice.method;
     settings.locate_modes = choice.locate_modes;
@@ -118,7 +126,7 @@ template <class Ensemble> Outcome run_block(Isa isa, Choice const& choice, Ensem
         if (record.status == Status::not_run) return outcome;
     }
     for (std::size_t i = 0; i < task.members; ++i) {
-        outcome.members.push_back(outcome_of<Ensemble>(work, problem.measure, i));
+        outcome.members.push_back(outcome_of(work, shape, problem.measure, i));
     }
     return outcome;
 }
@@ -127,9 +135,9 @@ template <class Ensemble> Outcome run_block(Isa isa, Choice const& choice, Ensem
 /// switches has modes to locate.
 bool serves(Choice const& choice, Problem const& problem) {
     using enum ::slideway::Method;
-    auto const* const cranks = std::get_if<SliderCrankEnsemble>(&problem.ensemble);
-    if (cranks == nullptr) return !choice.locate_modes && is_explicit_pair(choice.method);
-    return !choice.locate_modes || info(cranks->parts.law).switches;
+    auto const* const sliders = std::get_if<SliderEnsemble>(&problem.ensemble);
+    if (sliders == nullptr) return !choice.locate_modes && is_explicit_pair(choice.method);
+    return !choice.locate_modes || info(sliders->parts.law).switches;
 }
 
 }  // namespace

@@ -57,7 +57,10 @@ Outcome run_members(Library const& library, std::vector<Member> const& ensemble,
 
 template <class Library> bench::Method peer(std::string name, std::string code, Library library) {
     return {std::move(name), std::move(code), false,
-            [](bench::Problem const& p) { return p.measure != bench::Measure::extrema; },
+            // Those have events.
+            [](bench::Problem const& p) {
+                return p.measure != bench::Measure::extrema && !std::holds_alternative<bench::BouncingEnsemble>(p.ensemble);
+            },
             [library](Task const& task) {
                 return with_systems(task.problem.ensemble, [&]<class System>(auto const& members) {
                     return run_members<System>(library, members, task);

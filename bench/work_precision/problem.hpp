@@ -11,7 +11,8 @@
 
 namespace slideway::bench {
 
-struct SliderCrankEnsemble {
+/// Of one of the mechanisms with a slider in a clearance joint.
+struct SliderEnsemble {
     Parts parts;
     std::vector<Inputs> members;
 };
@@ -33,7 +34,15 @@ struct ValveEnsemble {
     std::vector<ValveMember> members;
 };
 
-using Ensemble = std::variant<SliderCrankEnsemble, LorenzEnsemble, ValveEnsemble>;
+/// The mass between two springs of tests/models/bouncing_mass.hpp.
+struct BouncingMember {
+    double y, v, stiffness, rate;
+};
+struct BouncingEnsemble {
+    std::vector<BouncingMember> members;
+};
+
+using Ensemble = std::variant<SliderEnsemble, LorenzEnsemble, ValveEnsemble, BouncingEnsemble>;
 
 enum class Measure {
     /// Root mean square over the components of |y − reference| / (scale + |reference|) at the end time: the norm of the

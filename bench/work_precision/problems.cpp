@@ -4,6 +4,7 @@
 
 #include "bench/relief_valve_golden.hpp"
 #include "bench/spread.hpp"
+#include "bench/work_precision/bouncing_solution.hpp"
 #include "bench/work_precision/problem.hpp"
 #include "tests/support/ensemble.hpp"
 
@@ -84,7 +85,7 @@ Problem short_horizon(std::string name, std::string title, Scene const& scene, d
                                      scene.parts, end, 2e-4);
     return {.name = std::move(name),
             .title = std::move(title),
-            .ensemble = SliderCrankEnsemble{scene.parts, std::move(candidates)},
+            .ensemble = SliderEnsemble{scene.parts, std::move(candidates)},
             .shared = crowd.shared,
             .members_wanted = crowd.all,
             .end_time = end,
@@ -98,13 +99,92 @@ Problem long_horizon(std::string name, std::string title, Scene const& scene, do
                      std::vector<double> tolerances) {
     return {.name = std::move(name),
             .title = std::move(title),
-            .ensemble = SliderCrankEnsemble{scene.parts,
+            .ensemble = SliderEnsemble{scene.parts,
                                             spread_members(crowd.all, scene.clearance, scene.crank_speed, scene.chi)},
             .shared = crowd.shared,
             .members_wanted = crowd.all,
             .end_time = end,
             .max_step = max_step,
             .measure = Measure::energy,
+            .tolerances = std::move(tolerances)};
+}
+
+constexpr Parts free_on_springs = {.law = Law::kelvin_voigt, .mechanism = Mechanism::free_slider};
+
+/// A free slider that tumbles and falls between faces too far off to touch; the spin is mostly about its longest axis, so that the yaw
+/// stays away from ±π/2.
+Problem flight(double end, Crowd crowd, std::vector<double> tolerances) {
+    SliderEnsemble ensemble{free_on_springs, {}};
+    for (std::size_t i = 0; i < crowd.all; ++i) {
+        auto const number = [&](double irrational) { return scattered(i, irrational); };
+        Inputs in = with_presets({}, free_on_springs.law);
+        in.clearance_y = in.clearance_z = 0.2;
+        in.vy = 0.5 * number(0.6180339887498949);
+        in.vz = 0.5 * number(0.4142135623730951);
+        in.vx = number(0.7320508075688772);
+        in.roll = 3 * number(0.2360679774997898);
+        in.yaw = 0.2 * number(0.6457513110645907);
+        in.pitch = 0.5 * number(0.3166247903553998);
+        in.wx = 200 * (1 + 0.2 * number(0.6055512754639891));
+        in.wy = 40 * (1 + 0.2 * number(0.1231056256176606));
+        in.wz = 40 * number(0.3588989435406740);
+        ensemble.members.push_back(complete_inputs(in));
+    }
+    return {.name = "flight",
+            .title = "Free slider, tumbling in flight: states after 0.1 s",
+            .ensemble = std::move(ensemble),
+            .shared = crowd.shared,
+            .members_wanted = crowd.all,
+            .end_time = end,
+            .max_step = end,
+            .measure = Measure::state,
+            .tolerances = std::move(tolerances)};
+}
+
+/// A free slider that falls and rattles on undamped linear springs, tilted: its apices touch one after the other.
+Problem springs(double end, Crowd crowd, std::vector<double> tolerances) {
+    auto candidates = testing::scattered_starts(8 * crowd.all, 1e-4, 0, free_on_springs.law);
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        auto& in = candidates[i];
+        in.clearance_y *= 1 + 0.2 * scattered(i, 0.3166247903553998);
+        in.clearance_z *= 1 + 0.2 * scattered(i, 0.6055512754639891);
+        in.vy = 0.05 * scattered(i, 0.1231056256176606);
+        in.vz = 0.05 * scattered(i, 0.3588989435406740);
+    }
+    return {.name = "springs",
+            .title = "Free slider, rattling on linear springs: states after 5 ms",
+            .ensemble = SliderEnsemble{free_on_springs, in_free_flight(candidates, free_on_springs, end, 2e-4)},
+            .shared = crowd.shared,
+            .members_wanted = crowd.all,
+            .end_time = end,
+            .max_step = 1e-3,
+            .measure = Measure::state,
+            .tolerances = std::move(tolerances)};
+}
+
+/// What is left of the slider's equations where it bounces flat between the lower and the upper face; it ends in flight.
+Problem bouncing(double end, Crowd crowd, std::vector<double> tolerances) {
+    Inputs const slider = complete_inputs({});
+    double const face_stiffness =
+        slider.slider_young_modulus * slider.slider_length * slider.way_depth / slider.thickness_y;
+    BouncingEnsemble ensemble;
+    for (std::size_t i = 0; ensemble.members.size() < crowd.all; ++i) {
+        double const clearance = 1e-4 * (1 + 0.2 * scattered(i, 0.3166247903553998));
+        double const speed = 0.1 * (1 + 0.2 * scattered(i, 0.4142135623730951));
+        BouncingMember const member{0.8 * scattered(i, 0.6180339887498949), speed / std::sqrt(clearance * slider.gravity),
+                                    face_stiffness * clearance / (slider.slider_mass * slider.gravity),
+                                    std::sqrt(slider.gravity / clearance)};
+        auto const last = bouncing_solution(member, end);
+        if (last.face == 0 && last.margin > 0.05) ensemble.members.push_back(member);
+    }
+    return {.name = "bouncing",
+            .title = "A mass bouncing between two springs: states after 20 ms",
+            .ensemble = std::move(ensemble),
+            .shared = crowd.shared,
+            .members_wanted = crowd.all,
+            .end_time = end,
+            .max_step = end,
+            .measure = Measure::state,
             .tolerances = std::move(tolerances)};
 }
 
@@ -168,7 +248,10 @@ std::vector<Problem> all_problems(bool quick) {
                      decades(3, medium)),
         long_horizon("turn_energy", "A crank turn: energy residual after 2 s", settling, 2, many, 1e-2,
                      decades(3, coarse)),
-        lorenz(5, many, decades(3, fine + 1)),
+        flight(0.1, many, decades(3, fine + 3)),
+        springs(0.005, many, decades(3, fine + 1)),
+        bouncing(0.02, many, decades(3, fine + 3)),
+        lorenz(5, many, decades(3, fine + 3)),
         relief_valve(decades(5, quick ? 7 : 11)),
     };
 }

@@ -8,6 +8,7 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <stdexcept>
 
+#include "bench/work_precision/bouncing_solution.hpp"
 #include "bench/work_precision/error_norm.hpp"
 #include "host/backend/backend.hpp"
 #include "tests/oracle/oracle.hpp"
@@ -20,7 +21,6 @@ namespace odeint = boost::numeric::odeint;
 using Real = long double;
 template <std::size_t n> using State = std::array<Real, n>;
 constexpr double largest_difference = 1e-11;
-using CrankState = State<state_size>;
 
 template <std::size_t n> std::vector<double> rounded(State<n> const& y) { return {y.begin(), y.end()}; }
 
@@ -38,26 +38,32 @@ std::vector<double> integrated(Rates const& rates, State<n> y, std::vector<doubl
     return rounded(y);
 }
 
-CrankState start_of(Inputs const& in) {
-    return {in.y, in.z, in.vy, in.vz, in.roll, in.yaw, in.pitch, in.wx, in.wy, in.wz};
+/// @tparam n ten, or twelve of a slider that is free along the way
+template <std::size_t n> State<n> start_of(Inputs const& in) {
+    State<n> y = {in.y, in.z, in.vy, in.vz, in.roll, in.yaw, in.pitch, in.wx, in.wy, in.wz};
+    if constexpr (n > state_size) {
+        y[state_size] = in.x;
+        y[state_size + 1] = in.vx;
+    }
+    return y;
 }
 
-auto oracle_rates(Inputs const& inputs, Parts const& parts) {
-    return [&](CrankState const& y, CrankState& slope, Real t) {
+template <std::size_t n> auto oracle_rates(Inputs const& inputs, Parts const& parts) {
+    return [&](State<n> const& y, State<n>& slope, Real t) {
         oracle::State state{};
-        for (std::size_t i = 0; i < state_size; ++i) state[i] = static_cast<double>(y[i]);
+        for (std::size_t i = 0; i < n; ++i) state[i] = static_cast<double>(y[i]);
         auto const r = oracle::evaluate(inputs, parts, static_cast<double>(t), state);
-        for (std::size_t i = 0; i < state_size; ++i) slope[i] = r.derivative[i];
+        for (std::size_t i = 0; i < n; ++i) slope[i] = r.derivative[i];
     };
 }
 
-auto kernel_rates(Inputs const& inputs, Parts const& parts) {
-    return [&inputs, instance = find_instance(Isa::scalar, parts)](CrankState const& y, CrankState& slope, Real t) {
+template <std::size_t n> auto kernel_rates(Inputs const& inputs, Parts const& parts) {
+    return [&inputs, instance = find_instance(Isa::scalar, parts)](State<n> const& y, State<n>& slope, Real t) {
         Inputs const in = testing::starting_in(inputs, y);
         double const time = static_cast<double>(t);
         ProbeResult result;
         instance.probe({&in, &time, 1, &result});
-        for (int i = 0; i < state_size; ++i) slope[i] = result.derivative[i];
+        for (std::size_t i = 0; i < n; ++i) slope[i] = result.derivative[i];
     };
 }
 
@@ -65,17 +71,28 @@ struct Pair {
     std::vector<double> first, second;
 };
 
-Pair both(SliderCrankEnsemble const& ensemble, std::size_t i, Problem const& problem) {
+template <std::size_t n> Pair both_of(SliderEnsemble const& ensemble, std::size_t i, Problem const& problem) {
     auto const& in = ensemble.members[i];
     auto const scale = scales(problem.ensemble, i);
-    return {integrated<odeint::runge_kutta_cash_karp54<CrankState, Real>>(oracle_rates(in, ensemble.parts),
-                                                                          start_of(in), scale, 1e-15L, problem),
-            integrated<odeint::runge_kutta_dopri5<CrankState, Real>>(kernel_rates(in, ensemble.parts), start_of(in),
-                                                                     scale, 1e-15L, problem)};
+    return {integrated<odeint::runge_kutta_cash_karp54<State<n>, Real>>(oracle_rates<n>(in, ensemble.parts),
+                                                                        start_of<n>(in), scale, 1e-15L, problem),
+            integrated<odeint::runge_kutta_dopri5<State<n>, Real>>(kernel_rates<n>(in, ensemble.parts), start_of<n>(in),
+                                                                   scale, 1e-15L, problem)};
+}
+
+Pair both(SliderEnsemble const& ensemble, std::size_t i, Problem const& problem) {
+    return ensemble.parts.mechanism == Mechanism::free_slider ? both_of<12>(ensemble, i, problem)
+                                                               : both_of<state_size>(ensemble, i, problem);
 }
 
 Pair both(ValveEnsemble const&, std::size_t, Problem const& problem) {
     throw std::logic_error(problem.name + ": its reference is a file");
+}
+
+Pair both(BouncingEnsemble const& ensemble, std::size_t i, Problem const& problem) {
+    auto const end = bouncing_solution(ensemble.members[i], problem.end_time);
+    auto const state = rounded(State<3>{end.y, end.v, static_cast<Real>(end.face)});
+    return {state, state};
 }
 
 Pair both(LorenzEnsemble const& ensemble, std::size_t i, Problem const& problem) {
@@ -105,13 +122,18 @@ double state_error(std::vector<double> const& state, std::vector<double> const& 
 }
 
 std::vector<double> scales(Ensemble const& ensemble, std::size_t member) {
-    if (!std::holds_alternative<SliderCrankEnsemble>(ensemble)) return {1, 1, 1};
-    // c, c·ω, 2c/L_k, 2c/L_k·ω (docs/model.md 9)
-    auto const& in = std::get<SliderCrankEnsemble>(ensemble).members[member];
-    double const rate = std::max(std::abs(in.crank_speed), 1.0);
-    double const tilt = 2 * std::min(in.clearance_y, in.clearance_z) / in.slider_length;
-    return {in.clearance_y, in.clearance_z, in.clearance_y * rate, in.clearance_z * rate, tilt,
+    if (!std::holds_alternative<SliderEnsemble>(ensemble)) return {1, 1, 1};
+    // c, c·ω, 2c/L_k, 2c/L_k·ω (docs/model.md 9); for ω √(g/c) where nothing drives the slider
+    auto const& sliders = std::get<SliderEnsemble>(ensemble);
+    auto const& in = sliders.members[member];
+    bool const is_free = sliders.parts.mechanism == Mechanism::free_slider;
+    double const clearance = std::min(in.clearance_y, in.clearance_z);
+    double const rate = std::max(is_free ? std::sqrt(std::abs(in.gravity) / clearance) : std::abs(in.crank_speed), 1.0);
+    double const tilt = 2 * clearance / in.slider_length;
+    std::vector<double> scale = {in.clearance_y, in.clearance_z, in.clearance_y * rate, in.clearance_z * rate, tilt,
             tilt,           tilt,           tilt * rate,           tilt * rate,           tilt * rate};
+    if (is_free) scale.insert(scale.end(), {in.clearance_y, in.clearance_y * rate});
+    return scale;
 }
 
 void find_references(Problem& problem) {

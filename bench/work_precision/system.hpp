@@ -9,20 +9,22 @@
 
 #include "bench/work_precision/method.hpp"
 #include "kernels/laws/conservative.hpp"
+#include "kernels/laws/kelvin_voigt.hpp"
 #include "kernels/laws/one_law.hpp"
 #include "kernels/laws/paper.hpp"
+#include "kernels/mechanisms/free_slider.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// One member of a slider-crank ensemble, with friction, on a way that lies straight.
-template <class Law, class Damping> class SliderCrankSystem {
+/// One member of an ensemble of sliders, on a way that lies straight.
+template <class Mechanism, class Law, class Damping, bool friction> class SliderSystem {
 public:
-    using Model = SliderCrank;
+    using Model = Mechanism;
     static constexpr int size = Model::size;
     static constexpr int audits = 3;  // W, D_f, D_d
 
-    explicit SliderCrankSystem(Inputs const& inputs) : p_(Model::parameters(inputs)) {
+    explicit SliderSystem(Inputs const& inputs) : p_(Model::parameters(inputs)) {
         Model::initial_state(inputs, start.data());
         Model::scales(p_, scale.data());
         std::fill(scale.begin() + size, scale.end(), Model::energy_scale(p_));
@@ -63,7 +65,7 @@ private:
     }
 
     SliderParameters<double> p_;
-    Conditions<OneLaw<Law, Damping>> block_{{}, Law::info.switches, {.friction = true}};
+    Conditions<OneLaw<Law, Damping>> block_{{}, Law::info.switches, {.friction = friction}};
     ContactMemory<double> memory_;
     mutable SliderReport<double> report_;
 };
@@ -94,12 +96,15 @@ private:
 template <class Use> auto with_systems(bench::Ensemble const& ensemble, Use const& use) {
     struct Visitor {
         Use const& use;
-        auto operator()(bench::SliderCrankEnsemble const& e) const {
+        auto operator()(bench::SliderEnsemble const& e) const {
             if (e.parts == Parts{Law::paper, Damping::point, true}) {
-                return use.template operator()<SliderCrankSystem<PaperLaw, PointDamping>>(e.members);
+                return use.template operator()<SliderSystem<SliderCrank, PaperLaw, PointDamping, true>>(e.members);
             }
             if (e.parts == Parts{Law::conservative, Damping::rate, true}) {
-                return use.template operator()<SliderCrankSystem<ConservativeLaw, RateDamping>>(e.members);
+                return use.template operator()<SliderSystem<SliderCrank, ConservativeLaw, RateDamping, true>>(e.members);
+            }
+            if (e.parts == Parts{.law = Law::kelvin_voigt, .mechanism = Mechanism::free_slider}) {
+                return use.template operator()<SliderSystem<FreeSlider, KelvinVoigt, PointDamping, false>>(e.members);
             }
             throw std::logic_error("the peers have no equations of these parts");
         }
@@ -107,6 +112,7 @@ template <class Use> auto with_systems(bench::Ensemble const& ensemble, Use cons
             return use.template operator()<LorenzSystem>(e.members);
         }
         bench::Outcome operator()(bench::ValveEnsemble const&) const { return {}; }  // has events: see valve_peer.cpp
+        bench::Outcome operator()(bench::BouncingEnsemble const&) const { return {}; }
     };
     return std::visit(Visitor{use}, ensemble);
 }

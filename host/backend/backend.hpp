@@ -78,9 +78,10 @@ enum class Isa { scalar, scalar_libm, avx2, avx512, neon };
 
 std::string_view name_of(Isa isa);
 int lanes_of(Isa isa);
-bool is_built(Isa isa);      // this program has kernels for it
-bool is_supported(Isa isa);  // and they run on this machine
-Isa best_isa();              // the widest that is supported
+bool processor_has(Isa isa);  // this machine's has the instructions that kernels of it are compiled to
+bool is_built(Isa isa);       // this program has kernels for it
+bool is_supported(Isa isa);   // and they run on this machine
+Isa best_isa();               // the widest that is supported
 std::span<Isa const> all_isas();
 std::span<Isa const> built_isas();
 /// scalar_libm for scalar where this machine needs it, otherwise the same.

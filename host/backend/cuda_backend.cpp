@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "host/backend/cuda_backend.hpp"
 #include "host/backend/cuda_kernels.hpp"
+#include "host/backend/cuda_module.hpp"
 #include "host/backend/cuda_stream.hpp"
 
 namespace slideway {

@@ -2,7 +2,6 @@
 #include "host/backend/cuda_module.hpp"
 
 #include "host/backend/commit.hpp"
-#include "host/backend/cuda_backend.hpp"
 
 extern "C" __attribute__((visibility("default"))) slideway::CudaModule const* slideway_cuda_module() {
     static constexpr slideway::CudaModule module{slideway::cuda_interface, SLIDEWAY_BUILD, slideway::border_layout(),

@@ -9,6 +9,9 @@
 
 namespace slideway {
 
+/// In the module: a card of this machine, on the CUDA runtime.  The program has it by `cuda_backend` (backend.hpp).
+std::shared_ptr<Backend const> open_card(CardShare const& share);
+
 /// What the module says of itself.  It exports one function, `cuda_module_entry`, which returns this.
 struct CudaModule {
     // Of every version, so that a program can say why it refuses one.

@@ -1,4 +1,4 @@
-#include "host/backend/processor.hpp"
+#include "host/backend/backend.hpp"
 
 namespace slideway {
 

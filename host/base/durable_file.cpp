@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <istream>
 #include <system_error>
 #include <utility>
 
@@ -150,6 +151,10 @@ void require_readable(std::string const& path) {
     Descriptor const file(path, O_RDONLY);
     char byte;
     if (::read(file.get(), &byte, 1) < 0) fail(path, "read", errno);
+}
+
+void require_readable(std::istream& in, std::string const& path) {
+    if (!in || (in.peek() == std::istream::traits_type::eof() && in.bad())) fail(path, "read", errno);
 }
 
 std::vector<std::byte> read_bytes(std::string const& path) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <iosfwd>
 #include <span>
 #include <string>
 #include <string_view>
@@ -49,6 +50,8 @@ bool is_there(std::string const& path);
 
 /// @throws FileError with the reason where a file cannot be opened, or its first byte not be read.
 void require_readable(std::string const& path);
+/// The same of a stream that was just opened: a folder opens, and only fails to read.
+void require_readable(std::istream& in, std::string const& path);
 
 /// @throws FileError if it cannot be read.
 std::vector<std::byte> read_bytes(std::string const& path);

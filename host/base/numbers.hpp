@@ -2,11 +2,15 @@
 #pragma once
 
 #include <charconv>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <system_error>
 
 namespace slideway {
+
+/// What stands where there is no number.
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// What the whole text says, without blanks or a +; nothing where it is no number or beyond the type.
 /// @param base of an integer: parse_number<int>("ff", 16)

@@ -3,14 +3,29 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "host/chaos/delay_embedding.hpp"
-#include "host/chaos/linear_fit.hpp"
 
 namespace slideway {
 
-/// Rosenstein, Collins and De Luca, Physica D 65 (1993) 117–134: with Xⱼ the nearest neighbour of Xᵢ (nearest_neighbours.hpp),
+/// y ≈ intercept + slope·x.
+struct LinearFit {
+    double slope, intercept;
+    double slope_error;  // standard error of the slope; NaN for two points
+    double r_squared;    // 1 - Σ(y - ŷ)²/Σ(y - ȳ)², in [0, 1]; NaN if all y are the same
+    std::size_t points;
+};
+
+/// Ordinary least squares.  With x̄, ȳ the means and Sxx = Σ(x - x̄)², Sxy = Σ(x - x̄)(y - ȳ):
+/// slope = Sxy/Sxx, intercept = ȳ - slope·x̄, slope_error² = Σ(y - ŷ)²/((n - 2) Sxx).  The standard error takes the
+/// residuals as independent; those of a smooth curve are not, and then it is too small.
+/// @param x, y of one length, any units.
+/// @return all NaN for less than two points, numbers that are not finite or one x only.
+LinearFit fit_line(std::span<double const> x, std::span<double const> y);
+
+/// Rosenstein, Collins and De Luca, Physica D 65 (1993) 117–134: with Xⱼ the nearest neighbour of Xᵢ (delay_embedding.hpp),
 /// dᵢ(k) = |Xᵢ₊ₖ - Xⱼ₊ₖ| grows as e^(λ₁ k Δt) until it is as large as the attractor.
 struct DivergenceCurve {
     std::vector<double> mean_log;    // ⟨ln dᵢ(k)⟩ for k = 0, 1, …; d in units of the series

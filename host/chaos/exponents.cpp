@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/base/nan.hpp"
+#include "host/base/numbers.hpp"
 #include "host/statistics/summary.hpp"
 
 namespace slideway {

@@ -9,7 +9,7 @@
 
 #include <unsupported/Eigen/FFT>
 
-#include "host/base/nan.hpp"
+#include "host/base/numbers.hpp"
 
 namespace slideway {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/base/nan.hpp"
+#include "host/base/numbers.hpp"
 #include "host/statistics/correlation.hpp"
 
 namespace slideway {

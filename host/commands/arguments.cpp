@@ -44,7 +44,7 @@ public:
 
     void force(bool& to) { flag("--force", to, "Replace an existing result of slideway; inputs and other files are never replaced"); }
     CLI::Option* json(bool& to) { return flag("--json", to, "One object in JSON in place of text (docs/json.md)"); }
-    void threads(std::optional<int>& to) {
+    void threads(int& to) {
         constexpr unsigned most = 4096;  // beyond it the OpenMP runtime ends the process instead of complaining
         value("--threads", "N", to, "Threads (default: all that this process may use)", whole_number(1, most));
     }
@@ -90,127 +90,118 @@ void add_backend(Options& options, SceneArguments& scene) {
 /// What the command line comes to, when all options are read.
 using Finish = std::function<Arguments()>;
 
-Finish add_run(Options& options) {
-    auto const run = std::make_shared<RunArguments>();
+template <class Given, void (*declare)(Options&, Given&)> Finish add(Options& options) {
+    auto const given = std::make_shared<Given>();
+    declare(options, *given);
+    return [given] { return *given; };
+}
+
+void add_run(Options& options, RunArguments& run) {
     auto const member = std::make_shared<std::optional<std::uint64_t>>();
     auto const verify = std::make_shared<bool>(false);
     constexpr unsigned most_block_members = 1'000'000;  // results of a block stay in memory while it runs
-    add_scene(options, run->scene);
-    options.text("-o,--output", "OUT.nc", run->output, "Result file (default: in this folder, the scene's name and what --set changes)");
-    options.threads(run->threads);
-    add_backend(options, run->scene);
-    options.flag("--resume", run->resume, "Continue an interrupted run from what it left in OUT.nc.shards");
-    options.force(run->force);
-    options.value("--max-hours", "H", run->max_hours, "Stop after this time and keep what is finished in OUT.nc.shards (exit code 5)", parse_hours);
-    options.value("--max-failures", "N|P%", run->max_failures, "Members that may fail before the exit code is 3 (default 1%)", parse_failure_limit);
+    run.study.threads = default_threads();
+    add_scene(options, run.scene);
+    options.text("-o,--output", "OUT.nc", run.study.output, "Result file (default: in this folder, the scene's name and what --set changes)");
+    options.threads(run.study.threads);
+    add_backend(options, run.scene);
+    options.flag("--resume", run.study.resume, "Continue an interrupted run from what it left in OUT.nc.shards");
+    options.force(run.study.force);
+    options.value("--max-hours", "H", run.max_hours, "Stop after this time and keep what is finished in OUT.nc.shards (exit code 5)", parse_hours);
+    options.value("--max-failures", "N|P%", run.max_failures, "Members that may fail before the exit code is 3 (default 1%)", parse_failure_limit);
     options.value("--member", "N", *member, "Run this member alone, counted from 0, with the inputs it has in the ensemble", parse_member);
-    options.value("--members", "A..B", run->members, "Run these members alone, both ends included", parse_member_range);
-    options.value("--shard", "I/N", run->part, "Run the I-th of N parts, as a job of an array; the jobs share OUT.nc.shards, and merge makes OUT.nc",
+    options.value("--members", "A..B", run.members, "Run these members alone, both ends included", parse_member_range);
+    options.value("--shard", "I/N", run.study.part, "Run the I-th of N parts, as a job of an array; the jobs share OUT.nc.shards, and merge makes OUT.nc",
                   parse_part);
-    options.value("--block-members", "N", run->block_members,
+    options.value("--block-members", "N", run.study.block_members,
                   "Members that a thread takes at once (default: by their cost); a crash loses the unfinished ones", whole_number(1, most_block_members));
     options.flag("--verify", *verify, "Repeat 16 members to check the study, whatever it costs (study.verify = 16)");
-    options.flag("--no-progress", run->no_progress, "No lines of progress on stderr");
-    options.flag("--quiet", run->quiet, "No progress and no summary: warnings and errors alone");
-    options.json(run->json);
-    return [=]() -> Arguments {
-        if (*member && run->members) throw SceneError("--member and --members exclude each other; use one");
-        if (*member) run->members = MemberRange{**member, 1};
-        if (*verify) run->scene.overrides.emplace_back("study.verify", "16");
-        return *run;
-    };
+    options.flag("--no-progress", run.no_progress, "No lines of progress on stderr");
+    options.flag("--quiet", run.quiet, "No progress and no summary: warnings and errors alone");
+    options.json(run.json);
+    options.at_end([&run, member, verify] {
+        if (*member && run.members) throw SceneError("--member and --members exclude each other; use one");
+        if (*member) run.members = MemberRange{**member, 1};
+        if (*verify) run.scene.overrides.emplace_back("study.verify", "16");
+    });
 }
 
-Finish add_check(Options& options) {
-    auto const check = std::make_shared<CheckArguments>();
-    add_scene(options, check->scene);
-    options.threads(check->threads);
-    add_backend(options, check->scene);
-    CLI::Option* const json = options.json(check->json);
-    options.flag("--resolved", check->resolved, "Print the resolved scene alone, as a scene file")->excludes(json);
-    options.flag("--force", check->force, "Accept starts inside the way");
-    return [=] { return *check; };
+void add_check(Options& options, CheckArguments& check) {
+    add_scene(options, check.scene);
+    options.threads(check.threads);
+    add_backend(options, check.scene);
+    CLI::Option* const json = options.json(check.json);
+    options.flag("--resolved", check.resolved, "Print the resolved scene alone, as a scene file")->excludes(json);
+    options.flag("--force", check.force, "Accept starts inside the way");
 }
 
-Finish add_probe(Options& options) {
-    auto const probe = std::make_shared<ProbeArguments>();
-    add_scene(options, probe->scene);
-    options.text("--csv", "STATES.csv", probe->table, "Table of states (default: the scene's start)");
-    options.text("-o,--output", "OUT.csv", probe->output, "Write CSV to this file");
-    options.force(probe->force);
-    options.json(probe->json);
-    return [=] { return *probe; };
+void add_probe(Options& options, ProbeArguments& probe) {
+    add_scene(options, probe.scene);
+    options.text("--csv", "STATES.csv", probe.table, "Table of states (default: the scene's start)");
+    options.text("-o,--output", "OUT.csv", probe.output, "Write CSV to this file");
+    options.force(probe.force);
+    options.json(probe.json);
 }
 
-Finish add_info(Options& options) {
-    auto const info = std::make_shared<InfoArguments>();
+void add_info(Options& options, InfoArguments& info) {
     auto const members = std::make_shared<std::string>();
-    options.positional("FILE", info->path, "Result file");
-    CLI::Option* const json = options.json(info->json);
-    options.flag("--scene", info->scene, "Show its scene, too")->excludes(json);
-    options.flag("--check", info->check, "Only check the file against its stored hashes (exit code 4 if not)")->excludes(json);
+    options.positional("FILE", info.path, "Result file");
+    CLI::Option* const json = options.json(info.json);
+    options.flag("--scene", info.scene, "Show its scene, too")->excludes(json);
+    options.flag("--check", info.check, "Only check the file against its stored hashes (exit code 4 if not)")->excludes(json);
     options.text("--members", "A..B", *members, "Show its members, or these of them, too: number, status, end time, steps")
         ->expected(0, 1)->default_str(std::string(all_members));
-    return [=]() -> Arguments {
+    options.at_end([&info, members] {
         // --members takes the word behind it, the file too.
-        if (info->path.empty() && *members != all_members) info->path = std::exchange(*members, all_members);
-        if (info->path.empty()) throw SceneError("slideway: FILE is missing; give a result file, see slideway help info");
+        if (info.path.empty() && *members != all_members) info.path = std::exchange(*members, all_members);
+        if (info.path.empty()) throw SceneError("slideway: FILE is missing; give a result file, see slideway help info");
         if (*members == all_members)
-            info->members = MemberRange{0, std::numeric_limits<std::uint64_t>::max()};
+            info.members = MemberRange{0, std::numeric_limits<std::uint64_t>::max()};
         else if (!members->empty())
-            info->members = parse_member_range("--members", *members);
-        return *info;
-    };
+            info.members = parse_member_range("--members", *members);
+    });
 }
 
-Finish add_stats(Options& options) {
-    auto const stats = std::make_shared<StatsArguments>();
-    options.positional("FILE", stats->path, "Result file, or a table in CSV")->required();
-    options.text("--variable", "NAME", stats->variable, "Variable of a result (default y)");
-    options.value("--member", "K", stats->member, "Member of a result (default: its first)", parse_member);
-    options.text("--column", "NAME|N", stats->column, "Column of a table, by name or number from 1 (default: the last)");
-    options.value("--dt", "SECONDS", stats->spacing, "Spacing of a table's samples (default: from its column time or t)", parse_seconds);
-    options.value("--skip", "SECONDS", stats->skip_time, "Leave out a transient", parse_seconds);
-    options.value("--skip-samples", "N", stats->skip_samples, "Leave out a transient", whole_number(0));
-    options.value("--max-points", "N", stats->max_points, "Use at most so many samples", whole_number(1));
-    options.value("--delay", "N", stats->options.delay, "Delay of the embedding in samples (default: C-C method)", whole_number(1));
-    options.value("--dimension", "M", stats->options.dimension, "Dimension of the embedding (default: C-C method)", whole_number(1));
-    options.value("--theiler", "N", stats->options.theiler, "Neighbours are farther apart in time, samples (default: the average period)", whole_number(0));
-    options.value("--fit", "A..B", stats->options.fit, "Fit the exponent over these samples of the divergence curve (default: found)", parse_fit);
-    options.text("-o,--output", "OUT.csv", stats->output, "Write the C-C curves and the divergence curve to this file");
-    options.force(stats->force);
-    options.json(stats->json);
-    return [=]() -> Arguments {
-        if (stats->skip_time && stats->skip_samples) throw SceneError("--skip and --skip-samples exclude each other; use one");
-        return *stats;
-    };
+void add_stats(Options& options, StatsArguments& stats) {
+    options.positional("FILE", stats.path, "Result file, or a table in CSV")->required();
+    options.text("--variable", "NAME", stats.variable, "Variable of a result (default y)");
+    options.value("--member", "K", stats.member, "Member of a result (default: its first)", parse_member);
+    options.text("--column", "NAME|N", stats.column, "Column of a table, by name or number from 1 (default: the last)");
+    options.value("--dt", "SECONDS", stats.spacing, "Spacing of a table's samples (default: from its column time or t)", parse_seconds);
+    options.value("--skip", "SECONDS", stats.skip_time, "Leave out a transient", parse_seconds);
+    options.value("--skip-samples", "N", stats.skip_samples, "Leave out a transient", whole_number(0));
+    options.value("--max-points", "N", stats.max_points, "Use at most so many samples", whole_number(1));
+    options.value("--delay", "N", stats.options.delay, "Delay of the embedding in samples (default: C-C method)", whole_number(1));
+    options.value("--dimension", "M", stats.options.dimension, "Dimension of the embedding (default: C-C method)", whole_number(1));
+    options.value("--theiler", "N", stats.options.theiler, "Neighbours are farther apart in time, samples (default: the average period)", whole_number(0));
+    options.value("--fit", "A..B", stats.options.fit, "Fit the exponent over these samples of the divergence curve (default: found)", parse_fit);
+    options.text("-o,--output", "OUT.csv", stats.output, "Write the C-C curves and the divergence curve to this file");
+    options.force(stats.force);
+    options.json(stats.json);
+    options.at_end([&stats] {
+        if (stats.skip_time && stats.skip_samples) throw SceneError("--skip and --skip-samples exclude each other; use one");
+    });
 }
 
-Finish add_merge(Options& options) {
-    auto const merge = std::make_shared<MergeArguments>();
-    options.positional("DIR", merge->folder, "Folder of shards, OUT.nc.shards")->required();
-    options.text("-o,--output", "OUT.nc", merge->output, "Result file")->required();
-    options.force(merge->force);
-    options.json(merge->json);
-    return [=] { return *merge; };
+void add_merge(Options& options, MergeArguments& merge) {
+    options.positional("DIR", merge.folder, "Folder of shards, OUT.nc.shards")->required();
+    options.text("-o,--output", "OUT.nc", merge.output, "Result file")->required();
+    options.force(merge.force);
+    options.json(merge.json);
 }
 
-Finish add_report(Options& options) {
-    auto const report = std::make_shared<ReportArguments>();
-    options.positional("FILE", report->path, "Result file")->required();
-    options.text("-o,--output", "OUT.html", report->output, "Page (default: FILE with .html)");
-    options.force(report->force);
+void add_report(Options& options, ReportArguments& report) {
+    options.positional("FILE", report.path, "Result file")->required();
+    options.text("-o,--output", "OUT.html", report.output, "Page (default: FILE with .html)");
+    options.force(report.force);
     options.note("The companion is the package slideway of the interpreter that SLIDEWAY_PYTHON names, else of python3; "
                  "pip install . in the source tree installs it.");
-    return [=] { return *report; };
 }
 
-Finish add_list(Options& options) {
-    auto const list = std::make_shared<ListArguments>();
-    CLI::Option* const json = options.flag("--json", list->json, "The keys of a scene as JSON");
-    CLI::Option* const schema = options.flag("--schema", list->schema, "A JSON Schema of scenes, for editors of TOML")->excludes(json);
-    options.flag("--markdown", list->markdown, "The keys of a scene as a page in Markdown")->excludes(json)->excludes(schema);
-    return [=] { return *list; };
+void add_list(Options& options, ListArguments& list) {
+    CLI::Option* const json = options.flag("--json", list.json, "The keys of a scene as JSON");
+    CLI::Option* const schema = options.flag("--schema", list.schema, "A JSON Schema of scenes, for editors of TOML")->excludes(json);
+    options.flag("--markdown", list.markdown, "The keys of a scene as a page in Markdown")->excludes(json)->excludes(schema);
 }
 
 std::string help_of(std::string const& command);
@@ -240,28 +231,28 @@ struct CommandRow {
 
 std::vector<CommandRow> const& command_rows() {
     static std::vector<CommandRow> const rows = {
-        {"run", "Integrate the members of a scene to a NetCDF file", add_run,
+        {"run", "Integrate the members of a scene to a NetCDF file", add<RunArguments, add_run>,
          {{"slideway run scenes/tolerance_0.1mm.toml -o result.nc", "The members of a scene, on all cores; its summary goes to stdout."},
           {"slideway run scenes/slider_crank_0.1mm.toml --set joint.clearance=\"0.2 mm\" study.revolutions=4", "The same scene with other numbers."},
           {"slideway run scenes/tolerance_0.1mm.toml -o result.nc --resume", "What an earlier run that was stopped has left to do."},
           {"slideway run scenes/tolerance_0.1mm.toml -o result.nc --shard 3/8", "The third of eight jobs of an array, which share result.nc.shards."}}},
-        {"check", "Check a scene; print it with all keys, and the cost of a run", add_check,
+        {"check", "Check a scene; print it with all keys, and the cost of a run", add<CheckArguments, add_check>,
          {{"slideway check scenes/tolerance_0.1mm.toml", "The scene in SI units, parts of the kernels, memory and cost."},
           {"slideway check scenes/tolerance_0.1mm.toml --resolved >resolved.toml", "A scene file with every key."}}},
-        {"probe", "Compute forces, contact mode and derivative of single states", add_probe,
+        {"probe", "Compute forces, contact mode and derivative of single states", add<ProbeArguments, add_probe>,
          {{"slideway probe scenes/slider_crank_0.1mm.toml --set initial.z=\"0.1 mm\"", "The start of a scene, a tenth of a millimetre higher."},
           {"slideway probe scenes/slider_crank_0.1mm.toml --csv states.csv -o forces.csv", "A table of states to a table of forces."}}},
-        {"info", "Show provenance, statuses and statistics of a result file", add_info,
+        {"info", "Show provenance, statuses and statistics of a result file", add<InfoArguments, add_info>,
          {{"slideway info result.nc", "Where a result comes from, how its members ended, their statistics."},
           {"slideway info result.nc --members 0..9", "The same with a row for each of its first ten members."}}},
-        {"stats", "Compute chaos statistics of a stored series (NetCDF result or CSV)", add_stats,
+        {"stats", "Compute chaos statistics of a stored series (NetCDF result or CSV)", add<StatsArguments, add_stats>,
          {{"slideway stats result.nc --variable y --member 3 --skip 2", "The series y of member 3, without its first two seconds."},
           {"slideway stats measured.csv --column 2 --dt 1e-4", "The second column of a measured table."}}},
-        {"merge", "Merge the shards of a run or of a job array into one result file", add_merge,
+        {"merge", "Merge the shards of a run or of a job array into one result file", add<MergeArguments, add_merge>,
          {{"slideway merge result.nc.shards -o result.nc", "Whatever is finished, to one result file."}}},
-        {"report", "Write an HTML page of a result file (uses the Python package)", add_report,
+        {"report", "Write an HTML page of a result file (uses the Python package)", add<ReportArguments, add_report>,
          {{"slideway report result.nc -o result.html", "A page for a browser."}}},
-        {"list", "List mechanisms, laws, quantities and keys", add_list,
+        {"list", "List mechanisms, laws, quantities and keys", add<ListArguments, add_list>,
          {{"slideway list", "All that a scene may ask for, with units, domains and defaults."},
           {"slideway list --schema >scene.schema.json", "For completion and hover in editors of TOML."}}},
         {"help", "What a command does, and its options", add_help,

@@ -8,8 +8,7 @@
 #include "host/study/continued_sweep.hpp"
 #include "host/study/orbit_schedule.hpp"
 #include "host/study/prediction.hpp"
-#include "host/study/start_check.hpp"
-#include "host/study/trial.hpp"
+#include "host/study/probe.hpp"
 
 namespace slideway::cli {
 namespace {
@@ -148,9 +147,9 @@ void print_design(Scene const& scene) {
 
 }  // namespace
 
-int check(CheckArguments const& arguments) {
+int execute(CheckArguments const& arguments) {
     Scene const scene = load_scene(arguments.scene);
-    int const threads = arguments.threads.value_or(default_threads());
+    int const threads = arguments.threads;
     print_warnings(scene);
     BackendRequest request = arguments.scene.backend;
     request.threads = threads;
@@ -184,19 +183,12 @@ int check(CheckArguments const& arguments) {
     print_field("members", fmt::format("{}, each over {:.6g} s", member_count(scene), schedule.end));
     print_design(scene);
     print_orbits(scene, schedule);
-    print_field(
-        "memory",
-        fmt::format("{} for blocks in work, {} for shards on their way, {} for the statistics at the end{}{}",
-                    bytes_text(static_cast<double>(prediction.buffer_bytes)),
-                    bytes_text(static_cast<double>(prediction.image_bytes)),
-                    bytes_text(static_cast<double>(prediction.summary_bytes)),
-                    prediction.design_bytes > 0 ? fmt::format(", {} for the order of the members",
-                                                              bytes_text(static_cast<double>(prediction.design_bytes)))
-                                                : "",
-                    card_memory_text(prediction)));
-    print_field("disk",
-                fmt::format("{} for the result, {} for its shards until it is whole",
-                            bytes_text(static_cast<double>(prediction.output_bytes)), shards_text(scene, prediction)));
+    std::string const design = prediction.design_bytes > 0 ? fmt::format(", {} for the order of the members", bytes_text(prediction.design_bytes)) : "";
+    print_field("memory", fmt::format("{} for blocks in work, {} for shards on their way, {} for the statistics at the end{}{}",
+                                      bytes_text(prediction.buffer_bytes), bytes_text(prediction.image_bytes), bytes_text(prediction.summary_bytes), design,
+                                      card_memory_text(prediction)));
+    print_field("disk", fmt::format("{} for the result, {} for its shards until it is whole", bytes_text(prediction.output_bytes),
+                                    shards_text(scene, prediction)));
     print_field("cost", cost_text(scene, prediction, trial));
     return exit_code::done;
 }

@@ -4,14 +4,19 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <variant>
-#include <vector>
 
-#include "host/commands/options.hpp"
+#include "host/backend/backend.hpp"
+#include "host/chaos/divergence.hpp"
 #include "host/config/scene.hpp"
+#include "host/study/backend_choice.hpp"
 #include "host/study/series_analysis.hpp"
+#include "host/study/study_run.hpp"
 
 namespace slideway::cli {
 
@@ -45,6 +50,36 @@ struct Complaint {
 };
 Complaint complaint_of(std::exception_ptr const& error);
 
+/// How many members may fail before the exit code says so.
+struct FailureLimit {
+    double value = 1;
+    bool percent = true;
+    bool exceeded(std::uint64_t failed, std::uint64_t members) const;
+    std::string text() const;
+};
+
+// Of an option's name and its word.  Each throws SceneError with one line for a word that cannot be used.
+
+double parse_hours(std::string_view option, std::string_view word);
+double parse_seconds(std::string_view option, std::string_view word);            // finite, > 0
+std::uint64_t parse_member(std::string_view option, std::string_view word);      // from 0
+MemberRange parse_member_range(std::string_view option, std::string_view word);  // "A..B", both included, from 0
+RunPart parse_part(std::string_view option, std::string_view word);              // "I/N", 1 <= I <= N
+FailureLimit parse_failure_limit(std::string_view option, std::string_view word);  // "3", "0.5%"
+FitWindow parse_fit(std::string_view option, std::string_view word);               // "A..B", both included, A < B, from 0
+/// What parses a whole number from least to most.
+std::function<std::uint32_t(std::string_view option, std::string_view word)> whole_number(std::uint32_t least, std::uint32_t most = ~0u);
+
+std::pair<std::string, std::string> parse_override(std::string_view text);  // "key=value"
+Isa parse_isa(std::string_view text);                                       // also "auto"; supported by this machine
+/// What --backend takes, in the order of `BackendRequest::Kind`.
+inline constexpr std::string_view backend_words[] = {"auto", "cpu", "cuda"};
+/// Of --backend and --isa.
+BackendRequest parse_backend(std::string_view backend, std::string_view isa);
+
+/// 'a b' for a shell; words without special characters stay as they are.
+std::string shell_quoted(std::string_view word);
+
 struct SceneArguments {
     std::string path;
     Overrides overrides;
@@ -54,29 +89,25 @@ struct SceneArguments {
 
 struct RunArguments {
     SceneArguments scene;
-    std::string output;  // empty: by the scene's name
-    std::optional<int> threads;
+    StudyOptions study;  // but for range, backend and progress, which follow; output is empty: by the scene's name
     std::optional<double> max_hours;
     FailureLimit max_failures;
     std::optional<MemberRange> members;  // empty: all
-    RunPart part;
-    std::size_t block_members = 0;  // 0: by their cost
-    bool resume = false, force = false;
     bool no_progress = false;
     bool quiet = false;  // no progress, no summary
     bool json = false;   // an object in place of the summary
     bool shows_progress() const { return !quiet && !no_progress; }
 };
-int run(RunArguments const& arguments);
+int execute(RunArguments const& arguments);
 
 struct CheckArguments {
     SceneArguments scene;
-    std::optional<int> threads;
+    int threads = default_threads();
     bool force = false;  // also of starts that no mechanism has
     bool json = false;
     bool resolved = false;  // the resolved scene alone, which runs as it is
 };
-int check(CheckArguments const& arguments);
+int execute(CheckArguments const& arguments);
 
 struct ProbeArguments {
     SceneArguments scene;
@@ -84,7 +115,7 @@ struct ProbeArguments {
     std::string output;  // empty: stdout
     bool force = false, json = false;
 };
-int probe(ProbeArguments const& arguments);
+int execute(ProbeArguments const& arguments);
 
 struct InfoArguments {
     std::string path;
@@ -93,7 +124,7 @@ struct InfoArguments {
     bool check = false;  // nothing but whether it is intact
     std::optional<MemberRange> members;  // a table of these, too
 };
-int info(InfoArguments const& arguments);
+int execute(InfoArguments const& arguments);
 
 struct StatsArguments {
     std::string path;
@@ -107,13 +138,13 @@ struct StatsArguments {
     std::string output;  // empty: no curves
     bool force = false, json = false;
 };
-int stats(StatsArguments const& arguments);
+int execute(StatsArguments const& arguments);
 
 struct MergeArguments {
     std::string folder, output;
     bool force = false, json = false;
 };
-int merge(MergeArguments const& arguments);
+int execute(MergeArguments const& arguments);
 
 struct ReportArguments {
     std::string path;
@@ -121,17 +152,18 @@ struct ReportArguments {
     bool force = false;
 };
 /// Ends as the companion in Python, which writes the page; returns only by an exception.
-int report(ReportArguments const& arguments);
+int execute(ReportArguments const& arguments);
 
 struct ListArguments {
     bool json = false, schema = false, markdown = false;  // one of them: of the keys of a scene
 };
-int list(ListArguments const& arguments);
+int execute(ListArguments const& arguments);
 
 /// Text for stdout and nothing to run: --help, --version.
 struct TextOnly {
     std::string text;
 };
+int execute(TextOnly const& only);
 
 using Arguments = std::variant<RunArguments, CheckArguments, ProbeArguments, InfoArguments, StatsArguments,
                                MergeArguments, ReportArguments, ListArguments, TextOnly>;

@@ -7,8 +7,8 @@
 
 #include "host/backend/backend.hpp"
 #include "host/base/error.hpp"
+#include "host/commands/commands.hpp"
 #include "host/commands/description.hpp"
-#include "host/commands/options.hpp"
 #include "host/config/key_reference.hpp"
 
 namespace slideway::cli {

@@ -25,58 +25,6 @@ std::string shell_lines(std::string const& command, std::size_t width) {
     return lines;
 }
 
-}  // namespace
-
-std::string OptionDescription::label(Style const& word, Style const& metavariable) const {
-    std::vector<std::string> set;
-    for (std::string const& name : names) set.push_back(positional ? metavariable(name) : word(name));
-    std::string text = fmt::format("{}", fmt::join(set, ", "));
-    if (value.empty() || positional) return text;
-    std::string const taken = metavariable(value) + (repeats ? " ..." : "");
-    return text + (optional ? " [" + taken + "]" : " " + taken);
-}
-
-std::string CommandDescription::synopsis() const {
-    std::string text = "slideway " + name + " [OPTION]...";
-    for (OptionDescription const& option : options) {
-        if (option.positional) text += option.optional ? " [" + option.value + "]" : " " + option.value;
-    }
-    return text;
-}
-
-std::string help_text(CommandDescription const& command, std::size_t width) {
-    auto const as_it_is = [](std::string_view word) { return std::string(word); };
-    std::string text = fmt::format("{}\n\nUsage: {}\n", wrapped(command.summary, 0, width), command.synopsis());
-    for (bool const positional : {true, false}) {
-        std::string entries;
-        for (OptionDescription const& option : command.options) {
-            if (option.positional == positional) entries += entry(option.label(as_it_is, as_it_is), option.meaning, width);
-        }
-        if (!entries.empty()) text += fmt::format("\n{}:\n{}", positional ? "Arguments" : "Options", entries);
-    }
-    if (!command.note.empty()) text += fmt::format("\n{}\n", wrapped(command.note, 0, width));
-    if (!command.examples.empty()) text += "\nExamples:\n";
-    for (Example const& example : command.examples)
-        text += fmt::format("  {}\n      {}\n", shell_lines(example.line, width), wrapped(example.meaning, 6, width));
-    return text;
-}
-
-std::string help_text(std::vector<CommandDescription> const& commands, std::size_t width) {
-    std::string text =
-        wrapped("Clearance joints of slider mechanisms: ensembles of simulations from a scene file.", 0, width) +
-        "\n\nUsage: slideway COMMAND [OPTION]... [ARGUMENT]\n\n"
-        "Options:\n";
-    text += entry("-h, --help", "This text; behind a command, what it does and its options", width);
-    text += entry("--version", "Version and commit", width);
-    text += "\nCommands:\n";
-    for (CommandDescription const& command : commands) text += entry(command.name, command.summary, width);
-    return text + "\nslideway help COMMAND says what a command does, its options and examples.\n";
-}
-
-// ---- slideway.1, in the man macros that both groff and mandoc know ----
-
-namespace {
-
 /// The character of UTF-8 that begins at `at`, as "\\[u2265]"; leaves `at` on its last byte.
 std::string escaped(std::string_view text, std::size_t& at) {
     auto const byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
@@ -162,6 +110,59 @@ std::string examples_text(std::vector<CommandDescription> const& commands) {
 }
 
 }  // namespace
+
+std::string OptionDescription::label(Style const& word, Style const& metavariable) const {
+    std::vector<std::string> set;
+    for (std::string const& name : names) set.push_back(positional ? metavariable(name) : word(name));
+    std::string text = fmt::format("{}", fmt::join(set, ", "));
+    if (value.empty() || positional) return text;
+    std::string const taken = metavariable(value) + (repeats ? " ..." : "");
+    return text + (optional ? " [" + taken + "]" : " " + taken);
+}
+
+std::string CommandDescription::synopsis() const {
+    std::string text = "slideway " + name + " [OPTION]...";
+    for (OptionDescription const& option : options) {
+        if (option.positional) text += option.optional ? " [" + option.value + "]" : " " + option.value;
+    }
+    return text;
+}
+
+std::string help_text(CommandDescription const& command, std::size_t width) {
+    auto const as_it_is = [](std::string_view word) { return std::string(word); };
+    std::string text = fmt::format("{}\n\nUsage: {}\n", wrapped(command.summary, 0, width), command.synopsis());
+    for (bool const positional : {true, false}) {
+        std::string entries;
+        for (OptionDescription const& option : command.options) {
+            if (option.positional == positional) entries += entry(option.label(as_it_is, as_it_is), option.meaning, width);
+        }
+        if (!entries.empty()) text += fmt::format("\n{}:\n{}", positional ? "Arguments" : "Options", entries);
+    }
+    if (!command.note.empty()) text += fmt::format("\n{}\n", wrapped(command.note, 0, width));
+    if (!command.examples.empty()) text += "\nExamples:\n";
+    for (Example const& example : command.examples)
+        text += fmt::format("  {}\n      {}\n", shell_lines(example.line, width), wrapped(example.meaning, 6, width));
+    return text;
+}
+
+std::string help_text(std::vector<CommandDescription> const& commands, std::size_t width) {
+    std::string text =
+        wrapped("Clearance joints of slider mechanisms: ensembles of simulations from a scene file.", 0, width) +
+        "\n\nUsage: slideway COMMAND [OPTION]... [ARGUMENT]\n\n"
+        "Options:\n";
+    text += entry("-h, --help", "This text; behind a command, what it does and its options", width);
+    text += entry("--version", "Version and commit", width);
+    text += "\nCommands:\n";
+    for (CommandDescription const& command : commands) text += entry(command.name, command.summary, width);
+    return text + "\nslideway help COMMAND says what a command does, its options and examples.\n";
+}
+
+// ---- slideway.1, in the man macros that both groff and mandoc know ----
+
+int execute(TextOnly const& only) {
+    fmt::print("{}", only.text);
+    return exit_code::done;
+}
 
 std::string man_page(std::vector<CommandDescription> const& commands) {
     std::string text = fmt::format(".\\\" written by: slideway help --man\n.TH SLIDEWAY 1 {} \"slideway {}\" \"User Commands\"\n",

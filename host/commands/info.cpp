@@ -4,7 +4,6 @@
 #include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
 #include "host/config/scene_text.hpp"
-#include "host/store/result_check.hpp"
 #include "host/store/result_view.hpp"
 #include "host/study/result_summary.hpp"
 #include "host/study/study_run.hpp"
@@ -70,7 +69,7 @@ void print_info(InfoArguments const& arguments, ResultReader const& results, Sea
 
 }  // namespace
 
-int info(InfoArguments const& arguments) {
+int execute(InfoArguments const& arguments) {
     SealCheck const seal = check_result(arguments.path);
     if (!arguments.check) {
         ResultReader const results(arguments.path);

@@ -14,7 +14,6 @@
 #include "host/study/probe.hpp"
 #include "host/study/series_analysis.hpp"
 #include "host/study/tolerance_report.hpp"
-#include "host/study/trial.hpp"
 
 namespace slideway::cli {
 

@@ -8,10 +8,10 @@
 
 #include "host/commands/commands.hpp"
 #include "host/commands/text.hpp"
-#include "host/config/key_reference.hpp"
 #include "host/config/descriptors.hpp"
+#include "host/config/key_reference.hpp"
 #include "host/config/settings.hpp"
-#include "host/sampling/distribution_forms.hpp"
+#include "host/sampling/distribution.hpp"
 
 namespace slideway::cli {
 namespace {
@@ -120,7 +120,7 @@ std::string state_of(Isa isa) {
 
 }  // namespace
 
-int list(ListArguments const& arguments) {
+int execute(ListArguments const& arguments) {
     if (arguments.json || arguments.schema || arguments.markdown) {
         fmt::print("{}", arguments.json ? keys_json() : arguments.schema ? scene_schema() : keys_markdown());
         return exit_code::done;

@@ -5,32 +5,12 @@
 #include <iostream>
 #include <string_view>
 
-#include <fmt/format.h>
-
 #include "host/commands/commands.hpp"
 
 namespace {
 
 using namespace slideway;
 using namespace slideway::cli;
-
-int dispatch(Arguments const& arguments) {
-    struct Visitor {
-        int operator()(RunArguments const& given) const { return run(given); }
-        int operator()(CheckArguments const& given) const { return check(given); }
-        int operator()(ProbeArguments const& given) const { return probe(given); }
-        int operator()(InfoArguments const& given) const { return info(given); }
-        int operator()(StatsArguments const& given) const { return stats(given); }
-        int operator()(MergeArguments const& given) const { return merge(given); }
-        int operator()(ReportArguments const& given) const { return report(given); }
-        int operator()(ListArguments const& given) const { return list(given); }
-        int operator()(TextOnly const& only) const {
-            fmt::print("{}", only.text);
-            return exit_code::done;
-        }
-    };
-    return std::visit(Visitor{}, arguments);
-}
 
 /// The code counts even where nobody can read the line.
 int complain(int code, std::string_view line) {
@@ -52,7 +32,7 @@ int main(int argc, char** argv) {
     // A full quota then is an error of the write, not the end of the process.
     std::signal(SIGXFSZ, SIG_IGN);
     try {
-        int const code = dispatch(parse_arguments(argc, argv));
+        int const code = std::visit([](auto const& given) { return execute(given); }, parse_arguments(argc, argv));
         std::cout.flush();
         if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout)) {
             return complain(exit_code::file_trouble, "slideway: cannot write to the standard output");

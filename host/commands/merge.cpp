@@ -8,8 +8,8 @@
 #include "host/commands/commands.hpp"
 #include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
-#include "host/store/result_check.hpp"
 #include "host/store/result_merge.hpp"
+#include "host/store/result_view.hpp"
 #include "host/study/study_run.hpp"
 
 namespace slideway::cli {
@@ -47,7 +47,7 @@ void mend(ShardFolder const& folder) {
 
 }  // namespace
 
-int merge(MergeArguments const& arguments) {
+int execute(MergeArguments const& arguments) {
     ShardFolder const folder(arguments.folder);
     std::string const made_by = folder.identity().program, here = build_info().text();
     if (made_by != here) {

@@ -1,4 +1,4 @@
-#include "host/commands/options.hpp"
+#include "host/commands/commands.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,8 +24,9 @@ std::string FailureLimit::text() const { return fmt::format("{}{}", value, perce
 namespace {
 
 /// The value, if the word has one that can be used.
-template <class Value> Value given(std::optional<Value> const& value, std::string_view option, std::string_view word, std::string_view wanted) {
-    if (value) return *value;
+template <class Value, class Accepts>
+Value given(std::optional<Value> const& value, Accepts const& accepts, std::string_view option, std::string_view word, std::string_view wanted) {
+    if (value && accepts(*value)) return *value;
     throw SceneError(fmt::format("{} {}: give {}", option, word, wanted));
 }
 
@@ -41,55 +42,46 @@ template <class Number> std::optional<std::pair<Number, Number>> parse_pair(std:
 
 std::function<std::uint32_t(std::string_view, std::string_view)> whole_number(std::uint32_t least, std::uint32_t most) {
     return [=](std::string_view option, std::string_view word) {
-        auto number = parse_number<std::uint32_t>(word);
-        if (number && (*number < least || *number > most)) number.reset();
-        bool const bounded = most < ~0u;
-        return given(number, option, word,
-                     bounded ? fmt::format("a whole number from {} to {}", least, most) : fmt::format("a whole number, {} or more", least));
+        auto const accepts = [=](std::uint32_t number) { return least <= number && number <= most; };
+        return given(parse_number<std::uint32_t>(word), accepts, option, word,
+                     most < ~0u ? fmt::format("a whole number from {} to {}", least, most) : fmt::format("a whole number, {} or more", least));
     };
 }
 
 double parse_hours(std::string_view option, std::string_view word) {
-    auto hours = parse_number<double>(word);
-    if (hours && !(*hours >= 0)) hours.reset();
-    return given(hours, option, word, "a number of hours, 0 or more");
+    return given(parse_number<double>(word), [](double hours) { return hours >= 0; }, option, word, "a number of hours, 0 or more");
 }
 
 double parse_seconds(std::string_view option, std::string_view word) {
-    auto seconds = parse_number<double>(word);
-    if (seconds && !(*seconds > 0 && std::isfinite(*seconds))) seconds.reset();
-    return given(seconds, option, word, "a number of seconds, more than 0");
+    auto const accepts = [](double seconds) { return seconds > 0 && std::isfinite(seconds); };
+    return given(parse_number<double>(word), accepts, option, word, "a number of seconds, more than 0");
 }
 
 std::uint64_t parse_member(std::string_view option, std::string_view word) {
-    return given(parse_number<std::uint64_t>(word), option, word, "the number of a member, counted from 0");
+    return given(parse_number<std::uint64_t>(word), [](std::uint64_t) { return true; }, option, word, "the number of a member, counted from 0");
 }
 
 MemberRange parse_member_range(std::string_view option, std::string_view word) {
-    auto ends = parse_pair<std::uint64_t>(word, "..");
-    if (ends && (ends->first > ends->second || ends->second == std::numeric_limits<std::uint64_t>::max())) ends.reset();
-    auto const [first, last] = given(ends, option, word, "the first and the last member as A..B, counted from 0");
+    auto const accepts = [](auto const& ends) { return ends.first <= ends.second && ends.second < std::numeric_limits<std::uint64_t>::max(); };
+    auto const [first, last] = given(parse_pair<std::uint64_t>(word, ".."), accepts, option, word, "the first and the last member as A..B, counted from 0");
     return {first, last - first + 1};
 }
 
 RunPart parse_part(std::string_view option, std::string_view word) {
-    auto part = parse_pair<std::uint32_t>(word, "/");
-    if (part && (part->first < 1 || part->first > part->second)) part.reset();
-    auto const [number, parts] = given(part, option, word, "the part and how many there are as I/N, from 1/N to N/N");
+    auto const accepts = [](auto const& part) { return part.first >= 1 && part.first <= part.second; };
+    auto const [number, parts] = given(parse_pair<std::uint32_t>(word, "/"), accepts, option, word, "the part and how many there are as I/N, from 1/N to N/N");
     return {number, parts, true};
 }
 
 FailureLimit parse_failure_limit(std::string_view option, std::string_view word) {
     bool const percent = word.ends_with('%');
-    auto value = parse_number<double>(word.substr(0, word.size() - (percent ? 1 : 0)));
-    if (value && !(*value >= 0 && (percent ? *value <= 100 : std::isfinite(*value) && *value == std::floor(*value)))) value.reset();
-    return {given(value, option, word, "a number of members (3) or a percentage (0.5%)"), percent};
+    auto const accepts = [&](double value) { return value >= 0 && (percent ? value <= 100 : std::isfinite(value) && value == std::floor(value)); };
+    return {given(parse_number<double>(word.substr(0, word.size() - (percent ? 1 : 0))), accepts, option, word, "a number of members (3) or a percentage (0.5%)"), percent};
 }
 
 FitWindow parse_fit(std::string_view option, std::string_view word) {
-    auto ends = parse_pair<std::uint32_t>(word, "..");
-    if (ends && ends->first >= ends->second) ends.reset();
-    auto const [first, last] = given(ends, option, word, "the first and the last sample of the fit as A..B, A less than B");
+    auto const accepts = [](auto const& ends) { return ends.first < ends.second; };
+    auto const [first, last] = given(parse_pair<std::uint32_t>(word, ".."), accepts, option, word, "the first and the last sample of the fit as A..B, A less than B");
     return {first, last};
 }
 

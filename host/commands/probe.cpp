@@ -1,7 +1,5 @@
 #include "host/study/probe.hpp"
 
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <iostream>
 #include <optional>
@@ -22,10 +20,7 @@ namespace {
 
 StateTable load_table(std::string const& path, Scene const& scene) {
     std::ifstream in(path);
-    // A folder opens, and only fails to read.
-    if (!in || (in.peek() == std::ifstream::traits_type::eof() && in.bad())) {
-        throw FileError(fmt::format("{}: cannot read: {}", path, std::strerror(errno)));
-    }
+    require_readable(in, path);
     return read_state_table(in, path, scene);
 }
 
@@ -93,7 +88,7 @@ void print_listing(Scene const& scene, StateTable const& table, ProbeResult cons
 
 }  // namespace
 
-int probe(ProbeArguments const& arguments) {
+int execute(ProbeArguments const& arguments) {
     Isa const isa = parse_isa(arguments.scene.isa);
     Scene const scene = load_scene(arguments.scene);
     std::optional<OutputTarget> const target =

@@ -13,7 +13,7 @@
 #include "host/base/error.hpp"
 #include "host/commands/commands.hpp"
 #include "host/store/output_target.hpp"
-#include "host/store/result_check.hpp"
+#include "host/store/result_view.hpp"
 
 namespace slideway::cli {
 namespace {
@@ -70,7 +70,7 @@ bool is_page(std::string const& path) {
 
 }  // namespace
 
-int report(ReportArguments const& arguments) {
+int execute(ReportArguments const& arguments) {
     std::string page = arguments.output;
     if (page.empty()) page = std::filesystem::path(arguments.path).replace_extension(".html").string();
     std::string const inputs[] = {arguments.path};

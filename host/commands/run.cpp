@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/base/fnv1a.hpp"
+#include "host/base/bytes.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/prediction.hpp"
-#include "host/study/start_check.hpp"
+#include "host/study/probe.hpp"
 
 namespace slideway::cli {
 namespace {
@@ -51,14 +51,9 @@ MemberRange member_range(RunArguments const& arguments, Scene const& scene) {
 }
 
 StudyOptions study_options(RunArguments const& arguments, Scene const& scene) {
-    StudyOptions options;
+    StudyOptions options = arguments.study;
     options.range = member_range(arguments, scene);
-    options.output = arguments.output.empty() ? default_output(arguments) : arguments.output;
-    options.part = arguments.part;
-    options.threads = arguments.threads.value_or(default_threads());
-    options.block_members = arguments.block_members;
-    options.resume = arguments.resume;
-    options.force = arguments.force;
+    if (options.output.empty()) options.output = default_output(arguments);
     options.progress = Progress::style_for(stderr, !arguments.shows_progress());
     return options;
 }
@@ -96,8 +91,8 @@ void announce(Scene const& scene, StudyOptions const& options, std::string const
     }
     tell("backend {}{}{}\n", backend_text(*options.backend), reason.empty() ? "" : ": ", reason);
     tell("memory {}{}, disk {} and {} for the shards until the end\n",
-               bytes_text(static_cast<double>(prediction.memory())), card_memory_text(prediction),
-               bytes_text(static_cast<double>(prediction.output_bytes)), shards_text(scene, prediction));
+               bytes_text(prediction.memory()), card_memory_text(prediction),
+               bytes_text(prediction.output_bytes), shards_text(scene, prediction));
 }
 
 bool says_text(RunArguments const& arguments) { return !arguments.quiet && !arguments.json; }
@@ -228,7 +223,7 @@ int help(RunArguments const& arguments, Ranks& ranks, StopRequest const& stop) {
 
 }  // namespace
 
-int run(RunArguments const& arguments) {
+int execute(RunArguments const& arguments) {
     std::unique_ptr<Ranks> const ranks = Ranks::join();
     StopRequest stop;
     if (arguments.max_hours) stop.stop_after(std::chrono::duration<double, std::ratio<3600>>(*arguments.max_hours));

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/config/drive_period.hpp"
+#include "host/config/descriptors.hpp"
 #include "host/store/run_identity.hpp"
 #include "host/study/orbit_schedule.hpp"
 #include "host/study/verification.hpp"
@@ -15,26 +15,21 @@ namespace slideway::cli {
 namespace {
 
 /// How many members ended how, as the result file has it.
-class EndedMembers {
-public:
-    explicit EndedMembers(ResultReader const& results) : counts_(count_statuses(results)) {}
-    std::uint64_t count(Status status) const {
-        for (StatusCount const& count : counts_) {
-            if (count.status == status) return count.members;
-        }
-        return 0;
-    }
-    std::uint64_t failed() const {
-        std::uint64_t sum = 0;
-        for (StatusCount const& count : counts_) {
-            if (count.status != Status::finished && count.status != Status::not_run) sum += count.members;
-        }
-        return sum;
-    }
+using Statuses = std::vector<StatusCount>;
 
-private:
-    std::vector<StatusCount> const counts_;
-};
+template <class Condition> std::uint64_t count_where(Statuses const& statuses, Condition const& holds) {
+    std::uint64_t sum = 0;
+    for (StatusCount const& one : statuses) sum += holds(one.status) ? one.members : 0;
+    return sum;
+}
+
+std::uint64_t count_of(Statuses const& statuses, Status status) {
+    return count_where(statuses, [status](Status one) { return one == status; });
+}
+
+std::uint64_t count_failed(Statuses const& statuses) {
+    return count_where(statuses, [](Status one) { return one != Status::finished && one != Status::not_run; });
+}
 
 /// Options with which a member has the bits that it has in a result.
 std::string_view replay_backend(std::string_view isa) {
@@ -67,13 +62,13 @@ std::string_view advice_on(Method method) {
 }
 
 /// What became of members whose method left its stable range, and the way out (docs/stability.md).
-void print_instability(Scene const& scene, EndedMembers const& ended) {
+void print_instability(Scene const& scene, Statuses const& ended) {
     Method const method = scene.integrator.method;
-    std::uint64_t const unstable = ended.count(Status::unstable);
+    std::uint64_t const unstable = count_of(ended, Status::unstable);
     // A step beyond the limit throws the slider out of its joint, if it does not end in infinity.
     std::uint64_t const broken =
         method == Method::rk4
-            ? ended.count(Status::nonfinite) + ended.count(Status::geometry) + ended.count(Status::contact_domain)
+            ? count_of(ended, Status::nonfinite) + count_of(ended, Status::geometry) + count_of(ended, Status::contact_domain)
             : 0;
     if (unstable + broken == 0) return;
     std::string const name = method == Method::rk4
@@ -86,21 +81,21 @@ void print_instability(Scene const& scene, EndedMembers const& ended) {
 }
 
 /// Members that spent their steps before their end.
-void print_spent(Scene const& scene, EndedMembers const& ended) {
-    std::uint64_t const spent = ended.count(Status::max_steps);
+void print_spent(Scene const& scene, Statuses const& ended) {
+    std::uint64_t const spent = count_of(ended, Status::max_steps);
     if (spent == 0) return;
     bool const pair = is_explicit_pair(scene.integrator.method);
     print_text(0, "\n{} spent integrator.max_steps = {}: try a larger one, {}looser rtol and atol, or look at one with --member K.",
                counted(spent, "member"), scene.integrator.max_steps, pair ? "method = \"auto\", " : "");
 }
 
-void print_failures(RunArguments const& arguments, Scene const& scene, EndedMembers const& ended,
+void print_failures(RunArguments const& arguments, Scene const& scene, Statuses const& ended,
                     ResultReader const& results) {
-    if (ended.failed() == 0) return;
+    if (count_failed(ended) == 0) return;
     constexpr std::size_t listed = 5;
     auto const failed = failed_members(results, listed);
-    fmt::print("\n{}{}:\n", counted(ended.failed(), "failed member"),
-               ended.failed() > listed ? fmt::format(", the first {}", listed) : "");
+    fmt::print("\n{}{}:\n", counted(count_failed(ended), "failed member"),
+               count_failed(ended) > listed ? fmt::format(", the first {}", listed) : "");
     for (FailedMember const& member : failed) {
         auto const why = defect(member_inputs(scene, member.member), scene.parts);
         print_text(4, "  member {}: {}{}", member.member, name_of(member.status), why ? ": " + *why : fmt::format(" at t = {:.6g} s", member.time));
@@ -109,7 +104,7 @@ void print_failures(RunArguments const& arguments, Scene const& scene, EndedMemb
 }
 
 /// A law makes energy where its modes switch (model.md 8); a reader of results has to know how much.
-void print_energy_made(Scene const& scene, EndedMembers const& ended, std::vector<QuantitySummary> const& quantities) {
+void print_energy_made(Scene const& scene, Statuses const& ended, std::vector<QuantitySummary> const& quantities) {
     if (!makes_energy(scene.parts)) return;
     LawInfo const& law = info(scene.parts.law);
     auto const mean_of = [&](std::string_view label) -> QuantitySummary const* {
@@ -123,7 +118,7 @@ void print_energy_made(Scene const& scene, EndedMembers const& ended, std::vecto
     double const made = residual->values.mean;
     // Where the method may have failed the law is not to blame alone.
     Method const method = scene.integrator.method;
-    bool const doubtful = is_always_audited(method) || ended.count(Status::unstable) > 0;
+    bool const doubtful = is_always_audited(method) || count_of(ended, Status::unstable) > 0;
     std::string const cause =
         doubtful ? fmt::format("The {} law's mode switching and the errors of {} together", law.name, name_of(method))
                  : fmt::format("Mode switching of the {} law", law.name);
@@ -158,7 +153,7 @@ double sum_of(ResultReader const& results, std::string const& variable) {
 
 }  // namespace
 
-std::uint64_t failed_count(ResultReader const& results) { return EndedMembers(results).failed(); }
+std::uint64_t failed_count(ResultReader const& results) { return count_failed(count_statuses(results)); }
 
 void warn_of_results(ResultReader const& results) {
     auto const summary = verification_summary(results);
@@ -183,11 +178,9 @@ void print_throughput(Scene const& scene, StudyOptions const& options, EnsembleT
 void print_results(RunArguments const& arguments, Scene const& scene, ResultReader const& results,
                    std::optional<ToleranceReport> const& report) {
     auto const quantities = summarise_quantities(results);
-    EndedMembers const ended(results);
-    std::uint64_t members = 0;
-    for (StatusCount const& count : count_statuses(results)) members += count.members;
-    print_field("members", fmt::format("{}", members));
-    print_statuses(count_statuses(results));
+    Statuses const ended = count_statuses(results);
+    print_field("members", fmt::format("{}", count_where(ended, [](Status) { return true; })));
+    print_statuses(ended);
     print_field("steps", fmt::format("{:.0f} accepted ({:.0f} by the stiff method), {:.0f} rejected",
                                      sum_of(results, "steps_accepted"), sum_of(results, "stiff_steps"),
                                      sum_of(results, "steps_rejected")));

@@ -11,7 +11,7 @@
 #include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
 #include "host/store/output_target.hpp"
-#include "host/store/result_check.hpp"
+#include "host/store/result_view.hpp"
 #include "host/study/series_analysis.hpp"
 #include "host/study/series_file.hpp"
 
@@ -146,7 +146,7 @@ Rows rows_of(StatsArguments const& arguments, std::string const& series, SeriesA
 
 }  // namespace
 
-int stats(StatsArguments const& arguments) {
+int execute(StatsArguments const& arguments) {
     std::optional<OutputTarget> const target = arguments.output.empty() ? std::nullopt : std::optional(curves_target(arguments));
     StoredSeries series = read_series(arguments);
     cut(series, arguments);

@@ -53,11 +53,11 @@ void warn_of_mending(std::string const& file) {
     if (!file.empty()) tell("warning: {}: was damaged or gone; it was written again from its copy\n", file);
 }
 
-std::string bytes_text(double bytes) {
-    if (bytes < 1e3) return fmt::format("{:.0f} B", bytes);
-    if (bytes < 1e6) return fmt::format("{:.1f} kB", bytes / 1e3);
-    if (bytes < 1e9) return fmt::format("{:.1f} MB", bytes / 1e6);
-    return fmt::format("{:.1f} GB", bytes / 1e9);
+std::string bytes_text(std::uint64_t bytes) {
+    auto const amount = static_cast<double>(bytes);
+    if (amount < 1e3) return fmt::format("{} B", bytes);
+    if (amount < 1e6) return fmt::format("{:.1f} kB", amount / 1e3);
+    return amount < 1e9 ? fmt::format("{:.1f} MB", amount / 1e6) : fmt::format("{:.1f} GB", amount / 1e9);
 }
 
 std::string duration_text(double seconds) {
@@ -70,12 +70,12 @@ std::string duration_text(double seconds) {
 
 std::string card_memory_text(Prediction const& prediction) {
     if (prediction.card_bytes == 0) return {};
-    return fmt::format(", {} on the card", bytes_text(static_cast<double>(prediction.card_bytes)));
+    return fmt::format(", {} on the card", bytes_text(prediction.card_bytes));
 }
 
 std::string shards_text(Scene const& scene, Prediction const& prediction) {
     if (scene.stores_members()) return "as much again";
-    return fmt::format("at most {}", bytes_text(static_cast<double>(prediction.shard_bytes)));
+    return fmt::format("at most {}", bytes_text(prediction.shard_bytes));
 }
 
 std::string counted(std::uint64_t count, std::string_view noun) { return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s"); }
@@ -96,6 +96,28 @@ namespace {
 /// Bytes that go on with a character of UTF-8 take no column.
 std::size_t columns_of(std::string_view text) {
     return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u; }));
+}
+
+/// Where a terminal has no room for all columns the others follow below, behind the first `left` again.
+void print_columns(TextRows const& rows, std::vector<std::size_t> const& widths, std::size_t gap, std::size_t left) {
+    std::size_t const terminal = line_width();
+    std::size_t first = left;
+    do {
+        std::size_t length = 2, end = first;
+        for (std::size_t i = 0; i < left; ++i) length += widths[i] + gap;
+        for (; end < widths.size() && (end == first || terminal == 0 || length + widths[end] <= terminal); ++end) length += widths[end] + gap;
+        if (first > left) fmt::print("\n");
+        for (auto const& row : rows) {
+            std::string line = " ";
+            for (std::size_t i = 0; i < std::min(row.size(), end); ++i) {
+                if (i >= left && i < first) continue;
+                std::string const pad(widths[i] - columns_of(row[i]), ' ');
+                line += std::string(i == 0 ? 1 : gap, ' ') + (i < left ? row[i] + pad : pad + row[i]);
+            }
+            fmt::print("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
+        }
+        first = end;
+    } while (first < widths.size());
 }
 
 }  // namespace
@@ -132,32 +154,6 @@ void print_lines(std::size_t indent, std::string_view text) {
 }
 
 std::string cell(double value, int digits) { return std::isnan(value) ? std::string("-") : fmt::format("{:.{}g}", value, digits); }
-
-namespace {
-
-/// Where a terminal has no room for all columns the others follow below, behind the first `left` again.
-void print_columns(TextRows const& rows, std::vector<std::size_t> const& widths, std::size_t gap, std::size_t left) {
-    std::size_t const terminal = line_width();
-    std::size_t first = left;
-    do {
-        std::size_t length = 2, end = first;
-        for (std::size_t i = 0; i < left; ++i) length += widths[i] + gap;
-        for (; end < widths.size() && (end == first || terminal == 0 || length + widths[end] <= terminal); ++end) length += widths[end] + gap;
-        if (first > left) fmt::print("\n");
-        for (auto const& row : rows) {
-            std::string line = " ";
-            for (std::size_t i = 0; i < std::min(row.size(), end); ++i) {
-                if (i >= left && i < first) continue;
-                std::string const pad(widths[i] - columns_of(row[i]), ' ');
-                line += std::string(i == 0 ? 1 : gap, ' ') + (i < left ? row[i] + pad : pad + row[i]);
-            }
-            fmt::print("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
-        }
-        first = end;
-    } while (first < widths.size());
-}
-
-}  // namespace
 
 void print_table(std::function<TextRows(int)> const& make_rows, int digits, std::size_t left, std::size_t least) {
     constexpr int least_digits = 3;

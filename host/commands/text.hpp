@@ -35,7 +35,7 @@ template <class... Values> void tell(fmt::format_string<Values...> format, Value
 /// To stderr: @param file of a run's identity that was damaged and is whole again; "" for none.
 void warn_of_mending(std::string const& file);
 
-std::string bytes_text(double bytes);       // "1.5 MB"
+std::string bytes_text(std::uint64_t bytes);  // "1.5 MB"
 std::string duration_text(double seconds);  // "8.2 s", "3 min 20 s", "2.4 h"
 
 /// ", 3.1 GB on the card"; "" without one.

@@ -67,7 +67,7 @@ std::string limit_text(Limit const& limit, std::string const& unit) {
 void print_yields(ToleranceReport const& report) {
     if (!report.all_met) return;
     fmt::print("\nYield, of {} that ran, with its {:.0f} % interval:\n", counted(report.all_met->trials, "member"), 100 * confidence_level);
-    auto const percent = [](double value) { return std::isnan(value) ? std::string("-") : fmt::format("{:.3f}", 100 * value); };
+    auto const percent = [](double value) { return share(100 * value); };
     TextRows table{{"quantity", "limit", "met", "yield [%]", "low", "high"}};
     auto const add = [&](std::string const& limit, std::string const& range, Proportion const& met) {
         table.push_back({limit, range, std::to_string(met.successes), percent(met.value), percent(met.interval.low), percent(met.interval.high)});

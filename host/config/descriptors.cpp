@@ -2,7 +2,6 @@
 #include "host/config/descriptors.hpp"
 
 #include <iterator>
-#include <string_view>
 
 #include "kernels/all_laws.hpp"
 #include "kernels/all_mechanisms.hpp"

@@ -34,6 +34,14 @@ bool is_prescribed(Parts const& parts, int component);
 /// How many components neighbours may differ in.
 int free_states(Parts const& parts);
 
+/// T [s]: 2π/|ω| of a driven crank, 2 (stroke/v + t_r) of the carriage (model.md 7); infinite where the crank rests or nothing drives.
+double drive_period(Parts const& parts, Inputs const& inputs);
+/// First time in (0, T] at which the drive has this phase [s]: the crank an angle, the carriage a share phase/2π of its period.
+/// @param phase [rad], any turn of it  @param inputs whose drive has a period
+double first_time_at(double phase, Parts const& parts, Inputs const& inputs);
+/// Why there is no period: "mechanism.crank_speed is 0", "nothing drives a free_slider", "nothing drives a free crank".
+std::string why_no_period(Parts const& parts);
+
 /// Labels along a dimension of the quantity table: "P1" … "P8", the mode classes, "roll" "yaw" "pitch",
 /// "x" "y" "z" of a direction, "top" "front" of a channel (a sensor of the experiment).
 /// Empty for an unknown dimension.

@@ -42,8 +42,7 @@ Node convert(toml::node const& from, std::string key, std::string name, toml::so
     node.line = origin.order == 0 ? std::max(1, static_cast<int>(at.line)) : 0;
     node.where = origin.order == 0 ? fmt::format("{}:{}", origin.path, node.line) : origin.option;
     if (depth > deepest) {
-        throw SceneError(fmt::format("{}: {} is no key of a scene (it nests deeper than {} levels); remove it",
-                                     node.where, one_line(node.name), deepest));
+        refuse_that(node, "is no key of a scene", {fmt::format("it nests deeper than {} levels", deepest), "remove it"});
     }
     using Type = Node::Type;
     if (auto const* table = from.as_table()) {
@@ -125,9 +124,7 @@ Node parse_override(std::string const& key, std::string const& value, int order)
     constexpr std::size_t longest_option = 4096;
     Origin const origin{{}, fmt::format("--set {}={}", one_line(key), one_line(value)), order};
     if (key.find_first_of("\r\n=#") == std::string::npos && key.size() <= longest_option) {
-        if (value.size() <= longest_option) {
-            if (auto node = parse_pair(key, value, origin)) return *node;
-        }
+        if (auto node = value.size() <= longest_option ? parse_pair(key, value, origin) : std::nullopt) return *node;
         auto const number = plain_number(value);
         std::string const literal = number ? fmt::format("{}", *number) : toml_string(value);
         if (auto node = parse_pair(key, literal, origin)) return *node;
@@ -198,10 +195,11 @@ Node read_document(std::string const& text, std::string const& path, Overrides c
     return root;
 }
 
-void refuse(Node const& node, std::string_view shown, Problem const& problem) {
-    throw SceneError(
-        fmt::format("{}: {} is {} ({}); {}", node.where, one_line(node.name), shown, problem.reason, problem.advice));
+void refuse_that(Node const& node, std::string_view fault, Problem const& problem) {
+    throw SceneError(fmt::format("{}: {} {} ({}); {}", node.where, one_line(node.name), fault, problem.reason, problem.advice));
 }
+
+void refuse(Node const& node, std::string_view shown, Problem const& problem) { refuse_that(node, fmt::format("is {}", shown), problem); }
 
 void refuse(Node const& node, Problem const& problem) { refuse(node, shown_value(node), problem); }
 

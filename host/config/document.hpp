@@ -37,7 +37,9 @@ struct Node {
 /// @throws SceneError where the text is no TOML or an override is no key=value.
 Node read_document(std::string const& text, std::string const& path, Overrides const& overrides);
 
-/// "joint.clearance is 0 m (the joint needs a gap); use a value > 0", behind the node's position.
+/// "study.section has no on (what crosses the section); write for example {…}", behind the node's position.
+[[noreturn]] void refuse_that(Node const& node, std::string_view fault, Problem const& problem);
+/// "joint.clearance is 0 m (the joint needs a gap); use a value > 0".
 [[noreturn]] void refuse(Node const& node, std::string_view shown, Problem const& problem);
 /// The same with the node's value shown as it was written.
 [[noreturn]] void refuse(Node const& node, Problem const& problem);

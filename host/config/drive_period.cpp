@@ -1,5 +1,4 @@
-#include "host/config/drive_period.hpp"
-
+// The period of what drives a mechanism: a revolution of its crank, or the carriage's way there and back; and what of it members may have.
 #include <algorithm>
 #include <cmath>
 #include <utility>

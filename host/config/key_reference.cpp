@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -82,22 +81,13 @@ Json value_schema(KeyReference const& key) {
     return Json::object();
 }
 
-}  // namespace
-
-Range range_of(Rule rule) {
-    switch (rule) {
-        case Rule::any: return {};
-        case Rule::positive:
-        case Rule::gap: return {.low = 0, .low_included = false};
-        case Rule::not_negative: return {.low = 0};
-        case Rule::unit_interval: return {0, 1};
-        case Rule::half_open_unit: return {0, 1, false};
-        case Rule::poisson_ratio: return {-1, 0.5, false};
-        case Rule::hertz_exponent: return {1, 3};
-        case Rule::right_angle: return {-std::numbers::pi / 2, std::numbers::pi / 2};
-    }
-    return {};
+/// "; default 0.0001 (law paper)"
+std::string preset_and_owners(KeyReference const& key) {
+    std::string const owners = owners_text(key);
+    return fmt::format("{}{}", key.preset.empty() ? "" : "; default " + key.preset, owners.empty() ? "" : fmt::format(" ({})", owners));
 }
+
+}  // namespace
 
 std::string_view name_of(Type type) {
     static constexpr std::string_view names[] = {"boolean", "integer", "number", "choice", "text", "list", "table"};
@@ -140,9 +130,8 @@ std::vector<KeyReference> const& known_keys() {
 }
 
 std::string described(KeyReference const& key) {
-    std::string const domain = domain_text(key), owners = owners_text(key);
-    return fmt::format("{}{}{}{}", key.meaning, domain.empty() ? "" : ": " + domain, key.preset.empty() ? "" : "; default " + key.preset,
-                       owners.empty() ? "" : fmt::format(" ({})", owners));
+    std::string const domain = domain_text(key);
+    return fmt::format("{}{}{}", key.meaning, domain.empty() ? "" : ": " + domain, preset_and_owners(key));
 }
 
 std::string keys_json(std::vector<KeyReference> const& keys) {
@@ -167,9 +156,7 @@ std::string scene_schema(std::vector<KeyReference> const& keys) {
     for (KeyReference const& key : keys) {
         Json value = value_schema(key);
         std::string const unit = key.unit.empty() || key.unit == "1" ? std::string() : fmt::format(" [{}]", key.unit);
-        std::string const owners = owners_text(key);
-        value["description"] = fmt::format("{}{}{}{}", key.meaning, unit, key.preset.empty() ? "" : "; default " + key.preset,
-                                           owners.empty() ? "" : fmt::format(" ({})", owners));
+        value["description"] = fmt::format("{}{}{}", key.meaning, unit, preset_and_owners(key));
         if (key.table().empty()) {
             properties[std::string(key.name)] = std::move(value);
             continue;

@@ -28,8 +28,6 @@ std::vector<KeyReference> key_references(Settings rows);
 /// Of all settings.
 std::vector<KeyReference> const& known_keys();
 
-/// What a rule of the physics allows.
-Range range_of(Rule rule);
 /// "number", "integer", "true or false", "one of", …
 std::string_view name_of(Setting::Type type);
 /// "> 0", "from 0 to 1, 1 included"; "" where any number will do.

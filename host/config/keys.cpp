@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -17,6 +16,22 @@ constexpr Key double_keys[] = {
      &Inputs::clearance_z},
     {"contact.young_modulus", &Inputs::slider_young_modulus, "Pa", Rule::positive, KeyGroup::elastic,
      "modulus of both bodies", 2.07e11, &Inputs::way_young_modulus},
+};
+
+/// Of `Rule`: what numbers it allows, and what is said of the others.
+constexpr struct {
+    Range range;
+    char const *reason, *advice;  // {} in a reason stands for what the key means
+} rules[] = {
+    {{}, "", ""},
+    {{.low = 0, .low_included = false}, "the {} must be positive", "use a value > 0"},
+    {{.low = 0}, "the {} must be zero or positive", "use a value >= 0"},
+    {{.low = 0, .low_included = false}, "the joint needs a gap", "use a value > 0"},
+    {{0, 1}, "the {} must be in [0, 1]", "use a value from 0 to 1"},
+    {{0, 1, false}, "the {} must be in (0, 1]", "use a value > 0 and <= 1"},
+    {{-1, 0.5, false}, "no isotropic solid has it", "use a value > -1 and <= 0.5"},
+    {{1, 3}, "the {} must be in [1, 3]", "use a value from 1 to 3"},
+    {{-std::numbers::pi / 2, std::numbers::pi / 2}, "the {} must be in [-90, 90] degrees", "use a value from -90 deg to 90 deg"},
 };
 
 }  // namespace
@@ -79,43 +94,13 @@ std::string with_unit(double value, std::string_view unit) {
     return unit == "1" ? fmt::format("{}", value) : fmt::format("{} {}", value, unit);
 }
 
+Range range_of(Rule rule) { return rules[static_cast<int>(rule)].range; }
+
 std::optional<Problem> broken_rule(Key const& key, double value) {
     if (!std::isfinite(value)) return Problem{"not a finite number", "use a finite number"};
-    auto const must_be = [&](std::string_view range) {
-        return fmt::format("the {} must be {}", key.meaning, range);
-    };
-    switch (key.rule) {
-    case Rule::any: break;
-    case Rule::positive:
-        if (!(value > 0)) return Problem{must_be("positive"), "use a value > 0"};
-        break;
-    case Rule::not_negative:
-        if (!(value >= 0)) return Problem{must_be("zero or positive"), "use a value >= 0"};
-        break;
-    case Rule::gap:
-        if (!(value > 0)) return Problem{"the joint needs a gap", "use a value > 0"};
-        break;
-    case Rule::unit_interval:
-        if (!(value >= 0 && value <= 1)) return Problem{must_be("in [0, 1]"), "use a value from 0 to 1"};
-        break;
-    case Rule::half_open_unit:
-        if (!(value > 0 && value <= 1)) return Problem{must_be("in (0, 1]"), "use a value > 0 and <= 1"};
-        break;
-    case Rule::poisson_ratio:
-        if (!(value > -1 && value <= 0.5)) {
-            return Problem{"no isotropic solid has it", "use a value > -1 and <= 0.5"};
-        }
-        break;
-    case Rule::hertz_exponent:
-        if (!(value >= 1 && value <= 3)) return Problem{must_be("in [1, 3]"), "use a value from 1 to 3"};
-        break;
-    case Rule::right_angle:
-        if (!(std::abs(value) <= std::numbers::pi / 2)) {
-            return Problem{must_be("in [-90, 90] degrees"), "use a value from -90 deg to 90 deg"};
-        }
-        break;
-    }
-    return std::nullopt;
+    auto const& [range, reason, advice] = rules[static_cast<int>(key.rule)];
+    if (range.contains(value)) return std::nullopt;
+    return Problem{fmt::format(fmt::runtime(reason), key.meaning), advice};
 }
 
 std::optional<Defect> find_defect(Inputs const& inputs, Parts const& parts) {

@@ -57,7 +57,12 @@ struct Range {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
     bool low_included = true;
+
+    bool contains(double value) const { return (low_included ? value >= low : value > low) && value <= high; }
 };
+
+/// What a rule allows.
+Range range_of(Rule rule);
 
 /// The problem of one value with its key's rule; NaN and infinity break every rule.
 std::optional<Problem> broken_rule(Key const& key, double value);

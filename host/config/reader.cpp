@@ -6,10 +6,8 @@
 #include <fmt/ranges.h>
 
 #include "host/base/suggest.hpp"
-#include "host/config/drive_period.hpp"
 #include "host/config/key_reference.hpp"
 #include "host/config/scene_text.hpp"
-#include "host/config/values.hpp"
 
 namespace slideway {
 namespace {
@@ -127,8 +125,7 @@ void refuse_unknown(Node const& node, std::string_view what, std::span<std::stri
     std::string const advice = near.empty()        ? std::string("remove it, or see `slideway list`")
                                : near == node.name ? std::string("write it without quotes")
                                                    : fmt::format("did you mean {}?", near);
-    throw SceneError(fmt::format("{}: {} is no {} of a scene (mistyped, it would have no effect); {}", node.where,
-                                 one_line(node.name), what, advice));
+    refuse_that(node, fmt::format("is no {} of a scene", what), {"mistyped, it would have no effect", advice});
 }
 
 Scene read_scene(std::string const& path, Overrides const& overrides) {

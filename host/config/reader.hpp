@@ -1,6 +1,12 @@
 // The parts of `read_scene`, in the order they run.
 #pragma once
 
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "host/config/document.hpp"
 #include "host/config/scene.hpp"
 #include "host/config/settings.hpp"
@@ -26,16 +32,12 @@ struct VariedNode {
 };
 /// In the order of Scene::variations.
 std::vector<VariedNode> varied_nodes(Node const& root);
-/// How a key scatters; every value that it bounds meets the key's rule.  Leaves `levels` to the design.
-Distribution read_distribution(Node const& node, Key const& key);
 /// Which study, of how many members, and what it is asked for; adds the kernel parts that a swept key needs.
 void read_study(Node const& root, Scene& scene);
 /// How the members are spread: Scene::design, and how many members follow from it; needs the study and what varies.
 void read_design(Node const& root, Scene& scene);
 /// study.table: Scene::design.table and a variation for each of its columns.
 void read_member_table(Node const& node, Node const& root, Scene& scene);
-/// [study.correlation]; needs the design.
-void read_correlation(Node const& root, Scene& scene);
 /// [study.limits]; adds their quantities to those asked for.
 void read_limits(Node const& root, Scene& scene);
 /// study.store; needs the design, the samples and the quantities.
@@ -108,5 +110,41 @@ void check_arguments(Node const& table, std::string_view what, std::initializer_
 /// "study.points is missing (how many columns there are); add points = 50".
 [[noreturn]] void refuse_missing(Node const& asking, std::string_view key, std::string_view why,
                                  std::string_view advice);
+
+// Values of nodes as the reader wants them, or an error at the node's position.
+
+/// A finite number, or a text with a unit that converts to `unit`; in SI units.  @throws SceneError
+double read_number(Node const& node, std::string_view unit);
+/// The same for a value within a range.
+double read_number(Node const& node, std::string_view unit, std::string_view meaning, Range range);
+/// The same for a key of the physics: within the key's rule.
+double read_number(Node const& node, Key const& key);
+
+/// One or more of them.  @param example for refusals: "[1, 2]"
+std::vector<double> read_list(Node const& list, Key const& key, std::uint64_t most, std::string_view example);
+
+/// Of a setting: within its limits.
+double read_number(Node const& node, Setting const& setting);
+std::uint64_t read_count(Node const& node, Setting const& setting);
+std::size_t read_choice(Node const& node, Setting const& setting);
+
+/// An integer (or a real number that is one) from low to high.
+std::uint64_t read_count(Node const& node, std::string_view meaning, std::uint64_t low, std::uint64_t high);
+
+/// What is given of a setting; nothing where it is not.
+std::optional<double> given_number(Node const& root, std::string_view name);
+std::optional<std::uint64_t> given_count(Node const& root, std::string_view name);
+template <class Choice> void read_given(Node const& root, std::string_view name, Choice& to) {
+    if (Node const* const node = root.find_path(name)) to = static_cast<Choice>(read_choice(*node, setting(name)));
+}
+
+bool read_boolean(Node const& node);
+std::string const& read_text_value(Node const& node);
+
+/// Index of the text in `names`.  @throws SceneError naming the nearest or all.
+std::size_t read_choice(Node const& node, std::string_view meaning, std::span<std::string_view const> names);
+
+/// "; did you mean x?" where a name is near enough, else "use one of a, b, c".
+std::string choice_advice(std::string_view name, std::span<std::string_view const> names);
 
 }  // namespace slideway

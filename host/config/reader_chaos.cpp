@@ -3,9 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "host/config/drive_period.hpp"
 #include "host/config/reader.hpp"
-#include "host/config/values.hpp"
 
 namespace slideway {
 namespace {
@@ -29,7 +27,7 @@ bool has_period(Scene const& scene) { return std::isfinite(drive_period(scene.pa
 
 /// Where nothing turns there are no revolutions; each that would be the default is a second, as in an ensemble.
 Span read_span(Node const& root, Scene const& scene, SpanKeys const& keys, double default_turns) {
-    if (Node const* const node = root.find_path(keys.time)) return {read_number(*node, setting(keys.time)), false};
+    if (auto const seconds = given_number(root, keys.time)) return {*seconds, false};
     bool const turns = has_period(scene);
     Node const* const node = root.find_path(keys.turns);
     if (node == nullptr) return {default_turns, turns};
@@ -39,12 +37,10 @@ Span read_span(Node const& root, Scene const& scene, SpanKeys const& keys, doubl
 }
 
 Span read_dt(Node const& root, Scene const& scene) {
-    if (Node const* const node = root.find_path(dt_keys.time)) return {read_number(*node, setting(dt_keys.time)), false};
-    Node const* const node = root.find_path(dt_keys.turns);
-    std::uint64_t const per_turn =
-        node != nullptr ? read_count(*node, setting(dt_keys.turns)) : 2000;
-    if (node != nullptr && !has_period(scene)) refuse_at_rest(*node, scene.parts, "study.dt");
-    return {1 / static_cast<double>(per_turn), has_period(scene)};
+    if (auto const seconds = given_number(root, dt_keys.time)) return {*seconds, false};
+    auto const per_turn = given_count(root, dt_keys.turns);
+    if (per_turn && !has_period(scene)) refuse_at_rest(*root.find_path(dt_keys.turns), scene.parts, "study.dt");
+    return {1 / static_cast<double>(per_turn.value_or(2000)), has_period(scene)};
 }
 
 void read_neighbours(Node const& root, Scene& scene) {
@@ -56,11 +52,9 @@ void read_neighbours(Node const& root, Scene& scene) {
     Node const *const d0 = root.find_path("study.d0"), *const lower = root.find_path("study.d0_lower"),
                       *const upper = root.find_path("study.d0_upper");
     ChaosSettings given;
-    if (d0 != nullptr) given.d0 = read_number(*d0, setting("study.d0"));
-    given.d0_lower =
-        lower != nullptr ? read_number(*lower, setting("study.d0_lower")) : std::max(given.d0 * 0.3, 1e-14);
-    given.d0_upper =
-        upper != nullptr ? read_number(*upper, setting("study.d0_upper")) : std::min(given.d0 * 3, 1.0);
+    given.d0 = given_number(root, "study.d0").value_or(given.d0);
+    given.d0_lower = given_number(root, "study.d0_lower").value_or(std::max(given.d0 * 0.3, 1e-14));
+    given.d0_upper = given_number(root, "study.d0_upper").value_or(std::min(given.d0 * 3, 1.0));
     auto const name_d0 = [&](std::string_view side) {
         return Problem{fmt::format("not {} study.d0, {}", side, given.d0), "use d0_lower < d0 < d0_upper"};
     };
@@ -138,12 +132,9 @@ void read_history(Node const& root, Scene& scene) {
                      {"it ends before the first rescaling", "record for longer, or rescale oftener"});
     }
     chaos.history = static_cast<std::size_t>(std::min(100.0, rescalings));
-    Node const* const node = root.find_path("study.history");
-    if (node == nullptr) return;
-    chaos.history = read_count(*node, setting("study.history"));
+    chaos.history = given_count(root, "study.history").value_or(chaos.history);
     if (static_cast<double>(chaos.history) > rescalings) {
-        refuse(*node, {fmt::format("there are {:.0f} rescalings", rescalings),
-                       fmt::format("use a value <= {:.0f}", rescalings)});
+        refuse(*root.find_path("study.history"), {fmt::format("there are {:.0f} rescalings", rescalings), fmt::format("use a value <= {:.0f}", rescalings)});
     }
 }
 

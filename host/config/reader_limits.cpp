@@ -5,8 +5,6 @@
 
 #include "host/config/descriptors.hpp"
 #include "host/config/reader.hpp"
-#include "host/config/scene_text.hpp"
-#include "host/config/values.hpp"
 
 namespace slideway {
 namespace {
@@ -17,7 +15,7 @@ struct LimitedQuantity {
 };
 
 [[noreturn]] void refuse_name(Node const& node, std::string const& why, std::string const& advice) {
-    throw SceneError(fmt::format("{}: {} cannot be limited ({}); {}", node.where, one_line(node.name), why, advice));
+    refuse_that(node, "cannot be limited", {why, advice});
 }
 
 /// Of "mode_time[free]" or "peak_normal_force".
@@ -62,10 +60,8 @@ Limit read_limit(Node const& node, LimitedQuantity const& limited) {
     check_arguments(node, "limit", {"min", "max"});
     QuantityInfo const& info = quantity_table[static_cast<int>(limited.quantity)];
     Node const *const low = node.find("min"), *const high = node.find("max");
-    if (low == nullptr && high == nullptr) {
-        throw SceneError(fmt::format("{}: {} has neither min nor max (it would be met always); write for example {}",
-                                     node.where, one_line(node.name), example));
-    }
+    if (low == nullptr && high == nullptr)
+        refuse_that(node, "has neither min nor max", {"it would be met always", fmt::format("write for example {}", example)});
     Limit limit{info.name, limited.label};
     if (low != nullptr) limit.low = read_number(*low, info.unit);
     if (high != nullptr) limit.high = read_number(*high, info.unit);

@@ -1,13 +1,10 @@
 #include <algorithm>
-#include <iterator>
 #include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/config/drive_period.hpp"
 #include "host/config/reader.hpp"
-#include "host/config/values.hpp"
 
 namespace slideway {
 namespace {
@@ -45,10 +42,7 @@ bool read_rigid(Node const& root, Mechanism mechanism) {
 
 /// Which mechanism, and that nothing is given that does not count for it.
 void read_mechanism(Node const& root, Parts& parts) {
-    if (Node const* const kind = root.find_path("mechanism.kind")) {
-        parts.mechanism =
-            static_cast<Mechanism>(read_choice(*kind, setting("mechanism.kind")));
-    }
+    read_given(root, "mechanism.kind", parts.mechanism);
     parts.rigid = read_rigid(root, parts.mechanism);
     for (auto const& [key, node] : given_keys(root)) {
         if (!counts_for(*key, parts.mechanism)) refuse_meaningless(node->where, node->name, parts.mechanism);
@@ -57,11 +51,8 @@ void read_mechanism(Node const& root, Parts& parts) {
         Node const* const node = root.find_path(name);
         if (node != nullptr) refuse_meaningless(node->where, node->name, parts.mechanism);
     };
-    if (!info(parts.mechanism).free_crank) {
-        refuse_given("mechanism.crank");
-    } else if (Node const* const crank = root.find_path("mechanism.crank")) {
-        parts.free_crank = read_choice(*crank, setting("mechanism.crank")) == 1;
-    }
+    if (!info(parts.mechanism).free_crank) refuse_given("mechanism.crank");
+    read_given(root, "mechanism.crank", parts.free_crank);
     if (info(parts.mechanism).spatial) return;
     if (!parts.rigid) refuse_given("contact.law");
     refuse_given("way");
@@ -139,7 +130,7 @@ std::vector<GivenKey> given_keys(Node const& root) {
 void read_physics(Node const& root, Scene& scene) {
     read_mechanism(root, scene.parts);
     Node const* const law = root.find_path("contact.law");
-    if (law != nullptr && !scene.parts.rigid) scene.parts.law = static_cast<Law>(read_choice(*law, setting("contact.law")));
+    if (!scene.parts.rigid) read_given(root, "contact.law", scene.parts.law);
     scene.inputs = with_presets(scene.inputs, scene.parts.law);
     auto const given = given_keys(root);
     bool restitution = false;
@@ -173,9 +164,7 @@ void read_physics(Node const& root, Scene& scene) {
 void read_integrator(Node const& root, Scene& scene) {
     IntegratorSettings& settings = scene.integrator;
     read_bound(root, "integrator", scene);
-    if (Node const* const node = root.find_path("integrator.method")) {
-        settings.method = static_cast<Method>(read_choice(*node, setting("integrator.method")));
-    }
+    read_given(root, "integrator.method", settings.method);
     if (settings.method == Method::ros34pw2 && !info(scene.parts.mechanism).spatial) {
         refuse(*root.find_path("integrator.method"),
                {fmt::format("the method has no Jacobian of a {}", info(scene.parts.mechanism).name),

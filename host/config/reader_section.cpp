@@ -8,10 +8,8 @@
 #include <fmt/ranges.h>
 
 #include "host/base/suggest.hpp"
-#include "host/config/drive_period.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/config/reader.hpp"
-#include "host/config/values.hpp"
 
 namespace slideway {
 namespace {
@@ -48,10 +46,7 @@ void read_section_table(Node const& table, Scene& scene) {
     if (!table.is_table()) refuse(table, {"not a section", fmt::format("write for example {}", example)});
     check_arguments(table, "section", {"on", "value", "direction"});
     Node const* const on = table.find("on");
-    if (on == nullptr) {
-        throw SceneError(fmt::format("{}: study.section has no on (what crosses the section); write for example {}",
-                                     table.where, example));
-    }
+    if (on == nullptr) refuse_that(table, "has no on", {"what crosses the section", fmt::format("write for example {}", example)});
     std::string const& name = read_text_value(*on);
     auto const known = surface_names(mechanism);
     auto const found = std::find(known.begin(), known.end(), name);
@@ -105,9 +100,7 @@ void read_section(Node const& root, Scene& scene) {
         return read_phase(root, scene);
     }
     read_section_table(*table, scene);
-    if (crossings != nullptr) {
-        scene.chaos.max_crossings = read_count(*crossings, setting("study.max_crossings"));
-    }
+    scene.chaos.max_crossings = given_count(root, "study.max_crossings").value_or(scene.chaos.max_crossings);
 }
 
 }  // namespace slideway

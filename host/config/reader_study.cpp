@@ -8,10 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/config/drive_period.hpp"
 #include "host/config/reader.hpp"
 #include "host/config/settings.hpp"
-#include "host/config/values.hpp"
 
 namespace slideway {
 namespace {
@@ -27,18 +25,13 @@ struct EndTime {
 EndTime read_end_time(Node const& root, Scene const& scene) {
     double const turn = drive_period(scene.parts, scene.inputs);
     bool const turns = std::isfinite(turn);
-    if (Node const* const node = root.find_path("study.duration")) {
-        double const seconds = read_number(*node, setting("study.duration"));
-        return {seconds, turns ? seconds / turn : NAN};
-    }
+    if (auto const seconds = given_number(root, "study.duration")) return {*seconds, turns ? *seconds / turn : NAN};
     Node const* const node = root.find_path("study.revolutions");
     if (!turns) {
         if (node != nullptr) refuse_at_rest(*node, scene.parts, "study.duration");
         return {1, NAN};
     }
-    double const revolutions =
-        node != nullptr ? read_number(*node, setting("study.revolutions")) : 1;
-    double const seconds = revolutions * turn;
+    double const revolutions = given_number(root, "study.revolutions").value_or(1), seconds = revolutions * turn;
     if (!(seconds > 0 && seconds <= longest_time)) {
         std::string const reason = fmt::format("it lasts {} s, with {} s for each", seconds, turn);
         std::string const advice = fmt::format("stay below {} s", longest_time);
@@ -195,12 +188,10 @@ std::vector<double> uniform_times(double end_time, std::size_t count) {
 }
 
 void read_study(Node const& root, Scene& scene) {
-    if (Node const* const kind = root.find_path("study.kind")) {
-        scene.study = static_cast<StudyKind>(read_choice(*kind, setting("study.kind")));
-    }
+    read_given(root, "study.kind", scene.study);
     check_keys(root, scene.study);
     read_bound(root, "study", scene);
-    if (Node const* const node = root.find_path("study.verify")) scene.verify = read_count(*node, setting("study.verify"));
+    scene.verify = given_count(root, "study.verify");
     read_design(root, scene);
     if (scene.study == StudyKind::sweep) read_sweep(root, scene);
     if (!runs_to_end(scene.study)) read_chaos(root, scene);
@@ -234,10 +225,9 @@ void read_recording(Node const& root, Scene& scene) {
 }
 
 void read_store(Node const& root, Scene& scene) {
-    Node const* const node = root.find_path("study.store");
-    if (node == nullptr) return;
-    scene.store = static_cast<Store>(read_choice(*node, setting("study.store")));
+    read_given(root, "study.store", scene.store);
     if (scene.stores_members()) return;
+    Node const* const node = root.find_path("study.store");
     if (scene.design.kind == DesignKind::saltelli) {
         refuse(*node, {"sensitivity indices need every member's values", "use store = \"members\""});
     }

@@ -6,7 +6,6 @@
 
 #include "host/base/numbers.hpp"
 #include "host/config/reader.hpp"
-#include "host/config/values.hpp"
 
 namespace slideway {
 namespace {
@@ -46,13 +45,10 @@ std::vector<double> read_range(Node const& root, Key const& key) {
     if (from == to)
         refuse(last, with_unit(to, key.unit), {"equal to study.from", "use another value, or study.values"});
     bool logarithmic = false;
-    if (Node const* const spacing = root.find_path("study.spacing")) {
-        logarithmic = read_choice(*spacing, setting("study.spacing")) == 1;
-        if (logarithmic && !(from * to > 0)) {
-            refuse(*spacing, {fmt::format("from {} to {} there is no common ratio", with_unit(from, key.unit),
-                                          with_unit(to, key.unit)),
-                              "use ends of one sign, or \"linear\""});
-        }
+    read_given(root, "study.spacing", logarithmic);
+    if (logarithmic && !(from * to > 0)) {
+        refuse(*root.find_path("study.spacing"), {fmt::format("from {} to {} there is no common ratio", with_unit(from, key.unit), with_unit(to, key.unit)),
+                                                  "use ends of one sign, or \"linear\""});
     }
     std::vector<double> values(points);
     for (std::uint64_t i = 0; i < points; ++i) {
@@ -109,20 +105,16 @@ void read_sweep(Node const& root, Scene& scene) {
     scene.chaos.values = list != nullptr ? read_list(*list, key, setting("study.points").most, "[\"0.1 mm\", \"0.2 mm\"]") : read_range(root, key);
     require_part(scene.parts, key);
     check_values(root, scene);
-    if (Node const* const node = root.find_path("study.start")) {
-        scene.chaos.continued = read_choice(*node, setting("study.start")) == 1;
-        if (scene.chaos.continued && (key.name.starts_with("initial.") || key.name == "mechanism.start_angle")) {
-            refuse(*node,
-                   {fmt::format("{} is where a member starts, and columns start where the one before ended", key.name),
-                    "use start = \"fresh\", or another parameter"});
-        }
-        Node const* const phase = root.find_path("study.phase");
-        if (scene.chaos.continued && info(scene.parts.mechanism).drive == DriveKind::carriage && phase != nullptr &&
-            read_number(*phase, "rad") != 0) {
-            refuse(*node, {"a carriage starts at phase 0, and columns would end at study.phase",
-                           "use start = \"fresh\", or phase = 0"});
-        }
+    read_given(root, "study.start", scene.chaos.continued);
+    if (!scene.chaos.continued) return;
+    Node const& start = *root.find_path("study.start");
+    if (key.name.starts_with("initial.") || key.name == "mechanism.start_angle") {
+        refuse(start, {fmt::format("{} is where a member starts, and columns start where the one before ended", key.name),
+                       "use start = \"fresh\", or another parameter"});
     }
+    Node const* const phase = root.find_path("study.phase");
+    if (info(scene.parts.mechanism).drive == DriveKind::carriage && phase != nullptr && read_number(*phase, "rad") != 0)
+        refuse(start, {"a carriage starts at phase 0, and columns would end at study.phase", "use start = \"fresh\", or phase = 0"});
 }
 
 void check_columns(Node const& root, Scene const& scene) {

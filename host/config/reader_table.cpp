@@ -1,5 +1,4 @@
 // study.table: one member a row, as measured or as drawn elsewhere.
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -8,12 +7,11 @@
 
 #include <fmt/format.h>
 
+#include "host/base/bytes.hpp"
 #include "host/base/csv.hpp"
-#include "host/base/fnv1a.hpp"
 #include "host/config/reader.hpp"
 #include "host/config/scene_text.hpp"
 #include "host/config/units.hpp"
-#include "host/config/values.hpp"
 
 namespace slideway {
 namespace {

@@ -1,7 +1,6 @@
 // A scene as TOML with every key in SI units.  Numbers are the shortest that read back to the same double.
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <span>
 #include <string>
 
@@ -11,7 +10,7 @@
 #include "host/config/scene.hpp"
 #include "host/config/scene_text.hpp"
 #include "host/config/settings.hpp"
-#include "host/sampling/distribution_forms.hpp"
+#include "host/sampling/distribution.hpp"
 #include "kernels/members/complete_inputs.hpp"
 
 namespace slideway {

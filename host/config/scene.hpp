@@ -1,21 +1,97 @@
 // A scene: what to integrate, how, and what to keep.  Read from TOML, validated, in SI units.
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "host/base/error.hpp"
 #include "host/config/keys.hpp"
-#include "host/config/study_settings.hpp"
 #include "host/sampling/design.hpp"
 #include "kernels/block.hpp"
 
 namespace slideway {
+
+enum class StudyKind { ensemble, lyapunov, poincare, sweep, tolerance };
+
+inline constexpr std::string_view study_kind_names[] = {"ensemble", "lyapunov", "poincare", "sweep", "tolerance"};
+constexpr std::string_view name_of(StudyKind kind) { return study_kind_names[static_cast<int>(kind)]; }
+
+/// Every member from the start to the end time, with or without a time series; the others study orbits.
+constexpr bool runs_to_end(StudyKind kind) { return kind == StudyKind::ensemble || kind == StudyKind::tolerance; }
+
+/// What a result keeps: a row of each member, or what they come to together.
+enum class Store { members, statistics };
+
+inline constexpr std::string_view store_names[] = {"members", "statistics"};
+constexpr std::string_view name_of(Store store) { return store_names[static_cast<int>(store)]; }
+
+/// A length of time: seconds, or revolutions of the member's own crank, periods of what drives it.
+struct Span {
+    double value = 0;
+    bool revolutions = false;
+
+    /// @param period of the drive [s]; infinite, so is what is asked in revolutions
+    double seconds(double period) const { return !revolutions || value == 0 ? value : value * period; }
+    friend bool operator==(Span const&, Span const&) = default;
+};
+
+using CrossingDirection = CrossingPlan::Direction;
+
+inline constexpr std::string_view crossing_direction_names[] = {"rising", "falling", "both"};
+constexpr std::string_view name_of(CrossingDirection direction) {
+    return crossing_direction_names[static_cast<int>(direction)];
+}
+
+/// Where a section of the orbit is taken: at a phase of the drive, a known time, or where a state or a gap crosses a level.
+/// A gap is the penetration of an apex, negated: > 0 apart.
+struct SectionSurface {
+    enum class On { phase, state, gap_y, gap_z };
+    On on = On::phase;
+    int index = 0;  // in the mechanism's state (mechanism_info.hpp), or of the apex, P1…P8 from 0
+    double level =
+        0;  // crank angle, or phase of the carriage [rad], any turn; else the state's unit, or [m] of the gap
+    CrossingDirection direction = CrossingDirection::rising;  // a phase has none
+
+    friend bool operator==(SectionSurface const&, SectionSurface const&) = default;
+};
+
+/// SI unit of a section's level, as keys have it.
+std::string_view section_unit(SectionSurface const& section, Mechanism mechanism);
+
+/// How many parts of this length fit into the whole, but for rounding.  Where both count revolutions, or both seconds,
+/// all members have as many.
+inline double parts_of(Span const& whole, Span const& part, double period) {
+    bool const same = whole.revolutions == part.revolutions;
+    double const parts = same ? whole.value / part.value : whole.seconds(period) / part.seconds(period);
+    return std::floor(parts * (1 + 1e-12) + 1e-9);
+}
+
+/// Each study reads what it names; the rest stays as it is here.
+struct ChaosSettings {
+    Span transient;                    // left out before anything is recorded
+    Span span;                         // recorded after it
+    SectionSurface section;            // poincare; sweep: a phase
+    std::size_t max_crossings = 1000;  // recorded of a member; poincare, not of a phase
+    int exponents = 0;                 // the largest ones; sweep: 0 for none; at most most_shadows
+    // Distances of neighbours, in the scales of integrator.atol.
+    double d0 = 1e-6;
+    // A single neighbour is rescaled beyond them.  They are near d0: a resting slider has other places to rest some 1e-5 away.
+    double d0_lower = 3e-7, d0_upper = 3e-6;
+    Span dt;                  // between rescalings; sweep: a whole fraction of a revolution
+    std::size_t history = 0;  // points of the convergence history; lyapunov
+    // sweep
+    Key const* parameter = nullptr;
+    std::vector<double> values;  // SI
+    bool continued = false;      // a column starts from the last states of the one before
+};
 
 struct Scene {
     std::string path;  // as the user gave it

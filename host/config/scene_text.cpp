@@ -62,9 +62,7 @@ constexpr std::uint32_t safe_plane = 0xf0000;
 
 std::string read_scene_text(std::string const& path) {
     std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) {
-        refuse_file(path, "it is a directory", "name a scene file in it");
-    }
+    if (std::filesystem::is_directory(path, ignored)) refuse_file(path, "it is a directory", "name a scene file in it");
     errno = 0;
     std::ifstream file(path, std::ios::binary);
     if (!file) {

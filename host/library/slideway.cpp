@@ -10,18 +10,17 @@
 #include "host/config/scene.hpp"
 #include "host/config/scene_text.hpp"
 #include "host/library/state.hpp"
+#include "host/run/ensemble.hpp"
 #include "host/store/memory_file.hpp"
 #include "host/store/netcdf_file.hpp"
 #include "host/store/output_target.hpp"
 #include "host/store/provenance.hpp"
-#include "host/run/ensemble.hpp"
 #include "host/store/result_merge.hpp"
 #include "host/store/result_seal.hpp"
 #include "host/study/backend_choice.hpp"
-#include "host/study/memory_run.hpp"
 #include "host/study/probe.hpp"
-#include "host/study/start_check.hpp"
 #include "host/study/state_table.hpp"
+#include "host/study/study_run.hpp"
 
 namespace slideway {
 namespace {

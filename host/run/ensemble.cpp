@@ -11,7 +11,6 @@
 
 #include <omp.h>
 
-#include "host/base/seconds_since.hpp"
 #include "host/run/shared_block.hpp"
 
 namespace slideway {
@@ -30,34 +29,6 @@ void add_block(EnsembleTotals& totals, BlockBuffers const& buffers, BlockResult 
     totals.lane_steps_executed += buffers.lane_steps_executed();
     totals.lane_steps_useful += buffers.lane_steps_useful();
 }
-
-}  // namespace
-
-std::uint64_t EnsembleTotals::done() const { return std::accumulate(ended.begin(), ended.end(), std::uint64_t{0}); }
-
-std::uint64_t EnsembleTotals::failed() const { return done() - ended[static_cast<std::size_t>(Status::finished)]; }
-
-EnsembleTotals& EnsembleTotals::operator+=(EnsembleTotals const& other) {
-    for (std::size_t i = 0; i < ended.size(); ++i) ended[i] += other.ended[i];
-    steps_accepted += other.steps_accepted;
-    steps_rejected += other.steps_rejected;
-    stiff_steps += other.stiff_steps;
-    rhs_evaluations += other.rhs_evaluations;
-    jacobian_evaluations += other.jacobian_evaluations;
-    lane_steps_executed += other.lane_steps_executed;
-    lane_steps_useful += other.lane_steps_useful;
-    seconds += other.seconds;
-    if (stopped == StopReason::none) stopped = other.stopped;
-    return *this;
-}
-
-double EnsembleTotals::lane_utilisation() const {
-    return slideway::lane_utilisation(lane_steps_useful, lane_steps_executed);
-}
-
-int default_threads() { return omp_get_max_threads(); }
-
-namespace {
 
 /// The threads' common part of a run.
 class Team {
@@ -235,6 +206,30 @@ bool may_be_one_block(EnsemblePlan const& plan) {
 }
 
 }  // namespace
+
+std::uint64_t EnsembleTotals::done() const { return std::accumulate(ended.begin(), ended.end(), std::uint64_t{0}); }
+
+std::uint64_t EnsembleTotals::failed() const { return done() - ended[static_cast<std::size_t>(Status::finished)]; }
+
+EnsembleTotals& EnsembleTotals::operator+=(EnsembleTotals const& other) {
+    for (std::size_t i = 0; i < ended.size(); ++i) ended[i] += other.ended[i];
+    steps_accepted += other.steps_accepted;
+    steps_rejected += other.steps_rejected;
+    stiff_steps += other.stiff_steps;
+    rhs_evaluations += other.rhs_evaluations;
+    jacobian_evaluations += other.jacobian_evaluations;
+    lane_steps_executed += other.lane_steps_executed;
+    lane_steps_useful += other.lane_steps_useful;
+    seconds += other.seconds;
+    if (stopped == StopReason::none) stopped = other.stopped;
+    return *this;
+}
+
+double EnsembleTotals::lane_utilisation() const {
+    return slideway::lane_utilisation(lane_steps_useful, lane_steps_executed);
+}
+
+int default_threads() { return omp_get_max_threads(); }
 
 EnsembleTotals run_ensemble(EnsemblePlan const& plan, MemberQueue& queue, BlockKernel const& kernel,
                             BlockSink const& sink, StopRequest const& stop, Progress* progress, double weight) {

@@ -8,7 +8,6 @@
 
 #include "host/backend/backend.hpp"
 #include "host/run/block_buffers.hpp"
-#include "host/run/block_result.hpp"
 #include "host/run/block_sizes.hpp"
 #include "host/run/member_queue.hpp"
 #include "host/run/member_set.hpp"

@@ -61,19 +61,11 @@ template <class Start> void MpiCalls::finish(Start start, Patience patience) {
 }
 
 void MpiCalls::send(int to, int tag, void const* data, std::size_t bytes, Patience patience) {
-    finish(
-        [&](MPI_Request* request) {
-            MPI_Isend(data, static_cast<int>(bytes), MPI_BYTE, to, tag, MPI_COMM_WORLD, request);
-        },
-        patience);
+    finish([&](MPI_Request* request) { MPI_Isend(data, static_cast<int>(bytes), MPI_BYTE, to, tag, MPI_COMM_WORLD, request); }, patience);
 }
 
 void MpiCalls::receive(int from, int tag, void* data, std::size_t bytes, Patience patience) {
-    finish(
-        [&](MPI_Request* request) {
-            MPI_Irecv(data, static_cast<int>(bytes), MPI_BYTE, from, tag, MPI_COMM_WORLD, request);
-        },
-        patience);
+    finish([&](MPI_Request* request) { MPI_Irecv(data, static_cast<int>(bytes), MPI_BYTE, from, tag, MPI_COMM_WORLD, request); }, patience);
 }
 
 std::optional<int> MpiCalls::waiting(int tag) {
@@ -85,9 +77,7 @@ std::optional<int> MpiCalls::waiting(int tag) {
 }
 
 void MpiCalls::broadcast(void* data, std::size_t bytes, Patience patience) {
-    finish(
-        [&](MPI_Request* request) { MPI_Ibcast(data, static_cast<int>(bytes), MPI_BYTE, 0, MPI_COMM_WORLD, request); },
-        patience);
+    finish([&](MPI_Request* request) { MPI_Ibcast(data, static_cast<int>(bytes), MPI_BYTE, 0, MPI_COMM_WORLD, request); }, patience);
 }
 
 void MpiCalls::abort(int code) {

@@ -9,7 +9,7 @@
 
 #include <omp.h>
 
-#include "host/base/seconds_since.hpp"
+#include "host/run/stop.hpp"
 
 namespace slideway {
 namespace {

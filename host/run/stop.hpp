@@ -41,4 +41,9 @@ private:
     struct sigaction old_interrupt_, old_terminate_;
 };
 
+/// Wall time [s].
+inline double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 }  // namespace slideway

@@ -1,6 +1,9 @@
 // How a varied input scatters.
 #pragma once
 
+#include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace slideway {
@@ -38,5 +41,28 @@ struct Distribution {
 
 /// Φ⁻¹(u), u in (0, 1).
 double standard_normal_quantile(double u);
+
+struct DistributionArgument {
+    std::string_view name;
+    double Distribution::*member;  // nullptr: the list of values
+    bool plain = false;            // a plain number; else in the key's unit
+    bool optional = false;         // 0 where it is not given
+};
+
+struct DistributionForm {
+    std::string_view name;  // of `dist`
+    Distribution::Kind kind;
+    std::span<DistributionArgument const> arguments;
+    std::string_view meaning;
+
+    bool has_levels() const;  // of a grid: those without have one level, or one for each value
+};
+
+/// In the order of `Distribution::Kind`.
+std::span<DistributionForm const> distribution_forms();
+DistributionForm const& form_of(Distribution::Kind kind);
+
+/// "mean, sd[, low]"
+std::string listed_arguments(DistributionForm const& form);
 
 }  // namespace slideway

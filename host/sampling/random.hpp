@@ -1,4 +1,4 @@
-// Random numbers that depend on their address alone: (seed, member, key name).
+// Random numbers that depend on their address alone, (seed, member, key name), and a random order of which any place can be asked alone.
 #pragma once
 
 #include <array>
@@ -30,5 +30,25 @@ struct StreamKey {
 
 /// The odd multiple of 2^-53 in (0, 1) that the leading 52 bits of a word say.
 double unit_fraction(std::uint64_t word);
+
+/// Pseudo-random permutation of [0, size) in O(1) memory: a Feistel network over the bits of size − 1, at least six,
+/// its round functions by Philox; what falls beyond the end goes through again (cycle walking: Black & Rogaway, CT-RSA
+/// 2002, section 3).  The halves differ by a bit where the number of bits is odd (Schneier & Kelsey, FSE 1996:
+/// unbalanced networks).
+class Permutation {
+public:
+    /// @param size >= 1.
+    Permutation(std::uint64_t size, StreamKey const& key);
+    /// Where `index` goes, in [0, size).  @throws std::out_of_range if index >= size.
+    std::uint64_t operator()(std::uint64_t index) const;
+
+private:
+    std::uint64_t shuffle(std::uint64_t index) const;
+
+    std::uint64_t size_;
+    StreamKey key_;
+    int right_bits_;
+    std::uint64_t left_mask_, right_mask_;
+};
 
 }  // namespace slideway

@@ -9,7 +9,6 @@
 #include "host/base/error.hpp"
 #include "host/sampling/copula.hpp"
 #include "host/sampling/design.hpp"
-#include "host/sampling/permutation.hpp"
 #include "host/sampling/random.hpp"
 #include "host/sampling/sobol_points.hpp"
 

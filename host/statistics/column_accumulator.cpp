@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "host/base/byte_stream.hpp"
-#include "host/base/nan.hpp"
+#include "host/base/bytes.hpp"
+#include "host/base/numbers.hpp"
 
 namespace slideway {
 namespace {

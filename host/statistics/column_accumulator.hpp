@@ -10,7 +10,6 @@
 
 #include "host/statistics/exact_sum.hpp"
 #include "host/statistics/histogram.hpp"
-#include "host/statistics/quantile_interval.hpp"
 #include "host/statistics/quantile_sketch.hpp"
 #include "host/statistics/summary.hpp"
 

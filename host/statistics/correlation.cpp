@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include <Eigen/Dense>
-#include "host/base/nan.hpp"
+#include "host/base/numbers.hpp"
 #include "host/sampling/distribution.hpp"
 
 namespace slideway {

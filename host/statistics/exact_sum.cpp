@@ -8,7 +8,7 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 
-#include "host/base/byte_stream.hpp"
+#include "host/base/bytes.hpp"
 
 namespace slideway {
 

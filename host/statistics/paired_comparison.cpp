@@ -5,8 +5,7 @@
 
 #include <boost/math/distributions/students_t.hpp>
 
-#include "host/base/nan.hpp"
-#include "host/statistics/summary.hpp"
+#include "host/base/numbers.hpp"
 
 namespace slideway {
 namespace {

@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "host/statistics/interval.hpp"
 #include "host/statistics/summary.hpp"
 
 namespace slideway {

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "host/base/byte_stream.hpp"
+#include "host/base/bytes.hpp"
 
 namespace slideway {
 

@@ -5,10 +5,9 @@
 
 #include <boost/math/distributions/normal.hpp>
 
-#include "host/base/nan.hpp"
+#include "host/base/numbers.hpp"
 #include "host/sampling/random.hpp"
 #include "host/statistics/exact_sum.hpp"
-#include "host/statistics/summary.hpp"
 
 namespace slideway {
 namespace {

@@ -1,15 +1,21 @@
 #include "host/statistics/summary.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <vector>
+#include <ranges>
 
+#include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
-#include "host/base/nan.hpp"
+#include "host/base/numbers.hpp"
+#include "host/sampling/distribution.hpp"
 
 namespace slideway {
 namespace {
+
+/// The least number up to `end` for which it does not hold, where it holds for all below that and for none above; `end` if there is none.
+template <class Condition> std::uint64_t first_without(std::uint64_t end, Condition const& holds) {
+    return *std::ranges::partition_point(std::views::iota(std::uint64_t{0}, end), holds);
+}
 
 }  // namespace
 
@@ -52,6 +58,46 @@ Interval mean_interval(Summary const& summary, double level) {
     if (!std::isfinite(summary.sd)) return {};
     double const half = student_quantile(summary.count, level) * summary.sd / std::sqrt(static_cast<double>(summary.count));
     return {summary.mean - half, summary.mean + half};
+}
+
+Proportion proportion(std::uint64_t successes, std::uint64_t trials, double level) {
+    Proportion result{successes, trials, std::numeric_limits<double>::quiet_NaN(), {0, 1}};
+    if (trials == 0) return result;
+    auto const n = static_cast<double>(trials);
+    double const p = static_cast<double>(successes) / n;
+    double const z = standard_normal_quantile(0.5 + 0.5 * level);
+    double const scale = 1 / (1 + z * z / n);
+    double const centre = (p + z * z / (2 * n)) * scale;
+    double const half = z * scale * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
+    result.value = p;
+    // At the ends the two terms cancel but for rounding.
+    result.interval.low = successes == 0 ? 0 : std::max(0.0, centre - half);
+    result.interval.high = successes == trials ? 1 : std::min(1.0, centre + half);
+    return result;
+}
+
+RankInterval quantile_ranks(std::uint64_t n, double p, double level) {
+    double const tail = 0.5 * (1 - level);
+    boost::math::binomial const below(static_cast<double>(n), p);
+    // k is the number of draws below: r is one more than the largest k of P(B <= k) <= tail.
+    std::uint64_t const r = first_without(n + 1, [&](std::uint64_t k) { return boost::math::cdf(below, static_cast<double>(k)) <= tail; });
+    std::uint64_t const s = first_without(n + 1, [&](std::uint64_t k) {
+        return k == 0 || boost::math::cdf(boost::math::complement(below, static_cast<double>(k - 1))) > tail;  // P(B >= 0) = 1
+    });
+    return {r, s};
+}
+
+Interval quantile_interval(std::span<double const> sorted, double p, double level) {
+    return interval_of_ranks(sorted.size(), p, level, [&](std::uint64_t rank) { return sorted[rank]; });
+}
+
+std::vector<QuantileEstimate> estimate_quantiles(std::span<double const> sorted, std::span<double const> probabilities,
+                                                 double level) {
+    std::vector<QuantileEstimate> estimates;
+    for (double const p : probabilities) {
+        estimates.push_back({p, quantile(sorted, p), quantile_interval(sorted, p, level)});
+    }
+    return estimates;
 }
 
 }  // namespace slideway

@@ -1,4 +1,4 @@
-// Summary statistics of plain numbers.
+// Summary statistics of plain numbers, and their intervals of confidence.
 #pragma once
 
 #include <algorithm>
@@ -6,10 +6,17 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-
-#include "host/statistics/interval.hpp"
+#include <vector>
 
 namespace slideway {
+
+/// In the unit of what it bounds; a bound that cannot be given is NaN.
+struct Interval {
+    double low = std::numeric_limits<double>::quiet_NaN();
+    double high = std::numeric_limits<double>::quiet_NaN();
+
+    double half_width() const { return 0.5 * (high - low); }
+};
 
 /// Of the numbers that are not NaN; all NaN when there are none.
 struct Summary {
@@ -45,5 +52,57 @@ template <class ValueAt> double quantile_of(std::uint64_t n, double p, ValueAt v
 }
 /// @param sorted ascending, no NaN.
 double quantile(std::span<double const> sorted, double p);
+
+/// Share of members with a property.
+struct Proportion {
+    std::uint64_t successes = 0, trials = 0;
+    double value = std::numeric_limits<double>::quiet_NaN();  // successes / trials; NaN without trials
+    Interval interval;
+};
+
+/// Score interval of a proportion p̂ = k/n of independent trials: the p with |p̂ - p| <= z √(p(1-p)/n), that is
+/// (p̂ + z²/2n ± z √(p̂(1-p̂)/n + z²/4n²)) / (1 + z²/n), z the (1+level)/2 quantile of the normal distribution.  Its
+/// lower bound is 0 for k = 0 and its upper one 1 for k = n, both exactly.  It holds p in `level` of the studies on average over p,
+/// and
+/// within 2 % of it where n p and n (1-p) are 10 or more; nearer to 0 and 1 the share goes up and down, of 95 % ones between
+/// 91 and 99 % in our studies and to 84 % at worst (k = 1; Agresti and Coull 1998, American Statistician 52, 119).
+/// Source: Wilson (1927), Probable inference, the law of succession, and statistical inference, JASA 22, 209.
+/// @param successes k <= trials n.  @param level in (0, 1).  @return [0, 1] as interval without trials.
+Proportion proportion(std::uint64_t successes, std::uint64_t trials, double level = 0.95);
+
+struct QuantileEstimate {
+    double p;      // probability
+    double value;  // sample quantile, type 7
+    Interval interval;
+};
+
+/// Ranks, from 1, of two order statistics; 0 and n + 1 where there is none.
+struct RankInterval {
+    std::uint64_t low, high;
+};
+
+/// Confidence interval of the p-quantile of n independent draws by two of their order statistics.  The number of draws
+/// below the quantile is B ~ Bin(n, p), so P(x(r) > q) = P(B <= r-1) and P(x(s) < q) = P(B >= s), both at most: the
+/// lower bound is x(r) with the largest r of P(B <= r-1) <= (1-level)/2, the upper one x(s) with the smallest s of
+/// P(B >= s) <= (1-level)/2.  It covers the quantile of any distribution with at least `level`;
+/// ranks are whole, so 95 % ones have 95 to 98.5 % with 50 to 1,000 draws.
+/// Source: Conover (1999), Practical Nonparametric Statistics, 3.2; Hahn and Meeker (1991), Statistical Intervals, 5.2.
+/// @param n > 0 draws; or their values, sorted ascending, no NaN.  @param p, level in (0, 1).
+/// @return r and s; or the interval in the unit of the values.  A bound for which n is too small (no such rank) is NaN.
+RankInterval quantile_ranks(std::uint64_t n, double p, double level = 0.95);
+Interval quantile_interval(std::span<double const> sorted, double p, double level = 0.95);
+/// The same of values by their rank, from 0.
+template <class ValueAt> Interval interval_of_ranks(std::uint64_t n, double p, double level, ValueAt value_at) {
+    Interval interval;
+    if (n == 0) return interval;
+    auto const [low, high] = quantile_ranks(n, p, level);
+    if (low >= 1) interval.low = value_at(low - 1);
+    if (high <= n) interval.high = value_at(high - 1);
+    return interval;
+}
+
+/// Sample quantiles with their intervals, one for each probability.
+std::vector<QuantileEstimate> estimate_quantiles(std::span<double const> sorted, std::span<double const> probabilities,
+                                                 double level = 0.95);
 
 }  // namespace slideway

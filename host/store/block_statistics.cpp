@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "host/base/byte_stream.hpp"
+#include "host/base/bytes.hpp"
 
 namespace slideway {
 namespace {

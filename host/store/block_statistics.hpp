@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "host/run/block_result.hpp"
+#include "host/run/block_buffers.hpp"
 #include "host/run/member_set.hpp"
 #include "host/sampling/design.hpp"
 #include "host/statistics/column_accumulator.hpp"

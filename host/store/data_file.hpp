@@ -9,8 +9,8 @@
 #include <numeric>
 #include <span>
 #include <string>
-#include <string_view>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
 namespace slideway {
@@ -41,10 +41,9 @@ public:
     /// A float64 variable reads as NaN wherever nothing was written, if `fill` is set.
     virtual int add_variable(std::string const& name, Type type, std::span<int const> dimensions, bool fill = false) = 0;
     static constexpr int global = -1;  // as `variable`: the file itself
-    virtual void put_text(int variable, std::string const& name, std::string_view value) = 0;
-    virtual void put_number(int variable, std::string const& name, double value) = 0;
-    virtual void put_number(int variable, std::string const& name, int value) = 0;
-    virtual void put_bytes(int variable, std::string const& name, std::span<signed char const> values) = 0;
+    using Value = std::variant<std::string, double, int, std::vector<signed char>>;
+    /// An attribute, in the place of one of its name.
+    virtual void put(int variable, std::string const& name, Value const& value) = 0;
     virtual void end_definitions() = 0;
 
     /// All values of a variable, in C order.

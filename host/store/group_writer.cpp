@@ -15,8 +15,8 @@ constexpr std::size_t label_length = 8;  // of LabelAxes: "surface" and room for
 /// Texts along the first of two dimensions, their letters along the second.
 int define_texts(DataFile& file, std::string const& name, std::array<int, 2> const& dimensions, std::string const& long_name) {
     int const variable = file.add_variable(name, DataFile::Type::text, dimensions);
-    file.put_text(variable, "long_name", long_name);
-    file.put_text(variable, "_Encoding", "utf-8");  // readers then give strings, not bytes
+    file.put(variable, "long_name", long_name);
+    file.put(variable, "_Encoding", "utf-8");  // readers then give strings, not bytes
     return variable;
 }
 
@@ -44,9 +44,9 @@ int GroupWriter::define(Description const& description, DataFile::Type type) {
     std::vector<int> dimensions;
     for (std::string const& name : description.dimensions) dimensions.push_back(file_.dimension(name));
     int const variable = file_.add_variable(description.name, type, dimensions);
-    if (!description.unit.empty()) file_.put_text(variable, "units", description.unit);
-    file_.put_text(variable, "long_name", description.long_name);
-    if (!description.coordinates.empty()) file_.put_text(variable, "coordinates", description.coordinates);
+    if (!description.unit.empty()) file_.put(variable, "units", description.unit);
+    file_.put(variable, "long_name", description.long_name);
+    if (!description.coordinates.empty()) file_.put(variable, "coordinates", description.coordinates);
     return variable;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <ranges>
 #include <span>
 #include <string>
@@ -19,8 +18,8 @@ public:
     GroupWriter(DataFile& file, std::string const& name) : group_(file.add_group(name)), file_(*group_) {}
     GroupWriter(GroupWriter const&) = delete;
 
-    void attribute(std::string const& name, std::string const& text) { file_.put_text(DataFile::global, name, text); }
-    void attribute(std::string const& name, double number) { file_.put_number(DataFile::global, name, number); }
+    void attribute(std::string const& name, std::string const& text) { file_.put(DataFile::global, name, text); }
+    void attribute(std::string const& name, double number) { file_.put(DataFile::global, name, number); }
     void dimension(std::string const& name, std::size_t length) { file_.add_dimension(name, length); }
     /// A dimension with a text for each entry, in the variable `<name>_name`.
     void labels(std::string const& name, std::string const& long_name, std::vector<std::string> const& labels);

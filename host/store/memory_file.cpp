@@ -93,28 +93,23 @@ int MemoryFile::add_variable(std::string const& name, Type type, std::span<int c
     return static_cast<int>(node_->variables.size()) - 1;
 }
 
-std::vector<MemoryFile::Attribute>& MemoryFile::attributes_of(int variable) {
-    return variable == global ? node_->attributes : node_->variable(variable).attributes;
-}
-
 std::vector<MemoryFile::Attribute> const& MemoryFile::attributes(int variable) const {
     return variable == global ? node_->attributes : node_->variable(variable).attributes;
 }
 
-void MemoryFile::put(int variable, std::string const& name, Value value) {
-    auto& list = attributes_of(variable);
+MemoryFile::Attribute const* MemoryFile::find(int variable, std::string const& name) const {
+    auto const& list = attributes(variable);
     auto const found = std::ranges::find(list, name, &Attribute::name);
-    if (found != list.end())
-        found->value = std::move(value);
-    else
-        list.push_back({name, std::move(value)});
+    return found == list.end() ? nullptr : &*found;
 }
 
-void MemoryFile::put_text(int variable, std::string const& name, std::string_view value) { put(variable, name, std::string(value)); }
-void MemoryFile::put_number(int variable, std::string const& name, double value) { put(variable, name, value); }
-void MemoryFile::put_number(int variable, std::string const& name, int value) { put(variable, name, value); }
-void MemoryFile::put_bytes(int variable, std::string const& name, std::span<signed char const> values) {
-    put(variable, name, std::vector<signed char>(values.begin(), values.end()));
+void MemoryFile::put(int variable, std::string const& name, Value const& value) {
+    auto& list = variable == global ? node_->attributes : node_->variable(variable).attributes;
+    auto const found = std::ranges::find(list, name, &Attribute::name);
+    if (found != list.end())
+        found->value = value;
+    else
+        list.push_back({name, value});
 }
 
 void MemoryFile::write(int variable, void const* values) {
@@ -194,15 +189,14 @@ std::vector<std::string> MemoryFile::dimension_names(Variable const& variable) c
 }
 
 std::string MemoryFile::text(int variable, std::string const& name) const {
-    auto const found = std::ranges::find(attributes(variable), name, &Attribute::name);
-    if (found == attributes(variable).end()) return {};
-    auto const* const value = std::get_if<std::string>(&found->value);
-    return value != nullptr ? *value : std::string();
+    Attribute const* const found = find(variable, name);
+    auto const* const text = found != nullptr ? std::get_if<std::string>(&found->value) : nullptr;
+    return text != nullptr ? *text : std::string();
 }
 
 bool MemoryFile::number(int variable, std::string const& name, double& value) const {
-    auto const found = std::ranges::find(attributes(variable), name, &Attribute::name);
-    if (found == attributes(variable).end()) return false;
+    Attribute const* const found = find(variable, name);
+    if (found == nullptr) return false;
     if (auto const* const real = std::get_if<double>(&found->value)) return value = *real, true;
     if (auto const* const whole = std::get_if<int>(&found->value)) return value = *whole, true;
     return false;
@@ -210,29 +204,15 @@ bool MemoryFile::number(int variable, std::string const& name, double& value) co
 
 std::byte const* MemoryFile::data(int variable) const { return node_->variable(variable).data.data(); }
 
-namespace {
-
-struct PutAttribute {
-    DataFile& to;
-    int variable;
-    std::string const& name;
-    void operator()(std::string const& text) const { to.put_text(variable, name, text); }
-    void operator()(double number) const { to.put_number(variable, name, number); }
-    void operator()(int number) const { to.put_number(variable, name, number); }
-    void operator()(std::vector<signed char> const& bytes) const { to.put_bytes(variable, name, bytes); }
-};
-
-}  // namespace
-
 void MemoryFile::copy_to(DataFile& to) const {
-    for (Attribute const& attribute : node_->attributes) std::visit(PutAttribute{to, global, attribute.name}, attribute.value);
+    for (Attribute const& attribute : node_->attributes) to.put(global, attribute.name, attribute.value);
     for (Dimension const& dimension : dimensions()) to.add_dimension(dimension.name, dimension.length);
     std::vector<int> ids;
     for (Variable const& variable : variables()) {
         std::vector<int> shape;
         for (std::string const& name : dimension_names(variable)) shape.push_back(to.dimension(name));
         ids.push_back(to.add_variable(variable.name, variable.type, shape, node_->variable(variable.id).fill));
-        for (Attribute const& attribute : attributes(variable.id)) std::visit(PutAttribute{to, ids.back(), attribute.name}, attribute.value);
+        for (Attribute const& attribute : attributes(variable.id)) to.put(ids.back(), attribute.name, attribute.value);
     }
     to.end_definitions();
     for (Variable const& variable : variables()) {

@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "host/store/data_file.hpp"
@@ -18,10 +17,7 @@ public:
     std::string const& path() const override;
     int add_dimension(std::string const& name, std::size_t length) override;
     int add_variable(std::string const& name, Type type, std::span<int const> dimensions, bool fill = false) override;
-    void put_text(int variable, std::string const& name, std::string_view value) override;
-    void put_number(int variable, std::string const& name, double value) override;
-    void put_number(int variable, std::string const& name, int value) override;
-    void put_bytes(int variable, std::string const& name, std::span<signed char const> values) override;
+    void put(int variable, std::string const& name, Value const& value) override;
     void end_definitions() override {}
     using DataFile::read;
     void write(int variable, void const* values) override;
@@ -38,7 +34,6 @@ public:
     std::string text(int variable, std::string const& name) const override;
     bool number(int variable, std::string const& name, double& value) const override;
 
-    using Value = std::variant<std::string, double, int, std::vector<signed char>>;
     struct Attribute {
         std::string name;
         Value value;
@@ -57,8 +52,7 @@ public:
 private:
     struct Node;
     explicit MemoryFile(std::shared_ptr<Node> node) : node_(std::move(node)) {}
-    std::vector<Attribute>& attributes_of(int variable);
-    void put(int variable, std::string const& name, Value value);
+    Attribute const* find(int variable, std::string const& name) const;
 
     std::shared_ptr<Node> node_;
 };

@@ -5,10 +5,8 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <functional>
 #include <iterator>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -77,6 +75,13 @@ template <class Call> std::string NetcdfFile::name_by(Call call) const {
     return name;
 }
 
+/// A number that a call writes.
+template <class Call> int NetcdfFile::number_by(std::string_view action, Call call) const {
+    int number = 0;
+    require(call(&number), action);
+    return number;
+}
+
 NetcdfFile NetcdfFile::create(std::string const& path) {
     return {path, number_of(path, "create", [&](int* id) { return nc_create(path.c_str(), NC_NOCLOBBER | NC_NETCDF4, id); }), Kind::written};
 }
@@ -135,39 +140,34 @@ void NetcdfFile::close() {
 }
 
 int NetcdfFile::add_dimension(std::string const& name, std::size_t length) {
-    int dimension = 0;
-    require(nc_def_dim(id_, name.c_str(), length, &dimension), "define dimension " + name);
-    return dimension;
+    return number_by("define dimension " + name, [&](int* dimension) { return nc_def_dim(id_, name.c_str(), length, dimension); });
 }
 
 int NetcdfFile::add_variable(std::string const& name, Type type, std::span<int const> dimensions, bool fill) {
-    int variable = 0;
     nc_type const number = type_table[static_cast<int>(type)].number;
-    require(nc_def_var(id_, name.c_str(), number, static_cast<int>(dimensions.size()), dimensions.data(), &variable), "define variable " + name);
+    int const rank = static_cast<int>(dimensions.size());
+    int const variable = number_by("define variable " + name, [&](int* id) { return nc_def_var(id_, name.c_str(), number, rank, dimensions.data(), id); });
     double const nan = std::numeric_limits<double>::quiet_NaN();
     require(nc_def_var_fill(id_, variable, fill ? NC_FILL : NC_NOFILL, fill ? &nan : nullptr), "define variable " + name);
     return variable;
 }
 
-void NetcdfFile::put_text(int variable, std::string const& name, std::string_view value) {
-    // netCDF marks texts as ASCII; only its strings are UTF-8 to other readers.
-    bool const ascii = std::ranges::all_of(value, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
-    std::string const text(value);
-    char const* string = text.c_str();
-    require(ascii ? nc_put_att_text(id_, variable, name.c_str(), value.size(), value.data()) : nc_put_att_string(id_, variable, name.c_str(), 1, &string),
-            "write attribute " + name);
-}
-
-void NetcdfFile::put_number(int variable, std::string const& name, double value) {
-    require(nc_put_att_double(id_, variable, name.c_str(), NC_DOUBLE, 1, &value), "write attribute " + name);
-}
-
-void NetcdfFile::put_number(int variable, std::string const& name, int value) {
-    require(nc_put_att_int(id_, variable, name.c_str(), NC_INT, 1, &value), "write attribute " + name);
-}
-
-void NetcdfFile::put_bytes(int variable, std::string const& name, std::span<signed char const> values) {
-    require(nc_put_att_schar(id_, variable, name.c_str(), NC_BYTE, values.size(), values.data()), "write attribute " + name);
+void NetcdfFile::put(int variable, std::string const& name, Value const& value) {
+    int code = NC_NOERR;
+    if (auto const* const text = std::get_if<std::string>(&value)) {
+        // netCDF marks texts as ASCII; only its strings are UTF-8 to other readers.
+        bool const ascii = std::ranges::all_of(*text, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+        char const* string = text->c_str();
+        code = ascii ? nc_put_att_text(id_, variable, name.c_str(), text->size(), string) : nc_put_att_string(id_, variable, name.c_str(), 1, &string);
+    } else if (auto const* const real = std::get_if<double>(&value)) {
+        code = nc_put_att_double(id_, variable, name.c_str(), NC_DOUBLE, 1, real);
+    } else if (auto const* const whole = std::get_if<int>(&value)) {
+        code = nc_put_att_int(id_, variable, name.c_str(), NC_INT, 1, whole);
+    } else {
+        auto const& bytes = std::get<std::vector<signed char>>(value);
+        code = nc_put_att_schar(id_, variable, name.c_str(), NC_BYTE, bytes.size(), bytes.data());
+    }
+    require(code, "write attribute " + name);
 }
 
 void NetcdfFile::flush() { require(nc_sync(id_), "write (disk full?)"); }
@@ -187,22 +187,18 @@ void NetcdfFile::read(int variable, std::span<std::size_t const> start, std::spa
 }
 
 std::unique_ptr<DataFile> NetcdfFile::add_group(std::string const& name) {
-    int id = 0;
-    require(nc_def_grp(id_, name.c_str(), &id), "define group " + name);
+    int const id = number_by("define group " + name, [&](int* group) { return nc_def_grp(id_, name.c_str(), group); });
     return std::unique_ptr<DataFile>(new NetcdfFile(path_, id, Kind::group));
 }
 
 std::unique_ptr<DataFile> NetcdfFile::group(std::string const& name) const { return std::make_unique<NetcdfFile>(inner(name)); }
 
 NetcdfFile NetcdfFile::inner(std::string const& name) const {
-    int id = 0;
-    require(nc_inq_ncid(id_, name.c_str(), &id), "find group " + name);
-    return {path_, id, Kind::group};
+    return {path_, number_by("find group " + name, [&](int* group) { return nc_inq_ncid(id_, name.c_str(), group); }), Kind::group};
 }
 
 std::vector<std::string> NetcdfFile::groups() const {
-    int count = 0;
-    require(nc_inq_grps(id_, &count, nullptr), of_header);
+    int count = number_by(of_header, [&](int* groups) { return nc_inq_grps(id_, groups, nullptr); });
     std::vector<int> ids(static_cast<std::size_t>(count));
     require(nc_inq_grps(id_, &count, ids.data()), of_header);
     std::vector<std::string> names;
@@ -212,14 +208,11 @@ std::vector<std::string> NetcdfFile::groups() const {
 }
 
 int NetcdfFile::dimension(std::string const& name) const {
-    int dimension = 0;
-    require(nc_inq_dimid(id_, name.c_str(), &dimension), "find dimension " + name);
-    return dimension;
+    return number_by("find dimension " + name, [&](int* dimension) { return nc_inq_dimid(id_, name.c_str(), dimension); });
 }
 
 std::vector<NetcdfFile::Dimension> NetcdfFile::dimensions() const {
-    int count = 0;
-    require(nc_inq_ndims(id_, &count), of_header);
+    int count = number_by(of_header, [&](int* dimensions) { return nc_inq_ndims(id_, dimensions); });
     std::vector<Dimension> dimensions;
     // Numbers of dimensions go through the whole file: those of a group need not start at 0.
     std::vector<int> ids(static_cast<std::size_t>(count));
@@ -233,8 +226,7 @@ std::vector<NetcdfFile::Dimension> NetcdfFile::dimensions() const {
 }
 
 std::vector<NetcdfFile::Variable> NetcdfFile::variables() const {
-    int count = 0;
-    require(nc_inq_nvars(id_, &count), of_header);
+    int const count = number_by(of_header, [&](int* variables) { return nc_inq_nvars(id_, variables); });
     std::vector<Variable> variables;
     for (int i = 0; i < count; ++i) {
         nc_type number = NC_NAT;
@@ -257,8 +249,7 @@ std::vector<std::string> NetcdfFile::dimension_names(Variable const& variable) c
 }
 
 std::vector<std::string> NetcdfFile::attribute_names(int variable) const {
-    int count = 0;
-    require(variable == global ? nc_inq_natts(id_, &count) : nc_inq_varnatts(id_, variable, &count), of_header);
+    int const count = number_by(of_header, [&](int* attributes) { return nc_inq_varnatts(id_, variable, attributes); });
     std::vector<std::string> names;
     names.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) names.push_back(name_by([&](char* name) { return nc_inq_attname(id_, variable, i, name); }));

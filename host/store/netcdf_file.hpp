@@ -28,10 +28,7 @@ public:
     std::string const& path() const override { return path_; }
     int add_dimension(std::string const& name, std::size_t length) override;
     int add_variable(std::string const& name, Type type, std::span<int const> dimensions, bool fill = false) override;
-    void put_text(int variable, std::string const& name, std::string_view value) override;
-    void put_number(int variable, std::string const& name, double value) override;
-    void put_number(int variable, std::string const& name, int value) override;
-    void put_bytes(int variable, std::string const& name, std::span<signed char const> values) override;
+    void put(int variable, std::string const& name, Value const& value) override;
     void end_definitions() override;
     void flush();  // to the disk
 
@@ -63,6 +60,7 @@ private:
     int close_with_reason(bool& hdf5_failed) noexcept;
     void require(int code, std::string_view action) const;
     template <class Call> std::string name_by(Call call) const;
+    template <class Call> int number_by(std::string_view action, Call call) const;
     std::vector<std::string> strings(int variable, std::string const& name, std::size_t count) const;
     bool has_attribute(int variable, std::string const& name, int& type, std::size_t& length) const;
 

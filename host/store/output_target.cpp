@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "host/base/error.hpp"
-#include "host/store/shard_names.hpp"
+#include "host/store/shard_folder.hpp"
 
 namespace slideway {
 namespace {

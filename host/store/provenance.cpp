@@ -10,8 +10,8 @@
 #include <fmt/chrono.h>
 
 #include "host/backend/commit.hpp"
+#include "host/base/bytes.hpp"
 #include "host/base/error.hpp"
-#include "host/base/fnv1a.hpp"
 #include "host/base/numbers.hpp"
 
 namespace slideway {

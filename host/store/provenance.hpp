@@ -20,6 +20,14 @@ BuildInfo const& build_info();
 /// The commit as a `BuildInfo` names it.  @param program path of the executable  @throws FileError if it must be read and cannot
 std::string build_of(std::string const& commit, std::string const& program);
 
+/// With what members were computed.
+struct Maker {
+    std::string backend;  // "cpu", "cuda"
+    std::string isa;      // "avx512", "sm_90"
+    std::string flags;    // of the compiler, for the kernels of that ISA
+    int threads = 1;
+};
+
 /// One run.
 struct Provenance {
     std::string title;
@@ -28,10 +36,7 @@ struct Provenance {
     std::string law;            // the same of the contact law; empty of a mechanism that has no choice of them
     bool law_switches = false;  // LawInfo::switches
     std::uint64_t seed = 0;
-    std::string backend;  // "cpu", "cuda"
-    std::string isa;      // "avx512", "sm_90"
-    std::string flags;    // of the compiler, for the kernels of that ISA
-    int threads = 1;
+    Maker maker;
 };
 
 std::string cpu_name();      // "AMD EPYC, family 26 model 2", as the kernel names it; "unknown" for what it does not

@@ -4,13 +4,11 @@
 #include <limits>
 #include <map>
 #include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "host/base/error.hpp"
 #include "host/store/group_writer.hpp"
-#include "host/store/result_layout.hpp"
 
 namespace slideway {
 
@@ -18,18 +16,18 @@ using Type = DataFile::Type;
 
 void put_provenance(DataFile& file, Provenance const& provenance) {
     BuildInfo const& build = build_info();
-    auto const attribute = [&](char const* name, std::string const& value) { file.put_text(DataFile::global, name, value); };
+    auto const attribute = [&](char const* name, std::string const& value) { file.put(DataFile::global, name, value); };
     attribute("Conventions", "CF-1.8");
     attribute("title", provenance.title);
     attribute("source", "slideway " + build.version);
     attribute("version", build.version);
     attribute("commit", build.commit);
     attribute("compiler", build.compiler);
-    attribute("flags", provenance.flags);
-    attribute("backend", provenance.backend);
-    attribute("isa", provenance.isa);
+    attribute("flags", provenance.maker.flags);
+    attribute("backend", provenance.maker.backend);
+    attribute("isa", provenance.maker.isa);
     attribute("machine", machine_name());
-    file.put_number(DataFile::global, "threads", provenance.threads);
+    file.put(DataFile::global, "threads", provenance.maker.threads);
     attribute("seed", fmt::format("{}", provenance.seed));  // CF-1.8 has no 64-bit integers
     attribute("created", creation_time());
     attribute("scene", provenance.scene);
@@ -37,7 +35,7 @@ void put_provenance(DataFile& file, Provenance const& provenance) {
     attribute("mechanism_meaning", provenance.mechanism);
     if (provenance.law.empty()) return;
     attribute("contact_law_meaning", provenance.law);
-    file.put_number(DataFile::global, "contact_law_switches", provenance.law_switches ? 1 : 0);
+    file.put(DataFile::global, "contact_law_switches", provenance.law_switches ? 1 : 0);
 }
 
 void put_status_flags(DataFile& file, int variable) {
@@ -47,8 +45,8 @@ void put_status_flags(DataFile& file, int variable) {
         values.push_back(static_cast<signed char>(status));
         meanings += fmt::format(" {}", status_names[status]);
     }
-    file.put_bytes(variable, "flag_values", values);
-    file.put_text(variable, "flag_meanings", meanings);
+    file.put(variable, "flag_values", values);
+    file.put(variable, "flag_meanings", meanings);
 }
 
 namespace {
@@ -82,8 +80,8 @@ private:
 int ResultDefiner::add(Type type, std::span<int const> dimensions, std::string const& name, std::string const& unit, std::string const& long_name) {
     bool const fill = type == Type::float64 && dimensions[0] == member_dimension_;
     int const variable = file_.add_variable(name, type, dimensions, fill);
-    file_.put_text(variable, "units", unit);
-    file_.put_text(variable, "long_name", long_name);
+    file_.put(variable, "units", unit);
+    file_.put(variable, "long_name", long_name);
     return variable;
 }
 
@@ -101,7 +99,7 @@ void ResultDefiner::define_coordinates() {
 
 void ResultDefiner::define_members() {
     ids_.status = file_.add_variable("status", Type::int8, std::array{member_dimension_});
-    file_.put_text(ids_.status, "long_name", "how the member ended");
+    file_.put(ids_.status, "long_name", "how the member ended");
     put_status_flags(file_, ids_.status);
 
     // Counts can pass 2^31 and CF-1.8 has no wider integers; a double holds them exactly up to 2^53.
@@ -126,7 +124,7 @@ void ResultDefiner::define_quantities() {
         }
         LabelAxes::Axis const& axis = labels_.axis(info.dimension);
         int const variable = add(Type::float64, std::array{member_dimension_, axis.dimension}, info.name, info.unit, info.long_name);
-        file_.put_text(variable, "coordinates", axis.label_name);
+        file_.put(variable, "coordinates", axis.label_name);
         ids_.quantities.push_back({variable, first_column, info.columns});
     }
 }
@@ -137,7 +135,7 @@ void ResultDefiner::define_series() {
         if (!selects(layout_.series, static_cast<Series>(s))) continue;
         SeriesInfo const& info = series_table[s];
         ids_.series.push_back(add(Type::float64, std::array{member_dimension_, sample_dimension_}, info.name, info.unit, info.long_name));
-        file_.put_text(ids_.series.back(), "coordinates", "time");
+        file_.put(ids_.series.back(), "coordinates", "time");
     }
 }
 
@@ -161,7 +159,7 @@ void ResultDefiner::define_sections() {
     // A dimension of no length is one without limit to netCDF.
     int const dimension = file_.add_dimension("section", static_cast<std::size_t>(layout_.section_rows));
     ids_.section_count = add(Type::int32, std::array{member_dimension_}, "section_count", "1", "sections of the member");
-    file_.put_text(ids_.section_count, "sample_dimension", "section");
+    file_.put(ids_.section_count, "sample_dimension", "section");
     if (layout_.crossings) {
         ids_.section_crossings = add(Type::int32, std::array{member_dimension_}, "section_crossings", "1",
                                      "crossings of the section, also those beyond study.max_crossings");
@@ -213,7 +211,7 @@ ResultVariables define_variables(DataFile& file, ResultLayout const& layout) {
     if (!layout.members.empty() && layout.members.ranges().back().end() > largest) {
         throw FileError(fmt::format("{}: cannot number members beyond {}", file.path(), largest));
     }
-    if (!layout.sweep.empty()) file.put_text(DataFile::global, "sweep_parameter", layout.sweep);
+    if (!layout.sweep.empty()) file.put(DataFile::global, "sweep_parameter", layout.sweep);
     return ResultDefiner(file, layout).define();
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "host/run/block_result.hpp"
+#include "host/run/block_buffers.hpp"
 
 namespace slideway {
 
@@ -73,7 +73,7 @@ std::uint64_t header_bytes(ResultLayout const& layout, Provenance const& provena
     variables += static_cast<std::uint64_t>(std::popcount(layout.quantities) + std::popcount(layout.series));
     variables += 2 * (layout.study.columns.size() + layout.study.axes.size());
     if (layout.sections > 0) variables += 2 + section_columns(layout.states());
-    return of_file + variables * of_variable + provenance.scene.size() + provenance.flags.size();
+    return of_file + variables * of_variable + provenance.scene.size() + provenance.maker.flags.size();
 }
 
 std::size_t StudyTable::width(StudyColumn const& column) const {

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "host/base/durable_file.hpp"
 #include "host/base/error.hpp"
 #include "host/base/file_lock.hpp"
 #include "host/store/result_seal.hpp"
@@ -138,7 +137,7 @@ void write_part(std::string const& part, std::string const& completeness,
     try {
         NetcdfFile file = NetcdfFile::create(part);
         write(file);
-        file.put_text(DataFile::global, "completeness", completeness);
+        file.put(DataFile::global, "completeness", completeness);
         file.flush();
         seal(file);
         file.close();

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "host/base/bytes.hpp"
 #include "host/base/error.hpp"
-#include "host/base/fnv1a.hpp"
 #include "host/store/provenance.hpp"
 
 namespace slideway {
@@ -117,9 +117,9 @@ std::string metadata_hash(NetcdfFile const& file) {
 }
 
 void seal(NetcdfFile& file) {
-    file.put_number(DataFile::global, version_name, format_version);
-    file.put_text(DataFile::global, metadata_name, metadata_hash(file));
-    file.put_text(DataFile::global, payload_name, payload_hash(file));
+    file.put(DataFile::global, version_name, format_version);
+    file.put(DataFile::global, metadata_name, metadata_hash(file));
+    file.put(DataFile::global, payload_name, payload_hash(file));
 }
 
 int format_of(DataFile const& file) {

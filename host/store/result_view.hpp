@@ -1,4 +1,5 @@
-// Reads the variables of a result, and a result file back.
+// Reads the variables of a result, and a result file back.  Whether a file is what was written is found out in a process apart: HDF5 crashes on
+// some files of which a single byte has changed.  In a job of several ranks it is found out by the rank itself: MPI does not outlive a fork.
 #pragma once
 
 #include <cstdint>
@@ -68,5 +69,16 @@ public:
 inline std::uint64_t count_of(double stored) { return stored >= 0 && stored < 0x1p64 ? static_cast<std::uint64_t>(stored) : 0; }
 inline signed char int8_of(double stored) { return stored >= -128 && stored <= 127 ? static_cast<signed char>(stored) : 127; }
 inline Status status_of(double stored) { return static_cast<Status>(int8_of(stored)); }
+
+/// Opens a result, reads all of it and computes both hashes, before this process opens it.
+/// @throws FileError with one line: it is missing, no finished result of slideway, of a newer format, or so damaged that it cannot be read;
+/// hashes that do not match are told by what is returned
+SealCheck check_result(std::string const& path);
+
+/// @throws FileError also if a hash does not match; the line says which part is damaged
+void require_intact(std::string const& path);
+
+/// Whether a file is a finished result, as far as its header tells: damaged data are no matter.
+bool is_result_file(std::string const& path);
 
 }  // namespace slideway

@@ -4,15 +4,14 @@
 #include <map>
 #include <span>
 #include <sstream>
-#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host/base/bytes.hpp"
 #include "host/base/error.hpp"
-#include "host/base/fnv1a.hpp"
-#include "host/store/shard_names.hpp"
+#include "host/store/shard_folder.hpp"
 
 namespace slideway {
 namespace {

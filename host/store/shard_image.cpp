@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "host/base/bytes.hpp"
 #include "host/store/netcdf_file.hpp"
 #include "host/store/result_definition.hpp"
-#include "host/store/result_layout.hpp"
 #include "host/store/result_seal.hpp"
 
 namespace slideway {
+
 namespace {
 
 /// The sections that a member of a block reached: [sections][1 + states].
@@ -137,10 +139,49 @@ ShardImage shard_image(std::string const& name, ResultLayout layout, Provenance 
     put_provenance(file, provenance);
     ShardImage image{write_block(file, std::move(layout), block, study), {}};
     if (image.members.empty()) return image;
-    file.put_text(DataFile::global, "completeness", "shard");
+    file.put(DataFile::global, "completeness", "shard");
     seal(file);
     image.bytes = file.close_to_bytes();
     return image;
+}
+
+std::vector<std::byte> to_bytes(StatisticsShard const& shard) {
+    ByteWriter out;
+    for (std::string const* const text : {&shard.maker.backend, &shard.maker.isa, &shard.maker.flags}) {
+        out.put(std::string_view(*text));
+    }
+    out.put(static_cast<std::uint64_t>(shard.maker.threads));
+    out.put(shard.statistics.bytes());
+    return out.take();
+}
+
+StatisticsShard parse_statistics(std::span<std::byte const> bytes, std::string const& name) {
+    ByteReader in(bytes, name);
+    Maker maker;
+    for (std::string* const text : {&maker.backend, &maker.isa, &maker.flags}) *text = in.text();
+    maker.threads = static_cast<int>(in.word());
+    auto const statistics = in.block();
+    in.end();
+    return {std::move(maker), BlockStatistics::parse(statistics, name)};
+}
+
+ShardImage statistics_image(StatisticsPlan const& plan, Maker const& maker, BlockResult const& block) {
+    StatisticsShard shard{maker, BlockStatistics(plan)};
+    shard.statistics.add(block, plan);
+    if (shard.statistics.members().empty()) return {};
+    return {shard.statistics.members(), to_bytes(shard)};
+}
+
+std::vector<std::byte> joined_statistics(std::string const& folder, std::span<Shard const> shards) {
+    std::optional<StatisticsShard> joined;
+    for (Shard const& shard : shards) {
+        StatisticsShard next = parse_statistics(read_shard(folder, shard), shard.name);
+        if (joined)
+            joined->statistics.merge(next.statistics);
+        else
+            joined = std::move(next);
+    }
+    return joined ? to_bytes(*joined) : std::vector<std::byte>();
 }
 
 }  // namespace slideway

@@ -1,14 +1,17 @@
-// One block of members as the bytes of a result file.
+// One block of members as the bytes of a result file, or of their statistics where members are not stored.
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "host/run/block_result.hpp"
+#include "host/run/block_buffers.hpp"
+#include "host/store/block_statistics.hpp"
 #include "host/store/data_file.hpp"
 #include "host/store/provenance.hpp"
 #include "host/store/result_layout.hpp"
+#include "host/store/shard_folder.hpp"
 
 namespace slideway {
 
@@ -26,5 +29,21 @@ MemberSet write_block(DataFile& file, ResultLayout layout, BlockResult const& bl
 /// @param name of the file, for messages.  @throws FileError
 ShardImage shard_image(std::string const& name, ResultLayout layout, Provenance const& provenance,
                        BlockResult const& block, StudyValues const& study);
+
+/// Statistics and who made them.
+struct StatisticsShard {
+    Maker maker;
+    BlockStatistics statistics;
+};
+
+std::vector<std::byte> to_bytes(StatisticsShard const& shard);
+/// @param name of what the bytes are from, for messages.  @throws FileError
+StatisticsShard parse_statistics(std::span<std::byte const> bytes, std::string const& name);
+
+/// The statistics of those members of a block that have ended.
+ShardImage statistics_image(StatisticsPlan const& plan, Maker const& maker, BlockResult const& block);
+
+/// One shard for several, of the origin of the first.  One of them at a time is in memory.  @throws FileError
+std::vector<std::byte> joined_statistics(std::string const& folder, std::span<Shard const> shards);
 
 }  // namespace slideway

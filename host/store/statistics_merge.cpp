@@ -47,15 +47,15 @@ void write_failed(DataFile& file, BlockStatistics const& statistics) {
 void write_merged(DataFile& file, BlockStatistics const& statistics, ResultMerge const& merge) {
     MemberSet const& members = merge.layout.members;
     put_provenance(file, merge.provenance);
-    file.put_text(DataFile::global, "store", "statistics");
-    file.put_text(DataFile::global, "members", members.text());
+    file.put(DataFile::global, "store", "statistics");
+    file.put(DataFile::global, "members", members.text());
     LabelAxes axes(file);
     std::vector<std::string_view> names;
     for (Quantity const q : selected_quantities(merge.layout.quantities)) {
         names.emplace_back(info(q).name);
         if (info(q).dimension != nullptr) axes.axis(info(q).dimension);
     }
-    file.put_text(DataFile::global, "quantities", fmt::format("{}", fmt::join(names, " ")));
+    file.put(DataFile::global, "quantities", fmt::format("{}", fmt::join(names, " ")));
     axes.write();
     write_statuses(file, statistics, members.without(statistics.members()).count());
     write_failed(file, statistics);

@@ -6,7 +6,7 @@
 
 #include "host/store/result_merge.hpp"
 #include "host/store/result_view.hpp"
-#include "host/store/statistics_shard.hpp"
+#include "host/store/shard_image.hpp"
 
 namespace slideway {
 

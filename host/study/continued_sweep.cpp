@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "host/study/state_table.hpp"
-#include "kernels/members/start.hpp"
 
 namespace slideway {
 namespace {

@@ -17,6 +17,29 @@ MemberCost predicted_cost(Mechanism mechanism) {
     return [](Inputs const& inputs) { return 1 / std::min(inputs.clearance_y, inputs.clearance_z); };
 }
 
+BlockRequest block_request(Scene const& scene) {
+    OrbitSchedule const schedule = orbit_schedule(scene);
+    BlockRequest request{scene.integrator,
+                         scene.sample_times,
+                         scene.quantities,
+                         scene.series,
+                         predicted_cost(scene.parts.mechanism),
+                         schedule.timing,
+                         schedule.stops,
+                         schedule.sections,
+                         schedule.crossings,
+                         shadow_plan(scene),
+                         {}};
+    request.states = static_cast<std::size_t>(info(scene.parts.mechanism).states);
+    request.directions = [seed = scene.seed, shadows = request.shadows.count, parts = scene.parts](
+                             std::uint64_t member, double* out) { draw_directions(seed, member, shadows, parts, out); };
+    return request;
+}
+
+BlockDemand demand_of(Scene const& scene, BlockRequest const& request, int workers, std::size_t block_members) {
+    return {scene.parts, request.shadows.count > 0, block_bytes(request, 1), workers, block_members};
+}
+
 }  // namespace
 
 ResultLayout result_layout(Scene const& scene, MemberSet const& members) {
@@ -43,33 +66,6 @@ ResultLayout result_layout(Scene const& scene, MemberSet const& members) {
 }
 
 StatisticsPlan statistics_plan(Scene const& scene) { return {scene.quantities, scene.limits}; }
-
-namespace {
-
-BlockRequest block_request(Scene const& scene) {
-    OrbitSchedule const schedule = orbit_schedule(scene);
-    BlockRequest request{scene.integrator,
-                         scene.sample_times,
-                         scene.quantities,
-                         scene.series,
-                         predicted_cost(scene.parts.mechanism),
-                         schedule.timing,
-                         schedule.stops,
-                         schedule.sections,
-                         schedule.crossings,
-                         shadow_plan(scene),
-                         {}};
-    request.states = static_cast<std::size_t>(info(scene.parts.mechanism).states);
-    request.directions = [seed = scene.seed, shadows = request.shadows.count, parts = scene.parts](
-                             std::uint64_t member, double* out) { draw_directions(seed, member, shadows, parts, out); };
-    return request;
-}
-
-BlockDemand demand_of(Scene const& scene, BlockRequest const& request, int workers, std::size_t block_members) {
-    return {scene.parts, request.shadows.count > 0, block_bytes(request, 1), workers, block_members};
-}
-
-}  // namespace
 
 BlockDemand block_demand(Scene const& scene, Backend const& backend, int threads, std::size_t block_members) {
     return demand_of(scene, block_request(scene), backend.workers(threads), block_members);
@@ -104,10 +100,7 @@ Provenance provenance_of(Scene const& scene) {
 Provenance provenance(Scene const& scene, Backend const& backend, int threads) {
     Provenance result = provenance_of(scene);
     result.scene = resolved_toml(scene);
-    result.backend = backend.name();
-    result.isa = backend.isa();
-    result.flags = backend.flags();
-    result.threads = threads;
+    result.maker = {std::string(backend.name()), backend.isa(), backend.flags(), threads};
     return result;
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "host/config/drive_period.hpp"
+#include "host/config/descriptors.hpp"
 
 namespace slideway {
 namespace {

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "host/chaos/exponents.hpp"
 #include "host/config/scene.hpp"
-#include "host/run/block_result.hpp"
+#include "host/run/block_buffers.hpp"
 #include "host/store/result_layout.hpp"
 #include "host/study/orbit_schedule.hpp"
 

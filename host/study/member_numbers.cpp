@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "host/base/nan.hpp"
+#include "host/base/numbers.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/run/ensemble.hpp"
 #include "host/study/ensemble_plan.hpp"

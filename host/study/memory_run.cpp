@@ -1,4 +1,3 @@
-#include "host/study/memory_run.hpp"
 
 #include <optional>
 
@@ -32,7 +31,7 @@ public:
             write_merged(file, shards_, merge_);
         else
             write_merged(file, statistics_, merge_);
-        file.put_text(DataFile::global, "completeness", merge_.completeness);
+        file.put(DataFile::global, "completeness", merge_.completeness);
         return file;
     }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/config/drive_period.hpp"
+#include "host/config/descriptors.hpp"
 #include "host/sampling/random.hpp"
 
 namespace slideway {

@@ -1,15 +1,14 @@
 #include "host/study/series_file.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <istream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "host/base/csv.hpp"
+#include "host/base/durable_file.hpp"
 #include "host/base/error.hpp"
 #include "host/base/numbers.hpp"
 
@@ -123,10 +122,7 @@ std::optional<double> equal_spacing(std::vector<double> const& times) {
 
 bool is_netcdf(std::istream& in, std::string const& path) {
     char first[4] = {};
-    // A folder opens, and only fails to read.
-    if (!in || (in.peek() == std::istream::traits_type::eof() && in.bad())) {
-        throw FileError(fmt::format("{}: cannot read: {}", path, std::strerror(errno)));
-    }
+    require_readable(in, path);
     in.read(first, sizeof first);
     std::string_view const bytes(first, static_cast<std::size_t>(in.gcount()));
     in.clear();
@@ -146,9 +142,7 @@ StoredSeries read_result_series(ResultView const& file, std::string const& varia
                          ": keeps statistics, no series of members; run one with --member K --set "
                          "study.store=members --set study.samples=1000");
     }
-    if (!file.has("time") && file.has("section_count")) {
-        return read_sections(file, variable, place_of(file, member));
-    }
+    if (!file.has("time") && file.has("section_count")) return read_sections(file, variable, place_of(file, member));
     if (!file.has("time"))
         throw SceneError(path + ": has no time series; run the scene as kind = \"ensemble\" with study.samples");
     std::vector<double> const times = file.values("time");

@@ -128,6 +128,17 @@ bool needs_part(Key const& key, double value) {
     return value != 0 || !(key.name.starts_with("way.") || key.name.starts_with("contact.chi_"));
 }
 
+/// @return why the inputs cannot be used, if it is so; then there is no such row
+std::optional<std::string> add(StateTable& table, Inputs const& given, Parts const& parts, double time, std::vector<std::string> texts = {}) {
+    Inputs const inputs = complete_inputs(given);
+    if (auto why = defect(inputs, parts)) return why;
+    table.inputs.push_back(inputs);
+    table.parts.push_back(parts);
+    table.times.push_back(time);
+    table.parameter_texts.push_back(std::move(texts));
+    return {};
+}
+
 void add_row(StateTable& table, std::vector<Column> const& columns, Scene const& scene, CsvReader const& lines) {
     std::vector<std::string> const& cells = lines.fields();
     if (cells.size() != columns.size()) {
@@ -178,12 +189,7 @@ void add_row(StateTable& table, std::vector<Column> const& columns, Scene const&
                         state[1]));
     }
     set_start(info(parts.mechanism), state, inputs);
-    inputs = complete_inputs(inputs);
-    if (auto const why = defect(inputs, parts)) lines.fail(*why);
-    table.inputs.push_back(inputs);
-    table.parts.push_back(parts);
-    table.times.push_back(time);
-    table.parameter_texts.push_back(std::move(texts));
+    if (auto const why = add(table, inputs, parts, time, std::move(texts))) lines.fail(*why);
 }
 
 }  // namespace
@@ -191,12 +197,7 @@ void add_row(StateTable& table, std::vector<Column> const& columns, Scene const&
 StateTable start_state(Scene const& scene) {
     StateTable table;
     table.mechanism = scene.parts.mechanism;
-    table.inputs = {complete_inputs(scene.inputs)};
-    if (auto const why = defect(table.inputs[0], scene.parts))
-        throw SceneError(fmt::format("{}: {}", scene.path, *why));
-    table.parts = {scene.parts};
-    table.times = {0.0};
-    table.parameter_texts.resize(1);
+    if (auto const why = add(table, scene.inputs, scene.parts, 0)) throw SceneError(fmt::format("{}: {}", scene.path, *why));
     return table;
 }
 
@@ -215,12 +216,8 @@ StateTable state_table(Scene const& scene, std::span<double const> states, std::
         std::copy_n(states.begin() + static_cast<std::ptrdiff_t>(row * width), width, state.begin());
         Inputs inputs = scene.inputs;
         set_start(mechanism, state, inputs);
-        inputs = complete_inputs(inputs);
-        if (auto const why = defect(inputs, scene.parts)) throw SceneError(fmt::format("{}: state {}: {}", scene.path, row, *why));
-        table.inputs.push_back(inputs);
-        table.parts.push_back(scene.parts);
-        table.times.push_back(times.empty() ? 0 : times[row]);
-        table.parameter_texts.emplace_back();
+        if (auto const why = add(table, inputs, scene.parts, times.empty() ? 0 : times[row]))
+            throw SceneError(fmt::format("{}: state {}: {}", scene.path, row, *why));
     }
     return table;
 }

@@ -5,7 +5,7 @@
 
 #include <fmt/ranges.h>
 
-#include "host/base/nan.hpp"
+#include "host/base/numbers.hpp"
 #include "host/store/group_writer.hpp"
 
 namespace slideway {

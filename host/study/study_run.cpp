@@ -5,16 +5,14 @@
 
 #include <fmt/format.h>
 
+#include "host/base/bytes.hpp"
 #include "host/base/durable_file.hpp"
-#include "host/base/fnv1a.hpp"
 #include "host/base/numbers.hpp"
-#include "host/store/result_check.hpp"
 #include "host/store/result_merge.hpp"
 #include "host/store/result_view.hpp"
 #include "host/store/statistics_merge.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/prediction.hpp"
-#include "host/study/tolerance_report.hpp"
 #include "host/study/verification.hpp"
 
 namespace slideway {
@@ -58,6 +56,21 @@ std::optional<ShardClaim::Companion> companion_of(Scene const& scene) {
         throw FileError(fmt::format("{}: has changed since it was read; start the run again", table.path));
     }
     return ShardClaim::Companion{std::string(shard_names::table), std::move(bytes)};
+}
+
+OutputTarget target_of(Scene const& scene, StudyOptions const& options) {
+    std::vector<std::string> const inputs = inputs_of(scene);
+    return {options.output,
+            {inputs, options.force || options.resume, is_result_file,
+             "add --force to replace it, --resume to go on with it, or give another name with -o"}};
+}
+
+/// As a result file says it.
+Maker stored_maker(DataFile const& file) {
+    auto const text = [&](char const* name) { return file.text(DataFile::global, name); };
+    double threads = 1;
+    file.number(DataFile::global, "threads", threads);
+    return {text("backend"), text("isa"), text("flags"), static_cast<int>(threads)};
 }
 
 }  // namespace
@@ -106,17 +119,6 @@ std::vector<std::string> inputs_of(Scene const& scene) {
     if (scene.design.table != nullptr) inputs.push_back(scene.design.table->path);
     return inputs;
 }
-
-namespace {
-
-OutputTarget target_of(Scene const& scene, StudyOptions const& options) {
-    std::vector<std::string> const inputs = inputs_of(scene);
-    return {options.output,
-            {inputs, options.force || options.resume, is_result_file,
-             "add --force to replace it, --resume to go on with it, or give another name with -o"}};
-}
-
-}  // namespace
 
 StudyRun::StudyRun(Scene const& scene, StudyOptions const& options)
     : scene_(scene), options_(options), target_(target_of(scene, options)), members_(options.range),
@@ -179,22 +181,6 @@ bool StudyRun::merge(StopRequest const& stop, std::optional<ToleranceReport>& re
     return true;
 }
 
-namespace {
-
-/// Backend, isa, flags and threads, as a result file names them.
-Provenance stored_origin(DataFile const& file) {
-    auto const text = [&](char const* name) { return file.text(DataFile::global, name); };
-    Provenance origin;
-    origin.backend = text("backend");
-    origin.isa = text("isa");
-    origin.flags = text("flags");
-    double threads = 1;
-    if (file.number(DataFile::global, "threads", threads)) origin.threads = static_cast<int>(threads);
-    return origin;
-}
-
-}  // namespace
-
 std::function<void(DataFile&)> resolution_check(Scene const& scene, Backend const& backend, int threads, StopRequest const& stop, Progress::Style progress) {
     return [&scene, &backend, threads, &stop, progress](DataFile& file) {
         write_verification(file, verify(ResultView(file), scene, backend, {scene.verify, threads, &stop, progress}));
@@ -245,13 +231,9 @@ std::optional<std::uint64_t> asked_check(ShardFolder const& folder, std::vector<
 Provenance shard_origin(ShardFolder const& folder, std::vector<Shard> const& shards, Scene const& scene) {
     if (shards.empty()) throw FileError(folder.path() + ": holds no finished members");
     std::vector<std::byte> const bytes = folder.read(shards.front());
-    Provenance const of_shard = scene.stores_members() ? stored_origin(NetcdfFile::open_in_memory(shards.front().name, bytes))
-                                                       : parse_statistics(bytes, shards.front().name).origin;
     Provenance origin = provenance_of(scene);
-    origin.backend = of_shard.backend;
-    origin.isa = of_shard.isa;
-    origin.flags = of_shard.flags;
-    origin.threads = of_shard.threads;
+    origin.maker = scene.stores_members() ? stored_maker(NetcdfFile::open_in_memory(shards.front().name, bytes))
+                                          : parse_statistics(bytes, shards.front().name).maker;
     RunIdentity const& identity = folder.identity();
     // The copy of the table goes with the folder.
     origin.scene = identity.table.empty() ? identity.scene : with_table(identity.scene, identity.table);

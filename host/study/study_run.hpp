@@ -9,7 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "host/backend/backend.hpp"
+#include "host/config/scene.hpp"
+#include "host/run/progress.hpp"
 #include "host/run/ranks.hpp"
+#include "host/run/stop.hpp"
+#include "host/store/memory_file.hpp"
 #include "host/store/output_target.hpp"
 #include "host/store/shard_claim.hpp"
 #include "host/study/ensemble_plan.hpp"
@@ -126,5 +131,19 @@ std::optional<std::uint64_t> asked_check(ShardFolder const& folder, std::vector<
 
 /// Who made the shards in a folder, as the first of them says.  @throws FileError, also if there is none.
 Provenance shard_origin(ShardFolder const& folder, std::vector<Shard> const& shards, Scene const& scene);
+
+struct MemoryRun {
+    std::shared_ptr<Backend const> backend;
+    int threads = 1;
+    bool verify = false;  // as study.verify says; the group `verification`
+    Progress::Style progress = Progress::Style::none;  // on stderr
+    StopRequest stop;
+};
+
+/// Integrates the members, or those that end before a stop: the others have status not_run.
+/// @return what the result file of the same run holds, without its hashes
+MemoryFile run_in_memory(Scene const& scene, MemoryRun const& run);
+/// Bytes of such a result.
+std::uint64_t memory_bytes(Scene const& scene);
 
 }  // namespace slideway

@@ -6,8 +6,8 @@
 #include <unordered_map>
 
 #include "host/config/descriptors.hpp"
+#include "host/store/shard_image.hpp"
 #include "host/store/shard_writer.hpp"
-#include "host/store/statistics_shard.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/exponent_table.hpp"
 #include "host/study/study_run.hpp"
@@ -58,7 +58,7 @@ MemberEnds recalled_ends(std::string const& path, Mechanism mechanism, MemberSet
 /// Result files of a scene's blocks, or their statistics.
 std::unique_ptr<ShardWriter> shard_writer(Scene const& scene, std::string const& folder, Provenance const& origin) {
     if (!scene.stores_members()) {
-        auto form = [plan = statistics_plan(scene), origin](BlockResult const& block) { return statistics_image(plan, origin, block); };
+        auto form = [plan = statistics_plan(scene), maker = origin.maker](BlockResult const& block) { return statistics_image(plan, maker, block); };
         return std::make_unique<ShardWriter>(folder, std::move(form), joined_statistics);
     }
     auto form = [folder, origin, layout = result_layout(scene, {}), exponents = ExponentTable(scene)](BlockResult const& block) {

@@ -9,6 +9,7 @@
 #include "host/sampling/design.hpp"
 #include "host/store/result_view.hpp"
 #include "host/study/result_summary.hpp"
+#include "host/study/tolerance_report.hpp"
 #include "kernels/status.hpp"
 
 namespace slideway {
@@ -40,5 +41,16 @@ private:
     std::vector<Status> statuses_;
     std::vector<std::size_t> places_;  // in the file; empty where it is in order
 };
+
+/// Sobol indices of each column, of a saltelli design.
+/// @param independent whether the rows are random draws: only these have intervals.
+IndexReport index_report(ToleranceMembers const& members, Scene const& scene, std::span<QuantityColumn const> columns,
+                         bool independent, ReportSettings const& settings);
+
+/// Rank correlations and regression of each column, of other designs.
+/// @param independent whether the members are random draws: only these have intervals.
+std::vector<ColumnCorrelations> correlation_report(ToleranceMembers const& members, Scene const& scene,
+                                                   std::span<QuantityColumn const> columns, bool independent,
+                                                   ReportSettings const& settings);
 
 }  // namespace slideway

@@ -8,7 +8,6 @@
 #include "host/base/error.hpp"
 #include "host/store/statistics_merge.hpp"
 #include "host/study/tolerance_members.hpp"
-#include "host/study/tolerance_sensitivity.hpp"
 
 namespace slideway {
 namespace {

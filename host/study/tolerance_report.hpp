@@ -12,8 +12,6 @@
 #include "host/run/ensemble.hpp"
 #include "host/statistics/correlation.hpp"
 #include "host/statistics/histogram.hpp"
-#include "host/statistics/proportion.hpp"
-#include "host/statistics/quantile_interval.hpp"
 #include "host/statistics/sobol_indices.hpp"
 #include "host/statistics/summary.hpp"
 #include "host/store/block_statistics.hpp"

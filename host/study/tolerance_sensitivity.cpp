@@ -1,11 +1,11 @@
-#include "host/study/tolerance_sensitivity.hpp"
+#include "host/study/tolerance_members.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numeric>
 
-#include "host/sampling/permutation.hpp"
+#include "host/sampling/random.hpp"
 #include "host/store/result_layout.hpp"
 
 namespace slideway {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -153,7 +152,7 @@ Verification verify(ResultView const& results, Scene const& scene, Backend const
     if (results.stores_members()) stored.emplace(results, 0, member_count(scene));
     std::uint64_t const all = stored ? stored->size() : member_count(scene);
     auto const choose = [&](std::uint64_t count) {
-        std::vector<std::uint64_t> const rows = spread_over(all, count);
+        std::vector<std::uint64_t> rows = spread_over(all, count);
         for (std::uint64_t const row : rows) v.members.push_back(stored ? stored->number(row) : row);
         return rows;
     };

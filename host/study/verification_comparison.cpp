@@ -2,9 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/base/nan.hpp"
+#include "host/base/numbers.hpp"
 #include "host/config/descriptors.hpp"
-#include "host/config/drive_period.hpp"
 #include "host/study/orbit_schedule.hpp"
 #include "host/study/verification.hpp"
 #include "kernels/members/complete_inputs.hpp"

@@ -186,19 +186,24 @@ private:
             Mask<Real>(seen & (select(is_plus, plus.d, minus.d) > half))};
     }
 
-    /// The pair of the clock has its depth from there; its rate is what the clock goes by.
+    /// The pair of the clock has its depth from there; its rate is what the clock goes by.  Pairs of its face that are as deep, to the last
+    /// bit, move as one with it: a slider that lands flat stays flat.
     template <Axis axis> SLIDEWAY_FN void set_clock(FaceMotion<Real>& face, Mask<Real> is_plus) {
         constexpr int first = FacePair<axis>::first_face;
         Real const place = memory_.clock - select(is_plus, Real(4.0 * first), Real(4.0 * (first + 1)));
-        auto const set = [&](ApexMotion<Real>& apex, double number) {
+        auto& apex = face.apex;
+        Real depth(1e300);  // of the pair, in the state
+        auto const find = [&](ApexMotion<Real> const& one, double number) {
             auto const here = place == Real(number);
-            apex.depth = select(here, memory_.clock_depth, apex.depth);
-            clock_rate_ = select(here, apex.rate, clock_rate_);
+            depth = select(here, one.depth, depth);
+            clock_rate_ = select(here, one.rate, clock_rate_);
         };
-        set(face.apex.a, 0);
-        set(face.apex.b, 1);
-        set(face.apex.c, 2);
-        set(face.apex.d, 3);
+        find(apex.a, 0), find(apex.b, 1), find(apex.c, 2), find(apex.d, 3);
+        auto const set = [&](ApexMotion<Real>& one, Mask<Real> touches) {
+            one.depth = select(touches & (one.depth == depth), memory_.clock_depth, one.depth);
+        };
+        auto const& touching = face.touching;
+        set(apex.a, touching.a), set(apex.b, touching.b), set(apex.c, touching.c), set(apex.d, touching.d);
     }
 
     /// Nothing where the scene has none.

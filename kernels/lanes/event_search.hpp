@@ -94,7 +94,7 @@ private:
     SLIDEWAY_NOINLINE void search(Pack<Model, Real>& pack, Step<Stepper> const& step, Mask<Real> accepted,
                                   std::integer_sequence<int, event...>) {
         auto const start = at_start(pack), end = at_end(pack, step.attempt);
-        bool const found = (find<event>(pack, step, accepted, start, end) | ...);
+        bool const found = (int{find<event>(pack, step, accepted, start, end)} | ...) != 0;
         while (found && apply_earliest(pack, step, accepted)) {}
     }
 

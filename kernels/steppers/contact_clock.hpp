@@ -45,7 +45,8 @@ template <class Real> struct ClockedStep {
 
     /// Whether the pair of the clock parts at the end: what is left of u is little, either way.  The impulse that is left goes with u⁵.
     SLIDEWAY_FN Mask<Real> parts() const {
-        return start.runs() & (end.rate < Real(0.0)) & (abs(end.root) < Real(0.03) * start.root);
+        auto const runs = start.runs(), rises = end.rate < Real(0.0), is_out = abs(end.root) < Real(0.03) * start.root;
+        return runs & rises & is_out;
     }
 };
 

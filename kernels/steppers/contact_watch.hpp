@@ -66,9 +66,10 @@ public:
         };
         Mask<Real> const by_clock = candidates & step.start.runs();
         Real fraction = change(by_clock & !step.parts(), step.start.root, step.start.rate, step.end.root, step.end.rate, Real(0.0));
+        auto const one = like_the_clocks(step, end);
         for (int face = 0; face < quads; ++face) {
-            auto const look = [&](Real number, Real d0, Real v0, Real d1, Real v1) {
-                Mask<Real> const in = candidates & !(step.start.pair == number);
+            auto const look = [&](Real, Real d0, Real v0, Real d1, Real v1) {
+                Mask<Real> const in = candidates & !one(d0, d1);
                 fraction = min(fraction, change(in, d0, pace0 * v0, d1, pace1 * v1, located));
             };
             each_pair(face, look, this->start_depth_[face], this->start_rate_[face], end.penetration[face], end.rate[face]);
@@ -84,17 +85,18 @@ public:
         take_speeds(accepted, end, memory);
         auto changed = mask_of<Real>(false);
         Mask<Real> const over = step.parts();
+        auto const one = like_the_clocks(step, end);
         for (int face = 0; face < quads; ++face) {
-            auto const turn_over = [&](Real number, Real depth, Real rate, Real& is_held) {
+            auto const turn_over = [&](Real, Real before, Real depth, Real rate, Real& is_held) {
                 auto const touches = is_held > Real(0.5);
-                Mask<Real> const parts = over & (step.start.pair == number);
+                Mask<Real> const parts = over & one(before, depth);
                 Mask<Real> const stays = touches & (depth > Real(0.0)) & !parts;
                 Mask<Real> const begins = (!touches) & (depth > Real(0.0)) & (rate > Real(0.0));
                 Real const now = select(stays | begins, Real(1.0), Real(0.0));
                 changed = changed | (accepted & (now != is_held));
                 is_held = select(accepted, now, is_held);
             };
-            each_pair(face, turn_over, end.penetration[face], end.rate[face], memory.held[face]);
+            each_pair(face, turn_over, this->start_depth_[face], end.penetration[face], end.rate[face], memory.held[face]);
         }
         this->keep(accepted, end);
         hold_signs(memory);
@@ -135,6 +137,22 @@ private:
         see(Real(first + 1), of.b...);
         see(Real(first + 2), of.c...);
         see(Real(first + 3), of.d...);
+    }
+
+    /// Says which pairs move as one with that of the clock: at both ends of a step they are as deep, to the last bit.
+    template <class Contact> SLIDEWAY_FN auto like_the_clocks(ClockedStep<Real> const& step, Contact const& end) const {
+        Real const before = depth_of(step.start.pair, this->start_depth_), after = depth_of(step.start.pair, end.penetration);
+        return [=](Real d0, Real d1) { return Mask<Real>((d0 == before) & (d1 == after)); };
+    }
+
+    /// What a pair has of the depths; 1e300 where there is none.
+    SLIDEWAY_FN static Real depth_of(Real pair, Quad<Real> const* depths) {
+        Real depth(1e300);
+        for (int face = 0; face < quads; ++face) {
+            auto const look = [&](Real number, Real here) { depth = select(pair == number, here, depth); };
+            each_pair(face, look, depths[face]);
+        }
+        return depth;
     }
 
     /// A pair that is held apart starts apart, though its depth may be above zero by what its parting was located to.

@@ -10,7 +10,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "host/base/fnv1a.hpp"
+#include "host/base/bytes.hpp"
 #include "host/library/state.hpp"
 
 namespace nb = nanobind;

@@ -1,4 +1,4 @@
-"""Distribution functions of members, and the one denominator of their shares: the members that ran."""
+"""Distribution functions of members, and the one denominator of their shares: the members drawn from it that ran."""
 
 from __future__ import annotations
 
@@ -7,18 +7,46 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from .members import statuses
+from .scenes import scene
 
 Array = NDArray[np.float64]
 
 
+def drawn(result: xr.Dataset) -> NDArray[np.bool_]:
+    """Which stored members are draws of the distribution: all, but of a saltelli design those of A and B, the first two of each row.
+
+    The others repeat their inputs but for one, so that distributions and yields of the file leave them out.
+    """
+    if not _repeats_inputs(result):
+        return np.full(result.sizes.get("member", 0), True)
+    return np.asarray(result["member"].values % _row_of_design(result) < 2)
+
+
+def whose(result: xr.Dataset) -> str:
+    """What those members are called."""
+    return "draws" if _repeats_inputs(result) else "members"
+
+
+def _row_of_design(result: xr.Dataset) -> int:
+    """Members of a row of a saltelli design; 0 of other designs."""
+    study = scene(result).get("study", {}) if "scene" in result.attrs else {}
+    return len(study["vary"]) + 2 if study.get("design") == "saltelli" else 0
+
+
+def _repeats_inputs(result: xr.Dataset) -> bool:
+    """Whether it has all members of a saltelli design; a selection of some is taken as it is."""
+    row = _row_of_design(result)
+    return row > 0 and result.sizes.get("member", 0) == row * int(scene(result)["study"]["base"])
+
+
 def ran(result: xr.Dataset) -> int:
-    """How many members ran: finished or failed. Shares of members that meet a limit are of these, and so are all others.
+    """How many drawn members ran: finished or failed. Shares of members that meet a limit are of these, and so are all others.
 
     >>> ran(slideway.example())
     12
     """
     if "status" in result.data_vars:
-        return int((statuses(result) != "not_run").sum())
+        return int(((statuses(result) != "not_run").values & drawn(result)).sum())
     words = str(result["status_value"].attrs["flag_meanings"]).split()
     by_value = dict(zip(np.atleast_1d(result["status_value"].attrs["flag_values"]).tolist(), words, strict=True))
     pairs = zip(result["status_value"].values.tolist(), result["status_count"].values.tolist(), strict=True)

@@ -206,6 +206,25 @@ def test_other_threads_go_on_meanwhile() -> None:
     assert steps > 10 and results[0].sizes["member"] == 512
 
 
+def test_ensembles_in_several_threads_give_what_they_give_alone() -> None:
+    ensembles = [slideway.Ensemble(scenes / f"{name}.toml", threads=threads, set=studies[name])
+                 for threads in (1, 2) for name in ("ensemble_starts", "tolerance_table", "carriage_3")]
+    alone = [ensemble.run() for ensemble in ensembles]
+    found: dict[int, xr.Dataset] = {}
+
+    def run(place: int) -> None:
+        found[place] = ensembles[place // 2].run()
+
+    # Each of them is in use twice at a time.
+    threads = [threading.Thread(target=run, args=(place,)) for place in range(2 * len(ensembles))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for place in range(len(threads)):
+        xr.testing.assert_identical(found[place], alone[place // 2])
+
+
 def test_memory_stays_flat_over_many_runs() -> None:
     ensemble = slideway.Ensemble(small)
 

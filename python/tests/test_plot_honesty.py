@@ -30,14 +30,25 @@ def at(ax: Axes, value: float) -> float:
     return float(y[np.searchsorted(x, value, side="right") - 1])
 
 
-def test_distribution_says_at_a_limit_what_the_file_says(result_of: Result) -> None:
-    with result_of("correlations") as result, result.slideway.yields as yields:
+@pytest.mark.parametrize(("name", "whose"), [("correlations", "64 members"), ("tolerance", "{} draws")])
+def test_distribution_says_at_a_limit_what_the_file_says(name: str, whose: str, result_of: Result) -> None:
+    with result_of(name) as result, result.slideway.yields as yields:
         ax = plot.quantiles(result, "peak_normal_force")
-        share = 100 * float(yields["share"][0])
+        share, trials = 100 * float(yields["share"][0]), int(yields["trials"])
     assert ax.lines[0].get_drawstyle() == "steps-post"
     assert at(ax, 1000) == pytest.approx(share)
     assert f"limit, kept by {share:.1f}%" in labels_of(ax)
-    assert ax.get_ylabel() == "share of the 64 members that ran [%]"
+    assert ax.get_ylabel() == f"share of the {whose.format(trials)} that ran [%]"
+
+
+@pytest.mark.parametrize("name", ["correlations", "tolerance"])
+def test_quantiles_lie_on_the_distribution_function(name: str, result_of: Result) -> None:
+    with result_of(name) as result, result.slideway.statistics as statistics:
+        ax = plot.quantiles(result, "peak_normal_force")
+        count = int(statistics["peak_normal_force_count"])
+    dots = ax.containers[0].lines[0]
+    for value, share in zip(dots.get_xdata(), dots.get_ydata(), strict=True):
+        assert at(ax, value) == pytest.approx(share, abs=101 / count)
 
 
 def test_failed_members_are_in_the_one_denominator() -> None:

@@ -10,8 +10,9 @@ from pathlib import Path
 import slideway
 
 from .drawings import apices, mechanism
-from .figures import bifurcation, energy_residual, modes, poincare, tolerance, work_precision
+from .figures import bifurcation, energy_residual, heyoka, modes, poincare, tolerance, work_precision
 from .film import film
+from .overviews import layers, plots, report, stability
 from .style import Picture, largest
 
 PICTURES: dict[str, Picture] = {
@@ -24,6 +25,11 @@ PICTURES: dict[str, Picture] = {
     "bifurcation": bifurcation,
     "tolerance": tolerance,
     "work_precision": work_precision,
+    "heyoka": heyoka,
+    "stability": stability,
+    "layers": layers,
+    "plots": plots,
+    "report": report,
 }
 
 
@@ -41,15 +47,16 @@ def main() -> int:
     for name in options.names or PICTURES:
         began = time.monotonic()
         try:
-            svg = PICTURES[name](root)
+            drawn = PICTURES[name](root)
         except slideway.SlidewayError as error:
             print(f"pictures: {name}: {error}", file=sys.stderr)
             return 1
-        size = len(svg.encode())
+        content = drawn if isinstance(drawn, bytes) else drawn.encode()
+        size = len(content)
         if size >= largest:
             print(f"pictures: {name}: {size} bytes, above {largest}; draw fewer points", file=sys.stderr)
             return 1
-        (options.output / f"{name}.svg").write_text(svg, encoding="utf-8")
+        (options.output / f"{name}.{'png' if isinstance(drawn, bytes) else 'svg'}").write_bytes(content)
         print(f"{name:<16} {size / 1000:6.0f} kB {time.monotonic() - began:6.1f} s", flush=True)
     return 0
 

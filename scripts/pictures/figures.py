@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +10,8 @@ import numpy as np
 import slideway
 import xarray as xr
 from matplotlib.axes import Axes
-from slideway.palette import class_colours, grey, limit_colour
+from matplotlib.ticker import LogLocator, NullFormatter
+from slideway.palette import class_colours, colours, grey, limit_colour
 from slideway.sections import sections
 
 from .style import as_svg, law_colours, law_names, panels
@@ -153,4 +155,37 @@ def work_precision(root: Path) -> str:
     handles, words = ax.get_legend_handles_labels()
     ax.get_legend().remove()
     figure.legend(handles, words, loc="outside lower center", ncols=2, frameon=False)
+    return as_svg(figure)
+
+
+def heyoka(root: Path) -> str:
+    """slideway beside heyoka: error against run time on two smooth problems and two with contacts (bench/results)."""
+    titles = {"lorenz": "Lorenz", "flight": "slider in flight", "springs": "slider rattling on springs", "bouncing": "mass between springs"}
+    styles = {
+        "slideway dop853": ("dop853", {"color": colours[0], "marker": "o"}),
+        "slideway dopri5": ("dopri5", {"color": colours[1], "marker": "s"}),
+        "slideway auto": ("auto", {"color": colours[4], "marker": "D"}),
+        "slideway verner65": ("verner65", {"color": colours[2], "marker": "^"}),
+        "heyoka": ("heyoka", {"color": grey, "marker": "x", "ls": "--"}),
+        "heyoka, which looks for touches": ("heyoka, looking for touches", {"color": grey, "marker": "+", "ls": ":"}),
+    }
+    with (root / "bench/results/heyoka_zen4.csv").open() as lines:
+        rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    figure, axes = panels(2, 2, height=5.6, sharey=True)
+    handles: dict[str, Any] = {}
+    for ax, (problem, title) in zip(axes, titles.items(), strict=True):
+        for method, (words, style) in styles.items():
+            own = [row for row in rows if row["problem"] == problem and row["method"] == method]
+            if own:
+                points = np.array([[1e6 * float(row["seconds_per_member"]), float(row["median_error"])] for row in own])
+                handles[words] = ax.plot(*points.T, ms=4, lw=1.2, **style)[0]
+        frame(ax, "time per member [µs]" if ax in axes[2:] else "", "error, median" if ax in axes[::2] else "")
+        ax.set_title(title, loc="left")
+        ax.set_xscale("log")
+        ax.set_yscale("log")
+        ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        ax.xaxis.set_major_formatter("{x:g}")
+        ax.xaxis.set_minor_formatter(NullFormatter())
+        ax.set_ylim(1e-14, 1e-1)
+    figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=3, frameon=False)
     return as_svg(figure)

@@ -30,7 +30,7 @@ largest = 200_000  # bytes of a picture
 law_colours = {"paper": colours[1], "conservative": colours[0]}
 law_names = {"paper": "law as published (paper)", "conservative": "conservative law"}
 
-Picture = Callable[[Path], str]  # makes the text of an SVG file; its argument is the root of the repository
+Picture = Callable[[Path], str | bytes]  # makes the text of an SVG file, or a PNG file; its argument is the root of the repository
 
 
 def panels(rows: int = 1, columns: int = 1, height: float = 3.4, **options: object) -> tuple[Figure, list[Axes]]:

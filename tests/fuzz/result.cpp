@@ -63,7 +63,7 @@ struct Planned {
 
 void check(int code) { require(code == NC_NOERR, nc_strerror(code)); }
 
-void put_text(int file, int variable, char const* name, std::string_view value) {
+void put(int file, int variable, char const* name, std::string_view value) {
     check(nc_put_att_text(file, variable, name, value.size(), value.data()));
 }
 
@@ -104,10 +104,10 @@ std::vector<std::byte> make_file(Choices& choices) {
         lengths[i] = i == growing ? choices.below(6) : 1 + choices.below(5);
         check(nc_def_dim(file, dimensions[i], lengths[i] == 0 ? NC_UNLIMITED : lengths[i], &ids[i]));
     }
-    if (choices.below(2) == 1) put_text(file, NC_GLOBAL, "store", "statistics");
-    if (choices.below(4) == 1) put_text(file, NC_GLOBAL, "sweep_parameter", "mode_time");
-    if (choices.below(8) > 0) put_text(file, NC_GLOBAL, "payload_hash", "0123456789abcdef");
-    put_text(file, NC_GLOBAL, "quantities", "peak_normal_force mode_time");
+    if (choices.below(2) == 1) put(file, NC_GLOBAL, "store", "statistics");
+    if (choices.below(4) == 1) put(file, NC_GLOBAL, "sweep_parameter", "mode_time");
+    if (choices.below(8) > 0) put(file, NC_GLOBAL, "payload_hash", "0123456789abcdef");
+    put(file, NC_GLOBAL, "quantities", "peak_normal_force mode_time");
     std::vector<Planned> all;
     for (char const* const name : names) {
         if (choices.below(4) == 0) continue;
@@ -120,7 +120,7 @@ std::vector<std::byte> make_file(Choices& choices) {
             planned.shape.push_back(lengths[dimension]);
         }
         check(nc_def_var(file, name, planned.type, static_cast<int>(used.size()), used.data(), &planned.id));
-        if (choices.below(2) == 1) put_text(file, planned.id, "units", "m");
+        if (choices.below(2) == 1) put(file, planned.id, "units", "m");
         all.push_back(planned);
     }
     check(nc_enddef(file));

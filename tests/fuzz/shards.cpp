@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/fnv1a.hpp"
+#include "host/base/bytes.hpp"
 #include "host/store/shard_folder.hpp"
 #include "tests/fuzz/fuzz.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/store/statistics_shard.hpp"
+#include "host/store/shard_image.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 namespace slideway::fuzz {

@@ -9,7 +9,6 @@
 #include "host/base/error.hpp"
 #include "host/store/output_target.hpp"
 #include "host/store/result_seal.hpp"
-#include "host/store/result_check.hpp"
 #include "host/store/result_view.hpp"
 #include "tests/support/output_fixture.hpp"
 
@@ -62,9 +61,9 @@ Provenance provenance_of(int threads) {
     provenance.title = "a title";
     provenance.scene = "schema = 1\n";
     provenance.seed = 18446744073709551615u;
-    provenance.backend = "cpu";
-    provenance.isa = "scalar";
-    provenance.threads = threads;
+    provenance.maker.backend = "cpu";
+    provenance.maker.isa = "scalar";
+    provenance.maker.threads = threads;
     return provenance;
 }
 
@@ -188,7 +187,7 @@ TEST_F(ResultFile, StandsAtItsPathOnlyWhenComplete) {
 }
 
 TEST_F(ResultFile, HoldsWhatIsConcludedFromItsMembers) {
-    auto const concluding = [](DataFile& file) { file.put_number(DataFile::global, "mean_of_all", 2.5); };
+    auto const concluding = [](DataFile& file) { file.put(DataFile::global, "mean_of_all", 2.5); };
     write_file(path(), {{0, 5}}, 1, concluding);
     EXPECT_EQ(ResultReader(path()).attribute("mean_of_all"), "2.5");
 }

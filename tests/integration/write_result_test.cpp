@@ -65,12 +65,12 @@ TEST_F(WrittenResult, IsRefusedToASecondWriterEvenWithoutTheLocksOfHdf5) {
 }
 
 TEST_F(WrittenResult, IsWrittenWhereAKilledWriterLeftItsFiles) {
-    testing::put_bytes(path("out.nc.part"), "half a file");
-    testing::put_bytes(path("out.nc.part.lock"), "");
+    testing::put(path("out.nc.part"), "half a file");
+    testing::put(path("out.nc.part.lock"), "");
     write_value(3);
     EXPECT_EQ(value(), 3);
     expect_nothing_beside();
-    testing::put_bytes(path("out.nc.part.lock"), "");
+    testing::put(path("out.nc.part.lock"), "");
     remove_merge_lock(path());
     expect_nothing_beside();
     EXPECT_NO_THROW(remove_merge_lock(path()));
@@ -91,7 +91,7 @@ TEST_F(WrittenResult, LeavesNothingWhereTheFileDoesNotHoldWhatWasWritten) {
                                         [&](NetcdfFile& file) {
                                             put_value(file, 2);
                                             std::filesystem::rename(part, path("away.nc"));
-                                            testing::put_bytes(part, "something else");
+                                            testing::put(part, "something else");
                                         }),
                  FileError);
     EXPECT_EQ(value(), 1);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host/backend/by_isa.hpp"
+#include "tests/models/by_isa.hpp"
 
 namespace slideway {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/backend/by_isa.hpp"
+#include "tests/models/by_isa.hpp"
 #include "tests/oracle/random_states.hpp"
 #include "tests/parity/linearisation_table.hpp"
 #include "tests/support/varied_blocks.hpp"

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "host/backend/by_isa.hpp"
+#include "tests/models/by_isa.hpp"
 #include "tests/parity/math_functions.hpp"
 
 namespace slideway {

@@ -66,6 +66,15 @@ TEST(Repository, SourcesHaveNoTabsAndNoTrailingBlanks) {
     }
 }
 
+TEST(Repository, HoldsNoHalfMergedFile) {
+    for (SourceFile const& file : repository_files()) {
+        for (std::string const& line : lines_of(file.text)) {
+            bool const marks = line.starts_with(std::string(7, '<') + ' ') || line.starts_with(std::string(7, '>') + ' ');
+            EXPECT_FALSE(marks) << file.path << ": " << line;
+        }
+    }
+}
+
 TEST(Repository, SourcesEndWithOneNewline) {
     for (SourceFile const& file : repository_files()) {
         if (!is_source(file) || file.text.empty()) continue;

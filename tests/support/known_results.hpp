@@ -16,21 +16,23 @@ namespace slideway {
 // A kernel whose results are known: every value is made of the member's number, which travels as `y`.
 inline double series_value(double member, int series, double time) { return 1000 * member + 10 * series + time; }
 
-inline void known_results(Block& block) {
+/// That of the member at a place of the block.
+inline void known_result(Block& block, std::size_t i) {
+    double const member = block.inputs[i].y;
+    auto const steps = static_cast<std::uint64_t>(member) + 1;
+    block.records[i] = {Status::finished, steps, 2 * steps, 7 * steps, block.settings.end_time};
+    for (int k = 0; k < state_size; ++k) block.final_states[i * state_size + k] = member + k;
+    block.quantity_values[i * quantity_columns + quantity_column(Quantity::crank_work)] = -member;
     int const selected = std::popcount(block.series);
-    for (std::size_t i = 0; i < block.members; ++i) {
-        double const member = block.inputs[i].y;
-        auto const steps = static_cast<std::uint64_t>(member) + 1;
-        block.records[i] = {Status::finished, steps, 2 * steps, 7 * steps, block.settings.end_time};
-        for (int k = 0; k < state_size; ++k) block.final_states[i * state_size + k] = member + k;
-        block.quantity_values[i * quantity_columns + quantity_column(Quantity::crank_work)] = -member;
-        for (int s = 0; s < selected; ++s) {
-            for (std::size_t t = 0; t < block.samples; ++t) {
-                block.series_values[(s * block.members + i) * block.samples + t] =
-                    series_value(member, s, block.sample_times[t]);
-            }
+    for (int s = 0; s < selected; ++s) {
+        for (std::size_t t = 0; t < block.samples; ++t) {
+            block.series_values[(s * block.members + i) * block.samples + t] = series_value(member, s, block.sample_times[t]);
         }
     }
+}
+
+inline void known_results(Block& block) {
+    for (std::size_t i = 0; i < block.members; ++i) known_result(block, i);
     block.lane_steps_executed = 4 * block.members;
     block.lane_steps_useful = 3 * block.members;
 }

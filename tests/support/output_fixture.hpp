@@ -16,7 +16,7 @@
 #include "host/store/result_merge.hpp"
 #include "host/store/shard_folder.hpp"
 #include "host/store/shard_image.hpp"
-#include "host/store/shard_store.hpp"
+#include "host/store/shard_writer.hpp"
 
 namespace slideway::testing {
 
@@ -31,14 +31,14 @@ inline std::string bytes_of(std::string const& path) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-inline void put_bytes(std::string const& path, std::string const& bytes) {
+inline void put(std::string const& path, std::string const& bytes) {
     std::ofstream(path, std::ios::binary) << bytes;
 }
 
 inline void flip_bit(std::string const& path, std::size_t at) {
     std::string bytes = bytes_of(path);
     bytes.at(at) = static_cast<char>(bytes.at(at) ^ 4);
-    put_bytes(path, bytes);
+    put(path, bytes);
 }
 
 /// While it lives this process can open no file, as when too many are open.

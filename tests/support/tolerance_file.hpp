@@ -102,8 +102,8 @@ protected:
         file.write(status, {origin, 1}, all, statuses.data());
         auto const column = [&](char const* name, char const* unit, double MadeUpMember::*of) {
             int const variable = file.add_variable(name, DataFile::Type::float64, std::array{member}, true);
-            file.put_text(variable, "units", unit);
-            file.put_text(variable, "long_name", std::string("made-up ") + name);
+            file.put(variable, "units", unit);
+            file.put(variable, "long_name", std::string("made-up ") + name);
             std::vector<double> values;
             for (MadeUpMember const& m : members) values.push_back(m.*of);
             file.write(variable, {origin, 1}, all, values.data());
@@ -113,8 +113,8 @@ protected:
         column("peak_normal_force", "N", &MadeUpMember::force);
         int const times =
             file.add_variable("mode_time", DataFile::Type::float64, std::array{member, mode_class}, true);
-        file.put_text(times, "units", "s");
-        file.put_text(times, "long_name", "time spent in the mode class");
+        file.put(times, "units", "s");
+        file.put(times, "long_name", "time spent in the mode class");
         std::vector<double> values;
         for (MadeUpMember const& m : members) values.insert(values.end(), m.mode_time.begin(), m.mode_time.end());
         file.write(times, origin, table, values.data());

@@ -4,7 +4,7 @@
 #include <netcdf.h>
 
 #include "host/base/error.hpp"
-#include "host/store/result_check.hpp"
+#include "host/store/result_view.hpp"
 #include "tests/system/resumed.hpp"
 
 namespace slideway::testing::damage_test {

@@ -7,7 +7,7 @@
 #include "host/backend/backend.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/sampling/design.hpp"
-#include "host/sampling/distribution_forms.hpp"
+#include "host/sampling/distribution.hpp"
 
 namespace slideway::testing::usage_test {
 namespace {

@@ -9,7 +9,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from ..arguments import text
-from ..distribution import bounds, ran, steps
+from ..distribution import bounds, drawn, ran, steps, whose
 from ..errors import SlidewayError
 from ..members import finished
 from ..palette import class_colours, colours, grey, limit_colour
@@ -23,7 +23,8 @@ from .style import axis, finish, label, of_result, scaled, variable, words_of
 def quantiles(result: xr.Dataset, name: str | None = None, ax: Axes | None = None) -> Axes:
     """The distribution function of a quantity, quantiles with their 95 % intervals, and the scene's limits.
 
-    All shares are of the members that ran; those that failed meet no limit and lie beyond the end of the curve. Stored members give
+    All shares are of the members that ran, of a saltelli design those of A and B; members that failed meet no limit and lie beyond
+    the end of the curve. Stored members give
     the empirical distribution function, a step at each of them. Of a file with statistics alone a band is drawn, in which the
     function lies: the histogram knows it at the edges of its bins. A quantity with several values per member has a curve for each.
     Of a selection of members there are no quantiles, for those of the file are of all.
@@ -45,13 +46,13 @@ def quantiles(result: xr.Dataset, name: str | None = None, ax: Axes | None = Non
         if "sample" in data.dims:
             raise SlidewayError(f"{name} is a series over the time; see slideway.plot.time_series")
         factor, unit = scaled(str(data.attrs.get("units", "1")), data.values)
-        ended = finished(result).values if "status" in result else np.full(data.sizes["member"], True)
+        ended = finished(result).values & drawn(result) if "status" in result else np.full(data.sizes["member"], True)
         curves = [(steps(data.isel(entry.place).values[ended], trials), entry) for entry in _components(data, ("member",))]
         if not any(x.size for (x, _), _ in curves):
             raise SlidewayError("no member finished; see slideway.statuses(result)")
         ax = axis(ax)
         for (x, y), entry in curves:
-            ax.step(factor * x, y, where="post", color=entry.colour, lw=1.3, label=entry.label or f"{ended.sum()} members")
+            ax.step(factor * x, y, where="post", color=entry.colour, lw=1.3, label=entry.label or f"{ended.sum()} {whose(result)}")
         for (x, y), entry in curves:
             ax.vlines(factor * x[:1], 0, y[:1], color=entry.colour, lw=1.3)
     elif group is not None and f"{name}_quantile" in group:
@@ -68,7 +69,7 @@ def quantiles(result: xr.Dataset, name: str | None = None, ax: Axes | None = Non
             _draw_quantiles(ax, group, name, entry, factor, trials)
     _draw_limits(ax, result, name, factor, trials)
     ax.set_ylim(-2, 102)
-    return finish(ax, label(words_of(name), unit), f"share of the {trials} members that ran [%]")
+    return finish(ax, label(words_of(name), unit), f"share of the {trials} {whose(result)} that ran [%]")
 
 
 @of_result
@@ -206,7 +207,7 @@ def _kept(result: xr.Dataset, name: str, component: str, low: float, high: float
     if name in result and "member" in result[name].dims:
         entries = [entry for entry in _components(result[name], ("member",)) if entry.label == component]
         values = result[name].isel(entries[0].place).values if entries else np.array([])
-        return int((finished(result).values & (values >= low) & (values <= high)).sum()) if entries else None
+        return int((finished(result).values & drawn(result) & (values >= low) & (values <= high)).sum()) if entries else None
     group = _group(result, "yield")
     named = f"{name}[{component}]" if component else name
     return int(group["met"].sel(limit=named)) if group is not None and named in group["limit"].values else None

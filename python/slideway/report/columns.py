@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 import slideway
 
+from ..distribution import drawn
+
 Array = NDArray[np.float64]
 
 SHOWN = (0.05, 0.25, 0.5, 0.75, 0.95)  # probabilities of the quantiles in the table
@@ -49,7 +51,7 @@ def columns(result: xr.Dataset) -> list[Column]:
             return [column for name in _asked(result) for column in _from_statistics(result, statistics.load(), name)]
     if "status" not in result:
         return []
-    ended = slideway.finished(result).values
+    ended = slideway.finished(result).values & drawn(result)
     return [_of_members(name, meaning, unit, values[ended]) for name, meaning, unit, values in stored(result)]
 
 
@@ -107,7 +109,7 @@ def _from_statistics(result: xr.Dataset, statistics: xr.Dataset, name: str) -> I
     mean = statistics[f"{name}_mean"]
     probabilities = statistics["probability"].values.tolist()
     members = dict((one, values) for one, _, _, values in stored(result)) if "status" in result else {}
-    ended = slideway.finished(result).values if members else None
+    ended = slideway.finished(result).values & drawn(result) if members else None
     labels = _labels(result, str(mean.dims[0]), mean.shape[0]) if mean.ndim else [None]
     for k, label in enumerate(labels):
         component = statistics if label is None else statistics.isel({str(mean.dims[0]): k})

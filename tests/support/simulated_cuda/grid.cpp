@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/backend/processor.hpp"
+#include "host/backend/backend.hpp"
 #include "tests/support/grid_cranks/grid_cranks.hpp"
 #include "tests/support/simulated_cuda/simulation.hpp"
 

@@ -86,13 +86,13 @@ TEST_F(DurableFile, StaysAsItWasIfThereIsNoRoom) {
 }
 
 TEST_F(DurableFile, OfAnotherHandIsRenamedOrStays) {
-    testing::put_bytes(path("from"), "results");
-    testing::put_bytes(path("to"), "former");
+    testing::put(path("from"), "results");
+    testing::put(path("to"), "former");
     rename_durably(path("from"), path("to"));
     EXPECT_EQ(bytes_of(path("to")), "results");
     EXPECT_FALSE(exists("from"));
 
-    testing::put_bytes(path("from"), "results");
+    testing::put(path("from"), "results");
     fs::create_directories(path("taken/inside"));
     try {
         rename_durably(path("from"), path("taken"));
@@ -118,7 +118,7 @@ TEST_F(DurableFile, ThatIsAPipeIsReadToItsEnd) {
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
     std::string text(1'000'003, 'a');
     for (std::size_t i = 0; i < text.size(); i += 7) text[i] = static_cast<char>('b' + i % 20);
-    std::thread writer([&] { testing::put_bytes(pipe, text); });
+    std::thread writer([&] { testing::put(pipe, text); });
     EXPECT_TRUE(read_text(pipe) == text);
     writer.join();
 }
@@ -135,9 +135,9 @@ TEST(BuildOf, ACommitThatSaysAllIsTheCommit) { EXPECT_EQ(build_of("60e6457", "/n
 
 TEST_F(DurableFile, OfTheProgramTellsBuildsOfNoCommitApart) {
     // FNV-1a of 64 bits of "a" and of nothing, as its authors give them.
-    testing::put_bytes(path("program"), "a");
+    testing::put(path("program"), "a");
     EXPECT_EQ(build_of("60e6457-dirty", path("program")), "60e6457-dirty-af63dc4c8601ec8c");
-    testing::put_bytes(path("program"), "");
+    testing::put(path("program"), "");
     EXPECT_EQ(build_of("unknown", path("program")), "unknown-cbf29ce484222325");
 }
 
@@ -160,7 +160,7 @@ TEST_F(Lines, GrowOneByOne) {
 }
 
 TEST_F(Lines, NeverGoIntoAFileThatIsThere) {
-    testing::put_bytes(path("lines"), "of another process\n");
+    testing::put(path("lines"), "of another process\n");
     EXPECT_THROW(LineFile(path("lines")), FileError);
     EXPECT_EQ(bytes_of(path("lines")), "of another process\n");
     EXPECT_THROW(LineFile(path("none/lines")), FileError);

@@ -1,4 +1,4 @@
-#include "host/chaos/linear_fit.hpp"
+#include "host/chaos/divergence.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "host/chaos/nearest_neighbours.hpp"
+#include "host/chaos/delay_embedding.hpp"
 
 #include <cmath>
 

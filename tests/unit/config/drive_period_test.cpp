@@ -1,5 +1,5 @@
 // What a revolution is: of a crank, of a carriage, and where there is none.
-#include "host/config/drive_period.hpp"
+#include "host/config/descriptors.hpp"
 
 #include <cmath>
 #include <numbers>

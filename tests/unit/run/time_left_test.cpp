@@ -1,5 +1,5 @@
 // What is said of made-up histories.
-#include "host/run/time_left.hpp"
+#include "host/run/progress.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "host/sampling/permutation.hpp"
+#include "host/sampling/random.hpp"
 
 namespace slideway::permutation_test {
 namespace {

@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "host/statistics/proportion.hpp"
-#include "host/statistics/quantile_interval.hpp"
+#include "host/statistics/summary.hpp"
 
 namespace slideway::intervals_test {
 namespace {

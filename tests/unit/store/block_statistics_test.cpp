@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 
 #include "host/base/error.hpp"
-#include "host/store/shard_store.hpp"
-#include "host/store/statistics_shard.hpp"
+#include "host/store/shard_image.hpp"
+#include "host/store/shard_writer.hpp"
 
 namespace slideway::block_statistics_test {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "host/base/bytes.hpp"
 #include "host/base/error.hpp"
-#include "host/base/fnv1a.hpp"
 #include "host/store/netcdf_file.hpp"
 #include "host/store/result_seal.hpp"
 #include "host/store/result_view.hpp"
@@ -59,7 +59,7 @@ TEST_F(Groups, HoldVariablesOverDimensionsOfTheFileAndTheirOwn) {
         DataFile& group = *held_group;
         int const bound = group.add_dimension("bound", 3);
         put(group, "x", {member, bound}, {2, 3}, {1, 2, 3, 4, 5, 6});
-        group.put_text(DataFile::global, "policy", "all of them");
+        group.put(DataFile::global, "policy", "all of them");
         auto const held_inner = group.add_group("inner");
         DataFile& inner = *held_inner;
         put(inner, "y", {inner.dimension("bound")}, {3}, {7, 8, 9});

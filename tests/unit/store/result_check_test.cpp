@@ -1,5 +1,5 @@
 // What damage a result tells of, and which part of it.
-#include "host/store/result_check.hpp"
+#include "host/store/result_view.hpp"
 
 #include <array>
 #include <functional>
@@ -22,14 +22,14 @@ protected:
         std::array const member{file.add_dimension("member", 3)};
         int const status = file.add_variable("status", Type::int8, member);
         int const height = file.add_variable("height", Type::float64, member, true);
-        file.put_text(height, "units", "m");
-        file.put_text(DataFile::global, "scene", "schema = 1\n");
-        file.put_text(DataFile::global, "title", "Gelenk, größer");  // a string of netCDF, as it is no ASCII
-        file.put_number(DataFile::global, "threads", 2);
+        file.put(height, "units", "m");
+        file.put(DataFile::global, "scene", "schema = 1\n");
+        file.put(DataFile::global, "title", "Gelenk, größer");  // a string of netCDF, as it is no ASCII
+        file.put(DataFile::global, "threads", 2);
         auto const held_group = file.add_group(verification_group);
         DataFile& group = *held_group;
         int const checked = group.add_variable("difference", Type::float64, member);
-        group.put_text(DataFile::global, "summary", "resolved");
+        group.put(DataFile::global, "summary", "resolved");
         file.end_definitions();
         std::array const first{std::size_t{0}}, count{std::size_t{3}};
         std::array const statuses{'\0', '\0', '\1'};
@@ -105,7 +105,7 @@ TEST_F(Sealed, TellsChangesOfWhatIsNoNumber) {
     };
     std::string const whole = testing::bytes_of(path());
     for (Change const& change : changes) {
-        testing::put_bytes(path(), whole);
+        testing::put(path(), whole);
         edit(change.make);
         SealCheck const found = check_result(path());
         EXPECT_FALSE(found.metadata_match()) << change.what;
@@ -138,7 +138,7 @@ TEST_F(Sealed, IsHashedAlikeInMemoryAndOnTheDisk) {
     NetcdfFile file = NetcdfFile::create_in_memory("a file");
     for (char const* const name : {"b", "a"}) {
         std::array const dimension{file.add_dimension(name, 1)};
-        file.put_number(file.add_variable(name, Type::int32, dimension), "scale", 0.5);
+        file.put(file.add_variable(name, Type::int32, dimension), "scale", 0.5);
     }
     file.end_definitions();
     seal(file);
@@ -154,7 +154,7 @@ TEST_F(Sealed, WithAnyByteChangedIsRefusedOrTheSame) {
     for (std::size_t at = 0; at < whole.size(); at += 53) {  // the slow tests change every byte
         std::string changed = whole;
         changed[at] = static_cast<char>(changed[at] ^ 0x55);
-        testing::put_bytes(path(), changed);
+        testing::put(path(), changed);
         try {
             SealCheck const found = check_result(path());
             if (!found.intact()) {

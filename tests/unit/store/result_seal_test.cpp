@@ -1,4 +1,4 @@
-#include "host/base/fnv1a.hpp"
+#include "host/base/bytes.hpp"
 #include "host/store/result_seal.hpp"
 
 #include <cstdio>

@@ -1,6 +1,6 @@
 // What a run removes of its folder of shards in the end, what it leaves there, and what it makes of a removal that was cut short.
 #include "host/store/shard_claim.hpp"
-#include "host/store/shard_names.hpp"
+#include "host/store/shard_folder.hpp"
 
 #include "host/base/error.hpp"
 #include "tests/support/output_fixture.hpp"
@@ -89,9 +89,9 @@ TEST_F(Removal, KnowsOurNamesFromThoseThatLookAlike) {
 TEST_F(Removal, LeavesWhatOnlyLooksLikeOurs) {
     ShardClaim claim(shards_, wanted());
     put(0);
-    for (char const* const name : look_alikes) testing::put_bytes(file(name), "mine");
-    testing::put_bytes(file("damaged-members-0000000000.nc"), "a shard of before");
-    testing::put_bytes(file("members-0000000008.nc.tmp"), "half a shard");
+    for (char const* const name : look_alikes) testing::put(file(name), "mine");
+    testing::put(file("damaged-members-0000000000.nc"), "a shard of before");
+    testing::put(file("members-0000000008.nc.tmp"), "half a shard");
     claim.remove_folder();
     std::vector<std::string> names(std::begin(look_alikes), std::end(look_alikes));
     std::sort(names.begin(), names.end());
@@ -102,16 +102,16 @@ TEST_F(Removal, LeavesWhatOnlyLooksLikeOurs) {
 TEST_F(Removal, OfUnlistedShardsGoesByWhatIsInThem) {
     ShardClaim claim(shards_, wanted());
     put(0);
-    testing::put_bytes(file("members-0000000004.nc"), "\x89HDF ... source slideway 0.1.0 ...");
-    testing::put_bytes(file("statistics-0000000004-0.bin"), "... slkstat1 ...");
-    testing::put_bytes(file("members-0000000008.nc"), "of the board");
+    testing::put(file("members-0000000004.nc"), "\x89HDF ... source slideway 0.1.0 ...");
+    testing::put(file("statistics-0000000004-0.bin"), "... slkstat1 ...");
+    testing::put(file("members-0000000008.nc"), "of the board");
     EXPECT_EQ(claim.remove_folder(), std::vector<std::string>{"members-0000000008.nc"});
     EXPECT_EQ(names_in(shards_), std::vector<std::string>{"members-0000000008.nc"});
 }
 
 TEST_F(Removal, OfWhatOthersPutThereIsNotForABeginnerToDo) {
     fs::create_directories(shards_);
-    for (char const* const name : look_alikes) testing::put_bytes(file(name), "mine");
+    for (char const* const name : look_alikes) testing::put(file(name), "mine");
     {
         ShardClaim const claim(shards_, wanted());
         for (char const* const name : look_alikes) EXPECT_EQ(testing::bytes_of(file(name)), "mine") << name;
@@ -147,7 +147,7 @@ TEST_F(Removal, CutShortIsEndedWhereTheResultStands) {
     for (bool const locks : {true, false}) {
         fs::create_directories(shards_);
         if (locks) {
-            for (char const* const name : {"lock", "lock-begin"}) testing::put_bytes(file(name), "");
+            for (char const* const name : {"lock", "lock-begin"}) testing::put(file(name), "");
         }
         ShardClaim::remove_remains(shards_);
         EXPECT_FALSE(fs::exists(shards_));

@@ -1,6 +1,6 @@
 // Who may write into a folder of shards, and what becomes of what it holds.
 #include "host/store/shard_claim.hpp"
-#include "host/store/shard_store.hpp"
+#include "host/store/shard_writer.hpp"
 
 #include "host/base/error.hpp"
 #include "tests/support/output_fixture.hpp"
@@ -58,7 +58,7 @@ TEST_F(Claim, MakesTheFolderAndSaysWhoseItIs) {
 
 TEST_F(Claim, NeedsAFolderForItsFolder) {
     EXPECT_THROW(ShardClaim(path("none/out.nc.shards"), whole_run()), FileError);
-    testing::put_bytes(shards_, "a file");
+    testing::put(shards_, "a file");
     EXPECT_THROW(ShardClaim(shards_, whole_run()), FileError);
     EXPECT_EQ(testing::bytes_of(shards_), "a file");
 }
@@ -247,7 +247,7 @@ TEST_F(Claim, RemovesItsFolderInTheEnd) {
     ShardClaim claim(shards_, whole_run());
     put(0, 4);
     put(4, 8);
-    testing::put_bytes(file("damaged-members-0000000000.nc"), "a shard of before");
+    testing::put(file("damaged-members-0000000000.nc"), "a shard of before");
     claim.remove_folder();
     EXPECT_FALSE(fs::exists(shards_));
 }
@@ -255,7 +255,7 @@ TEST_F(Claim, RemovesItsFolderInTheEnd) {
 TEST_F(Claim, RemovesNothingThatIsNotOfTheRun) {
     ShardClaim claim(shards_, whole_run());
     put(0, 4);
-    testing::put_bytes(file("notes.txt"), "mine");
+    testing::put(file("notes.txt"), "mine");
     claim.remove_folder();
     EXPECT_EQ(testing::bytes_of(file("notes.txt")), "mine");
     EXPECT_FALSE(ShardFolder::exists(shards_));

@@ -1,6 +1,6 @@
 // What stands in a folder of shards, and what of it can be trusted after damage.
 #include "host/store/shard_folder.hpp"
-#include "host/store/shard_store.hpp"
+#include "host/store/shard_writer.hpp"
 
 #include <numeric>
 
@@ -100,7 +100,7 @@ TEST_F(Shards, KeepTheirIdentityWhicheverBitOfEitherFileChanges) {
         for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
             std::string changed = whole;
             changed[bit / 8] = static_cast<char>(changed[bit / 8] ^ (1 << bit % 8));
-            testing::put_bytes(file(name), changed);
+            testing::put(file(name), changed);
             ShardFolder const folder = open();
             EXPECT_EQ(folder.identity().difference(identity), "") << bit;
             EXPECT_EQ(folder.identity().table, identity.table) << bit;
@@ -145,11 +145,11 @@ TEST_F(Shards, OfATornLastLineDoNotCount) {
     auto const last = whole.find('\n') + 1;
     // Wherever the machine stopped; the line is whole without its end.
     for (std::size_t size = last; size + 1 < whole.size(); ++size) {
-        testing::put_bytes(manifest, whole.substr(0, size));
+        testing::put(manifest, whole.substr(0, size));
         EXPECT_EQ(members_of(open().listed()), range(0, 8)) << size;
         EXPECT_EQ(intact().members, range(0, 8)) << size;
     }
-    testing::put_bytes(manifest, whole.substr(0, whole.size() - 1));
+    testing::put(manifest, whole.substr(0, whole.size() - 1));
     EXPECT_EQ(intact().members, range(0, 12));
 }
 
@@ -160,7 +160,7 @@ TEST_F(Shards, OfALineWithAChangedCharacterDoNotCount) {
         for (char const changed : {static_cast<char>(whole[at] ^ 1), static_cast<char>(whole[at] ^ 4), '\n', '\0'}) {
             std::string other = whole;
             other[at] = changed;
-            testing::put_bytes(first_manifest(), other);
+            testing::put(first_manifest(), other);
             EXPECT_TRUE(open().listed().empty()) << at << other;
             EXPECT_TRUE(intact().members.empty()) << at << other;
         }
@@ -170,7 +170,7 @@ TEST_F(Shards, OfALineWithAChangedCharacterDoNotCount) {
 TEST_F(Shards, OfAManifestOfAnythingElseAreNone) {
     for (std::string const& text : {std::string(), std::string("\n\n"), std::string(1000, ' '), std::string(1000, '\0'),
                                     std::string("a b c d e\n"), std::string("members-0.nc 5 zz 0-3 0123\n")}) {
-        testing::put_bytes(first_manifest(), text);
+        testing::put(first_manifest(), text);
         EXPECT_TRUE(open().listed().empty());
         EXPECT_TRUE(intact().members.empty());
     }

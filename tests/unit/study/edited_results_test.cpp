@@ -23,7 +23,7 @@ protected:
     void write(std::vector<Column> const& columns) const {
         NetcdfFile file = NetcdfFile::create(path());
         std::vector<int> variables;
-        file.put_text(DataFile::global, "payload_hash", "0123456789abcdef");
+        file.put(DataFile::global, "payload_hash", "0123456789abcdef");
         for (auto const& [name, length] : lengths) file.add_dimension(name, length);
         for (Column const& column : columns) {
             std::vector<int> dimensions;

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "host/config/drive_period.hpp"
+#include "host/config/descriptors.hpp"
 #include "tests/support/scene_fixture.hpp"
 
 namespace slideway::orbit_schedule_test {

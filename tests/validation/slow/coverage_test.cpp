@@ -16,8 +16,6 @@
 
 #include "host/chaos/exponents.hpp"
 #include "host/statistics/correlation.hpp"
-#include "host/statistics/proportion.hpp"
-#include "host/statistics/quantile_interval.hpp"
 #include "host/statistics/sobol_indices.hpp"
 #include "host/statistics/summary.hpp"
 #include "tests/unit/sampling/samples.hpp"

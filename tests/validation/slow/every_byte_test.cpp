@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "host/base/error.hpp"
-#include "host/store/result_check.hpp"
+#include "host/store/result_view.hpp"
 
 namespace slideway::every_byte_test {
 namespace {

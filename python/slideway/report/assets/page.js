@@ -56,7 +56,7 @@ function layoutOf(figure, layout) {
   return themed(whole);
 }
 
-const settings = { responsive: true, displaylogo: false, displayModeBar: innerWidth > 720, modeBarButtons: [["toImage", "zoom2d", "pan2d", "zoomIn2d", "zoomOut2d", "resetScale2d"]] };
+const settings = { responsive: true, displaylogo: false, displayModeBar: innerWidth > 720 ? "hover" : false, modeBarButtons: [["toImage", "zoom2d", "pan2d", "zoomIn2d", "zoomOut2d", "resetScale2d"]] };
 
 function draw(name, figure) {
   const chosen = document.getElementById(name + "-choice");

@@ -1,0 +1,105 @@
+"""Pictures of the program's own output and of how it is built."""
+
+from __future__ import annotations
+
+import csv
+import io
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import slideway
+from matplotlib.patches import FancyBboxPatch
+from PIL import Image
+from slideway.palette import colours, grey
+
+from .figures import frame, run
+from .style import as_svg, panels
+
+
+def stability(root: Path) -> str:
+    """Energy error over the tolerance of each method, and of rk4 over its step (bench/results/stability.csv)."""
+    lines = [line for line in (root / "bench/results/stability.csv").read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+    rows = [row for row in csv.DictReader(lines) if row["law"] == "conservative"]
+    figure, (left, right) = panels(1, 2, height=3.4, sharey=True)
+    for place, method in enumerate(("auto", "dopri5", "bs32", "ros34pw2")):
+        own = [row for row in rows if row["axis"] == "tolerance" and row["method"] == method and int(row["finished"]) == int(row["members"])]
+        left.loglog([float(row["tolerance"]) for row in own], [float(row["median_relative_residual"]) for row in own], "o-", ms=3.5, lw=1.2,
+                    color=colours[place], label=method)
+    left.invert_xaxis()
+    left.legend(frameon=False)
+    left.set_title("falling, by tolerance", loc="left")
+    frame(left, "rtol", "residual over the losses, median")
+    for axis, words, place in (("step", "falling", 4), ("step_lying", "lying", 5)):
+        own = [row for row in rows if row["axis"] == axis and row["median_relative_residual"] not in ("", "nan")]
+        own.sort(key=lambda row: float(row["step_s"]))
+        right.loglog([float(row["step_s"]) / float(row["linear_limit_s"]) for row in own], [float(row["median_relative_residual"]) for row in own],
+                     "o-", ms=3.5, lw=1.2, color=colours[place], label=words)
+    right.axvline(1, color=grey, lw=1, ls="--")
+    right.legend(frameon=False)
+    right.set_title("rk4, by step", loc="left")
+    frame(right, "step over 2√2/Ω", "")
+    return as_svg(figure)
+
+
+def plots(root: Path) -> str:
+    """Two plots of the Python package (docs/python.md), of a tolerance study."""
+    result = run(root, "scenes/tolerance_0.1mm.toml", "conservative", study__base=256)
+    figure, axes = panels(2, height=6.0)
+    slideway.plot.quantiles(result, "peak_normal_force", ax=axes[0])
+    slideway.plot.sensitivity(result, "peak_normal_force", ax=axes[1])
+    for ax in axes:  # beside the axes the legends would take half of so narrow a picture
+        ax.get_legend().remove()
+        ax.legend(frameon=False, loc="lower right")
+    return as_svg(figure)
+
+
+def report(root: Path) -> bytes:
+    """The upper part of the page that `slideway report` writes of a tolerance study, as a browser shows it."""
+    browser = shutil.which("chromium") or shutil.which("google-chrome")
+    if browser is None:
+        raise slideway.SlidewayError("no chromium to show the page; install it (Debian: chromium)")
+    result = run(root, "scenes/tolerance_0.1mm.toml", "conservative", study__base=128, study__verify=16)
+    with tempfile.TemporaryDirectory() as folder:
+        page, shot = Path(folder) / "page.html", Path(folder) / "page.png"
+        slideway.report.write(result, page)
+        subprocess.run([browser, "--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", f"--user-data-dir={folder}/profile",
+                        "--window-size=980,1500", "--virtual-time-budget=20000", f"--screenshot={shot}", page.as_uri()],
+                       check=True, capture_output=True, timeout=120)  # fmt: skip
+        small = io.BytesIO()
+        Image.open(shot).convert("RGB").quantize(64, dither=Image.Dither.NONE).save(small, "png", optimize=True)
+    return small.getvalue()
+
+
+_floors = (  # docs/architecture.md, from above
+    ("commands", "parse, call, print", 0), ("library, Python module", "in memory", 0), ("study", "what to run, what to conclude", 0),
+    ("store", "shards, results, merge", 0), ("run", "blocks over threads and ranks", 0), ("chaos, statistics", "plain numbers", 0),
+    ("config, sampling, base", "keys, scenes, designs, files", 0), ("backend", "kernels per instruction set, GPUs", 0),
+    ("lanes", "one member per lane: try, accept, refill", 1), ("steppers, observers", "methods, events, quantities", 1),
+    ("mechanisms, joint", "equations; eight apices to a wrench", 1), ("laws", "one call per face", 1), ("math, real", "numbers of each instruction set", 1),
+)  # fmt: skip
+
+
+def layers(_: Path) -> str:
+    """The layers of the program: host above, kernels below; an upper one includes lower ones."""
+    figure = plt.figure(figsize=(5.4, 4.9))
+    ax = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    ax.axis("off")
+    ax.set_xlim(0, 108)
+    ax.set_ylim(0, 98)
+    top = 96.0
+    sides: dict[int, list[float]] = {0: [], 1: []}
+    for name, words, side in _floors:
+        top -= 3.0 if side == 1 and not sides[1] else 0.0
+        ax.add_patch(FancyBboxPatch((14, top - 5.6), 92, 4.8, boxstyle="round,pad=0.3", fc=("#e3eef8", "#fbe9dd")[side], ec=colours[side], lw=1.0))
+        ax.text(17, top - 3.2, name, va="center", weight="bold", fontsize=10)
+        ax.text(103, top - 3.2, words, va="center", ha="right", fontsize=9.5, color="#444444")
+        sides[side] += [top, top - 6.4]
+        top -= 6.9
+    for side, words in ((0, "host: moves members, knows no physics"), (1, "kernels: physics")):
+        low, high = min(sides[side]), max(sides[side])
+        ax.text(5, (low + high) / 2, words, rotation=90, ha="center", va="center", color=colours[side], fontsize=10)
+        ax.plot([9.5, 9.5], [low, high], color=colours[side], lw=2)
+    return as_svg(figure)

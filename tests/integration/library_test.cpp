@@ -1,0 +1,60 @@
+// The library of C++ programs (host/library/slideway.hpp), used by several threads at once.
+#include "host/library/slideway.hpp"
+
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace slideway::library_test {
+namespace {
+
+Ensemble ensemble_of(char const* scene, std::vector<std::string> const& keys, std::vector<std::string> const& values) {
+    Settings settings{{"study.verify", "0"}};
+    for (std::size_t i = 0; i < keys.size(); ++i) settings.emplace_back(keys[i], values[i]);
+    return Ensemble::read(std::string(SLIDEWAY_SCENES "/") + scene, settings);
+}
+
+std::string hash_of(Ensemble const& ensemble, int threads) { return ensemble.run({.threads = threads}).payload_hash(); }
+
+}  // namespace
+
+TEST(Library, EnsemblesInThreadsOfTheirOwnGiveWhatTheyGiveAlone) {
+    std::vector<Ensemble> const ensembles = {
+        ensemble_of("ensemble_starts.toml", {"study.members", "study.duration"}, {"48", "10 ms"}),
+        ensemble_of("tolerance_0.1mm.toml", {"study.base", "study.duration"}, {"8", "2 ms"}),
+        ensemble_of("free_slider_drop.toml", {"study.duration"}, {"20 ms"}),
+    };
+    std::vector<std::string> alone;
+    for (Ensemble const& ensemble : ensembles) alone.push_back(hash_of(ensemble, 1));
+    for (int round = 0; round < 3; ++round) {
+        std::vector<std::string> together(2 * ensembles.size());
+        std::vector<std::jthread> threads;
+        // Each ensemble is in use twice at a time, on one and on two threads.
+        for (std::size_t i = 0; i < together.size(); ++i)
+            threads.emplace_back([&, i] { together[i] = hash_of(ensembles[i / 2], 1 + static_cast<int>(i % 2)); });
+        threads.clear();
+        for (std::size_t i = 0; i < together.size(); ++i) EXPECT_EQ(together[i], alone[i / 2]) << "ensemble " << i / 2;
+    }
+}
+
+TEST(Library, AnErrorInOneThreadLeavesTheOthersAlone) {
+    Ensemble const good = ensemble_of("ensemble_starts.toml", {"study.members", "study.duration"}, {"48", "10 ms"});
+    std::string const alone = hash_of(good, 1);
+    std::string beside, message;
+    {
+        std::jthread const runs([&] { beside = hash_of(good, 2); });
+        std::jthread const fails([&] {
+            try {
+                ensemble_of("ensemble_starts.toml", {"joint.clearance"}, {"-1 mm"});
+            } catch (Error const& error) {
+                message = error.what();
+            }
+        });
+    }
+    EXPECT_EQ(beside, alone);
+    EXPECT_NE(message.find("joint.clearance"), std::string::npos) << message;
+}
+
+}  // namespace slideway::library_test
