@@ -60,6 +60,7 @@ public:
     }
 
     BlockKernel kernel(Parts const& parts, bool shadows) const override {
+        if (parts.rigid) throw DeviceError("cuda: there is no code for rigid contacts; use --backend cpu");
         card_.bind();
         void const* const kernel = kernel_for(shadows);
         stack_of(kernel);  // that it is there

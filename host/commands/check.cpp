@@ -37,7 +37,8 @@ void print_parts(Scene const& scene) {
     std::vector<std::string> in{fmt::format("{} mechanism", mechanism.name)}, out;
     auto const sort = [&](bool is_in, std::string name) { (is_in ? in : out).push_back(std::move(name)); };
     if (mechanism.spatial) {
-        for (LawInfo const& law : laws()) sort(&law == &info(scene.parts.law), fmt::format("{} law", law.name));
+        for (LawInfo const& law : laws()) sort(&law == &contact_info(scene.parts), fmt::format("{} law", law.name));
+        if (may_be_rigid(scene.parts.mechanism)) sort(scene.parts.rigid, "rigid contact");
     } else {
         sort(true, scene.parts.free_crank ? "free crank" : "driven crank");
         sort(true, scene.parts.rigid ? "rigid contact of corners" : "contact of corners");
@@ -45,7 +46,7 @@ void print_parts(Scene const& scene) {
     sort(true, damping_text(scene.parts));
     // Which the scene might have had.
     auto const sort_out = [&](Damping damping, std::string name) {
-        bool const may = mechanism.spatial ? info(scene.parts.law).has(damping) : damping == Damping::restitution;
+        bool const may = scene.parts.rigid ? false : mechanism.spatial ? info(scene.parts.law).has(damping) : damping == Damping::restitution;
         if (may && scene.parts.damping != damping) sort(false, std::move(name));
     };
     sort_out(Damping::rate, fmt::format("damping of {} contacts", rate_damped(info(scene.parts.law))));

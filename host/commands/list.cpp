@@ -89,6 +89,8 @@ void print_laws() {
             print_row("  {:<30} {} [{}]: {}", "", key.name, key.unit, key.meaning);
         }
     }
+    print_row("  {:<30} {}{}", rigid_contact.name, rigid_contact.words,
+              owners_text([](MechanismInfo const& one) { return may_be_rigid(static_cast<Mechanism>(&one - mechanisms().data())); }));
 }
 
 /// Of `design_names`.

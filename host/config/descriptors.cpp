@@ -63,6 +63,8 @@ std::span<std::string_view const> contact_law_names() {
     return names;
 }
 
+bool has_contact_law(Mechanism mechanism) { return info(mechanism).spatial || may_be_rigid(mechanism); }
+
 bool makes_energy(Parts const& parts) { return info(parts.mechanism).spatial && contact_info(parts).switches; }
 
 bool is_prescribed(Parts const& parts, int component) {

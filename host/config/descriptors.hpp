@@ -25,6 +25,8 @@ LawInfo const& info(Law law);
 LawInfo const& contact_info(Parts const& parts);
 /// What contact.law may say: the laws, and "rigid" behind them.
 std::span<std::string_view const> contact_law_names();
+/// Whether contact.law means anything to a mechanism.
+bool has_contact_law(Mechanism mechanism);
 
 /// Whether the contact law makes energy where its modes switch (model.md 8); a mechanism whose corners are points has none.
 bool makes_energy(Parts const& parts);

@@ -31,9 +31,10 @@ KeyReference reference_of(Setting const& row) {
     key.choices.assign(row.choices.begin(), row.choices.end());
     key.studies = owners(study_kind_names, [&](std::size_t i) { return (row.studies & set_of(static_cast<StudyKind>(i))) != 0; });
     key.methods = owners(setting("integrator.method").choices, [&](std::size_t i) { return (row.methods & set_of(static_cast<Method>(i))) != 0; });
-    bool const of_free_cranks = row.name == "mechanism.crank", of_faces = row.of_faces || row.name == "contact.law";
+    bool const of_free_cranks = row.name == "mechanism.crank", of_laws = row.name == "contact.law";
     key.mechanisms = owners(mechanism_names(), [&](std::size_t i) {
-        return (!of_faces || mechanisms()[i].spatial || (row.name == "contact.law" && may_be_rigid(static_cast<Mechanism>(i)))) && (!of_free_cranks || mechanisms()[i].free_crank);
+        if (of_laws) return has_contact_law(static_cast<Mechanism>(i));
+        return (!row.of_faces || mechanisms()[i].spatial) && (!of_free_cranks || mechanisms()[i].free_crank);
     });
     return key;
 }
@@ -43,9 +44,10 @@ KeyReference reference_of(Key const& of) {
                      .preset = {}, .mechanisms = {}, .laws = {}, .studies = {}, .methods = {}};
     key.preset = of.member == &Inputs::restitution ? "" : std::isnan(of.preset) ? "follows from others" : fmt::format("{:.10g}", of.preset);
     key.mechanisms = owners(mechanism_names(), [&](std::size_t i) { return counts_for(of, static_cast<Mechanism>(i)); });
-    key.laws = owners(law_names(), [&](std::size_t i) {
+    key.laws = owners(contact_law_names(), [&](std::size_t i) {
         Parts parts;
-        parts.law = static_cast<Law>(i);
+        parts.rigid = i == law_names().size();
+        if (!parts.rigid) parts.law = static_cast<Law>(i);
         return counts_for(of, parts) || !counts_for(of, parts.mechanism);
     });
     return key;

@@ -143,6 +143,7 @@ Scene parse_scene(std::string const& text, std::string const& name, Overrides co
     check_inputs(root, scene);
     read_variations(root, scene);
     read_study(root, scene);
+    check_restitution(root, scene);
     read_integrator(root, scene);
     read_recording(root, scene);
     prepare_sampler(scene);

@@ -23,6 +23,8 @@ std::vector<GivenKey> given_keys(Node const& root);
 
 /// Numeric keys, law, damping, friction and way pose; everything of Scene::inputs and Scene::parts but [study.vary].
 void read_physics(Node const& root, Scene& scene);
+/// Refuses rigid contacts whose restitution nothing says.
+void check_restitution(Node const& root, Scene const& scene);
 /// [study.vary]; adds the kernel parts that the varied keys need.
 void read_variations(Node const& root, Scene& scene);
 /// An entry of [study.vary].

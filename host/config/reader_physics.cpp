@@ -161,6 +161,14 @@ void read_physics(Node const& root, Scene& scene) {
     if (Node const* const enabled = root.find_path("friction.enabled")) scene.parts.friction = read_boolean(*enabled);
 }
 
+void check_restitution(Node const& root, Scene const& scene) {
+    constexpr std::string_view name = "contact.restitution";
+    bool const varied = std::ranges::any_of(scene.variations, [&](Variation const& one) { return one.key->name == name; }) ||
+                        (scene.chaos.parameter != nullptr && scene.chaos.parameter->name == name);
+    if (!scene.parts.rigid || varied || root.find_path(name) != nullptr) return;
+    refuse(*root.find_path("contact.law"), {"rigid contacts need contact.restitution", "give it, above 0 and at most 1"});
+}
+
 void read_integrator(Node const& root, Scene& scene) {
     IntegratorSettings& settings = scene.integrator;
     read_bound(root, "integrator", scene);

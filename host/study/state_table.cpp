@@ -192,11 +192,20 @@ void add_row(StateTable& table, std::vector<Column> const& columns, Scene const&
     if (auto const why = add(table, inputs, parts, time, std::move(texts))) lines.fail(*why);
 }
 
+/// A table of the scene's mechanism without rows.
+StateTable empty_table(Scene const& scene) {
+    if (scene.parts.rigid) {
+        throw SceneError(fmt::format("{}: forces of rigid contacts do not follow from a state alone; run it, or use a contact.law that gives way", scene.path));
+    }
+    StateTable table;
+    table.mechanism = scene.parts.mechanism;
+    return table;
+}
+
 }  // namespace
 
 StateTable start_state(Scene const& scene) {
-    StateTable table;
-    table.mechanism = scene.parts.mechanism;
+    StateTable table = empty_table(scene);
     if (auto const why = add(table, scene.inputs, scene.parts, 0)) throw SceneError(fmt::format("{}: {}", scene.path, *why));
     return table;
 }
@@ -204,8 +213,7 @@ StateTable start_state(Scene const& scene) {
 StateTable state_table(Scene const& scene, std::span<double const> states, std::span<double const> times) {
     MechanismInfo const& mechanism = info(scene.parts.mechanism);
     auto const width = static_cast<std::size_t>(mechanism.states);
-    StateTable table;
-    table.mechanism = scene.parts.mechanism;
+    StateTable table = empty_table(scene);
     std::size_t const rows = states.size() / width;
     if (states.size() % width != 0 || (!times.empty() && times.size() != rows)) {
         throw SceneError(fmt::format("{}: states are rows of {} numbers ({}), with one time for each", scene.path, width,
@@ -226,8 +234,7 @@ StateTable read_state_table(std::istream& in, std::string const& name, Scene con
     CsvReader lines(in, name);
     if (!lines.next()) lines.fail("the table is empty");
     std::vector<Column> const columns = read_header(scene.parts.mechanism, lines);
-    StateTable table;
-    table.mechanism = scene.parts.mechanism;
+    StateTable table = empty_table(scene);
     for (Column const& column : columns) {
         if (column.kind == Column::Kind::law || column.kind == Column::Kind::key) {
             table.parameter_names.push_back(column.name);
