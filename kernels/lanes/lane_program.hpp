@@ -223,7 +223,7 @@ private:
     template <class Report> SLIDEWAY_HD Faults<Real> settle_start(Report& report) {
         auto& c = pack_.state.course;
         auto& [memory, watch] = pack_.state.contacts;
-        pack_.model.settle(pack_.busy, c.t, c.y, pack_.state.constants.parameters, memory, report.contact);
+        pack_.model.settle(pack_.busy, c.t, pack_.state.constants.end, c.y, pack_.state.constants.parameters, memory, report.contact);
         Real rates[size];
         auto const faults = pack_.evaluate(c.t, c.y, memory, rates, true, report);
         pack_.count_evaluations(pack_.busy, 1);

@@ -286,7 +286,7 @@ private:
     SLIDEWAY_HD void settle_contacts(Mask<Real> accepted) {
         auto& c = pack_.state.course;
         auto& [memory, watch] = pack_.state.contacts;
-        auto const changed = pack_.model.settle(accepted, c.t, c.y, pack_.state.constants.parameters, memory, attempt_.report.contact);
+        auto const changed = pack_.model.settle(accepted, c.t, pack_.state.constants.end, c.y, pack_.state.constants.parameters, memory, attempt_.report.contact);
         if (any(changed)) restart(changed);
         watch.keep(accepted, attempt_.report.contact);
     }

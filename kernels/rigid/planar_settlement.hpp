@@ -23,8 +23,8 @@ template <class Real> class PlanarSettlement {
 public:
     using Parameters = PlanarParameters<Real>;
 
-    SLIDEWAY_HD PlanarSettlement(Parameters const& p, bool friction, bool free_crank, Real located)
-        : p_(p), friction_(friction), free_crank_(free_crank), located_(located) {}
+    SLIDEWAY_HD PlanarSettlement(Parameters const& p, bool friction, bool free_crank, Real located, Real end)
+        : p_(p), friction_(friction), free_crank_(free_crank), located_(located), end_(end) {}
 
     SLIDEWAY_FN static ContactState<Real> state_of(HeldContact<Real> const& held, Parameters const& p, bool friction) {
         Real const zero(0.0);
@@ -88,6 +88,8 @@ private:
             side_[i] = select(was_held_[i], memory.held[i].side, select(up, one, minus));
             depth_[i] = select(side_[i] == one, above[i], below[i]);
             near_[i] = event & (was_held_[i] | (depth_[i] > negated(located_)));
+            auto const inside = (!was_held_[i]) & (!fresh) & (depth_[i] > Real(most_overshoot) * located_);
+            jammed_ = jammed_ | (event & inside);
         }
         return event;
     }
@@ -135,7 +137,7 @@ private:
     SLIDEWAY_HD Mask<Real> rattles(Mask<Real> event, PairOf<Real> const& motion) const {
         auto const both_free = (!was_held_[0]) & (!was_held_[1]) & (near_[0] | near_[1]);
         Real const drag[2] = {drag_of(motion, 0), drag_of(motion, 1)};
-        return rattles_without_end(event & both_free, stance_->pair, motion, drag, depth_, p_.restitution);
+        return rattles_without_end(event & both_free, stance_->pair, motion, drag, depth_, p_.restitution, rattle_time(end_));
     }
 
     /// Friction over the normal force of a contact that slips as it does now.
@@ -210,7 +212,7 @@ private:
             held.side = select(event, select(answer.state[i].closed, side_[i], zero), held.side);
             held.slip = select(event, answer.state[i].way, held.slip);
         }
-        auto const again = t - memory.last <= Real(no_time);
+        auto const again = t - memory.last <= no_time(end_);
         memory.at_once = select(event, select(again, memory.at_once + one, zero), memory.at_once);
         memory.last = select(event, t, memory.last);
         jammed_ = jammed_ | (event & (memory.at_once >= Real(most_events_at_once)));
@@ -292,7 +294,7 @@ private:
 
     Parameters const& p_;
     bool friction_, free_crank_;
-    Real located_;
+    Real located_, end_;
     PlanarLinks<Real>* links_ = nullptr;
     PlanarStance<Real> const* stance_ = nullptr;
     Real side_[2], depth_[2], spin_, acceleration_;

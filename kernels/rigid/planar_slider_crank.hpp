@@ -64,6 +64,7 @@ struct RigidPlanarSliderCrank : PlanarBase {
         auto const nothing = corners.push_of_nothing();
         auto motion = links.accelerations(nothing.fx, nothing.fy, p, free_crank);
         Real torque = nothing.torque;
+        auto jammed = memory.jammed > zero;
         auto const held = (memory.held[0].side != zero) | (memory.held[1].side != zero);
         if (any(held)) {
             PlanarStance<Real> const stance(links, sincos(s[2]), memory.held[0].side, memory.held[1].side, p, free_crank);
@@ -76,15 +77,15 @@ struct RigidPlanarSliderCrank : PlanarBase {
             motion.a2 = select(held, pushed.a2, motion.a2);
             motion.r1 = select(held, pushed.r1, motion.r1);
             torque = select(held, load.torque, torque);
+            jammed = jammed | (held & (max(force.normal[0], force.normal[1]) > Real(jamming_force) * force_scale(p)));
             if constexpr (Full) tell(stance, links, s[5], force, state, p, report->contact);
         }
-        auto const jammed = memory.jammed > zero;
         rates[0] = links.w1;
         rates[1] = links.w2;
         rates[2] = s[5];
         rates[3] = motion.a1;
         rates[4] = motion.a2;
-        rates[5] = select(jammed, Real(not_a_number), torque / p.slider_inertia);
+        rates[5] = select(memory.jammed > zero, Real(not_a_number), torque / p.slider_inertia);
         if constexpr (Full) links.tell(motion, s[5], p, free_crank, *report);
         auto faults = Faults<Real>::none();
         faults.contact_domain = jammed;
@@ -93,12 +94,12 @@ struct RigidPlanarSliderCrank : PlanarBase {
     }
 
     /// What follows from where a step has ended: impacts, contacts that begin or end, and none of the drift of those that last.
-    /// @param contact of the report there  @return lanes where state or contacts have changed
+    /// @param end of the run [s]  @param contact of the report there  @return lanes where state or contacts have changed
     template <class Real>
-    SLIDEWAY_NOINLINE Mask<Real> settle(Mask<Real> in, Real t, Real* s, PlanarParameters<Real> const& p, RigidMemory<Real>& memory,
+    SLIDEWAY_NOINLINE Mask<Real> settle(Mask<Real> in, Real t, Real end, Real* s, PlanarParameters<Real> const& p, RigidMemory<Real>& memory,
                                         RigidPlanarContact<Real> const& contact) const {
         Real const located = Real(RigidWatch<Real>::tolerance(Watching::touches)) * touch_scale(p);
-        PlanarSettlement<Real> settlement(p, friction, free_crank, located);
+        PlanarSettlement<Real> settlement(p, friction, free_crank, located, end);
         return settlement.run(in, t, s, memory, contact);
     }
 

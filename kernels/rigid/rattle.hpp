@@ -10,10 +10,10 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// wall before the first has gone far.  With x the speed of the one that leaves over that of the one that comes, an impact makes of it
 ///   x ← e/((1 + e) ρ − x),   ρ = −G_ij/G_ii of the contact i that is hit,                                                  (M13.8)
 /// and the turns end where the denominator is not positive.  Without end the speeds fall to nothing, but in no time.
-/// @param drag friction over the normal force as both slip now  @param depth of both, below 0 apart [m]
+/// @param drag friction over the normal force as both slip now  @param depth of both, below 0 apart [m]  @param soon what counts as at once [s]
 template <class Real>
 SLIDEWAY_HD Mask<Real> rattles_without_end(Mask<Real> in, ContactPair<Real> const& pair, PairOf<Real> const& motion, Real const (&drag)[2],
-                                           Real const (&depth)[2], Real e) {
+                                           Real const (&depth)[2], Real e, Real soon) {
     Real const zero(0.0), one(1.0);
     Real thrown[2];  // (1 + e) ρ of an impact at each
     for (int i = 0; i < 2; ++i) {
@@ -24,7 +24,7 @@ SLIDEWAY_HD Mask<Real> rattles_without_end(Mask<Real> in, ContactPair<Real> cons
     auto const of_coming = [&](Real first, Real second) { return select(first_comes, first, second); };
     Real const comes = negated(of_coming(motion.normal[0], motion.normal[1])), leaves = of_coming(motion.normal[1], motion.normal[0]);
     Real const gap = max(negated(of_coming(depth[0], depth[1])), zero);
-    auto const at_once = (comes > zero) & (leaves >= zero) & (gap <= Real(rattle_time) * comes);
+    auto const at_once = (comes > zero) & (leaves >= zero) & (gap <= soon * comes);
     // The product of two impacts has two real factors by which speeds change, or its turns end.
     Mask<Real> goes_on = in & at_once & (e < one) & (thrown[0] * thrown[1] > Real(4.0) * e);
     Real x = leaves / select(goes_on, comes, one);

@@ -7,8 +7,9 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// Bounces that would be over within this time [s] end at once, in lasting contact: the sum of a geometric series.
 inline constexpr double chatter_time = 1e-7;
-/// So do impacts of both corners in turn whose next is due within this time [s].
-inline constexpr double rattle_time = 1e-11;
+/// So do impacts of both corners in turn whose next is due within this time.  Events that are nearer to one another than some 1e-13 of the
+/// run are no longer located.  @param end of the run [s]
+template <class Real> SLIDEWAY_FN Real rattle_time(Real end) { return max(Real(1e-11), Real(1e-12) * end); }
 inline constexpr int rattles_tried = 48;
 /// Impacts of corners at their walls, one upon the other.
 inline constexpr int impacts_at_once = 8;
@@ -16,8 +17,14 @@ inline constexpr int impacts_at_once = 8;
 inline constexpr double slip_at_rest = 2e-9;
 /// Violation of the conditions of contact, in units of their motion, that still is rounding.
 inline constexpr double most_violation = 1e-9;
-/// Events that may follow one another within `no_time` [s]; more of them come to no end.
-inline constexpr double most_events_at_once = 64, no_time = 1e-10;
+/// Events that may follow one another within `no_time`; more of them come to no end.
+inline constexpr double most_events_at_once = 64;
+template <class Real> SLIDEWAY_FN Real no_time(Real end) { return Real(10.0) * rattle_time(end); }
+/// A corner that is found as far inside its wall [located] met it when time could no longer resolve it: impacts pile up without
+/// becoming weaker.
+inline constexpr double most_overshoot = 1e4;
+/// Force [force scales] beyond which a wedged block counts as jammed: it grows without bound on the way there.
+inline constexpr double jamming_force = 1e7;
 
 /// Force [N] of what weight and drive do to the slider.
 template <class Real> SLIDEWAY_FN Real force_scale(PlanarParameters<Real> const& p) {
