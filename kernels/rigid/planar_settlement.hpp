@@ -81,7 +81,9 @@ private:
         auto const meets = [&](Real depth, Real rate) { return (depth > negated(located_)) & ((rate > zero) | fresh); };
         auto const touches = meets(w.a, v.a) | meets(w.b, v.b) | meets(w.c, v.c) | meets(w.d, v.d);
         auto const opens = min(min(contact.pressure[0], contact.pressure[1]), min(contact.grip[0], contact.grip[1])) < zero;
-        Mask<Real> const event = in & (touches | opens);
+        // What is not finite has no events: it fails as what it is, and its books stay as they are.
+        Real const speeds = v.a + v.c;
+        Mask<Real> const event = in & (touches | opens) & (speeds - speeds == zero);
         for (int i = 0; i < 2; ++i) {
             auto const up = above[i] >= below[i];
             was_held_[i] = memory.held[i].side != zero;

@@ -29,6 +29,7 @@ constexpr std::array layers = {
     Layer{"kernels/mechanisms", 5},
     Layer{"kernels/observers", 6},
     Layer{"kernels/steppers", 6},
+    Layer{"kernels/rigid", 7},
     Layer{"kernels/lanes", 7},
     Layer{"kernels/models", 8},
     Layer{"kernels/integrate.hpp", 8},
@@ -50,7 +51,7 @@ constexpr std::array layers = {
 };
 
 // Plain data without code of any instruction set: every layer may share it, the host included.
-constexpr std::array<std::string_view, 12> plain_data = {
+constexpr std::array<std::string_view, 14> plain_data = {
     "kernels/key.hpp",
     "kernels/inputs.hpp",
     "kernels/status.hpp",
@@ -63,6 +64,8 @@ constexpr std::array<std::string_view, 12> plain_data = {
     "kernels/mechanisms/list.hpp",
     "kernels/mechanisms/mechanism_info.hpp",
     "kernels/observers/quantities.hpp",
+    "kernels/rigid/list.hpp",
+    "kernels/rigid/rigid_info.hpp",
 };
 
 // The kernels on cards, and what they may be made of: whole programs, and which equations these are to hold.

@@ -195,18 +195,21 @@ TEST(RigidImpacts, EndWithAStatusWhateverTheGeometry) {
         in.wz = uniform(-20, 20);
         members.push_back(complete_inputs(in));
     }
-    int jammed = 0;
     for (bool const free_crank : {false, true}) {
         auto o = rigid_options(rigid_planar_parts(true, free_crank), 1e-6, 0.2);
         o.settings.max_steps = 200'000;
         auto const r = testing::run(best_isa(), o, members);
+        std::size_t jammed = 0, buzzing = 0;
         for (std::size_t i = 0; i < members.size(); ++i) {
             Status const status = r.records[i].status;
-            EXPECT_TRUE(status == Status::finished || status == Status::contact_domain) << i << " " << static_cast<int>(status) << " at " << r.records[i].time;
             jammed += status == Status::contact_domain;
+            // Large friction under a drive can keep both corners hitting their walls every few microseconds.
+            buzzing += status == Status::max_steps;
+            EXPECT_TRUE(status == Status::finished || status == Status::contact_domain || status == Status::max_steps) << i << " " << name_of(status);
         }
+        EXPECT_LT(jammed, members.size() / 4);
+        EXPECT_LT(buzzing, members.size() / 10);
     }
-    std::printf("%d of 800 jammed\n", jammed);
 }
 
 TEST(RigidImpacts, RefuseAStartInsideAWall) {

@@ -1,0 +1,95 @@
+// Members with rigid contacts have the same bits in every instruction set, block, order and company.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <vector>
+
+#include "tests/oracle/planar_runs.hpp"
+#include "tests/support/rigid.hpp"
+
+namespace slideway::rigid_test {
+namespace {
+
+using testing::EnsembleResult;
+
+/// Blocks that fly, bounce, lie, stick, slip, jam and fail.
+std::vector<Inputs> mixed_members(std::size_t count) {
+    std::mt19937_64 draw(7);
+    auto const uniform = [&draw](double low, double high) { return std::uniform_real_distribution(low, high)(draw); };
+    std::vector<Inputs> members;
+    for (std::size_t i = 0; i < count; ++i) {
+        auto in = oracle::planar_check_inputs();
+        in.restitution = uniform(0.1, 1);
+        in.friction_kinetic = i % 4 == 0 ? uniform(1, 3) : uniform(0, 0.4);
+        in.friction_static = in.friction_kinetic + uniform(0, 0.1);
+        in.start_angle = uniform(0, 6.2);
+        in.crank_speed = i % 5 == 0 ? 0 : uniform(-100, 100);
+        in.y = i % 3 == 0 ? -in.clearance_y : uniform(-0.9, 0.9) * in.clearance_y;
+        in.wz = i % 3 == 0 ? 0 : uniform(-2, 2);
+        if (i % 16 == 7) in.wz = NAN;
+        if (i % 16 == 13) in.y = 1.1 * in.clearance_y;
+        members.push_back(complete_inputs(in));
+    }
+    return members;
+}
+
+EnsembleResult run(Isa isa, bool free_crank, std::vector<Inputs> const& members) {
+    auto o = testing::rigid_options(testing::rigid_planar_parts(true, free_crank), 1e-7, 0.05);
+    o.settings.max_steps = 20'000;
+    o.series = selections::of({Series::y, Series::vy, Series::pitch});
+    o.sample_times = {0, 0.01, 0.0237, 0.05};
+    return testing::run(isa, o, members);
+}
+
+template <class Row> bool same_bits(Row const& a, Row const& b) { return std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0; }
+
+/// Of member i of one run and member j of another.
+void expect_same(EnsembleResult const& a, std::size_t i, EnsembleResult const& b, std::size_t j) {
+    EXPECT_EQ(a.records[i].status, b.records[j].status) << i;
+    EXPECT_EQ(a.records[i].steps_accepted, b.records[j].steps_accepted) << i;
+    EXPECT_EQ(a.records[i].rhs_evaluations, b.records[j].rhs_evaluations) << i;
+    EXPECT_TRUE(same_bits(a.states[i], b.states[j])) << i;
+    EXPECT_TRUE(same_bits(a.quantities[i], b.quantities[j])) << i;
+}
+
+TEST(RigidBits, AreThoseOfScalarInEveryInstructionSet) {
+    auto const members = mixed_members(48);
+    for (bool const free_crank : {false, true}) {
+        auto const scalar = run(Isa::scalar, free_crank, members);
+        for (Isa const isa : built_isas()) {
+            if (!is_supported(isa)) continue;
+            auto const other = run(isa, free_crank, members);
+            for (std::size_t i = 0; i < members.size(); ++i) expect_same(scalar, i, other, i);
+            EXPECT_TRUE(same_bits(scalar.series, other.series)) << name_of(isa);
+        }
+    }
+}
+
+TEST(RigidBits, AreAMembersOwn) {
+    auto const members = mixed_members(48);
+    auto const together = run(best_isa(), true, members);
+    std::vector<Inputs> backwards(members.rbegin(), members.rend());
+    auto const turned = run(best_isa(), true, backwards);
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        expect_same(together, i, turned, members.size() - 1 - i);
+        expect_same(together, i, run(best_isa(), true, {members[i]}), 0);
+    }
+}
+
+TEST(RigidBits, ComeFromMembersOfAllKinds) {
+    auto const r = run(best_isa(), true, mixed_members(48));
+    int finished = 0, refused = 0, invalid = 0;
+    for (auto const& record : r.records) {
+        finished += record.status == Status::finished;
+        refused += record.status == Status::geometry;
+        invalid += record.status == Status::nonfinite || record.status == Status::invalid_inputs;
+    }
+    EXPECT_GT(finished, 30);
+    EXPECT_EQ(refused, 3);
+    EXPECT_EQ(invalid, 3);
+}
+
+}  // namespace
+}  // namespace slideway::rigid_test
