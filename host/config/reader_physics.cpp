@@ -199,7 +199,7 @@ void read_integrator(Node const& root, Scene& scene) {
     constexpr double longest_step = 1e-3;
     double max_step = std::min(longest_step, period / 2000);
     // Rigid contacts are found inside a step by its ends' depths and rates, and nothing happens fast between them.
-    if (scene.parts.rigid) max_step = std::min(10 * longest_step, period / 200);
+    if (scene.parts.rigid) max_step = std::min(50 * longest_step, period / 50);
     // Nor over a carriage's reversal, which accelerates it for a small part of its period.
     bool const reverses = info(scene.parts.mechanism).drive == DriveKind::carriage;
     double const reversal = reverses ? shortest_reversal(scene) / 20 : max_step;

@@ -11,6 +11,25 @@ template <class Real> class RigidObserver : public SliderObserver<Real, RigidPla
 public:
     using Report = RigidPlanarReport<Real>;
 
+    SLIDEWAY_FN void start(Mask<Real> fresh, Report const& r, Real const* state, bool switches) {
+        Base::start(fresh, r, state, switches);
+        owed_ = select(fresh, Real(0.0), owed_);
+    }
+
+    SLIDEWAY_FN void accept(Mask<Real> accepted, Real h, Real const* integral, Report const& r, Real const* state, bool switches) {
+        Real const before = this->mode_, zero(0.0);
+        Base::accept(accepted, h, integral, r, state, switches);
+        // Bounces that were ended would have gone on for a while: that part of the step was flight.
+        Real const flight = select(accepted, min(owed_, h), zero), half = Real(0.5) * flight;
+        owed_ = owed_ - flight;
+        this->mode_time_[0] = this->mode_time_[0] + flight;
+        for (int i = 0; i < 4; ++i) {
+            Real const number(static_cast<double>(i));
+            auto const share = [&](Real mode) { return select(mode == number, half, zero); };
+            this->mode_time_[i] = this->mode_time_[i] - (share(before) + share(this->mode_));
+        }
+    }
+
     /// After an event.
     SLIDEWAY_FN void switch_over(Mask<Real> in, Report const& r, bool switches) {
         using enum Quantity;
@@ -22,16 +41,14 @@ public:
         book(this->integral_[Places::template integral_of<mean_normal_force>], books.impulse);
         book(this->onsets_, books.count);
         this->mode_ = select(in, this->mode_class(r), this->mode_);
-        // Bounces that would have gone on are over at once for the state; their time is theirs.
-        book(this->mode_time_[0], books.flight);
-        for (int i = 1; i < 4; ++i) {
-            book(this->mode_time_[i], select(this->mode_ == Real(static_cast<double>(i)), negated(books.flight), Real(0.0)));
-        }
+        owed_ = select(in & (books.count > Real(0.0)), books.flight, owed_);
         this->resume(in, r, switches);
     }
 
 private:
-    using Places = typename SliderObserver<Real, RigidPlanarReport>::Places;
+    using Base = SliderObserver<Real, RigidPlanarReport>;
+    using Places = typename Base::Places;
+    Real owed_;  // flight that is still to come [s]
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -205,7 +205,7 @@ TEST(RigidImpacts, EndWithAStatusWhateverTheGeometry) {
             jammed += status == Status::contact_domain;
             // Large friction under a drive can keep both corners hitting their walls every few microseconds.
             buzzing += status == Status::max_steps;
-            EXPECT_TRUE(status == Status::finished || status == Status::contact_domain || status == Status::max_steps) << i << " " << name_of(status);
+            EXPECT_TRUE(status == Status::finished || status == Status::contact_domain || status == Status::max_steps) << i << " " << static_cast<int>(status);
         }
         EXPECT_LT(jammed, members.size() / 4);
         EXPECT_LT(buzzing, members.size() / 10);
