@@ -37,7 +37,7 @@ public:
         if (friction) {
             for (int i = 0; i < 4; ++i) {
                 for (int j = 0; j < 4; ++j) {
-                    if (i != stick || j != stick) attempt(i, j);
+                    if ((i != stick || j != stick) && any(unanswered())) attempt(i, j);
                 }
             }
         } else {
@@ -50,6 +50,9 @@ public:
 
 private:
     enum Doing { open, forwards, backwards, stick };
+
+    /// Lanes where a later state may still be better than the best so far.
+    SLIDEWAY_FN Mask<Real> unanswered() const { return best_.violation > Real(0.0); }
 
     SLIDEWAY_FN ContactState<Real> state_of(int contact, int doing) const {
         auto const no = mask_of<Real>(false);

@@ -154,18 +154,29 @@ private:
         Real const zero(0.0), one(1.0);
         auto const motion = stance_->motion(links_->vx, links_->vy, spin_);
         auto const rattling = rattles(event, motion);
-        auto const answer = lasting(event, motion, {near_[0], near_[1]});
-        // Between bounces a contact has the acceleration that those which last leave it.
+        // Between bounces a contact has the acceleration that those which last leave it; from speed γ against the acceleration a they are
+        // over after 2 γ/(a (1 − e)).
         auto const free = free_acceleration();
         auto const bouncing = stance_->pair.after(free, stance_->pair.solve(free, {zero, zero}, state));
+        Mask<Real> may_last[2];
+        Real time[2];
         for (int i = 0; i < 2; ++i) {
-            // Bounces from speed γ against the acceleration a are over after 2 γ/(a (1 − e)).
-            Real const pressing = select(was_held_[i], answer.force.normal[i] * stance_->pair.nn[i][i], negated(bouncing.normal[i]));
-            Real const loss = select(was_held_[i], one, one - p_.restitution);
-            auto const ends = answer.state[i].closed & (pressing > zero) & (motion.normal[i] + motion.normal[i] <= Real(chatter_time) * loss * pressing);
-            Real const time = (motion.normal[i] + motion.normal[i]) / select(ends, loss * pressing, one);
-            auto const bounces = event & ends & !was_held_[i];
-            books_.flight = max(books_.flight, select(bounces, time, zero));
+            Real const braking = negated(bouncing.normal[i]) * (one - p_.restitution), twice = motion.normal[i] + motion.normal[i];
+            auto const ends = (braking > zero) & (twice <= Real(chatter_time) * braking);
+            time[i] = twice / select(ends, braking, one);
+            may_last[i] = event & near_[i] & (was_held_[i] | ends);
+        }
+        auto const no = mask_of<Real>(false);
+        PairAnswer<Real> answer;
+        for (int i = 0; i < 2; ++i) {
+            answer.state[i] = {no, no, zero, zero};
+            answer.force.normal[i] = answer.force.along[i] = zero;
+        }
+        if (any(may_last[0] | may_last[1])) answer = lasting(event, motion, {near_[0], near_[1]});
+        for (int i = 0; i < 2; ++i) {
+            auto const ends = answer.state[i].closed & (answer.force.normal[i] > zero) & may_last[i];
+            auto const bounces = ends & !was_held_[i];
+            books_.flight = max(books_.flight, select(bounces, time[i], zero));
             near_[i] = near_[i] | rattling;
             auto& kept = state[i];
             kept.closed = (event & ends) | (!event & kept.closed);
@@ -207,12 +218,15 @@ private:
     /// Which contacts last, and how they slip: (M13.5).
     SLIDEWAY_HD void last(Mask<Real> event, Real t, ContactState<Real> const (&state)[2], RigidMemory<Real>& memory) {
         Real const zero(0.0), one(1.0);
-        auto const answer = lasting(event, stance_->motion(links_->vx, links_->vy, spin_), {state[0].closed, state[1].closed});
-        violated(event, answer, acceleration_);
-        for (int i = 0; i < 2; ++i) {
-            auto& held = memory.held[i];
-            held.side = select(event, select(answer.state[i].closed, side_[i], zero), held.side);
-            held.slip = select(event, answer.state[i].way, held.slip);
+        for (auto& held : memory.held) held = {select(event, zero, held.side), select(event, zero, held.slip)};
+        if (any(event & (state[0].closed | state[1].closed))) {
+            auto const answer = lasting(event, stance_->motion(links_->vx, links_->vy, spin_), {state[0].closed, state[1].closed});
+            violated(event, answer, acceleration_);
+            for (int i = 0; i < 2; ++i) {
+                auto& held = memory.held[i];
+                held.side = select(event, select(answer.state[i].closed, side_[i], zero), held.side);
+                held.slip = select(event, answer.state[i].way, held.slip);
+            }
         }
         auto const again = t - memory.last <= no_time(end_);
         memory.at_once = select(event, select(again, memory.at_once + one, zero), memory.at_once);
