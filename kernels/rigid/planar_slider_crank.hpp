@@ -37,6 +37,15 @@ struct RigidPlanarSliderCrank : PlanarBase {
 
     explicit constexpr RigidPlanarSliderCrank(Parts const& parts) : friction(parts.friction), free_crank(parts.free_crank) {}
 
+    /// Of a member; what a law needs of its restitution is not worked out.
+    SLIDEWAY_FN static PlanarParameters<double> parameters(Inputs in) {
+        double const restitution = in.restitution;
+        in.restitution = 1;
+        auto p = planar_parameters(in);
+        p.restitution = restitution;
+        return p;
+    }
+
     static constexpr bool switches() { return false; }
     static constexpr Watching watching(bool, bool) { return Watching::touches; }
 
