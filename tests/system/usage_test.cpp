@@ -122,7 +122,8 @@ TEST_F(Usage, ListShowsWhatEachMechanismHas) {
              "  mechanism.crank_length         m        crank length: > 0; default 0.05 (slider_crank, scotch_yoke, "
              "planar_slider_crank)\n",
              "  contact.eta                    1        damping ratio of point contacts: ≥ 0; default 0.01 (law paper, conservative)\n",
-             "  contact.slider_young_modulus   Pa       modulus of the slider: > 0; default 2.07e+11\n",
+             "  contact.slider_young_modulus   Pa       modulus of the slider: > 0; default 2.07e+11 "
+             "(law paper, conservative, kelvin_voigt, foundation)\n",
              "  contact.apex_damping           N s/m    damping of an apex: ≥ 0; default 0 (slider_crank, carriage, scotch_yoke, "
              "free_slider; law kelvin_voigt)\n",
          }) {

@@ -93,5 +93,27 @@ TEST(RigidPlanar, ConvergesWithTheOrderOfItsMethod) {
     }
 }
 
+/// Largest distance of the slider's height [clearances] between compliant corners and rigid ones.
+double distance_of_compliant(Inputs in, double stiffness) {
+    auto o = rigid_options(rigid_planar_parts(false, true), 1e-10, 0.05);
+    o.series = selections::of({Series::y});
+    for (std::size_t i = 0; i <= 50; ++i) o.sample_times.push_back(std::min(1e-3 * static_cast<double>(i), 0.05));
+    auto const rigid = testing::run(best_isa(), o, {in});
+    o.parts.rigid = false;
+    in.point_stiffness = stiffness;
+    auto const compliant = testing::run(best_isa(), o, {in});
+    double most = 0;
+    for (std::size_t i = 0; i <= 50; ++i) most = std::max(most, std::abs(compliant.series[i] - rigid.series[i]) / in.clearance_y);
+    return most;
+}
+
+TEST(RigidPlanar, IsWhatStiffCornersComeToWhereImpactsStayApart) {
+    auto const in = oracle::planar_check_inputs();
+    double const soft = distance_of_compliant(in, 1e9), stiff = distance_of_compliant(in, 1e12);
+    // A Hertz impact lasts as stiffness^(-2/5).
+    EXPECT_NEAR(std::log10(soft / stiff), 0.4 * 3, 0.05) << soft << " " << stiff;
+    EXPECT_LT(stiff, 0.01);
+}
+
 }  // namespace
 }  // namespace slideway::rigid_planar_test
