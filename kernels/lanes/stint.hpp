@@ -208,9 +208,7 @@ private:
         Real const step = attempt_.step;
         auto const early = before.accepted & (step > resolution() * Real(64.0));
         auto const watching = pack_.needs.watching;
-        double tolerance = Model::template Watch<Real>::tolerance(watching);
-        if constexpr (Model::has_shadows) tolerance = Shadows<Model, Real>::located;
-        Real const located = Real(tolerance) * Model::touch_scale(pack_.state.constants.parameters);
+        Real const located = located_depth(watching);
         Real fraction = pack_.state.contacts.watch.earliest(early, attempt_.report.contact, step, located, watching);
         if constexpr (Model::has_shadows) fraction = min(fraction, shadows_.earliest(pack_, early, located));
         auto const cut = fraction < Real(1.0);
@@ -218,6 +216,18 @@ private:
                                 select(cut, max(step * fraction, resolution() * Real(32.0)), before.next)};
         if constexpr (Model::has_shadows) shadows_.go_on(pack_, step, cut, allowed);
         return allowed;
+    }
+
+    /// Depth up to which an event of the contacts counts as located.
+    SLIDEWAY_HD Real located_depth(Watching watching) const {
+        auto const& constants = pack_.state.constants;
+        if constexpr (has_impacts<Model>) {
+            return Model::located(constants.parameters, constants.end);
+        } else {
+            double tolerance = Model::template Watch<Real>::tolerance(watching);
+            if constexpr (Model::has_shadows) tolerance = Shadows<Model, Real>::located;
+            return Real(tolerance) * Model::touch_scale(constants.parameters);
+        }
     }
 
     /// Moves the accepted lanes to the end of their step.  @return those that reached the end time.

@@ -49,9 +49,11 @@ struct RigidPlanarSliderCrank : PlanarBase {
     static constexpr bool switches() { return false; }
     static constexpr Watching watching(bool, bool) { return Watching::touches; }
 
-    /// Length [m] against which the tolerance of a located touch is meant: what rounding leaves of a height.
-    template <class Real> SLIDEWAY_FN static Real touch_scale(PlanarParameters<Real> const& p) {
-        return max(p.clearance, Real(1e-3) * p.rod_length);
+    /// Depth [m] up to which a corner that meets its wall is located: what rounding leaves of its height, as the crank's angle grows too.
+    template <class Real> SLIDEWAY_FN static Real located(PlanarParameters<Real> const& p, Real end) {
+        Real const turned = fma(p.rate_scale, end, Real(6.3));
+        Real const rounding = Real(4 * 2.220446049250313e-16) * fma(p.crank_length, turned, p.rod_length);
+        return fma(Real(2e-12), max(p.clearance, Real(1e-3) * p.rod_length), rounding);
     }
     template <class Real> SLIDEWAY_FN Real gap(Real t, Real const* s, PlanarParameters<Real> const& p, bool, int corner) const {
         return planar_gap(t, s, p, free_crank, {false, corner});
@@ -107,8 +109,7 @@ struct RigidPlanarSliderCrank : PlanarBase {
     template <class Real>
     SLIDEWAY_NOINLINE Mask<Real> settle(Mask<Real> in, Real t, Real end, Real* s, PlanarParameters<Real> const& p, RigidMemory<Real>& memory,
                                         RigidPlanarContact<Real> const& contact) const {
-        Real const located = Real(RigidWatch<Real>::tolerance(Watching::touches)) * touch_scale(p);
-        PlanarSettlement<Real> settlement(p, friction, free_crank, located, end);
+        PlanarSettlement<Real> settlement(p, friction, free_crank, located(p, end), end);
         return settlement.run(in, t, s, memory, contact);
     }
 

@@ -12,8 +12,6 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// sticks.
 template <class Real> class RigidWatch {
 public:
-    /// Depth [touch scales] up to which a meeting counts as located.
-    static constexpr double tolerance(Watching) { return 2e-12; }
     /// What pressure and grip may fall below 0 by.
     static constexpr double slack = 1e-9;
 
@@ -61,9 +59,11 @@ private:
     /// Where a corner first comes to its wall from inside.
     SLIDEWAY_FN static Real meeting(Mask<Real> candidates, Curve curve, Real located) {
         Real const zero(0.0), one(1.0);
+        // What ends on its wall is at its event, and what came there before is found all the same.  A corner that only leaves its wall is
+        // not there again, whatever rounding makes of heights that are next to nothing.
+        auto const leaves = (max(curve.s0, curve.s1) <= zero) & (max(abs(curve.v0), abs(curve.v1)) <= Real(64.0) * located);
         curve.v0 = min(curve.v0, zero);
-        // What ends on its wall is at its event, and what came there before is found all the same.
-        curve.v1 = select(abs(curve.v1) <= located, negated(located), curve.v1);
+        curve.v1 = select((abs(curve.v1) <= located) | leaves, negated(located), curve.v1);
         auto const crossing = candidates & may_cross(curve.v0, curve.s0, curve.v1, curve.s1);
         if (none(crossing)) return one;
         return first_zero(crossing, curve);
