@@ -2,6 +2,7 @@
 
 #include "kernels/real.hpp"
 #include "kernels/rigid/pair_problem.hpp"
+#include "kernels/rigid/rigid_scales.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -31,6 +32,8 @@ public:
         auto const no = mask_of<Real>(false);
         for (auto& state : best_.state) state = {no, no, Real(0.0), Real(0.0)};
         best_.violation = Real(2e300);
+        auto const& b = question.before;
+        rounding_ = Real(most_violation) * ((abs(b.normal[0]) + abs(b.normal[1])) + (abs(b.along[0]) + abs(b.along[1])));
     }
 
     SLIDEWAY_HD PairAnswer<Real> answer(bool friction) {
@@ -64,15 +67,18 @@ private:
         return {present, no, select(present, way, zero), select(present, way * question_.kinetic, zero)};
     }
 
+    /// What should be 0 counts where it is more than rounding: forces of a nearly singular state are huge and fulfil nothing.
+    SLIDEWAY_FN Real missed(Real rest) const { return select(abs(rest) <= rounding_, Real(0.0), abs(rest)); }
+
     /// By how much a contact breaks its conditions.  @param allowed whether the state is one that the question allows
     SLIDEWAY_FN Real broken(int contact, int doing, PairOf<Real> const& force, PairOf<Real> const& after) const {
         Real const zero(0.0), impossible(1e300);
         auto const& q = question_;
         Real const normal = force.normal[contact], along = force.along[contact];
         if (doing == open) return q.target[contact] - after.normal[contact];
-        Real const pull = negated(normal) * pair_.nn[contact][contact];
+        Real const pull = max(negated(normal) * pair_.nn[contact][contact], missed(after.normal[contact] - q.target[contact]));
         if (doing == stick) {
-            Real const excess = (abs(along) - q.holding * normal) * pair_.tt[contact][contact];
+            Real const excess = max((abs(along) - q.holding * normal) * pair_.tt[contact][contact], missed(after.along[contact]));
             return select(q.slips[contact], impossible, max(pull, excess));
         }
         Real const way = doing == forwards ? Real(1.0) : Real(-1.0);
@@ -110,6 +116,7 @@ private:
     ContactPair<Real> const& pair_;
     PairQuestion<Real> const& question_;
     PairAnswer<Real> best_;
+    Real rounding_;  // of its motion
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA
