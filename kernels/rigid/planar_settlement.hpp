@@ -161,8 +161,11 @@ private:
         Mask<Real> may_last[2];
         Real time[2];
         for (int i = 0; i < 2; ++i) {
-            Real const braking = negated(bouncing.normal[i]) * (one - p_.restitution), twice = motion.normal[i] + motion.normal[i];
-            auto const ends = (braking > zero) & (twice <= Real(chatter_time) * braking);
+            Real const pressing = negated(bouncing.normal[i]), braking = pressing * (one - p_.restitution);
+            Real const speed = max(motion.normal[i], zero), twice = speed + speed;
+            // Also those that are lower than heights are known, and would go on as rounding has it.
+            auto const soon = (twice <= Real(chatter_time) * braking) | (speed * speed <= Real(8.0) * located_ * pressing);
+            auto const ends = (braking > zero) & soon;
             time[i] = twice / select(ends, braking, one);
             may_last[i] = event & near_[i] & (was_held_[i] | ends);
         }
