@@ -180,17 +180,30 @@ private:
             auto const ends = answer.state[i].closed & (answer.force.normal[i] > zero) & may_last[i];
             auto const bounces = ends & !was_held_[i];
             books_.flight = max(books_.flight, select(bounces, time[i], zero));
-            near_[i] = near_[i] | rattling;
             auto& kept = state[i];
             kept.closed = (event & ends) | (!event & kept.closed);
             kept.sticks = kept.closed & ((event & answer.state[i].sticks) | (!event & kept.sticks));
             kept.way = select(event, select(ends, answer.state[i].way, zero), kept.way);
             kept.drag = select(event, select(ends, answer.state[i].drag, zero), kept.drag);
-            kept.closed = kept.closed | rattling;
-            kept.sticks = kept.sticks & !rattling;
-            Real const drag = drag_of(motion, i);
-            kept.way = select(rattling, select(drag < zero, Real(-1.0), one), kept.way);
-            kept.drag = select(rattling, drag, kept.drag);
+        }
+        if (any(rattling)) come_to_rest(rattling, motion, state);
+    }
+
+    /// What impacts at both corners in turn come to: neither approaches, as after one impact without restitution.
+    SLIDEWAY_HD void come_to_rest(Mask<Real> rattling, PairOf<Real> const& motion, ContactState<Real> (&state)[2]) {
+        for (auto& near : near_) near = near | rattling;
+        PairQuestion<Real> question = question_of(motion, rattling);
+        question.holding = question.kinetic;
+        auto const answer = PairChoice<Real>(stance_->pair, question).answer(friction_);
+        violated(rattling, answer, sum_of(motion));
+        push(rattling, motion, answer.force);
+        for (int i = 0; i < 2; ++i) {
+            auto const& found = answer.state[i];
+            auto& kept = state[i];
+            kept.closed = (rattling & found.closed) | (!rattling & kept.closed);
+            kept.sticks = (rattling & found.sticks) | (!rattling & kept.sticks);
+            kept.way = select(rattling, found.way, kept.way);
+            kept.drag = select(rattling, found.drag, kept.drag);
         }
     }
 
