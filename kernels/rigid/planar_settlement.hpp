@@ -177,7 +177,10 @@ private:
         }
         if (any(may_last[0] | may_last[1])) answer = lasting(event, motion, {near_[0], near_[1]});
         for (int i = 0; i < 2; ++i) {
-            auto const ends = answer.state[i].closed & (answer.force.normal[i] > zero) & may_last[i];
+            // One that lasted goes on only where the impact has not thrown it off.
+            Real const bearing = answer.force.normal[i] * stance_->pair.nn[i][i];
+            auto const stays = (!was_held_[i]) | (motion.normal[i] + motion.normal[i] <= Real(chatter_time) * bearing);
+            auto const ends = answer.state[i].closed & (answer.force.normal[i] > zero) & may_last[i] & stays;
             auto const bounces = ends & !was_held_[i];
             books_.flight = max(books_.flight, select(bounces, time[i], zero));
             auto& kept = state[i];
