@@ -1,6 +1,10 @@
 // Runs with rigid contacts.
 #pragma once
 
+#include <cmath>
+#include <random>
+#include <vector>
+
 #include "tests/support/ensemble.hpp"
 
 namespace slideway::testing {
@@ -24,6 +28,33 @@ inline RunOptions rigid_options(Parts const& parts, double tolerance, double sec
     o.settings.max_steps = 1'000'000;
     o.quantities = all_quantities & ~without_rigid_contact;
     return o;
+}
+
+/// Planar slider-cranks of all proportions, starts and restitutions, with friction up to `most_friction`.
+inline std::vector<Inputs> random_rigid_blocks(std::size_t count, unsigned seed, double most_friction) {
+    std::mt19937_64 draw(seed);
+    auto const uniform = [&draw](double low, double high) { return low + (high - low) * static_cast<double>(draw() >> 11) * 0x1p-53; };
+    std::vector<Inputs> members;
+    members.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        Inputs in;
+        in.crank_length = uniform(0.01, 0.05);
+        in.rod_length = in.crank_length * uniform(2.5, 5);
+        in.crank_speed = uniform(-120, 120);
+        in.start_angle = uniform(0, 6.283);
+        in.clearance_y = std::pow(10, uniform(-5.5, -3));
+        in.slider_length = uniform(0.02, 0.1);
+        in.slider_height = uniform(0.01, 0.06);
+        in.slider_mass = std::pow(10, uniform(-1.5, 0.5));
+        in.slider_inertia_z = in.slider_mass * (in.slider_length * in.slider_length + in.slider_height * in.slider_height) / 12 * std::pow(10, uniform(-0.5, 0.5));
+        in.restitution = uniform(0.01, 1);
+        in.friction_kinetic = uniform(0, most_friction);
+        in.friction_static = in.friction_kinetic * uniform(1, 1.5);
+        in.y = uniform(-1, 1) * in.clearance_y * 0.9;
+        in.wz = uniform(-2, 2);
+        members.push_back(complete_inputs(in));
+    }
+    return members;
 }
 
 }  // namespace slideway::testing

@@ -142,6 +142,31 @@ TEST(RigidImpacts, BalanceTheirEnergy) {
     }
 }
 
+TEST(RigidImpacts, OfAnyBlockTakeEnergyAndEnd) {
+    auto const members = testing::random_rigid_blocks(1500, 3, 0.3);
+    for (bool const free_crank : {false, true}) {
+        auto o = rigid_options(rigid_planar_parts(true, free_crank), 1e-7, 0.1);
+        o.settings.max_step = 2e-3;
+        o.settings.max_steps = 200'000;
+        auto const r = testing::run(best_isa(), o, members);
+        std::size_t jammed = 0;
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            if (r.records[i].status == Status::contact_domain) {
+                ++jammed;
+                continue;
+            }
+            ASSERT_EQ(r.records[i].status, Status::finished) << i << " " << free_crank;
+            double const lost = r.value(i, Quantity::friction_loss) + r.value(i, Quantity::damping_loss);
+            double const residual = std::abs(r.value(i, Quantity::energy_residual));
+            EXPECT_GT(lost, -1e-9) << i;
+            double const& speed = members[i].crank_speed;
+            double const scale = (members[i].slider_mass + 0.1) * (1 + speed * speed * members[i].crank_length * members[i].crank_length);
+            EXPECT_LT(residual, 1e-5 * scale) << i << " " << free_crank;
+        }
+        EXPECT_LT(jammed, members.size() / 200);
+    }
+}
+
 /// A free crank at rest, its block lying on the lower wall of a slope: what friction must hold along the wall over what the wall bears.
 double needed_friction(Inputs const& in) {
     double const y = -in.clearance_y, s1 = std::sin(in.start_angle), c1 = std::cos(in.start_angle);

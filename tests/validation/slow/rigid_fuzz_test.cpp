@@ -1,0 +1,65 @@
+// A million planar slider-cranks with rigid contacts, of all proportions, starts, restitutions and frictions: each ends with a status, none makes energy in its
+// contacts, and the dearest costs no more than some hundred of the median.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+#include "tests/support/rigid.hpp"
+
+namespace slideway::rigid_fuzz_test {
+namespace {
+
+constexpr std::size_t block = 4096;
+
+struct Found {
+    std::size_t members = 0, finished = 0, jammed = 0, spent = 0, others = 0, made_energy = 0;
+    std::vector<double> costs;
+};
+
+Found search(std::size_t count, double most_friction, bool free_crank) {
+    auto o = testing::rigid_options(testing::rigid_planar_parts(true, free_crank), 1e-6, 0.1);
+    o.settings.max_step = 2e-3;
+    o.settings.max_steps = 100'000;
+    Found found;
+    for (unsigned seed = 0; found.members < count; ++seed) {
+        auto const members = testing::random_rigid_blocks(block, 100 + seed, most_friction);
+        auto const r = testing::run(best_isa(), o, members);
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            Status const status = r.records[i].status;
+            bool const ended = status == Status::finished;
+            found.finished += ended;
+            found.jammed += status == Status::contact_domain;
+            found.spent += status == Status::max_steps;
+            found.others += !ended && status != Status::contact_domain && status != Status::max_steps;
+            double const lost = r.value(i, Quantity::friction_loss) + r.value(i, Quantity::damping_loss);
+            double const scale = std::abs(r.value(i, Quantity::crank_work)) + std::abs(r.value(i, Quantity::energy_change));
+            found.made_energy += ended && lost < -1e-6 * scale;
+            found.costs.push_back(static_cast<double>(r.records[i].rhs_evaluations));
+        }
+        found.members += members.size();
+    }
+    std::ranges::sort(found.costs);
+    auto const& c = found.costs;
+    std::printf("friction to %.1f, %s crank: %zu members, %zu finished, %zu jammed, %zu spent their steps, %zu others; right-hand sides: median %.0f, p99 %.0f, most %.0f\n",
+                most_friction, free_crank ? "free" : "driven", found.members, found.finished, found.jammed, found.spent, found.others, c[c.size() / 2],
+                c[c.size() * 99 / 100], c.back());
+    return found;
+}
+
+TEST(RigidFuzz, AMillionBlocksEndAndMakeNoEnergy) {
+    for (bool const free_crank : {false, true}) {
+        auto const mild = search(400'000, 0.3, free_crank);
+        EXPECT_EQ(mild.others, 0);
+        EXPECT_EQ(mild.made_energy, 0);
+        EXPECT_LT(mild.jammed, mild.members / 200);
+        EXPECT_LT(mild.spent, mild.members / 10'000);
+        auto const wild = search(100'000, 3, free_crank);
+        EXPECT_EQ(wild.others, 0);
+        EXPECT_EQ(wild.made_energy, 0);
+    }
+}
+
+}  // namespace
+}  // namespace slideway::rigid_fuzz_test
