@@ -64,9 +64,12 @@ private:
         auto const leaves = (max(curve.s0, curve.s1) <= zero) & (max(abs(curve.v0), abs(curve.v1)) <= Real(64.0) * located);
         curve.v0 = min(curve.v0, zero);
         curve.v1 = select((abs(curve.v1) <= located) | leaves, negated(located), curve.v1);
-        auto const crossing = candidates & may_cross(curve.v0, curve.s0, curve.v1, curve.s1);
-        if (none(crossing)) return one;
-        return first_zero(crossing, curve);
+        // What lasts was put back onto its wall, and may have brought another corner a hair inside: that meets its wall at once.
+        auto const at_once = candidates & (curve.v0 >= zero) & (curve.s0 > zero);
+        auto const crossing = candidates & !at_once & may_cross(curve.v0, curve.s0, curve.v1, curve.s1);
+        Real const soonest = select(at_once, Real(1e-12), one);
+        if (none(crossing)) return soonest;
+        return min(soonest, first_zero(crossing, curve));
     }
 
     SLIDEWAY_NOINLINE static Real first_zero(Mask<Real> crossing, Curve const& curve) {
