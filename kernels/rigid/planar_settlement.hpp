@@ -90,7 +90,7 @@ private:
             side_[i] = select(was_held_[i], memory.held[i].side, select(up, one, minus));
             depth_[i] = select(side_[i] == one, above[i], below[i]);
             near_[i] = event & (was_held_[i] | (depth_[i] > negated(located_)));
-            auto const inside = (!was_held_[i]) & (!fresh) & (depth_[i] > Real(most_overshoot) * located_);
+            auto const inside = (!was_held_[i]) & (!fresh) & (depth_[i] > Real(most_overshoot) * p_.clearance);
             jammed_ = jammed_ | (event & inside);
         }
         return event;

@@ -20,9 +20,9 @@ inline constexpr double most_violation = 1e-9;
 /// Events that may follow one another within `no_time`; more of them come to no end.
 inline constexpr double most_events_at_once = 64;
 template <class Real> SLIDEWAY_FN Real no_time(Real end) { return Real(10.0) * rattle_time(end); }
-/// A corner that is found as far inside its wall [located] met it when time could no longer resolve it: impacts pile up without
-/// becoming weaker.
-inline constexpr double most_overshoot = 1e4;
+/// A corner that is found as far inside its wall [clearances] met it when time could no longer resolve it: impacts pile up without becoming weaker.
+/// What lasts is put back onto its wall, which moves other corners by the error of a step: far less.
+inline constexpr double most_overshoot = 1e-4;
 /// Force [force scales] beyond which a wedged block counts as jammed: it grows without bound on the way there.
 inline constexpr double jamming_force = 1e7;
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <vector>
 
@@ -35,7 +36,9 @@ Found search(std::size_t count, double most_friction, bool free_crank) {
             found.others += !ended && status != Status::contact_domain && status != Status::max_steps;
             double const lost = r.value(i, Quantity::friction_loss) + r.value(i, Quantity::damping_loss);
             double const scale = std::abs(r.value(i, Quantity::crank_work)) + std::abs(r.value(i, Quantity::energy_change));
-            found.made_energy += ended && lost < -1e-6 * scale;
+            bool const made = ended && lost < -1e-6 * scale;
+            found.made_energy += made;
+            if (made) std::printf("seed %u, member %zu: %g J lost, of %g J\n", 100 + seed, i, lost, scale);
             found.costs.push_back(static_cast<double>(r.records[i].rhs_evaluations));
         }
         found.members += members.size();
@@ -53,7 +56,7 @@ TEST(RigidFuzz, AMillionBlocksEndAndMakeNoEnergy) {
         auto const mild = search(400'000, 0.3, free_crank);
         EXPECT_EQ(mild.others, 0);
         EXPECT_EQ(mild.made_energy, 0);
-        EXPECT_LT(mild.jammed, mild.members / 200);
+        EXPECT_LT(mild.jammed, mild.members / 2000);
         EXPECT_LT(mild.spent, mild.members / 10'000);
         auto const wild = search(100'000, 3, free_crank);
         EXPECT_EQ(wild.others, 0);
