@@ -45,7 +45,7 @@ MemberNumbers empty_numbers(Scene const& scene) {
 
 /// Surfaces, lines and points that touch in states; NaN where one cannot be evaluated.
 /// @param inputs of the members, by value: they start where they ended  @param states [members][states of the mechanism]
-std::vector<EndContacts> end_contacts(Scene const& scene, std::vector<Inputs> inputs, std::vector<double> const& times,
+std::vector<EndContacts> end_contacts(Scene const& scene, std::vector<Inputs> inputs, std::vector<double> times,
                                       std::span<double const> states) {
     Mechanism const mechanism = scene.parts.mechanism;
     auto const width = static_cast<std::size_t>(info(mechanism).states);
@@ -53,6 +53,7 @@ std::vector<EndContacts> end_contacts(Scene const& scene, std::vector<Inputs> in
         StateNumbers state{};
         std::copy_n(states.data() + i * width, width, state.begin());
         set_start(info(mechanism), state, inputs[i]);
+        times[i] = time_of_start(info(mechanism), times[i]);
     }
     std::vector<EndContacts> contacts;
     for (ProbeResult const& r : probe(best_isa(), scene.parts, inputs, times)) {

@@ -33,7 +33,7 @@ std::vector<ProbeResult> probe(StateTable const& table, Isa isa) {
             if (!(table.parts[row] == parts)) continue;
             rows.push_back(row);
             inputs.push_back(table.inputs[row]);
-            times.push_back(table.times[row]);
+            times.push_back(time_of_start(info(parts.mechanism), table.times[row]));
         }
         std::vector<ProbeResult> const group = probe(isa, parts, inputs, times);
         for (std::size_t i = 0; i < rows.size(); ++i) results[rows[i]] = group[i];

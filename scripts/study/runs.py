@@ -115,6 +115,12 @@ class Misaligned:
     peaks: np.ndarray  # [N]
     impacts: np.ndarray  # [J] a turn
     friction: np.ndarray
+    members: int
+
+    @property
+    def wedged(self) -> int:
+        """Members without room in their way: they lose many times what the others do, or end with a status."""
+        return int(np.sum(self.impacts > 5 * np.median(self.impacts))) + self.members - self.impacts.size
 
 
 def misaligned(root: Path, angle: float, members: int) -> Misaligned:
@@ -123,4 +129,4 @@ def misaligned(root: Path, angle: float, members: int) -> Misaligned:
     result = slideway.run(root / "scenes/crosshead_space.toml", progress=False, max_failures="20%", set={
         'study.vary."way.yaw"': scatter, 'study.vary."way.pitch"': scatter, "study.members": members, "study.verify": 0})
     ended = result.where(result.status == 0, drop=True)
-    return Misaligned(angle, ended.peak_normal_force.values, ended.damping_loss.values / 2, ended.friction_loss.values / 2)
+    return Misaligned(angle, ended.peak_normal_force.values, ended.damping_loss.values / 2, ended.friction_loss.values / 2, members)
