@@ -121,8 +121,9 @@ turned in yaw and pitch:
 |---|---|---|---|---|---|
 {space_table(space)}
 
-Medians over the members; wedged are those that lose more than five times the median. As long as the slider has room, misalignment costs nothing. Once the way is
-turned by as much as the clearance allows, some crossheads do not fit: no mean tells it, and a limit on parallelism is what prevents it.
+Medians over the members; wedged are those that lose more than five times the median. As long as the slider has room,
+misalignment costs nothing. Once the way is turned by as much as the clearance allows, some crossheads do not fit: no
+mean tells it, and a limit on parallelism is what prevents it.
 
 ## How far to trust it
 Of {sum(out.members for out in rigid + compliant):,} planar members {failed} failed. `slideway run scenes/crosshead.toml --set contact.law=rigid` repeats some of them
