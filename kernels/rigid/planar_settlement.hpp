@@ -210,11 +210,14 @@ private:
         }
     }
 
-    /// Takes from closed contacts what is left of their normal velocity.
+    /// Takes from closed contacts what is left of their normal velocity, and of their slip where they stick: next to nothing, without friction,
+    /// so that no wedged state makes much of it.
     SLIDEWAY_HD void hold(Mask<Real> in, ContactState<Real> const (&state)[2]) {
         Real const zero(0.0);
+        ContactState<Real> smooth[2] = {state[0], state[1]};
+        for (auto& each : smooth) each.way = each.drag = zero;
         auto const before = stance_->motion(links_->vx, links_->vy, spin_);
-        push(in, before, stance_->pair.solve(before, {zero, zero}, state));
+        push(in, before, stance_->pair.solve(before, {zero, zero}, smooth));
     }
 
     /// Puts corners that touch onto their walls.
