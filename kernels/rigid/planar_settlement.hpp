@@ -210,14 +210,22 @@ private:
         }
     }
 
-    /// Takes from closed contacts what is left of their normal velocity, and of their slip where they stick: next to nothing, without friction,
-    /// so that no wedged state makes much of it.
+    /// Takes from closed contacts what is left of their normal velocity, and of their slip where they stick.  With the friction of the slip that
+    /// they have; but a nearly wedged state makes much of next to nothing, and goes without.
     SLIDEWAY_HD void hold(Mask<Real> in, ContactState<Real> const (&state)[2]) {
         Real const zero(0.0);
         ContactState<Real> smooth[2] = {state[0], state[1]};
         for (auto& each : smooth) each.way = each.drag = zero;
         auto const before = stance_->motion(links_->vx, links_->vy, spin_);
-        push(in, before, stance_->pair.solve(before, {zero, zero}, smooth));
+        auto impulse = stance_->pair.solve(before, {zero, zero}, state);
+        auto const plain = stance_->pair.solve(before, {zero, zero}, smooth);
+        Real const most = Real(4.0) * (abs(plain.normal[0]) + abs(plain.normal[1]));
+        auto const tame = (abs(impulse.normal[0]) <= most) & (abs(impulse.normal[1]) <= most);
+        for (int i = 0; i < 2; ++i) {
+            impulse.normal[i] = select(tame, impulse.normal[i], plain.normal[i]);
+            impulse.along[i] = select(tame, impulse.along[i], plain.along[i]);
+        }
+        push(in, before, impulse);
     }
 
     /// Puts corners that touch onto their walls.
