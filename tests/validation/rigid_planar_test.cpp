@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "tests/oracle/moreau_jean.hpp"
 #include "tests/oracle/planar_runs.hpp"
 #include "tests/oracle/rigid_block.hpp"
 #include "tests/support/rigid.hpp"
@@ -91,6 +92,32 @@ TEST(RigidPlanar, ConvergesWithTheOrderOfItsMethod) {
     for (Method const method : {Method::dop853, Method::verner65}) {
         EXPECT_LT(distance(in, true, 1e-11, expected, method).turns, 1e-10) << name_of(method);
     }
+}
+
+/// Mean distance of the slider's height [clearances] between time stepping and the reference that goes from event to event, over 50 ms.
+double distance_of_time_stepping(Inputs const& in, bool friction, std::vector<oracle::PlanarState> const& expected, long double step) {
+    constexpr int count = 50;
+    auto const stepped = oracle::moreau_jean_run(in, rigid_planar_parts(friction, true), 1e-3L, count, step);
+    long double sum = 0;
+    for (std::size_t i = 1; i <= count; ++i) {
+        auto const height = [&](oracle::PlanarState const& s) { return in.crank_length * std::sin(s[0]) + in.rod_length * std::sin(s[1]); };
+        sum += std::abs(height(stepped[i]) - height(expected[i])) / in.clearance_y;
+    }
+    return static_cast<double>(sum / count);
+}
+
+TEST(RigidPlanar, IsWhatTimeSteppingConvergesTo) {
+    auto const flat = oracle::planar_check_inputs();
+    auto const of_flat = reference(flat, false);
+    double const coarse = distance_of_time_stepping(flat, false, of_flat, 1.6e-5L), fine = distance_of_time_stepping(flat, false, of_flat, 1e-6L);
+    // Of first order: a sixteenth of the step.
+    EXPECT_GT(std::log2(coarse / fine), 0.9 * 4) << coarse << " " << fine;
+    EXPECT_LT(fine, 1e-3);
+
+    // Where impacts at two corners follow one another faster than the steps, which take them one by one, it comes slower: docs/rigid.md.
+    auto const tilted = with_friction_and_spin();
+    auto const of_tilted = reference(tilted, true);
+    EXPECT_LT(distance_of_time_stepping(tilted, true, of_tilted, 1e-6L), 0.25 * distance_of_time_stepping(tilted, true, of_tilted, 1.6e-5L));
 }
 
 /// Largest distance of the slider's height [clearances] between compliant corners and rigid ones.
