@@ -10,7 +10,7 @@ enum class Status : signed char {
     max_steps = 2,       // spent integrator.max_steps
     nonfinite = 3,       // NaN or infinity in state, derivative or linear equations at any step that resolves time
     geometry = 4,        // the rod does not reach: L² − (y−y_A)² − z² ≤ 0
-    contact_domain = 5,  // a line contact beyond its domain δ̄ ≤ l²/R_e
+    contact_domain = 5,  // a line contact beyond its domain δ̄ ≤ l²/R_e; rigid contacts that have jammed
     invalid_inputs = 6,  // the inputs drawn for the member cannot be used; it was not integrated
     unstable = 7,        // reached the end time, but its energy audit says that the method left its stable range
 };

@@ -92,7 +92,7 @@ test, over the good ones. These numbers are assumptions: put yours into `scripts
 
 - Impacts follow the clearance; friction hardly notices it. A tighter fit cannot help a crosshead that fails by friction.
 - Rigid and compliant contacts agree on the mean energy of impacts within {100 * apart:.0f} %. Rigid members come {faster:.0f} times faster here, where most of
-  the time is flight and sliding; with less motion between impacts it is eighty times ([rigid.md](rigid.md#what-it-costs)).
+  the time is flight and sliding; with less motion between impacts it is 75 times ([rigid.md](rigid.md#what-it-costs)).
 - Peak forces are left out on purpose. They belong to the contact's stiffness: the compliant corners of this page reach
   {quantile(compliant[2].peaks, 0.5):.0f} N in {middle.name}, the same crosshead in space with its steel faces {np.median(space[0].peaks) / 1e3:.1f} kN (below). Set a
   limit on energy or impulse, or measure the stiffness first.

