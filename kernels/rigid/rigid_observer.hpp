@@ -39,7 +39,8 @@ public:
         book(this->integral_[Places::template integral_of<friction_loss>], books.friction);
         book(this->integral_[Places::template integral_of<damping_loss>], books.damping);
         book(this->integral_[Places::template integral_of<mean_normal_force>], books.impulse);
-        book(this->onsets_, books.count);
+        // As of compliant contacts: from free flight, however many corners meet their walls.
+        this->onsets_ = this->onsets_ + slideway::count<Real>(in & (books.count > Real(0.0)) & (this->mode_ == Real(0.0)));
         this->mode_ = select(in, this->mode_class(r), this->mode_);
         owed_ = select(in & (books.count > Real(0.0)), books.flight, owed_);
         this->resume(in, r, switches);

@@ -35,6 +35,7 @@ studies = {
     "tolerance_table": {"study.duration": "1 ms"},
     "poincare_0.1mm": {"study.members": 3, "study.transient_revolutions": 1, "study.revolutions": 3, "mechanism.crank_speed": "120 rpm"},
     "planar_flores": {"study.duration": "20 ms"},
+    "rigid_starts": {"study.members": 12, "study.duration": "0.1 s"},
     "sweep_clearance": {
         "study.members": 2, "study.points": 3, "study.transient_revolutions": 0, "study.revolutions": 2, "mechanism.crank_speed": "600 rpm"},
     "carriage_3": {"study.duration": "5 ms"},

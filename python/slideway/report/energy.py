@@ -118,7 +118,12 @@ def verdict(result: xr.Dataset, every: list[Column]) -> Verdict:
         )
     law = slideway.scene(result).get("contact", {}).get("law")
     name = "The contact law of corners" if law is None else f"The {law} law"
-    return _of_switching(terms, name) if _switches(result, law) else _of_conserving(terms, name)
+    if _switches(result, law):
+        return _of_switching(terms, name)
+    if law == "rigid":
+        return _of_conserving(terms, "Rigid contacts hold no energy: restitution and friction take some, and both are in the balance.")
+    return _of_conserving(terms, f"{name} derives its elastic forces from one potential, so by itself it makes no energy: friction and damping alone "
+                                 "take some, and both are in the balance.")
 
 
 def _switches(result: xr.Dataset, law: str | None) -> bool:
@@ -145,13 +150,12 @@ def _compared(terms: Balance) -> list[str]:
     return [f"It is compared with {terms.scale_name}, the largest of the energies that are known here."]
 
 
-def _of_conserving(terms: Balance, law: str) -> Verdict:
+def _of_conserving(terms: Balance, why: str) -> Verdict:
     part = share(terms)
     found = [
         f"The residual is {_amount(terms)}.",
         *_compared(terms),
-        f"{law} derives its elastic forces from one potential, so by itself it makes no energy: friction and damping alone take "
-        "some, and both are in the balance.",
+        why,
     ]
     if math.isnan(part) or (part > CLEAN and not terms.complete):
         unknown = (

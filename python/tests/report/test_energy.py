@@ -72,6 +72,9 @@ def test_a_law_is_called_by_its_name_and_judged_by_what_the_program_says_of_it()
         assert found.grade == "good"
         assert "The kelvin_voigt law derives its elastic forces from one potential" in " ".join(found.sentences)
         assert "onservative" not in " ".join(found.sentences)
+    rigid = energy.verdict(scene("rigid", contact_law_switches=0), every)
+    assert rigid.grade == "good"
+    assert "Rigid contacts hold no energy" in " ".join(rigid.sentences)
     jumping = energy.verdict(scene("stepwise", contact_law_switches=1), [quantity("energy_residual", 0.01), every[1]])
     assert jumping.headline == "The contact law made 100 % of the drive's work"
     assert "The stepwise law switches" in " ".join(jumping.sentences)
