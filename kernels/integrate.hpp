@@ -17,6 +17,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 ///  - `series`: how many columns a sample may have, the state first, or where `state_of_series(series)` says;
 ///  - `has_contacts`: the report then has a `contact`, the model `switches()` and `watching(locate_modes, neighbours)`, and the watch
 ///    `begin`, `earliest`, `update` and `keep` (kernels/steppers/contact_watch.hpp), `touch_scale(parameters)` being its length;
+///  - `has_impacts`: contacts then are rigid, `located(parameters, end)` is the length of the watch instead, and `settle(…)` says what follows
+///    where a step has ended (kernels/rigid);
 ///  - `scales(parameters, scale)`: sizes of the state's components that the absolute tolerance is meant against;
 ///  - `has_linearisation`: then `Linearisation<Real>` and `linearise(…)` serve the stiff method;
 ///  - `has_shadows`: then members have shadows beside them (kernels/lanes/shadows.hpp; kernels/models/shadowed.hpp makes such a model of

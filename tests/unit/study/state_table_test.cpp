@@ -247,5 +247,25 @@ TEST(ProbeTable, HasTheColumnsOfTheInputThenTheGoldenOnes) {
     EXPECT_TRUE(row.ends_with(",-3,finished")) << row;
 }
 
+TEST(StateTable, OfADrivenPlanarMechanismHasTheCrankWhereItSays) {
+    Scene scene;
+    scene.parts.mechanism = Mechanism::planar_slider_crank;
+    std::string const head = "t,crank_angle,rod_angle,pitch,crank_angular_velocity,rod_angular_velocity,wz\n";
+    std::string const state = ",0.7,-0.2,0,10,-3,0\n";
+    // What a state says of its forces does not depend on when it is reached.
+    StateTable const table = read(head + "0" + state + "0.37" + state, scene);
+    auto const results = probe(table, best_isa());
+    ASSERT_EQ(results.size(), 2u);
+    for (int i = 0; i < 6; ++i) EXPECT_EQ(results[0].derivative[i], results[1].derivative[i]) << i;
+    EXPECT_NE(results[0].derivative[4], 0);
+}
+
+TEST(StateTable, OfRigidContactsIsRefused) {
+    Scene scene;
+    scene.parts.mechanism = Mechanism::planar_slider_crank;
+    scene.parts.rigid = true;
+    EXPECT_NE(error_of("t,crank_angle,rod_angle,pitch,crank_angular_velocity,rod_angular_velocity,wz\n0,0,0,0,1,0,0\n", scene), "");
+}
+
 }  // namespace
 }  // namespace slideway::state_table_test
