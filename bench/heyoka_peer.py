@@ -43,7 +43,7 @@ class Problem:
 
 
 problems = [
-    Problem("lorenz", "Lorenz, 5 units of time", "dop853,dopri5", {"heyoka": Lorenz}, (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14)),
+    Problem("lorenz", "Lorenz, 5 units of time", "auto,dop853,dopri5", {"heyoka": Lorenz}, (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14)),
     Problem(
         "flight",
         "Free slider, tumbling in flight, 0.1 s",

@@ -136,7 +136,10 @@ template <class Ensemble> Outcome run_block(Isa isa, Choice const& choice, Ensem
 bool serves(Choice const& choice, Problem const& problem) {
     using enum ::slideway::Method;
     auto const* const sliders = std::get_if<SliderEnsemble>(&problem.ensemble);
-    if (sliders == nullptr) return !choice.locate_modes && is_explicit_pair(choice.method);
+    if (sliders == nullptr) {
+        bool const by_series = choice.method == automatic && problem.name == "lorenz";
+        return !choice.locate_modes && (by_series || is_explicit_pair(choice.method));
+    }
     return !choice.locate_modes || info(sliders->parts.law).switches;
 }
 

@@ -14,6 +14,7 @@
 #include "kernels/lanes/roster.hpp"
 #include "kernels/lanes/stiff_step.hpp"
 #include "kernels/lanes/stint.hpp"
+#include "kernels/lanes/taylor_step.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/bogacki_shampine.hpp"
 #include "kernels/steppers/dop853.hpp"
@@ -162,6 +163,8 @@ private:
             if constexpr (Model::has_linearisation) work<StiffStep<Model, Real>>();
         } else if (settings.method == Method::rk4) {
             work<ExplicitStep<RungeKutta4, Model, Real>>();
+        } else if (is_analytic<Model> && settings.method == Method::automatic) {
+            if constexpr (is_analytic<Model>) series();
         } else if (settings.method == Method::dop853 || (settings.method == Method::automatic && is_smooth)) {
             // Where nothing breaks the smoothness of the motion, it beats the others at every tolerance (docs/integrators.md).
             work<ExplicitStep<Dop853, Model, Real>>();
@@ -175,6 +178,15 @@ private:
             work<ExplicitStep<DormandPrince, Model, Real>>();
         }
         look(kind);
+    }
+
+    /// A stint of Taylor series of the order that suits the tolerance, −½ ln(rtol) or so.
+    SLIDEWAY_HD void series() {
+        double const rtol = block_.settings.rtol;
+        if (rtol > 1e-7) work<TaylorStep<8, Model, Real>>();
+        else if (rtol > 1e-10) work<TaylorStep<12, Model, Real>>();
+        else if (rtol > 1e-13) work<TaylorStep<16, Model, Real>>();
+        else work<TaylorStep<20, Model, Real>>();
     }
 
     template <class Stepper> SLIDEWAY_NOINLINE void work() {

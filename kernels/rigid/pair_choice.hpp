@@ -104,8 +104,8 @@ private:
         best_.violation = select(better, violation, best_.violation);
         for (int i = 0; i < 2; ++i) {
             auto& kept = best_.state[i];
-            kept.closed = (better & state[i].closed) | (!better & kept.closed);
-            kept.sticks = (better & state[i].sticks) | (!better & kept.sticks);
+            kept.closed = (better & state[i].closed) | (negation(better) & kept.closed);
+            kept.sticks = (better & state[i].sticks) | (negation(better) & kept.sticks);
             kept.way = select(better, state[i].way, kept.way);
             kept.drag = select(better, state[i].drag, kept.drag);
             best_.force.normal[i] = select(better, force.normal[i], best_.force.normal[i]);

@@ -184,8 +184,8 @@ private:
             auto const bounces = ends & !was_held_[i];
             books_.flight = max(books_.flight, select(bounces, time[i], zero));
             auto& kept = state[i];
-            kept.closed = (event & ends) | (!event & kept.closed);
-            kept.sticks = kept.closed & ((event & answer.state[i].sticks) | (!event & kept.sticks));
+            kept.closed = (event & ends) | (negation(event) & kept.closed);
+            kept.sticks = kept.closed & ((event & answer.state[i].sticks) | (negation(event) & kept.sticks));
             kept.way = select(event, select(ends, answer.state[i].way, zero), kept.way);
             kept.drag = select(event, select(ends, answer.state[i].drag, zero), kept.drag);
         }
@@ -203,8 +203,8 @@ private:
         for (int i = 0; i < 2; ++i) {
             auto const& found = answer.state[i];
             auto& kept = state[i];
-            kept.closed = (rattling & found.closed) | (!rattling & kept.closed);
-            kept.sticks = (rattling & found.sticks) | (!rattling & kept.sticks);
+            kept.closed = (rattling & found.closed) | (negation(rattling) & kept.closed);
+            kept.sticks = (rattling & found.sticks) | (negation(rattling) & kept.sticks);
             kept.way = select(rattling, found.way, kept.way);
             kept.drag = select(rattling, found.drag, kept.drag);
         }

@@ -8,6 +8,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 ///   x' = σ (y − x),   y' = x (ρ − z) − y,   z' = x y − β z.
 /// Source: Lorenz, J. Atmos. Sci. 20 (1963) 130–141, equations 25–27.  Dimensionless; every state has a derivative.
 struct Lorenz : PlainModel<3> {  // x y z
+    static constexpr bool is_analytic = true;
     struct Inputs {
         double sigma = 10;
         double rho = 28;

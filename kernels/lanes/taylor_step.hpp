@@ -1,0 +1,109 @@
+#pragma once
+
+#include "kernels/lanes/attempt.hpp"
+#include "kernels/lanes/pack.hpp"
+#include "kernels/math/jet.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Whether a model's derivative is analytic between its events, so that it may be called with series: it says `is_analytic`, and decides by
+/// nothing that changes within a step.
+template <class Model> inline constexpr bool is_analytic = requires { requires Model::is_analytic; };
+
+/// Attempts steps of a Taylor series of a given order in the lanes of a pack: x(t + h) = Σ x_k hᵏ, (k + 1) x_{k+1} the k-th coefficient of
+/// the derivative, which `Jet` finds.  The error estimate is the last term, that of the series one order lower: half the order's
+/// multiplications buy nothing but length of step, which falls with 1/e² of the radius of convergence at the best order
+/// −½ ln(tolerance) (Jorba & Zou, Experimental Mathematics 14 (2005) 99).
+template <int order_, class Model, class Real> class TaylorStep {
+public:
+    static constexpr int order = order_;
+    static constexpr bool adaptive = true;
+    static constexpr bool stiff = false;
+    static constexpr bool by_clock = false;
+    static constexpr int evaluations = order + 1;  // per attempt: its coefficients, and the end
+    static constexpr bool has_two_estimates = false;
+    static constexpr int jacobians = 0;
+
+    SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
+        expand(pack, from);
+        at(to.step, to.end);
+        last_power_ = power<order - 1>(to.step);
+        to.faults = pack.evaluate(from.t + to.step, to.end, from.memory, to.end_rates, from.needs.ends, to.report);
+    }
+
+    /// Error estimate of one component: its last term, or a part e⁻² of the one before where symmetry makes that the larger.
+    SLIDEWAY_HD Real error(Attempt<Model, Real> const& to, int i) const {
+        return last_power_ * max(abs(c_[i][order] * to.step), Real(0.1353352832366127) * abs(c_[i][order - 1]));
+    }
+
+    SLIDEWAY_HD void prepare_dense(Pack<Model, Real>&, Attempt<Model, Real> const&, Mask<Real>) {}
+
+    /// The state inside the step, at fraction θ of it.
+    SLIDEWAY_FN void dense(StepStart<Model, Real> const&, Attempt<Model, Real> const& to, Real theta, Real* state) const {
+        at(theta * to.step, state);
+    }
+
+private:
+    static_assert(!Model::has_contacts, "contacts have kinks");
+    static_assert(Pack<Model, Real>::Observer::integrals == 0, "there are no stages to add up integrands of");
+    static constexpr int size = Model::size;
+    static constexpr int length = order + 1;
+    using Rows = JetRows<Real, length>;
+    using Parameters = typename Model::template Parameters<Real>;
+    static constexpr int parameters = sizeof(Parameters) / sizeof(Real);
+
+    SLIDEWAY_HD void expand(Pack<Model, Real> const& pack, StepStart<Model, Real> const& from) {
+        Rows rows;
+        Real time[length];
+        time[0] = from.t;
+        time[1] = Real(1.0);
+        for (int k = 2; k < length; ++k) time[k] = Real(0.0);
+        for (int i = 0; i < size; ++i) c_[i][0] = from.y[i];
+        append<0>(pack, rows, time);
+    }
+
+    /// The coefficients k + 1 of the state, and those after them.
+    template <int k> SLIDEWAY_FN void append(Pack<Model, Real> const& pack, Rows& rows, Real* time) {
+        using Number = Jet<Real, length, k>;
+        using SeriesParameters = typename Model::template Parameters<Number>;
+        static_assert(sizeof(SeriesParameters) == parameters * sizeof(Number));
+        auto const* const numbers = reinterpret_cast<Real const*>(&pack.state.constants.parameters);
+        SeriesParameters constants;
+        for (int i = 0; i < parameters; ++i) reinterpret_cast<Number*>(&constants)[i] = Number(numbers[i]);
+        Number y[size], rates[size];
+        for (int i = 0; i < size; ++i) y[i] = Number(c_[i], &rows);
+        typename Model::template Memory<Number> const memory{};
+        typename Model::template Report<Number> report;
+        rows.used = 0;
+        pack.model.template derivative<false>(Number(time, &rows), y, constants, memory, rates, &report);
+        for (int i = 0; i < size; ++i) c_[i][k + 1] = Real(1.0 / (k + 1)) * rates[i].last();
+        if constexpr (k + 1 < order) append<k + 1>(pack, rows, time);
+    }
+
+    /// The state after a time, by Horner's scheme of the even and of the odd terms.
+    SLIDEWAY_FN void at(Real time, Real* state) const {
+        Real const square = time * time;
+        for (int i = 0; i < size; ++i) {
+            constexpr int last_even = order - order % 2, last_odd = order - 1 + order % 2;
+            Real even = c_[i][last_even], odd = c_[i][last_odd];
+            for (int k = last_even - 2; k >= 0; k -= 2) even = fma(even, square, c_[i][k]);
+            for (int k = last_odd - 2; k > 0; k -= 2) odd = fma(odd, square, c_[i][k]);
+            state[i] = fma(odd, time, even);
+        }
+    }
+
+    template <int n> SLIDEWAY_FN static Real power(Real x) {
+        if constexpr (n == 1) {
+            return x;
+        } else {
+            Real const half = power<n / 2>(x);
+            return n % 2 == 0 ? Real(half * half) : Real(half * half * x);
+        }
+    }
+
+    Real c_[size][length];  // of the states
+    Real last_power_;
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA
