@@ -26,6 +26,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 ///  - `has_crossings`: then `gap(…)`, beside the components of the state, may serve as a section (kernels/lanes/crossing_search.hpp);
 ///  - `has_patterns`: then `contact_pattern(…)` says which lanes have like work to do, and with a linearisation `squared_speed(…)`,
 ///    `approach_speed(…)` and `energy_scale(…)` what is a creep and what an impact;
+///  - `is_analytic`: its derivative decides by nothing that changes within a step, so that `auto` may call it with series
+///    (kernels/math/jet.hpp) instead of numbers; at most 48 operations, and no contacts;
 ///  - `events`: then `event_table`, `event_values(…)`, whose values follow from the state alone, and `reset(…)`
 ///    (kernels/mechanisms/event_info.hpp, kernels/lanes/event_search.hpp).
 template <class Model, class Real>
