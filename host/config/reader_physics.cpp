@@ -173,9 +173,9 @@ void read_integrator(Node const& root, Scene& scene) {
     IntegratorSettings& settings = scene.integrator;
     read_bound(root, "integrator", scene);
     read_given(root, "integrator.method", settings.method);
-    if (settings.method == Method::ros34pw2 && !info(scene.parts.mechanism).spatial) {
+    if (settings.method == Method::ros34pw2 && (scene.parts.rigid || !info(scene.parts.mechanism).spatial)) {
         refuse(*root.find_path("integrator.method"),
-               {fmt::format("the method has no Jacobian of a {}", info(scene.parts.mechanism).name),
+               {fmt::format("the method has no Jacobian of a {}{}", info(scene.parts.mechanism).name, scene.parts.rigid ? " with rigid contacts" : ""),
                 "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\", \"bs32\" or \"rk4\""});
     }
     Node const* const step = root.find_path("integrator.step");

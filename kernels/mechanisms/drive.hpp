@@ -33,6 +33,16 @@ template <class Drive> struct DrivenGuide {
                     force.z * lightness};
         }
 
+        /// Change of the centre's velocity by an impulse on the slider [m/s]: M Δu' = P, of which Δx' is 0 where a drive moves it.
+        SLIDEWAY_FN Vec3<Real> response(Vec3<Real> const& impulse, SliderParameters<Real> const& p) const {
+            Real const lightness = Real(1.0) / p.slider_mass;
+            return {Drive::is_free ? Real(impulse.x * lightness) : Real(0.0), impulse.y * lightness, impulse.z * lightness};
+        }
+        /// What the drive does in it [J].
+        SLIDEWAY_FN Real impulse_work(Vec3<Real> const& impulse, Vec3<Real> const&, SliderParameters<Real> const&) const {
+            return Drive::is_free ? Real(0.0) : Real(negated(impulse.x) * vx);
+        }
+
         SLIDEWAY_FN void put_rates([[maybe_unused]] Vec3<Real> const& acceleration, [[maybe_unused]] Real* rates) const {
             if constexpr (Drive::is_free) {
                 rates[10] = vx;
@@ -40,9 +50,9 @@ template <class Drive> struct DrivenGuide {
             }
         }
 
+        template <class Report>
         SLIDEWAY_FN void tell(PointMotion<Real> const& centre, SliderTurning<Real> const& turning,
-                              Vec3<Real> const& force, SliderParameters<Real> const& p,
-                              SliderReport<Real>& report) const {
+                              Vec3<Real> const& force, SliderParameters<Real> const& p, Report& report) const {
             // M x'' − F_cx − M g_x
             Real const drive =
                 Drive::is_free ? Real(0.0) : fms(p.slider_mass, centre.acceleration.x - p.gravity_x, force.x);

@@ -77,11 +77,25 @@ struct CrankAndRod {
             return {fma(ky_, ay, fma(kz_, az, bias_)), ay, az};
         }
 
+        /// Change of the centre's velocity by an impulse on the slider [m/s]: m Δu' − P along the rod, Δx' = κy Δy' + κz Δz'.
+        SLIDEWAY_FN Vec3<Real> response(Vec3<Real> const& impulse, SliderParameters<Real> const& p) const {
+            Real const one(1.0), fy = fma(ky_, impulse.x, impulse.y), fz = fma(kz_, impulse.x, impulse.z);
+            Real const ky2 = fma(ky_, ky_, one), kz2 = fma(kz_, kz_, one), kyz = ky_ * kz_;
+            Real const scale = one / (p.mass * fma(kz_, kz_, ky2));
+            Real const y = fms(kz2, fy, kyz * fz) * scale, z = fms(ky2, fz, kyz * fy) * scale;
+            return {fma(ky_, y, kz_ * z), y, z};
+        }
+        /// What the crank does in it [J]: v_A · ((m + m_AB) Δu' − P), the impulse of the pin on the rod.
+        SLIDEWAY_FN Real impulse_work(Vec3<Real> const& impulse, Vec3<Real> const& change, SliderParameters<Real> const& p) const {
+            Real const mass = p.mass + p.m_ab;
+            return fma(pin_.vx, fms(mass, change.x, impulse.x), pin_.vy * fms(mass, change.y, impulse.y));
+        }
+
         SLIDEWAY_FN void put_rates(Vec3<Real> const&, Real*) const {}
 
+        template <class Report>
         SLIDEWAY_FN void tell(PointMotion<Real> const& centre, SliderTurning<Real> const& turning,
-                              Vec3<Real> const& contact_force, SliderParameters<Real> const& p,
-                              SliderReport<Real>& report) const {
+                              Vec3<Real> const& contact_force, SliderParameters<Real> const& p, Report& report) const {
             Real const zero(0.0);
             PointMotion<Real> pin{{pin_.x, pin_.y, zero}, {pin_.vx, pin_.vy, zero}, {aax_, aay_, zero}};
             report.fill_crank(pin, centre, d_, turning, contact_force, p);

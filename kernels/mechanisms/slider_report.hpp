@@ -11,9 +11,10 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// All that a state of a mechanism with one slider in a clearance joint tells beside its derivative.
-template <class Real> struct SliderReport : MechanismReport<Real> {
+/// @tparam Contact a ContactReport, or more
+template <class Real, class Contact> struct SliderReportOf : MechanismReport<Real> {
     static constexpr int apices = 8;
-    ContactReport<Real> contact;
+    Contact contact;
     Real rod_spin_z;  // the rod's angular velocity about Z [rad/s]
 
     /// Roll, yaw and pitch [rad].
@@ -97,5 +98,7 @@ template <class Real> struct SliderReport : MechanismReport<Real> {
         rod_spin_z = rod_turning.z;
     }
 };
+
+template <class Real> struct SliderReport : SliderReportOf<Real, ContactReport<Real>> {};
 
 }  // namespace slideway::inline SLIDEWAY_ISA

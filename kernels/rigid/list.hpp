@@ -2,5 +2,9 @@
 // kernels/rigid/<name>.hpp; `Type` is the struct in it.  CMake reads the rows too: each is a unit of kernels per instruction set.
 #pragma once
 
-#define SLIDEWAY_RIGID(row) \
+#define SLIDEWAY_RIGID(row)              \
+    row(slider_crank, RigidSliderCrank)  \
+    row(carriage, RigidCarriage)         \
+    row(scotch_yoke, RigidScotchYoke)    \
+    row(free_slider, RigidFreeSlider)    \
     row(planar_slider_crank, RigidPlanarSliderCrank)

@@ -36,7 +36,7 @@ public:
     /// @return lanes where anything has changed
     SLIDEWAY_HD Mask<Real> run(Mask<Real> in, Real t, Real* s, RigidMemory<Real>& memory, RigidPlanarContact<Real> const& contact) {
         Real const zero(0.0);
-        clear(in, memory);
+        memory.clear_books(in);
         auto const event = find_events(in, memory, contact);
         Mask<Real> const changed = event | (in & ((memory.held[0].side != zero) | (memory.held[1].side != zero)));
         if (none(changed)) return changed;
@@ -63,12 +63,6 @@ public:
     }
 
 private:
-    SLIDEWAY_HD static void clear(Mask<Real> in, RigidMemory<Real>& memory) {
-        Real const zero(0.0);
-        auto& b = memory.books;
-        for (auto* value : {&b.work, &b.friction, &b.damping, &b.impulse, &b.count, &b.flight}) *value = select(in, zero, *value);
-    }
-
     /// Which corners touch, in lanes with an event, and where there is one.
     SLIDEWAY_HD Mask<Real> find_events(Mask<Real> in, RigidMemory<Real>& memory, RigidPlanarContact<Real> const& contact) {
         Real const zero(0.0), one(1.0), minus(-1.0);

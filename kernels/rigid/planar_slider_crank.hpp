@@ -23,7 +23,7 @@ struct RigidPlanarSliderCrank : PlanarBase {
     template <class Real> using Report = RigidPlanarReport<Real>;
     template <class Real> using Memory = RigidMemory<Real>;
     template <class Real> using Watch = RigidWatch<Real>;
-    template <class Real> using Observer = RigidObserver<Real>;
+    template <class Real> using Observer = RigidObserver<Real, RigidPlanarReport>;
     static constexpr int series = series_count;
     static constexpr int events = 0;
     static constexpr bool has_contacts = true;

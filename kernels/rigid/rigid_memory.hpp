@@ -1,5 +1,7 @@
 #pragma once
 
+#include "kernels/joint/contact_memory.hpp"
+#include "kernels/laws/face.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -25,23 +27,50 @@ template <class Real> struct ImpactBooks {
     }
 };
 
-/// What a member with rigid contacts remembers between its steps.
-template <class Real> struct RigidMemory {
-    static constexpr int speeds = 0;
-    HeldContact<Real> held[2];  // front and rear
+/// What a member with rigid contacts remembers between its steps, whatever touches.
+template <class Real> struct RigidCourse {
     ImpactBooks<Real> books;
     Real begun;    // 1 after the start
     Real jammed;   // 1 where no forces satisfy the contacts
     Real last;     // time of the last event [s]
     Real at_once;  // events that followed one another in no time
+
+    SLIDEWAY_FN void start() {
+        Real const zero(0.0);
+        books = ImpactBooks<Real>::none();
+        begun = jammed = at_once = zero;
+        last = Real(-1.0);
+    }
+    SLIDEWAY_FN void clear_books(Mask<Real> in) {
+        Real const zero(0.0);
+        for (auto* value : {&books.work, &books.friction, &books.damping, &books.impulse, &books.count, &books.flight}) {
+            *value = select(in, zero, *value);
+        }
+    }
+};
+
+/// Of a block between two walls.
+template <class Real> struct RigidMemory : RigidCourse<Real> {
+    static constexpr int speeds = 0;
+    HeldContact<Real> held[2];  // front and rear
 };
 
 template <class Real> SLIDEWAY_FN void start_memory(RigidMemory<Real>& memory) {
     Real const zero(0.0);
     for (auto& contact : memory.held) contact = {zero, zero};
-    memory.books = ImpactBooks<Real>::none();
-    memory.begun = memory.jammed = memory.at_once = zero;
-    memory.last = Real(-1.0);
+    memory.start();
+}
+
+/// Of a slider with eight apices.
+template <class Real> struct RigidJointMemory : RigidCourse<Real> {
+    static constexpr int speeds = 0;
+    Quad<Real> held[face_count];  // 1 where an apex lasts on its face, else 0
+};
+
+template <class Real> SLIDEWAY_FN void start_memory(RigidJointMemory<Real>& memory) {
+    Real const zero(0.0);
+    for (auto& face : memory.held) face = {zero, zero, zero, zero};
+    memory.start();
 }
 
 }  // namespace slideway::inline SLIDEWAY_ISA

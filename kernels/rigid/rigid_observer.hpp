@@ -2,14 +2,14 @@
 
 #include "kernels/observers/slider_observer.hpp"
 #include "kernels/real.hpp"
-#include "kernels/rigid/rigid_planar_report.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// The quantities of a mechanism with rigid contacts: what impacts do is no integral over time, and booked by itself.
-template <class Real> class RigidObserver : public SliderObserver<Real, RigidPlanarReport> {
+/// @tparam Report_ RigidPlanarReport or RigidSliderReport
+template <class Real, template <class> class Report_> class RigidObserver : public SliderObserver<Real, Report_> {
 public:
-    using Report = RigidPlanarReport<Real>;
+    using Report = Report_<Real>;
 
     SLIDEWAY_FN void start(Mask<Real> fresh, Report const& r, Real const* state, bool switches) {
         Base::start(fresh, r, state, switches);
@@ -47,7 +47,7 @@ public:
     }
 
 private:
-    using Base = SliderObserver<Real, RigidPlanarReport>;
+    using Base = SliderObserver<Real, Report_>;
     using Places = typename Base::Places;
     Real owed_;  // flight that is still to come [s]
 };

@@ -1,0 +1,109 @@
+#pragma once
+
+#include "kernels/joint/contact_memory.hpp"
+#include "kernels/joint/face_pair.hpp"
+#include "kernels/joint/way.hpp"
+#include "kernels/mechanisms/slider_parameters.hpp"
+#include "kernels/mechanisms/slider_turning.hpp"
+#include "kernels/real.hpp"
+#include "kernels/rigid/twist.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+inline constexpr int pair_count = 4 * face_count;
+
+/// A pair of an apex and the face that it may touch (M13.9): its gap grows by γ = normal · u, its apex slides along the face by slip · u.
+template <class Real> struct JointPair {
+    Twist<Real> normal, slip[2];
+    Twist<Real> pushed, dragged[2];  // velocities that unit impulses along them give
+    Real bias;                       // γ' of a slider that keeps its velocity [m/s²]
+};
+
+/// The pairs of a slider in one state, and how it answers to impulses there.
+template <class Guide, class Real> class JointPairs {
+public:
+    using At = typename Guide::template At<Real>;
+
+    SLIDEWAY_FN JointPairs(At const& guide, JointMotion<Real> const& motion, SliderTurning<Real> const& turning,
+                           SliderParameters<Real> const& p, bool misaligned)
+        : guide_(guide), motion_(motion), turning_(turning), p_(p), misaligned_(misaligned) {}
+
+    /// Velocity of the slider.  @param vy, vz of its centre
+    SLIDEWAY_FN Twist<Real> velocity(Real vy, Real vz) const { return {{guide_.vx, vy, vz}, turning_.omega}; }
+
+    /// Change of the velocity by an impulse.
+    SLIDEWAY_FN Twist<Real> response(Twist<Real> const& impulse) const {
+        auto const& light = p_.inverse_inertia;
+        auto const& a = impulse.angular;
+        return {guide_.response(impulse.linear, p_), {light.x * a.x, light.y * a.y, light.z * a.z}};
+    }
+
+    /// Acceleration under a force, weight, drive and gyroscopic moment included.
+    SLIDEWAY_FN Twist<Real> acceleration(Twist<Real> const& force) const {
+        auto const& w = turning_.omega;
+        auto const& light = p_.inverse_inertia;
+        Vec3<Real> momentum{p_.inertia.x * w.x, p_.inertia.y * w.y, p_.inertia.z * w.z};
+        auto moment = force.angular - cross(w, momentum);
+        return {guide_.accelerations(force.linear, p_), {light.x * moment.x, light.y * moment.y, light.z * moment.z}};
+    }
+
+    /// A torque about the slider's axes in the frame of the joint.
+    SLIDEWAY_FN Vec3<Real> to_joint(Vec3<Real> const& torque) const {
+        auto const& axes = motion_.axes;
+        return fma(torque.x, axes.x, fma(torque.y, axes.y, torque.z * axes.z));
+    }
+
+    /// @param number 4 face + place in the face
+    SLIDEWAY_NOINLINE JointPair<Real> pair(int number) const {
+        int const face = number / 4, place = number % 4;
+        Real const side(face % 2 == 0 ? 1.0 : -1.0);
+        Real const along(place < 2 ? 1.0 : -1.0), across(place == 0 || place == 3 ? 1.0 : -1.0);
+        return face < 2 ? of_axis<Axis::y>(side, along, across) : of_axis<Axis::z>(side, along, across);
+    }
+
+private:
+    /// @param along, across signs of the apex along X and across the face
+    template <Axis axis> SLIDEWAY_FN JointPair<Real> of_axis(Real side, Real along, Real across) const {
+        using Faces = FacePair<axis>;
+        auto const& g = p_.joint.geometry;
+        Real const zero(0.0);
+        auto n = Faces::normal(motion_);
+        Vec3<Real> arm{along * g.half_length, fms(side, Faces::half_main(g), Faces::main(motion_)),
+                       fms(across, Faces::half_across(g), Faces::across(motion_))};
+        auto v = Faces::arranged(motion_.velocity);
+        auto w = Faces::arranged_axial(motion_.spin);
+        auto m = cross(w, n);
+        JointPair<Real> pair;
+        // δ'' of constant u' and ω: s [(ω × (ω × n))·ρ − 2 (m_y v_y + m_z v_z)], m = ω × n; the gap is −δ.
+        Real const turning = dot(cross(w, m), arm), moving = fma(m.y, v.y, m.z * v.z);
+        pair.bias = negated(side * (turning - (moving + moving)));
+        // Of the normal force the translation feels what acts across the way (model.md 4).
+        pair.normal = row<axis>({zero, side * n.y, side * n.z}, arm, side * n);
+        auto const first = Faces::arranged(motion_.axes.x);
+        auto const second = Faces::arranged(Faces::is_y ? motion_.axes.z : motion_.axes.y);
+        pair.slip[0] = row<axis>(first, arm, first);
+        pair.slip[1] = row<axis>(second, arm, second);
+        pair.pushed = response(pair.normal);
+        pair.dragged[0] = response(pair.slip[0]);
+        pair.dragged[1] = response(pair.slip[1]);
+        return pair;
+    }
+
+    /// What a unit force comes to.  @param force on the translation  @param arm, direction of its moment
+    template <Axis axis>
+    SLIDEWAY_FN Twist<Real> row(Vec3<Real> const& force, Vec3<Real> const& arm, Vec3<Real> const& direction) const {
+        using Faces = FacePair<axis>;
+        auto const torque = Faces::arranged_axial(cross(arm, direction));
+        auto const& axes = motion_.axes;
+        return {to_inertial(misaligned_, Faces::arranged(force), p_.joint.way),
+                {dot(axes.x, torque), dot(axes.y, torque), dot(axes.z, torque)}};
+    }
+
+    At const& guide_;
+    JointMotion<Real> const& motion_;
+    SliderTurning<Real> const& turning_;
+    SliderParameters<Real> const& p_;
+    bool const misaligned_;
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

@@ -1,0 +1,221 @@
+#pragma once
+
+#include "kernels/inputs.hpp"
+#include "kernels/joint/apex.hpp"
+#include "kernels/joint/face_pair.hpp"
+#include "kernels/joint/joint_gaps.hpp"
+#include "kernels/mechanisms/faults.hpp"
+#include "kernels/mechanisms/slider_turning.hpp"
+#include "kernels/observers/energy_audit.hpp"
+#include "kernels/real.hpp"
+#include "kernels/rigid/joint_settlement.hpp"
+#include "kernels/rigid/lasting_forces.hpp"
+#include "kernels/rigid/rigid_memory.hpp"
+#include "kernels/rigid/rigid_observer.hpp"
+#include "kernels/rigid/rigid_scales.hpp"
+#include "kernels/rigid/rigid_slider_report.hpp"
+#include "kernels/rigid/touch_watch.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+template <class Real> struct RigidSliderParameters : SliderParameters<Real> { Real restitution; };
+
+/// A slider whose hole and way are rigid (docs/model.md 13), as the lanes integrate it: apices fly, meet their faces in impacts without duration (`settle`), and
+/// push as long as they last.
+/// @tparam Guide what moves the slider along the way (kernels/mechanisms/spatial_slider.hpp)
+template <class Guide> struct RigidSlider : Guide::Base {
+    using Base = typename Guide::Base;
+    template <class Real> using Parameters = RigidSliderParameters<Real>;
+    template <class Real> using Report = RigidSliderReport<Real>;
+    template <class Real> using Memory = RigidJointMemory<Real>;
+    template <class Real> using Watch = TouchWatch<Real, face_count>;
+    template <class Real> using Observer = RigidObserver<Real, RigidSliderReport>;
+    static constexpr int series = series_count;
+    static constexpr int events = 0;
+    static constexpr bool has_contacts = true;
+    static constexpr bool has_impacts = true;
+    static constexpr bool has_shadows = false;
+    static constexpr bool has_crossings = true;
+    static constexpr bool has_patterns = false;
+    static constexpr bool has_linearisation = false;
+
+    bool friction = false, misaligned_way = false;
+
+    explicit constexpr RigidSlider(Parts const& parts) : friction(parts.friction), misaligned_way(parts.misaligned_way) {}
+
+    /// Of a member; what a law needs of its restitution is not worked out.
+    SLIDEWAY_FN static RigidSliderParameters<double> parameters(Inputs in) {
+        RigidSliderParameters<double> p;
+        p.restitution = in.restitution;
+        in.restitution = 1;
+        static_cast<SliderParameters<double>&>(p) = Base::parameters(in);
+        return p;
+    }
+
+    static constexpr bool switches() { return false; }
+    static constexpr Watching watching(bool, bool) { return Watching::touches; }
+
+    /// Depth [m] up to which an apex that meets its face is located: what rounding leaves of it, as the crank's angle grows too.
+    template <class Real> SLIDEWAY_FN static Real located(RigidSliderParameters<Real> const& p, Real end) {
+        Real const turned = fma(p.rate_scale, end, Real(6.3));
+        Real const size = max(p.joint.geometry.half_length, p.crank_length);
+        return fma(Real(2e-12), max(p.length_scale_y, p.length_scale_z), Real(4 * 2.220446049250313e-16) * size * turned);
+    }
+    template <class Real>
+    SLIDEWAY_FN Real gap(Real t, Real const* s, RigidSliderParameters<Real> const& p, bool z_faces, int apex) const {
+        Real const zero(0.0);
+        Vec3<Real> const still{zero, zero, zero};
+        auto const pose = joint_motion(misaligned_way, axes(attitude(s[4], s[5], s[6])), Vec3<Real>{Guide::along(t, s, p), s[0], s[1]}, still,
+                                       still, p.joint.way);
+        return negated(penetration(pose, p.joint.geometry, Apex{z_faces, apex}));
+    }
+    template <class Real>
+    SLIDEWAY_HD static Mask<Real> left_stable_range(EnergyAudit<Real> const& audit, RigidSliderParameters<Real> const& p) {
+        return slideway::left_stable_range(audit, Base::energy_scale(p));
+    }
+
+    /// Time derivative of the state.  @param report filled if Full; the derivative has the same bits without.
+    template <bool Full, class Real>
+    SLIDEWAY_NOINLINE Faults<Real> derivative(Real t, Real const* s, RigidSliderParameters<Real> const& p, RigidJointMemory<Real> const& memory,
+                                              Real* rates, RigidSliderReport<Real>* report) const {
+        Real const zero(0.0), half(0.5);
+        auto faults = Faults<Real>::none();
+        Place<Real> const at(t, s, p, misaligned_way, faults);
+        auto const& guide = at.guide;
+        // NaN in a lane whose pose is, whatever its neighbours touch.
+        Real const whole = (at.motion.y + at.motion.z) + (at.motion.axes.x.x + at.motion.axes.y.z), nothing = whole - whole;
+        Vec3<Real> force{nothing, nothing, nothing}, torque = force;
+        Mask<Real> held[pair_count];
+        auto holding = mask_of<Real>(false);
+        for (int i = 0; i < pair_count; ++i) {
+            held[i] = number_of(memory.held, i) > half;
+            holding = holding | held[i];
+        }
+        auto const y = FacePair<Axis::y>::depths(at.motion, p.joint.geometry), z = FacePair<Axis::z>::depths(at.motion, p.joint.geometry);
+        Quad<Real> const depth[face_count] = {y.on(Real(1.0)), y.on(Real(-1.0)), z.on(Real(1.0)), z.on(Real(-1.0))};
+        if constexpr (Full) begin_report(at, depth, memory, report->contact);
+        auto jammed = memory.jammed > zero;
+        if (any(holding)) {
+            LastingForces<Guide, Real> lasting;
+            lasting.solve(at.pairs, at.velocity, depth, drift_rate(p), held, held, friction ? &p.joint.friction : nullptr);
+            auto const moment = at.pairs.to_joint(lasting.force.angular);
+            auto const add = [&](Vec3<Real>& to, Vec3<Real> const& of) {
+                to = {select(holding, of.x, to.x), select(holding, of.y, to.y), select(holding, of.z, to.z)};
+            };
+            add(force, lasting.force.linear);
+            add(torque, moment);
+            jammed = jammed | (holding & lasting.failed);
+            if constexpr (Full) tell(lasting, held, report->contact);
+        }
+        auto acceleration = guide.accelerations(force, p);
+        rates[0] = s[2];
+        rates[1] = s[3];
+        rates[2] = acceleration.y;
+        rates[3] = acceleration.z;
+        at.turning.put_rates(torque, at.motion.axes, p.inertia, p.inverse_inertia, rates);
+        guide.put_rates(acceleration, rates);
+        rates[9] = select(memory.jammed > zero, Real(not_a_number), rates[9]);
+        if constexpr (Full) {
+            Vec3<Real> const centre{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
+            guide.tell({centre, velocity, acceleration}, at.turning, force, p, *report);
+        }
+        Real const deepest = max(max(y.largest(Real(1.0)), y.largest(Real(-1.0))), max(z.largest(Real(1.0)), z.largest(Real(-1.0))));
+        faults.contact_domain = jammed;
+        faults.geometry = faults.geometry | ((memory.begun == zero) & (deepest > Real(1e-6) * p.length_scale_y));
+        return faults;
+    }
+
+    /// What follows from where a step has ended: impacts, and pairs that begin or cease to last.
+    /// @param end of the run [s]  @param contact of the report there  @return lanes where state or contacts have changed
+    template <class Real>
+    SLIDEWAY_NOINLINE Mask<Real> settle(Mask<Real> in, Real t, Real end, Real* s, RigidSliderParameters<Real> const& p,
+                                        RigidJointMemory<Real>& memory, RigidJointContact<Real> const& contact) const {
+        using Settlement = JointSettlement<Guide, Real>;
+        memory.clear_books(in);
+        Real const where = located(p, end), least_speed = Real(slip_at_rest) * max(p.length_scale_y, p.length_scale_z) * p.rate_scale;
+        Mask<Real> event;
+        auto const changed = Settlement::find(in, memory, contact, where, least_speed, event);
+        if (none(event)) return changed;
+        auto faults = Faults<Real>::none();
+        Place<Real> const at(t, s, p, misaligned_way, faults);
+        Settlement settlement(at.pairs, at.guide, p, p.restitution, friction ? &p.joint.friction : nullptr, where, end);
+        auto velocity = at.velocity;
+        settlement.run(event, t, velocity, memory, contact, least_speed);
+        auto const put = [&](int i, Real value) { s[i] = select(event, value, s[i]); };
+        put(2, velocity.linear.y);
+        put(3, velocity.linear.z);
+        put(7, velocity.angular.x);
+        put(8, velocity.angular.y);
+        put(9, velocity.angular.z);
+        if constexpr (Base::size > state_size) put(11, velocity.linear.x);
+        return changed;
+    }
+
+private:
+    /// The slider in one state.
+    template <class Real> struct Place {
+        typename Guide::template At<Real> guide;
+        SliderTurning<Real> turning;
+        JointMotion<Real> motion;
+        JointPairs<Guide, Real> pairs;
+        Twist<Real> velocity;
+        JointGeometry<Real> const& geometry;
+
+        SLIDEWAY_FN Place(Real t, Real const* s, SliderParameters<Real> const& p, bool misaligned, Faults<Real>& faults)
+            : guide(t, s, p, faults),
+              turning(SliderTurning<Real>::of(s)),
+              motion(joint_motion(misaligned, turning.axes, Vec3<Real>{guide.x, s[0], s[1]}, Vec3<Real>{guide.vx, s[2], s[3]}, turning.spin,
+                                  p.joint.way)),
+              pairs(guide, motion, turning, p, misaligned),
+              velocity(pairs.velocity(s[2], s[3])),
+              geometry(p.joint.geometry) {}
+    };
+
+    /// β of (M13.10) [1/s]: what drifts is back within a part of the drive's period.
+    template <class Real> SLIDEWAY_FN static Real drift_rate(SliderParameters<Real> const& p) { return Real(10.0) * p.rate_scale; }
+
+    template <class Real>
+    SLIDEWAY_FN static void begin_report(Place<Real> const& at, Quad<Real> const (&depth)[face_count], RigidJointMemory<Real> const& memory,
+                                         RigidJointContact<Real>& contact) {
+        contact.clear();
+        put_rates<Axis::y>(at, contact);
+        put_rates<Axis::z>(at, contact);
+        Real const far(-1.0), half(0.5);
+        auto const watched = [&](Real held, Real d) { return select(held > half, far, d); };
+        for (int face = 0; face < face_count; ++face) {
+            auto const& d = depth[face];
+            auto const& held = memory.held[face];
+            contact.penetration[face] = d;
+            contact.watched[face] = {watched(held.a, d.a), watched(held.b, d.b), watched(held.c, d.c), watched(held.d, d.d)};
+        }
+        contact.books = memory.books;
+    }
+    template <Axis axis, class Real> SLIDEWAY_FN static void put_rates(Place<Real> const& at, RigidJointContact<Real>& contact) {
+        using Faces = FacePair<axis>;
+        auto v = Faces::arranged(at.motion.velocity);
+        auto spin = Faces::arranged_axial(at.motion.spin);
+        auto const rates = Faces::rates(cross(spin, Faces::normal(at.motion)), v, at.motion, at.geometry);
+        contact.rate[Faces::first_face] = rates.on(Real(1.0));
+        contact.rate[Faces::first_face + 1] = rates.on(Real(-1.0));
+    }
+
+    template <class Real>
+    SLIDEWAY_FN static void tell(LastingForces<Guide, Real> const& lasting, Mask<Real> const (&held)[pair_count],
+                                 RigidJointContact<Real>& contact) {
+        for (int face = 0; face < face_count; ++face) {
+            auto const* const force = &lasting.normal[4 * face];
+            contact.normal_force[face] = {force[0], force[1], force[2], force[3]};
+            auto const* const touch = &held[4 * face];
+            auto const modes = face_modes<Real>(Quad<Mask<Real>>{touch[0], touch[1], touch[2], touch[3]});
+            contact.surfaces = contact.surfaces + count<Real>(modes.surface);
+            contact.lines = contact.lines + ((count<Real>(modes.line.a) + count<Real>(modes.line.b)) +
+                                             (count<Real>(modes.line.c) + count<Real>(modes.line.d)));
+            contact.points = contact.points + ((count<Real>(modes.point.a) + count<Real>(modes.point.b)) +
+                                               (count<Real>(modes.point.c) + count<Real>(modes.point.d)));
+        }
+        contact.friction_power = lasting.friction_power;
+        contact.damping_power = negated(lasting.normal_power);
+    }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

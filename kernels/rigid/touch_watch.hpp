@@ -1,0 +1,76 @@
+#pragma once
+
+#include "kernels/laws/face.hpp"
+#include "kernels/mechanisms/event_info.hpp"
+#include "kernels/real.hpp"
+#include "kernels/steppers/contact_watch.hpp"
+#include "kernels/steppers/cubic_roots.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Ends the steps of a member with rigid contacts where a pair that is not held meets: a corner its wall, an apex its face.
+/// @tparam quads of pairs: one per face of the clearance joint, one for the corners of the planar slider
+template <class Real, int quads> class TouchWatch {
+public:
+    /// Remembers what the next step starts from.
+    template <class Contact> SLIDEWAY_FN void keep(Mask<Real> taken, Contact const& contact) {
+        for (int face = 0; face < quads; ++face) {
+            take_quad(taken, contact.watched[face], depth_[face]);
+            take_quad(taken, contact.rate[face], rate_[face]);
+        }
+    }
+
+    /// Fraction of the step at which the first event is, 1 where none is before the end or the end is the event.
+    /// @param located depth [m] up to which it counts as that
+    template <class Contact>
+    SLIDEWAY_FN Real earliest(Mask<Real> candidates, Contact const& end, Real step, Real located, Watching) const {
+        Real fraction(1.0);
+        auto const meet = [&](Real d0, Real v0, Real d1, Real v1) {
+            fraction = min(fraction, meeting(candidates, {d0, step * v0, d1, step * v1}, located));
+        };
+        for (int face = 0; face < quads; ++face) {
+            auto const& depth = end.watched[face];
+            auto const& rate = end.rate[face];
+            meet(depth_[face].a, rate_[face].a, depth.a, rate.a);
+            meet(depth_[face].b, rate_[face].b, depth.b, rate.b);
+            meet(depth_[face].c, rate_[face].c, depth.c, rate.c);
+            meet(depth_[face].d, rate_[face].d, depth.d, rate.d);
+        }
+        return fraction;
+    }
+
+private:
+    SLIDEWAY_FN static void take_quad(Mask<Real> taken, Quad<Real> const& from, Quad<Real>& to) {
+        to = {select(taken, from.a, to.a), select(taken, from.b, to.b), select(taken, from.c, to.c), select(taken, from.d, to.d)};
+    }
+
+    /// A depth and its slope at both ends of [0, 1].
+    struct Curve { Real v0, s0, v1, s1; };
+
+    /// Where a pair first meets from inside.
+    SLIDEWAY_FN static Real meeting(Mask<Real> candidates, Curve curve, Real located) {
+        Real const zero(0.0), one(1.0);
+        // What ends on zero is at its event, and what came there before is found all the same.  One that only leaves is
+        // not there again, whatever rounding makes of heights that are next to nothing.
+        auto const leaves = (max(curve.s0, curve.s1) <= zero) & (max(abs(curve.v0), abs(curve.v1)) <= Real(64.0) * located);
+        curve.v0 = min(curve.v0, zero);
+        curve.v1 = select((abs(curve.v1) <= located) | leaves, negated(located), curve.v1);
+        // What lasts was put back, and may have brought another pair a hair inside: that meets at once.
+        auto const at_once = candidates & (curve.v0 >= zero) & (curve.s0 > zero);
+        auto const crossing = candidates & !at_once & may_cross(curve.v0, curve.s0, curve.v1, curve.s1);
+        Real const soonest = select(at_once, Real(1e-12), one);
+        if (none(crossing)) return soonest;
+        return min(soonest, first_zero(crossing, curve));
+    }
+
+    SLIDEWAY_NOINLINE static Real first_zero(Mask<Real> crossing, Curve const& curve) {
+        auto const rises = cubic_zeros(crossing, curve.v0, curve.s0, curve.v1, curve.s1, Direction::rising);
+        // A step that is cut must become shorter, whatever rounding says.
+        Real const first = min(rises.at[0].theta, min(rises.at[1].theta, rises.at[2].theta));
+        return select(rises.any, min(first, Real(1 - 1e-12)), Real(1.0));
+    }
+
+    Quad<Real> depth_[quads], rate_[quads];
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA
