@@ -10,7 +10,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Guide, class Real> class JointImpact {
 public:
     using Pairs = JointPairs<Guide, Real>;
-    static constexpr int most_sweeps = 1000;
+    static constexpr int most_sweeps = 1000, sweeps_to_leap = 32;
     static constexpr double settled = 1e-14;  // of the speeds, and what counts as no change of them
 
     Real normal[pair_count], along[2][pair_count];  // impulses [N s]
@@ -19,7 +19,7 @@ public:
 
     SLIDEWAY_HD JointImpact(Pairs const& pairs, Twist<Real> const& velocity, Mask<Real> const (&near)[pair_count]) : before(velocity) {
         Real const zero(0.0);
-        size_ = zero;
+        size_ = rounding_ = zero;
         for (int i = 0; i < pair_count; ++i) {
             normal[i] = along[0][i] = along[1][i] = zero;
             if (none(near[i])) continue;
@@ -32,6 +32,8 @@ public:
             Real const first = dot(pair.slip[0], pair.dragged[0]), second = dot(pair.slip[1], pair.dragged[1]);
             row.across = max(first, second) + abs(dot(pair.slip[0], pair.dragged[1]));
             size_ = max(size_, select(near[i], abs(dot(pair.normal, velocity)), zero));
+            Real const slip = abs(dot(pair.slip[0], velocity)) + abs(dot(pair.slip[1], velocity));
+            rounding_ = max(rounding_, select(near[i], Real(2.220446049250313e-16) * slip, zero));
         }
     }
 
@@ -44,10 +46,11 @@ public:
             normal[i] = along[0][i] = along[1][i] = zero;
         }
         auto active = in & (size_ > zero);
-        Real const enough = Real(settled) * size_;
+        Real const enough = max(Real(settled) * size_, rounding_);
         failed = mask_of<Real>(false);
         for (int sweep = 0; sweep < most_sweeps && any(active); ++sweep) {
-            Real change = zero;
+            Real change = zero, steps[pair_count];
+            auto const start = after;
             for (int k = 0; k < count_; ++k) {
                 auto const& row = rows_[k];
                 auto const& pair = row.pair;
@@ -56,15 +59,40 @@ public:
                 Real const target = negated(restitution[i]) * min(dot(pair.normal, before), zero);
                 Real const wish = (target - dot(pair.normal, after)) / row.own;
                 Real const step = select(here, max(wish, negated(normal[i])), zero);
+                steps[k] = step;
                 normal[i] = normal[i] + step;
                 after = fma(step, pair.pushed, after);
                 change = max(change, abs(step) * row.own);
                 if (coefficient != nullptr) change = max(change, slide(row, here, *coefficient));
             }
             active = active & (change > enough);
+            if (sweep % sweeps_to_leap == sweeps_to_leap - 1) leap(active & (change > Real(1e2) * moved(after - start)), steps);
             if (sweep + 1 == most_sweeps) failed = active & (change > Real(1e-8) * size_);
         }
         return energy_made();
+    }
+
+    /// Takes from pairs that rest what is left of their normal velocity, next to nothing, whichever way it goes.
+    SLIDEWAY_HD void rest(Mask<Real> in, Mask<Real> const (&rests)[pair_count]) {
+        Real const zero(0.0);
+        Real size = zero;
+        for (int k = 0; k < count_; ++k) {
+            auto const& row = rows_[k];
+            size = max(size, select(rests[row.number], abs(dot(row.pair.normal, after)), zero));
+        }
+        auto active = in & (size > zero);
+        for (int sweep = 0; sweep < most_sweeps && any(active); ++sweep) {
+            Real change = zero;
+            for (int k = 0; k < count_; ++k) {
+                auto const& row = rows_[k];
+                Real const rate = dot(row.pair.normal, after);
+                Real const step = select(active & rests[row.number], negated(rate) / row.own, zero);
+                normal[row.number] = normal[row.number] + step;
+                after = fma(step, row.pair.pushed, after);
+                change = max(change, abs(step) * row.own);
+            }
+            active = active & (change > Real(1e-10) * size);
+        }
     }
 
     /// Takes as much from the impulses as it needs for them to make no energy: the largest κ ≤ 1 of Λ₀ + κ (Λ − Λ₀), Λ₀ being those without restitution
@@ -147,6 +175,31 @@ public:
     }
 
 private:
+    /// The largest of the normal velocities that a change of the velocity comes to.
+    SLIDEWAY_HD Real moved(Twist<Real> const& change) const {
+        Real most(0.0);
+        for (int k = 0; k < count_; ++k) most = max(most, select(rows_[k].near, abs(dot(rows_[k].pair.normal, change)), Real(0.0)));
+        return most;
+    }
+
+    /// Four apices on one face leave open which of them carries what, and where their speeds do not belong to one plane the sweeps shift the load from apex to
+    /// apex by equal steps until one of them bears nothing: it gets there at once.
+    SLIDEWAY_HD void leap(Mask<Real> in, Real const (&steps)[pair_count]) {
+        Real const zero(0.0), one(1.0), never(1e9);
+        Real length = never;
+        for (int k = 0; k < count_; ++k) {
+            auto const falls = steps[k] < zero;
+            length = min(length, select(falls, normal[rows_[k].number] / select(falls, negated(steps[k]), one), never));
+        }
+        length = select(in & (length < never), length, zero);
+        for (int k = 0; k < count_; ++k) {
+            Real& load = normal[rows_[k].number];
+            Real const more = max(length * steps[k], negated(load));
+            load = load + more;
+            after = fma(more, rows_[k].pair.pushed, after);
+        }
+    }
+
     struct Row {
         int number;
         Mask<Real> near;
@@ -174,7 +227,7 @@ private:
 
     Row rows_[pair_count];
     int count_ = 0;
-    Real size_;
+    Real size_, rounding_;  // of the normal velocities before, and of what is no change of any [m/s]
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -56,25 +56,24 @@ public:
             near[i] = held[i] | (event & (number_of(contact.penetration, i) > Real(-4.0) * located_));
         }
         count_events(event, t, memory);
-        LastingForces<Guide, Real> lasting;
-        lasting.solve(pairs_, velocity, contact.penetration, zero, near, held, friction_);
         auto const at_once = memory.at_once >= Real(most_with_restitution);
         Real restitution[pair_count];
-        auto met = mask_of<Real>(false);
-        for (int i = 0; i < pair_count; ++i) {
-            Real const speed = restitution_ * max(negated(lasting.gap_rate[i]), zero), twice = speed + speed;
-            // From speed γ against the acceleration a bounces are over after 2 γ/(a (1 − e)); also those that are lower than heights are known.
-            Real const pressing = negated(lasting.acceleration[i]), braking = pressing * (one - restitution_);
-            auto const ends = (braking > zero) & ((twice <= Real(chatter_time) * braking) | (speed * speed <= Real(8.0) * located_ * pressing));
-            restitution[i] = select(held[i] | ends | at_once, zero, restitution_);
-            met = met | (near[i] & (!held[i]) & (lasting.gap_rate[i] < zero));
-        }
+        for (int i = 0; i < pair_count; ++i) restitution[i] = select(held[i] | at_once, zero, restitution_);
         JointImpact<Guide, Real> impact(pairs_, velocity, near);
         Real const* const coefficient = friction_ != nullptr ? &friction_->kinetic_coefficient : nullptr;
         Real const made = impact.solve(event, restitution, coefficient);
         auto const makes_energy = event & (made > Real(1e-12) * impact.energy_moved());
         if (coefficient != nullptr && any(makes_energy)) impact.limit_energy(pairs_, makes_energy, coefficient);
         memory.jammed = select(event & impact.failed, one, memory.jammed);
+        Mask<Real> rests[pair_count];
+        for (auto& rest : rests) rest = mask_of<Real>(false);
+        auto met = mask_of<Real>(false);
+        impact.each([&](int i, Real before, Real after) {
+            rests[i] = near[i] & (after <= least_speed);
+            met = met | (near[i] & (!held[i]) & (before < zero));
+        });
+        end_bounces(impact, contact, near, rests);
+        impact.rest(event, rests);
         auto const force = impact.impulse();
         auto const taken = impact.taken();
         auto const change = impact.after - velocity;
@@ -86,15 +85,29 @@ public:
         book(books.impulse, taken.impulse);
         book(books.count, count<Real>(met));
         // What has come to rest along its normal lasts, until nothing presses it any longer.
-        for (int i = 0; i < pair_count; ++i) number_of(memory.held, i) = select(event, zero, number_of(memory.held, i));
-        impact.each([&](int i, Real, Real rate) {
+        for (int i = 0; i < pair_count; ++i) {
             Real& kept = number_of(memory.held, i);
-            kept = select(event & near[i] & (rate <= least_speed), one, kept);
-        });
+            kept = select(event, count<Real>(rests[i]), kept);
+        }
         velocity = select(event, impact.after, velocity);
     }
 
 private:
+    /// Bounces that would be over in no time, or are lower than heights are known, have come to rest.  From speed γ against the acceleration a
+    /// that those which rest leave it they are over after 2 γ/(a (1 − e)).
+    SLIDEWAY_HD void end_bounces(JointImpact<Guide, Real> const& impact, RigidJointContact<Real> const& contact,
+                                 Mask<Real> const (&near)[pair_count], Mask<Real> (&rests)[pair_count]) const {
+        Real const zero(0.0), one(1.0);
+        LastingForces<Guide, Real> lasting;
+        lasting.solve(pairs_, impact.after, contact.penetration, zero, near, rests, friction_);
+        for (int i = 0; i < pair_count; ++i) {
+            Real const speed = lasting.gap_rate[i], twice = speed + speed;
+            Real const pressing = negated(lasting.acceleration[i]), braking = pressing * (one - restitution_);
+            auto const ends = (twice <= Real(chatter_time) * braking) | (speed * speed <= Real(8.0) * located_ * pressing);
+            rests[i] = rests[i] | (near[i] & (braking > zero) & ends);
+        }
+    }
+
     /// Events at one time that still have restitution; those after them come to what one impact without it comes to.
     static constexpr double most_with_restitution = 4;
 

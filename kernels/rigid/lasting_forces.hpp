@@ -28,7 +28,7 @@ template <class Real> SLIDEWAY_FN Real number_of(Quad<Real> const (&of)[face_cou
 template <class Guide, class Real> class LastingForces {
 public:
     using Pairs = JointPairs<Guide, Real>;
-    static constexpr int most_sweeps = 400;
+    static constexpr int most_sweeps = 400, sweeps_to_leap = 32;
     /// Change of an acceleration, in units of what the slider would have without contact, that counts as none.
     static constexpr double settled = 1e-13;
 
@@ -77,17 +77,20 @@ public:
         auto active = size > zero;
         Real const enough = Real(settled) * size;
         for (int sweep = 0; sweep < most_sweeps && any(active); ++sweep) {
-            Real change = zero;
+            Real change = zero, steps[pair_count];
+            auto const start = moving;
             for (int k = 0; k < count; ++k) {
                 auto const& row = rows_[k];
                 Real& load = normal[row.pair];
                 Real const wish = negated(row.target + dot(row.normal, moving)) / row.own;
                 Real const step = select(active & row.held, max(wish, negated(load)), zero);
+                steps[k] = step;
                 load = load + step;
                 moving = fma(step, row.pushed, moving);
                 change = max(change, abs(step) * row.own);
             }
             active = active & (change > enough);
+            if (sweep % sweeps_to_leap == sweeps_to_leap - 1) leap(active & (change > Real(1e2) * moved(moving - start, count)), steps, count, moving);
             // What comes to next to nothing within that many sweeps is a wedge.
             if (sweep + 1 == most_sweeps) failed = failed | (active & (change > Real(1e-6) * size));
         }
@@ -104,6 +107,28 @@ public:
     }
 
 private:
+    /// As of a JointImpact.
+    SLIDEWAY_HD Real moved(Twist<Real> const& change, int count) const {
+        Real most(0.0);
+        for (int k = 0; k < count; ++k) most = max(most, select(rows_[k].held, abs(dot(rows_[k].normal, change)), Real(0.0)));
+        return most;
+    }
+    SLIDEWAY_HD void leap(Mask<Real> in, Real const (&steps)[pair_count], int count, Twist<Real>& moving) {
+        Real const zero(0.0), one(1.0), never(1e9);
+        Real length = never;
+        for (int k = 0; k < count; ++k) {
+            auto const falls = steps[k] < zero;
+            length = min(length, select(falls, normal[rows_[k].pair] / select(falls, negated(steps[k]), one), never));
+        }
+        length = select(in & (length < never), length, zero);
+        for (int k = 0; k < count; ++k) {
+            Real& load = normal[rows_[k].pair];
+            Real const more = max(length * steps[k], negated(load));
+            load = load + more;
+            moving = fma(more, rows_[k].pushed, moving);
+        }
+    }
+
     struct Row {
         int pair;
         Twist<Real> normal;
