@@ -12,6 +12,7 @@ import slideway
 from .drawings import apices, mechanism
 from .figures import bifurcation, energy_residual, heyoka, modes, poincare, tolerance, work_precision
 from .film import film
+from .impacts import rigid
 from .overviews import layers, plots, report, stability
 from .style import Picture, largest
 
@@ -25,6 +26,7 @@ PICTURES: dict[str, Picture] = {
     "bifurcation": bifurcation,
     "tolerance": tolerance,
     "work_precision": work_precision,
+    "rigid": rigid,
     "heyoka": heyoka,
     "stability": stability,
     "layers": layers,
