@@ -65,69 +65,72 @@ def page(rigid: list[Outcome], compliant: list[Outcome], bought: dict[str, Outco
     failed = sum(out.failed for out in rigid + compliant)
     return f"""# A worked study: which fit for a crosshead?
 
-`scripts/study.sh` makes this page. A small pump has a crosshead 25 mm high on a way, driven at 600 rpm by a crank of
-30 mm. Its drawing gives a fit, friction scatters, so does the restitution of the impacts, and nobody knows where the
-crank stands at the start. Two limits are set for a turn: {1e3 * impact_limit:.1f} mJ lost in impacts (above that the
-pump is heard) and {1e3 * friction_limit:.0f} mJ lost to friction. Which fit, and which tolerance is worth money?
+A crosshead is the slider that guides the piston rod of a pump. This one is 25 mm high, and a crank of 30 mm drives it at 600 rpm
+(`scenes/crosshead.toml`). The drawing gives its fit. Friction and the restitution of impacts scatter, and the crank angle at the start is
+random. Two limits apply per turn: {1e3 * impact_limit:.1f} mJ lost in impacts (above it the pump is heard) and {1e3 * friction_limit:.0f} mJ lost to friction. Which fit should the
+drawing give, and which tolerance is worth its price? `scripts/study.sh` runs the study and writes this page.
 
 | what scatters | how |
 |---|---|
 | clearance | between the limits of the fit (ISO 286-1, 18 to 30 mm), normal, limits at three standard deviations |
-| friction | 0.08, standard deviation 0.01, from 0.05 to 0.11 |
+| friction coefficient | 0.08, standard deviation 0.01, from 0.05 to 0.11 |
 | restitution | 0.4 to 0.7, uniform |
 | speed | 600 rpm, standard deviation 6 |
 
 ## Four fits
-{rigid[0].members:,} crossheads a fit over ten turns with [rigid contacts](rigid.md), {compliant[0].members} with contacts that
-give way; 95 % intervals.
+For each fit {rigid[0].members:,} crossheads ran ten turns with [rigid contacts](rigid.md), and {compliant[0].members} with compliant ones: steel corners of 0.5 mm radius with
+the same restitution. Brackets are 95 % intervals of sampling.
 
-| fit | clearance, µm | impacts, mJ a turn: mean, 95 % | the same, compliant | keep the limit of impacts | keep both | price of a good one |
+| fit | clearance, µm | lost in impacts, mJ per turn: mean, 95 % quantile | the same, compliant | meet the impact limit | meet both limits | cost per good part |
 |---|---|---|---|---|---|---|
 {fits_table(rigid, compliant)}
 
 ![Distributions of the energy lost in impacts for four fits, with rigid and compliant contacts, and the limit](pictures/study.svg)
 
-The price counts making a crosshead ({", ".join(f"{fit.name} {fit.cost:g}" for fit in fits)}) and {rejected_cost:g} for one that fails its
-test, over the good ones. These numbers are assumptions: put yours into `scripts/study/runs.py`. With them **{best.name}** is the cheapest.
+*Solid: rigid contacts; dotted: compliant ones; vertical line: the limit.*
 
-- Impacts follow the clearance; friction hardly notices it. A tighter fit cannot help a crosshead that fails by friction.
-- Rigid and compliant contacts agree on the mean energy of impacts within {100 * apart:.0f} %. Rigid members come {faster:.0f} times faster here, where most of
-  the time is flight and sliding; with less motion between impacts it is 75 times ([rigid.md](rigid.md#what-it-costs)).
-- Peak forces are left out on purpose. They belong to the contact's stiffness: the compliant corners of this page reach
-  {quantile(compliant[2].peaks, 0.5):.0f} N in {middle.name}, the same crosshead in space with its steel faces {np.median(space[0].peaks) / 1e3:.1f} kN (below). Set a
-  limit on energy or impulse, or measure the stiffness first.
+The cost per good part is that of making all parts ({", ".join(f"{fit.name} {fit.cost:g}" for fit in fits)} each) plus {rejected_cost:g} for each part that fails its
+test, divided by the number of good parts. These prices are assumptions: put yours into `scripts/study/runs.py` and `page.py`. With them
+**{best.name}** is the cheapest.
+
+- Losses in impacts grow with the clearance; friction losses hardly depend on it. A tighter fit does not help a crosshead that fails by friction.
+- Rigid and compliant contacts agree on the mean energy of impacts within {100 * apart:.0f} %. Rigid members run {faster:.0f} times faster here, where the
+  crosshead mostly flies or slides; with more impacts per unit of time it can be 75 times ([rigid.md](rigid.md#what-it-costs)).
+- The study sets no limit on peak forces, because they depend on the stiffness of the contact: the compliant corners of this page reach
+  {quantile(compliant[2].peaks, 0.5):.0f} N in {middle.name} (median), the same crosshead in space with steel faces {np.median(space[0].peaks) / 1e3:.1f} kN (below). Limit the energy or the
+  impulse, or measure the stiffness first.
 
 ## Which tolerance to tighten
-{middle.name}, total Sobol indices (the share of the variance that would be gone with this input known), and what halving each scatter
-alone does. As drawn, {share(int(np.sum(base.good)), base.good.size)} keep both limits.
+For {middle.name}: total Sobol indices (the share of the variance that would remain if all other inputs were known), and what halving the scatter of
+each input alone does. As drawn, {share(int(np.sum(base.good)), base.good.size)} meet both limits.
 
-| input | of impacts | of friction | halved: keep the limit of impacts | keep that of friction | keep both |
+| input | share of impact losses | share of friction losses | halved: meet the impact limit | meet the friction limit | meet both |
 |---|---|---|---|---|---|
 {tightening_table(bought, parts)}
 
-Halving the scatter of **{names[first]}** buys most: {share(int(np.sum(after.good)), after.good.size)} keep both. The others buy little while that one stays as
-it is.
+Halving the scatter of **{names[first]}** helps most: {share(int(np.sum(after.good)), after.good.size)} then meet both limits. The others help little as long as that
+one stays as it is.
 
-## What being wrong costs
-Were {fits[3].name} built instead of {middle.name}, {100 * (1 - np.mean(rigid[3].good)):.0f} % would fail instead of {100 * (1 - np.mean(rigid[2].good)):.0f} %,
-and a good crosshead would cost {price(fits[3], rigid[3]):.2f} instead of {price(middle, rigid[2]):.2f}. {fits[0].name} would lose
-{100 * (1 - np.mean(rigid[0].good)):.0f} % all the same, to friction, and cost {price(fits[0], rigid[0]):.2f}.
+## What a wrong choice costs
+With {fits[3].name} instead of {middle.name}, {100 * (1 - np.mean(rigid[3].good)):.0f} % would fail instead of {100 * (1 - np.mean(rigid[2].good)):.0f} %,
+and a good crosshead would cost {price(fits[3], rigid[3]):.2f} instead of {price(middle, rigid[2]):.2f}. With {fits[0].name},
+{100 * (1 - np.mean(rigid[0].good)):.0f} % would still fail, by friction, at a cost of {price(fits[0], rigid[0]):.2f}.
 
 ## Alignment
-The same crosshead in space (`scenes/crosshead_space.toml`, {space[0].peaks.size} members, two turns, steel faces that give way), its way
-turned in yaw and pitch:
+The same crosshead in space (`scenes/crosshead_space.toml`, {space[0].peaks.size} members, two turns, compliant steel faces), its way turned by random
+angles in yaw and pitch:
 
-| misalignment, mrad (1 sd) | parallelism on the drawing, mm over 100 mm (3 sd) | impacts, mJ a turn | friction, mJ a turn | peak force, kN | wedged |
+| misalignment, mrad (1 sd) | parallelism on the drawing, mm over 100 mm (3 sd) | lost in impacts, mJ per turn | to friction, mJ per turn | peak force, kN | wedged |
 |---|---|---|---|---|---|
 {space_table(space)}
 
-Medians over the members; wedged are those that lose more than five times the median. As long as the slider has room,
-misalignment costs nothing. Once the way is turned by as much as the clearance allows, some crossheads do not fit: no
-mean tells it, and a limit on parallelism is what prevents it.
+Losses and forces are medians over the members. A member counts as wedged if it loses more than five times the median in impacts, or fails.
+As long as the slider has room, misalignment costs nothing. Once the way is turned by as much as the clearance allows, some crossheads do not
+fit. Medians do not show this; a limit on parallelism prevents it.
 
 ## How far to trust it
 Of {sum(out.members for out in rigid + compliant):,} planar members {failed} failed. `slideway run scenes/crosshead.toml --set contact.law=rigid` repeats some of them
-with tolerances a hundred times tighter and says `resolved`. Intervals are of chance alone. Restitution and friction of such a joint are guesses until they
-are measured, and the study shows that the yield hangs on one of them. One corner model is not another: see
-[where rigid and compliant contacts part](rigid.md#is-it-what-a-stiff-contact-comes-to).
+with tolerances a hundred times tighter and says `resolved`. The intervals contain the error of sampling alone. Restitution and friction of such a joint are
+guesses until they are measured, and the yield depends on one of them. Rigid and compliant corners are different models:
+[where they agree](rigid.md#agreement-with-stiff-compliant-contacts).
 """

@@ -19,7 +19,7 @@ def picture(rigid: list[Outcome], compliant: list[Outcome]) -> str:
             ordered = 1e3 * np.sort(of.impacts)
             chosen = np.unique(np.linspace(0, ordered.size - 1, 160).astype(int))
             ax.plot(ordered[chosen], (chosen + 0.5) / ordered.size, style, color=colour, lw=2, label=label)
-    ax.plot([], [], ":", color="#555555", lw=2, label="contacts that give way")
+    ax.plot([], [], ":", color="#555555", lw=2, label="compliant contacts")
     ax.axvline(1e3 * impact_limit, color=limit_colour, lw=1.2, label="limit")
     ax.set_xscale("log")
     ax.set_xticks([0.02, 0.05, 0.1, 0.2, 0.5, 1, 2], ["0.02", "0.05", "0.1", "0.2", "0.5", "1", "2"])
