@@ -10,8 +10,10 @@ import shlex
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import nbformat
+import numpy as np
 import pytest
 import slideway
 from nbclient import NotebookClient
@@ -94,6 +96,20 @@ def ends_of_documents(program: str, tmp_path_factory: pytest.TempPathFactory) ->
 @pytest.mark.parametrize("document", DOCUMENTS)
 def test_examples_of_documents_run(document: str, ends_of_documents: dict[str, str]) -> None:
     assert ends_of_documents[document] == ""
+
+
+def test_the_sampled_posterior_is_that_of_the_linearised_model(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Noise so small leaves a Gaussian: its covariance is that of least squares, noise² (JᵀJ)⁻¹, with J by central differences."""
+    (block,) = [block for block in python_blocks("docs/python.md") if "import emcee" in block]
+    monkeypatch.chdir(root)
+    names: dict[str, Any] = {"np": np, "slideway": slideway}
+    exec(compile(block, "docs/python.md", "exec"), names)
+    truth, steps = np.array([0.4, 1e-3]), np.diag([1e-3, 1e-6])
+    jacobian = np.stack([(names["heights"](truth[None] + step) - names["heights"](truth[None] - step))[0] / (2 * step.sum()) for step in steps], axis=1)
+    expected = np.sqrt(np.diag(np.linalg.inv(jacobian.T @ jacobian))) * names["noise"]
+    drawn = names["drawn"]
+    assert np.allclose(drawn.std(axis=0), expected, rtol=0.2)
+    assert np.all(np.abs(drawn.mean(axis=0) - truth) < 3 * expected)
 
 
 def test_commands_of_the_tutorial_run(program: str, tmp_path: Path) -> None:
