@@ -34,6 +34,7 @@ PYTHONDONTWRITEBYTECODE=1 NO_MKDOCS_2_WARNING=1 "$environment/bin/mkdocs" build 
     rm -rf "$output.part"
     stop "the site was not made, one made before is as it was (see above)"
 }
+rm -f "$output.part/404.html"  # of a server; its links would lead nowhere
 rm -rf "$output"
 mv "$output.part" "$output"
 echo "site         $output/index.html"

@@ -77,7 +77,7 @@ _floors = (  # docs/architecture.md, from above
     ("commands", "parse, call, print", 0), ("library, Python module", "in memory", 0), ("study", "what to run, what to conclude", 0),
     ("store", "shards, results, merge", 0), ("run", "blocks over threads and ranks", 0), ("chaos, statistics", "plain numbers", 0),
     ("config, sampling, base", "keys, scenes, designs, files", 0), ("backend", "kernels per instruction set, GPUs", 0),
-    ("lanes", "one member per lane: try, accept, refill", 1), ("steppers, observers", "methods, events, quantities", 1),
+    ("lanes, rigid", "one member per lane; rigid contacts", 1), ("steppers, observers", "methods, events, quantities", 1),
     ("mechanisms, joint", "equations; eight apices to a wrench", 1), ("laws", "one call per face", 1), ("math, real", "numbers of each instruction set", 1),
 )  # fmt: skip
 
