@@ -31,7 +31,7 @@ shorter = {{
 }}
 line = sys.argv[1:]
 if line[0] == "run":
-    kind = os.path.basename(line[1]).split("_")[0]
+    kind = os.path.basename(line[1]).partition(".")[0].partition("_")[0]
     kind = "slider_crank" if kind == "slider" else kind
     for setting in shorter[kind]:
         line += ["--set", setting]
