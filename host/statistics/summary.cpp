@@ -1,8 +1,9 @@
 #include "host/statistics/summary.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <ranges>
 
+#include <boost/iterator/counting_iterator.hpp>
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
@@ -14,7 +15,8 @@ namespace {
 
 /// The least number up to `end` for which it does not hold, where it holds for all below that and for none above; `end` if there is none.
 template <class Condition> std::uint64_t first_without(std::uint64_t end, Condition const& holds) {
-    return *std::ranges::partition_point(std::views::iota(std::uint64_t{0}, end), holds);
+    using Number = boost::counting_iterator<std::uint64_t>;
+    return *std::partition_point(Number(0), Number(end), holds);
 }
 
 }  // namespace

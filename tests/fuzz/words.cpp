@@ -21,6 +21,7 @@ Isa best_isa() { return Isa::scalar; }
 std::span<Isa const> all_isas() { return isas; }
 std::span<Isa const> built_isas() { return std::span(isas).first(1); }
 std::shared_ptr<Backend const> cpu_backend(Isa) { return nullptr; }
+int default_threads() { return 1; }
 }  // namespace slideway
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
