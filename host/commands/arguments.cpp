@@ -199,9 +199,10 @@ void add_report(Options& options, ReportArguments& report) {
 }
 
 void add_list(Options& options, ListArguments& list) {
+    CLI::Option* const keys = options.flag("--keys", list.keys, "The keys of a scene alone");
     CLI::Option* const json = options.flag("--json", list.json, "The keys of a scene as JSON");
-    CLI::Option* const schema = options.flag("--schema", list.schema, "A JSON Schema of scenes, for editors of TOML")->excludes(json);
-    options.flag("--markdown", list.markdown, "The keys of a scene as a page in Markdown")->excludes(json)->excludes(schema);
+    CLI::Option* const schema = options.flag("--schema", list.schema, "A JSON Schema of scenes, for editors of TOML")->excludes(json)->excludes(keys);
+    options.flag("--markdown", list.markdown, "The keys of a scene as a page in Markdown")->excludes(json)->excludes(keys)->excludes(schema);
 }
 
 std::string help_of(std::string const& command);

@@ -155,7 +155,7 @@ struct ReportArguments {
 int execute(ReportArguments const& arguments);
 
 struct ListArguments {
-    bool json = false, schema = false, markdown = false;  // one of them: of the keys of a scene
+    bool keys = false, json = false, schema = false, markdown = false;  // one of them, or the first two: of the keys of a scene
 };
 int execute(ListArguments const& arguments);
 

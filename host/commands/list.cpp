@@ -89,8 +89,9 @@ void print_laws() {
             print_row("  {:<30} {} [{}]: {}", "", key.name, key.unit, key.meaning);
         }
     }
-    print_row("  {:<30} {}{}", rigid_contact.name, rigid_contact.words,
-              owners_text([](MechanismInfo const& one) { return may_be_rigid(static_cast<Mechanism>(&one - mechanisms().data())); }));
+    std::string const rigid = owners_text([](MechanismInfo const& one) { return may_be_rigid(static_cast<Mechanism>(&one - mechanisms().data())); });
+    print_row("  {:<30} {}{}", rigid_contact.name, rigid_contact.words, rigid.empty() ? " (every mechanism)" : rigid);
+    print_row("  {:<30} damping: restitution, which it needs", "");
 }
 
 /// Of `design_names`.
@@ -123,6 +124,10 @@ std::string state_of(Isa isa) {
 }  // namespace
 
 int execute(ListArguments const& arguments) {
+    if (arguments.keys && !arguments.json) {
+        print_keys();
+        return exit_code::done;
+    }
     if (arguments.json || arguments.schema || arguments.markdown) {
         fmt::print("{}", arguments.json ? keys_json() : arguments.schema ? scene_schema() : keys_markdown());
         return exit_code::done;

@@ -69,6 +69,8 @@ bool counts_for(Key const& key, Parts const& parts) {
     bool const spatial = info(parts.mechanism).spatial;
     // Corners of the planar slider stick and slip exactly (docs/model.md 13).
     if (parts.rigid && !spatial && key.group == KeyGroup::smooth_friction) return false;
+    // What gives way under a face.
+    if (parts.rigid && (key.member == &Inputs::thickness_y || key.member == &Inputs::thickness_z)) return false;
     if (!spatial && !parts.rigid) return true;
     LawInfo const& law = contact_info(parts);
     if (key.group == KeyGroup::law) return std::ranges::find(law.keys, key.name, &Key::name) != law.keys.end();

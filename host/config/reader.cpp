@@ -106,6 +106,16 @@ void refuse_foreign_quantity(Node const& node, std::string_view name, Mechanism 
         fmt::format("{}: {} is no quantity of a {}; see `slideway list`", node.where, name, info(mechanism).name));
 }
 
+std::optional<Problem> why_unknown(Quantity quantity, Scene const& scene) {
+    if (scene.parts.rigid && selects(without_rigid_contact, quantity)) {
+        return Problem{"contact.law \"rigid\" has impulses, of no duration and no largest force", "remove it, or use a law that gives way"};
+    }
+    if (quantity == Quantity::switching_energy && makes_energy(scene.parts) && !scene.integrator.locate_modes) {
+        return Problem{"it is known where steps end at the switches, and here they leap over them", "set integrator.locate_modes = true"};
+    }
+    return {};
+}
+
 void refuse_at_rest(Node const& node, Parts const& parts, std::string_view instead) {
     refuse(node, {fmt::format("{}, so there are no revolutions", why_no_period(parts)), fmt::format("use {} instead", instead)});
 }

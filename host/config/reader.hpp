@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -78,6 +79,8 @@ double shortest_reversal(Scene const& scene);
 [[noreturn]] void refuse_strange(Node const& node, Parts const& parts);
 /// Refuses a quantity or a series that the scene's mechanism does not have.
 [[noreturn]] void refuse_foreign_quantity(Node const& node, std::string_view name, Mechanism mechanism);
+/// Why the scene's members do not have a quantity of their mechanism, where it is so.
+std::optional<Problem> why_unknown(Quantity quantity, Scene const& scene);
 
 /// How long the members of a study of orbits run [s], and how often their steps end at known times.
 struct RunLength {

@@ -19,7 +19,7 @@ struct LimitedQuantity {
 }
 
 /// Of "mode_time[free]" or "peak_normal_force".
-LimitedQuantity read_name(Node const& node, Mechanism mechanism) {
+LimitedQuantity read_name(Node const& node, Scene const& scene) {
     std::string_view const name = node.key;
     auto const bracket = name.find('[');
     std::string_view const quantity = name.substr(0, bracket);
@@ -32,14 +32,13 @@ LimitedQuantity read_name(Node const& node, Mechanism mechanism) {
         refuse_name(node, series ? "it is a time series" : "there is no such quantity",
                     series ? std::string("limit a quantity, see `slideway list`") : choice_advice(quantity, names));
     }
-    auto const index = found - names.begin();
-    if (!selects(info(mechanism).quantities, static_cast<Quantity>(index))) {
-        refuse_foreign_quantity(node, quantity, mechanism);
-    }
-    QuantityInfo const& info = quantity_table[index];
+    auto const limited = static_cast<Quantity>(found - names.begin());
+    if (!selects(info(scene.parts.mechanism).quantities, limited)) refuse_foreign_quantity(node, quantity, scene.parts.mechanism);
+    if (auto const why = why_unknown(limited, scene)) refuse_name(node, why->reason, why->advice);
+    QuantityInfo const& info = quantity_table[found - names.begin()];
     if (info.dimension == nullptr) {
         if (bracket != name.npos) refuse_name(node, "it is one number", fmt::format("write \"{}\"", quantity));
-        return {static_cast<Quantity>(index), {}};
+        return {limited, {}};
     }
     auto const labels = labels_of(info.dimension);
     std::string const advice =
@@ -51,7 +50,7 @@ LimitedQuantity read_name(Node const& node, Mechanism mechanism) {
     if (!closed || std::find(labels.begin(), labels.end(), label) == labels.end()) {
         refuse_name(node, fmt::format("there is no such {}", info.dimension), advice);
     }
-    return {static_cast<Quantity>(index), std::string(label)};
+    return {limited, std::string(label)};
 }
 
 Limit read_limit(Node const& node, LimitedQuantity const& limited) {
@@ -79,7 +78,7 @@ void read_limits(Node const& root, Scene& scene) {
     if (table == nullptr) return;
     if (!table->is_table()) refuse(*table, {"it must be a table", "write [study.limits] and its quantities below"});
     for (Node const& node : table->children) {
-        LimitedQuantity const limited = read_name(node, scene.parts.mechanism);
+        LimitedQuantity const limited = read_name(node, scene);
         scene.limits.push_back(read_limit(node, limited));
         scene.quantities |= selection_of(limited.quantity);
     }

@@ -54,12 +54,16 @@ void read_mechanism(Node const& root, Parts& parts) {
     if (!info(parts.mechanism).free_crank) refuse_given("mechanism.crank");
     read_given(root, "mechanism.crank", parts.free_crank);
     if (info(parts.mechanism).spatial) return;
-    if (!parts.rigid) refuse_given("contact.law");
     refuse_given("way");
+    Node const* const law = root.find_path("contact.law");
+    if (law == nullptr || parts.rigid) return;
+    if (!may_be_rigid(parts.mechanism)) refuse_given("contact.law");
+    refuse(*law, {fmt::format("the corners of a {} have one law", info(parts.mechanism).name), fmt::format("remove it, or use \"{}\"", rigid_contact.name)});
 }
 
 /// Modes are what a law switches between; the other parts have none, or no steps that could end there.
 void check_located_modes(Node const& node, Scene const& scene) {
+    if (scene.parts.rigid) refuse(node, {"rigid contacts end steps at their touches already", "remove it"});
     if (!info(scene.parts.mechanism).spatial) {
         refuse(node, {fmt::format("nothing switches in a {}", info(scene.parts.mechanism).name), "remove it"});
     }
@@ -80,7 +84,7 @@ void read_located_modes(Node const& root, Scene& scene) {
     Node const* const node = root.find_path("integrator.locate_modes");
     bool const switches = makes_energy(scene.parts) && scene.parts.damping != Damping::restitution;
     bool const orbits = !runs_to_end(scene.study), neighbours = scene.chaos.exponents > 0;
-    bool const can = has_effect(setting("integrator.locate_modes"), settings.method, info(scene.parts.mechanism));
+    bool const can = has_effect(setting("integrator.locate_modes"), settings.method, scene.parts);
     // Long orbits under the law that switches take half the steps so, and neighbours need it.
     bool const always = settings.method == Method::verner65 && !neighbours;
     if (node == nullptr) settings.locate_modes = switches && (orbits || always) && can;
@@ -101,15 +105,13 @@ void read_located_modes(Node const& root, Scene& scene) {
 
 void warn_of_idle_integrator_keys(Node const& table, Scene& scene) {
     for (Node const& node : table.children) {
-        if (has_effect(setting(node.name), scene.integrator.method, info(scene.parts.mechanism))) continue;
+        if (has_effect(setting(node.name), scene.integrator.method, scene.parts)) continue;
         // Said to be off where it cannot be on, it is as it was asked for.
         if (node.key == "locate_modes") continue;
-        bool const of_method = std::ranges::none_of(mechanisms(), [&](MechanismInfo const& one) {
-            return has_effect(setting(node.name), scene.integrator.method, one);
-        });
         scene.warnings.push_back(
-            of_method ? fmt::format("{} has no effect with method {}", node.name, name_of(scene.integrator.method))
-                      : fmt::format("{} has no effect on a {}", node.name, info(scene.parts.mechanism).name));
+            !has_effect(setting(node.name), scene.integrator.method, Parts{}) ? fmt::format("{} has no effect with method {}", node.name, name_of(scene.integrator.method))
+            : scene.parts.rigid ? fmt::format("{} has no effect on rigid contacts", node.name)
+                                : fmt::format("{} has no effect on a {}", node.name, info(scene.parts.mechanism).name));
     }
 }
 
@@ -176,7 +178,8 @@ void read_integrator(Node const& root, Scene& scene) {
     if (settings.method == Method::ros34pw2 && (scene.parts.rigid || !info(scene.parts.mechanism).spatial)) {
         refuse(*root.find_path("integrator.method"),
                {fmt::format("the method has no Jacobian of a {}{}", info(scene.parts.mechanism).name, scene.parts.rigid ? " with rigid contacts" : ""),
-                "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\", \"bs32\" or \"rk4\""});
+                scene.parts.rigid ? "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\" or \"bs32\""
+                                  : "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\", \"bs32\" or \"rk4\""});
     }
     Node const* const step = root.find_path("integrator.step");
     if (settings.method == Method::rk4 && step == nullptr) {
@@ -185,7 +188,8 @@ void read_integrator(Node const& root, Scene& scene) {
     if (settings.method == Method::rk4 && scene.parts.damping == Damping::restitution) {
         refuse(*root.find_path("integrator.method"),
                {"contact.restitution wants the speed at each touch, where the method's steps do not end",
-                "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\", \"bs32\" or \"ros34pw2\""});
+                scene.parts.rigid ? "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\" or \"bs32\""
+                                  : "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\", \"bs32\" or \"ros34pw2\""});
     }
     read_located_modes(root, scene);
     auto const is_given = [&](std::string_view name) { return root.find_path(name) != nullptr; };

@@ -75,7 +75,7 @@ std::vector<std::string_view> quantity_names() {
 
 void read_quantities(Node const& list, Scene& scene) {
     if (list.type != Node::Type::array) {
-        refuse(list, {"not a list of names", "write for example [\"peak_normal_force\", \"energy_residual\"]"});
+        refuse(list, {"not a list of names", "write for example [\"mean_normal_force\", \"energy_residual\"]"});
     }
     auto const names = quantity_names();
     for (Node const& node : list.children) {
@@ -85,14 +85,8 @@ void read_quantities(Node const& list, Scene& scene) {
                                ? selects(has.quantities, static_cast<Quantity>(index))
                                : selects(has.series, static_cast<Series>(index - quantity_count));
         if (!known) refuse_foreign_quantity(node, names[index], scene.parts.mechanism);
-        if (scene.parts.rigid && index < std::size_t{quantity_count} && selects(without_rigid_contact, static_cast<Quantity>(index))) {
-            refuse(node, {"contact.law \"rigid\" has impulses, of no duration and no largest force", "remove it, or use a law that gives way"});
-        }
-        if (index == std::size_t{static_cast<int>(Quantity::switching_energy)} && makes_energy(scene.parts) &&
-            !scene.integrator.locate_modes) {
-            refuse(node, {"it is known where steps end at the switches, and here they leap over them", "set integrator.locate_modes = true"});
-        }
         if (index < std::size_t{quantity_count}) {
+            if (auto const why = why_unknown(static_cast<Quantity>(index), scene)) refuse(node, *why);
             scene.quantities |= Selection{1} << index;
             continue;
         }
@@ -216,7 +210,7 @@ void read_recording(Node const& root, Scene& scene) {
         Node const* const list = root.find_path("study.quantities");
         refuse_missing(list != nullptr ? *list : *root.find_path("study.kind"), "a quantity",
                        "a tolerance study tells how quantities scatter",
-                       "add quantities = [\"peak_normal_force\", \"friction_loss\"], or see `slideway list`");
+                       "add quantities = [\"mean_normal_force\", \"friction_loss\"], or see `slideway list`");
     }
     // The audit runs anyway, and whoever takes such a method should see what it says.
     if (is_always_audited(scene.integrator.method)) scene.quantities |= selection_of(Quantity::energy_residual);
@@ -236,7 +230,7 @@ void read_store(Node const& root, Scene& scene) {
     }
     if (scene.quantities == 0) {
         refuse(*node, {"there is no quantity to make statistics of",
-                       "add quantities = [\"peak_normal_force\"], or see `slideway list`"});
+                       "add quantities = [\"mean_normal_force\"], or see `slideway list`"});
     }
 }
 

@@ -62,10 +62,10 @@ std::string line_of(Setting const& row, Scene const& scene) {
 }
 
 /// Only what counts with the scene's method.
-std::string integrator_table(Scene const& scene, MechanismInfo const& mechanism) {
+std::string integrator_table(Scene const& scene) {
     std::string text = fmt::format("\n[integrator]\nmethod = \"{}\"\n", name_of(scene.integrator.method));
     for (Setting const& row : settings()) {
-        if (row.table() == "integrator" && row.is_bound() && has_effect(row, scene.integrator.method, mechanism)) text += line_of(row, scene);
+        if (row.table() == "integrator" && row.is_bound() && has_effect(row, scene.integrator.method, scene.parts)) text += line_of(row, scene);
     }
     return text;
 }
@@ -232,7 +232,7 @@ std::string resolved_toml(Scene const& scene) {
                               : std::string());
     text += physics_table(scene, complete, "friction", fmt::format("enabled = {}\n", scene.parts.friction));
     text += physics_table(scene, complete, "initial", "");
-    text += integrator_table(scene, mechanism);
+    text += integrator_table(scene);
     text += study_table(scene);
     return text + members_text(scene);
 }

@@ -164,8 +164,9 @@ Setting const& setting(std::string_view name, Settings rows) {
     return *found;
 }
 
-bool has_effect(Setting const& setting, Method method, MechanismInfo const& mechanism) {
-    return (setting.methods & set_of(method)) != 0 && (mechanism.spatial || !setting.of_faces);
+bool has_effect(Setting const& setting, Method method, Parts const& parts) {
+    bool const has_faces = info(parts.mechanism).spatial && !parts.rigid;
+    return (setting.methods & set_of(method)) != 0 && (has_faces || !setting.of_faces);
 }
 
 std::string value_text(Setting const& setting, Scene const& scene) {

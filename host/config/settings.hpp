@@ -67,8 +67,8 @@ Settings settings();
 /// @throws std::logic_error if there is no such row
 Setting const& setting(std::string_view name, Settings rows = settings());
 
-/// Whether a scene's method and mechanism read a setting of [integrator].
-bool has_effect(Setting const& setting, Method method, MechanismInfo const& mechanism);
+/// Whether a scene's method, mechanism and contacts read a setting of [integrator].
+bool has_effect(Setting const& setting, Method method, Parts const& parts);
 
 /// What a scene has of a bound setting, as TOML; the default where nobody gives one, where that is a value: "1e-06", "false"
 std::string value_text(Setting const& setting, Scene const& scene);

@@ -93,17 +93,17 @@ std::string RunIdentity::difference(RunIdentity const& earlier) const {
         auto const shown = [](std::string_view value) {
             return std::string(value.substr(0, longest)) + (value.size() <= longest ? "" : "...");
         };
-        std::vector<std::string> found;
+        // What changed first: a law may bring many keys of its own.
+        std::vector<std::string> found, brought;
         for (auto const& [key, value] : now) {
             auto const old = before.find(key);
+            auto const words = [&key](std::string_view text) { return key == "study.table" ? content_of_table(text) : text; };
             if (old == before.end())
-                found.push_back(fmt::format("{} = {} is new", key, shown(value)));
-            else if (old->second != value && key == "study.table")
-                found.push_back(fmt::format("{} was {}, is {}", key, shown(content_of_table(old->second)),
-                                            shown(content_of_table(value))));
+                brought.push_back(fmt::format("{} = {} is new", key, shown(value)));
             else if (old->second != value)
-                found.push_back(fmt::format("{} was {}, is {}", key, shown(old->second), shown(value)));
+                found.push_back(fmt::format("{} was {}, is {}", key, shown(words(old->second)), shown(words(value))));
         }
+        found.insert(found.end(), brought.begin(), brought.end());
         for (auto const& [key, value] : before) {
             if (!now.contains(key)) found.push_back(fmt::format("{} = {} is gone", key, shown(value)));
         }

@@ -35,6 +35,14 @@ TEST_F(ListedKeys, AreAllInTheList) {
     for (std::string const& name : all_names()) EXPECT_NE(text.find("  " + name + " "), std::string::npos) << name;
 }
 
+TEST_F(ListedKeys, AreThereAlone) {
+    std::string const all = run({"list"}).out, alone = run({"list", "--keys"}).out;
+    EXPECT_NE(all.find("\nkeys of a scene, with their unit, domain and default\n" + alone + "\n"), std::string::npos) << alone;
+    EXPECT_EQ(std::count(alone.begin(), alone.end(), '\n'), static_cast<std::ptrdiff_t>(all_names().size()));
+    EXPECT_EQ(run({"list", "--keys", "--json"}).out, run({"list", "--json"}).out);
+    EXPECT_EQ(run({"list", "--keys", "--schema"}).code, 2);
+}
+
 TEST_F(ListedKeys, AreAllInTheJsonWithWhatTheTablesSay) {
     Json const json = listed("--json");
     EXPECT_EQ(json["schema_version"], 1);

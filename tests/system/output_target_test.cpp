@@ -3,6 +3,7 @@
 #include <set>
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "tests/support/shell.hpp"
 #include "tests/system/small_run.hpp"
@@ -70,7 +71,7 @@ protected:
         std::map<std::string, std::string> found;
         for (fs::directory_entry const& entry : fs::recursive_directory_iterator(path(""))) {
             std::string const name = entry.path().lexically_relative(path("")).string();
-            if (name == "out" || name == "err") continue;
+            if (name == "out" || name == "err" || name.starts_with("shell_")) continue;
             found[name] = fs::is_symlink(fs::symlink_status(entry.path())) ? "-> " + fs::read_symlink(entry.path()).string()
                           : fs::is_regular_file(fs::symlink_status(entry.path())) ? file_text(entry.path())
                                                     : "";
@@ -160,6 +161,27 @@ TEST_F(OutputTargets, ThatAreNoFilesAreRefused) {
     for (Command const& command : commands) {
         for (char const* const name : {"folder", "pipe", "/dev/null", "/dev/full", "nowhere/o.nc"}) expect_untouched(command, name, {"--force"});
     }
+}
+
+/// As somebody who may not write there; root may write anywhere, and becomes nobody.
+TEST_F(OutputTargets, InFoldersThatAreReadOnlyAreKept) {
+    std::string const nobody = geteuid() == 0 ? "setpriv --reuid=65534 --regid=65534 --clear-groups " : "";
+    fs::permissions(path(""), fs::perms(0755));
+    fs::create_directory(path("closed"));
+    for (Command const& command : commands) expect_written(command, std::string("closed/o_") + command.name + command.ending);
+    fs::permissions(path("closed"), fs::perms(0555));
+    if (run_shell(path(""), nobody + "'" SLIDEWAY_BINARY "' --version").code != 0) GTEST_SKIP() << "nobody may start the program";
+    auto const before = files();
+    for (Command const& command : commands) {
+        std::string line = nobody + "'" SLIDEWAY_BINARY "'";
+        for (std::string const& word : command.words) line += " '" + word + "'";
+        ShellOutcome const outcome = run_shell(path(""), line + " --force -o closed/o_" + command.name + command.ending);
+        EXPECT_EQ(outcome.code, 4) << command.name << ": " << outcome.err;
+        EXPECT_NE(outcome.err.find("Permission denied"), std::string::npos) << command.name << ": " << outcome.err;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << command.name << ": " << outcome.err;
+        EXPECT_EQ(files(), before) << command.name;
+    }
+    fs::permissions(path("closed"), fs::perms(0755));
 }
 
 TEST_F(OutputTargets, ThatComeUpWhileItRunsAreKept) {

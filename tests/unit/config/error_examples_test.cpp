@@ -25,7 +25,7 @@ TEST(ErrorExamples, AreRefusedByTheLineThatStandsThere) {
         }
     }
     EXPECT_EQ(scene, "");
-    EXPECT_GE(examples, 98);
+    EXPECT_GE(examples, 106);
 }
 
 }  // namespace

@@ -180,7 +180,7 @@ TEST(SceneMechanisms, RefuseForeignKeysOfTables) {
 TEST(SceneMechanisms, ThePlanarOneHasNoLawAndNoWay) {
     auto const planar = [](std::string const& lines) { return error_of(with_kind("planar_slider_crank", lines)); };
     EXPECT_EQ(planar("[contact]\nlaw = \"paper\""),
-              "scene.toml:5: contact.law has no meaning for kind = \"planar_slider_crank\"; remove it");
+              "scene.toml:5: contact.law is \"paper\" (the corners of a planar_slider_crank have one law); remove it, or use \"rigid\"");
     EXPECT_EQ(planar("[way]"), "scene.toml:4: way has no meaning for kind = \"planar_slider_crank\"; remove it");
     for (char const* const kind : {"slider_crank", "carriage", "scotch_yoke", "free_slider"}) {
         EXPECT_EQ(error_of(with_kind(kind, "crank = \"free\"")),

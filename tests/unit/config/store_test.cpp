@@ -36,7 +36,7 @@ TEST(SceneStore, RefusalsSayWhy) {
     EXPECT_EQ(
         error_of(scene_with("store = \"statistics\"")),
         "scene.toml:4: study.store is \"statistics\" (there is no quantity to make statistics of); add quantities = "
-        "[\"peak_normal_force\"], or see `slideway list`");
+        "[\"mean_normal_force\"], or see `slideway list`");
     for (std::string const samples : {"samples = 5", "samples_per_revolution = 10"}) {
         EXPECT_EQ(error_of(scene_with(force + "store = \"statistics\"\n" + samples)),
                   "scene.toml:5: study.store is \"statistics\" (time series are of single members); remove the "

@@ -66,7 +66,7 @@ TEST(SceneToleranceErrors, Designs) {
               "remove it, or use kind = \"ensemble\" or \"tolerance\"");
     EXPECT_EQ(error_of_study("kind = \"tolerance\""),
               "scene.toml:3: a quantity is missing (a tolerance study tells how quantities scatter); "
-              "add quantities = [\"peak_normal_force\", \"friction_loss\"], or see `slideway list`");
+              "add quantities = [\"mean_normal_force\", \"friction_loss\"], or see `slideway list`");
     EXPECT_TRUE(
         contains(error_of_study("kind = \"tolerance\"\nquantities = []"), "scene.toml:4: a quantity is missing"));
 }

@@ -96,6 +96,12 @@ TEST(RunIdentity, NamesKeysThatCameAndWent) {
     EXPECT_TRUE(contains(went, "is gone")) << went;
 }
 
+TEST(RunIdentity, NamesWhatChangedBeforeWhatCameAlong) {
+    std::pair<std::string, std::string> const no_exponents{"study.exponents", "0"};
+    std::string const changed = difference({no_exponents}, {no_exponents, {"contact.law", "rigid"}, {"contact.restitution", "0.5"}});
+    EXPECT_TRUE(changed.starts_with("contact.law was \"rigid\", is \"paper\"; ")) << changed;
+}
+
 TEST(RunIdentity, ComparesAnArrayOverSeveralLinesAsOneValue) {
     std::string const changed = difference({{"study.values", R"(["0.5 mm", "0.4 mm", "0.2 mm"])"}});
     EXPECT_TRUE(changed.starts_with("study.values was [")) << changed;
