@@ -191,7 +191,8 @@ void print_results(RunArguments const& arguments, Scene const& scene, ResultRead
         print_tolerance(*report);
     else
         print_quantities(quantities);
-    if (!quantities.empty() && std::isfinite(drive_period(scene.parts, scene.inputs))) {
+    bool const has_values = std::ranges::any_of(quantities, [](QuantitySummary const& one) { return one.values.count > 0; });
+    if (has_values && std::isfinite(drive_period(scene.parts, scene.inputs))) {
         fmt::print("  (over the whole run, its transient included)\n");
     }
     print_exponents(results);

@@ -21,15 +21,18 @@ void tighten(IntegratorSettings& settings) {
 }
 
 /// Who is least like the study's own.
-Method other_method(Method method, MechanismInfo const& mechanism) {
+Method other_method(Method method, Parts const& parts) {
+    // Without a stiff method `auto` is dopri5.
+    bool const may_be_stiff = info(parts.mechanism).spatial && !parts.rigid;
     switch (method) {
         case Method::automatic:
+            return may_be_stiff ? Method::dopri5 : Method::verner65;
         case Method::dop853:
         case Method::bs32:
         case Method::verner65:
             return Method::dopri5;
         case Method::dopri5:
-            return mechanism.spatial ? Method::automatic : Method::bs32;
+            return may_be_stiff ? Method::automatic : Method::bs32;
         default:
             return Method::automatic;
     }
@@ -82,7 +85,7 @@ std::vector<CheckMethod> check_methods(Scene const& scene) {
     add(tight, cost_of(own, own), own == Method::rk4 ? "" : located);
 
     Scene other = bare;
-    other.integrator.method = other_method(own, info(scene.parts.mechanism));
+    other.integrator.method = other_method(own, scene.parts);
     if (own == Method::rk4) {
         IntegratorSettings const usual;
         other.integrator.rtol = usual.rtol;

@@ -108,6 +108,22 @@ TEST(EnergyCheck, IsAskedOfExponentsUnderALawThatKeepsEnergyByOneCheckAlone) {
     EXPECT_EQ(audits("paper", "tolerance", residual), 0);
 }
 
+/// `auto` is dopri5 where no method for stiff members stands beside it: each of the two would say what the other says.
+TEST(CheckMethods, AreTwoWhereAutoHasNoStiffMethodToo) {
+    std::string const planar = "[mechanism]\nkind = \"planar_slider_crank\"\n", rigid = "[contact]\nlaw = \"rigid\"\nrestitution = 0.5\n";
+    for (std::string const& scene : {planar, planar + rigid, rigid}) {
+        for (std::string const method : {"auto", "dopri5", "bs32", "dop853", "verner65"}) {
+            Scene const study = scene_of("schema = 1\n" + scene + "[integrator]\nmethod = \"" + method + "\"\n[study]\nmembers = 8\nduration = \"2 s\"\n");
+            std::vector<CheckMethod> const methods = check_methods(study);
+            ASSERT_EQ(methods.size(), 2u);
+            auto const explicit_method = [](CheckMethod const& one) {
+                return one.scene.integrator.method == Method::automatic ? Method::dopri5 : one.scene.integrator.method;
+            };
+            EXPECT_NE(explicit_method(methods[0]), explicit_method(methods[1])) << scene << method;
+        }
+    }
+}
+
 TEST(CheckedNumbers, ThatScatterByRoundingAreTheSame) {
     auto const own = draws(100, 10, 1);
     auto again = own;
