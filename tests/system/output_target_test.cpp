@@ -66,6 +66,13 @@ protected:
         EXPECT_EQ(outcome.code, 0) << command.name << " -o " << output << ": " << outcome.err;
     }
 
+    /// For a shell.
+    static std::string forced(Command const& command, std::string const& output) {
+        std::string line = "'" SLIDEWAY_BINARY "'";
+        for (std::string const& word : command.words) line += " '" + word + "'";
+        return line + " --force -o " + output;
+    }
+
     /// Names with what they hold, of links what they lead to.
     std::map<std::string, std::string> files() const {
         std::map<std::string, std::string> found;
@@ -173,15 +180,26 @@ TEST_F(OutputTargets, InFoldersThatAreReadOnlyAreKept) {
     if (run_shell(path(""), nobody + "'" SLIDEWAY_BINARY "' --version").code != 0) GTEST_SKIP() << "nobody may start the program";
     auto const before = files();
     for (Command const& command : commands) {
-        std::string line = nobody + "'" SLIDEWAY_BINARY "'";
-        for (std::string const& word : command.words) line += " '" + word + "'";
-        ShellOutcome const outcome = run_shell(path(""), line + " --force -o closed/o_" + command.name + command.ending);
+        ShellOutcome const outcome = run_shell(path(""), nobody + forced(command, std::string("closed/o_") + command.name + command.ending));
         EXPECT_EQ(outcome.code, 4) << command.name << ": " << outcome.err;
         EXPECT_NE(outcome.err.find("Permission denied"), std::string::npos) << command.name << ": " << outcome.err;
         EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << command.name << ": " << outcome.err;
         EXPECT_EQ(files(), before) << command.name;
     }
     fs::permissions(path("closed"), fs::perms(0755));
+}
+
+/// To a program a limit of the size of files is what a full disk is.
+TEST_F(OutputTargets, OnAFullDiskStayAsTheyWere) {
+    for (Command const& command : commands) {
+        std::string const name = std::string("o_") + command.name + command.ending;
+        expect_written(command, name);
+        std::string const before = file_text(path(name));
+        ShellOutcome const outcome = run_shell(path(""), "( ( ulimit -f 0; exec " + forced(command, name) + " ); echo code $? ) 2>&1 | cat");
+        EXPECT_TRUE(outcome.out.ends_with("\ncode 4\n")) << command.name << ": " << outcome.out;
+        EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 2) << command.name << ": " << outcome.out;
+        EXPECT_TRUE(file_text(path(name)) == before) << command.name;
+    }
 }
 
 TEST_F(OutputTargets, ThatComeUpWhileItRunsAreKept) {
