@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "host/config/descriptors.hpp"
 #include "host/study/ensemble_plan.hpp"
 
 namespace slideway {
@@ -36,18 +37,20 @@ std::uint64_t pays_from(Isa isa, int threads) {
 
 BackendChoice choose_backend(BackendRequest const& request, Scene const& scene, std::uint64_t members) {
     using Kind = BackendRequest::Kind;
-    char const* const only = "the kernels for cards are of slider_crank alone";
-    bool const has_kernel = info(scene.parts.mechanism).on_cards;
+    MechanismInfo const& mechanism = info(scene.parts.mechanism);
+    char const* const lack = !mechanism.on_cards   ? "the kernels for cards are of slider_crank alone"
+                             : scene.parts.rigid ? "the kernels for cards have no rigid contacts"
+                                                 : nullptr;
     if (request.kind == Kind::cuda) {
-        if (has_kernel) return {cuda_backend(request.share), ""};
-        throw SceneError(fmt::format("{}: mechanism.kind is \"{}\" ({}); use --backend cpu", scene.path,
-                                     info(scene.parts.mechanism).name, only));
+        if (lack == nullptr) return {cuda_backend(request.share), ""};
+        throw SceneError(fmt::format("{}: {} is \"{}\" ({}); use --backend cpu", scene.path, mechanism.on_cards ? "contact.law" : "mechanism.kind",
+                                     mechanism.on_cards ? contact_info(scene.parts).name : mechanism.name, lack));
     }
     Isa const isa = request.isa.value_or(best_isa());
     auto const cpu = cpu_backend(isa);
     if (request.kind == Kind::cpu) return {cpu, ""};
     if (request.isa) return {cpu, "as --isa says"};
-    if (!has_kernel) return {cpu, only};
+    if (lack != nullptr) return {cpu, lack};
     try {
         auto const card = cuda_backend(request.share);
         std::string const objection = objection_to(*card, request, isa, scene, members);

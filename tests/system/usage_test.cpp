@@ -50,6 +50,15 @@ TEST_F(Usage, OfCardsForOtherMechanisms) {
     EXPECT_EQ(run({"check", "s.toml"}).out.find("of slider_crank alone"), std::string::npos);
 }
 
+TEST_F(Usage, OfCardsForRigidContacts) {
+    write("r.toml", "schema = 1\n[contact]\nlaw = \"rigid\"\nrestitution = 0.5\n");
+    for (char const* const command : {"run", "check"}) {
+        expect_refusal(2, "r.toml: contact.law is \"rigid\" (the kernels for cards have no rigid contacts); use --backend cpu",
+                       {command, "r.toml", "--backend", "cuda"});
+    }
+    EXPECT_NE(run({"check", "r.toml"}).out.find("the kernels for cards have no rigid contacts"), std::string::npos);
+}
+
 TEST_F(Usage, CheckShowsThePartsOfEachMechanism) {
     auto const parts = [&](std::string const& lines) {
         write("m.toml", "schema = 1\n[mechanism]\n" + lines + "\n[study]\nduration = \"1 ms\"\n");
