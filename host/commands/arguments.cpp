@@ -194,7 +194,7 @@ void add_report(Options& options, ReportArguments& report) {
     options.positional("FILE", report.path, "Result file")->required();
     options.text("-o,--output", "OUT.html", report.output, "Page (default: FILE with .html)");
     options.force(report.force);
-    options.note("The companion is the package slideway of the interpreter that SLIDEWAY_PYTHON names, else of python3; "
+    options.note("The page is written by the Python package slideway, of the interpreter that SLIDEWAY_PYTHON names, else of python3; "
                  "pip install . in the source tree installs it.");
 }
 

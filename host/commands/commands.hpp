@@ -151,7 +151,7 @@ struct ReportArguments {
     std::string output;  // empty: the path with .html
     bool force = false;
 };
-/// Ends as the companion in Python, which writes the page; returns only by an exception.
+/// Becomes the Python package, which writes the page; returns only by an exception.
 int execute(ReportArguments const& arguments);
 
 struct ListArguments {

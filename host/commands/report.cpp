@@ -44,8 +44,8 @@ FileError no_interpreter(std::string const& python, int reason) {
                     python, std::strerror(reason)));
 }
 
-/// Whether the interpreter finds the companion; that takes a fraction of what importing it does.
-bool has_companion(std::string const& python) {
+/// Whether the interpreter finds the Python package; that takes a fraction of what importing it does.
+bool has_package(std::string const& python) {
     ArgumentList const words({python, "-c",
                               "import importlib.util as u, sys; s = u.find_spec('slideway'); "
                               "sys.exit(0 if s and s.origin else 1)"});
@@ -59,7 +59,7 @@ bool has_companion(std::string const& python) {
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-/// As the companion marks its pages.
+/// As the Python package marks its pages.
 bool is_page(std::string const& path) {
     constexpr std::size_t head = 1024;
     std::ifstream in(path, std::ios::binary);
@@ -78,11 +78,11 @@ int execute(ReportArguments const& arguments) {
     require_intact(arguments.path);
     // Packages come from where they are installed, not from whatever lies in this folder.
     setenv("PYTHONSAFEPATH", "1", 1);
-    // The companion has files checked by this program, unless the user names one.
+    // The Python package has files checked by this program, unless the user names one.
     std::error_code ignored;
     setenv("SLIDEWAY_PROGRAM", std::filesystem::read_symlink("/proc/self/exe", ignored).c_str(), 0);
     std::string const python = interpreter();
-    if (!has_companion(python)) {
+    if (!has_package(python)) {
         throw FileError(fmt::format(
             "slideway report: {} has no package slideway; install it with pip install . in the source "
             "tree, and if that was in a virtual environment, name its interpreter with SLIDEWAY_PYTHON=PATH",

@@ -17,7 +17,7 @@
 
 namespace slideway {
 
-void Patience::sleep() {
+void Backoff::sleep() {
     std::this_thread::sleep_for(pause_);
     pause_ = std::min(2 * pause_, longest_);
 }
@@ -45,7 +45,7 @@ MpiCalls::~MpiCalls() {
     if (says_goodbye_) MPI_Finalize();
 }
 
-template <class Start> void MpiCalls::finish(Start start, Patience patience) {
+template <class Start> void MpiCalls::finish(Start start, Backoff backoff) {
     MPI_Request request = MPI_REQUEST_NULL;
     int done = 0;
     {
@@ -54,18 +54,18 @@ template <class Start> void MpiCalls::finish(Start start, Patience patience) {
         MPI_Test(&request, &done, MPI_STATUS_IGNORE);
     }
     while (done == 0) {
-        patience.sleep();
+        backoff.sleep();
         std::lock_guard const lock(mutex_);
         MPI_Test(&request, &done, MPI_STATUS_IGNORE);
     }
 }
 
-void MpiCalls::send(int to, int tag, void const* data, std::size_t bytes, Patience patience) {
-    finish([&](MPI_Request* request) { MPI_Isend(data, static_cast<int>(bytes), MPI_BYTE, to, tag, MPI_COMM_WORLD, request); }, patience);
+void MpiCalls::send(int to, int tag, void const* data, std::size_t bytes, Backoff backoff) {
+    finish([&](MPI_Request* request) { MPI_Isend(data, static_cast<int>(bytes), MPI_BYTE, to, tag, MPI_COMM_WORLD, request); }, backoff);
 }
 
-void MpiCalls::receive(int from, int tag, void* data, std::size_t bytes, Patience patience) {
-    finish([&](MPI_Request* request) { MPI_Irecv(data, static_cast<int>(bytes), MPI_BYTE, from, tag, MPI_COMM_WORLD, request); }, patience);
+void MpiCalls::receive(int from, int tag, void* data, std::size_t bytes, Backoff backoff) {
+    finish([&](MPI_Request* request) { MPI_Irecv(data, static_cast<int>(bytes), MPI_BYTE, from, tag, MPI_COMM_WORLD, request); }, backoff);
 }
 
 std::optional<int> MpiCalls::waiting(int tag) {
@@ -76,8 +76,8 @@ std::optional<int> MpiCalls::waiting(int tag) {
     return found != 0 ? std::optional(status.MPI_SOURCE) : std::nullopt;
 }
 
-void MpiCalls::broadcast(void* data, std::size_t bytes, Patience patience) {
-    finish([&](MPI_Request* request) { MPI_Ibcast(data, static_cast<int>(bytes), MPI_BYTE, 0, MPI_COMM_WORLD, request); }, patience);
+void MpiCalls::broadcast(void* data, std::size_t bytes, Backoff backoff) {
+    finish([&](MPI_Request* request) { MPI_Ibcast(data, static_cast<int>(bytes), MPI_BYTE, 0, MPI_COMM_WORLD, request); }, backoff);
 }
 
 void MpiCalls::abort(int code) {

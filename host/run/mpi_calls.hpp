@@ -9,10 +9,10 @@
 namespace slideway {
 
 /// How long to sleep between two questions whether something has come: longer and longer while nothing does.
-class Patience {
+class Backoff {
 public:
     using Duration = std::chrono::microseconds;
-    constexpr explicit Patience(Duration longest) : longest_(longest) {}
+    constexpr explicit Backoff(Duration longest) : longest_(longest) {}
     void sleep();
     void refresh() { pause_ = first; }
 
@@ -42,13 +42,13 @@ public:
     int local_count() const { return local_count_; }
 
     /// Returns when `data` may be overwritten; that is not before the other has asked for it, if it is large.
-    void send(int to, int tag, void const* data, std::size_t bytes, Patience patience);
+    void send(int to, int tag, void const* data, std::size_t bytes, Backoff backoff);
     /// Waits for a message of this size.
-    void receive(int from, int tag, void* data, std::size_t bytes, Patience patience);
+    void receive(int from, int tag, void* data, std::size_t bytes, Backoff backoff);
     /// The rank of any whose message with this tag waits to be received.
     std::optional<int> waiting(int tag);
     /// Rank 0's `data`, at every rank.
-    void broadcast(void* data, std::size_t bytes, Patience patience);
+    void broadcast(void* data, std::size_t bytes, Backoff backoff);
 
     /// The others may wait for a message that this process no longer sends.  It then ends without ending MPI, by which
     /// its launcher knows that it failed, and ends them.
@@ -58,7 +58,7 @@ public:
     [[noreturn]] void abort(int code);
 
 private:
-    template <class Start> void finish(Start start, Patience patience);
+    template <class Start> void finish(Start start, Backoff backoff);
 
     std::mutex mutex_;
     int rank_ = 0, count_ = 1, local_rank_ = 0, local_count_ = 1;

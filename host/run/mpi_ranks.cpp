@@ -27,7 +27,7 @@ struct Answer {
     std::uint64_t first = 0, count = 0, left = 0;
 };
 
-constexpr Patience soon{1000us}, later{5000us};
+constexpr Backoff soon{1000us}, later{5000us};
 
 /// Tags of a round, from one `share` to its `gather`: a rank that is ahead, in the next one, is not heard too early.
 struct Tags {
@@ -68,13 +68,13 @@ public:
 private:
     void serve() {
         try {
-            Patience patience = soon;
+            Backoff backoff = soon;
             for (int at_work = calls_.count() - 1; at_work > 0 && !is_left_;) {
                 if (auto const rank = calls_.waiting(tags_.question)) {
                     if (answer(*rank) == Ask::end) --at_work;
-                    patience.refresh();
+                    backoff.refresh();
                 } else {
-                    patience.sleep();
+                    backoff.sleep();
                 }
             }
         } catch (...) {

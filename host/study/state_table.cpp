@@ -195,7 +195,7 @@ void add_row(StateTable& table, std::vector<Column> const& columns, Scene const&
 /// A table of the scene's mechanism without rows.
 StateTable empty_table(Scene const& scene) {
     if (scene.parts.rigid) {
-        throw SceneError(fmt::format("{}: forces of rigid contacts do not follow from a state alone; run it, or use a contact.law that gives way", scene.path));
+        throw SceneError(fmt::format("{}: forces of rigid contacts do not follow from a state alone; run the scene, or use another contact.law", scene.path));
     }
     StateTable table;
     table.mechanism = scene.parts.mechanism;

@@ -48,14 +48,14 @@ bool is_result_of(std::string const& path, RunIdentity const& identity) {
 }
 
 /// The table of members, so that the folder of shards is all that a merge needs.
-std::optional<ShardClaim::Companion> companion_of(Scene const& scene) {
+std::optional<ShardClaim::TableCopy> table_copy_of(Scene const& scene) {
     if (scene.design.table == nullptr) return {};
     MemberTable const& table = *scene.design.table;
     std::vector<std::byte> bytes = read_bytes(table.path);
     if (fnv1a(bytes) != table.checksum) {
         throw FileError(fmt::format("{}: has changed since it was read; start the run again", table.path));
     }
-    return ShardClaim::Companion{std::string(shard_names::table), std::move(bytes)};
+    return ShardClaim::TableCopy{std::string(shard_names::table), std::move(bytes)};
 }
 
 OutputTarget target_of(Scene const& scene, StudyOptions const& options) {
@@ -136,7 +136,7 @@ StudyRun::StudyRun(Scene const& scene, StudyOptions const& options)
         }
     }
     claim_ = std::make_unique<ShardClaim>(
-        folder, ShardClaim::Wanted{identity, mine_, options.part.name(), options.resume, companion_of(scene)});
+        folder, ShardClaim::Wanted{identity, mine_, options.part.name(), options.resume, table_copy_of(scene)});
     work_ = {mine_.without(claim_->done()), claim_->done().count()};
     require_room();
 }

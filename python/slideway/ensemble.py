@@ -1,4 +1,4 @@
-"""Scenes that stay in memory: parsed once, run as often as one likes, in this process and without files."""
+"""Scenes that stay in memory: parsed once, run many times, in this process and without files."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Ensemble:
 
     Args:
         scene: path of a TOML file, or the scene as nested dictionaries.
-        threads: left out: all that this process may use.
+        threads: left out: all that this process may use. 1 where a run takes a few milliseconds, or where other programs use the cores.
         isa: "auto", or one of the instruction sets that ``slideway list`` names.
         verify: also check each run, as the program does: some members run again with tighter tolerances and by another method. The
             group "verification" of the result then says what is resolved. It takes up to a tenth of a long run, and more of a
