@@ -108,7 +108,7 @@ void refuse_foreign_quantity(Node const& node, std::string_view name, Mechanism 
 
 std::optional<Problem> why_unknown(Quantity quantity, Scene const& scene) {
     if (scene.parts.rigid && selects(without_rigid_contact, quantity)) {
-        return Problem{"impacts of rigid contacts have no duration, and so no peak", "remove it, or use another contact.law"};
+        return Problem{"rigid contacts have neither peaks nor a potential", "remove it, or use another contact.law"};
     }
     if (quantity == Quantity::switching_energy && makes_energy(scene.parts) && !scene.integrator.locate_modes) {
         return Problem{"it is known where steps end at the switches, and here they leap over them", "set integrator.locate_modes = true"};
