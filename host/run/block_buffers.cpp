@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 #include <numeric>
+
+#include "host/base/numbers.hpp"
 
 namespace slideway {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t series_width(BlockRequest const& request) {
     return static_cast<std::size_t>(std::popcount(request.series)) * request.sample_times.size();

@@ -9,6 +9,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 
 #include "host/base/bytes.hpp"
+#include "host/base/numbers.hpp"
 
 namespace slideway {
 
@@ -77,7 +78,7 @@ void ExactSum::add(ExactSum const& other) {
 
 double ExactSum::value() const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    if (nan_ || (positive_infinity_ && negative_infinity_)) return std::numeric_limits<double>::quiet_NaN();
+    if (nan_ || (positive_infinity_ && negative_infinity_)) return nan;
     if (positive_infinity_) return infinity;
     if (negative_infinity_) return -infinity;
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "host/base/bytes.hpp"
+#include "host/base/numbers.hpp"
 
 namespace slideway {
 
@@ -76,7 +77,7 @@ double QuantileSketch::at_rank(std::uint64_t rank) const {
         if (rank < bucket.count) return bucket.value;
         rank -= bucket.count;
     }
-    return std::numeric_limits<double>::quiet_NaN();  // of none
+    return nan;  // of none
 }
 
 std::vector<QuantileSketch::Bucket> QuantileSketch::buckets() const {

@@ -63,7 +63,7 @@ Interval mean_interval(Summary const& summary, double level) {
 }
 
 Proportion proportion(std::uint64_t successes, std::uint64_t trials, double level) {
-    Proportion result{successes, trials, std::numeric_limits<double>::quiet_NaN(), {0, 1}};
+    Proportion result{successes, trials, nan, {0, 1}};
     if (trials == 0) return result;
     auto const n = static_cast<double>(trials);
     double const p = static_cast<double>(successes) / n;

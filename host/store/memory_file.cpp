@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "host/base/error.hpp"
+#include "host/base/numbers.hpp"
 
 namespace slideway {
 
@@ -86,7 +86,6 @@ int MemoryFile::add_variable(std::string const& name, Type type, std::span<int c
     }
     stored.data.resize(size);
     if (fill && type == Type::float64) {
-        double const nan = std::numeric_limits<double>::quiet_NaN();
         for (std::size_t at = 0; at < size; at += sizeof nan) std::memcpy(stored.data.data() + at, &nan, sizeof nan);
     }
     node_->variables.push_back(std::move(stored));

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,6 +14,7 @@
 #include <netcdf_mem.h>
 
 #include "host/base/error.hpp"
+#include "host/base/numbers.hpp"
 
 namespace slideway {
 
@@ -147,7 +147,6 @@ int NetcdfFile::add_variable(std::string const& name, Type type, std::span<int c
     nc_type const number = type_table[static_cast<int>(type)].number;
     int const rank = static_cast<int>(dimensions.size());
     int const variable = number_by("define variable " + name, [&](int* id) { return nc_def_var(id_, name.c_str(), number, rank, dimensions.data(), id); });
-    double const nan = std::numeric_limits<double>::quiet_NaN();
     require(nc_def_var_fill(id_, variable, fill ? NC_FILL : NC_NOFILL, fill ? &nan : nullptr), "define variable " + name);
     return variable;
 }

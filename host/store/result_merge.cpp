@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <optional>
 
@@ -10,6 +9,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/file_lock.hpp"
+#include "host/base/numbers.hpp"
 #include "host/store/result_seal.hpp"
 #include "host/store/result_definition.hpp"
 
@@ -108,7 +108,6 @@ private:
 
 /// The first value makes HDF5 allocate a variable's storage and fill it with NaN: a full disk so shows before the shards are read.
 void reserve_space(DataFile& file) {
-    double const nan = std::numeric_limits<double>::quiet_NaN();
     for (DataFile::Variable const& variable : file.variables()) {
         if (variable.type != DataFile::Type::float64 || variable.size() == 0) continue;
         std::string const dimension = file.first_dimension(variable);

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "host/base/bytes.hpp"
 #include "host/base/error.hpp"
+#include "host/base/numbers.hpp"
 #include "host/store/provenance.hpp"
 
 namespace slideway {
@@ -23,7 +23,7 @@ void unify_nans(std::vector<std::byte>& bytes) {
         double value;
         std::memcpy(&value, bytes.data() + at, sizeof value);
         if (!std::isnan(value)) continue;
-        value = std::numeric_limits<double>::quiet_NaN();
+        value = nan;
         std::memcpy(bytes.data() + at, &value, sizeof value);
     }
 }

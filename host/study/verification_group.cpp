@@ -1,7 +1,7 @@
 // A verification in a result file.
 #include <algorithm>
-#include <limits>
 
+#include "host/base/numbers.hpp"
 #include "host/store/group_writer.hpp"
 #include "host/store/result_seal.hpp"
 #include "host/study/verification.hpp"
@@ -15,7 +15,7 @@ constexpr char const* resolution_names[] = {"resolved", "not_resolved", "not_che
 /// Of each column and check, in the order of their dimensions.
 template <class Value> std::vector<double> of_findings(Verification const& v, std::size_t width, Value const& value) {
     std::size_t const columns = v.numbers.front().columns.size();
-    std::vector<double> values(columns * v.methods.size() * width, std::numeric_limits<double>::quiet_NaN());
+    std::vector<double> values(columns * v.methods.size() * width, nan);
     for (CheckedColumn const& found : v.findings) {
         for (std::size_t i = 0; i < width; ++i)
             values[(found.column * v.methods.size() + found.method) * width + i] = value(found, i);
