@@ -7,7 +7,7 @@
 //     for (double const force : result.column("peak_normal_force").numbers()) …
 //
 // Link with slideway::slideway (find_package(slideway)).  Numbers are SI.  A member's numbers depend on its own inputs alone: not on
-// threads, instruction sets or on who else runs.  An object may be used by one thread at a time; different ones, copies among them, by
+// threads, instruction sets or other members.  An object may be used by one thread at a time; different ones, copies among them, by
 // different threads at once.
 // A process that was forked after a run must not run with more than one thread: OpenMP's threads do not survive a fork.
 #pragma once
@@ -55,7 +55,7 @@ struct Column {
         for (std::size_t const length : shape) product *= length;
         return product;
     }
-    /// All values in C order; NaN of members that did not get there.  @throws Error if the type is not float64
+    /// All values in C order; NaN where a member failed before it had a value.  @throws Error if the type is not float64
     SLIDEWAY_API std::span<double const> numbers() const;
     /// The same of a column of any type but text, converted.
     SLIDEWAY_API std::vector<double> values() const;
@@ -76,7 +76,7 @@ public:
     Column column(std::string const& name) const&& = delete;
     /// An attribute of the whole, as text: "scene", "version", "seed"; "" if there is none.
     std::string attribute(std::string const& name) const;
-    /// The hash of all numbers that `slideway info` tells of a result file.
+    /// The hash of all numbers, as `slideway info` prints it of a result file.
     std::string payload_hash() const;
     /// Writes a result file, as the program does.  @param replace a former result of slideway  @throws Error
     void write(std::string const& path, bool replace = false) const;
@@ -92,10 +92,10 @@ private:
 struct RunOptions {
     int threads = 0;           // 0: all that this process may use
     std::string isa = "auto";  // or one of those that `slideway list` names
-    /// Some members run again with tighter tolerances and by another method; what does not agree is told in the group `verification`.
+    /// Some members run again with tighter tolerances and by another method; the group `verification` says what agrees.
     bool verify = false;
     bool progress = false;                    // tell on stderr how far the run is
-    std::atomic<bool> const* stop = nullptr;  // looked at now and then: true ends the run
+    std::atomic<bool> const* stop = nullptr;  // read again and again during the run: true ends it
 };
 
 /// Numbers of rows by named columns: values[row * names.size() + column], SI.
@@ -115,8 +115,8 @@ public:
     /// The same scene with other values, and the same given members.
     Ensemble with(Settings const& settings) const;
 
-    /// The same scene with members of these inputs, one a row; the columns are dotted keys, which vary no more otherwise.  Of studies
-    /// whose design is given by their kind (sweep) or by correlations there are none.
+    /// The same scene with members of these inputs, one a row; the columns are dotted keys, which then have no distribution.
+    /// @throws Error for a sweep, whose members follow from its parameter, and for correlated keys
     Ensemble with_members(Table const& inputs) const;
 
     std::uint64_t members() const;
@@ -130,7 +130,7 @@ public:
     Table probe(std::span<double const> states, std::span<double const> times = {}) const;
     /// The scene with all its defaults, in SI, as TOML.
     std::string resolved() const;
-    /// What was given and has no effect, and starts that no mechanism has, one line each.
+    /// Keys that were given and have no effect, and starts inside the way, one line each.
     std::vector<std::string> warnings() const;
 
     /// Bytes of the numbers of a result.

@@ -108,7 +108,7 @@ class Ensemble:
 
     @property
     def warnings(self) -> list[str]:
-        """What the scene gives that has no effect, and starts that no mechanism has, one line each."""
+        """Keys of the scene that have no effect, and starts inside the way, one line each."""
         return [self._file.said(line) for line in self._native.warnings]
 
     def run(
