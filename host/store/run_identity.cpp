@@ -97,7 +97,7 @@ std::string RunIdentity::difference(RunIdentity const& earlier) const {
         std::vector<std::string> found, brought;
         for (auto const& [key, value] : now) {
             auto const old = before.find(key);
-            auto const words = [&key](std::string_view text) { return key == "study.table" ? content_of_table(text) : text; };
+            auto const words = [is_table = key == "study.table"](std::string_view text) { return is_table ? content_of_table(text) : text; };
             if (old == before.end())
                 brought.push_back(fmt::format("{} = {} is new", key, shown(value)));
             else if (old->second != value)
