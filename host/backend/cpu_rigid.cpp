@@ -1,14 +1,29 @@
-// A mechanism with rigid contacts: equations, impacts and lanes in one unit, compiled once per instruction set (CMakeLists.txt here).
+// A mechanism with rigid contacts: equations, impacts and lanes in one unit, compiled once per instruction set (CMakeLists.txt here); and its
+// lanes of members with shadows in another.
 #include "host/backend/mechanism_kernels.hpp"
 #include "kernels/integrate.hpp"
 #include "kernels/isa_real.hpp"
 #include "kernels/mechanisms/probe.hpp"
+#include "kernels/models/shadowed.hpp"
 #include SLIDEWAY_HEADER
 
 namespace slideway::inline SLIDEWAY_ISA {
-namespace {
 
 using Model = SLIDEWAY_MECHANISM;
+
+#if SLIDEWAY_SHADOWED
+void SLIDEWAY_RUN_SHADOWED(Block& block, Parts const& parts) {
+    integrate<Shadowed<Model>, IsaReal>(block, Shadowed<Model>{Model(parts)});
+}
+#else
+#if defined(SLIDEWAY_RUN_SHADOWED)
+extern void SLIDEWAY_RUN_SHADOWED(Block& block, Parts const& parts);
+#define SLIDEWAY_SHADOWED_OR_NONE &SLIDEWAY_RUN_SHADOWED
+#else
+#define SLIDEWAY_SHADOWED_OR_NONE nullptr
+#endif
+
+namespace {
 
 bool has(Parts const& parts) { return parts.rigid; }
 void run(Block& block, Parts const& parts) { integrate<Model, IsaReal>(block, Model(parts)); }
@@ -16,6 +31,7 @@ void probe_states(ProbeTable const& states, Parts const& parts) { probe<Model, I
 
 }  // namespace
 
-extern constinit MechanismKernels const SLIDEWAY_TABLE = {&has, &run, nullptr, &probe_states};
+extern constinit MechanismKernels const SLIDEWAY_TABLE = {&has, &run, SLIDEWAY_SHADOWED_OR_NONE, &probe_states};
+#endif
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -190,16 +190,10 @@ void read_chaos(Node const& root, Scene& scene) {
         refuse(*root.find_path("study.kind"), {fmt::format("nothing drives a {0}, and no exponents are computed of it", info(scene.parts.mechanism).name),
                                                "use \"ensemble\" or \"poincare\""});
     }
-    if (lyapunov && scene.parts.rigid) {
-        refuse(*root.find_path("study.kind"), {"no exponents are computed with contact.law \"rigid\"", "use \"ensemble\" or \"poincare\""});
-    }
     chaos.transient = read_span(root, scene, transient_keys, lyapunov ? 2 : 20);
     chaos.span = read_span(root, scene, span_keys, lyapunov ? 10 : sweep ? 50 : 150);
     if (!lyapunov) read_section(root, scene);
     if (lyapunov || sweep) read_neighbours(root, scene);
-    if (sweep && scene.parts.rigid && chaos.exponents > 0) {
-        refuse_study(root, root.find_path("study.exponents"), "study.exponents", {"none are computed with contact.law \"rigid\"", "use exponents = 0"});
-    }
     if (sweep) check_columns(root, scene);
     if (sweep && chaos.exponents > 0 && chaos.transient.value == 0 &&
         chaos.span.seconds(drive_period(scene.parts, scene.inputs)) < 2 * drive_period(scene.parts, scene.inputs)) {

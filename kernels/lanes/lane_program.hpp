@@ -209,7 +209,7 @@ private:
         pack_.with_accelerations([&](auto& a) { a.start(pack_.busy, report); });
         pack_.begin_next(pack_.busy, rates, report);
         if constexpr (has_impacts<Model>) {
-            faults = faults.or_else(settle_start(report));
+            faults = faults.or_else(settle_start(rates, report));
         } else if constexpr (Model::has_contacts) {
             if (pack_.needs.watch()) contacts.watch.begin(pack_.busy, report.contact, contacts.memory, pack_.needs.watching);
             if (holds_contacts(pack_.needs.watching)) {
@@ -232,15 +232,26 @@ private:
     }
 
     /// Impacts and lasting contacts of new members at their start.
-    template <class Report> SLIDEWAY_HD Faults<Real> settle_start(Report& report) {
+    template <class Report> SLIDEWAY_HD Faults<Real> settle_start(Real (&rates)[size], Report& report) {
         auto& c = pack_.state.course;
         auto& [memory, watch] = pack_.state.contacts;
-        pack_.model.settle(pack_.busy, c.t, pack_.state.constants.end, c.y, pack_.state.constants.parameters, memory, report.contact);
-        Real rates[size];
+        auto const& constants = pack_.state.constants;
+        [[maybe_unused]] std::conditional_t<Model::has_shadows, Shadows<Model, Real>, NoShadowSteps> shadows(block_.shadows);
+        [[maybe_unused]] auto const before = memory;
+        Real start[size];
+        for (int i = 0; i < size; ++i) start[i] = c.y[i];
+        [[maybe_unused]] auto const changed =
+            pack_.model.settle(pack_.busy, c.t, constants.end, c.y, constants.parameters, memory, report.contact);
+        if constexpr (Model::has_shadows) {
+            if (any(changed)) shadows.settle(pack_, {c.t, constants.end, start, rates, report.contact, before}, changed, true);
+        }
         auto const faults = pack_.evaluate(c.t, c.y, memory, rates, true, report);
         pack_.count_evaluations(pack_.busy, 1);
         if (pack_.needs.quantities) pack_.state.observation.observer.switch_over(pack_.busy, report, pack_.needs.switches);
         pack_.begin_next(pack_.busy, rates, report);
+        if constexpr (Model::has_shadows) {
+            if (any(changed)) shadows.depart(pack_, changed);
+        }
         watch.keep(pack_.busy, report.contact);
         return faults;
     }

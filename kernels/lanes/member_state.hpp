@@ -30,6 +30,7 @@ struct AccelerationsOf<Model, Real> {
     using Type = typename Model::template Accelerations<Real>;
 };
 struct NoShadows {};
+struct NoShadowContacts {};
 
 /// What a member has on account of its shadows.
 template <class Real> struct ShadowCourse {
@@ -105,12 +106,12 @@ template <class Model, class Real> struct MemberState {
     /// Present where accelerations are asked for.
     using Accelerations = typename AccelerationsOf<Model, Real>::Type;
 
-    /// What of its course a copy of the member has for itself.
+    /// What of its course a copy of the member has for itself.  Rigid contacts are those of the member.
     struct Shadow {
         Real y[Model::size], rates[Model::size];
         Real distance;  // from the member, after the last stop; dimensionless
         Real growth;    // ln of it since the last record
-        [[no_unique_address]] Contacts contacts;
+        [[no_unique_address]] std::conditional_t<has_impacts<Model>, NoShadowContacts, Contacts> contacts;
     };
 
     Constants constants;

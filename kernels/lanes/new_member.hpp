@@ -55,7 +55,7 @@ private:
             }
             shadow.distance = plan.d0;
             shadow.growth = 0;
-            start_memory(shadow.contacts.memory);
+            if constexpr (!has_impacts<Model>) start_memory(shadow.contacts.memory);
         }
     }
 };

@@ -40,11 +40,11 @@ struct ReportNeeds {
         return needs;
     }
 
-    /// Nobody observes a shadow.
-    SLIDEWAY_HD ReportNeeds of_shadows() const {
+    /// Nobody observes a shadow, and one with rigid contacts has no events of its own.
+    template <class Model> SLIDEWAY_HD ReportNeeds of_shadows() const {
         ReportNeeds needs;
         needs.watching = watching;
-        needs.ends = watch();
+        needs.ends = watch() && !has_impacts<Model>;
         return needs;
     }
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/lanes/pack.hpp"
+#include "kernels/lanes/saltation.hpp"
 #include "kernels/math/gram_schmidt.hpp"
 #include "kernels/math/offset_growth.hpp"
 #include "kernels/math/squared_ratios.hpp"
@@ -13,7 +14,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// by.  Where steps end at events they end at those of every shadow too (which method a member is left to, and whether a stiff step
 /// met an impact, is decided by the member alone: its shadows are near).  Each meets its contacts a little earlier or later than
 /// its member; that is how a jump of the velocity or of the force enters the growth of the offset, and linearised equations would need
-/// saltation matrices for it.
+/// saltation matrices for it.  Rigid contacts have them (Saltation): steps end at the member's events alone, and what holds a shadow is what
+/// holds its member.
 template <class Model, class Real> class Shadows {
 public:
     static constexpr int size = Model::size;
@@ -45,8 +47,8 @@ public:
         finite_ = mask_of<Real>(true);
         for (int s = 0; s < plan_.count; ++s) {
             auto const& shadow = pack.state.shadows[s];
-            StepStart<Model, Real> const from{pack.state.course.t, shadow.y, shadow.rates, shadow.contacts.memory,
-                                              pack.needs.of_shadows()};
+            StepStart<Model, Real> const from{pack.state.course.t, shadow.y, shadow.rates, memory_of(pack, shadow),
+                                              pack.needs.template of_shadows<Model>()};
             auto& end = ends_[s];
             end.step = step;
             stepper.attempt(pack, from, end);
@@ -68,11 +70,11 @@ public:
     /// Least fraction of the step at which a shadow has an event that ends it.
     SLIDEWAY_HD Real earliest(Pack<Model, Real> const& pack, Mask<Real> candidates, Real located_depth) const {
         Real fraction(1.0);
-        if constexpr (Model::has_contacts) {
+        if constexpr (Model::has_contacts && !has_impacts<Model>) {
             for (int s = 0; s < plan_.count; ++s) {
                 auto const& watch = pack.state.shadows[s].contacts.watch;
-                fraction = min(fraction, watch.earliest(candidates, ends_[s].report.contact, ends_[s].step, located_depth,
-                                                        pack.needs.watching));
+                fraction = min(fraction, watch.earliest(candidates, ends_[s].report.contact, ends_[s].step,
+                                                        located_depth, pack.needs.watching));
             }
         }
         return fraction;
@@ -87,7 +89,8 @@ public:
     }
 
     /// Time after the step: the sum and what it rounds off (Knuth's two-sum); a landing starts a new count.
-    SLIDEWAY_HD Real time_after(Pack<Model, Real>& pack, Real of_attempt, Mask<Real> accepted, Mask<Real> landed) const {
+    SLIDEWAY_HD Real time_after(Pack<Model, Real>& pack, Real of_attempt, Mask<Real> accepted,
+                                Mask<Real> landed) const {
         auto& c = pack.state.course;
         Real const step = of_attempt + c.shadowed.fine_time, sum = c.t + step;
         Real const of_step = sum - c.t;
@@ -105,13 +108,49 @@ public:
                 shadow.y[i] = select(accepted, end.end[i], shadow.y[i]);
                 shadow.rates[i] = select(accepted, end.end_rates[i], shadow.rates[i]);
             }
-            if constexpr (Model::has_contacts) {
+            if constexpr (Model::has_contacts && !has_impacts<Model>) {
                 if (!pack.needs.watch()) continue;
                 auto& [memory, watch] = shadow.contacts;
-                auto const touched =
-                    watch.update(accepted, end.report.contact, memory, shadow.y, pack.needs.watching);
+                auto const touched = watch.update(accepted, end.report.contact, memory, shadow.y, pack.needs.watching);
                 if (any(touched)) evaluate(pack, shadow, touched);
             }
+        }
+    }
+
+    using Event = typename Saltation<Model, Real>::Before;
+    /// Carries all through what `settle` does to their members in some lanes.  Members then go on with another derivative, from which `depart` leads.
+    SLIDEWAY_NOINLINE void settle(Pack<Model, Real> const& pack, Event const& event, Mask<Real> in,
+                                  bool at_start) requires has_impacts<Model> {
+        Saltation<Model, Real> const saltation(pack.model, pack.state.constants.parameters, event, in, at_start);
+        for (int s = 0; s < plan_.count; ++s) {
+            for (int i = 0; i < size; ++i) carried_[s].offset[i] = pack.state.shadows[s].y[i] - event.y[i];
+            auto const [delay, apart] = saltation.carry(carried_[s].offset);
+            carried_[s].delay = delay;
+            carried_[s].apart = apart;
+        }
+    }
+
+    /// The shadows of members that have settled, in some lanes.
+    SLIDEWAY_HD void depart(Pack<Model, Real>& pack, Mask<Real> in) requires has_impacts<Model> {
+        auto& c = pack.state.course;
+        for (int s = 0; s < plan_.count; ++s) {
+            auto& shadow = pack.state.shadows[s];
+            auto& [offset, delay, apart] = carried_[s];
+            Real square(0.0);
+            for (int i = 0; i < size; ++i) {
+                offset[i] = fnma(c.rates[i], delay, offset[i]);
+                Real const length = offset[i] / pack.state.constants.scale[i];
+                square = fma(length, length, square);
+            }
+            // Near a graze its growth knows no bounds.
+            auto const large = !(square <= Real(largest_distance * largest_distance));
+            c.shadowed.grown = c.shadowed.grown + count<Real>(in & (apart | large));
+            Real const shorter = select(large, Real(largest_distance) / sqrt(square), Real(1.0));
+            for (int i = 0; i < size; ++i) {
+                Real const moved = fma(offset[i], shorter, c.y[i]);
+                shadow.y[i] = select(in, select(moved - moved == Real(0.0), moved, c.y[i]), shadow.y[i]);
+            }
+            evaluate(pack, shadow, in);
         }
     }
 
@@ -120,7 +159,8 @@ public:
     SLIDEWAY_NOINLINE void rescale(Pack<Model, Real>& pack, Mask<Real> at) {
         // Impact speeds differ between member and shadow as the states do, and are rescaled with them.
         bool const speeds = pack.needs.watch() && pack.needs.watching != Watching::modes;
-        speeds ? rescale_numbers<size + Memory::speeds>(pack, at) : rescale_numbers<size>(pack, at);
+        constexpr int width = has_impacts<Model> ? size : size + Memory::speeds;
+        speeds ? rescale_numbers<width>(pack, at) : rescale_numbers<size>(pack, at);
     }
 
 private:
@@ -133,7 +173,7 @@ private:
             auto const large = inner_product<size>(w[s], w[s]) > Real(largest_distance * largest_distance);
             counts.grown = counts.grown + count<Real>(at & large);
         }
-        orthonormalise<size, width>(w, plan_.count, Real(least_distance), length);
+        orthonormalise<size, width>(w, plan_.count, Real(least_distance), plan_.prescribed, length);
         Real const d0(plan_.d0);
         for (int s = 0; s < plan_.count; ++s) {
             auto& shadow = pack.state.shadows[s];
@@ -153,11 +193,14 @@ private:
     SLIDEWAY_HD static Real* numbers(Memory& memory) { return reinterpret_cast<Real*>(&memory); }
     SLIDEWAY_HD static Real const* numbers(Memory const& memory) { return reinterpret_cast<Real const*>(&memory); }
 
-    template <int width> SLIDEWAY_HD static void read_offset(Pack<Model, Real> const& pack, Shadow const& shadow, Real* w) {
+    template <int width>
+    SLIDEWAY_HD static void read_offset(Pack<Model, Real> const& pack, Shadow const& shadow, Real* w) {
         auto const& s = pack.state;
         for (int i = 0; i < size; ++i) w[i] = (shadow.y[i] - s.course.y[i]) / s.constants.scale[i];
-        for (int i = size; i < width; ++i) {
-            w[i] = numbers(shadow.contacts.memory)[i - size] - numbers(s.contacts.memory)[i - size];
+        if constexpr (width > size) {
+            for (int i = size; i < width; ++i) {
+                w[i] = numbers(shadow.contacts.memory)[i - size] - numbers(s.contacts.memory)[i - size];
+            }
         }
     }
 
@@ -177,10 +220,18 @@ private:
         }
     }
 
+    /// What the contacts have left behind that hold it.
+    SLIDEWAY_FN static Memory const& memory_of(Pack<Model, Real> const& pack, [[maybe_unused]] Shadow const& shadow) {
+        if constexpr (has_impacts<Model>)
+            return pack.state.contacts.memory;
+        else
+            return shadow.contacts.memory;
+    }
+
     /// All that follows from a state that was put somewhere.
     SLIDEWAY_HD Faults<Real> refresh(Pack<Model, Real>& pack, Shadow& shadow, Mask<Real> in) {
         auto faults = evaluate(pack, shadow, in);
-        if constexpr (Model::has_contacts) {
+        if constexpr (Model::has_contacts && !has_impacts<Model>) {
             auto& [memory, watch] = shadow.contacts;
             if (pack.needs.watch()) watch.begin(in, report_.contact, memory, pack.needs.watching);
             if (pack.needs.watching == Watching::modes) {
@@ -194,15 +245,23 @@ private:
 
     SLIDEWAY_HD Faults<Real> evaluate(Pack<Model, Real>& pack, Shadow& shadow, Mask<Real> in) {
         Real rates[size];
-        auto const faults =
-            pack.evaluate(pack.state.course.t, shadow.y, shadow.contacts.memory, rates, pack.needs.watch(), report_);
+        auto const faults = pack.evaluate(pack.state.course.t, shadow.y, memory_of(pack, shadow), rates,
+                                          pack.needs.watch() && !has_impacts<Model>, report_);
         pack.count_evaluations(in, 1);
         for (int i = 0; i < size; ++i) shadow.rates[i] = select(in, rates[i], shadow.rates[i]);
         return faults.within(in);
     }
 
+    /// Of a shadow between `settle` and `depart`.
+    struct Carried {
+        Real offset[size], delay;
+        Mask<Real> apart;
+    };
+    struct NothingCarried {};
+
     ShadowPlan const plan_;
     Attempt<Model, Real> ends_[most_shadows];
+    [[no_unique_address]] std::conditional_t<has_impacts<Model>, Carried[most_shadows], NothingCarried> carried_;
     typename Model::template Report<Real> report_;
     Real squared_norm_;
     Faults<Real> faults_;

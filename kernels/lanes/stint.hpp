@@ -54,7 +54,8 @@ private:
     static constexpr int size = Model::size;
     static constexpr int width = lanes<Real>;
     /// Least step, in units of the end time.
-    static constexpr double time_resolution = Model::has_shadows ? 1e-19 : 8 * 2.220446049250313e-16;
+    static constexpr bool shadows_have_events = Model::has_shadows && !has_impacts<Model>;
+    static constexpr double time_resolution = shadows_have_events ? 1e-19 : 8 * 2.220446049250313e-16;
     static constexpr bool impacts_end_it = Stepper::stiff && Model::has_patterns;
     static constexpr bool by_clock = Stepper::by_clock;
     using Impacts = ImpactSteps<Stepper, Model, Real>;
@@ -210,11 +211,11 @@ private:
         auto const watching = pack_.needs.watching;
         Real const located = located_depth(watching);
         Real fraction = pack_.state.contacts.watch.earliest(early, attempt_.report.contact, step, located, watching);
-        if constexpr (Model::has_shadows) fraction = min(fraction, shadows_.earliest(pack_, early, located));
+        if constexpr (shadows_have_events) fraction = min(fraction, shadows_.earliest(pack_, early, located));
         auto const cut = fraction < Real(1.0);
         Allowance<Real> allowed{Mask<Real>(before.accepted & !cut),
                                 select(cut, max(step * fraction, resolution() * Real(32.0)), before.next)};
-        if constexpr (Model::has_shadows) shadows_.go_on(pack_, step, cut, allowed);
+        if constexpr (shadows_have_events) shadows_.go_on(pack_, step, cut, allowed);
         return allowed;
     }
 
@@ -235,7 +236,7 @@ private:
         auto& c = pack_.state.course;
         auto landed = accepted & landing.lands;
         Real t_end = c.t + attempt_.step;
-        if constexpr (Model::has_shadows) t_end = shadows_.time_after(pack_, attempt_.step, accepted, landed);
+        if constexpr (shadows_have_events) t_end = shadows_.time_after(pack_, attempt_.step, accepted, landed);
         t_end = select(landed, landing.time, t_end);
         if constexpr (Model::events > 0) {
             search_.run(pack_, stepper_, attempt_, accepted);
@@ -254,9 +255,13 @@ private:
         c.t = select(accepted, t_end, c.t);
         if constexpr (Stepper::stiff) c.stiff_steps = c.stiff_steps + count<Real>(accepted);
         pack_.begin_next(accepted, attempt_.end_rates, attempt_.report);
-        if constexpr (has_impacts<Model>) settle_contacts(accepted);
-        else remember_contacts(accepted);
-        if constexpr (Model::has_shadows) shadows_.advance(pack_, accepted);
+        if constexpr (has_impacts<Model>) {
+            if constexpr (Model::has_shadows) shadows_.advance(pack_, accepted);
+            settle_contacts(accepted);
+        } else {
+            remember_contacts(accepted);
+            if constexpr (Model::has_shadows) shadows_.advance(pack_, accepted);
+        }
         if (results_.stops() > 0) stop(landed);
         auto finished = landed & (c.t >= pack_.state.constants.end);
         if constexpr (Model::events > 0) {
@@ -296,8 +301,16 @@ private:
     SLIDEWAY_HD void settle_contacts(Mask<Real> accepted) {
         auto& c = pack_.state.course;
         auto& [memory, watch] = pack_.state.contacts;
-        auto const changed = pack_.model.settle(accepted, c.t, pack_.state.constants.end, c.y, pack_.state.constants.parameters, memory, attempt_.report.contact);
-        if (any(changed)) restart(changed);
+        auto const& constants = pack_.state.constants;
+        [[maybe_unused]] auto const before = memory;
+        auto const changed = pack_.model.settle(accepted, c.t, constants.end, c.y, constants.parameters, memory, attempt_.report.contact);
+        if (any(changed)) {
+            if constexpr (Model::has_shadows) {
+                shadows_.settle(pack_, {c.t, constants.end, attempt_.end, attempt_.end_rates, attempt_.report.contact, before}, changed, false);
+            }
+            restart(changed);
+            if constexpr (Model::has_shadows) shadows_.depart(pack_, changed);
+        }
         watch.keep(accepted, attempt_.report.contact);
     }
 

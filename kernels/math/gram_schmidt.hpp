@@ -13,10 +13,12 @@ template <int n, class Real> SLIDEWAY_FN Real inner_product(Real const* a, Real 
 namespace detail {
 
 /// In the lanes of the mask, the axis that the unit vectors before `w` span least, less what they span of it, as a unit vector.
+/// @param barred axes that do not count, a bit each
 template <int n, int width, class Real>
-SLIDEWAY_HD void place_least_spanned(Mask<Real> in, Real const (*unit)[width], int units, Real* w) {
+SLIDEWAY_HD void place_least_spanned(Mask<Real> in, Real const (*unit)[width], int units, unsigned barred, Real* w) {
     Real most(-1.0), which(0.0);
     for (int axis = 0; axis < n; ++axis) {
+        if ((barred >> axis & 1u) != 0) continue;
         Real left(1.0);
         for (int j = 0; j < units; ++j) left = fnma(unit[j][axis], unit[j][axis], left);
         auto const more = left > most;
@@ -38,9 +40,10 @@ SLIDEWAY_HD void place_least_spanned(Mask<Real> in, Real const (*unit)[width], i
 
 /// Modified Gram–Schmidt: makes `vectors` vectors orthonormal in their order.  The first n of a vector's `width` numbers count in
 /// products, the others are carried along.  A vector that the earlier ones leave no more than `least` of gives way to an axis.
+/// @param barred axes that no vector has a part along, a bit each
 /// @param length [vectors] what the earlier ones left of each, R_jj of the QR decomposition
 template <int n, int width, class Real>
-SLIDEWAY_HD void orthonormalise(Real (*w)[width], int vectors, Real least, Real* length) {
+SLIDEWAY_HD void orthonormalise(Real (*w)[width], int vectors, Real least, unsigned barred, Real* length) {
     for (int j = 0; j < vectors; ++j) {
         for (int k = 0; k < j; ++k) {
             Real const along = inner_product<n>(w[k], w[j]);
@@ -50,7 +53,7 @@ SLIDEWAY_HD void orthonormalise(Real (*w)[width], int vectors, Real least, Real*
         auto const lost = !(length[j] > least);  // NaN too
         Real const inverse = Real(1.0) / select(lost, Real(1.0), length[j]);
         for (int i = 0; i < width; ++i) w[j][i] = inverse * w[j][i];
-        if (any(lost)) detail::place_least_spanned<n, width>(lost, w, j, w[j]);
+        if (any(lost)) detail::place_least_spanned<n, width>(lost, w, j, barred, w[j]);
     }
 }
 

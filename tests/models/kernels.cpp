@@ -10,6 +10,7 @@
 #include "tests/models/models.hpp"
 #include "tests/models/oscillator_model.hpp"
 #include "tests/models/relief_valve.hpp"
+#include "tests/models/rigid_ball_model.hpp"
 #include "tests/models/table_ball_model.hpp"
 #include "tests/models/tracker_model.hpp"
 
@@ -52,6 +53,7 @@ testing::ModelKernels const model_kernels{integrate<BallModel, IsaReal>,
                                           integrate<ValveModel, IsaReal>,
                                           integrate<Shadowed<PlainLorenzModel>, IsaReal>,
                                           integrate<Shadowed<TableBallModel>, IsaReal>,
+                                          integrate<Shadowed<RigidBallModel>, IsaReal>,
                                           map_orbit<PlainLogistic, IsaReal>,
                                           map_orbit<PlainHenon, IsaReal>};
 

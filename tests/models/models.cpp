@@ -28,7 +28,7 @@ template <class Inputs> Following completed(Following f, std::size_t members, Mo
     return f;
 }
 
-ShadowPlan plan_of(Following const& f) { return {f.shadows, f.d0, f.lower, f.upper, f.directions.data()}; }
+ShadowPlan plan_of(Following const& f) { return {f.shadows, f.d0, f.lower, f.upper, f.directions.data(), f.prescribed}; }
 
 template <class Inputs>
 ModelResult run(void (*kernel)(BlockOf<Inputs>&), std::size_t columns, IntegratorSettings const& settings,
@@ -125,6 +125,11 @@ ModelResult run(Isa isa, IntegratorSettings const& settings, std::vector<LorenzI
 ModelResult run(Isa isa, IntegratorSettings const& settings, std::vector<TableBallInputs> const& members,
                 Following const& f) {
     return run(model_kernels(isa).table_ball, 0, settings, members, {}, &f);
+}
+
+ModelResult run(Isa isa, IntegratorSettings const& settings, std::vector<RigidBallInputs> const& members,
+                Following const& f) {
+    return run(model_kernels(isa).rigid_ball, 0, settings, members, {}, &f);
 }
 
 ModelResult run(Isa isa, std::vector<LogisticInputs> const& members, Following const& f) {

@@ -75,6 +75,9 @@ struct TableBallInputs {
     static constexpr int size = 2;  // x v
 };
 
+/// The same, without thrust, by the interface of rigid contacts; it may come to rest on the table.
+struct RigidBallInputs : TableBallInputs {};
+
 /// x ← r x (1 − x).
 struct LogisticInputs {
     double r = 4, x = 0.3;
@@ -96,6 +99,7 @@ struct ModelKernels {
     void (*valve)(BlockOf<ValveInputs>&);
     void (*lorenz)(BlockOf<LorenzInputs>&);         // with shadows
     void (*table_ball)(BlockOf<TableBallInputs>&);  // with shadows
+    void (*rigid_ball)(BlockOf<RigidBallInputs>&);  // with shadows
     void (*logistic)(MapBlockOf<LogisticInputs>&);
     void (*henon)(MapBlockOf<HenonInputs>&);
 };
@@ -133,11 +137,14 @@ struct Following {
     int shadows = 0;
     double d0 = 1e-7, lower = 0, upper = 0;
     std::vector<double> directions;    // [member][shadow][size]; empty: axes
+    unsigned prescribed = 0;           // components without offsets, a bit each
     std::vector<std::uint32_t> order;  // in which the block takes its members; empty: as they stand
 };
 ModelResult run(Isa isa, IntegratorSettings const& settings, std::vector<LorenzInputs> const& members,
                 Following const& f);
 ModelResult run(Isa isa, IntegratorSettings const& settings, std::vector<TableBallInputs> const& members,
+                Following const& f);
+ModelResult run(Isa isa, IntegratorSettings const& settings, std::vector<RigidBallInputs> const& members,
                 Following const& f);
 ModelResult run(Isa isa, std::vector<LogisticInputs> const& members, Following const& f);
 ModelResult run(Isa isa, std::vector<HenonInputs> const& members, Following const& f);

@@ -1,0 +1,161 @@
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+#include "kernels/laws/face.hpp"
+#include "kernels/math/tangent.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Carries offsets from members with rigid contacts through what happens where their steps end, exactly to the first order in them.  A shadow
+/// that is δ off its member when that has its event has its own δt later.  With γ what meets or turns round there, f the derivatives before and
+/// after, and R what the event does to the state,
+///   δt = −(∇γ·δ)/γ'⁻,   δ⁺ = DR (δ + f⁻ δt) + ∂R/∂t δt − f⁺ δt.                                                     (M13.15)
+/// R is the model's `settle`, its derivative that of the very decisions that the member's takes.  Where a contact opens f is continuous, and δt
+/// does not matter.
+template <class Model, class Real> class Saltation {
+public:
+    static constexpr int size = Model::size;
+    using Parameters = typename Model::template Parameters<Real>;
+    using Memory = typename Model::template Memory<Real>;
+    using Contact = std::remove_cvref_t<decltype(std::declval<typename Model::template Report<Real>>().contact)>;
+
+    /// Where a step has ended, before its event.
+    struct Before {
+        Real t, end;  // [s]
+        Real const* y;
+        Real const* rates;
+        Contact const& contact;
+        Memory const& memory;
+    };
+
+    /// @param in lanes where `settle` changes something  @param at_start whether it does so before the first step: at no other time then
+    SLIDEWAY_HD Saltation(Model const& model, Parameters const& p, Before const& before, Mask<Real> in, bool at_start)
+        : model_(model), before_(before), in_(in), at_start_(at_start) {
+        lift(p, p_);
+        lift(before.memory, memory_);
+        along_ = contact_along(before.rates, Real(1.0));
+    }
+
+    /// How a shadow is carried.
+    struct Carried {
+        Real delay;  // δt [s]
+        Mask<Real>
+            apart;  // lanes whose contacts meet at once, but not those of the shadow: what follows depends on which of them comes first
+    };
+
+    /// @param offset δ of a shadow from its member; then δ⁺ + f⁺ δt
+    SLIDEWAY_HD Carried carry(Real* offset) const {
+        auto contact = contact_along(offset, Real(0.0));
+        auto const carried = delay_of(contact);
+        Number y[size];
+        for (int i = 0; i < size; ++i) y[i] = {before_.y[i], fma(before_.rates[i], carried.delay, offset[i])};
+        // Of the member what it has itself, to the last bit: the same decisions follow.
+        auto const* const own = reinterpret_cast<Real const*>(&before_.contact);
+        auto const* const along = reinterpret_cast<Number const*>(&along_);
+        auto* const numbers = reinterpret_cast<Number*>(&contact);
+        for (std::size_t i = 0; i < sizeof(Contact) / sizeof(Real); ++i) {
+            numbers[i] = {own[i], fma(along[i].slope, carried.delay, numbers[i].slope)};
+        }
+        auto memory = memory_;
+        model_.settle(in_, Number(before_.t, carried.delay), Number(before_.end), y, p_, memory, contact);
+        for (int i = 0; i < size; ++i) offset[i] = y[i].slope;
+        return carried;
+    }
+
+private:
+    using Number = Tangent<Real>;
+    using Contacts = std::remove_cvref_t<decltype(std::declval<typename Model::template Report<Number>>().contact)>;
+    static constexpr bool has_grip = requires(Contact const& contact) { contact.grip; };
+    /// Share of the longer of two delays by which they differ by more than rounding and curvature.
+    static constexpr double same_delay = 1e-3;
+
+    template <class Record, class Numbers> SLIDEWAY_HD static void lift(Record const& record, Numbers& numbers) {
+        constexpr std::size_t count = sizeof(Record) / sizeof(Real);
+        static_assert(sizeof(Numbers) == count * sizeof(Number) && std::is_trivially_copyable_v<Record>);
+        auto const* const from = reinterpret_cast<Real const*>(&record);
+        auto* const to = reinterpret_cast<Number*>(&numbers);
+        for (std::size_t i = 0; i < count; ++i) to[i] = {from[i], Real(0.0)};
+    }
+
+    /// How what the contacts report changes along a direction.
+    SLIDEWAY_NOINLINE Contacts contact_along(Real const* direction, Real of_time) const {
+        Number y[size], rates[size];
+        for (int i = 0; i < size; ++i) y[i] = {before_.y[i], direction[i]};
+        typename Model::template Report<Number> report;
+        model_.template derivative<true>(Number(before_.t, of_time), y, p_, memory_, rates, &report);
+        return report.contact;
+    }
+
+    /// δt of the first of the member's events.  @param of how they change along the offset
+    SLIDEWAY_HD Carried delay_of(Contacts const& of) const {
+        Carried carried{Real(0.0), mask_of<Real>(false)};
+        if (at_start_) return carried;
+        Real const located = Model::located(p_, Number(before_.end)).value;
+        auto found = mask_of<Real>(false);
+        each_event(of, located, [&](Event const& event) {
+            carried.delay = select(event.happens & !found, event.delay, carried.delay);
+            carried.apart = carried.apart | event.grazes;
+            found = found | event.happens;
+        });
+        each_event(of, located, [&](Event const& event) {
+            Real const &delay = event.delay, &first = carried.delay;
+            carried.apart = carried.apart | (found & event.differs &
+                                             (abs(delay - first) > Real(same_delay) * max(abs(delay), abs(first))));
+        });
+        return carried;
+    }
+
+    /// What may happen to a contact, in some lanes.
+    struct Event {
+        Mask<Real> happens, grazes;
+        Mask<Real> differs;  // is near, and the shadow's is apart from it by more than the accuracy of the member's
+        Real delay;
+    };
+
+    /// Has a function see each.
+    template <class See> SLIDEWAY_HD void each_event(Contacts const& of, Real located, See const& see) const {
+        Real const zero(0.0), one(1.0), half(0.5);
+        auto const delay_where = [&](Mask<Real> in, Real change, Real flow) {
+            return select(in, negated(change) / select(in, flow, one), zero);
+        };
+        auto const pair = [&](Real depth, Real rate, Number const& flow, Number const& change, Real pressing,
+                              Real rate_change) {
+            Mask<Real> const near = in_ & (depth > negated(located)), meets = near & (rate > zero);
+            Mask<Real> const apart = abs(change.slope) > located;
+            Real const delay = delay_where(near, change.slope, flow.slope);
+            // A shadow that would meet the wall much slower or faster is not near enough, or the member's speed is but rounding.
+            Mask<Real> const unlike = meets & !(abs(fma(pressing, delay, rate_change)) <= half * rate);
+            see(Event{meets, Mask<Real>(unlike & apart), Mask<Real>(near & apart), select(unlike, zero, delay)});
+        };
+        constexpr std::size_t quads = std::extent_v<decltype(Contact::watched)>;
+        for (std::size_t i = 0; i < quads; ++i) {
+            auto const &depth = before_.contact.watched[i], &rate = before_.contact.rate[i];
+            auto const &flow = along_.watched[i], &change = of.watched[i], &press = along_.rate[i], &turn = of.rate[i];
+            pair(depth.a, rate.a, flow.a, change.a, press.a.slope, turn.a.slope);
+            pair(depth.b, rate.b, flow.b, change.b, press.b.slope, turn.b.slope);
+            pair(depth.c, rate.c, flow.c, change.c, press.c.slope, turn.c.slope);
+            pair(depth.d, rate.d, flow.d, change.d, press.d.slope, turn.d.slope);
+        }
+        if constexpr (has_grip) {
+            for (std::size_t i = 0; i < std::extent_v<decltype(Contact::grip)>; ++i) {
+                Real const flow = along_.grip[i].slope;
+                Mask<Real> const turns = in_ & (before_.contact.grip[i] < zero) & (flow < zero);
+                see(Event{turns, mask_of<Real>(false), turns, delay_where(turns, of.grip[i].slope, flow)});
+            }
+        }
+    }
+
+    Model const& model_;
+    Before const before_;
+    Mask<Real> const in_;
+    bool const at_start_;
+    typename Model::template Parameters<Number> p_;
+    typename Model::template Memory<Number> memory_;
+    Contacts along_;  // the flow
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA
