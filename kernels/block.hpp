@@ -98,7 +98,6 @@ struct ShadowPlan {
     double lower = 0;  // a single shadow is rescaled at a stop where its distance is not within [lower, upper]; several
     double upper = 0;  // are made orthogonal at every stop
     double const* directions = nullptr;  // [members][count][states of the model], of unit length
-    unsigned prescribed = 0;  // components of the state in which no offset can be, a bit each: the drive says them
 };
 inline constexpr int most_shadows = 10;
 

@@ -18,11 +18,13 @@ namespace slideway::inline SLIDEWAY_ISA {
 ///  - `has_contacts`: the report then has a `contact`, the model `switches()` and `watching(locate_modes, neighbours)`, and the watch
 ///    `begin`, `earliest`, `update` and `keep` (kernels/steppers/contact_watch.hpp), `touch_scale(parameters)` being its length;
 ///  - `has_impacts`: contacts then are rigid, `located(parameters, end)` is the length of the watch instead, and `settle(…)` says what follows
-///    where a step has ended (kernels/rigid);
+///    where a step has ended (kernels/rigid); with shadows both it and the derivative are called with a Tangent for `Real` too, and the
+///    contact's report has the depths `watched` and their `rate`, and where slips turn round `grip` (kernels/lanes/saltation.hpp);
 ///  - `scales(parameters, scale)`: sizes of the state's components that the absolute tolerance is meant against;
 ///  - `has_linearisation`: then `Linearisation<Real>` and `linearise(…)` serve the stiff method;
 ///  - `has_shadows`: then members have shadows beside them (kernels/lanes/shadows.hpp; kernels/models/shadowed.hpp makes such a model of
-///    another), with contacts also `remembered(speed)`, an impact speed as it may be carried on;
+///    another), with contacts also `remembered(speed)`, an impact speed as it may be carried on, and `prescribed()` if its drive leaves some of the
+///    state without offsets;
 ///  - `has_crossings`: then `gap(…)`, beside the components of the state, may serve as a section (kernels/lanes/crossing_search.hpp);
 ///  - `has_patterns`: then `contact_pattern(…)` says which lanes have like work to do, and with a linearisation `squared_speed(…)`,
 ///    `approach_speed(…)` and `energy_scale(…)` what is a creep and what an impact;

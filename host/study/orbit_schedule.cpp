@@ -106,9 +106,7 @@ OrbitSchedule orbit_schedule(Scene const& scene) {
 ShadowPlan shadow_plan(Scene const& scene) {
     if (scene.study == StudyKind::ensemble || scene.study == StudyKind::poincare) return {};
     ChaosSettings const& chaos = scene.chaos;
-    unsigned prescribed = 0;
-    for (int i = 0; i < info(scene.parts.mechanism).states; ++i) prescribed |= is_prescribed(scene.parts, i) ? 1u << i : 0u;
-    return {chaos.exponents, chaos.d0, chaos.d0_lower, chaos.d0_upper, nullptr, prescribed};
+    return {chaos.exponents, chaos.d0, chaos.d0_lower, chaos.d0_upper, nullptr};
 }
 
 void draw_directions(std::uint64_t seed, std::uint64_t member, int shadows, Parts const& parts, double* directions) {

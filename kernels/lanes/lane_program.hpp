@@ -243,7 +243,8 @@ private:
         [[maybe_unused]] auto const changed =
             pack_.model.settle(pack_.busy, c.t, constants.end, c.y, constants.parameters, memory, report.contact);
         if constexpr (Model::has_shadows) {
-            if (any(changed)) shadows.settle(pack_, {c.t, constants.end, start, rates, report.contact, before}, changed, true);
+            using Event = typename Saltation<Model, Real>::Before;
+            if (any(changed)) shadows.settle(pack_, Event{c.t, constants.end, start, rates, report.contact, before}, changed, true);
         }
         auto const faults = pack_.evaluate(c.t, c.y, memory, rates, true, report);
         pack_.count_evaluations(pack_.busy, 1);

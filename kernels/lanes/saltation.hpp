@@ -72,6 +72,8 @@ private:
     static constexpr bool has_grip = requires(Contact const& contact) { contact.grip; };
     /// Share of the longer of two delays by which they differ by more than rounding and curvature.
     static constexpr double same_delay = 1e-3;
+    /// Change of a grip over the run that is more than rounding.
+    static constexpr double least_turn = 1e-6;
 
     template <class Record, class Numbers> SLIDEWAY_HD static void lift(Record const& record, Numbers& numbers) {
         constexpr std::size_t count = sizeof(Record) / sizeof(Real);
@@ -143,7 +145,9 @@ private:
         if constexpr (has_grip) {
             for (std::size_t i = 0; i < std::extent_v<decltype(Contact::grip)>; ++i) {
                 Real const flow = along_.grip[i].slope;
-                Mask<Real> const turns = in_ & (before_.contact.grip[i] < zero) & (flow < zero);
+                // Of one that is stuck it is rounding, which a run would not add up.
+                Mask<Real> const turns =
+                    in_ & (before_.contact.grip[i] < zero) & (flow * before_.end < Real(-least_turn));
                 see(Event{turns, mask_of<Real>(false), turns, delay_where(turns, of.grip[i].slope, flow)});
             }
         }

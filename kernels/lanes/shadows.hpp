@@ -117,10 +117,10 @@ public:
         }
     }
 
-    using Event = typename Saltation<Model, Real>::Before;
-    /// Carries all through what `settle` does to their members in some lanes.  Members then go on with another derivative, from which `depart` leads.
-    SLIDEWAY_NOINLINE void settle(Pack<Model, Real> const& pack, Event const& event, Mask<Real> in,
-                                  bool at_start) requires has_impacts<Model> {
+    /// Carries all through what `settle` does to their members in some lanes.  Members then go on with another derivative, from which
+    /// `depart` leads.  @param event of a Saltation
+    template <class Event>
+    SLIDEWAY_NOINLINE void settle(Pack<Model, Real> const& pack, Event const& event, Mask<Real> in, bool at_start) {
         Saltation<Model, Real> const saltation(pack.model, pack.state.constants.parameters, event, in, at_start);
         for (int s = 0; s < plan_.count; ++s) {
             for (int i = 0; i < size; ++i) carried_[s].offset[i] = pack.state.shadows[s].y[i] - event.y[i];
@@ -131,7 +131,7 @@ public:
     }
 
     /// The shadows of members that have settled, in some lanes.
-    SLIDEWAY_HD void depart(Pack<Model, Real>& pack, Mask<Real> in) requires has_impacts<Model> {
+    SLIDEWAY_HD void depart(Pack<Model, Real>& pack, Mask<Real> in) {
         auto& c = pack.state.course;
         for (int s = 0; s < plan_.count; ++s) {
             auto& shadow = pack.state.shadows[s];
@@ -173,7 +173,7 @@ private:
             auto const large = inner_product<size>(w[s], w[s]) > Real(largest_distance * largest_distance);
             counts.grown = counts.grown + count<Real>(at & large);
         }
-        orthonormalise<size, width>(w, plan_.count, Real(least_distance), plan_.prescribed, length);
+        orthonormalise<size, width>(w, plan_.count, Real(least_distance), prescribed(pack.model), length);
         Real const d0(plan_.d0);
         for (int s = 0; s < plan_.count; ++s) {
             auto& shadow = pack.state.shadows[s];
@@ -188,6 +188,12 @@ private:
     }
 
     using Memory = typename Model::template Memory<Real>;
+
+    /// Components of the state in which no offset can be, a bit each: the drive says them.
+    SLIDEWAY_FN static unsigned prescribed(Model const& model) {
+        if constexpr (requires { model.prescribed(); }) return model.prescribed();
+        else return 0;
+    }
 
     /// The impact speeds come first in it.
     SLIDEWAY_HD static Real* numbers(Memory& memory) { return reinterpret_cast<Real*>(&memory); }

@@ -306,7 +306,9 @@ private:
         auto const changed = pack_.model.settle(accepted, c.t, constants.end, c.y, constants.parameters, memory, attempt_.report.contact);
         if (any(changed)) {
             if constexpr (Model::has_shadows) {
-                shadows_.settle(pack_, {c.t, constants.end, attempt_.end, attempt_.end_rates, attempt_.report.contact, before}, changed, false);
+                using Event = typename Saltation<Model, Real>::Before;
+                Event const event{c.t, constants.end, attempt_.end, attempt_.end_rates, attempt_.report.contact, before};
+                shadows_.settle(pack_, event, changed, false);
             }
             restart(changed);
             if constexpr (Model::has_shadows) shadows_.depart(pack_, changed);

@@ -46,6 +46,8 @@ struct RigidPlanarSliderCrank : PlanarBase {
         return p;
     }
 
+    /// Components of the state, a bit each.
+    constexpr unsigned prescribed() const { return free_crank ? 0 : info.prescribed; }
     static constexpr bool switches() { return false; }
     static constexpr Watching watching(bool, bool) { return Watching::touches; }
 

@@ -28,7 +28,7 @@ template <class Inputs> Following completed(Following f, std::size_t members, Mo
     return f;
 }
 
-ShadowPlan plan_of(Following const& f) { return {f.shadows, f.d0, f.lower, f.upper, f.directions.data(), f.prescribed}; }
+ShadowPlan plan_of(Following const& f) { return {f.shadows, f.d0, f.lower, f.upper, f.directions.data()}; }
 
 template <class Inputs>
 ModelResult run(void (*kernel)(BlockOf<Inputs>&), std::size_t columns, IntegratorSettings const& settings,

@@ -137,7 +137,6 @@ struct Following {
     int shadows = 0;
     double d0 = 1e-7, lower = 0, upper = 0;
     std::vector<double> directions;    // [member][shadow][size]; empty: axes
-    unsigned prescribed = 0;           // components without offsets, a bit each
     std::vector<std::uint32_t> order;  // in which the block takes its members; empty: as they stand
 };
 ModelResult run(Isa isa, IntegratorSettings const& settings, std::vector<LorenzInputs> const& members,
