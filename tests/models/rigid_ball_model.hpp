@@ -10,6 +10,7 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 template <class Real> struct RigidBallMemory {
+    static constexpr int speeds = 0;
     Real begun, held;  // 1 after the start, 1 on the table
 };
 template <class Real> SLIDEWAY_FN void start_memory(RigidBallMemory<Real>& memory) {
