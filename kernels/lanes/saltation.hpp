@@ -13,7 +13,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// Carries offsets from members with rigid contacts through what happens where their steps end, exactly to the first order in them.  A shadow
 /// that is δ off its member when that has its event has its own δt later.  With γ what meets or turns round there, f the derivatives before and
 /// after, and R what the event does to the state,
-///   δt = −(∇γ·δ)/γ'⁻,   δ⁺ = DR (δ + f⁻ δt) + ∂R/∂t δt − f⁺ δt.                                                     (M13.15)
+///   δt = −(∇γ·δ)/γ'⁻,   δ⁺ = DR (δ + f⁻ δt) + ∂R/∂t δt − f⁺ δt.                                                     (M13.12)
 /// R is the model's `settle`, its derivative that of the very decisions that the member's takes.  Where a contact opens f is continuous, and δt
 /// does not matter.
 template <class Model, class Real> class Saltation {

@@ -1,6 +1,7 @@
 // Members with rigid contacts have the same bits in every instruction set, block, order and company.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -75,6 +76,48 @@ TEST(RigidBits, AreAMembersOwn) {
     for (std::size_t i = 0; i < members.size(); ++i) {
         expect_same(together, i, turned, members.size() - 1 - i);
         expect_same(together, i, run(best_isa(), true, {members[i]}), 0);
+    }
+}
+
+/// With two shadows each.
+testing::ShadowResult run_shadowed(Isa isa, bool free_crank, std::vector<Inputs> const& members) {
+    testing::ShadowOptions options{testing::rigid_planar_parts(true, free_crank), 1e-7, 50, 1e-3, 2, 1e-6, {}};
+    options.directions = {0, 0.6, 0, 0, 0.8, 0, 0, 0, 0.8, 0, 0, 0.6};
+    return testing::run_shadowed(isa, options, members);
+}
+
+TEST(RigidBits, AreAMembersOwnWithShadowsToo) {
+    constexpr std::size_t width = 6, growths = 98;
+    auto const members = mixed_members(48);
+    auto const of = [](std::vector<double> const& all, std::size_t member, std::size_t count) {
+        auto const from = all.begin() + static_cast<std::ptrdiff_t>(member * count);
+        return std::vector<double>(from, from + static_cast<std::ptrdiff_t>(count));
+    };
+    // NaNs say nothing by their sign.
+    auto const same = [](std::vector<double> const& a, std::vector<double> const& b) {
+        return std::ranges::equal(a, b, [](double x, double y) { return std::memcmp(&x, &y, sizeof x) == 0 || (std::isnan(x) && std::isnan(y)); });
+    };
+    for (bool const free_crank : {false, true}) {
+        auto const scalar = run_shadowed(Isa::scalar, free_crank, members);
+        auto const expect = [&](testing::ShadowResult const& other, std::size_t i, std::size_t j) {
+            EXPECT_EQ(scalar.records[i].status, other.records[j].status) << i;
+            EXPECT_EQ(scalar.records[i].rhs_evaluations, other.records[j].rhs_evaluations) << i;
+            EXPECT_EQ(scalar.records[i].grown_offsets, other.records[j].grown_offsets) << i;
+            EXPECT_EQ(scalar.records[i].lost_offsets, other.records[j].lost_offsets) << i;
+            EXPECT_TRUE(same(of(scalar.states, i, width), of(other.states, j, width))) << i;
+            EXPECT_TRUE(same(of(scalar.growth, i, growths), of(other.growth, j, growths))) << i;
+        };
+        for (Isa const isa : built_isas()) {
+            if (!is_supported(isa)) continue;
+            auto const other = run_shadowed(isa, free_crank, members);
+            for (std::size_t i = 0; i < members.size(); ++i) expect(other, i, i);
+        }
+        std::vector<Inputs> backwards(members.rbegin(), members.rend());
+        auto const turned = run_shadowed(best_isa(), free_crank, backwards);
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            expect(turned, i, members.size() - 1 - i);
+            expect(run_shadowed(best_isa(), free_crank, {members[i]}), i, 0);
+        }
     }
 }
 

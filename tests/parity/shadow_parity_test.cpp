@@ -32,6 +32,7 @@ template <> testing::TableBallInputs varied(std::size_t i) {
     in.restitution = 0.8 + 0.2 * spread(i + 5), in.height = 0.2 + spread(i), in.thrust = i % 3 == 0 ? 0.2 : 0;
     return in;
 }
+template <> testing::RigidBallInputs varied(std::size_t i) { return {varied<testing::TableBallInputs>(i)}; }
 template <> testing::LogisticInputs varied(std::size_t i) { return {3 + spread(i), spread(i + 3)}; }
 template <> testing::HenonInputs varied(std::size_t i) {
     return {1.1 + 0.4 * spread(i), 0.3, i % 7 == 2 ? 50.0 : 0.1, 0};
@@ -147,6 +148,10 @@ TEST(ShadowParity, OfTheLorenzEquations) {
 
 TEST(ShadowParity, OfABallThroughItsImpacts) {
     for (auto const method : {Method::dopri5, Method::bs32}) expect_one_set_of_bits<testing::TableBallInputs>(method);
+}
+
+TEST(ShadowParity, OfARigidBallThroughItsImpactsAndItsRest) {
+    for (auto const method : {Method::dopri5, Method::bs32}) expect_one_set_of_bits<testing::RigidBallInputs>(method);
 }
 
 TEST(ShadowParity, OfMaps) {

@@ -30,6 +30,47 @@ inline RunOptions rigid_options(Parts const& parts, double tolerance, double sec
     return o;
 }
 
+/// Members that stop at equal times, with shadows that are put back to d0 at each.
+struct ShadowOptions {
+    Parts parts;
+    double tolerance = 1e-10;
+    std::size_t stops = 0;
+    double every = 0;  // [s]
+    int shadows = 1;
+    double d0 = 1e-6;
+    std::vector<double> directions;  // [shadow][state], of unit length, the same for all members
+};
+
+struct ShadowResult {
+    std::vector<MemberRecord> records;
+    std::vector<double> states;  // [member][state], at the end
+    std::vector<double> growth;  // ln, [member][interval][shadow]; the first interval begins at the first stop
+};
+
+inline ShadowResult run_shadowed(Isa isa, ShadowOptions const& options, std::vector<Inputs> const& members) {
+    std::size_t const n = members.size(), width = static_cast<std::size_t>(info(options.parts.mechanism).states);
+    ShadowResult r;
+    r.records.resize(n);
+    r.states.resize(n * width);
+    r.growth.resize(n * (options.stops - 1) * static_cast<std::size_t>(options.shadows));
+    double const end = std::fma(static_cast<double>(options.stops - 1), options.every, options.every);
+    std::vector<MemberClock> const clocks(n, MemberClock{end, options.every, options.every});
+    std::vector<double> directions;
+    for (std::size_t i = 0; i < n; ++i) directions.insert(directions.end(), options.directions.begin(), options.directions.end());
+    Block block;
+    block.inputs = members.data();
+    block.members = n;
+    block.settings = rigid_options(options.parts, options.tolerance, end).settings;
+    block.clocks = clocks.data();
+    block.stops = {.count = options.stops};
+    block.shadows = {options.shadows, options.d0, 0, 0, directions.data()};
+    block.records = r.records.data();
+    block.final_states = r.states.data();
+    block.growth_values = r.growth.data();
+    find_instance(isa, options.parts).run_shadowed(block);
+    return r;
+}
+
 /// Planar slider-cranks of all proportions, starts and restitutions, with friction up to `most_friction`.
 inline std::vector<Inputs> random_rigid_blocks(std::size_t count, unsigned seed, double most_friction) {
     std::mt19937_64 draw(seed);
