@@ -2,6 +2,7 @@
 
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/saltation.hpp"
+#include "kernels/lanes/shadow_offset.hpp"
 #include "kernels/math/gram_schmidt.hpp"
 #include "kernels/math/offset_growth.hpp"
 #include "kernels/math/squared_ratios.hpp"
@@ -169,62 +170,50 @@ private:
         Real w[most_shadows][width], length[most_shadows];
         auto& counts = pack.state.course.shadowed;
         for (int s = 0; s < plan_.count; ++s) {
-            read_offset<width>(pack, pack.state.shadows[s], w[s]);
+            Offset::template read<width>(pack, pack.state.shadows[s], w[s]);
             auto const large = inner_product<size>(w[s], w[s]) > Real(largest_distance * largest_distance);
             counts.grown = counts.grown + count<Real>(at & large);
         }
-        orthonormalise<size, width>(w, plan_.count, Real(least_distance), prescribed(pack.model), length);
-        Real const d0(plan_.d0);
+        Real const least = Offset::rounding(pack), d0(plan_.d0);
+        orthonormalise<size, width>(w, plan_.count, least, Offset::prescribed(pack.model), length);
+        auto lost = mask_of<Real>(false);
         for (int s = 0; s < plan_.count; ++s) {
             auto& shadow = pack.state.shadows[s];
-            auto const found = offset_growth(plan_, at, length[s], shadow.distance);
+            auto const found = offset_growth(plan_, at, length[s], shadow.distance, least);
             shadow.growth = select(at, shadow.growth + found.growth, shadow.growth);
             shadow.distance = found.distance;
             counts.lost = counts.lost + count<Real>(at & found.lost);
+            lost = lost | (at & found.lost);
             if (none(found.moved)) continue;
-            write_offset<width>(pack, found.moved, w[s], d0, shadow);
+            Offset::template write<width>(pack, found.moved, w[s], d0, shadow);
             refresh(pack, shadow, found.moved);
         }
+        if constexpr (has_impacts<Model>) {
+            if (any(lost)) hold(pack, lost);
+        }
+    }
+
+    /// Takes from offsets along axes, which know of no contacts, what holds them: twice, as velocities follow from where the slider is.
+    SLIDEWAY_NOINLINE void hold(Pack<Model, Real>& pack, Mask<Real> in) {
+        auto const& c = pack.state.course;
+        auto const& memory = pack.state.contacts.memory;
+        Real rates[size];
+        pack.evaluate(c.t, c.y, memory, rates, true, report_);
+        pack.count_evaluations(in, 1);
+        typename Saltation<Model, Real>::Before const event{c.t,     pack.state.constants.end, c.y,
+                                                            c.rates, report_.contact,          memory};
+        for (int round = 0; round < 2; ++round) {
+            settle(pack, event, in, true);
+            for (int s = 0; s < plan_.count; ++s) {
+                Real* const y = pack.state.shadows[s].y;
+                for (int i = 0; i < size; ++i) y[i] = select(in, c.y[i] + carried_[s].offset[i], y[i]);
+            }
+        }
+        for (int s = 0; s < plan_.count; ++s) evaluate(pack, pack.state.shadows[s], in);
     }
 
     using Memory = typename Model::template Memory<Real>;
-
-    /// Components of the state in which no offset can be, a bit each: the drive says them.
-    SLIDEWAY_FN static unsigned prescribed(Model const& model) {
-        if constexpr (requires { model.prescribed(); }) return model.prescribed();
-        else return 0;
-    }
-
-    /// The impact speeds come first in it.
-    SLIDEWAY_HD static Real* numbers(Memory& memory) { return reinterpret_cast<Real*>(&memory); }
-    SLIDEWAY_HD static Real const* numbers(Memory const& memory) { return reinterpret_cast<Real const*>(&memory); }
-
-    template <int width>
-    SLIDEWAY_HD static void read_offset(Pack<Model, Real> const& pack, Shadow const& shadow, Real* w) {
-        auto const& s = pack.state;
-        for (int i = 0; i < size; ++i) w[i] = (shadow.y[i] - s.course.y[i]) / s.constants.scale[i];
-        if constexpr (width > size) {
-            for (int i = size; i < width; ++i) {
-                w[i] = numbers(shadow.contacts.memory)[i - size] - numbers(s.contacts.memory)[i - size];
-            }
-        }
-    }
-
-    template <int width>
-    SLIDEWAY_HD static void write_offset(Pack<Model, Real> const& pack, Mask<Real> in, Real const* w, Real length,
-                                         Shadow& shadow) {
-        auto const& s = pack.state;
-        for (int i = 0; i < size; ++i) {
-            shadow.y[i] = select(in, fma(length * s.constants.scale[i], w[i], s.course.y[i]), shadow.y[i]);
-        }
-        if constexpr (width > size) {
-            for (int i = size; i < width; ++i) {
-                Real& number = numbers(shadow.contacts.memory)[i - size];
-                Real const own = numbers(s.contacts.memory)[i - size];
-                number = select(in, Model::remembered(fma(length, w[i], own)), number);
-            }
-        }
-    }
+    using Offset = ShadowOffset<Model, Real>;
 
     /// What the contacts have left behind that hold it.
     SLIDEWAY_FN static Memory const& memory_of(Pack<Model, Real> const& pack, [[maybe_unused]] Shadow const& shadow) {

@@ -16,12 +16,12 @@ template <class Real> struct OffsetGrowth {
 
 /// One shadow is left alone within its bounds; several, made orthogonal, always go back.
 /// @param at lanes at a stop.  @param length of the offset, of several what the earlier ones left of it.
-/// @param distance after the last stop, > 0
+/// @param distance after the last stop, > 0  @param least what rounding makes of offsets
 template <class Real>
-SLIDEWAY_FN OffsetGrowth<Real> offset_growth(ShadowPlan const& plan, Mask<Real> at, Real length, Real distance) {
-    Real const reached = max(length, Real(least_distance));
+SLIDEWAY_FN OffsetGrowth<Real> offset_growth(ShadowPlan const& plan, Mask<Real> at, Real length, Real distance, Real least) {
+    Real const reached = max(length, least);
     auto moved = at;
-    auto const lost = !(length > Real(least_distance));
+    auto const lost = !(length > least);
     if (plan.count == 1) moved = at & (lost | !((reached >= Real(plan.lower)) & (reached <= Real(plan.upper))));
     return {log_positive(reached / distance), select(at, select(moved, Real(plan.d0), reached), distance), moved, lost};
 }

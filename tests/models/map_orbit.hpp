@@ -89,7 +89,7 @@ private:
         }
         orthonormalise<size, size>(w, plan.count, Real(least_distance), 0, length);
         for (int s = 0; s < plan.count; ++s) {
-            auto const found = offset_growth(plan, mask_of<Real>(true), length[s], distance_[s]);
+            auto const found = offset_growth(plan, mask_of<Real>(true), length[s], distance_[s], Real(least_distance));
             growth_[s] = growth_[s] + found.growth;
             distance_[s] = found.distance;
             for (int i = 0; i < size; ++i) {

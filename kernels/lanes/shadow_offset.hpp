@@ -1,0 +1,66 @@
+#pragma once
+
+#include "kernels/block.hpp"
+#include "kernels/lanes/pack.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// The offset of a shadow from its member, in the scales of the state, and behind it that of the impact speeds that both remember.
+template <class Model, class Real> struct ShadowOffset {
+    static constexpr int size = Model::size;
+    using Shadow = typename MemberState<Model, Real>::Shadow;
+    using Memory = typename Model::template Memory<Real>;
+
+    template <int width>
+    SLIDEWAY_HD static void read(Pack<Model, Real> const& pack, Shadow const& shadow, Real* w) {
+        auto const& s = pack.state;
+        for (int i = 0; i < size; ++i) w[i] = (shadow.y[i] - s.course.y[i]) / s.constants.scale[i];
+        if constexpr (width > size) {
+            for (int i = size; i < width; ++i) {
+                w[i] = numbers(shadow.contacts.memory)[i - size] - numbers(s.contacts.memory)[i - size];
+            }
+        }
+    }
+
+    template <int width>
+    SLIDEWAY_HD static void write(Pack<Model, Real> const& pack, Mask<Real> in, Real const* w, Real length, Shadow& shadow) {
+        auto const& s = pack.state;
+        for (int i = 0; i < size; ++i) {
+            shadow.y[i] = select(in, fma(length * s.constants.scale[i], w[i], s.course.y[i]), shadow.y[i]);
+        }
+        if constexpr (width > size) {
+            for (int i = size; i < width; ++i) {
+                Real& number = numbers(shadow.contacts.memory)[i - size];
+                Real const own = numbers(s.contacts.memory)[i - size];
+                number = select(in, Model::remembered(fma(length, w[i], own)), number);
+            }
+        }
+    }
+
+    /// Components of the state in which no offset can be, a bit each: the drive says them.
+    SLIDEWAY_FN static unsigned prescribed(Model const& model) {
+        if constexpr (requires { model.prescribed(); }) return model.prescribed();
+        else return 0;
+    }
+
+    /// What rounding makes of an offset.  The numbers of a member with rigid contacts may be far longer than what they are measured in.
+    SLIDEWAY_HD static Real rounding(Pack<Model, Real> const& pack) {
+        Real least(least_distance);
+        if constexpr (has_impacts<Model>) {
+            auto const& s = pack.state;
+            for (int i = 0; i < size; ++i) {
+                if ((prescribed(pack.model) >> i & 1u) != 0) continue;
+                least = max(Real(4 * 2.220446049250313e-16) * abs(s.course.y[i]) / s.constants.scale[i], least);
+            }
+        }
+        return least;
+    }
+
+private:
+    /// The impact speeds come first in it.
+    SLIDEWAY_HD static Real* numbers(Memory& memory) { return reinterpret_cast<Real*>(&memory); }
+    SLIDEWAY_HD static Real const* numbers(Memory const& memory) { return reinterpret_cast<Real const*>(&memory); }
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA
