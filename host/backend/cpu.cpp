@@ -12,8 +12,8 @@ namespace slideway {
 // Each instruction set has kernels of every mechanism.
 #define SLIDEWAY_DECLARED(name, Type, Base) extern MechanismKernels const name##_kernels;
 #define SLIDEWAY_ADDRESS(name, Type, Base) &name##_kernels,
-#define SLIDEWAY_RIGID_DECLARED(name, Type) extern MechanismKernels const name##_rigid;
-#define SLIDEWAY_RIGID_ADDRESS(name, Type) if (mechanism == Mechanism::name) return &name##_rigid;
+#define SLIDEWAY_RIGID_DECLARED(name, ...) extern MechanismKernels const name##_rigid;
+#define SLIDEWAY_RIGID_ADDRESS(name, ...) if (mechanism == Mechanism::name) return &name##_rigid;
 #define SLIDEWAY_KERNELS_OF(isa)                                                                        \
     namespace isa {                                                                                     \
     SLIDEWAY_MECHANISMS(SLIDEWAY_DECLARED)                                                              \

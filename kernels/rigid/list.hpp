@@ -1,5 +1,5 @@
 // The mechanisms whose slider and way may be rigid (contact.law = "rigid"), a row each.  `name` is a row of kernels/mechanisms/list.hpp and names the header
-// kernels/rigid/<name>.hpp; `Type` is the struct in it.  CMake reads the rows too: each is a unit of kernels per instruction set.
+// kernels/rigid/<name>.hpp; `Type` is the struct in it.  CMake reads the rows too: each is a unit of kernels per instruction set, and one more where members may have shadows.
 #pragma once
 
 #define SLIDEWAY_RIGID(row)              \
@@ -7,4 +7,4 @@
     row(carriage, RigidCarriage)         \
     row(scotch_yoke, RigidScotchYoke)    \
     row(free_slider, RigidFreeSlider)    \
-    row(planar_slider_crank, RigidPlanarSliderCrank)
+    row(planar_slider_crank, RigidPlanarSliderCrank, Shadowed)

@@ -22,9 +22,18 @@ inline constexpr Selection without_rigid_contact =
 /// Whether a mechanism has kernels for them.
 constexpr bool may_be_rigid(Mechanism mechanism) {
     bool answer = false;
-#define SLIDEWAY_NAME(name, Type) answer = answer || mechanism == Mechanism::name;
+#define SLIDEWAY_NAME(name, ...) answer = answer || mechanism == Mechanism::name;
     SLIDEWAY_RIGID(SLIDEWAY_NAME)
 #undef SLIDEWAY_NAME
+    return answer;
+}
+
+/// Whether members of a mechanism with rigid contacts may have shadows: what their exponents need.
+constexpr bool has_rigid_exponents(Mechanism mechanism) {
+    bool answer = false;
+#define SLIDEWAY_SHADOWED_ROW(name, Type, ...) answer = answer || (mechanism == Mechanism::name && (#__VA_ARGS__)[0] != 0);
+    SLIDEWAY_RIGID(SLIDEWAY_SHADOWED_ROW)
+#undef SLIDEWAY_SHADOWED_ROW
     return answer;
 }
 

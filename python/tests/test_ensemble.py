@@ -38,6 +38,7 @@ studies = {
     "rigid_starts": {"study.members": 12, "study.duration": "0.1 s"},
     "sweep_clearance": {
         "study.members": 2, "study.points": 3, "study.transient_revolutions": 0, "study.revolutions": 2, "mechanism.crank_speed": "600 rpm"},
+    "sweep_rigid": {"study.members": 2, "study.points": 2, "study.transient_revolutions": 0, "study.revolutions": 2},
     "carriage_3": {"study.duration": "5 ms"},
 }
 
