@@ -82,6 +82,7 @@ TEST(RigidBits, AreAMembersOwn) {
 /// With two shadows each.
 testing::ShadowResult run_shadowed(Isa isa, bool free_crank, std::vector<Inputs> const& members) {
     testing::ShadowOptions options{testing::rigid_planar_parts(true, free_crank), 1e-7, 50, 1e-3, 2, 1e-6, {}};
+    options.max_steps = 4000;
     options.directions = {0, 0.6, 0, 0, 0.8, 0, 0, 0, 0.8, 0, 0, 0.6};
     return testing::run_shadowed(isa, options, members);
 }

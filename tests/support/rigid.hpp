@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <random>
 #include <vector>
 
@@ -39,6 +40,7 @@ struct ShadowOptions {
     int shadows = 1;
     double d0 = 1e-6;
     std::vector<double> directions;  // [shadow][state], of unit length, the same for all members
+    std::uint64_t max_steps = 1'000'000;
 };
 
 struct ShadowResult {
@@ -61,6 +63,7 @@ inline ShadowResult run_shadowed(Isa isa, ShadowOptions const& options, std::vec
     block.inputs = members.data();
     block.members = n;
     block.settings = rigid_options(options.parts, options.tolerance, end).settings;
+    block.settings.max_steps = options.max_steps;
     block.clocks = clocks.data();
     block.stops = {.count = options.stops};
     block.shadows = {options.shadows, options.d0, 0, 0, directions.data()};
