@@ -2,13 +2,14 @@
 
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/pair_stages.hpp"
+#include "kernels/lanes/stepped_numbers.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/contact_clock.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// Attempts steps of an explicit pair by the clocks of impacts (ContactClock), in lanes without one by time.  Time t and u = √δ are two
-/// components more: y' = 2u f, t' = 2u, u' = δ'.
+/// components more: y' = 2u f, t' = 2u, u' = δ'.  A step that was made may end early, at any place inside.
 template <class Pair, class Model, class Real> class ClockStep {
 public:
     static constexpr int order = Pair::order;
@@ -20,23 +21,51 @@ public:
     static constexpr int jacobians = 0;
     static_assert(Pair::adaptive && !Pair::has_two_estimates && Pair::dense_stages == 0);
 
-    /// Says by what clock the next attempt goes, and how far.
-    SLIDEWAY_HD void go_by(ContactClock<Real> const& clock, Real own) {
+    /// Says by what clock the next attempt goes, and how far.  @param deep lanes deep within an impact
+    SLIDEWAY_HD void go_by(ContactClock<Real> const& clock, Real own, Mask<Real> deep) {
         step_.start = clock;
         step_.own = own;
+        step_.deep = select(deep, Real(1.0), Real(0.0));
     }
 
     /// Idle lanes step in place.  @param to its `step` [s] comes out as what the clock makes of it
     SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
-        begin(from);
+        begin(pack, from);
         to.faults = Faults<Real>::none();
-        if (from.needs.stages) pack.begin_integrals(Stages::template weights<0>(), pace_);
         Stages::run([&](auto s) { stage<s>(pack, from, to); });
-        for (int i = 0; i < size; ++i) to.end[i] = at_[i], to.end_rates[i] = rates_[i];
-        auto const moves = step_.own > Real(0.0);
-        to.step = select(moves, at_[time], step_.own);
-        step_.end = {step_.start.pair, at_[root], k_[Pair::stages - 1][root]};
-        if (from.needs.stages) pack.end_integrals(select(moves, step_.own / select(moves, to.step, Real(1.0)), Real(1.0)));
+        for (int i = 0; i < components; ++i) numbers_.end[i] = at_[i];
+        share_ = Real(1.0);
+        whole_ = step_.own;
+        finish(to);
+        if (from.needs.stages) integrate(pack, to);
+    }
+
+    /// Prepares steps in the lanes of the mask to end early: with a slope in the middle the inside of a step is known to order 5.
+    SLIDEWAY_NOINLINE void look_inside(Pack<Model, Real>& pack, StepStart<Model, Real> const& from,
+                                       Attempt<Model, Real>& to, Mask<Real> lanes) {
+        Real const half(0.5);
+        for (int i = 0; i < components; ++i) at_[i] = numbers_.at(i, whole_, half);
+        auto const slopes = evaluate(pack, from, to, lanes);
+        for (int i = 0; i < components; ++i) numbers_.set_middle(lanes, i, whole_, slopes.of[i]);
+        if (!from.needs.stages) return;
+        Real values[parts];
+        pack.integrands(to.report, values);
+        for (int i = 0; i < pack.integrals_in_use(); ++i) integrals_.set_middle(lanes, i, whole_, values[i] * slopes.of[time]);
+    }
+
+    /// Ends steps early in the lanes of the mask, whose others stay as they are.  @param share of the whole step by its clock
+    SLIDEWAY_NOINLINE void end_early(Pack<Model, Real>& pack, StepStart<Model, Real> const& from,
+                                     Attempt<Model, Real>& to, Mask<Real> lanes, Real share) {
+        share_ = select(lanes, share, share_);
+        auto const early = share_ < Real(1.0);
+        for (int i = 0; i < components; ++i) at_[i] = select(early, numbers_.at(i, whole_, share_), numbers_.end[i]);
+        evaluate(pack, from, to, lanes);
+        step_.own = whole_ * share_;
+        finish(to);
+        if (!from.needs.stages) return;
+        Real means[parts];
+        for (int i = 0; i < pack.integrals_in_use(); ++i) means[i] = integrals_.at(i, whole_, share_) / to.step;
+        pack.set_means(early, means);
     }
 
     /// The last step by its clock.
@@ -44,78 +73,126 @@ public:
 
     /// Error estimate of one component at the time of the step's end: that of the time counts with the rate there.
     SLIDEWAY_HD Real error(Attempt<Model, Real> const& to, int i) const {
-        Real const of_time = select(step_.start.runs(), Pair::error_slope(k_, time), Real(0.0));
-        return step_.own * fnma(to.end_rates[i], of_time, Pair::error_slope(k_, i));
+        Real const of_time = select(step_.start.runs(), Pair::error_slope(numbers_.k, time), Real(0.0));
+        return step_.own * fnma(to.end_rates[i], of_time, Pair::error_slope(numbers_.k, i));
     }
 
     SLIDEWAY_HD void prepare_dense(Pack<Model, Real>&, Attempt<Model, Real> const&, Mask<Real>) {}
 
     /// The state inside the step, at fraction θ of its time.
-    SLIDEWAY_HD void dense(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to, Real theta, Real* state) const {
-        Real const fraction = fraction_of(to.step, theta);
-        for (int i = 0; i < size; ++i) state[i] = Pair::dense(k_, i, from.y[i], to.end[i], step_.own, fraction);
+    SLIDEWAY_HD void dense(StepStart<Model, Real> const&, Attempt<Model, Real> const& to, Real theta, Real* state) const {
+        Real const share = share_at(to.step, theta);
+        for (int i = 0; i < size; ++i) state[i] = numbers_.at(i, whole_, share);
     }
 
 private:
     static constexpr int size = Model::size;
-    static constexpr int time = size, root = size + 1;
+    static constexpr int time = size, root = size + 1, components = size + 2;
+    static constexpr int parts = room(Pack<Model, Real>::integrals);
     using Stages = PairStages<Pair>;
 
-    SLIDEWAY_HD void begin(StepStart<Model, Real> const& from) {
+    /// Derivatives by the clock.
+    struct Slopes { Real of[components]; };
+
+    SLIDEWAY_HD void begin(Pack<Model, Real> const& pack, StepStart<Model, Real> const& from) {
         auto const& clock = step_.start;
-        pace_ = clock.pace();
+        Real const pace = step_.pace_at_start();
         memory_ = from.memory;
         memory_.clock = clock.pair;
         for (int i = 0; i < size; ++i) {
-            start_[i] = from.y[i];
-            k_[0][i] = pace_ * from.rates[i];
+            numbers_.start[i] = from.y[i];
+            numbers_.k[0][i] = pace * from.rates[i];
         }
-        start_[time] = Real(0.0);
-        start_[root] = clock.root;
-        k_[0][time] = pace_;
-        k_[0][root] = select(clock.runs(), clock.rate, Real(0.0));
+        numbers_.start[time] = Real(0.0);
+        numbers_.start[root] = clock.root;
+        numbers_.k[0][time] = pace;
+        numbers_.k[0][root] = step_.root_rate(clock.root, clock.rate);
+        numbers_.forget_middle();
+        if (!from.needs.stages) return;
+        pack.integrands_at_start(integrals_.k[0]);
+        for (int i = 0; i < pack.integrals_in_use(); ++i) {
+            integrals_.start[i] = Real(0.0);
+            integrals_.k[0][i] = integrals_.k[0][i] * pace;
+        }
+        integrals_.forget_middle();
     }
 
     template <int s>
     SLIDEWAY_HD void stage(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
         constexpr bool last = s + 1 == Pair::stages;
-        Pair::template stage_state<s>(start_, k_, step_.own, at_);
-        auto const runs = step_.start.runs();
+        Pair::template stage_state<s>(numbers_.start, numbers_.k, step_.own, at_);
+        // A fault of one stage is NaN in those after it, whose own faults say nothing.
+        to.faults =
+            to.faults.or_else(evaluate_at(pack, from, to, last ? from.needs.ends : from.needs.stages, numbers_.k[s]));
+        if (!from.needs.stages) return;
+        Real const pace = numbers_.k[s][time];
+        pack.integrands(to.report, integrals_.k[s]);
+        for (int i = 0; i < pack.integrals_in_use(); ++i) integrals_.k[s][i] = integrals_.k[s][i] * pace;
+    }
+
+    /// The integrals over the whole step.
+    SLIDEWAY_HD void integrate(Pack<Model, Real>& pack, Attempt<Model, Real> const& to) {
+        // Of the last stage the weights are those of the step.
+        Pair::template stage_state<Pair::stages - 1>(integrals_.start, integrals_.k, whole_, integrals_.end);
+        Real const per_time = Real(1.0) / to.step, own_per_time = whole_ * per_time;
+        Real means[parts];
+        for (int i = 0; i < pack.integrals_in_use(); ++i) means[i] = integrals_.end[i] * per_time;
+        pack.set_means(to.step > Real(0.0), means);
+        for (int i = 0; i < Pack<Model, Real>::Observer::audit_integrals; ++i) pack.audit_error[i] = own_per_time * Pair::error_slope(integrals_.k, i);
+    }
+
+    /// Evaluates the derivative at `at_`.
+    SLIDEWAY_HD Faults<Real> evaluate_at(Pack<Model, Real> const& pack, StepStart<Model, Real> const& from,
+                                         Attempt<Model, Real>& to, bool report_wanted, Real* slopes) {
         Real const u = at_[root];
         memory_.clock_depth = u * u;
         rates_[size] = Real(0.0);
-        auto const faults =
-            pack.evaluate(from.t + at_[time], at_, memory_, rates_, last ? from.needs.ends : from.needs.stages, to.report);
-        to.faults = to.faults.or_else(faults);
-        Real const pace = select(runs, u + u, Real(1.0));
-        for (int i = 0; i < size; ++i) k_[s][i] = pace * rates_[i];
-        k_[s][time] = pace;
-        k_[s][root] = select(runs, rates_[size], Real(0.0));
-        if (from.needs.stages) pack.add_integrands(Stages::template weights<s>(), to.report, pace);
+        auto const faults = pack.evaluate(from.t + at_[time], at_, memory_, rates_, report_wanted, to.report);
+        Real const pace = step_.pace(u);
+        for (int i = 0; i < size; ++i) slopes[i] = pace * rates_[i];
+        slopes[time] = pace;
+        slopes[root] = step_.root_rate(u, rates_[size]);
+        return faults;
     }
 
-    /// Fraction of the step by its clock at fraction θ of its time: Newton's method on the continuous extension of t.
-    SLIDEWAY_HD Real fraction_of(Real h, Real theta) const {
+    /// The same for lanes whose step is made already.
+    SLIDEWAY_HD Slopes evaluate(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to,
+                                Mask<Real> lanes) {
+        Slopes slopes;
+        to.faults = to.faults.or_else(evaluate_at(pack, from, to, true, slopes.of).within(lanes));
+        pack.count_evaluations(lanes, 1);
+        return slopes;
+    }
+
+    /// The attempt's end, which is where the derivative was evaluated last.
+    SLIDEWAY_HD void finish(Attempt<Model, Real>& to) {
+        for (int i = 0; i < size; ++i) to.end[i] = at_[i], to.end_rates[i] = rates_[i];
+        to.step = select(step_.own > Real(0.0), at_[time], step_.own);
+        step_.end = {step_.start.pair, at_[root], select(step_.start.runs(), rates_[size], Real(0.0))};
+    }
+
+    /// Share of the whole step by its clock at fraction θ of the time of its end: Newton's method on the continuous extension of t.
+    SLIDEWAY_HD Real share_at(Real h, Real theta) const {
         auto const runs = step_.start.runs();
-        if (none(runs)) return theta;
-        Real fraction = theta;
-        Real const wanted = theta * h;
+        Real share = theta * share_;
+        if (none(runs)) return share;
+        Real const first = share, wanted = theta * h;
         for (int i = 0; i < 4; ++i) {
-            Real const here = Pair::dense(k_, time, start_[time], h, step_.own, fraction);
-            Real const ahead = Pair::dense(k_, time, start_[time], h, step_.own, fraction + Real(1e-6));
-            Real const moved = fraction + (wanted - here) * Real(1e-6) / (ahead - here);
-            auto const inside = (moved >= Real(0.0)) & (moved <= Real(1.0));
-            fraction = select(inside, moved, fraction);
+            Real const here = numbers_.at(time, whole_, share), ahead = numbers_.at(time, whole_, share + Real(1e-6));
+            Real const moved = share + (wanted - here) * Real(1e-6) / (ahead - here);
+            auto const inside = (moved >= Real(0.0)) & (moved <= share_);
+            share = select(inside, moved, share);
         }
-        return select(runs, fraction, theta);
+        return select(runs, share, first);
     }
 
     ClockedStep<Real> step_;
     typename Model::template Memory<Real> memory_;  // of the member, with the clock
-    Real pace_;
-    Real k_[Pair::stages][size + 2];
-    Real start_[size + 2], at_[size + 2];
-    Real rates_[size + 1];  // the derivative, and the clock's
+    SteppedNumbers<Pair, components, Real> numbers_;
+    SteppedNumbers<Pair, parts, Real> integrals_;  // if needs.stages
+    Real whole_, share_;                           // of the step by its clock: as it was tried, and what is left of it
+    Real at_[components];                          // where the derivative is evaluated
+    Real rates_[size + 1];                         // the derivative there, and the clock's
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

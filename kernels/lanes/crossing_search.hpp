@@ -45,11 +45,11 @@ private:
         /// What the time would change by over the whole step, as it passes at the step's start and at the end of a part of it: of a step
         /// by a clock these differ.
         SLIDEWAY_HD Real time_at_start() const {
-            if constexpr (Stepper::by_clock) return stepper.step().own * stepper.step().start.pace();
+            if constexpr (Stepper::by_clock) return stepper.step().own * stepper.step().pace_at_start();
             else return whole;
         }
         SLIDEWAY_HD Real time_at_end(Stepper const& part) const {
-            if constexpr (Stepper::by_clock) return stepper.step().own * part.step().end.pace();
+            if constexpr (Stepper::by_clock) return stepper.step().own * part.step().pace_at_end();
             else return whole;
         }
 
@@ -146,7 +146,7 @@ private:
         attempt.step = select(at, surface.whole * theta, Real(0.0));
         if constexpr (Stepper::by_clock) {
             auto const& step = surface.stepper.step();
-            stepper.go_by(step.start, select(at, step.own * theta, Real(0.0)));
+            stepper.go_by(step.start, select(at, step.own * theta, Real(0.0)), step.is_deep());
         }
         auto from = pack.start();
         from.needs = {};

@@ -20,6 +20,7 @@ public:
         auto const& s = pack.state;
         auto clock = s.contacts.watch.clock(s.contacts.memory);
         in_contact_ = clock.runs();
+        beside_ = s.contacts.watch.touching(s.contacts.memory) > Real(1.5);
         turned_ = mask_of<Real>(false);
         // Who starts in contact, or is left in one before any impact began, knows of no step by the clock yet.
         Real const known = s.course.impacts.step, by_time = s.course.h;
@@ -31,25 +32,32 @@ public:
         clock.pair = select(pack.busy & !lands, clock.pair, Real(-1.0));
         Real const half = clock.own_of(Real(0.5) * remaining);
         Real const own = select(clock.runs(), select(halves, min(half, by_clock), by_clock), select(lands, remaining, h));
-        stepper.go_by(clock, select(pack.busy, own, Real(0.0)));
+        stepper.go_by(clock, select(pack.busy, own, Real(0.0)), is_deep(clock, own));
         return lands;
     }
 
     /// Lanes that tried to land within an impact: a step that goes past what the clock is for.
     SLIDEWAY_HD Mask<Real> landed_in_contact(Mask<Real> lands) const { return in_contact_ & lands; }
 
-    /// A touch or a parting must end its step.  @param resolution least step that moves time [s]
-    SLIDEWAY_HD Allowance<Real> allowed(Pack<Model, Real> const& pack, Stepper const& stepper, Attempt<Model, Real> const& to,
-                                        Allowance<Real> const& before, double rtol, Real resolution) const {
+    /// A touch or a parting must end its step.  The inside of a step is known: it ends there early.
+    /// @param to what the attempt comes to, at the end of what is left of it  @param resolution least step that moves time [s]
+    SLIDEWAY_HD Allowance<Real> allowed(Pack<Model, Real>& pack, Stepper& stepper, Attempt<Model, Real>& to,
+                                        Allowance<Real> const& before, double rtol, Real resolution) {
         auto const& step = stepper.step();
+        Real const own = step.own;
         // A clock has steps of any size; what it does to time may round to nothing.
-        Mask<Real> const early = before.accepted & (step.start.runs() | (step.own > resolution * Real(64.0)));
+        Mask<Real> const long_enough = before.accepted & (step.start.runs() | (own > resolution * Real(64.0)));
         Real const depth = Real(located(rtol, pack.needs.switches)) * Model::touch_scale(pack.state.constants.parameters);
-        Real const fraction = pack.state.contacts.watch.earliest(early, to.report.contact, step, depth);
-        auto const cut = fraction < Real(1.0);
+        Real share = pack.state.contacts.watch.earliest(long_enough, to.report.contact, step, depth);
+        auto cut = share < Real(1.0);
+        if (any(cut)) cut = end_early(pack, stepper, to, cut, depth, share);
+        ended_early_ = before.accepted & (share < Real(1.0)) & !cut;
         Real const least = select(step.start.runs(), Real(0.0), resolution * Real(32.0));
-        return {Mask<Real>(before.accepted & !cut), select(cut, max(step.own * fraction, least), before.next)};
+        return {Mask<Real>(before.accepted & !cut), select(cut, max(own * share, least), before.next)};
     }
+
+    /// Lanes whose last step did.
+    SLIDEWAY_HD Mask<Real> ended_early() const { return ended_early_; }
 
     /// The step that is to follow if the last one is to grow by a factor, by the clock that it went by.
     SLIDEWAY_HD Real next(State& s, Stepper const& stepper, Mask<Real> accepted, Real factor) const {
@@ -60,8 +68,9 @@ public:
         auto const whole = (own > impacts.flight_step) | (step.own > Real(0.1) * impacts.flight_step);
         impacts.flight_step = select(accepted & !in_contact_ & whole, own, impacts.flight_step);
         auto const begins = step.start.runs() & (step.start.rate > Real(0.0)) & (step.start.root < Real(0.1) * step.end.root);
-        impacts.first_step = select(accepted & begins, own, impacts.first_step);
-        impacts.first_speed = select(accepted & begins, step.start.rate, impacts.first_speed);
+        Real const first = own * sqrt(max(step.start.rate, Real(0.0)));
+        impacts.alone = select(accepted & begins & !beside_, first, impacts.alone);
+        impacts.beside = select(accepted & begins & beside_, first, impacts.beside);
         return select(accepted, step.end.ending(own), own);
     }
 
@@ -81,34 +90,65 @@ public:
         auto& c = s.course;
         c.h = select(busy & !in_contact_, min(next, longest), c.h);
         c.impacts.step = select(busy & stepper.step().start.runs(), next, c.impacts.step);
-        if (any(turned_)) turn(s, stepper, longest);
+        if (any(turned_)) turn(s, stepper, next, longest);
     }
 
 private:
+    /// Ends steps at their first touch or parting.  @param share where the cubics of the depths have it, and where it is found
+    /// @return lanes where it is not: they try again, shorter
+    SLIDEWAY_NOINLINE Mask<Real> end_early(Pack<Model, Real>& pack, Stepper& stepper, Attempt<Model, Real>& to,
+                                           Mask<Real> open, Real depth, Real& share) {
+        auto const& [memory, watch] = pack.state.contacts;
+        auto const& step = stepper.step();
+        Real const whole = step.own;
+        stepper.look_inside(pack, pack.start(), to, open);
+        for (int tries = 0; tries < 4; ++tries) {
+            stepper.end_early(pack, pack.start(), to, open, share);
+            Real const again = watch.earliest(open, to.report.contact, step, depth);
+            Mask<Real> const beyond = open & (again < Real(1.0));
+            Mask<Real> const before = open & !beyond & !watch.turns(memory, to.report.contact, step);
+            open = beyond | before;
+            if (none(open)) break;
+            Real const on = watch.way_to_turn(memory, to.report.contact, step, depth) / whole;
+            share = select(beyond, share * again, select(before, min(share + on, Real(0.9999)), share));
+        }
+        return open;
+    }
+
     /// Depth [clearances] up to which a touch counts as located: it errs by the impulse up to there, which goes with δ^2.5, or by that of
     /// a jump.  @param switches of the law: its forces jump there
     SLIDEWAY_HD static double located(double rtol, bool switches) {
         return switches ? ContactWatch<Real>::tolerance(Watching::modes) : 1e-4 * ::sqrt(rtol);
     }
 
-    /// The step after a touch or a parting: the first of an impact as of the last one, whose length by the clock falls with the speed
-    /// roughly as v^-0.6; beside another contact it is shorter; that of a flight as before the impact.
-    SLIDEWAY_HD void turn(State& s, Stepper const& stepper, Real longest) const {
+    /// Steps that are deep within an impact: they neither begin near its touch nor end near its parting.
+    SLIDEWAY_HD static Mask<Real> is_deep(ContactClock<Real> const& clock, Real own) {
+        Mask<Real> const runs = clock.runs(), from_touch = clock.root > Real(0.5) * own * abs(clock.rate);
+        Mask<Real> const from_parting = own < Real(0.4) * clock.way_out();
+        return runs & from_touch & from_parting;
+    }
+
+    /// The step after a touch or a parting.  The first of an impact is as of the last one of its kind, alone or beside another contact; its
+    /// length by the clock falls with the speed roughly as v^-0.6.  A contact that another one interrupted goes on as it was, a flight too.
+    SLIDEWAY_HD void turn(State& s, Stepper const& stepper, Real next, Real longest) const {
         auto& impacts = s.course.impacts;
         auto const clock = s.contacts.watch.clock(s.contacts.memory);
-        auto const before = stepper.step().start.runs();
+        auto const beside = stepper.step().start.runs();
         Mask<Real> const touches = turned_ & clock.runs() & (clock.rate > Real(0.0));
         Mask<Real> const goes_on = turned_ & clock.runs() & !touches, flies = turned_ & !clock.runs();
-        Real const speed = max(clock.rate, Real(1e-12));
-        Real const as_before = impacts.first_step * sqrt(impacts.first_speed / speed);
-        Real const guess = sqrt(Real(1e-3) * impacts.flight_step / speed);
-        Real const first = select(impacts.first_step > Real(0.0), select(before, Real(0.2), Real(1.0)) * as_before, guess);
-        impacts.step = select(touches, first, select(goes_on, Real(0.5) * impacts.first_step, impacts.step));
+        Real const root_speed = sqrt(max(clock.rate, Real(1e-12)));
+        Real const alone = select(impacts.alone > Real(0.0), impacts.alone, sqrt(Real(1e-3) * impacts.flight_step));
+        Real const as_before = select(beside, select(impacts.beside > Real(0.0), impacts.beside, Real(0.2) * alone), alone);
+        impacts.outer = select(touches & beside, next, impacts.outer);
+        impacts.step = select(touches, as_before / root_speed, select(goes_on, impacts.outer, impacts.step));
         s.course.h = select(flies, min(impacts.flight_step, longest), s.course.h);
     }
 
     Mask<Real> in_contact_ = mask_of<Real>(false);  // lanes whose step is within an impact, by whatever clock
-    Mask<Real> turned_ = mask_of<Real>(false);      // lanes whose step ended at a touch or a parting
+    Mask<Real> beside_ = mask_of<Real>(false);      // lanes where several pairs touch
+    Mask<Real> ended_early_ =
+        mask_of<Real>(false);                   // lanes whose step ended where a pair touched or parted inside of it
+    Mask<Real> turned_ = mask_of<Real>(false);  // lanes whose step ended at a touch or a parting
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

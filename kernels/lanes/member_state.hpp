@@ -54,8 +54,8 @@ template <class Model> inline constexpr bool has_impacts = requires { requires M
 template <class Real> struct ImpactCourse {
     Real step;          // the next by its clock, 0 before there is one
     Real flight_step;   // that its impacts interrupt [s]
-    Real first_step;    // by the clock, of the last impact
-    Real first_speed;   // δ' with which that began [m/s]
+    Real alone, beside; // first step by the clock times √δ': of the last impact of a pair alone, and beside other pairs
+    Real outer;         // by the clock, of the contact that a further pair has interrupted
 };
 struct NoImpactCourse {};
 

@@ -34,7 +34,7 @@ template <class Model> struct NewMember {
             c.shadowed.fine_time = c.shadowed.uncut = c.shadowed.lost = c.shadowed.grown = 0;
             place_shadows(r, block.shadows, member);
         }
-        if constexpr (has_clocks<Model>) c.impacts = {0.0, c.h, 0.0, 0.0};
+        if constexpr (has_clocks<Model>) c.impacts = {0.0, c.h, 0.0, 0.0, 0.0};
         c.accepted = c.rejected = c.evaluations = c.jacobians = c.stiff_steps = 0;
         c.rejections = c.stiffness = c.rate_squared = 0;
         // A model without linearisation is left to the explicit pair.

@@ -56,37 +56,49 @@ template <class Model, class Real> struct Pack {
         }
     }
 
-    /// Begins the integrals over a step with the stage at its start.  @param pace dt/ds, of a step by a clock
-    template <class Pace = ByTime> SLIDEWAY_HD void begin_integrals(StageWeights const& w, Pace const& pace = {}) {
-        for (int i = 0; i < Observer::integrals; ++i) integral[i] = Real(w.value) * (state.observation.integrand[i] * pace);
-        with_accelerations([&](auto& record) { record.begin_step(w.value, pace); });
+    /// How many integrals a step may have: the observer's, then the accelerations'.
+    static constexpr int integrals = Observer::integrals + AccelerationsOf<Model, Real>::Type::integrals;
+
+    /// Those of them that the block asks for: the first ones.
+    SLIDEWAY_HD int integrals_in_use() const { return needs.accelerations ? integrals : Observer::integrals; }
+
+    /// The integrands where a step starts, and at a report.
+    SLIDEWAY_HD void integrands_at_start(Real* values) const {
+        for (int i = 0; i < Observer::integrals; ++i) values[i] = state.observation.integrand[i];
+        with_accelerations([&](auto const& record) { record.integrands_at_start(values + Observer::integrals); });
+    }
+    SLIDEWAY_HD void integrands(Report const& report, Real* values) const {
+        Observer::integrands(report, values);
+        with_accelerations([&](auto const& record) { record.integrands(report, values + Observer::integrals); });
+    }
+    /// Sets the means of the integrands over a step, in the lanes of the mask.
+    SLIDEWAY_HD void set_means(Mask<Real> in, Real const* means) {
+        for (int i = 0; i < Observer::integrals; ++i) integral[i] = select(in, means[i], integral[i]);
+        with_accelerations([&](auto& record) { record.set_means(in, means + Observer::integrals); });
+    }
+
+    /// Begins the integrals over a step with the stage at its start.
+    SLIDEWAY_HD void begin_integrals(StageWeights const& w) {
+        for (int i = 0; i < Observer::integrals; ++i) integral[i] = Real(w.value) * state.observation.integrand[i];
+        with_accelerations([&](auto& record) { record.begin_step(w.value); });
         for (int i = 0; i < Observer::audit_integrals; ++i) {
-            Real const value = state.observation.integrand[i] * pace;
+            Real const value = state.observation.integrand[i];
             audit_error[i] = Real(w.error) * value;
             if (w.coarse_error != 0) coarse_audit_error[i] = Real(w.coarse_error) * value;
         }
     }
 
     /// Adds a stage.
-    template <class Pace = ByTime>
-    SLIDEWAY_HD void add_integrands(StageWeights const& w, Report const& report, Pace const& pace = {}) {
+    SLIDEWAY_HD void add_integrands(StageWeights const& w, Report const& report) {
         if (w.value == 0 && w.error == 0) return;
         Real values[room(Observer::integrals)];
         Observer::integrands(report, values);
-        for (int i = 0; i < Observer::integrals; ++i) values[i] = values[i] * pace;
         for (int i = 0; i < Observer::integrals; ++i) integral[i] = fma(Real(w.value), values[i], integral[i]);
-        with_accelerations([&](auto& record) { record.add_stage(w.value, report, pace); });
+        with_accelerations([&](auto& record) { record.add_stage(w.value, report); });
         for (int i = 0; i < Observer::audit_integrals; ++i) {
             audit_error[i] = fma(Real(w.error), values[i], audit_error[i]);
             if (w.coarse_error != 0) coarse_audit_error[i] = fma(Real(w.coarse_error), values[i], coarse_audit_error[i]);
         }
-    }
-
-    /// Makes integrals by a clock those by time.  @param own step by the clock over that by time
-    SLIDEWAY_HD void end_integrals(Real const& own) {
-        for (int i = 0; i < Observer::integrals; ++i) integral[i] = integral[i] * own;
-        for (int i = 0; i < Observer::audit_integrals; ++i) audit_error[i] = audit_error[i] * own;
-        with_accelerations([&](auto& record) { record.end_step(own); });
     }
 
     /// What the next step starts from, in the lanes of the mask.

@@ -60,7 +60,8 @@ private:
     static constexpr bool by_clock = Stepper::by_clock;
     using Impacts = ImpactSteps<Stepper, Model, Real>;
     using Choice = MethodChoice<Model, Real>;
-    using Control = StepControl<Stepper::order>;
+    // Within an impact errors differ much from step to step.
+    using Control = StepControl<Stepper::order, by_clock ? 25 : 20>;
 
     /// A known time at which the step ends at the latest, and the lanes where it ends there.
     struct Landing {
@@ -235,6 +236,7 @@ private:
     SLIDEWAY_HD Mask<Real> advance(Mask<Real> accepted, Landing const& landing) {
         auto& c = pack_.state.course;
         auto landed = accepted & landing.lands;
+        if constexpr (by_clock) landed = landed & !impacts_.ended_early();
         Real t_end = c.t + attempt_.step;
         if constexpr (shadows_have_events) t_end = shadows_.time_after(pack_, attempt_.step, accepted, landed);
         t_end = select(landed, landing.time, t_end);

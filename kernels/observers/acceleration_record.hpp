@@ -5,19 +5,17 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// The pace dt/ds of a stage whose step goes by time.
-struct ByTime {
-    template <class Real> friend SLIDEWAY_FN Real operator*(Real const& value, ByTime) { return value; }
-};
-
 /// A model whose accelerations nobody may ask for.
-struct NoAccelerations {};
+struct NoAccelerations {
+    static constexpr int integrals = 0;
+};
 
 /// Peaks and integrals of the accelerations of a pack's sliders: of the centre along X, Y and Z, and of the sensors top and front.  Apart
 /// from the other quantities, for a member that asks for none carries nothing of it along.  Peaks go by the accepted steps; of the
 /// integrals ∫ax², ∫ay², ∫az², ∫|top|, ∫|front| each step takes the mean over its stages with the stepper's weights.
 template <class Real> class AccelerationRecord {
 public:
+    static constexpr int integrals = 5;
     static constexpr Selection quantities =
         quantities_where([](QuantityInfo const& info) { return info.keeper == Keeper::accelerations; });
     /// Whether the integrals are asked for.
@@ -37,19 +35,21 @@ public:
         raise(fresh, r);
     }
 
-    /// Begins a step with the stage at its start.  @param pace dt/ds of a step by a clock
-    template <class Pace = ByTime> SLIDEWAY_FN void begin_step(double weight, Pace const& pace = {}) {
-        for (int i = 0; i < count; ++i) mean_[i] = Real(weight) * (at_start_[i] * pace);
+    /// Begins a step with the stage at its start.
+    SLIDEWAY_FN void begin_step(double weight) {
+        for (int i = 0; i < count; ++i) mean_[i] = Real(weight) * at_start_[i];
     }
-    template <class Report, class Pace = ByTime>
-    SLIDEWAY_FN void add_stage(double weight, Report const& r, Pace const& pace = {}) {
+    template <class Report> SLIDEWAY_FN void add_stage(double weight, Report const& r) {
         Real values[count];
         integrands(r, values);
-        for (int i = 0; i < count; ++i) mean_[i] = fma(Real(weight), values[i] * pace, mean_[i]);
+        for (int i = 0; i < count; ++i) mean_[i] = fma(Real(weight), values[i], mean_[i]);
     }
-    /// Makes the means those over time.  @param own step by the clock over that by time
-    SLIDEWAY_FN void end_step(Real const& own) {
-        for (auto& mean : mean_) mean = mean * own;
+    /// Sets the means over a step, of a stepper that makes them itself.
+    SLIDEWAY_FN void set_means(Mask<Real> in, Real const* means) {
+        for (int i = 0; i < count; ++i) mean_[i] = select(in, means[i], mean_[i]);
+    }
+    SLIDEWAY_FN void integrands_at_start(Real* values) const {
+        for (int i = 0; i < count; ++i) values[i] = at_start_[i];
     }
     /// What the next step starts from, in the lanes of the mask.
     template <class Report> SLIDEWAY_FN void begin_next(Mask<Real> in, Report const& r) {
@@ -78,9 +78,6 @@ public:
         }
     }
 
-private:
-    static constexpr int count = 5;
-
     template <class Report> SLIDEWAY_FN static void integrands(Report const& r, Real* values) {
         auto const& a = r.acceleration;
         values[0] = a.x * a.x;
@@ -89,6 +86,10 @@ private:
         values[3] = abs(r.top);
         values[4] = abs(r.front);
     }
+
+private:
+    static constexpr int count = integrals;
+
     template <class Report> SLIDEWAY_FN void raise(Mask<Real> taken, Report const& r) {
         auto const& a = r.acceleration;
         Real const values[count] = {abs(a.x), abs(a.y), abs(a.z), abs(r.top), abs(r.front)};

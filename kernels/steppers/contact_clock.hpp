@@ -13,8 +13,6 @@ template <class Real> struct ContactClock {
     Real rate;  // δ' [m/s] there
 
     SLIDEWAY_FN Mask<Real> runs() const { return pair > Real(-0.5); }
-    /// dt/ds.
-    SLIDEWAY_FN Real pace() const { return select(runs(), root + root, Real(1.0)); }
 
     /// What a step by the clock takes of time if δ' stays as it is, until u = 0 at the longest; and the other way round.
     SLIDEWAY_FN Real time_of(Real own) const {
@@ -38,10 +36,26 @@ template <class Real> struct ContactClock {
     }
 };
 
-/// A step by the clock, whose ends are events where a pair touches or parts.
+/// A step by the clock, whose ends are events where a pair touches or parts.  Deep within an impact time itself is the smoother clock: there
+/// dt = 2u g ds with g = √(2u₀²/(u₀² + u²)), u₀ that of the step's start, so that the pace hardly changes.
 template <class Real> struct ClockedStep {
     Real own;  // by the clock: [√m s/m], or [s] where time is
     ContactClock<Real> start, end;
+    Real deep;  // 1 where the step is, else 0
+
+    SLIDEWAY_FN Mask<Real> is_deep() const { return deep > Real(0.5); }
+
+    /// g.
+    SLIDEWAY_FN Real evenness(Real root) const {
+        Real const from = start.root * start.root, one(1.0);
+        return sqrt(select(is_deep(), from + from, one) / select(is_deep(), fma(root, root, from), one));
+    }
+    /// dt/ds.
+    SLIDEWAY_FN Real pace(Real root) const { return select(start.runs(), (root + root) * evenness(root), Real(1.0)); }
+    SLIDEWAY_FN Real pace_at_start() const { return pace(start.root); }
+    SLIDEWAY_FN Real pace_at_end() const { return pace(end.root); }
+    /// du/ds where δ' is `rate`.
+    SLIDEWAY_FN Real root_rate(Real root, Real rate) const { return select(start.runs(), rate * evenness(root), Real(0.0)); }
 
     /// Whether the pair of the clock parts at the end: what is left of u is little, either way.  The impulse that is left goes with u⁵.
     SLIDEWAY_FN Mask<Real> parts() const {

@@ -57,15 +57,25 @@ public:
         return found;
     }
 
+    /// How many pairs are held to touch.
+    SLIDEWAY_FN static Real touching(Memory const& memory) {
+        Real held(0.0);
+        for (auto const& face : memory.held) held = held + sum(face);
+        return held;
+    }
+
     /// As `earliest`, of a step by a clock: fraction of what it is by the clock.
     template <class Contact>
     SLIDEWAY_FN Real earliest(Mask<Real> candidates, Contact const& end, ClockedStep<Real> const& step, Real located) const {
-        Real const pace0 = step.start.pace(), pace1 = step.end.pace();
+        auto const& from = step.start;
+        auto const& to = step.end;
+        Real const pace0 = step.pace_at_start(), pace1 = step.pace_at_end();
         auto const change = [&](Mask<Real> in, Real d0, Real v0, Real d1, Real v1, Real within) {
             return GapHistory<Real, quads>::first_change(in, d0, v0, d1, v1, step.own, within).fraction;
         };
-        Mask<Real> const by_clock = candidates & step.start.runs();
-        Real fraction = change(by_clock & !step.parts(), step.start.root, step.start.rate, step.end.root, step.end.rate, Real(0.0));
+        Mask<Real> const by_clock = candidates & from.runs();
+        Real fraction = change(by_clock & !step.parts(), from.root, step.root_rate(from.root, from.rate), to.root,
+                               step.root_rate(to.root, to.rate), Real(0.0));
         auto const one = like_the_clocks(step, end);
         for (int face = 0; face < quads; ++face) {
             auto const look = [&](Real, Real d0, Real v0, Real d1, Real v1) {
@@ -77,6 +87,36 @@ public:
         return fraction;
     }
 
+    /// Whether a step by a clock ends at a touch or a parting, so that `update` will turn a pair over.
+    template <class Contact>
+    SLIDEWAY_FN Mask<Real> turns(Memory const& memory, Contact const& end, ClockedStep<Real> const& step) const {
+        auto turned = mask_of<Real>(false);
+        each_after(end, step, memory.held, [&](Real now, Real is_held) { turned = turned | (now != is_held); });
+        return turned;
+    }
+
+    /// How far it is by the clock, from the end of a step on, to the next touch or parting if all rates stay as they are.
+    template <class Contact>
+    SLIDEWAY_FN Real way_to_turn(Memory const& memory, Contact const& end, ClockedStep<Real> const& step, Real located) const {
+        auto const way = [](Mask<Real> counts, Real gap, Real speed) {
+            Mask<Real> const nears = counts & (gap > Real(0.0)) & (speed > Real(0.0));
+            return select(nears, gap / select(nears, speed, Real(1.0)), Real(1e300));
+        };
+        auto const& to = step.end;
+        Real const pace = step.pace_at_end(), target = Real(0.5) * located;
+        Real least = way(step.start.runs(), to.root, negated(step.root_rate(to.root, to.rate)));
+        auto const one = like_the_clocks(step, end);
+        for (int face = 0; face < quads; ++face) {
+            auto const look = [&](Real, Real before, Real depth, Real rate, Real is_held) {
+                Mask<Real> const touches = is_held > Real(0.5), counts = !one(before, depth);
+                Real const gap = target - select(touches, negated(depth), depth);
+                least = min(least, way(counts, gap, pace * select(touches, negated(rate), rate)));
+            };
+            each_pair(face, look, this->start_depth_[face], end.penetration[face], end.rate[face], memory.held[face]);
+        }
+        return least;
+    }
+
     /// As `update`, after a step by a clock.  A pair touches where it comes nearer: one that has just parted may be left within its face by
     /// what its parting was located to.  That of the clock parts where its clock says so, for its depth in the state is off by what the
     /// step's error is.
@@ -84,20 +124,10 @@ public:
     SLIDEWAY_FN Mask<Real> update(Mask<Real> accepted, Contact const& end, Memory& memory, ClockedStep<Real> const& step) {
         take_speeds(accepted, end, memory);
         auto changed = mask_of<Real>(false);
-        Mask<Real> const over = step.parts();
-        auto const one = like_the_clocks(step, end);
-        for (int face = 0; face < quads; ++face) {
-            auto const turn_over = [&](Real, Real before, Real depth, Real rate, Real& is_held) {
-                auto const touches = is_held > Real(0.5);
-                Mask<Real> const parts = over & one(before, depth);
-                Mask<Real> const stays = touches & (depth > Real(0.0)) & !parts;
-                Mask<Real> const begins = (!touches) & (depth > Real(0.0)) & (rate > Real(0.0));
-                Real const now = select(stays | begins, Real(1.0), Real(0.0));
-                changed = changed | (accepted & (now != is_held));
-                is_held = select(accepted, now, is_held);
-            };
-            each_pair(face, turn_over, this->start_depth_[face], end.penetration[face], end.rate[face], memory.held[face]);
-        }
+        each_after(end, step, memory.held, [&](Real now, Real& is_held) {
+            changed = changed | (accepted & (now != is_held));
+            is_held = select(accepted, now, is_held);
+        });
         this->keep(accepted, end);
         hold_signs(memory);
         return changed;
@@ -137,6 +167,22 @@ private:
         see(Real(first + 1), of.b...);
         see(Real(first + 2), of.c...);
         see(Real(first + 3), of.d...);
+    }
+
+    /// Has a function see what each pair will be held to be after a step by a clock, and what it is held to be.
+    template <class Contact, class Held, class Function>
+    SLIDEWAY_FN void each_after(Contact const& end, ClockedStep<Real> const& step, Held& held, Function const& see) const {
+        Mask<Real> const over = step.parts();
+        auto const one = like_the_clocks(step, end);
+        for (int face = 0; face < quads; ++face) {
+            auto const look = [&](Real, Real before, Real depth, Real rate, auto& is_held) {
+                Mask<Real> const touches = is_held > Real(0.5), apart = !touches, is_in = depth > Real(0.0);
+                Mask<Real> const parts = over & one(before, depth), remains = !parts;
+                Mask<Real> const stays = touches & is_in & remains, begins = apart & is_in & (rate > Real(0.0));
+                see(select(stays | begins, Real(1.0), Real(0.0)), is_held);
+            };
+            each_pair(face, look, this->start_depth_[face], end.penetration[face], end.rate[face], held[face]);
+        }
     }
 
     /// Says which pairs move as one with that of the clock: at both ends of a step they are as deep, to the last bit.

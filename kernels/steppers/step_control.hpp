@@ -11,9 +11,10 @@ inline constexpr double step_control_start = -26.575424759098897;
 /// Proportional–integral step control for a method whose local error falls with h^order.  Source: Hairer & Wanner, Solving Ordinary
 /// Differential Equations II (1996), IV.2 (Gustafsson).  Works on the logarithm of the squared norm, so that one exponential and
 /// one logarithm serve each attempt; four digits of them do, for the error is an estimate.
-template <int order> struct StepControl {
+/// @tparam percent of the exponent 1/order that the former error has
+template <int order, int percent = 20> struct StepControl {
     static constexpr double safety = 0.9, shrink = 0.2, grow = 10.0;
-    static constexpr double integral = 0.2 / order, proportional = 1.0 / order - 0.75 * integral;
+    static constexpr double integral = percent / 100.0 / order, proportional = 1.0 / order - 0.75 * integral;
 
     /// Factor for the next step, and the controller's memory: log₂ of the squared norm of the last accepted error.
     /// @param squared_norm mean square of error/tolerance; NaN or infinity shrinks the step most.

@@ -26,10 +26,10 @@ struct Verner65Tableau {
     // b minus the weights of the fifth order.
     double e[9] = {-0.014710097800254537, 0, 0, 0.033151232611697925, -0.04853110633560249, 3.5988172446704234,
                    -176.48311902429866, 172.97125289059287, -0.056861139440475692};
-    // What θ²(1 − θ)² adds to the cubic through both ends, so that the extension has order 4; of those that have, the one with the least
-    // conditions of order 5 left.
-    double d[9] = {-2.204323210244519, 0, 0, 3.255194242022575, -0.6922719883571204, -8.58278766030833,
-                   3.1664177091814185, 3.4088148933233358, 1.6489560143826372};
+    // What θ²(1 − θ)² adds to the cubic through both ends, so that the extension has order 4, and order 5 in the middle of the step; of those
+    // that have, the one with the least conditions of order 6 left there (SteppedNumbers makes it one of order 5 all over).
+    double d[9] = {-1.9788620028905581, 0, 0, 2.747086340278509, 0.05156275535524002, -63.741746660090016,
+                   2708.1176463495062, -2647.716151695034, 2.5204649128743832};
 };
 
 /// Explicit Runge–Kutta pair of order 6(5) with nine stages, the last of which is the first of the next step.  Source: Verner, "Strategies

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "kernels/lanes/stepped_numbers.hpp"
 #include "tests/unit/kernels/logistic.hpp"
 
 namespace slideway::verner65_test {
@@ -53,6 +54,35 @@ TEST(Verner65, DenseOutputHasOrderFourInsideTheStepAndMeetsItsEnds) {
     testing::Logistic<Verner65> o;
     o.step(0.3);
     testing::expect_dense_meets_ends<Verner65>(o, 0.3, 1e-15);
+}
+
+TEST(Verner65, DenseOutputHasOrderFiveInTheMiddle) {
+    double const fallen = testing::dense_error<Verner65>(2, 0.5) / testing::dense_error<Verner65>(0.25, 0.5);
+    EXPECT_GT(std::log2(fallen) / 3, 5.4) << "local error of order h^6";
+}
+
+/// Error at fraction θ of a step whose slope in the middle is known.
+double inner_error(double h, double theta) {
+    testing::Logistic<Verner65> o;
+    o.step(h);
+    SteppedNumbers<Verner65, 1, double> numbers;
+    numbers.start[0] = o.y[0];
+    numbers.end[0] = o.end[0];
+    for (int s = 0; s < stages; ++s) numbers.k[s][0] = o.k[s][0];
+    numbers.forget_middle();
+    double const middle = numbers.at(0, h, 0.5);
+    numbers.set_middle(true, 0, h, middle * (1 - middle));
+    EXPECT_EQ(numbers.at(0, h, 0), o.y[0]);
+    EXPECT_NEAR(numbers.at(0, h, 1), o.end[0], 1e-15);
+    EXPECT_EQ(numbers.at(0, h, 0.5), middle) << "what is right to order 5 already";
+    return std::abs(numbers.at(0, h, theta) - o.exact(theta * h));
+}
+
+TEST(SteppedNumbers, HaveOrderFiveAllOverAStepWhoseMiddleIsKnown) {
+    for (double const theta : {0.1, 0.25, 0.37, 0.6, 0.8, 0.95}) {
+        EXPECT_GT(std::log2(inner_error(2, theta) / inner_error(0.25, theta)) / 3, 4.8) << "local error of order h^6 at " << theta;
+        EXPECT_LT(inner_error(0.5, theta), 0.2 * testing::dense_error<Verner65>(0.5, theta)) << theta;
+    }
 }
 
 }  // namespace
