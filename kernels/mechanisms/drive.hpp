@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/mechanisms/faults.hpp"
+#include "kernels/mechanisms/guided_masses.hpp"
 #include "kernels/mechanisms/slider_base.hpp"
 #include "kernels/mechanisms/slider_linearisation.hpp"
 #include "kernels/mechanisms/slider_report.hpp"
@@ -37,6 +38,13 @@ template <class Drive> struct DrivenGuide {
         SLIDEWAY_FN Vec3<Real> response(Vec3<Real> const& impulse, SliderParameters<Real> const& p) const {
             Real const lightness = Real(1.0) / p.slider_mass;
             return {Drive::is_free ? Real(impulse.x * lightness) : Real(0.0), impulse.y * lightness, impulse.z * lightness};
+        }
+        /// A force as the free components of the velocity feel it, and their masses: Σ masses_ij Δu'_j = feel(P)_i.
+        SLIDEWAY_FN Vec3<Real> feel(Vec3<Real> const& force) const {
+            return {Drive::is_free ? force.x : Real(0.0), force.y, force.z};
+        }
+        SLIDEWAY_FN GuidedMasses<Real> masses(SliderParameters<Real> const& p) const {
+            return {Drive::is_free ? p.slider_mass : Real(1.0), p.slider_mass, Real(0.0), p.slider_mass};
         }
         /// What the drive does in it [J].
         SLIDEWAY_FN Real impulse_work(Vec3<Real> const& impulse, Vec3<Real> const&, SliderParameters<Real> const&) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/math/trigonometry.hpp"
+#include "kernels/mechanisms/guided_masses.hpp"
 #include "kernels/mechanisms/mechanism_info.hpp"
 #include "kernels/mechanisms/spatial_slider.hpp"
 #include "kernels/real.hpp"
@@ -84,6 +85,14 @@ struct CrankAndRod {
             Real const scale = one / (p.mass * fma(kz_, kz_, ky2));
             Real const y = fms(kz2, fy, kyz * fz) * scale, z = fms(ky2, fz, kyz * fy) * scale;
             return {fma(ky_, y, kz_ * z), y, z};
+        }
+        /// A force as Δy' and Δz' feel it, and their masses.
+        SLIDEWAY_FN Vec3<Real> feel(Vec3<Real> const& force) const {
+            return {Real(0.0), fma(ky_, force.x, force.y), fma(kz_, force.x, force.z)};
+        }
+        SLIDEWAY_FN GuidedMasses<Real> masses(SliderParameters<Real> const& p) const {
+            Real const one(1.0);
+            return {one, p.mass * fma(ky_, ky_, one), p.mass * (ky_ * kz_), p.mass * fma(kz_, kz_, one)};
         }
         /// What the crank does in it [J]: v_A · ((m + m_AB) Δu' − P), the impulse of the pin on the rod.
         SLIDEWAY_FN Real impulse_work(Vec3<Real> const& impulse, Vec3<Real> const& change, SliderParameters<Real> const& p) const {

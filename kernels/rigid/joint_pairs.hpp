@@ -16,7 +16,7 @@ inline constexpr int pair_count = 4 * face_count;
 template <class Real> struct JointPair {
     Twist<Real> normal, slip[2];
     Twist<Real> pushed, dragged[2];  // velocities that unit impulses along them give
-    Real bias;                       // γ' of a slider that keeps its velocity [m/s²]
+    Real bias, slip_bias[2];         // γ' and v' of a slider that keeps its velocity [m/s²]
 };
 
 /// The pairs of a slider in one state, and how it answers to impulses there.
@@ -36,6 +36,22 @@ public:
         auto const& light = p_.inverse_inertia;
         auto const& a = impulse.angular;
         return {guide_.response(impulse.linear, p_), {light.x * a.x, light.y * a.y, light.z * a.z}};
+    }
+
+    /// An impulse as the free components of the velocity feel it: x, y, z of the centre, and about the slider's axes.
+    SLIDEWAY_FN void feel(Twist<Real> const& impulse, Real (&felt)[6]) const {
+        auto const linear = guide_.feel(impulse.linear);
+        felt[0] = linear.x, felt[1] = linear.y, felt[2] = linear.z;
+        felt[3] = impulse.angular.x, felt[4] = impulse.angular.y, felt[5] = impulse.angular.z;
+    }
+    /// Masses and inertias of these components.
+    SLIDEWAY_FN void masses(Real (&m)[6][6]) const {
+        for (auto& row : m) {
+            for (auto& entry : row) entry = Real(0.0);
+        }
+        auto const of_centre = guide_.masses(p_);
+        m[0][0] = of_centre.xx, m[1][1] = of_centre.yy, m[1][2] = m[2][1] = of_centre.yz, m[2][2] = of_centre.zz;
+        m[3][3] = p_.inertia.x, m[4][4] = p_.inertia.y, m[5][5] = p_.inertia.z;
     }
 
     /// Acceleration under a force, weight, drive and gyroscopic moment included.
@@ -83,6 +99,11 @@ private:
         auto const second = Faces::arranged(Faces::is_y ? motion_.axes.z : motion_.axes.y);
         pair.slip[0] = row<axis>(first, arm, first);
         pair.slip[1] = row<axis>(second, arm, second);
+        // v = u' + ω × ρ along e: v' = e · (u'' + α × ρ) + e · (ω × ρ') + (ω × e) · v, ρ' = (0, −y', −z').
+        auto const apex = v + cross(w, arm);
+        auto const shift = cross(w, Vec3<Real>{zero, negated(v.y), negated(v.z)});
+        pair.slip_bias[0] = dot(first, shift) + dot(cross(w, first), apex);
+        pair.slip_bias[1] = dot(second, shift) + dot(cross(w, second), apex);
         pair.pushed = response(pair.normal);
         pair.dragged[0] = response(pair.slip[0]);
         pair.dragged[1] = response(pair.slip[1]);

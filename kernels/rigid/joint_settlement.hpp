@@ -24,13 +24,13 @@ public:
                                 Real restitution, FrictionParameters<Real> const* friction, Real located, Real end)
         : pairs_(pairs), guide_(guide), p_(p), restitution_(restitution), friction_(friction), located_(located), end_(end) {}
 
-    /// Which pairs meet, and which are let go.  @return lanes with either
+    /// Which pairs meet, which are let go, and which change between slipping and sticking.  @return lanes with any of it
     SLIDEWAY_HD static Mask<Real> find(Mask<Real> in, Memory& memory, RigidJointContact<Real> const& contact, Real located,
-                                       Real least_speed, Mask<Real>& event) {
+                                       Real least_speed, bool friction, Mask<Real>& event) {
         Real const zero(0.0), one(1.0), half(0.5);
         auto const fresh = in & (memory.begun == zero);
         memory.begun = select(in, one, memory.begun);
-        auto touches = mask_of<Real>(false), parts = mask_of<Real>(false);
+        auto touches = mask_of<Real>(false), changed = mask_of<Real>(false);
         Real speeds = zero;
         for (int i = 0; i < pair_count; ++i) {
             Real const depth = number_of(contact.watched, i), rate = number_of(contact.rate, i);
@@ -38,12 +38,13 @@ public:
             Real& held = number_of(memory.held, i);
             auto const goes = in & (held > half) & (number_of(contact.normal_force, i) <= zero) & (rate < negated(least_speed));
             held = select(goes, zero, held);
-            parts = parts | goes;
+            changed = changed | goes;
+            if (friction) changed = changed | grips(in & (held > half), contact, i, number_of(memory.sticks, i));
             speeds = speeds + rate;
         }
         // What is not finite has no events: it fails as what it is, and its books stay as they are.
         event = in & touches & (speeds - speeds == zero);
-        return event | parts;
+        return event | changed;
     }
 
     /// The event.  @param velocity of the slider, before and after
@@ -59,52 +60,94 @@ public:
         auto const at_once = memory.at_once >= Real(most_with_restitution);
         Real restitution[pair_count];
         for (int i = 0; i < pair_count; ++i) restitution[i] = select(held[i] | at_once, zero, restitution_);
-        JointImpact<Guide, Real> impact(pairs_, velocity, near);
-        Real const* const coefficient = friction_ != nullptr ? &friction_->kinetic_coefficient : nullptr;
-        Real const made = impact.solve(event, restitution, coefficient);
+        JointImpact<Guide, Real> impact(pairs_, velocity, near, friction_ != nullptr ? &friction_->kinetic_coefficient : nullptr);
+        Real const made = impact.solve(event, restitution);
         auto const makes_energy = event & (made > Real(1e-12) * impact.energy_moved());
-        if (coefficient != nullptr && any(makes_energy)) impact.limit_energy(pairs_, makes_energy, coefficient);
-        memory.jammed = select(event & impact.failed, one, memory.jammed);
+        if (friction_ != nullptr && any(makes_energy)) impact.limit_energy(makes_energy);
+        auto& pairs = impact.pairs;
+        memory.jammed = select(event & pairs.failed, one, memory.jammed);
         Mask<Real> rests[pair_count];
         for (auto& rest : rests) rest = mask_of<Real>(false);
         auto met = mask_of<Real>(false);
-        impact.each([&](int i, Real before, Real after) {
-            rests[i] = near[i] & (after <= least_speed);
-            met = met | (near[i] & (!held[i]) & (before < zero));
-        });
-        end_bounces(impact, contact, near, rests);
-        impact.rest(event, rests);
-        auto const force = impact.impulse();
+        for (int k = 0; k < pairs.count(); ++k) {
+            auto const& row = pairs.row(k);
+            int const i = row.number;
+            rests[i] = near[i] & (dot(row.pair.normal, pairs.after) <= least_speed);
+            met = met | (near[i] & (!held[i]) & (dot(row.pair.normal, pairs.before) < zero));
+        }
+        Real const flight = end_bounces(pairs.after, contact, near, rests);
+        complete_faces(near, rests);
+        pairs.rest(event, rests);
         auto const taken = impact.taken();
-        auto const change = impact.after - velocity;
         auto& books = memory.books;
         auto const book = [&](Real& account, Real amount) { account = select(event, amount, account); };
-        book(books.work, guide_.impulse_work(force.linear, change.linear, p_));
+        book(books.work, guide_.impulse_work(pairs.load().linear, (pairs.after - velocity).linear, p_));
         book(books.friction, taken.friction);
         book(books.damping, taken.damping);
         book(books.impulse, taken.impulse);
         book(books.count, count<Real>(met));
-        // What has come to rest along its normal lasts, until nothing presses it any longer.
-        for (int i = 0; i < pair_count; ++i) {
-            Real& kept = number_of(memory.held, i);
-            kept = select(event, count<Real>(rests[i]), kept);
-        }
-        velocity = select(event, impact.after, velocity);
+        book(books.flight, flight);
+        keep(event, pairs, rests, memory);
+        velocity = select(event, pairs.after, velocity);
     }
 
 private:
-    /// Bounces that would be over in no time, or are lower than heights are known, have come to rest.  From speed γ against the acceleration a
-    /// that those which rest leave it they are over after 2 γ/(a (1 − e)).
-    SLIDEWAY_HD void end_bounces(JointImpact<Guide, Real> const& impact, RigidJointContact<Real> const& contact,
-                                 Mask<Real> const (&near)[pair_count], Mask<Real> (&rests)[pair_count]) const {
-        Real const zero(0.0), one(1.0);
-        LastingForces<Guide, Real> lasting;
-        lasting.solve(pairs_, impact.after, contact.penetration, zero, near, rests, friction_);
+    /// Whether a pair that is held sticks from here on, or slips.  @return lanes where that is new
+    SLIDEWAY_HD static Mask<Real> grips(Mask<Real> held, RigidJointContact<Real> const& contact, int i, Real& sticks) {
+        Real const first = number_of(contact.slip[0], i), second = number_of(contact.slip[1], i);
+        Real const square = fma(first, first, second * second), half(0.5);
+        auto const begins = held & (sticks <= half) & (square <= Real(slip_at_rest * slip_at_rest));
+        auto const ends = held & (sticks > half) & (square >= Real(slip_again * slip_again));
+        sticks = select(begins, Real(1.0), select(ends, Real(0.0), sticks));
+        return begins | ends;
+    }
+
+    /// What has come to rest along its normal lasts, until nothing presses it any longer; what has along its face too sticks.
+    SLIDEWAY_HD void keep(Mask<Real> event, PairSolver<Guide, Real> const& pairs, Mask<Real> const (&rests)[pair_count], Memory& memory) const {
+        Real const zero(0.0), slow = Real(slip_at_rest) * slip_scale(p_);
         for (int i = 0; i < pair_count; ++i) {
-            Real const speed = lasting.gap_rate[i], twice = speed + speed;
+            Real& held = number_of(memory.held, i);
+            held = select(event, count<Real>(rests[i]), held);
+            Real& sticks = number_of(memory.sticks, i);
+            sticks = select(event, zero, sticks);
+        }
+        for (int k = 0; k < pairs.count(); ++k) {
+            auto const& row = pairs.row(k);
+            Real const first = dot(row.pair.slip[0], pairs.after), second = dot(row.pair.slip[1], pairs.after);
+            auto const still = event & rests[row.number] & (fma(first, first, second * second) <= slow * slow);
+            Real& sticks = number_of(memory.sticks, row.number);
+            sticks = select(still, Real(1.0), sticks);
+        }
+    }
+
+    /// Bounces that would be over in no time, or are lower than heights are known, have come to rest.  From speed γ against the acceleration a
+    /// that those which rest leave it they are over after 2 γ/(a (1 − e)) (M13.6).  @return the longest such time [s]
+    SLIDEWAY_HD Real end_bounces(Twist<Real> const& velocity, RigidJointContact<Real> const& contact, Mask<Real> const (&near)[pair_count],
+                                 Mask<Real> (&rests)[pair_count]) const {
+        Real const zero(0.0), one(1.0);
+        LastingPairs<Real> last;
+        for (int i = 0; i < pair_count; ++i) last.held[i] = rests[i], last.sticks[i] = mask_of<Real>(false);
+        LastingForces<Guide, Real> lasting;
+        lasting.solve(pairs_, velocity, contact.penetration, zero, near, last, friction_);
+        Real flight = zero;
+        for (int i = 0; i < pair_count; ++i) {
+            Real const speed = max(lasting.gap_rate[i], zero), twice = speed + speed;
             Real const pressing = negated(lasting.acceleration[i]), braking = pressing * (one - restitution_);
-            auto const ends = (twice <= Real(chatter_time) * braking) | (speed * speed <= Real(8.0) * located_ * pressing);
-            rests[i] = rests[i] | (near[i] & (braking > zero) & ends);
+            auto const soon = (twice <= Real(chatter_time) * braking) | (speed * speed <= Real(8.0) * located_ * pressing);
+            auto const ends = near[i] & (!rests[i]) & (braking > zero) & soon;
+            flight = max(flight, select(ends, twice / select(ends, braking, one), zero));
+            rests[i] = rests[i] | ends;
+        }
+        return flight;
+    }
+
+    /// The apices of a face lie in a plane: where three of them rest the fourth does.
+    SLIDEWAY_HD static void complete_faces(Mask<Real> const (&near)[pair_count], Mask<Real> (&rests)[pair_count]) {
+        for (int face = 0; face < face_count; ++face) {
+            auto* const r = rests + 4 * face;
+            auto const front = r[0] & r[1], rear = r[2] & r[3];
+            auto const three = (front & (r[2] | r[3])) | (rear & (r[0] | r[1]));
+            for (int i = 0; i < 4; ++i) r[i] = r[i] | (three & near[4 * face + i]);
         }
     }
 

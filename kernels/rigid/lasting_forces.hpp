@@ -5,6 +5,8 @@
 #include "kernels/laws/friction.hpp"
 #include "kernels/real.hpp"
 #include "kernels/rigid/joint_pairs.hpp"
+#include "kernels/rigid/pair_solver.hpp"
+#include "kernels/rigid/rigid_scales.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -20,141 +22,86 @@ template <class Real> SLIDEWAY_FN Real number_of(Quad<Real> const (&of)[face_cou
     return place == 0 ? quad.a : place == 1 ? quad.b : place == 2 ? quad.c : quad.d;
 }
 
-/// Normal forces λ ≥ 0 of the pairs that last, so that none of them comes nearer (M13.10):
-///   λ ≥ 0 ⊥ γ' + 2 β γ + β² g ≥ 0,
-/// each with the friction μ(V) λ against its slip.  The terms in β take away what the steps leave of γ and of the gap g.  By projected
-/// Gauss–Seidel steps, as many as a lane's own numbers ask for: apices that share a face leave open which of them carries what, and the
-/// sum alone moves the slider.
+/// Which pairs may push, and which of them stick.
+template <class Real> struct LastingPairs { Mask<Real> held[pair_count], sticks[pair_count]; };
+
+/// Forces of the pairs that last: (M13.11) for accelerations, so that none of them comes nearer,
+///   λ ≥ 0 ⊥ γ' + 2 β γ + β² g ≥ 0,                                                                                        (M13.10)
+/// with Coulomb friction μ λ against the slip of those that slip, and up to μ_s λ in those that stick (v' + 2 β v = 0).  The terms in β take
+/// away what the steps leave of γ, v and of the gap g.
 template <class Guide, class Real> class LastingForces {
 public:
     using Pairs = JointPairs<Guide, Real>;
-    static constexpr int most_sweeps = 400, sweeps_to_leap = 32;
     /// Change of an acceleration, in units of what the slider would have without contact, that counts as none.
-    static constexpr double settled = 1e-13;
+    static constexpr double settled = 1e-14;
 
-    Real normal[pair_count];     // λ [N]
-    Real gap_rate[pair_count];   // γ [m/s]
-    Real acceleration[pair_count];  // γ' under all forces [m/s²]
-    Twist<Real> force;              // of all of them on the slider
+    Real normal[pair_count];            // λ [N]
+    Real gap_rate[pair_count];          // γ [m/s]
+    Real slip[2][pair_count];           // v along both directions [m/s]; 0 without friction
+    Real acceleration[pair_count];      // γ' under all forces [m/s²]
+    Twist<Real> force;                  // of all of them on the slider
     Real friction_power, normal_power;  // −Σ f · v_t, Σ λ γ [W]
     Mask<Real> failed;
 
-    /// @param asked pairs whose γ' is asked for  @param held those that may push  @param depth δ [m]
-    SLIDEWAY_HD void solve(Pairs const& pairs, Twist<Real> const& velocity, Quad<Real> const (&depth)[face_count], Real beta,
-                           Mask<Real> const (&asked)[pair_count], Mask<Real> const (&held)[pair_count],
-                           FrictionParameters<Real> const* friction) {
-        Real const zero(0.0), one(1.0);
-        auto moving = pairs.acceleration(Twist<Real>::zero());
+    /// @param asked pairs whose γ' is asked for  @param last those that may push  @param depth δ [m]  @param friction nullptr without
+    SLIDEWAY_HD void solve(Pairs const& all, Twist<Real> const& velocity, Quad<Real> const (&depth)[face_count], Real beta,
+                           Mask<Real> const (&asked)[pair_count], LastingPairs<Real> const& last, FrictionParameters<Real> const* friction) {
+        Real const zero(0.0);
+        PairSolver<Guide, Real> pairs(all, all.acceleration(Twist<Real>::zero()));
         Real size = zero;
-        int count = 0;
+        auto sticking = mask_of<Real>(false), wedged = sticking;
         for (int i = 0; i < pair_count; ++i) {
-            normal[i] = gap_rate[i] = acceleration[i] = zero;
-            if (none(asked[i] | held[i])) continue;
-            auto pair = pairs.pair(i);
-            Real const rate = dot(pair.normal, velocity);
-            auto& row = rows_[count];
+            normal[i] = gap_rate[i] = acceleration[i] = slip[0][i] = slip[1][i] = zero;
+            if (none(asked[i] | last.held[i])) continue;
+            auto& row = pairs.add(i);
+            auto const sticks = last.held[i] & last.sticks[i];
+            row.start(all.pair(i), last.held[i], friction != nullptr ? select(sticks, holding_coefficient(*friction), zero) : zero);
+            Real const rate = dot(row.pair.normal, velocity), gap = negated(number_of(depth, i));
             gap_rate[i] = rate;
-            row.pair = i;
-            row.normal = pair.normal;
-            row.bias = pair.bias;
-            Real const gap = negated(number_of(depth, i));
-            row.target = fma(beta, fma(beta, gap, rate + rate), pair.bias);
-            row.act = pair.normal;
-            row.pushed = pair.pushed;
-            row.slip_power = zero;
-            if (friction != nullptr) drag(pair, velocity, *friction, row);
-            Real const own = dot(row.normal, row.pushed);
-            // Friction that outweighs the push would have to press harder the more it is pressed.
-            auto const wedged = held[i] & (own <= Real(1e-3) * dot(pair.normal, pair.pushed));
-            row.wedged = wedged;
-            row.own = select(wedged, one, own);
-            row.held = held[i];
-            size = max(size, select(held[i], abs(row.target + dot(row.normal, moving)), zero));
-            ++count;
-        }
-        failed = mask_of<Real>(false);
-        for (int k = 0; k < count; ++k) failed = failed | rows_[k].wedged;
-        auto active = size > zero;
-        Real const enough = Real(settled) * size;
-        for (int sweep = 0; sweep < most_sweeps && any(active); ++sweep) {
-            Real change = zero, steps[pair_count];
-            auto const start = moving;
-            for (int k = 0; k < count; ++k) {
-                auto const& row = rows_[k];
-                Real& load = normal[row.pair];
-                Real const wish = negated(row.target + dot(row.normal, moving)) / row.own;
-                Real const step = select(active & row.held, max(wish, negated(load)), zero);
-                steps[k] = step;
-                load = load + step;
-                moving = fma(step, row.pushed, moving);
-                change = max(change, abs(step) * row.own);
+            row.target = negated(fma(beta, fma(beta, gap, rate + rate), row.pair.bias));
+            if (friction != nullptr) {
+                for (int j = 0; j < 2; ++j) slip[j][i] = dot(row.pair.slip[j], velocity);
+                drag(row, {slip[0][i], slip[1][i]}, beta, last.held[i] & !last.sticks[i], *friction);
+                sticking = sticking | sticks;
             }
-            active = active & (change > enough);
-            if (sweep % sweeps_to_leap == sweeps_to_leap - 1) leap(active & (change > Real(1e2) * moved(moving - start, count)), steps, count, moving);
-            // What comes to next to nothing within that many sweeps is a wedge.
-            if (sweep + 1 == most_sweeps) failed = failed | (active & (change > Real(1e-6) * size));
+            // Friction that outweighs the push would have to press harder the more it is pressed.
+            auto const wedge = last.held[i] & (row.own <= Real(1e-3) * dot(row.pair.normal, row.pair.pushed));
+            row.own = select(wedge, Real(1.0), row.own);
+            wedged = wedged | wedge;
+            size = max(size, select(last.held[i], abs(row.target - dot(row.pair.normal, pairs.before)), zero));
         }
-        force = Twist<Real>::zero();
-        friction_power = normal_power = zero;
-        for (int k = 0; k < count; ++k) {
-            auto const& row = rows_[k];
-            Real const load = normal[row.pair];
-            force = fma(load, row.act, force);
-            acceleration[row.pair] = row.bias + dot(row.normal, moving);
-            friction_power = fma(load, row.slip_power, friction_power);
-            normal_power = fma(load, gap_rate[row.pair], normal_power);
-        }
+        pairs.solve(size > zero, Real(settled) * size, any(sticking));
+        failed = pairs.failed | wedged;
+        take(pairs, velocity);
     }
 
 private:
-    /// As of a JointImpact.
-    SLIDEWAY_HD Real moved(Twist<Real> const& change, int count) const {
-        Real most(0.0);
-        for (int k = 0; k < count; ++k) most = max(most, select(rows_[k].held, abs(dot(rows_[k].normal, change)), Real(0.0)));
-        return most;
-    }
-    SLIDEWAY_HD void leap(Mask<Real> in, Real const (&steps)[pair_count], int count, Twist<Real>& moving) {
-        Real const zero(0.0), one(1.0), never(1e9);
-        Real length = never;
-        for (int k = 0; k < count; ++k) {
-            auto const falls = steps[k] < zero;
-            length = min(length, select(falls, normal[rows_[k].pair] / select(falls, negated(steps[k]), one), never));
-        }
-        length = select(in & (length < never), length, zero);
-        for (int k = 0; k < count; ++k) {
-            Real& load = normal[rows_[k].pair];
-            Real const more = max(length * steps[k], negated(load));
-            load = load + more;
-            moving = fma(more, rows_[k].pushed, moving);
+    SLIDEWAY_HD void take(PairSolver<Guide, Real> const& pairs, Twist<Real> const& velocity) {
+        Real const zero(0.0);
+        force = Twist<Real>::zero();
+        friction_power = normal_power = zero;
+        for (int k = 0; k < pairs.count(); ++k) {
+            auto const& row = pairs.row(k);
+            auto const load = row.load();
+            force = force + load;
+            normal[row.number] = row.normal;
+            acceleration[row.number] = row.pair.bias + dot(row.pair.normal, pairs.after);
+            Real const push = row.normal * gap_rate[row.number];
+            normal_power = normal_power + push;
+            friction_power = friction_power - (dot(load, velocity) - push);
         }
     }
 
-    struct Row {
-        int pair;
-        Twist<Real> normal;
-        Twist<Real> act, pushed;  // force and acceleration for λ = 1, friction included
-        Real bias, target, own, slip_power;
-        Mask<Real> held, wedged;
-    };
-
-    SLIDEWAY_HD static void drag(JointPair<Real> const& pair, Twist<Real> const& velocity, FrictionParameters<Real> const& friction,
-                                 Row& row) {
-        Real const first = dot(pair.slip[0], velocity), second = dot(pair.slip[1], velocity);
-        Real const square = fma(first, first, second * second), speed = sqrt(square);
-        Real const grip = StickSlipFriction::coefficient(speed, friction);
-        // μ vanishes with V: any floor keeps the quotient finite.
-        Real const share = negated(grip) / max(speed, Real(1e-70));
-        auto const add = [&](int i, Real slip) {
-            Real const factor = share * slip;
-            row.act = fma(factor, pair.slip[i], row.act);
-            row.pushed = fma(factor, pair.dragged[i], row.pushed);
-        };
-        add(0, first);
-        add(1, second);
-        row.slip_power = grip * speed;
+    /// Of a pair that slips, friction per unit load; of one that sticks, what its slip is to come to.
+    SLIDEWAY_HD static void drag(TouchingPair<Real>& row, Real const (&slip)[2], Real beta, Mask<Real> slips,
+                                 FrictionParameters<Real> const& friction) {
+        Real const one(1.0);
+        Real const square = fma(slip[0], slip[0], slip[1] * slip[1]);
+        auto const moves = slips & (square > Real(0.0));
+        Real const share = select(moves, negated(friction.kinetic_coefficient) / sqrt(select(moves, square, one)), Real(0.0));
+        row.slide(slips, {share * slip[0], share * slip[1]});
+        for (int j = 0; j < 2; ++j) row.hold[j] = negated(fma(beta + beta, slip[j], row.pair.slip_bias[j]));
     }
-
-    Row rows_[pair_count];
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

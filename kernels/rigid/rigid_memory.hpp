@@ -64,12 +64,14 @@ template <class Real> SLIDEWAY_FN void start_memory(RigidMemory<Real>& memory) {
 /// Of a slider with eight apices.
 template <class Real> struct RigidJointMemory : RigidCourse<Real> {
     static constexpr int speeds = 0;
-    Quad<Real> held[face_count];  // 1 where an apex lasts on its face, else 0
+    Quad<Real> held[face_count];    // 1 where an apex lasts on its face, else 0
+    Quad<Real> sticks[face_count];  // 1 where it does not slip either
 };
 
 template <class Real> SLIDEWAY_FN void start_memory(RigidJointMemory<Real>& memory) {
     Real const zero(0.0);
     for (auto& face : memory.held) face = {zero, zero, zero, zero};
+    for (auto& face : memory.sticks) face = {zero, zero, zero, zero};
     memory.start();
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "kernels/laws/friction.hpp"
 #include "kernels/mechanisms/planar_parameters.hpp"
+#include "kernels/mechanisms/slider_parameters.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -34,9 +36,16 @@ template <class Real> SLIDEWAY_FN Real force_scale(PlanarParameters<Real> const&
 /// Speed [m/s] along the way.
 template <class Real> SLIDEWAY_FN Real slip_scale(PlanarParameters<Real> const& p) { return p.crank_length * p.rate_scale; }
 
+template <class Real> SLIDEWAY_FN Real slip_scale(SliderParameters<Real> const& p) { return p.crank_length * p.rate_scale; }
+/// A pair of the joint that sticks is taken to slip from this on [slip scales].
+inline constexpr double slip_again = 1e-8;
+
 /// Coefficient up to which a contact sticks: a static one below the kinetic has no meaning.
+template <class Real> SLIDEWAY_FN Real holding_coefficient(FrictionParameters<Real> const& friction) {
+    return max(friction.static_coefficient, friction.kinetic_coefficient);
+}
 template <class Real> SLIDEWAY_FN Real holding_coefficient(PlanarParameters<Real> const& p) {
-    return max(p.friction.static_coefficient, p.friction.kinetic_coefficient);
+    return holding_coefficient(p.friction);
 }
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -9,12 +9,12 @@
 #include "kernels/observers/energy_audit.hpp"
 #include "kernels/real.hpp"
 #include "kernels/rigid/joint_settlement.hpp"
+#include "kernels/rigid/joint_watch.hpp"
 #include "kernels/rigid/lasting_forces.hpp"
 #include "kernels/rigid/rigid_memory.hpp"
 #include "kernels/rigid/rigid_observer.hpp"
 #include "kernels/rigid/rigid_scales.hpp"
 #include "kernels/rigid/rigid_slider_report.hpp"
-#include "kernels/rigid/touch_watch.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -28,7 +28,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
     template <class Real> using Parameters = RigidSliderParameters<Real>;
     template <class Real> using Report = RigidSliderReport<Real>;
     template <class Real> using Memory = RigidJointMemory<Real>;
-    template <class Real> using Watch = TouchWatch<Real, face_count>;
+    template <class Real> using Watch = JointWatch<Real>;
     template <class Real> using Observer = RigidObserver<Real, RigidSliderReport>;
     static constexpr int series = series_count;
     static constexpr int events = 0;
@@ -85,11 +85,12 @@ template <class Guide> struct RigidSlider : Guide::Base {
         // NaN in a lane whose pose is, whatever its neighbours touch.
         Real const whole = (at.motion.y + at.motion.z) + (at.motion.axes.x.x + at.motion.axes.y.z), nothing = whole - whole;
         Vec3<Real> force{nothing, nothing, nothing}, torque = force;
-        Mask<Real> held[pair_count];
+        LastingPairs<Real> last;
         auto holding = mask_of<Real>(false);
         for (int i = 0; i < pair_count; ++i) {
-            held[i] = number_of(memory.held, i) > half;
-            holding = holding | held[i];
+            last.held[i] = number_of(memory.held, i) > half;
+            last.sticks[i] = number_of(memory.sticks, i) > half;
+            holding = holding | last.held[i];
         }
         auto const y = FacePair<Axis::y>::depths(at.motion, p.joint.geometry), z = FacePair<Axis::z>::depths(at.motion, p.joint.geometry);
         Quad<Real> const depth[face_count] = {y.on(Real(1.0)), y.on(Real(-1.0)), z.on(Real(1.0)), z.on(Real(-1.0))};
@@ -97,7 +98,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
         auto jammed = memory.jammed > zero;
         if (any(holding)) {
             LastingForces<Guide, Real> lasting;
-            lasting.solve(at.pairs, at.velocity, depth, drift_rate(p), held, held, friction ? &p.joint.friction : nullptr);
+            lasting.solve(at.pairs, at.velocity, depth, drift_rate(p), last.held, last, friction ? &p.joint.friction : nullptr);
             auto const moment = at.pairs.to_joint(lasting.force.angular);
             auto const add = [&](Vec3<Real>& to, Vec3<Real> const& of) {
                 to = {select(holding, of.x, to.x), select(holding, of.y, to.y), select(holding, of.z, to.z)};
@@ -105,7 +106,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
             add(force, lasting.force.linear);
             add(torque, moment);
             jammed = jammed | (holding & lasting.failed);
-            if constexpr (Full) tell(lasting, held, report->contact);
+            if constexpr (Full) tell(lasting, last, slip_scale(p), report->contact);
         }
         auto acceleration = guide.accelerations(force, p);
         rates[0] = s[2];
@@ -134,7 +135,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
         memory.clear_books(in);
         Real const where = located(p, end), least_speed = Real(slip_at_rest) * max(p.length_scale_y, p.length_scale_z) * p.rate_scale;
         Mask<Real> event;
-        auto const changed = Settlement::find(in, memory, contact, where, least_speed, event);
+        auto const changed = Settlement::find(in, memory, contact, where, least_speed, friction, event);
         if (none(event)) return changed;
         auto faults = Faults<Real>::none();
         Place<Real> const at(t, s, p, misaligned_way, faults);
@@ -182,10 +183,13 @@ private:
         put_rates<Axis::z>(at, contact);
         Real const far(-1.0), half(0.5);
         auto const watched = [&](Real held, Real d) { return select(held > half, far, d); };
+        Real const zero(0.0);
+        Quad<Real> const none{zero, zero, zero, zero};
         for (int face = 0; face < face_count; ++face) {
             auto const& d = depth[face];
             auto const& held = memory.held[face];
             contact.penetration[face] = d;
+            contact.slides[face] = contact.slip[0][face] = contact.slip[1][face] = none;
             contact.watched[face] = {watched(held.a, d.a), watched(held.b, d.b), watched(held.c, d.c), watched(held.d, d.d)};
         }
         contact.books = memory.books;
@@ -200,12 +204,17 @@ private:
     }
 
     template <class Real>
-    SLIDEWAY_FN static void tell(LastingForces<Guide, Real> const& lasting, Mask<Real> const (&held)[pair_count],
+    SLIDEWAY_FN static void tell(LastingForces<Guide, Real> const& lasting, LastingPairs<Real> const& last, Real slip_scale,
                                  RigidJointContact<Real>& contact) {
+        Real const zero(0.0), one(1.0), minus(-1.0), per_scale = one / slip_scale;
+        for (int i = 0; i < pair_count; ++i) {
+            number_of(contact.slides, i) = select(last.held[i], select(last.sticks[i], minus, one), zero);
+            for (int j = 0; j < 2; ++j) number_of(contact.slip[j], i) = lasting.slip[j][i] * per_scale;
+        }
         for (int face = 0; face < face_count; ++face) {
             auto const* const force = &lasting.normal[4 * face];
             contact.normal_force[face] = {force[0], force[1], force[2], force[3]};
-            auto const* const touch = &held[4 * face];
+            auto const* const touch = &last.held[4 * face];
             auto const modes = face_modes<Real>(Quad<Mask<Real>>{touch[0], touch[1], touch[2], touch[3]});
             contact.surfaces = contact.surfaces + count<Real>(modes.surface);
             contact.lines = contact.lines + ((count<Real>(modes.line.a) + count<Real>(modes.line.b)) +

@@ -9,9 +9,6 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// sticks.
 template <class Real> class RigidWatch : public TouchWatch<Real, 1> {
 public:
-    /// What pressure and grip may fall below 0 by.
-    static constexpr double slack = 1e-9;
-
     /// Remembers what the next step starts from.
     template <class Contact> SLIDEWAY_FN void keep(Mask<Real> taken, Contact const& contact) {
         TouchWatch<Real, 1>::keep(taken, contact);
@@ -26,20 +23,12 @@ public:
     SLIDEWAY_FN Real earliest(Mask<Real> candidates, Contact const& end, Real step, Real located, Watching watching) const {
         Real fraction = TouchWatch<Real, 1>::earliest(candidates, end, step, located, watching);
         for (int i = 0; i < 2; ++i) {
-            fraction = min(fraction, min(falling(candidates, pressure_[i], end.pressure[i]), falling(candidates, grip_[i], end.grip[i])));
+            fraction = min(fraction, min(this->falling(candidates, pressure_[i], end.pressure[i]), this->falling(candidates, grip_[i], end.grip[i])));
         }
         return fraction;
     }
 
 private:
-    /// Where a number that must not be negative falls just below 0, by the straight line through both ends.
-    SLIDEWAY_FN static Real falling(Mask<Real> candidates, Real before, Real after) {
-        auto const falls = candidates & (after < Real(-slack));
-        Real const start = max(before, Real(0.0));
-        Real const fraction = (start + Real(0.5 * slack)) / select(falls, start - after, Real(1.0));
-        return select(falls, min(max(fraction, Real(0.01)), Real(0.99)), Real(1.0));
-    }
-
     Real pressure_[2], grip_[2];
 };
 

@@ -39,11 +39,22 @@ public:
         return fraction;
     }
 
-private:
+protected:
+    /// What a number that must not be negative may fall below 0 by.
+    static constexpr double slack = 1e-9;
+
+    /// Where it falls just below 0, by the straight line through both ends.
+    SLIDEWAY_FN static Real falling(Mask<Real> candidates, Real before, Real after) {
+        auto const falls = candidates & (after < Real(-slack));
+        Real const start = max(before, Real(0.0));
+        Real const fraction = (start + Real(0.5 * slack)) / select(falls, start - after, Real(1.0));
+        return select(falls, min(max(fraction, Real(0.01)), Real(0.99)), Real(1.0));
+    }
     SLIDEWAY_FN static void take_quad(Mask<Real> taken, Quad<Real> const& from, Quad<Real>& to) {
         to = {select(taken, from.a, to.a), select(taken, from.b, to.b), select(taken, from.c, to.c), select(taken, from.d, to.d)};
     }
 
+private:
     /// A depth and its slope at both ends of [0, 1].
     struct Curve { Real v0, s0, v1, s1; };
 
@@ -53,6 +64,8 @@ private:
         // What ends on zero is at its event, and what came there before is found all the same.  One that only leaves is
         // not there again, whatever rounding makes of heights that are next to nothing.
         auto const leaves = (max(curve.s0, curve.s1) <= zero) & (max(abs(curve.v0), abs(curve.v1)) <= Real(64.0) * located);
+        // One that lasted may leave from a hair inside: it meets again where it comes as deep as it was.
+        curve.v1 = curve.v1 - max(curve.v0, zero);
         curve.v0 = min(curve.v0, zero);
         curve.v1 = select((abs(curve.v1) <= located) | leaves, negated(located), curve.v1);
         // What lasts was put back, and may have brought another pair a hair inside: that meets at once.

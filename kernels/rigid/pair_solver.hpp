@@ -1,0 +1,127 @@
+#pragma once
+
+#include "kernels/real.hpp"
+#include "kernels/rigid/pair_barrier.hpp"
+#include "kernels/rigid/touching_pair.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Loads of all pairs that touch at once:
+///   Λ ≥ 0 ⊥ γ − target ≥ 0,   T = −μ Λ v/|v| where v ≠ 0,   |T| ≤ μ Λ where v = 0,                                      (M13.11)
+/// by projected Gauss–Seidel steps from pair to pair (Jourdan, Alart & Jean 1998), which is all that one or two pairs need, and where
+/// they are slow by a PairBarrier.  Each lane takes as many as its own numbers ask for.
+template <class Guide, class Real> class PairSolver {
+public:
+    using Pairs = JointPairs<Guide, Real>;
+    static constexpr int most_sweeps = 12, most_last_sweeps = 24, most_sweeps_of_rest = 1000;
+    static constexpr double well_enough = 1e-4;  // of the motion: a change of it that is no failure yet
+
+    Twist<Real> before, after;  // motion of the slider without loads and with them
+    Mask<Real> failed;
+
+    SLIDEWAY_HD PairSolver(Pairs const& pairs, Twist<Real> const& motion) : before(motion), after(motion), pairs_(pairs) {}
+
+    /// One more pair, to be filled in.
+    SLIDEWAY_FN TouchingPair<Real>& add(int number) {
+        auto& row = rows_[count_++];
+        row.number = number;
+        return row;
+    }
+    SLIDEWAY_FN int count() const { return count_; }
+    SLIDEWAY_FN TouchingPair<Real>& row(int k) { return rows_[k]; }
+    SLIDEWAY_FN TouchingPair<Real> const& row(int k) const { return rows_[k]; }
+
+    /// @param enough change of the motion that counts as none  @param friction some pair may stick
+    SLIDEWAY_HD void solve(Mask<Real> in, Real enough, bool friction) {
+        Real const zero(0.0);
+        after = before;
+        Real size = zero;
+        for (int k = 0; k < count_; ++k) {
+            auto& row = rows_[k];
+            row.normal = row.along[0] = row.along[1] = zero;
+            size = max(size, select(row.here, row.target - dot(row.pair.normal, before), zero));
+        }
+        auto active = in & (size > zero);
+        Real change = zero;
+        for (int sweep = 0; sweep < most_sweeps && any(active); ++sweep) {
+            change = this->sweep(active, friction);
+            active = active & (change > enough);
+        }
+        failed = mask_of<Real>(false);
+        if (none(active)) return;
+        after = PairBarrier<Guide, Real>(pairs_, rows_, count_, before, friction).solve(active, after);
+        for (int sweep = 0; sweep < most_last_sweeps && any(active); ++sweep) {
+            change = this->sweep(active, friction);
+            active = active & (change > enough);
+        }
+        failed = active & !(change <= Real(well_enough) * size);
+    }
+
+    /// Takes from pairs that rest what is left of their normal motion, next to nothing, whichever way it goes.
+    SLIDEWAY_HD void rest(Mask<Real> in, Mask<Real> const (&rests)[pair_count]) {
+        Real const zero(0.0);
+        Real size = zero;
+        for (int k = 0; k < count_; ++k) {
+            auto const& row = rows_[k];
+            size = max(size, select(rests[row.number], abs(dot(row.pair.normal, after)), zero));
+        }
+        auto active = in & (size > zero);
+        for (int sweep = 0; sweep < most_sweeps_of_rest && any(active); ++sweep) {
+            Real change = zero;
+            for (int k = 0; k < count_; ++k) {
+                auto& row = rows_[k];
+                Real const own = dot(row.pair.normal, row.pair.pushed);
+                Real const step = select(active & rests[row.number], negated(dot(row.pair.normal, after)) / own, zero);
+                row.normal = row.normal + step;
+                after = fma(step, row.pair.pushed, after);
+                change = max(change, abs(step) * own);
+            }
+            active = active & (change > Real(1e-13) * size);
+        }
+    }
+
+    /// Of all pairs on the slider.
+    SLIDEWAY_HD Twist<Real> load() const {
+        auto sum = Twist<Real>::zero();
+        for (int k = 0; k < count_; ++k) sum = sum + rows_[k].load();
+        return sum;
+    }
+
+private:
+    /// From pair to pair.  @return the largest change of a motion
+    SLIDEWAY_HD Real sweep(Mask<Real> in, bool friction) {
+        Real change(0.0);
+        for (int k = 0; k < count_; ++k) {
+            auto& row = rows_[k];
+            auto const here = in & row.here;
+            Real const wish = (row.target - dot(row.pair.normal, after)) / row.own;
+            Real const step = select(here, max(wish, negated(row.normal)), Real(0.0));
+            row.normal = row.normal + step;
+            after = fma(step, row.pushed, after);
+            change = max(change, abs(step) * row.own);
+            if (friction) change = max(change, hold(row, here));
+        }
+        return change;
+    }
+
+    /// A step of the friction of one pair.  @return its largest change of a motion
+    SLIDEWAY_HD Real hold(TouchingPair<Real>& row, Mask<Real> here) {
+        Real const zero(0.0);
+        auto const& pair = row.pair;
+        Real wish[2], change[2];
+        for (int j = 0; j < 2; ++j) wish[j] = row.along[j] - (dot(pair.slip[j], after) - row.hold[j]) / row.across;
+        Real const share = share_within(wish, row.coefficient * row.normal);
+        for (int j = 0; j < 2; ++j) {
+            change[j] = select(here, fms(share, wish[j], row.along[j]), zero);
+            row.along[j] = row.along[j] + change[j];
+            after = fma(change[j], pair.dragged[j], after);
+        }
+        return max(abs(change[0]), abs(change[1])) * row.across;
+    }
+
+    Pairs const& pairs_;
+    TouchingPair<Real> rows_[pair_count];
+    int count_ = 0;
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "kernels/math/vec3.hpp"
+#include "kernels/real.hpp"
+#include "kernels/rigid/joint_pairs.hpp"
+#include "kernels/rigid/twist.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// A pair among those that push at once, in an impact or for a while: loads Λ and what they make of the normal motion γ and the slip v.
+/// Velocities and impulses in an impact, accelerations and forces in lasting contact.
+template <class Real> struct TouchingPair {
+    int number;           // of sixteen
+    Mask<Real> here;      // lanes in which it may push
+    JointPair<Real> pair;
+    Twist<Real> act;      // of a unit load: along the normal, and the friction of a slip that is known
+    Twist<Real> pushed;   // what the slider makes of it
+    Real own, across;     // change of γ by a unit load; at most, of the slip by a unit of friction [1/kg]
+    Real target;          // what γ may not fall below
+    Real hold[2];         // what the slip of a pair that sticks is to come to
+    Real coefficient;     // of what friction can hold, 0 where the slip is known
+    Real normal, along[2];  // loads
+
+    /// Of a pair without friction, or which has it as the loads find it.
+    SLIDEWAY_FN void start(JointPair<Real> const& of, Mask<Real> in, Real holding) {
+        Real const zero(0.0);
+        pair = of;
+        here = in;
+        act = of.normal;
+        pushed = of.pushed;
+        coefficient = holding;
+        hold[0] = hold[1] = zero;
+        normal = along[0] = along[1] = zero;
+        measure();
+    }
+    /// With the friction of a known slip: a unit load drags by `drag` along both directions.
+    SLIDEWAY_FN void slide(Mask<Real> in, Real const (&drag)[2]) {
+        auto const with = fma(drag[0], pair.slip[0], fma(drag[1], pair.slip[1], act));
+        auto const comes = fma(drag[0], pair.dragged[0], fma(drag[1], pair.dragged[1], pushed));
+        act = select(in, with, act);
+        pushed = select(in, comes, pushed);
+        own = dot(pair.normal, pushed);
+    }
+    /// Of all its loads together.
+    SLIDEWAY_FN Twist<Real> load() const {
+        return fma(along[0], pair.slip[0], fma(along[1], pair.slip[1], normal * act));
+    }
+    SLIDEWAY_FN Twist<Real> answer(Twist<Real> const& so_far) const {
+        return fma(along[0], pair.dragged[0], fma(along[1], pair.dragged[1], fma(normal, pushed, so_far)));
+    }
+
+private:
+    SLIDEWAY_FN void measure() {
+        own = dot(pair.normal, pushed);
+        Real const first = dot(pair.slip[0], pair.dragged[0]), second = dot(pair.slip[1], pair.dragged[1]);
+        across = max(first, second) + abs(dot(pair.slip[0], pair.dragged[1]));
+    }
+};
+
+/// The share of a vector that is no longer than `bound`.
+template <class Real> SLIDEWAY_FN Real share_within(Real const (&of)[2], Real bound) {
+    Real const length = sqrt(fma(of[0], of[0], of[1] * of[1]));
+    auto const outside = length > bound;
+    return select(outside, bound / select(outside, length, Real(1.0)), Real(1.0));
+}
+
+}  // namespace slideway::inline SLIDEWAY_ISA
