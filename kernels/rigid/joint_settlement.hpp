@@ -121,25 +121,34 @@ private:
     }
 
     /// Bounces that would be over in no time, or are lower than heights are known, have come to rest.  From speed γ against the acceleration a
-    /// that those which rest leave it they are over after 2 γ/(a (1 − e)) (M13.6).  @return the longest such time [s]
+    /// that those which rest leave it they are over after 2 γ/(a (1 − e)) (M13.6); those that end so change what the others feel.
+    /// @return the longest such time [s]
     SLIDEWAY_HD Real end_bounces(Twist<Real> const& velocity, RigidJointContact<Real> const& contact, Mask<Real> const (&near)[pair_count],
                                  Mask<Real> (&rests)[pair_count]) const {
         Real const zero(0.0), one(1.0);
-        LastingPairs<Real> last;
-        for (int i = 0; i < pair_count; ++i) last.held[i] = rests[i], last.sticks[i] = mask_of<Real>(false);
-        LastingForces<Guide, Real> lasting;
-        lasting.solve(pairs_, velocity, contact.penetration, zero, near, last, friction_);
         Real flight = zero;
-        for (int i = 0; i < pair_count; ++i) {
-            Real const speed = max(lasting.gap_rate[i], zero), twice = speed + speed;
-            Real const pressing = negated(lasting.acceleration[i]), braking = pressing * (one - restitution_);
-            auto const soon = (twice <= Real(chatter_time) * braking) | (speed * speed <= Real(8.0) * located_ * pressing);
-            auto const ends = near[i] & (!rests[i]) & (braking > zero) & soon;
-            flight = max(flight, select(ends, twice / select(ends, braking, one), zero));
-            rests[i] = rests[i] | ends;
+        auto go_on = mask_of<Real>(true);
+        for (int turn = 0; turn < most_turns && any(go_on); ++turn) {
+            LastingPairs<Real> last;
+            for (int i = 0; i < pair_count; ++i) last.held[i] = rests[i], last.sticks[i] = mask_of<Real>(false);
+            LastingForces<Guide, Real> lasting;
+            lasting.solve(pairs_, velocity, contact.penetration, zero, near, last, friction_);
+            auto ended = mask_of<Real>(false), flies = ended;
+            for (int i = 0; i < pair_count; ++i) {
+                Real const speed = max(lasting.gap_rate[i], zero), twice = speed + speed;
+                Real const pressing = negated(lasting.acceleration[i]), braking = pressing * (one - restitution_);
+                auto const soon = (twice <= Real(chatter_time) * braking) | (speed * speed <= Real(8.0) * located_ * pressing);
+                auto const ends = go_on & near[i] & (!rests[i]) & (braking > zero) & soon;
+                flight = max(flight, select(ends, twice / select(ends, braking, one), zero));
+                rests[i] = rests[i] | ends;
+                ended = ended | ends;
+                flies = flies | (near[i] & !rests[i]);
+            }
+            go_on = ended & flies;
         }
         return flight;
     }
+    static constexpr int most_turns = 4;
 
     /// The apices of a face lie in a plane: where three of them rest the fourth does.
     SLIDEWAY_HD static void complete_faces(Mask<Real> const (&near)[pair_count], Mask<Real> (&rests)[pair_count]) {
