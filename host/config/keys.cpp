@@ -66,12 +66,11 @@ bool counts_for(Key const& key, Mechanism mechanism) {
 
 bool counts_for(Key const& key, Parts const& parts) {
     if (!counts_for(key, parts.mechanism)) return false;
-    bool const spatial = info(parts.mechanism).spatial;
-    // Corners of the planar slider stick and slip exactly (docs/model.md 13).
-    if (parts.rigid && !spatial && key.group == KeyGroup::smooth_friction) return false;
+    // Rigid contacts stick and slip exactly (docs/model.md 13).
+    if (parts.rigid && key.group == KeyGroup::smooth_friction) return false;
     // What gives way under a face.
     if (parts.rigid && (key.member == &Inputs::thickness_y || key.member == &Inputs::thickness_z)) return false;
-    if (!spatial && !parts.rigid) return true;
+    if (!info(parts.mechanism).spatial && !parts.rigid) return true;
     LawInfo const& law = contact_info(parts);
     if (key.group == KeyGroup::law) return std::ranges::find(law.keys, key.name, &Key::name) != law.keys.end();
     return !has_group(contact_groups, key.group) || has_group(law.groups, key.group);

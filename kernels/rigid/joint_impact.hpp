@@ -11,6 +11,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Guide, class Real> class JointImpact {
 public:
     using Pairs = JointPairs<Guide, Real>;
+    static constexpr int most_sweeps = 12;
     static constexpr double settled = 1e-13;  // of the speeds: what counts as no change of them
 
     PairSolver<Guide, Real> pairs;  // `before` and `after` are velocities, `normal` and `along` impulses
@@ -36,8 +37,9 @@ public:
         for (int k = 0; k < pairs.count(); ++k) {
             auto& row = pairs.row(k);
             row.target = negated(restitution[row.number]) * min(approach(row), Real(0.0));
+            row.normal = row.along[0] = row.along[1] = Real(0.0);
         }
-        pairs.solve(in, enough_, friction_);
+        pairs.solve(in, enough_, most_sweeps, friction_);
         return energy_made();
     }
 

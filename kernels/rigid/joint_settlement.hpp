@@ -76,7 +76,7 @@ public:
             met = met | (near[i] & (!held[i]) & (dot(row.pair.normal, pairs.before) < zero));
         }
         Real const flight = end_bounces(pairs.after, contact, near, rests);
-        complete_faces(near, rests);
+        complete_faces(event, contact, rests);
         pairs.rest(event, rests);
         auto const taken = impact.taken();
         auto& books = memory.books;
@@ -132,7 +132,7 @@ private:
             LastingPairs<Real> last;
             for (int i = 0; i < pair_count; ++i) last.held[i] = rests[i], last.sticks[i] = mask_of<Real>(false);
             LastingForces<Guide, Real> lasting;
-            lasting.solve(pairs_, velocity, contact.penetration, zero, near, last, friction_);
+            lasting.solve(pairs_, velocity, contact.penetration, zero, near, last, contact.loads, friction_);
             auto ended = mask_of<Real>(false), flies = ended;
             for (int i = 0; i < pair_count; ++i) {
                 Real const speed = max(lasting.gap_rate[i], zero), twice = speed + speed;
@@ -151,12 +151,13 @@ private:
     static constexpr int most_turns = 4;
 
     /// The apices of a face lie in a plane: where three of them rest the fourth does.
-    SLIDEWAY_HD static void complete_faces(Mask<Real> const (&near)[pair_count], Mask<Real> (&rests)[pair_count]) {
+    SLIDEWAY_HD void complete_faces(Mask<Real> event, RigidJointContact<Real> const& contact, Mask<Real> (&rests)[pair_count]) const {
+        Real const close = Real(-1e-6) * min(p_.length_scale_y, p_.length_scale_z);
         for (int face = 0; face < face_count; ++face) {
             auto* const r = rests + 4 * face;
             auto const front = r[0] & r[1], rear = r[2] & r[3];
             auto const three = (front & (r[2] | r[3])) | (rear & (r[0] | r[1]));
-            for (int i = 0; i < 4; ++i) r[i] = r[i] | (three & near[4 * face + i]);
+            for (int i = 0; i < 4; ++i) r[i] = r[i] | (event & three & (number_of(contact.penetration, 4 * face + i) > close));
         }
     }
 

@@ -6,6 +6,7 @@
 #include "kernels/real.hpp"
 #include "kernels/rigid/joint_pairs.hpp"
 #include "kernels/rigid/pair_solver.hpp"
+#include "kernels/rigid/rigid_memory.hpp"
 #include "kernels/rigid/rigid_scales.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -33,9 +34,11 @@ template <class Guide, class Real> class LastingForces {
 public:
     using Pairs = JointPairs<Guide, Real>;
     /// Change of an acceleration, in units of what the slider would have without contact, that counts as none.
-    static constexpr double settled = 1e-14;
+    static constexpr double settled = 1e-13;
+    static constexpr int most_sweeps = 40;
 
     Real normal[pair_count];            // λ [N]
+    Real along[2][pair_count];          // friction of pairs that stick [N]
     Real gap_rate[pair_count];          // γ [m/s]
     Real slip[2][pair_count];           // v along both directions [m/s]; 0 without friction
     Real acceleration[pair_count];      // γ' under all forces [m/s²]
@@ -43,19 +46,22 @@ public:
     Real friction_power, normal_power;  // −Σ f · v_t, Σ λ γ [W]
     Mask<Real> failed;
 
-    /// @param asked pairs whose γ' is asked for  @param last those that may push  @param depth δ [m]  @param friction nullptr without
+    /// @param asked pairs whose γ' is asked for  @param last those that may push  @param depth δ [m]  @param start loads to begin with  @param friction nullptr without
     SLIDEWAY_HD void solve(Pairs const& all, Twist<Real> const& velocity, Quad<Real> const (&depth)[face_count], Real beta,
-                           Mask<Real> const (&asked)[pair_count], LastingPairs<Real> const& last, FrictionParameters<Real> const* friction) {
+                           Mask<Real> const (&asked)[pair_count], LastingPairs<Real> const& last, ApexLoads<Real> const& start,
+                           FrictionParameters<Real> const* friction) {
         Real const zero(0.0);
         PairSolver<Guide, Real> pairs(all, all.acceleration(Twist<Real>::zero()));
         Real size = zero;
         auto sticking = mask_of<Real>(false), wedged = sticking;
         for (int i = 0; i < pair_count; ++i) {
-            normal[i] = gap_rate[i] = acceleration[i] = slip[0][i] = slip[1][i] = zero;
+            normal[i] = along[0][i] = along[1][i] = gap_rate[i] = acceleration[i] = slip[0][i] = slip[1][i] = zero;
             if (none(asked[i] | last.held[i])) continue;
             auto& row = pairs.add(i);
             auto const sticks = last.held[i] & last.sticks[i];
             row.start(all.pair(i), last.held[i], friction != nullptr ? select(sticks, holding_coefficient(*friction), zero) : zero);
+            row.normal = select(last.held[i], number_of(start.normal, i), zero);
+            for (int j = 0; j < 2; ++j) row.along[j] = select(sticks, number_of(start.along[j], i), zero);
             Real const rate = dot(row.pair.normal, velocity), gap = negated(number_of(depth, i));
             gap_rate[i] = rate;
             row.target = negated(fma(beta, fma(beta, gap, rate + rate), row.pair.bias));
@@ -66,11 +72,11 @@ public:
             }
             // Friction that outweighs the push would have to press harder the more it is pressed.
             auto const wedge = last.held[i] & (row.own <= Real(1e-3) * dot(row.pair.normal, row.pair.pushed));
-            row.own = select(wedge, Real(1.0), row.own);
+            row.weigh(select(wedge, Real(1.0), row.own));
             wedged = wedged | wedge;
             size = max(size, select(last.held[i], abs(row.target - dot(row.pair.normal, pairs.before)), zero));
         }
-        pairs.solve(size > zero, Real(settled) * size, any(sticking));
+        pairs.solve(size > zero, Real(settled) * size, most_sweeps, any(sticking));
         failed = pairs.failed | wedged;
         take(pairs, velocity);
     }
@@ -85,6 +91,7 @@ private:
             auto const load = row.load();
             force = force + load;
             normal[row.number] = row.normal;
+            along[0][row.number] = row.along[0], along[1][row.number] = row.along[1];
             acceleration[row.number] = row.pair.bias + dot(row.pair.normal, pairs.after);
             Real const push = row.normal * gap_rate[row.number];
             normal_power = normal_power + push;

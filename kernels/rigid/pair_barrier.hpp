@@ -76,7 +76,7 @@ private:
         Real const share = size_ / max(near, one);
         for (int k = 0; k < count_; ++k) {
             auto& row = rows_[k];
-            row.normal = select(in, select(row.here, share / row.own, zero), row.normal);
+            row.normal = select(in, select(row.here, share * row.per_own, zero), row.normal);
             for (auto& along : row.along) along = select(in, zero, along);
         }
         auto const after = moved();
@@ -127,7 +127,7 @@ private:
             near = near + slideway::count<Real>(here);
             if (!friction_) continue;
             for (int j = 0; j < 2; ++j) c.v[j] = dot(row.pair.slip[j], after) - row.hold[j];
-            Real const wish[2] = {row.along[0] - c.v[0] / row.across, row.along[1] - c.v[1] / row.across};
+            Real const wish[2] = {row.along[0] - c.v[0] * row.per_across, row.along[1] - c.v[1] * row.per_across};
             Real const share = share_within(wish, row.coefficient * row.normal);
             Real const change = max(abs(fms(share, wish[0], row.along[0])), abs(fms(share, wish[1], row.along[1])));
             missed.largest = max(missed.largest, select(here, change * row.across, zero));
@@ -149,7 +149,7 @@ private:
         Local l;
         Real const inverse = one / select(row.here, c.slack, one);
         l.k = select(row.here, row.normal * inverse, zero);
-        Real const wanted = fms(barrier_ / row.own, inverse, row.normal);
+        Real const wanted = fms(barrier_ * row.per_own, inverse, row.normal);
         l.c_n = select(row.here, fnma(l.k, (c.rate - row.target) - c.slack, wanted), zero);
         if (!friction_) return l;
         Real const square = fma(c.v[0], c.v[0], fma(c.v[1], c.v[1], smooth_ * smooth_));

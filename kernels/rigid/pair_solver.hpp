@@ -13,7 +13,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Guide, class Real> class PairSolver {
 public:
     using Pairs = JointPairs<Guide, Real>;
-    static constexpr int most_sweeps = 12, most_last_sweeps = 24, most_sweeps_of_rest = 1000;
+    static constexpr int most_last_sweeps = 24, most_sweeps_of_rest = 1000;
     static constexpr double well_enough = 1e-4;  // of the motion: a change of it that is no failure yet
 
     Twist<Real> before, after;  // motion of the slider without loads and with them
@@ -31,19 +31,25 @@ public:
     SLIDEWAY_FN TouchingPair<Real>& row(int k) { return rows_[k]; }
     SLIDEWAY_FN TouchingPair<Real> const& row(int k) const { return rows_[k]; }
 
-    /// @param enough change of the motion that counts as none  @param friction some pair may stick
-    SLIDEWAY_HD void solve(Mask<Real> in, Real enough, bool friction) {
+    /// From the loads that the rows have.
+    /// @param enough change of the motion that counts as none  @param sweeps to take at most before the barrier  @param friction some pair may stick
+    SLIDEWAY_HD void solve(Mask<Real> in, Real enough, int sweeps, bool friction) {
         Real const zero(0.0);
         after = before;
         Real size = zero;
         for (int k = 0; k < count_; ++k) {
-            auto& row = rows_[k];
-            row.normal = row.along[0] = row.along[1] = zero;
+            auto const& row = rows_[k];
             size = max(size, select(row.here, row.target - dot(row.pair.normal, before), zero));
         }
         auto active = in & (size > zero);
+        // Without loads nothing comes nearer than it may: then there are none.
+        for (int k = 0; k < count_; ++k) {
+            auto& row = rows_[k];
+            for (auto* load : {&row.normal, &row.along[0], &row.along[1]}) *load = select(active, *load, zero);
+            after = row.answer(after);
+        }
         Real change = zero;
-        for (int sweep = 0; sweep < most_sweeps && any(active); ++sweep) {
+        for (int sweep = 0; sweep < sweeps && any(active); ++sweep) {
             change = this->sweep(active, friction);
             active = active & (change > enough);
         }
@@ -94,7 +100,7 @@ private:
         for (int k = 0; k < count_; ++k) {
             auto& row = rows_[k];
             auto const here = in & row.here;
-            Real const wish = (row.target - dot(row.pair.normal, after)) / row.own;
+            Real const wish = (row.target - dot(row.pair.normal, after)) * row.per_own;
             Real const step = select(here, max(wish, negated(row.normal)), Real(0.0));
             row.normal = row.normal + step;
             after = fma(step, row.pushed, after);
@@ -109,7 +115,7 @@ private:
         Real const zero(0.0);
         auto const& pair = row.pair;
         Real wish[2], change[2];
-        for (int j = 0; j < 2; ++j) wish[j] = row.along[j] - (dot(pair.slip[j], after) - row.hold[j]) / row.across;
+        for (int j = 0; j < 2; ++j) wish[j] = row.along[j] - (dot(pair.slip[j], after) - row.hold[j]) * row.per_across;
         Real const share = share_within(wish, row.coefficient * row.normal);
         for (int j = 0; j < 2; ++j) {
             change[j] = select(here, fms(share, wish[j], row.along[j]), zero);

@@ -61,17 +61,31 @@ template <class Real> SLIDEWAY_FN void start_memory(RigidMemory<Real>& memory) {
     memory.start();
 }
 
+/// Forces of apices on their faces [N].
+template <class Real> struct ApexLoads {
+    Quad<Real> normal[face_count], along[2][face_count];  // along both directions of the slip: of pairs that stick
+
+    SLIDEWAY_FN void clear() {
+        Real const zero(0.0);
+        for (int face = 0; face < face_count; ++face) {
+            normal[face] = along[0][face] = along[1][face] = {zero, zero, zero, zero};
+        }
+    }
+};
+
 /// Of a slider with eight apices.
 template <class Real> struct RigidJointMemory : RigidCourse<Real> {
     static constexpr int speeds = 0;
     Quad<Real> held[face_count];    // 1 where an apex lasts on its face, else 0
     Quad<Real> sticks[face_count];  // 1 where it does not slip either
+    ApexLoads<Real> loads;          // of those that last, where the last step ended: where the search for the next begins
 };
 
 template <class Real> SLIDEWAY_FN void start_memory(RigidJointMemory<Real>& memory) {
     Real const zero(0.0);
     for (auto& face : memory.held) face = {zero, zero, zero, zero};
     for (auto& face : memory.sticks) face = {zero, zero, zero, zero};
+    memory.loads.clear();
     memory.start();
 }
 

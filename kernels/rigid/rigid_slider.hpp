@@ -98,7 +98,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
         auto jammed = memory.jammed > zero;
         if (any(holding)) {
             LastingForces<Guide, Real> lasting;
-            lasting.solve(at.pairs, at.velocity, depth, drift_rate(p), last.held, last, friction ? &p.joint.friction : nullptr);
+            lasting.solve(at.pairs, at.velocity, depth, drift_rate(p), last.held, last, memory.loads, friction ? &p.joint.friction : nullptr);
             auto const moment = at.pairs.to_joint(lasting.force.angular);
             auto const add = [&](Vec3<Real>& to, Vec3<Real> const& of) {
                 to = {select(holding, of.x, to.x), select(holding, of.y, to.y), select(holding, of.z, to.z)};
@@ -133,6 +133,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
                                         RigidJointMemory<Real>& memory, RigidJointContact<Real> const& contact) const {
         using Settlement = JointSettlement<Guide, Real>;
         memory.clear_books(in);
+        keep_loads(in, contact.loads, memory.loads);
         Real const where = located(p, end), least_speed = Real(slip_at_rest) * max(p.length_scale_y, p.length_scale_z) * p.rate_scale;
         Mask<Real> event;
         auto const changed = Settlement::find(in, memory, contact, where, least_speed, friction, event);
@@ -179,6 +180,7 @@ private:
     SLIDEWAY_FN static void begin_report(Place<Real> const& at, Quad<Real> const (&depth)[face_count], RigidJointMemory<Real> const& memory,
                                          RigidJointContact<Real>& contact) {
         contact.clear();
+        contact.loads.clear();
         put_rates<Axis::y>(at, contact);
         put_rates<Axis::z>(at, contact);
         Real const far(-1.0), half(0.5);
@@ -193,6 +195,13 @@ private:
             contact.watched[face] = {watched(held.a, d.a), watched(held.b, d.b), watched(held.c, d.c), watched(held.d, d.d)};
         }
         contact.books = memory.books;
+    }
+    template <class Real> SLIDEWAY_HD static void keep_loads(Mask<Real> in, ApexLoads<Real> const& from, ApexLoads<Real>& to) {
+        for (int i = 0; i < pair_count; ++i) {
+            auto const keep = [&](Real value, Real& kept) { kept = select(in, value, kept); };
+            keep(number_of(from.normal, i), number_of(to.normal, i));
+            for (int j = 0; j < 2; ++j) keep(number_of(from.along[j], i), number_of(to.along[j], i));
+        }
     }
     template <Axis axis, class Real> SLIDEWAY_FN static void put_rates(Place<Real> const& at, RigidJointContact<Real>& contact) {
         using Faces = FacePair<axis>;
@@ -209,7 +218,11 @@ private:
         Real const zero(0.0), one(1.0), minus(-1.0), per_scale = one / slip_scale;
         for (int i = 0; i < pair_count; ++i) {
             number_of(contact.slides, i) = select(last.held[i], select(last.sticks[i], minus, one), zero);
-            for (int j = 0; j < 2; ++j) number_of(contact.slip[j], i) = lasting.slip[j][i] * per_scale;
+            number_of(contact.loads.normal, i) = lasting.normal[i];
+            for (int j = 0; j < 2; ++j) {
+                number_of(contact.slip[j], i) = lasting.slip[j][i] * per_scale;
+                number_of(contact.loads.along[j], i) = lasting.along[j][i];
+            }
         }
         for (int face = 0; face < face_count; ++face) {
             auto const* const force = &lasting.normal[4 * face];

@@ -16,6 +16,7 @@ template <class Real> struct TouchingPair {
     Twist<Real> act;      // of a unit load: along the normal, and the friction of a slip that is known
     Twist<Real> pushed;   // what the slider makes of it
     Real own, across;     // change of γ by a unit load; at most, of the slip by a unit of friction [1/kg]
+    Real per_own, per_across;  // 1/own, 1/across
     Real target;          // what γ may not fall below
     Real hold[2];         // what the slip of a pair that sticks is to come to
     Real coefficient;     // of what friction can hold, 0 where the slip is known
@@ -39,7 +40,12 @@ template <class Real> struct TouchingPair {
         auto const comes = fma(drag[0], pair.dragged[0], fma(drag[1], pair.dragged[1], pushed));
         act = select(in, with, act);
         pushed = select(in, comes, pushed);
-        own = dot(pair.normal, pushed);
+        weigh(dot(pair.normal, pushed));
+    }
+    /// With another change of γ by a unit load.
+    SLIDEWAY_FN void weigh(Real by_load) {
+        own = by_load;
+        per_own = Real(1.0) / by_load;
     }
     /// Of all its loads together.
     SLIDEWAY_FN Twist<Real> load() const {
@@ -51,9 +57,10 @@ template <class Real> struct TouchingPair {
 
 private:
     SLIDEWAY_FN void measure() {
-        own = dot(pair.normal, pushed);
+        weigh(dot(pair.normal, pushed));
         Real const first = dot(pair.slip[0], pair.dragged[0]), second = dot(pair.slip[1], pair.dragged[1]);
         across = max(first, second) + abs(dot(pair.slip[0], pair.dragged[1]));
+        per_across = Real(1.0) / across;
     }
 };
 
