@@ -96,6 +96,7 @@ public:
             if (h == until - place_.time) next.time = until;
             place_ = next;
             put_back();
+            for (Held& c : held_) turn_along(c);
             if (std::ranges::any_of(held_, [&](Held const& c) { return !c.sticks && has_stopped(c); })) settle();
             h *= std::min(Real(2), 0.8L * std::pow(error + 1e-6L, -1.0L / (2 * columns - 1)));
         }
@@ -282,12 +283,12 @@ private:
     }
     [[nodiscard]] static Real weighed(Vector6 const& a) { return a.head<3>().norm() + 0.01L * a.tail<3>().norm(); }
 
-    [[nodiscard]] bool happens(SliderPlace const& p) { return nearest(p) < deepest_ - on_wall || !lasts(p); }
+    [[nodiscard]] bool happens(SliderPlace const& p) { return nearest(p) < -on_wall || !lasts(p); }
 
     [[nodiscard]] SliderPlace located(Real h, SliderPlace const& end) {
         Real span = h;
         SliderPlace found = end;
-        if (nearest(end) < deepest_ - on_wall) std::tie(span, found) = touched(h, end);
+        if (nearest(end) < -on_wall) std::tie(span, found) = touched(h, end);
         if (lasts(found)) return found;
         Real before = 0;
         for (int i = 0; i < 50; ++i) {
@@ -301,10 +302,13 @@ private:
 
     /// Where the nearest pair is half of `on_wall` inside: by false position, which halves where it is slow.
     [[nodiscard]] std::pair<Real, SliderPlace> touched(Real h, SliderPlace const& end) {
-        Real const aim = deepest_ - on_wall / 2;
+        constexpr Real aim = -on_wall / 2;
         Real before = 0, past = h, low = nearest(place_) - aim, high = nearest(end) - aim;
         SliderPlace found = end;
-        for (int i = 0; i < 200 && std::abs(high) > on_wall / 4; ++i) {
+        for (Real at = h / 2; low <= 0 && at > h * 1e-9L; at /= 2) {  // a pair that has just left is as deep as that
+            if (Real const value = nearest(step(at).first) - aim; value > 0) before = at, low = value;
+        }
+        for (int i = 0; i < 200 && low > 0; ++i) {
             Real const share = i % 3 == 2 ? Real(0.5L) : std::clamp(low / (low - high), Real(1e-6L), Real(1 - 1e-6L));
             // A little beyond the guess, so that both ends close in.
             Real const at = before + (past - before) * (i % 3 == 1 ? std::min(Real(1), share * 1.0001L) : share);
@@ -313,6 +317,12 @@ private:
             if (std::abs(value) <= on_wall / 4) return {at, p};
             if (value < 0) past = at, high = value, found = p;
             else before = at, low = value;
+        }
+        for (int i = 0; i < 60 && low <= 0; ++i) {
+            Real const middle = (before + past) / 2;
+            SliderPlace const p = step(middle).first;
+            if (nearest(p) < -on_wall) past = middle, found = p;
+            else before = middle;
         }
         return {past, found};
     }
@@ -341,7 +351,6 @@ private:
         }
         last(resting);
         put_back();
-        deepest_ = std::min(Real(0), nearest(place_));
     }
     /// Towards the wall.
     [[nodiscard]] Real speed(int pair) const { return -frame_.pair(pair).rows.row(0).dot(place_.rates()); }
@@ -491,7 +500,7 @@ private:
     }
 
     SliderFrame frame_;
-    Real e_, mu_slip_ = 0, mu_hold_ = 0, initial_energy_ = 0, settled_ = -1, deepest_ = 0;  // pairs that leave are inside by what is as good as touching
+    Real e_, mu_slip_ = 0, mu_hold_ = 0, initial_energy_ = 0, settled_ = -1;
     int settlements_ = 0;
     SliderPlace place_;
     std::vector<Held> held_;
