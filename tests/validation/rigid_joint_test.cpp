@@ -139,9 +139,9 @@ TEST(RigidJoint, CornerHoldsWhatLiesInIt) {
     o.sample_times = {0.25};
     auto const r = testing::run(best_isa(), o, {in});
     ASSERT_EQ(r.records[0].status, Status::finished);
-    EXPECT_NEAR(r.states[0][0], y, 1e-16);
-    EXPECT_NEAR(r.states[0][1], z, 1e-16);
-    for (std::size_t i = 2; i < 12; ++i) EXPECT_NEAR(r.states[0][i], i == 4 ? 0.4 : 0, 1e-12) << i;
+    EXPECT_NEAR(r.states[0][0], y, 1e-15);
+    EXPECT_NEAR(r.states[0][1], z, 1e-15);
+    for (std::size_t i = 2; i < 12; ++i) EXPECT_NEAR(r.states[0][i], i == 4 ? 0.4 : 0, 1e-9) << i;
     EXPECT_NEAR(r.series[0], in.slider_mass * in.gravity * (std::sin(0.4) + std::cos(0.4)), 1e-9);
 }
 
@@ -155,20 +155,21 @@ TEST(RigidJoint, FallsIntoACornerAndStays) {
     ASSERT_EQ(r.records[0].status, Status::finished);
     EXPECT_NEAR(r.states[0][0], at_rest.y, 1e-15);
     EXPECT_NEAR(r.states[0][1], at_rest.z, 1e-15);
-    for (std::size_t i = 2; i < 12; ++i) EXPECT_NEAR(r.states[0][i], i == 4 ? 0.4 : 0, 1e-12) << i;
+    for (std::size_t i = 2; i < 12; ++i) EXPECT_NEAR(r.states[0][i], i == 4 ? 0.4 : 0, 1e-9) << i;
 }
 
 /// A free slider on a slope with the friction μ: either stays, or slides by a t²/2.  @param pressed the sum of the normal forces over M g
 void expect_slope(Inputs in, bool misaligned, double pressed) {
     double const slope = in.inclination, needed = std::sin(slope) / pressed;
     for (bool const holds : {true, false}) {
-        in.friction_static = in.friction_kinetic = needed * (holds ? 1 + 1e-9 : 1 - 1e-9);
+        in.friction_static = in.friction_kinetic = needed * (holds ? 1 + 1e-6 : 1 - 1e-6);
         auto const r = testing::run(best_isa(), rigid_options(rigid_joint_parts(true, misaligned), 1e-10, 0.5), {in});
         ASSERT_EQ(r.records[0].status, Status::finished) << slope << holds;
         double const moved = -r.states[0][10];
         double const expected = in.gravity * (std::sin(slope) - in.friction_kinetic * pressed) * 0.5 * 0.5 / 2;
-        if (holds) EXPECT_LT(std::abs(moved), 1e-15) << slope;
-        else EXPECT_NEAR(moved, expected, 1e-6 * expected) << slope;
+        // A millionth of the friction makes a slider without stick go 1e-8 to 7e-7 m.
+        if (holds) EXPECT_LT(std::abs(moved), 1e-11) << slope;
+        else EXPECT_NEAR(moved, expected, 1e-3 * expected) << slope;
         in.friction_static = in.friction_kinetic = needed * 0.7;
         auto const fast = testing::run(best_isa(), rigid_options(rigid_joint_parts(true, misaligned), 1e-12, 0.5), {in});
         ASSERT_EQ(fast.records[0].status, Status::finished) << slope;
@@ -203,11 +204,11 @@ TEST(RigidJoint, SlidesInAStraightLineUntilItStops) {
     auto const samples = sampled(rigid_joint_parts(true), in, times);
     for (std::size_t i = 0; i < times.size(); ++i) {
         double const t = std::min(times[i], stop), way = speed * t - 0.1 * g * t * t;
-        EXPECT_NEAR(static_cast<double>(samples[0][i].x), way * 12 / 13, 1e-12) << i;
-        EXPECT_NEAR(static_cast<double>(samples[0][i].z), -way * 5 / 13, 1e-12) << i;
+        EXPECT_NEAR(static_cast<double>(samples[0][i].x), way * 12 / 13, 1e-11) << i;
+        EXPECT_NEAR(static_cast<double>(samples[0][i].z), -way * 5 / 13, 1e-11) << i;
         EXPECT_NEAR(static_cast<double>(samples[0][i].y), -in.clearance_y, 1e-18) << i;
     }
-    for (long double const rest : {samples[0][3].vx, samples[0][3].vz, samples[0][3].wy}) EXPECT_LT(std::abs(static_cast<double>(rest)), 1e-15);
+    for (long double const rest : {samples[0][3].vx, samples[0][3].vz, samples[0][3].wy}) EXPECT_LT(std::abs(static_cast<double>(rest)), 1e-12);
 }
 
 }  // namespace
