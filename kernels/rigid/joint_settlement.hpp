@@ -32,6 +32,7 @@ public:
         memory.begun = select(in, one, memory.begun);
         auto touches = mask_of<Real>(false), changed = mask_of<Real>(false);
         Real speeds = zero;
+        auto const slow = friction ? all_slow(memory, contact) : changed;
         for (int i = 0; i < pair_count; ++i) {
             Real const depth = number_of(contact.watched, i), rate = number_of(contact.rate, i);
             touches = touches | ((depth > negated(located)) & ((rate > zero) | fresh));
@@ -39,7 +40,7 @@ public:
             auto const goes = in & (held > half) & (number_of(contact.normal_force, i) <= zero) & (rate < negated(least_speed));
             held = select(goes, zero, held);
             changed = changed | goes;
-            if (friction) changed = changed | grips(in & (held > half), contact, i, number_of(memory.sticks, i));
+            if (friction) changed = changed | grips(in & (held > half), slow, slip_of(contact, i), number_of(memory.sticks, i));
             speeds = speeds + rate;
         }
         // What is not finite has no events: it fails as what it is, and its books stay as they are.
@@ -92,11 +93,23 @@ public:
     }
 
 private:
-    /// Whether a pair that is held sticks from here on, or slips.  @return lanes where that is new
-    SLIDEWAY_HD static Mask<Real> grips(Mask<Real> held, RigidJointContact<Real> const& contact, int i, Real& sticks) {
+    /// Its square [slip scales²].
+    SLIDEWAY_FN static Real slip_of(RigidJointContact<Real> const& contact, int i) {
         Real const first = number_of(contact.slip[0], i), second = number_of(contact.slip[1], i);
-        Real const square = fma(first, first, second * second), half(0.5);
-        auto const begins = held & (sticks <= half) & (square <= Real(slip_at_rest * slip_at_rest));
+        return fma(first, first, second * second);
+    }
+    /// Lanes where no pair that is held slips fast: one that stuck alone would only throw the others from rest to slip and back.
+    SLIDEWAY_HD static Mask<Real> all_slow(Memory const& memory, RigidJointContact<Real> const& contact) {
+        Real fastest(0.0);
+        for (int i = 0; i < pair_count; ++i) {
+            fastest = max(fastest, select(number_of(memory.held, i) > Real(0.5), slip_of(contact, i), Real(0.0)));
+        }
+        return fastest <= Real(slip_together * slip_together);
+    }
+    /// Whether a pair that is held sticks from here on, or slips.  @return lanes where that is new
+    SLIDEWAY_HD static Mask<Real> grips(Mask<Real> held, Mask<Real> slow, Real square, Real& sticks) {
+        Real const half(0.5);
+        auto const begins = held & (sticks <= half) & (slow | (square <= Real(slip_at_rest * slip_at_rest)));
         auto const ends = held & (sticks > half) & (square >= Real(slip_again * slip_again));
         sticks = select(begins, Real(1.0), select(ends, Real(0.0), sticks));
         return begins | ends;

@@ -1,8 +1,10 @@
 // Sliders on their way with rigid contacts, and what a text book says of their impacts, in 80-bit numbers.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "tests/support/rigid.hpp"
@@ -14,6 +16,41 @@ inline Parts rigid_joint_parts(bool friction, bool misaligned = false, Mechanism
     parts.mechanism = mechanism;
     parts.misaligned_way = misaligned;
     return parts;
+}
+
+/// Sliders of all proportions, gaps, starts, drives and restitutions, with friction up to `most_friction`.
+inline std::vector<Inputs> random_rigid_sliders(std::size_t count, unsigned seed, double most_friction) {
+    std::mt19937_64 draw(seed);
+    auto const uniform = [&draw](double low, double high) { return low + (high - low) * static_cast<double>(draw() >> 11) * 0x1p-53; };
+    std::vector<Inputs> members;
+    members.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        Inputs in;
+        in.crank_length = uniform(0.02, 0.06);
+        in.rod_length = in.crank_length * uniform(2.5, 5);
+        in.crank_speed = std::pow(10, uniform(0.3, 2));
+        in.start_angle = uniform(0, 6.283);
+        in.slider_length = uniform(0.01, 0.1);
+        in.way_width = uniform(0.01, 0.05);
+        in.way_depth = uniform(0.01, 0.05);
+        in.slider_mass = std::pow(10, uniform(-1.5, 0.5));
+        for (double* inertia : {&in.slider_inertia_x, &in.slider_inertia_y, &in.slider_inertia_z}) {
+            *inertia = in.slider_mass * in.slider_length * in.slider_length * std::pow(10, uniform(-1.5, -0.3));
+        }
+        in.clearance_y = std::pow(10, uniform(-5.5, -3.2));
+        in.clearance_z = in.clearance_y * uniform(0.5, 2);
+        in.restitution = uniform(0.01, 1);
+        in.friction_kinetic = uniform(0, most_friction);
+        in.friction_static = in.friction_kinetic * uniform(1, 1.5);
+        in.inclination = uniform(0, 0.5);
+        double const gap = std::min(in.clearance_y, in.clearance_z), tilt = gap / (in.slider_length + in.way_width + in.way_depth);
+        in.y = uniform(-0.4, 0.4) * gap, in.z = uniform(-0.4, 0.4) * gap;
+        in.roll = uniform(-1, 1) * tilt, in.yaw = uniform(-1, 1) * tilt, in.pitch = uniform(-1, 1) * tilt;
+        in.vy = uniform(-0.05, 0.05), in.vz = uniform(-0.05, 0.05);
+        in.wx = uniform(-1, 1), in.wy = uniform(-1, 1), in.wz = uniform(-1, 1);
+        members.push_back(complete_inputs(in));
+    }
+    return members;
 }
 
 /// Numbers of a state, by name.

@@ -211,5 +211,29 @@ TEST(RigidJoint, SlidesInAStraightLineUntilItStops) {
     for (long double const rest : {samples[0][3].vx, samples[0][3].vz, samples[0][3].wy}) EXPECT_LT(std::abs(static_cast<double>(rest)), 1e-12);
 }
 
+TEST(RigidJoint, EndsWithAStatusAndMakesNoEnergyWhateverTheGeometry) {
+    for (auto const mechanism : {Mechanism::free_slider, Mechanism::carriage, Mechanism::scotch_yoke, Mechanism::slider_crank}) {
+        for (double const friction : {0.0, 0.5}) {
+            auto const members = testing::random_rigid_sliders(64, 5, friction);
+            auto o = rigid_options(rigid_joint_parts(friction > 0, false, mechanism), 1e-6, 0.03);
+            o.settings.max_steps = 100'000;
+            auto const r = testing::run(best_isa(), o, members);
+            int finished = 0;
+            for (std::size_t i = 0; i < members.size(); ++i) {
+                Status const status = r.records[i].status;
+                finished += status == Status::finished;
+                EXPECT_TRUE(status == Status::finished || status == Status::contact_domain || status == Status::max_steps)
+                    << info(mechanism).name << i << static_cast<int>(status);
+                if (status != Status::finished) continue;
+                double const lost = r.value(i, Quantity::friction_loss) + r.value(i, Quantity::damping_loss);
+                double const scale = std::abs(r.value(i, Quantity::crank_work)) + std::abs(r.value(i, Quantity::energy_change));
+                EXPECT_GT(lost, -1e-6 * scale) << info(mechanism).name << i;
+                EXPECT_LT(std::abs(r.value(i, Quantity::energy_residual)), 1e-5 * scale) << info(mechanism).name << i;
+            }
+            EXPECT_GE(finished, 62) << info(mechanism).name << friction;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace slideway::rigid_joint_test

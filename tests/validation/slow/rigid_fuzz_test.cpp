@@ -1,5 +1,5 @@
-// A million planar slider-cranks with rigid contacts, of all proportions, starts, restitutions and frictions: each ends with a status, none makes energy in its
-// contacts, and the dearest costs no more than some hundred of the median.
+// A million planar slider-cranks with rigid contacts, and 160,000 sliders with eight apices, of all proportions, starts, restitutions and frictions: each ends with
+// a status, none makes energy in its contacts, and the dearest costs no more than some hundred of the median.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "tests/support/rigid.hpp"
+#include "tests/support/rigid_joint.hpp"
 
 namespace slideway::rigid_fuzz_test {
 namespace {
@@ -19,13 +19,15 @@ struct Found {
     std::vector<double> costs;
 };
 
-Found search(std::size_t count, double most_friction, bool free_crank) {
-    auto o = testing::rigid_options(testing::rigid_planar_parts(true, free_crank), 1e-6, 0.1);
+using Draw = std::vector<Inputs> (*)(std::size_t count, unsigned seed, double most_friction);
+
+Found search(std::size_t count, double most_friction, Parts const& parts, Draw draw) {
+    auto o = testing::rigid_options(parts, 1e-6, 0.1);
     o.settings.max_step = 2e-3;
     o.settings.max_steps = 100'000;
     Found found;
     for (unsigned seed = 0; found.members < count; ++seed) {
-        auto const members = testing::random_rigid_blocks(block, 100 + seed, most_friction);
+        auto const members = draw(block, 100 + seed, most_friction);
         auto const r = testing::run(best_isa(), o, members);
         for (std::size_t i = 0; i < members.size(); ++i) {
             Status const status = r.records[i].status;
@@ -45,22 +47,34 @@ Found search(std::size_t count, double most_friction, bool free_crank) {
     }
     std::ranges::sort(found.costs);
     auto const& c = found.costs;
-    std::printf("friction to %.1f, %s crank: %zu members, %zu finished, %zu jammed, %zu spent their steps, %zu others; right-hand sides: median %.0f, p99 %.0f, most %.0f\n",
-                most_friction, free_crank ? "free" : "driven", found.members, found.finished, found.jammed, found.spent, found.others, c[c.size() / 2],
+    std::printf("%s, friction to %.1f, %s crank: %zu members, %zu finished, %zu jammed, %zu spent their steps, %zu others; right-hand sides: median %.0f, p99 %.0f, most %.0f\n",
+                info(parts.mechanism).name.data(), most_friction, parts.free_crank ? "free" : "driven", found.members, found.finished, found.jammed, found.spent, found.others, c[c.size() / 2],
                 c[c.size() * 99 / 100], c.back());
     return found;
 }
 
 TEST(RigidFuzz, AMillionBlocksEndAndMakeNoEnergy) {
     for (bool const free_crank : {false, true}) {
-        auto const mild = search(400'000, 0.3, free_crank);
+        auto const parts = testing::rigid_planar_parts(true, free_crank);
+        auto const mild = search(400'000, 0.3, parts, &testing::random_rigid_blocks);
         EXPECT_EQ(mild.others, 0);
         EXPECT_EQ(mild.made_energy, 0);
         EXPECT_LT(mild.jammed, mild.members / 2000);
         EXPECT_LT(mild.spent, mild.members / 10'000);
-        auto const wild = search(100'000, 3, free_crank);
+        auto const wild = search(100'000, 3, parts, &testing::random_rigid_blocks);
         EXPECT_LT(wild.others, wild.members / 10'000);
         EXPECT_EQ(wild.made_energy, 0);
+    }
+}
+
+TEST(RigidFuzz, SlidersWithEightApicesEndAndMakeNoEnergy) {
+    for (auto const mechanism : {Mechanism::free_slider, Mechanism::carriage, Mechanism::scotch_yoke, Mechanism::slider_crank}) {
+        for (double const friction : {0.3, 1.0}) {
+            auto const found = search(20'000, friction, testing::rigid_joint_parts(true, false, mechanism), &testing::random_rigid_sliders);
+            EXPECT_EQ(found.made_energy, 0);
+            EXPECT_LT(found.others, found.members / 5000);
+            EXPECT_LT(found.jammed + found.spent, found.members / 500);
+        }
     }
 }
 
