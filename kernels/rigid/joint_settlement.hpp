@@ -32,7 +32,6 @@ public:
         memory.begun = select(in, one, memory.begun);
         auto touches = mask_of<Real>(false), changed = mask_of<Real>(false);
         Real speeds = zero;
-        auto const slow = friction ? all_slow(memory, contact) : changed;
         for (int i = 0; i < pair_count; ++i) {
             Real const depth = number_of(contact.watched, i), rate = number_of(contact.rate, i);
             touches = touches | ((depth > negated(located)) & ((rate > zero) | fresh));
@@ -40,7 +39,12 @@ public:
             auto const goes = in & (held > half) & (number_of(contact.normal_force, i) <= zero) & (rate < negated(least_speed));
             held = select(goes, zero, held);
             changed = changed | goes;
-            if (friction) changed = changed | grips(in & (held > half), slow, slip_of(contact, i), number_of(memory.sticks, i));
+            if (friction) {
+                Real const first = number_of(contact.slip[0], i), second = number_of(contact.slip[1], i);
+                Real const square = fma(first, first, second * second);
+                touches = touches | stops(held > half, square, number_of(memory.sticks, i));
+                changed = changed | slips(in & (held > half), square, number_of(memory.sticks, i));
+            }
             speeds = speeds + rate;
         }
         // What is not finite has no events: it fails as what it is, and its books stay as they are.
@@ -78,7 +82,9 @@ public:
         }
         Real const flight = end_bounces(pairs.after, contact, near, rests);
         complete_faces(event, contact, rests);
-        pairs.rest(event, rests);
+        Mask<Real> still[pair_count];
+        find_still(pairs, rests, still);
+        pairs.rest(event, rests, still);
         auto const taken = impact.taken();
         auto& books = memory.books;
         auto const book = [&](Real& account, Real amount) { account = select(event, amount, account); };
@@ -88,48 +94,40 @@ public:
         book(books.impulse, taken.impulse);
         book(books.count, count<Real>(met));
         book(books.flight, flight);
-        keep(event, pairs, rests, memory);
+        keep(event, rests, still, memory);
         velocity = select(event, pairs.after, velocity);
     }
 
 private:
-    /// Its square [slip scales²].
-    SLIDEWAY_FN static Real slip_of(RigidJointContact<Real> const& contact, int i) {
-        Real const first = number_of(contact.slip[0], i), second = number_of(contact.slip[1], i);
-        return fma(first, first, second * second);
+    /// Whether a pair that is held comes to rest along its face.
+    SLIDEWAY_FN static Mask<Real> stops(Mask<Real> held, Real square, Real sticks) {
+        return held & (sticks <= Real(0.5)) & (square <= Real(slip_stops * slip_stops));
     }
-    /// Lanes where no pair that is held slips fast: one that stuck alone would only throw the others from rest to slip and back.
-    SLIDEWAY_HD static Mask<Real> all_slow(Memory const& memory, RigidJointContact<Real> const& contact) {
-        Real fastest(0.0);
-        for (int i = 0; i < pair_count; ++i) {
-            fastest = max(fastest, select(number_of(memory.held, i) > Real(0.5), slip_of(contact, i), Real(0.0)));
-        }
-        return fastest <= Real(slip_together * slip_together);
-    }
-    /// Whether a pair that is held sticks from here on, or slips.  @return lanes where that is new
-    SLIDEWAY_HD static Mask<Real> grips(Mask<Real> held, Mask<Real> slow, Real square, Real& sticks) {
-        Real const half(0.5);
-        auto const begins = held & (sticks <= half) & (slow | (square <= Real(slip_at_rest * slip_at_rest)));
-        auto const ends = held & (sticks > half) & (square >= Real(slip_again * slip_again));
-        sticks = select(begins, Real(1.0), select(ends, Real(0.0), sticks));
-        return begins | ends;
+    /// Whether one that sticks slips from here on.
+    SLIDEWAY_FN static Mask<Real> slips(Mask<Real> held, Real square, Real& sticks) {
+        auto const ends = held & (sticks > Real(0.5)) & (square >= Real(slip_again * slip_again));
+        sticks = select(ends, Real(0.0), sticks);
+        return ends;
     }
 
-    /// What has come to rest along its normal lasts, until nothing presses it any longer; what has along its face too sticks.
-    SLIDEWAY_HD void keep(Mask<Real> event, PairSolver<Guide, Real> const& pairs, Mask<Real> const (&rests)[pair_count], Memory& memory) const {
-        Real const zero(0.0), slow = Real(slip_at_rest) * slip_scale(p_);
-        for (int i = 0; i < pair_count; ++i) {
-            Real& held = number_of(memory.held, i);
-            held = select(event, count<Real>(rests[i]), held);
-            Real& sticks = number_of(memory.sticks, i);
-            sticks = select(event, zero, sticks);
-        }
+    /// Which of the pairs that rest along their normals do so along their faces too.
+    SLIDEWAY_HD void find_still(PairSolver<Guide, Real> const& pairs, Mask<Real> const (&rests)[pair_count], Mask<Real> (&still)[pair_count]) const {
+        Real const slow = Real(slip_stops) * slip_scale(p_);
+        for (auto& each : still) each = mask_of<Real>(false);
+        if (friction_ == nullptr) return;
         for (int k = 0; k < pairs.count(); ++k) {
             auto const& row = pairs.row(k);
             Real const first = dot(row.pair.slip[0], pairs.after), second = dot(row.pair.slip[1], pairs.after);
-            auto const still = event & rests[row.number] & (fma(first, first, second * second) <= slow * slow);
-            Real& sticks = number_of(memory.sticks, row.number);
-            sticks = select(still, Real(1.0), sticks);
+            still[row.number] = rests[row.number] & (fma(first, first, second * second) <= slow * slow);
+        }
+    }
+
+    /// What has come to rest along its normal lasts, until nothing presses it any longer; what has along its face too sticks.
+    SLIDEWAY_HD static void keep(Mask<Real> event, Mask<Real> const (&rests)[pair_count], Mask<Real> const (&still)[pair_count], Memory& memory) {
+        for (int i = 0; i < pair_count; ++i) {
+            Real &held = number_of(memory.held, i), &sticks = number_of(memory.sticks, i);
+            held = select(event, count<Real>(rests[i]), held);
+            sticks = select(event, count<Real>(still[i]), sticks);
         }
     }
 

@@ -63,24 +63,31 @@ public:
         failed = active & !(change <= Real(well_enough) * size);
     }
 
-    /// Takes from pairs that rest what is left of their normal motion, next to nothing, whichever way it goes.
-    SLIDEWAY_HD void rest(Mask<Real> in, Mask<Real> const (&rests)[pair_count]) {
+    /// Takes from pairs that rest what is left of their normal motion, and from those that are still of their slip: next to nothing, whichever way
+    /// it goes.
+    SLIDEWAY_HD void rest(Mask<Real> in, Mask<Real> const (&rests)[pair_count], Mask<Real> const (&still)[pair_count]) {
         Real const zero(0.0);
         Real size = zero;
+        auto const see = [&](Mask<Real> of, Twist<Real> const& direction) { size = max(size, select(of, abs(dot(direction, after)), zero)); };
         for (int k = 0; k < count_; ++k) {
             auto const& row = rows_[k];
-            size = max(size, select(rests[row.number], abs(dot(row.pair.normal, after)), zero));
+            see(rests[row.number], row.pair.normal);
+            for (auto const& slip : row.pair.slip) see(still[row.number], slip);
         }
         auto active = in & (size > zero);
         for (int sweep = 0; sweep < most_sweeps_of_rest && any(active); ++sweep) {
             Real change = zero;
+            auto const stop = [&](Mask<Real> of, Twist<Real> const& direction, Twist<Real> const& pushed, Real& load) {
+                Real const own = dot(direction, pushed);
+                Real const step = select(active & of, negated(dot(direction, after)) / own, zero);
+                load = load + step;
+                after = fma(step, pushed, after);
+                change = max(change, abs(step) * own);
+            };
             for (int k = 0; k < count_; ++k) {
                 auto& row = rows_[k];
-                Real const own = dot(row.pair.normal, row.pair.pushed);
-                Real const step = select(active & rests[row.number], negated(dot(row.pair.normal, after)) / own, zero);
-                row.normal = row.normal + step;
-                after = fma(step, row.pair.pushed, after);
-                change = max(change, abs(step) * own);
+                stop(rests[row.number], row.pair.normal, row.pair.pushed, row.normal);
+                for (int j = 0; j < 2; ++j) stop(still[row.number], row.pair.slip[j], row.pair.dragged[j], row.along[j]);
             }
             active = active & (change > Real(1e-13) * size);
         }

@@ -37,8 +37,8 @@ template <class Real> SLIDEWAY_FN Real force_scale(PlanarParameters<Real> const&
 template <class Real> SLIDEWAY_FN Real slip_scale(PlanarParameters<Real> const& p) { return p.crank_length * p.rate_scale; }
 
 template <class Real> SLIDEWAY_FN Real slip_scale(SliderParameters<Real> const& p) { return p.crank_length * p.rate_scale; }
-/// Pairs of the joint that all slip slower than this come to rest together [slip scales], and one that sticks slips from `slip_again` on.
-inline constexpr double slip_together = 2e-8, slip_again = 1e-7;
+/// A pair of the joint that slips slower than this comes to rest [slip scales], and one that sticks slips from `slip_again` on.
+inline constexpr double slip_stops = 1e-6, slip_again = 1e-5;
 
 /// Coefficient up to which a contact sticks: a static one below the kinetic has no meaning.
 template <class Real> SLIDEWAY_FN Real holding_coefficient(FrictionParameters<Real> const& friction) {
