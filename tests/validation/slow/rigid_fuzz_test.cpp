@@ -73,7 +73,8 @@ TEST(RigidFuzz, SlidersWithEightApicesEndAndMakeNoEnergy) {
             auto const found = search(20'000, friction, testing::rigid_joint_parts(true, false, mechanism), &testing::random_rigid_sliders);
             EXPECT_EQ(found.made_energy, 0);
             EXPECT_LT(found.others, found.members / 5000);
-            EXPECT_LT(found.jammed + found.spent, found.members / 500);
+            // Large friction in wild proportions wedges some.
+            EXPECT_LT(found.jammed + found.spent, found.members / (friction < 0.5 ? 100 : 10));
         }
     }
 }
