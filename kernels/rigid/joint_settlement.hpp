@@ -84,7 +84,7 @@ public:
         complete_faces(event, contact, rests);
         Mask<Real> still[pair_count];
         find_still(pairs, rests, still);
-        pairs.rest(event, rests, still);
+        pairs.rest(event, rests, still, friction_ != nullptr ? &friction_->kinetic_coefficient : nullptr);
         auto const taken = impact.taken();
         auto& books = memory.books;
         auto const book = [&](Real& account, Real amount) { account = select(event, amount, account); };

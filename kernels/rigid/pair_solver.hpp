@@ -63,31 +63,32 @@ public:
         failed = active & !(change <= Real(well_enough) * size);
     }
 
-    /// Takes from pairs that rest what is left of their normal motion, and from those that are still of their slip: next to nothing, whichever way
-    /// it goes.
-    SLIDEWAY_HD void rest(Mask<Real> in, Mask<Real> const (&rests)[pair_count], Mask<Real> const (&still)[pair_count]) {
+    /// Takes from pairs that rest what is left of their normal motion, with the friction of the bounces that would have done so, and from those
+    /// that are still what is left of their slip: next to nothing, whichever way it goes.
+    /// @param coefficient μ, or nullptr without friction
+    SLIDEWAY_HD void rest(Mask<Real> in, Mask<Real> const (&rests)[pair_count], Mask<Real> const (&still)[pair_count], Real const* coefficient) {
         Real const zero(0.0);
-        Real size = zero;
+        Real size = zero, drag[2][pair_count];
         auto const see = [&](Mask<Real> of, Twist<Real> const& direction) { size = max(size, select(of, abs(dot(direction, after)), zero)); };
         for (int k = 0; k < count_; ++k) {
             auto const& row = rows_[k];
             see(rests[row.number], row.pair.normal);
             for (auto const& slip : row.pair.slip) see(still[row.number], slip);
+            drag[0][k] = drag[1][k] = zero;
+            if (coefficient != nullptr) find_drag(row, rests[row.number] & !still[row.number], *coefficient, drag[0][k], drag[1][k]);
         }
         auto active = in & (size > zero);
         for (int sweep = 0; sweep < most_sweeps_of_rest && any(active); ++sweep) {
             Real change = zero;
-            auto const stop = [&](Mask<Real> of, Twist<Real> const& direction, Twist<Real> const& pushed, Real& load) {
-                Real const own = dot(direction, pushed);
-                Real const step = select(active & of, negated(dot(direction, after)) / own, zero);
-                load = load + step;
-                after = fma(step, pushed, after);
-                change = max(change, abs(step) * own);
-            };
             for (int k = 0; k < count_; ++k) {
                 auto& row = rows_[k];
-                stop(rests[row.number], row.pair.normal, row.pair.pushed, row.normal);
-                for (int j = 0; j < 2; ++j) stop(still[row.number], row.pair.slip[j], row.pair.dragged[j], row.along[j]);
+                auto const pushed = fma(drag[0][k], row.pair.dragged[0], fma(drag[1][k], row.pair.dragged[1], row.pair.pushed));
+                Real const step = stop(active & rests[row.number], row.pair.normal, pushed, change);
+                row.normal = row.normal + step;
+                for (int j = 0; j < 2; ++j) {
+                    Real const held = stop(active & still[row.number], row.pair.slip[j], row.pair.dragged[j], change);
+                    row.along[j] = row.along[j] + fma(step, drag[j][k], held);
+                }
             }
             active = active & (change > Real(1e-13) * size);
         }
@@ -101,6 +102,29 @@ public:
     }
 
 private:
+    /// Friction per unit load of a pair that slips; none where it outweighs the push.
+    SLIDEWAY_HD void find_drag(TouchingPair<Real> const& row, Mask<Real> slips, Real coefficient, Real& first, Real& second) const {
+        Real const zero(0.0), one(1.0);
+        Real const slip[2] = {dot(row.pair.slip[0], after), dot(row.pair.slip[1], after)};
+        Real const square = fma(slip[0], slip[0], slip[1] * slip[1]);
+        auto const moves = slips & (square > zero);
+        Real const share = select(moves, negated(coefficient) / sqrt(select(moves, square, one)), zero);
+        Real const by_friction = share * fma(slip[0], dot(row.pair.normal, row.pair.dragged[0]), slip[1] * dot(row.pair.normal, row.pair.dragged[1]));
+        Real const own = dot(row.pair.normal, row.pair.pushed);
+        auto const tame = own + by_friction > Real(0.1) * own;
+        first = select(tame, share * slip[0], zero);
+        second = select(tame, share * slip[1], zero);
+    }
+
+    /// A step that ends the motion along a direction.  @return its load
+    SLIDEWAY_HD Real stop(Mask<Real> in, Twist<Real> const& direction, Twist<Real> const& pushed, Real& change) {
+        Real const own = dot(direction, pushed);
+        Real const step = select(in, negated(dot(direction, after)) / own, Real(0.0));
+        after = fma(step, pushed, after);
+        change = max(change, abs(step) * own);
+        return step;
+    }
+
     /// From pair to pair.  @return the largest change of a motion
     SLIDEWAY_HD Real sweep(Mask<Real> in, bool friction) {
         Real change(0.0);
