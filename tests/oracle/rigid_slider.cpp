@@ -28,7 +28,7 @@ constexpr Real same = 1e-10L;         // accelerations that differ by less, over
 constexpr Real other = 1e-8L;         // those that differ by more are of another set of contacts
 constexpr int most_settlements = 400; // without time going on
 constexpr Real longest_step = 1e-4L;  // a pair that comes and goes within a step is not seen
-constexpr int columns = 7;
+constexpr int columns = 5;  // order 10
 
 struct Held {
     int pair;
@@ -89,12 +89,16 @@ public:
                 continue;
             }
             if (happens(next)) {
-                place_ = located(h, next);
+                SliderPlace const event = located(h, next);
+                (void)step(event.time - place_.time);
+                run.friction_loss += drag_loss_;
+                place_ = event;
                 settle();
                 continue;
             }
             if (h == until - place_.time) next.time = until;
             place_ = next;
+            run.friction_loss += drag_loss_;
             put_back();
             for (Held& c : held_) turn_along(c);
             if (std::ranges::any_of(held_, [&](Held const& c) { return !c.sticks && has_stopped(c); })) settle();
@@ -114,8 +118,7 @@ private:
 
     [[nodiscard]] std::pair<SliderPlace, Real> step(Real h) {
         Real const t = place_.time;
-        // The time is the fourteenth number of what is integrated, but as only drives read it, it follows from the clock of the substeps.
-        using Clocked = std::array<Real, 14>;
+        using Clocked = std::array<Real, 15>;  // the time, and what friction takes
         Clocked start{}, scale{};
         Numbers const now = numbers_of(place_);
         std::copy(now.begin(), now.end(), start.begin());
@@ -123,20 +126,32 @@ private:
         for (std::size_t i = 0; i < 3; ++i) scale[i] = 1e-19L, scale[3 + i] = 1e-17L;
         for (std::size_t i = 6; i < 10; ++i) scale[i] = 1e-17L;
         for (std::size_t i = 10; i < 13; ++i) scale[i] = 1e-15L;
-        scale[13] = 1;
+        scale[13] = scale[14] = 1;
         auto const derivative = [this](Clocked const& c) {
             Numbers n{};
             std::copy_n(c.begin(), n.size(), n.begin());
             SliderPlace const p = place_of(n, c[13]);
             frame_.move_to(p);
-            Vector6 const a = held_.empty() ? frame_.free() : lasting().change;
+            Forces const f = held_.empty() ? Forces{frame_.free(), Column(0), Column(0)} : lasting();
+            Vector6 const& a = f.change;
             auto const q = p.attitude * Eigen::Quaternion<Real>(0, p.spin.x() / 2, p.spin.y() / 2, p.spin.z() / 2);
-            return Clocked{n[3], n[4], n[5], a[0], a[1], a[2], q.w(), q.x(), q.y(), q.z(), a[3], a[4], a[5], 1};
+            return Clocked{n[3], n[4], n[5], a[0], a[1], a[2], q.w(), q.x(), q.y(), q.z(), a[3], a[4], a[5], 1, drag_loss(f)};
         };
         auto const [end, error] = extrapolated<columns>(start, h, derivative, scale);
         Numbers n{};
         std::copy_n(end.begin(), n.size(), n.begin());
+        drag_loss_ = end[14];
         return {place_of(n, t + h), error};
+    }
+
+    /// What friction takes from lasting contacts [W].
+    [[nodiscard]] Real drag_loss(Forces const& f) const {
+        Real loss = 0;
+        for (std::size_t i = 0; i < held_.size(); ++i) {
+            Vector2 const slip = (frame_.pair(held_[i].pair).rows * rates()).tail<2>();
+            loss -= slip.dot(Vector2(f.along.segment<2>(3 * static_cast<Index>(i) + 1)));
+        }
+        return loss;
     }
 
     /// A slip that comes to an end is approached by halves: its direction has no limit from beyond.
@@ -349,8 +364,15 @@ private:
         for (int i = 0; i < 16; ++i) {
             if ((is_held(i) || frame_.gap(i) <= on_wall) && std::abs(speed(i)) <= least_speed) resting.push_back(i);
         }
+        halt(resting);
         last(resting);
         put_back();
+    }
+    /// What is too slow for an impact stops at its wall, or it would be inside although its acceleration leads away.
+    void halt(std::vector<int> const& pairs) {
+        if (std::ranges::none_of(pairs, [&](int i) { return speed(i) > 0; })) return;
+        CoulombProblem const p = problem(pairs, place_.rates(), false);
+        jump(pairs, p, solve(p).impulses);
     }
     /// Towards the wall.
     [[nodiscard]] Real speed(int pair) const { return -frame_.pair(pair).rows.row(0).dot(place_.rates()); }
@@ -500,7 +522,7 @@ private:
     }
 
     SliderFrame frame_;
-    Real e_, mu_slip_ = 0, mu_hold_ = 0, initial_energy_ = 0, settled_ = -1;
+    Real e_, mu_slip_ = 0, mu_hold_ = 0, initial_energy_ = 0, settled_ = -1, drag_loss_ = 0;
     int settlements_ = 0;
     SliderPlace place_;
     std::vector<Held> held_;

@@ -24,7 +24,7 @@ struct RigidSliderRun {
     std::vector<std::vector<int>> held;  // pairs in lasting contact at the samples
     std::vector<int> impacts;            // up to each sample
     std::vector<RigidSliderEvent> events;
-    long double friction_loss = 0, restitution_loss = 0;  // of impacts [J]
+    long double friction_loss = 0, restitution_loss = 0;  // [J]
     long double largest_gain = 0;                         // of energy in one impact [J]
     long double energy_change = 0;                        // of the slider over the run [J]
     int limited = 0;                                      // impacts that (M13.7) weakened

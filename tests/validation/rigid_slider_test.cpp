@@ -1,0 +1,130 @@
+// Rigid contacts of the spatial mechanisms (model.md 13) against a reference that goes from event to event in 80-bit numbers.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "tests/oracle/rigid_slider.hpp"
+#include "tests/support/rigid_joint.hpp"
+
+namespace slideway::rigid_slider_test {
+namespace {
+
+using testing::rigid_joint_parts;
+using testing::rigid_options;
+
+/// Tilted, turning and drifting sliders of the paper's size in the middle of their way.
+std::vector<Inputs> random_sliders(std::size_t count, unsigned seed, double e, double friction) {
+    std::mt19937_64 draw(seed);
+    auto const uniform = [&draw](double low, double high) { return low + (high - low) * static_cast<double>(draw() >> 11) * 0x1p-53; };
+    std::vector<Inputs> members;
+    for (std::size_t i = 0; i < count; ++i) {
+        Inputs in;
+        in.restitution = std::max(e, 1e-300);
+        in.friction_static = in.friction_kinetic = friction;
+        in.crank_speed = 10, in.start_angle = uniform(0, 6);
+        in.roll = uniform(-1e-3, 1e-3), in.yaw = uniform(-1e-3, 1e-3), in.pitch = uniform(-1e-3, 1e-3);
+        in.wx = uniform(-1, 1), in.wy = uniform(-1, 1), in.wz = uniform(-1, 1);
+        in.vx = uniform(-0.1, 0.1), in.vz = uniform(-0.02, 0.02);
+        in.y = uniform(-3e-5, 3e-5), in.z = uniform(-3e-5, 3e-5);
+        members.push_back(complete_inputs(in));
+    }
+    return members;
+}
+
+/// Largest distance of states, in clearances and what turns the slider by as much.
+double distance(Inputs const& in, Parts const& parts, oracle::RigidSliderState const& a, std::vector<double> const& b) {
+    long double const c = in.clearance_y, angle = 2 * c / in.slider_length;
+    // A fall through the clearance takes 5 ms.
+    long double const unit[12] = {c, c, 200 * c, 200 * c, angle, angle, angle, 200 * angle, 200 * angle, 200 * angle, c, 200 * c};
+    long double most = 0;
+    int const states = info(parts.mechanism).states;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(states); ++i) {
+        long double const d = std::abs(a[i] - b[i]) / unit[i];
+        if (!(d <= most)) most = d;
+    }
+    return static_cast<double>(most);
+}
+
+struct Compared {
+    int impacts = 0, lasting = 0, samples = 0;  // that were compared; samples with pairs in lasting contact
+};
+
+/// Compares with the reference at each half millisecond.  With friction, loads that more than three pairs share are not unique: there it ends.
+Compared expect_reference(std::vector<Inputs> const& members, Parts const& parts, int samples, double tolerance) {
+    std::vector<double> times;
+    for (int i = 1; i <= samples; ++i) times.push_back(5e-4 * i);
+    auto o = rigid_options(parts, 1e-12, times.back());
+    o.series = parts.mechanism == Mechanism::free_slider ? selections::twelve_states : selections::ten_states;
+    o.sample_times = times;
+    auto const r = testing::run(best_isa(), o, members);
+    Compared all;
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        EXPECT_EQ(r.records[m].status, Status::finished) << m;
+        auto const reference = oracle::rigid_slider_run(members[m], parts, {times.begin(), times.end()});
+        EXPECT_TRUE(reference.solved) << m;
+        EXPECT_LT(static_cast<double>(reference.largest_gain), 1e-20) << m;
+        if (parts.mechanism == Mechanism::free_slider) {
+            EXPECT_LT(std::abs(static_cast<double>(reference.energy_change + reference.restitution_loss + reference.friction_loss)), 1e-16) << m;
+        }
+        for (std::size_t k = 0; k < times.size(); ++k) {
+            if (parts.friction && reference.held[k].size() > 3) break;
+            std::vector<double> state;
+            for (std::size_t i = 0; i < static_cast<std::size_t>(info(parts.mechanism).states); ++i) {
+                state.push_back(r.series[(i * members.size() + m) * times.size() + k]);
+            }
+            double const d = distance(members[m], parts, reference.samples[k], state);
+            EXPECT_LT(d, tolerance) << "member " << m << " at " << times[k] << " after " << reference.impacts[k] << " impacts, " << reference.held[k].size()
+                                    << " pairs last";
+            if (!(d < tolerance)) break;
+            ++all.samples, all.lasting += reference.held[k].empty() ? 0 : 1;
+            all.impacts += k == 0 ? reference.impacts[k] : reference.impacts[k] - reference.impacts[k - 1];
+        }
+    }
+    return all;
+}
+
+class RigidSlider : public ::testing::TestWithParam<double> {};
+
+TEST_P(RigidSlider, MovesAsTheReferenceWithoutFriction) {
+    auto const seen = expect_reference(random_sliders(12, 7, GetParam(), 0), rigid_joint_parts(false), 40, 3e-8);
+    EXPECT_EQ(seen.samples, 12 * 40);
+    EXPECT_GT(seen.impacts, 12 * 12);
+    EXPECT_GE(seen.lasting, GetParam() < 1 ? 12 * 5 : 0);
+}
+
+TEST_P(RigidSlider, MovesAsTheReferenceWithFriction) {
+    auto const seen = expect_reference(random_sliders(12, 8, GetParam(), 0.1), rigid_joint_parts(true), 40, 3e-8);
+    EXPECT_GT(seen.samples, 12 * 8);
+    EXPECT_GT(seen.impacts, 12 * 10);
+    EXPECT_GE(seen.lasting, GetParam() < 1 ? 5 : 0);
+}
+
+TEST_P(RigidSlider, OfADriveMovesAsTheReference) {
+    for (Mechanism const mechanism : {Mechanism::carriage, Mechanism::scotch_yoke, Mechanism::slider_crank}) {
+        for (bool const friction : {false, true}) {
+            auto const members = random_sliders(3, 9, GetParam(), friction ? 0.1 : 0);
+            auto const seen = expect_reference(members, rigid_joint_parts(friction, false, mechanism), 30, 3e-8);
+            EXPECT_GT(seen.impacts, 3 * 8) << static_cast<int>(mechanism) << friction;
+        }
+    }
+}
+
+TEST_P(RigidSlider, OfAMisalignedWayMovesAsTheReference) {
+    for (bool const friction : {false, true}) {
+        auto members = random_sliders(4, 10, GetParam(), friction ? 0.1 : 0);
+        for (auto& in : members) {
+            in.way_roll = 0.3, in.way_yaw = 0.02, in.way_pitch = -0.01, in.way_offset_y = 1e-5, in.way_offset_z = -2e-5;
+            in.roll += in.way_roll, in.yaw += in.way_yaw, in.pitch += in.way_pitch;
+        }
+        auto const seen = expect_reference(members, rigid_joint_parts(friction, true), 30, 3e-8);
+        EXPECT_GT(seen.impacts, 4 * 8) << friction;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Restitution, RigidSlider, ::testing::Values(0.0, 0.3, 0.6, 1.0));
+
+}  // namespace
+}  // namespace slideway::rigid_slider_test
