@@ -19,7 +19,9 @@ using Index = Eigen::Index;
 constexpr Real rounding = 1e-14L;  // violation, over the largest motion
 
 [[nodiscard]] Index count(CoulombProblem const& p) { return static_cast<Index>(p.contacts.size()); }
-[[nodiscard]] CoulombProblem::Contact const& contact(CoulombProblem const& p, Index i) { return p.contacts[static_cast<std::size_t>(i)]; }
+[[nodiscard]] CoulombProblem::Contact const& contact(CoulombProblem const& p, Index i) {
+    return p.contacts[static_cast<std::size_t>(i)];
+}
 
 /// The longest motion there is, which rounding is measured by.
 [[nodiscard]] Real largest_motion(CoulombProblem const& p) {
@@ -35,7 +37,8 @@ constexpr Real rounding = 1e-14L;  // violation, over the largest motion
     Column impulses = Column::Zero(3 * count(p));
     for (Index i = 0; i < count(p); ++i) {
         impulses[3 * i] = normal[i];
-        if (contact(p, i).slips) impulses.segment<2>(3 * i + 1) = -contact(p, i).friction * normal[i] * contact(p, i).along;
+        if (contact(p, i).slips)
+            impulses.segment<2>(3 * i + 1) = -contact(p, i).friction * normal[i] * contact(p, i).along;
     }
     return impulses;
 }
@@ -62,7 +65,8 @@ constexpr Real rounding = 1e-14L;  // violation, over the largest motion
         Column right(m);
         for (Index a = 0; a < m; ++a) {
             right[a] = -gap_rate[closed[static_cast<std::size_t>(a)]];
-            for (Index b = 0; b < m; ++b) small(a, b) = normal_of(closed[static_cast<std::size_t>(a)], closed[static_cast<std::size_t>(b)]);
+            for (Index b = 0; b < m; ++b)
+                small(a, b) = normal_of(closed[static_cast<std::size_t>(a)], closed[static_cast<std::size_t>(b)]);
         }
         auto lu = Eigen::FullPivLU<Table>(small);
         lu.setThreshold(1e-12L);
@@ -84,7 +88,8 @@ public:
     explicit Projections(CoulombProblem const& p) : p_(p), n_(count(p)), steps_(3 * n_) {
         for (Index i = 0; i < n_; ++i) {
             steps_[3 * i] = 1 / p.mobility(3 * i, 3 * i);
-            steps_[3 * i + 1] = steps_[3 * i + 2] = 2 / (p.mobility(3 * i + 1, 3 * i + 1) + p.mobility(3 * i + 2, 3 * i + 2));
+            steps_[3 * i + 1] = steps_[3 * i + 2] =
+                2 / (p.mobility(3 * i + 1, 3 * i + 1) + p.mobility(3 * i + 2, 3 * i + 2));
         }
         slow_ = 1 / p.mobility.norm();
     }
@@ -97,7 +102,8 @@ public:
                 Real const push = std::max(Real(0), impulses[3 * i] - slow_ * (motion[3 * i] - c.least));
                 Vector2 const drag = impulses.segment<2>(3 * i + 1) - slow_ * motion.segment<2>(3 * i + 1);
                 impulses[3 * i] = push;
-                impulses.segment<2>(3 * i + 1) = c.slips ? Vector2(-c.friction * push * c.along) : in_disc(drag, c.friction * push);
+                impulses.segment<2>(3 * i + 1) =
+                    c.slips ? Vector2(-c.friction * push * c.along) : in_disc(drag, c.friction * push);
             }
         }
     }
@@ -120,7 +126,8 @@ private:
         return length <= radius ? v : Vector2(v * (radius / length));
     }
 
-    void contact_equations(Index i, Column const& impulses, Column const& motion, Table& slope, Column& residual) const {
+    void contact_equations(Index i, Column const& impulses, Column const& motion, Table& slope,
+                           Column& residual) const {
         auto const& c = contact(p_, i);
         Index const at = 3 * i, width = 3 * n_;
         Eigen::Matrix<Real, 1, Eigen::Dynamic> ahead = Table::Zero(1, width);
@@ -138,7 +145,8 @@ private:
             of_pull(0, at + 1) += 1, of_pull(1, at + 2) += 1;
             Real const radius = c.friction * push, length = pull.norm();
             residual.segment<2>(at + 1) -= in_disc(pull, radius);
-            if (length <= radius) across = of_pull;
+            if (length <= radius)
+                across = of_pull;
             else {
                 Vector2 const unit = pull / length;
                 across = radius / length * (of_pull - unit * (unit.transpose() * of_pull)) + c.friction * unit * ahead;
@@ -157,7 +165,7 @@ private:
     Projections const equations(p);
     Column sure = Column::Zero(3 * count(p)), best = sure;
     Real least = violation(p, best);
-    for (int rounds = 50; rounds < 200'000 && least > rounding; rounds *= 2) {
+    for (int rounds = 50; rounds < 20'000 && least > rounding; rounds *= 2) {
         equations.walk(sure, rounds);
         Column impulses = sure;
         for (int i = 0; i < 30 && least > rounding / 1000; ++i) {
@@ -176,12 +184,14 @@ long double violation(CoulombProblem const& p, CoulombProblem::Column const& imp
     Real worst = 0;
     for (Index i = 0; i < count(p); ++i) {
         auto const& c = contact(p, i);
-        Real const of_push = p.mobility(3 * i, 3 * i), of_drag = (p.mobility(3 * i + 1, 3 * i + 1) + p.mobility(3 * i + 2, 3 * i + 2)) / 2;
+        Real const of_push = p.mobility(3 * i, 3 * i),
+                   of_drag = (p.mobility(3 * i + 1, 3 * i + 1) + p.mobility(3 * i + 2, 3 * i + 2)) / 2;
         Real const push = impulses[3 * i] * of_push, rate = motion[3 * i] - c.least;
         worst = std::max(worst, std::abs(std::min(push, rate)));
         Vector2 const drag = impulses.segment<2>(3 * i + 1) * of_drag, slip = motion.segment<2>(3 * i + 1);
         Real const bound = c.friction * impulses[3 * i] * of_drag;
-        if (c.slips) worst = std::max(worst, (drag + bound * c.along).norm());
+        if (c.slips)
+            worst = std::max(worst, (drag + bound * c.along).norm());
         else {
             // Coulomb's law: drag is the point of the disc that is nearest to drag − slip.
             Vector2 const pull = drag - slip;

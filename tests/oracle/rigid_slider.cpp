@@ -18,17 +18,17 @@ using Column = CoulombProblem::Column;
 using Index = Eigen::Index;
 using Numbers = std::array<Real, 13>;
 
-constexpr Real least_speed = 1e-9L;   // a contact that is slower is at rest if something pushes it to its wall
-constexpr Real on_wall = 1e-18L;      // as good as touching [m]
-constexpr Real rattle_gap = 1e-14L;   // impacts in turn go on until all are as near [m]
-constexpr Real rattle_time = 1e-9L;   // and so many of them have come within it [s]
+constexpr Real least_speed = 1e-9L;  // a contact that is slower is at rest if something pushes it to its wall
+constexpr Real on_wall = 1e-18L;     // as good as touching [m]
+constexpr Real rattle_gap = 1e-14L;  // impacts in turn go on until all are as near [m]
+constexpr Real rattle_time = 1e-9L;  // and so many of them have come within it [s]
 constexpr int rattles = 12;
-constexpr Real still = 1e-12L;        // slip that is none [m/s]
-constexpr Real same = 1e-10L;         // accelerations that differ by less, over the largest, are equal
-constexpr Real other = 1e-8L;         // those that differ by more are of another set of contacts
-constexpr int most_settlements = 400; // without time going on
-constexpr Real longest_step = 1e-4L;  // a pair that comes and goes within a step is not seen
-constexpr int columns = 5;  // order 10
+constexpr Real still = 1e-12L;         // slip that is none [m/s]
+constexpr Real same = 1e-10L;          // accelerations that differ by less, over the largest, are equal
+constexpr Real other = 1e-8L;          // those that differ by more are of another set of contacts
+constexpr int most_settlements = 400;  // without time going on
+constexpr Real longest_step = 1e-4L;   // a pair that comes and goes within a step is not seen
+constexpr int columns = 5;             // order 10
 
 struct Held {
     int pair;
@@ -45,7 +45,8 @@ struct Held {
 
 [[nodiscard]] Numbers numbers_of(SliderPlace const& p) {
     auto const& q = p.attitude;
-    return {p.centre.x(), p.centre.y(), p.centre.z(), p.velocity.x(), p.velocity.y(), p.velocity.z(), q.w(), q.x(), q.y(), q.z(), p.spin.x(), p.spin.y(), p.spin.z()};
+    return {p.centre.x(), p.centre.y(), p.centre.z(), p.velocity.x(), p.velocity.y(), p.velocity.z(), q.w(),
+            q.x(),        q.y(),        q.z(),        p.spin.x(),     p.spin.y(),     p.spin.z()};
 }
 
 [[nodiscard]] SliderPlace place_of(Numbers const& n, Real time) {
@@ -135,7 +136,8 @@ private:
             Forces const f = held_.empty() ? Forces{frame_.free(), Column(0), Column(0)} : lasting();
             Vector6 const& a = f.change;
             auto const q = p.attitude * Eigen::Quaternion<Real>(0, p.spin.x() / 2, p.spin.y() / 2, p.spin.z() / 2);
-            return Clocked{n[3], n[4], n[5], a[0], a[1], a[2], q.w(), q.x(), q.y(), q.z(), a[3], a[4], a[5], 1, drag_loss(f)};
+            return Clocked{n[3],  n[4],  n[5], a[0], a[1], a[2], q.w(),       q.x(),
+                           q.y(), q.z(), a[3], a[4], a[5], 1,    drag_loss(f)};
         };
         auto const [end, error] = extrapolated<columns>(start, h, derivative, scale);
         Numbers n{};
@@ -163,7 +165,8 @@ private:
         for (Held const& c : held_) {
             SliderPair const p = frame_.pair(c.pair);
             Vector2 const slip = (p.rows * place_.rates()).tail<2>(), rate = (p.rows * f.change + p.biases).tail<2>();
-            if (!c.sticks && slip.norm() > still && slip.dot(rate) < 0) limit = std::min(limit, std::max(slip.norm() / rate.norm() / 2, Real(1e-16L)));
+            if (!c.sticks && slip.norm() > still && slip.dot(rate) < 0)
+                limit = std::min(limit, std::max(slip.norm() / rate.norm() / 2, Real(1e-16L)));
         }
         return limit;
     }
@@ -171,7 +174,8 @@ private:
     [[nodiscard]] bool has_stopped(Held const& c) {
         frame_.move_to(place_);
         SliderPair const p = frame_.pair(c.pair);
-        Vector2 const slip = (p.rows * place_.rates()).tail<2>(), rate = (p.rows * lasting().change + p.biases).tail<2>();
+        Vector2 const slip = (p.rows * place_.rates()).tail<2>(),
+                      rate = (p.rows * lasting().change + p.biases).tail<2>();
         return mu_slip_ > 0 && slip.norm() <= still && slip.dot(rate) < 0;
     }
 
@@ -244,7 +248,8 @@ private:
             if (std::ranges::find(loaded, c.pair) != loaded.end()) some.push_back(c);
         }
         Forces const of_some = kept(some, problem(loaded, frame_.free(), true));
-        Forces f{of_some.change, Column::Zero(static_cast<Index>(contacts.size())), Column::Zero(3 * static_cast<Index>(contacts.size()))};
+        Forces f{of_some.change, Column::Zero(static_cast<Index>(contacts.size())),
+                 Column::Zero(3 * static_cast<Index>(contacts.size()))};
         for (std::size_t i = 0, k = 0; i < contacts.size(); ++i) {
             if (k == some.size() || some[k].pair != contacts[i].pair) continue;
             f.normal[static_cast<Index>(i)] = of_some.normal[static_cast<Index>(k)];
@@ -289,7 +294,8 @@ private:
         bool plain = true;
         for (Index i = 0; i < static_cast<Index>(held_.size()); ++i) {
             Held const& c = held_[static_cast<std::size_t>(i)];
-            plain = plain && f.normal[i] >= 0 && (!c.sticks || Vector2(f.along.segment<2>(3 * i + 1)).norm() <= mu_hold_ * f.normal[i]);
+            plain = plain && f.normal[i] >= 0 &&
+                    (!c.sticks || Vector2(f.along.segment<2>(3 * i + 1)).norm() <= mu_hold_ * f.normal[i]);
         }
         if (plain) return true;
         auto const [contacts, solution] = chosen(held_pairs());
@@ -309,8 +315,10 @@ private:
         for (int i = 0; i < 50; ++i) {
             Real const middle = (before + span) / 2;
             SliderPlace const p = step(middle).first;
-            if (lasts(p)) before = middle;
-            else span = middle, found = p;
+            if (lasts(p))
+                before = middle;
+            else
+                span = middle, found = p;
         }
         return found;
     }
@@ -330,14 +338,18 @@ private:
             SliderPlace const p = step(at).first;
             Real const value = nearest(p) - aim;
             if (std::abs(value) <= on_wall / 4) return {at, p};
-            if (value < 0) past = at, high = value, found = p;
-            else before = at, low = value;
+            if (value < 0)
+                past = at, high = value, found = p;
+            else
+                before = at, low = value;
         }
         for (int i = 0; i < 60 && low <= 0; ++i) {
             Real const middle = (before + past) / 2;
             SliderPlace const p = step(middle).first;
-            if (nearest(p) < -on_wall) past = middle, found = p;
-            else before = middle;
+            if (nearest(p) < -on_wall)
+                past = middle, found = p;
+            else
+                before = middle;
         }
         return {past, found};
     }
@@ -397,7 +409,8 @@ private:
         CoulombProblem p = problem(pairs, place_.rates(), false);
         for (auto& c : p.contacts) c.friction = mu_slip_;
         CoulombSolution const s = solved(p);
-        run.events.push_back({RigidSliderEvent::Kind::rattle, place_.time, pairs.front(), speed(pairs.front()), static_cast<int>(pairs.size())});
+        run.events.push_back({RigidSliderEvent::Kind::rattle, place_.time, pairs.front(), speed(pairs.front()),
+                              static_cast<int>(pairs.size())});
         jump(pairs, p, s.impulses);
         for (int const i : pairs) {
             if (!is_held(i) && std::abs(speed(i)) <= least_speed) held_.push_back({i, false, Vector2::Zero()});
@@ -415,7 +428,8 @@ private:
             p.contacts[i].least = is_held(pairs[i]) ? Real(0) : e_ * std::max(Real(0), comes);
             if (!is_held(pairs[i]) && comes > fastest) fastest = comes, first = pairs[i];
         }
-        run.events.push_back({RigidSliderEvent::Kind::impact, place_.time, first, fastest, static_cast<int>(pairs.size())});
+        run.events.push_back(
+            {RigidSliderEvent::Kind::impact, place_.time, first, fastest, static_cast<int>(pairs.size())});
         Column impulses = solved(p).impulses;
         if (gain(p, impulses) > 1e-14L * std::abs(p.motion.dot(impulses))) impulses = without_gain(p, impulses);
         jump(pairs, p, impulses);
@@ -436,7 +450,8 @@ private:
     [[nodiscard]] Column without_gain(CoulombProblem p, Column const& impulses) {
         for (auto& c : p.contacts) c.least = 0;
         Column const base = solved(p).impulses, more = impulses - base;
-        Real const a = more.dot(p.mobility * more) / 2, b = more.dot(p.motion + p.mobility * base), c = std::min(Real(0), gain(p, base));
+        Real const a = more.dot(p.mobility * more) / 2, b = more.dot(p.motion + p.mobility * base),
+                   c = std::min(Real(0), gain(p, base));
         ++run.limited;
         Real const root = std::sqrt(b * b - 4 * a * c);
         Real const share = b > 0 ? -2 * c / (b + root) : (root - b) / (2 * a);
@@ -447,7 +462,8 @@ private:
         Column const mean = p.motion + p.mobility * impulses / 2;
         Real made = 0;
         for (Index i = 0; i < static_cast<Index>(pairs.size()); ++i) {
-            Real const across = mean[3 * i] * impulses[3 * i], along = mean.segment<2>(3 * i + 1).dot(impulses.segment<2>(3 * i + 1));
+            Real const across = mean[3 * i] * impulses[3 * i],
+                       along = mean.segment<2>(3 * i + 1).dot(impulses.segment<2>(3 * i + 1));
             run.restitution_loss -= across, run.friction_loss -= along;
             made += across + along;
         }
@@ -472,7 +488,8 @@ private:
         for (std::size_t i = 0; i < pairs.size() && mu_hold_ > mu_slip_; ++i) {
             auto const at = 3 * static_cast<Index>(i);
             Vector2 const drag = s.impulses.segment<2>(at + 1);
-            if (p.contacts[i].slips || s.after.segment<2>(at + 1).norm() <= same * p.motion.norm() || drag.norm() == 0) continue;
+            if (p.contacts[i].slips || s.after.segment<2>(at + 1).norm() <= same * p.motion.norm() || drag.norm() == 0)
+                continue;
             p.contacts[i].slips = true, p.contacts[i].friction = mu_slip_, p.contacts[i].along = -drag.normalized();
         }
         if (mu_hold_ > mu_slip_) s = solve(p);
@@ -482,7 +499,9 @@ private:
             Vector2 const drag = s.impulses.segment<2>(at + 1);
             bool const sticks = !p.contacts[i].slips && s.after.segment<2>(at + 1).norm() <= same * p.motion.norm();
             Vector2 along = p.contacts[i].along;
-            if (!p.contacts[i].slips && !sticks) along = drag.norm() > 0 ? Vector2(-drag.normalized()) : Vector2(s.after.segment<2>(at + 1).normalized());
+            if (!p.contacts[i].slips && !sticks)
+                along =
+                    drag.norm() > 0 ? Vector2(-drag.normalized()) : Vector2(s.after.segment<2>(at + 1).normalized());
             all.push_back({pairs[i], sticks, along});
         }
         return {all, s};
@@ -495,9 +514,12 @@ private:
             next = contacts;
             run.solved = run.solved && solution.solved;
         }
-        auto const note = [&](RigidSliderEvent::Kind kind, int pair) { run.events.push_back({kind, place_.time, pair, 0}); };
+        auto const note = [&](RigidSliderEvent::Kind kind, int pair) {
+            run.events.push_back({kind, place_.time, pair, 0});
+        };
         for (Held const& c : held_) {
-            if (std::ranges::none_of(next, [&](Held const& n) { return n.pair == c.pair; })) note(RigidSliderEvent::Kind::leave, c.pair);
+            if (std::ranges::none_of(next, [&](Held const& n) { return n.pair == c.pair; }))
+                note(RigidSliderEvent::Kind::leave, c.pair);
         }
         for (Held const& c : next) {
             if (!is_held(c.pair)) note(RigidSliderEvent::Kind::rest, c.pair);
@@ -512,11 +534,13 @@ private:
         for (Held& c : across) c.sticks = false, c.along.setZero();
         frame_.move_to(place_);
         CoulombProblem p = problem(held_pairs(), Vector6::Zero(), false);
-        for (Index i = 0; i < static_cast<Index>(held_.size()); ++i) p.motion[3 * i] = frame_.gap(held_[static_cast<std::size_t>(i)].pair);
+        for (Index i = 0; i < static_cast<Index>(held_.size()); ++i)
+            p.motion[3 * i] = frame_.gap(held_[static_cast<std::size_t>(i)].pair);
         place_.shift(kept(across, p).change - frame_.free());
         frame_.move_to(place_);
         p = problem(held_pairs(), place_.rates(), false);
-        for (Held& c : across) c.sticks = std::ranges::any_of(held_, [&](Held const& h) { return h.pair == c.pair && h.sticks; });
+        for (Held& c : across)
+            c.sticks = std::ranges::any_of(held_, [&](Held const& h) { return h.pair == c.pair && h.sticks; });
         place_.set_rates(place_.rates() + kept(across, p).change - frame_.free());
         frame_.move_to(place_);
     }
@@ -530,15 +554,16 @@ private:
 
 }  // namespace
 
-RigidSliderRun rigid_slider_run(Inputs const& in, Parts const& parts, std::vector<long double> const& times) {
+RigidSliderRun rigid_slider_run(Inputs const& in, Parts const& parts, std::vector<long double> const& times,
+                                std::size_t most_held) {
     Slider slider(in, parts);
     for (Real const t : times) {
+        if (!slider.run.held.empty() && slider.run.held.back().size() > most_held) break;
         slider.advance(t);
         slider.run.samples.push_back(slider.state());
         slider.run.held.push_back(slider.held_pairs());
-        slider.run.impacts.push_back(static_cast<int>(std::ranges::count_if(slider.run.events, [](RigidSliderEvent const& e) {
-            return e.kind == RigidSliderEvent::Kind::impact;
-        })));
+        slider.run.impacts.push_back(static_cast<int>(std::ranges::count_if(
+            slider.run.events, [](RigidSliderEvent const& e) { return e.kind == RigidSliderEvent::Kind::impact; })));
     }
     slider.run.energy_change = slider.energy_change();
     return slider.run;

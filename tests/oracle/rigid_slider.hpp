@@ -31,7 +31,8 @@ struct RigidSliderRun {
     bool solved = true;                                   // all conditions of contact were met
 };
 
-/// @param times of the samples [s], which ascend
-RigidSliderRun rigid_slider_run(slideway::Inputs const& completed, slideway::Parts const& parts, std::vector<long double> const& times);
+/// @param times of the samples [s], which ascend  @param most_held the run ends with the first sample that has more pairs in lasting contact
+RigidSliderRun rigid_slider_run(slideway::Inputs const& completed, slideway::Parts const& parts,
+                                std::vector<long double> const& times, std::size_t most_held = 16);
 
 }  // namespace oracle

@@ -50,7 +50,8 @@ SliderPlace SliderFrame::start() const {
 std::array<Real, 12> SliderFrame::state(SliderPlace const& p) {
     Matrix3 const a = p.attitude.toRotationMatrix();
     Real const roll = std::atan2(a(2, 1), a(2, 2)), yaw = -std::asin(a(2, 0)), pitch = std::atan2(a(1, 0), a(0, 0));
-    return {p.centre.y(), p.centre.z(), p.velocity.y(), p.velocity.z(), roll, yaw, pitch, p.spin.x(), p.spin.y(), p.spin.z(), p.centre.x(), p.velocity.x()};
+    return {p.centre.y(), p.centre.z(), p.velocity.y(), p.velocity.z(), roll,         yaw,
+            pitch,        p.spin.x(),   p.spin.y(),     p.spin.z(),     p.centre.x(), p.velocity.x()};
 }
 
 void SliderFrame::move_to(SliderPlace const& place) {
@@ -65,7 +66,8 @@ void SliderFrame::move_to(SliderPlace const& place) {
     force << mass * gravity_, -place.spin.cross(inertia_.cwiseProduct(place.spin));
     Matrix6 inverse_mass = Matrix6::Zero();
     inverse_mass.diagonal() << Vector3::Constant(1 / mass), inertia_.cwiseInverse();
-    energy_ = mass * place.velocity.squaredNorm() / 2 + place.spin.dot(inertia_.cwiseProduct(place.spin)) / 2 - mass * gravity_.dot(place.centre);
+    energy_ = mass * place.velocity.squaredNorm() / 2 + place.spin.dot(inertia_.cwiseProduct(place.spin)) / 2 -
+              mass * gravity_.dot(place.centre);
     add_drive(force, inverse_mass);
 }
 
@@ -83,7 +85,8 @@ void SliderFrame::add_drive(Vector6 const& slider_force, Matrix6 const& slider_i
             break;
         case Mechanism::slider_crank: {
             // The rod is two masses and their coupling (M6.2); |AB| = L is differentiated twice.
-            Real const rod = in_.rod_mass, part = in_.rod_mass_center, spread = Real(in_.rod_inertia) / (Real(in_.rod_length) * in_.rod_length);
+            Real const rod = in_.rod_mass, part = in_.rod_mass_center,
+                       spread = Real(in_.rod_inertia) / (Real(in_.rod_length) * in_.rod_length);
             Real const at_slider = rod * part * part + spread, coupling = rod * part * (1 - part) - spread;
             Real const speed = in_.crank_speed, angle = Real(in_.start_angle) + speed * place_.time;
             Vector3 const pin = Real(in_.crank_length) * Vector3(std::cos(angle), std::sin(angle), 0);
@@ -108,13 +111,15 @@ void SliderFrame::add_drive(Vector6 const& slider_force, Matrix6 const& slider_i
 
 SliderFrame::Apex3 SliderFrame::apex(int number) const {
     auto const [s1, s2, s3] = apices[number % 8];
-    Vector3 const arm(s3 * Real(in_.slider_length) / 2, s1 * Real(in_.way_width) / 2 - centre_.y(), s2 * Real(in_.way_depth) / 2 - centre_.z());
+    Vector3 const arm(s3 * Real(in_.slider_length) / 2, s1 * Real(in_.way_width) / 2 - centre_.y(),
+                      s2 * Real(in_.way_depth) / 2 - centre_.z());
     return number < 8 ? Apex3{1, Real(s1), arm} : Apex3{2, Real(s2), arm};
 }
 
 Real SliderFrame::gap(int number) const {
     auto const [axis, side, arm] = apex(number);
-    Real const half_hole = axis == 1 ? Real(in_.way_width) / 2 + in_.clearance_y : Real(in_.way_depth) / 2 + in_.clearance_z;
+    Real const half_hole =
+        axis == 1 ? Real(in_.way_width) / 2 + in_.clearance_y : Real(in_.way_depth) / 2 + in_.clearance_z;
     return half_hole - side * attitude_.col(axis).dot(arm);
 }
 
@@ -122,7 +127,8 @@ SliderPair SliderFrame::pair(int number) const {
     auto const [axis, side, arm] = apex(number);
     SliderPair p;
     p.gap = gap(number);
-    Vector3 const normal = attitude_.col(axis), arm_rate(0, -velocity_.y(), -velocity_.z()), slip = velocity_ + turn_.cross(arm);
+    Vector3 const normal = attitude_.col(axis), arm_rate(0, -velocity_.y(), -velocity_.z()),
+                  slip = velocity_ + turn_.cross(arm);
     auto const row = [&](int i, Vector3 const& force, Vector3 const& torque) {
         p.rows.block<1, 3>(i, 0) = (way_ * force).transpose();
         p.rows.block<1, 3>(i, 3) = (attitude_.transpose() * torque).transpose();

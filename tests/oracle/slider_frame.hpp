@@ -28,8 +28,8 @@ struct SliderPlace {
 struct SliderPair {
     using Rows = Eigen::Matrix<Real, 3, 6>;
     Real gap = 0;
-    Rows rows;      // gap', and the slip along both axes of the face
-    Vector3 biases; // what rows · v' lacks to be their rate
+    Rows rows;       // gap', and the slip along both axes of the face
+    Vector3 biases;  // what rows · v' lacks to be their rate
 };
 
 /// The slider between its drive and its way.

