@@ -36,6 +36,7 @@ studies = {
     "poincare_0.1mm": {"study.members": 3, "study.transient_revolutions": 1, "study.revolutions": 3, "mechanism.crank_speed": "120 rpm"},
     "planar_flores": {"study.duration": "20 ms"},
     "rigid_starts": {"study.members": 12, "study.duration": "0.1 s"},
+    "slider_crank_rigid": {"study.members": 6, "study.revolutions": 1, "mechanism.crank_speed": "600 rpm"},
     "sweep_clearance": {
         "study.members": 2, "study.points": 3, "study.transient_revolutions": 0, "study.revolutions": 2, "mechanism.crank_speed": "600 rpm"},
     "sweep_rigid": {"study.members": 2, "study.points": 2, "study.transient_revolutions": 0, "study.revolutions": 2},

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tests/oracle/planar_runs.hpp"
-#include "tests/support/rigid.hpp"
+#include "tests/support/rigid_joint.hpp"
 
 namespace slideway::rigid_test {
 namespace {
@@ -133,6 +133,31 @@ TEST(RigidBits, ComeFromMembersOfAllKinds) {
     EXPECT_GT(finished, 30);
     EXPECT_EQ(refused, 3);
     EXPECT_EQ(invalid, 3);
+}
+
+/// Sliders with eight apices that fly, bounce, lie, stick, slip, and some that fail.
+std::vector<Inputs> mixed_sliders(std::size_t count) {
+    auto members = testing::random_rigid_sliders(count, 9, 0.6);
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        if (i % 3 == 0) members[i].friction_kinetic = members[i].friction_static = 0.2;
+        if (i % 16 == 7) members[i].wz = NAN;
+        if (i % 16 == 13) members[i].y = 1.5 * members[i].clearance_y;
+    }
+    return members;
+}
+
+TEST(RigidBits, OfSlidersWithEightApicesAreThoseOfScalarInAnyOrder) {
+    auto const members = mixed_sliders(24);
+    std::vector<Inputs> const reversed(members.rbegin(), members.rend());
+    for (auto const mechanism : {Mechanism::free_slider, Mechanism::carriage, Mechanism::scotch_yoke, Mechanism::slider_crank}) {
+        for (bool const misaligned : {false, true}) {
+            auto o = testing::rigid_options(testing::rigid_joint_parts(true, misaligned, mechanism), 1e-7, 0.02);
+            o.settings.max_steps = 20'000;
+            auto const scalar = testing::run(Isa::scalar, o, members);
+            auto const others = testing::run(best_isa(), o, reversed);
+            for (std::size_t i = 0; i < members.size(); ++i) expect_same(scalar, i, others, members.size() - 1 - i);
+        }
+    }
 }
 
 }  // namespace
