@@ -1,5 +1,5 @@
-// The spatial mechanisms with rigid contacts, event by event, in the sense of model.md 13 and apart from the kernels: flight by extrapolation, events to 1e-18 m,
-// impacts and lasting contact of up to sixteen pairs by coulomb_problem.hpp.
+// The spatial mechanisms with rigid contacts, event by event, in the sense of model.md 13 and apart from the kernels: flight by extrapolation,
+// events to 1e-18 m, impacts and lasting contact of up to sixteen pairs by coulomb_problem.hpp.
 #pragma once
 
 #include <array>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -51,11 +52,20 @@ double distance(Inputs const& in, Parts const& parts, oracle::RigidSliderState c
     return static_cast<double>(most);
 }
 
+/// When the first contact began to last.
+long double first_rest(oracle::RigidSliderRun const& run) {
+    for (auto const& e : run.events) {
+        if (e.kind != oracle::RigidSliderEvent::Kind::impact) return e.time;
+    }
+    return std::numeric_limits<long double>::max();
+}
+
 struct Compared {
     int impacts = 0, lasting = 0, samples = 0;  // that were compared; samples with pairs in lasting contact
 };
 
-/// Compares with the reference at each half millisecond.  With friction, loads that more than three pairs share are not unique: there it ends.
+/// Compares with the reference at each half millisecond.  With friction up to the first contact that lasts: what bounces without end come to depends on where
+/// they are ended (M13.6), and loads that more than three pairs share are not unique.
 Compared expect_reference(std::vector<Inputs> const& members, Parts const& parts, int samples, double tolerance) {
     std::vector<double> times;
     for (int i = 1; i <= samples; ++i) times.push_back(5e-4 * i);
@@ -82,6 +92,7 @@ Compared expect_reference(std::vector<Inputs> const& members, Parts const& parts
                 state.push_back(r.series[(i * members.size() + m) * times.size() + k]);
             }
             double const d = distance(members[m], parts, reference.samples[k], state);
+            if (parts.friction && times[k] > first_rest(reference)) break;
             EXPECT_LT(d, tolerance) << "member " << m << " at " << times[k] << " after " << reference.impacts[k]
                                     << " impacts, " << reference.held[k].size() << " pairs last";
             if (!(d < tolerance)) break;
@@ -91,9 +102,6 @@ Compared expect_reference(std::vector<Inputs> const& members, Parts const& parts
     }
     return all;
 }
-
-/// Bounces that end (M13.6) leave out what friction takes in their rest.
-double tolerance_of(bool friction, double e) { return friction && e < 1 ? 1e-6 : 3e-8; }
 
 class RigidSlider : public ::testing::TestWithParam<double> {};
 
@@ -105,34 +113,31 @@ TEST_P(RigidSlider, MovesAsTheReferenceWithoutFriction) {
 }
 
 TEST_P(RigidSlider, MovesAsTheReferenceWithFriction) {
-    auto const seen = expect_reference(random_sliders(12, 8, GetParam(), 0.1), rigid_joint_parts(true), 40,
-                                       tolerance_of(true, GetParam()));
-    EXPECT_GT(seen.samples, 12 * 8);
-    EXPECT_GT(seen.impacts, 12 * 8);
-    EXPECT_GE(seen.lasting, GetParam() < 1 ? 2 : 0);
+    auto const seen = expect_reference(random_sliders(12, 8, GetParam(), 0.1), rigid_joint_parts(true), 40, 3e-8);
+    EXPECT_GT(seen.samples, 12 * 4);
+    // Without restitution the first impact already ends in a contact that lasts.
+    EXPECT_GE(seen.impacts, GetParam() > 0 ? 12 * 3 : 0);
 }
 
 TEST_P(RigidSlider, OfADriveMovesAsTheReference) {
     for (Mechanism const mechanism : {Mechanism::carriage, Mechanism::scotch_yoke, Mechanism::slider_crank}) {
         for (bool const friction : {false, true}) {
             auto const members = random_sliders(3, 9, GetParam(), friction ? 0.1 : 0);
-            auto const seen = expect_reference(members, rigid_joint_parts(friction, false, mechanism), 30,
-                                               tolerance_of(friction, GetParam()));
-            EXPECT_GE(seen.impacts, 3 * 3) << static_cast<int>(mechanism) << friction;
+            auto const seen = expect_reference(members, rigid_joint_parts(friction, false, mechanism), 30, 3e-8);
+            EXPECT_GE(seen.impacts, friction && GetParam() == 0 ? 0 : 3 * 3) << static_cast<int>(mechanism) << friction;
         }
     }
 }
 
 TEST_P(RigidSlider, OfAMisalignedWayMovesAsTheReference) {
     for (bool const friction : {false, true}) {
-        auto members = random_sliders(4, 10, GetParam(), friction ? 0.1 : 0);
+        auto members = random_sliders(3, 10, GetParam(), friction ? 0.1 : 0);
         for (auto& in : members) {
             in.way_roll = 0.3, in.way_yaw = 0.02, in.way_pitch = -0.01, in.way_offset_y = 1e-5, in.way_offset_z = -2e-5;
             in.roll += in.way_roll, in.yaw += in.way_yaw, in.pitch += in.way_pitch;
         }
-        auto const seen =
-            expect_reference(members, rigid_joint_parts(friction, true), 30, tolerance_of(friction, GetParam()));
-        EXPECT_GE(seen.impacts, 4 * 3) << friction;
+        auto const seen = expect_reference(members, rigid_joint_parts(friction, true), 30, 3e-8);
+        EXPECT_GE(seen.impacts, friction && GetParam() == 0 ? 0 : 3 * 3) << friction;
     }
 }
 
