@@ -53,9 +53,7 @@ template <class Real, int n, int k> struct Traits<Jet<Real, n, k>> {
 /// start + Σ a_j b_{k−j} from j = `from` to k − `from`, in two sums: each product waits for the one before it in its sum.
 template <int k, int from = 0, class Real> SLIDEWAY_FN Real convolved(Real const* a, Real const* b, Real start) {
     Real sum[4] = {start, Real(0.0), Real(0.0), Real(0.0)};
-#ifndef __CUDACC__  // nvcc unrolls what has a constant count by itself
-#pragma GCC unroll 32
-#endif
+    SLIDEWAY_UNROLL
     for (int j = from; j <= k - from; ++j) sum[(j - from) % 4] = fma(a[j], b[k - j], sum[(j - from) % 4]);
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }

@@ -10,15 +10,18 @@
 #endif
 
 // SLIDEWAY_FN is inlined; SLIDEWAY_NOINLINE is a function of its own; SLIDEWAY_CARD_CALL is inlined on processors and called on cards, whose
-// assembler shares out the registers better between several functions than within a long one (docs/gpu.md).
+// assembler shares out the registers better between several functions than within a long one (docs/gpu.md).  SLIDEWAY_UNROLL stands before a loop
+// whose constant number of turns g++ would keep as a loop.
 #if defined(__CUDACC__)
 #define SLIDEWAY_HD __host__ __device__
 #define SLIDEWAY_FN __host__ __device__ inline
 #define SLIDEWAY_NOINLINE __host__ __device__ __noinline__
 #define SLIDEWAY_CARD_CALL __host__ __device__ __noinline__
+#define SLIDEWAY_UNROLL
 #else
 #define SLIDEWAY_HD
 #define SLIDEWAY_FN inline __attribute__((always_inline))
 #define SLIDEWAY_NOINLINE __attribute__((noinline))
 #define SLIDEWAY_CARD_CALL SLIDEWAY_FN
+#define SLIDEWAY_UNROLL _Pragma("GCC unroll 32")
 #endif
