@@ -48,7 +48,7 @@ Found search(std::size_t count, double most_friction, Parts const& parts, Draw d
     std::ranges::sort(found.costs);
     auto const& c = found.costs;
     std::printf("%s, friction to %.1f, %s crank: %zu members, %zu finished, %zu jammed, %zu spent their steps, %zu others; right-hand sides: median %.0f, p99 %.0f, most %.0f\n",
-                info(parts.mechanism).name.data(), most_friction, parts.free_crank ? "free" : "driven", found.members, found.finished, found.jammed, found.spent, found.others, c[c.size() / 2],
+                info(parts.mechanism).name, most_friction, parts.free_crank ? "free" : "driven", found.members, found.finished, found.jammed, found.spent, found.others, c[c.size() / 2],
                 c[c.size() * 99 / 100], c.back());
     return found;
 }
