@@ -2,6 +2,7 @@
 
 #include "kernels/math/trigonometry.hpp"
 #include "kernels/real.hpp"
+#include "kernels/simd/trap.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -13,7 +14,7 @@ template <class Real, int length> struct JetRows {
 
     /// The next operation's row.
     SLIDEWAY_FN Real* next() {
-        if (used == most) __builtin_trap();
+        if (used == most) trap();
         return row[used++];
     }
 };

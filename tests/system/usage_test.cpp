@@ -68,8 +68,8 @@ TEST_F(Usage, CheckShowsThePartsOfEachMechanism) {
     };
     EXPECT_EQ(parts("kind = \"carriage\""),
               "parts in     carriage mechanism; paper law; damping of point contacts\n"
-              "parts out    conservative law; kelvin_voigt law; foundation law; damping of line and surface contacts; restitution; friction; pose of a "
-              "misaligned way; time series");
+              "parts out    conservative law; kelvin_voigt law; foundation law; rigid contact; damping of line and surface contacts; restitution; friction; "
+              "pose of a misaligned way; time series");
     EXPECT_EQ(parts("kind = \"planar_slider_crank\"\ncrank = \"free\"\n[contact]\nrestitution = 0.5"),
               "parts in     planar_slider_crank mechanism; free crank; contact of corners; restitution\n"
               "parts out    friction; time series");
