@@ -74,10 +74,19 @@ inline ShadowResult run_shadowed(Isa isa, ShadowOptions const& options, std::vec
     return r;
 }
 
+/// Numbers between two bounds, the same with every standard library.
+class UniformDraws {
+public:
+    explicit UniformDraws(unsigned seed) : draw_(seed) {}
+    double operator()(double low, double high) { return low + (high - low) * static_cast<double>(draw_() >> 11) * 0x1p-53; }
+
+private:
+    std::mt19937_64 draw_;
+};
+
 /// Planar slider-cranks of all proportions, starts and restitutions, with friction up to `most_friction`.
 inline std::vector<Inputs> random_rigid_blocks(std::size_t count, unsigned seed, double most_friction) {
-    std::mt19937_64 draw(seed);
-    auto const uniform = [&draw](double low, double high) { return low + (high - low) * static_cast<double>(draw() >> 11) * 0x1p-53; };
+    UniformDraws uniform(seed);
     std::vector<Inputs> members;
     members.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {

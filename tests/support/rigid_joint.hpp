@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
 #include <vector>
 
 #include "tests/support/rigid.hpp"
@@ -20,8 +19,7 @@ inline Parts rigid_joint_parts(bool friction, bool misaligned = false, Mechanism
 
 /// Sliders of all proportions, gaps, starts, drives and restitutions, with friction up to `most_friction`.
 inline std::vector<Inputs> random_rigid_sliders(std::size_t count, unsigned seed, double most_friction) {
-    std::mt19937_64 draw(seed);
-    auto const uniform = [&draw](double low, double high) { return low + (high - low) * static_cast<double>(draw() >> 11) * 0x1p-53; };
+    UniformDraws uniform(seed);
     std::vector<Inputs> members;
     members.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
