@@ -117,8 +117,24 @@ struct PointImpact {
         ADD_FAILURE() << "no slip";
         return {};
     }
-    [[nodiscard]] Vector3 impulses(Real friction) const {
+    [[nodiscard]] Vector3 unlimited(Real friction) const {
         return friction < needed_friction() ? slipping(friction) : sticking();
+    }
+    /// Of these impulses.
+    [[nodiscard]] Real energy(Vector3 const& impulse) const { return (approach + yields * impulse / 2).dot(impulse); }
+    /// Newton's restitution makes energy of some slips: the impulses are then as far from those without restitution as none is made (M13.7).
+    [[nodiscard]] Vector3 impulses(Real friction) const {
+        Vector3 const wanted = unlimited(friction);
+        if (energy(wanted) <= 0) return wanted;
+        PointImpact plastic = *this;
+        plastic.restitution = 0;
+        Vector3 const least = plastic.unlimited(friction);
+        Real low = 0, high = 1;
+        for (int k = 0; k < 70; ++k) {
+            Real const middle = (low + high) / 2;
+            (energy(least + middle * (wanted - least)) < 0 ? low : high) = middle;
+        }
+        return least + low * (wanted - least);
     }
 };
 
@@ -158,8 +174,6 @@ void expect_closed_form(Inputs in, Real share, double tolerance) {
     in.friction_static = in.friction_kinetic = static_cast<double>(friction);
     Vector3 const impulse = impact.impulses(in.friction_kinetic), after = impact.approach + impact.yields * impulse;
     Vector6 const rates = impact.before + impact.mobility.asDiagonal() * impact.rows.transpose() * impulse;
-    // Newton's restitution makes no energy here, so that nothing limits it.
-    ASSERT_LT((impact.approach + after).dot(impulse), 0);
 
     double const wait = 2e-5, end = static_cast<double>(met.time) + wait;
     auto const [s, friction_loss, damping_loss, onsets] = landed(in, end);
@@ -174,7 +188,7 @@ void expect_closed_form(Inputs in, Real share, double tolerance) {
     EXPECT_LT(static_cast<double>((turning - expected).norm()), tolerance * static_cast<double>(expected.norm()))
         << share;
     Vector3 const lost = -(impact.approach + after).cwiseProduct(impulse) / 2;
-    double const scale = static_cast<double>(lost.sum());
+    double const scale = static_cast<double>(lost.cwiseAbs().sum());
     EXPECT_NEAR(damping_loss, static_cast<double>(lost[0]), 10 * tolerance * scale) << share;
     EXPECT_NEAR(friction_loss, static_cast<double>(lost[1] + lost[2]), 10 * tolerance * scale) << share;
 }
@@ -186,7 +200,7 @@ TEST(RigidOblique, ImpactsOfOneApexSlipBelowTheFrictionThatStopsThemAndStickAbov
                 auto const in = falling(e, vx, vz);
                 for (Real const share : {0.1L, 0.5L, 0.9L, 0.999L, 1.1L, 1.5L}) expect_closed_form(in, share, 1e-10);
                 // Little holds the slip: the loads converge slowly.
-                expect_closed_form(in, 1.001L, 2e-9);
+                expect_closed_form(in, 1.001L, 5e-9);
             }
         }
     }
