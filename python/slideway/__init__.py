@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from ._version import __version__
 from .accessor import ResultAccessor
+from .control_variates import ControlVariate, control_variate
 from .ensemble import Ensemble
 from .errors import FileError, RunError, SceneError, SlidewayError, StoppedEarly, TooManyFailures
 from .example import example
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from . import plot, report
 
 __all__ = [
+    "ControlVariate",
     "Ensemble",
     "FileError",
     "Key",
@@ -39,6 +41,7 @@ __all__ = [
     "StoppedEarly",
     "TooManyFailures",
     "__version__",
+    "control_variate",
     "example",
     "finished",
     "groups",

@@ -55,7 +55,7 @@ def test_every_plot_takes_an_axis(function: object) -> None:
     assert inspect.signature(function).parameters["ax"].default is None  # type: ignore[arg-type]
 
 
-DOCUMENTS = ["README.md", "docs/python.md", "docs/quantities.md", "python/README.md"]
+DOCUMENTS = ["README.md", "docs/python.md", "docs/quantities.md", "docs/tolerance.md", "python/README.md"]
 # Runs each script that is given on stdin, in a folder and with names of its own, and tells what came of it: libraries are loaded once.
 EACH = """
 import json, os, sys, traceback
