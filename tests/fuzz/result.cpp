@@ -1,7 +1,7 @@
-// Result files as the readers find them: whole NetCDF files whose variables, shapes, types and values are anything.
-// The input says what is in the file, and is not the file: the libraries themselves crash on files with damaged bytes, and would hide what
-// our readers do.  Of such files `payload_hash` and the checksums of shards are to tell.  The files are of netCDF's classic format, which the
-// readers take as well and which is made in a fiftieth of the time of one of HDF5.
+// Results as the readers find them: variables, shapes, types and values are anything.
+// The input says what is in a result, and is not a file: the libraries themselves crash on files with damaged bytes, and would hide what
+// our readers do.  Of such files `payload_hash` and the checksums of shards are to tell.  Most results are in memory; every eighth goes
+// through a whole file, of netCDF's classic format, which the readers take as well and which is made in a fiftieth of the time of one of HDF5.
 #include <array>
 #include <cstring>
 #include <limits>
@@ -13,6 +13,7 @@
 #include <netcdf.h>
 #include <netcdf_mem.h>
 
+#include "host/store/memory_file.hpp"
 #include "host/store/netcdf_file.hpp"
 #include "host/store/result_seal.hpp"
 #include "host/store/statistics_merge.hpp"
@@ -53,38 +54,52 @@ constexpr std::array names = {"status", "member", "end_time", "time", "y", "accu
                               "grown_offsets"};
 constexpr std::array dimensions = {"member", "sample", "section", "mode_class"};
 constexpr unsigned growing = 0;
-constexpr std::array types = {NC_BYTE, NC_INT, NC_DOUBLE, NC_CHAR};
+constexpr std::array types = {DataFile::Type::int8, DataFile::Type::int32, DataFile::Type::float64,
+                              DataFile::Type::text};
 
-struct Planned {
-    nc_type type;
-    std::vector<std::size_t> shape;
-    int id;
-};
-
-void check(int code) { require(code == NC_NOERR, nc_strerror(code)); }
-
-void put(int file, int variable, char const* name, std::string_view value) {
-    check(nc_put_att_text(file, variable, name, value.size(), value.data()));
-}
-
-void write_values(int file, Planned const& planned, Choices& choices) {
-    std::vector<std::size_t> const start(planned.shape.size(), 0);
-    std::size_t count = 1;
-    for (std::size_t const length : planned.shape) count *= length;
+void write_values(MemoryFile& file, DataFile::Variable const& variable, Choices& choices) {
+    std::size_t const count = variable.size();
     std::vector<std::byte> bytes(count * sizeof(double));
     for (std::size_t i = 0; i < count; ++i) {
-        if (planned.type == NC_DOUBLE) {
+        if (variable.type == DataFile::Type::float64) {
             double const value = choices.real();
             std::memcpy(bytes.data() + i * sizeof value, &value, sizeof value);
-        } else if (planned.type == NC_INT) {
+        } else if (variable.type == DataFile::Type::int32) {
             int const value = static_cast<signed char>(choices.byte()) * (choices.byte() < 128 ? 1 : 1 << 20);
             std::memcpy(bytes.data() + i * sizeof value, &value, sizeof value);
         } else {
             bytes[i] = std::byte{choices.byte()};
         }
     }
-    check(nc_put_vara(file, planned.id, start.data(), planned.shape.data(), bytes.data()));
+    file.write(variable.id, bytes.data());
 }
+
+MemoryFile make_result(Choices& choices) {
+    MemoryFile file("made.nc");
+    // The first may have no entry: the classic format has one dimension that grows.
+    for (unsigned i = 0; i < dimensions.size(); ++i)
+        file.add_dimension(dimensions[i], i == growing ? choices.below(6) : 1 + choices.below(5));
+    if (choices.below(2) == 1) file.put(DataFile::global, "store", "statistics");
+    if (choices.below(4) == 1) file.put(DataFile::global, "sweep_parameter", "mode_time");
+    if (choices.below(8) > 0) file.put(DataFile::global, "payload_hash", "0123456789abcdef");
+    file.put(DataFile::global, "quantities", "peak_normal_force mode_time");
+    for (char const* const name : names) {
+        if (choices.below(4) == 0) continue;
+        DataFile::Type const type = types[choices.below(8) == 0 ? choices.below(4) : 2];
+        std::vector<int> shape;
+        for (unsigned rank = choices.below(8) == 0 ? 0 : 1 + choices.below(3); rank > 0; --rank) {
+            unsigned const dimension = choices.below(dimensions.size());
+            // What grows is the first of a variable, or none of its.
+            shape.push_back(static_cast<int>(!shape.empty() && dimension == growing ? growing + 1 : dimension));
+        }
+        int const variable = file.add_variable(name, type, shape);
+        if (choices.below(2) == 1) file.put(variable, "units", "m");
+    }
+    for (DataFile::Variable const& variable : file.variables()) write_values(file, variable, choices);
+    return file;
+}
+
+void check(int code) { require(code == NC_NOERR, nc_strerror(code)); }
 
 int new_file() {
     int file = -1;
@@ -92,39 +107,38 @@ int new_file() {
     return file;
 }
 
-std::vector<std::byte> make_file(Choices& choices) {
+void put_texts(int file, int variable, MemoryFile const& result) {
+    for (auto const& [name, value] : result.attributes(variable)) {
+        auto const& text = std::get<std::string>(value);
+        check(nc_put_att_text(file, variable, name.c_str(), text.size(), text.data()));
+    }
+}
+
+/// The bytes of a file that holds the same.
+std::vector<std::byte> classic_file(MemoryFile const& result) {
+    constexpr std::array type_numbers = {NC_BYTE, NC_INT, NC_DOUBLE, NC_CHAR};  // in the order of DataFile::Type
     // netCDF's list of open files has 512 KiB, which it makes for the first file and frees after the last one.
     static int const kept_open = new_file();
     static_cast<void>(kept_open);
     int const file = new_file();
-    std::array<std::size_t, dimensions.size()> lengths{};
-    std::array<int, dimensions.size()> ids{};
-    for (std::size_t i = 0; i < dimensions.size(); ++i) {
-        // The first may have no entry: the classic format has one dimension that grows.
-        lengths[i] = i == growing ? choices.below(6) : 1 + choices.below(5);
-        check(nc_def_dim(file, dimensions[i], lengths[i] == 0 ? NC_UNLIMITED : lengths[i], &ids[i]));
-    }
-    if (choices.below(2) == 1) put(file, NC_GLOBAL, "store", "statistics");
-    if (choices.below(4) == 1) put(file, NC_GLOBAL, "sweep_parameter", "mode_time");
-    if (choices.below(8) > 0) put(file, NC_GLOBAL, "payload_hash", "0123456789abcdef");
-    put(file, NC_GLOBAL, "quantities", "peak_normal_force mode_time");
-    std::vector<Planned> all;
-    for (char const* const name : names) {
-        if (choices.below(4) == 0) continue;
-        Planned planned{types[choices.below(8) == 0 ? choices.below(4) : 2], {}, 0};
-        std::vector<int> used;
-        for (unsigned rank = choices.below(8) == 0 ? 0 : 1 + choices.below(3); rank > 0; --rank) {
-            unsigned dimension = choices.below(dimensions.size());
-            if (!used.empty() && dimension == growing) dimension = growing + 1;  // which is the first of a variable, or none of its
-            used.push_back(ids[dimension]);
-            planned.shape.push_back(lengths[dimension]);
-        }
-        check(nc_def_var(file, name, planned.type, static_cast<int>(used.size()), used.data(), &planned.id));
-        if (choices.below(2) == 1) put(file, planned.id, "units", "m");
-        all.push_back(planned);
+    int id = 0;
+    for (auto const& [name, length] : result.dimensions())
+        check(nc_def_dim(file, name.c_str(), length == 0 ? NC_UNLIMITED : length, &id));
+    put_texts(file, NC_GLOBAL, result);
+    std::vector<DataFile::Variable> const variables = result.variables();
+    for (DataFile::Variable const& variable : variables) {
+        std::vector<int> shape;
+        for (std::string const& name : result.dimension_names(variable)) shape.push_back(result.dimension(name));
+        check(nc_def_var(file, variable.name.c_str(), type_numbers[static_cast<std::size_t>(variable.type)],
+                         static_cast<int>(shape.size()), shape.data(), &id));
+        put_texts(file, id, result);
     }
     check(nc_enddef(file));
-    for (Planned const& planned : all) write_values(file, planned, choices);
+    for (DataFile::Variable const& variable : variables) {
+        std::vector<std::size_t> const start(variable.shape.size(), 0);
+        if (variable.size() > 0)
+            check(nc_put_vara(file, variable.id, start.data(), variable.shape.data(), result.data(variable.id)));
+    }
     NC_memio memory{};
     check(nc_close_memio(file, &memory));
     auto const* const first = static_cast<std::byte const*>(memory.memory);
@@ -153,28 +167,36 @@ void read_result(ResultView const& results) {
     if (!results.stores_members()) accepted([&] { members_left(results); });
 }
 
+void read_file(DataFile const& file, std::optional<std::uint64_t> member) {
+    std::optional<ResultView> results;
+    if (!accepted([&] { results.emplace(file); })) return;
+    read_result(*results);
+    for (char const* const name : {"y", "section_y"}) {
+        StoredSeries series;
+        if (accepted([&] { series = read_result_series(*results, name, member); }))
+            require(series.values.size() > 1, "a series has values");
+    }
+}
+
 }  // namespace
 }  // namespace slideway::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
     using namespace slideway;
     fuzz::Choices choices(data, size);
+    unsigned const choice = choices.byte();
     std::optional<std::uint64_t> member;
-    if (unsigned const choice = choices.below(4); choice > 0) member = choice - 1;
-    std::vector<std::byte> const bytes = fuzz::make_file(choices);
-    NetcdfFile const file = NetcdfFile::open_in_memory("made.nc", bytes);
-    std::optional<ResultView> results;
-    bool const readable = fuzz::accepted([&] {
-        fuzz::require(payload_hash(file).size() == 16, "a hash has 16 digits");
-        results.emplace(file);
-    });
-    if (!readable) return 0;
-    fuzz::read_result(*results);
-    for (char const* const name : {"y", "section_y"}) {
-        StoredSeries series;
-        if (fuzz::accepted([&] { series = read_result_series(*results, name, member); })) {
-            fuzz::require(series.values.size() > 1, "a series has values");
-        }
+    if (choice % 4 > 0) member = choice % 4 - 1;
+    MemoryFile const result = fuzz::make_result(choices);
+    if (choice / 4 % 8 != 7) {
+        fuzz::read_file(result, member);
+        return 0;
     }
+    std::string const hash = payload_hash(result);
+    fuzz::require(hash.size() == 16, "a hash has 16 digits");
+    std::vector<std::byte> const bytes = fuzz::classic_file(result);
+    NetcdfFile const file = NetcdfFile::open_in_memory("made.nc", bytes);
+    fuzz::require(payload_hash(file) == hash, "a file has the hash of what it was made of");
+    fuzz::read_file(file, member);
     return 0;
 }
