@@ -23,10 +23,29 @@ namespace {
 constexpr int deepest = 10;  // levels; a scene has five: study.vary.joint.clearance.low
 
 struct Origin {
-    std::string path;    // of the file, or empty
-    std::string option;  // "--set key=value", or empty
+    std::string path;       // of the file, or empty
+    std::string option;     // "--set key=value", or empty
     int order = 0;
+    std::string_view text;  // of the file, or empty
+    std::vector<std::size_t> lines = {};  // where each begins in it
+
+    /// toml++ counts lines, and the characters of a line.
+    std::size_t offset(toml::source_position position) const {
+        if (position.line < 1 || position.line > lines.size()) return text.size();
+        std::size_t at = lines[position.line - 1];
+        for (toml::source_index column = 1; column < position.column && at < text.size(); ++column) {
+            do ++at;
+            while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0u) == 0x80u);
+        }
+        return at;
+    }
 };
+
+Origin of_file(std::string_view text, std::string const& path) {
+    Origin origin{path, {}, 0, text, {0}};
+    for (std::size_t at = 0; (at = text.find('\n', at)) != text.npos;) origin.lines.push_back(++at);
+    return origin;
+}
 
 struct Placed {
     toml::source_position position;
@@ -41,6 +60,7 @@ Node convert(toml::node const& from, std::string key, std::string name, toml::so
     node.order = origin.order;
     node.line = origin.order == 0 ? std::max(1, static_cast<int>(at.line)) : 0;
     node.where = origin.order == 0 ? fmt::format("{}:{}", origin.path, node.line) : origin.option;
+    node.begin = origin.offset(from.source().begin), node.end = origin.offset(from.source().end);
     if (depth > deepest) {
         refuse_that(node, "is no key of a scene", {fmt::format("it nests deeper than {} levels", deepest), "remove it"});
     }
@@ -88,7 +108,7 @@ Node convert(toml::node const& from, std::string key, std::string name, toml::so
 Node parse_text(std::string const& text, std::string const& path) {
     check_scene_text(text, path);
     try {
-        return convert(toml::parse(shielded(text)), {}, {}, {1, 1}, {path, {}, 0});
+        return convert(toml::parse(shielded(text)), {}, {}, {1, 1}, of_file(text, path));
     } catch (toml::parse_error const& error) {
         throw SceneError(fmt::format("{}:{}: not TOML ({}); correct the line", path,
                                      std::max(1, static_cast<int>(error.source().begin.line)),
@@ -122,7 +142,7 @@ std::optional<Node> parse_pair(std::string const& key, std::string const& value,
 
 Node parse_override(std::string const& key, std::string const& value, int order) {
     constexpr std::size_t longest_option = 4096;
-    Origin const origin{{}, fmt::format("--set {}={}", one_line(key), one_line(value)), order};
+    Origin const origin{{}, fmt::format("--set {}={}", one_line(key), one_line(value)), order, {}};
     if (key.find_first_of("\r\n=#") == std::string::npos && key.size() <= longest_option) {
         if (auto node = value.size() <= longest_option ? parse_pair(key, value, origin) : std::nullopt) return *node;
         auto const number = plain_number(value);

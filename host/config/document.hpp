@@ -1,6 +1,7 @@
 // A scene file as a tree of values that know where they stand, with the --set options laid over it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -19,6 +20,7 @@ struct Node {
     std::string where;            // "scenes/a.toml:12" or "--set joint.clearance=0.1 mm"
     int line = 0;                 // in the file; 0 for --set
     int order = 0;                // 0 for the file, i for the i-th --set
+    std::size_t begin = 0, end = 0;  // where the file's text has the value
     Type type = Type::table;
     bool inline_table = false;    // {…}: one value, which --set replaces as a whole
     bool boolean = false;

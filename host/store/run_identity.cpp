@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <span>
-#include <sstream>
 #include <vector>
 
 #include <fmt/format.h>
@@ -11,6 +11,8 @@
 
 #include "host/base/bytes.hpp"
 #include "host/base/error.hpp"
+#include "host/config/document.hpp"
+#include "host/config/scene_text.hpp"
 #include "host/store/shard_folder.hpp"
 
 namespace slideway {
@@ -21,56 +23,50 @@ constexpr std::string_view title_line =
 constexpr std::string_view checksum_mark = "# checksum: ", program_mark = "# program: ", arithmetic_mark = "# arithmetic: ",
                            members_mark = "# members: ", table_mark = "# table: ";
 constexpr std::string_view fused = "fused", contracted = "contracted";
+constexpr char const* table_key = "study.table";
 
-/// Keys of a resolved scene with their values; a value of several lines is one.
-std::map<std::string, std::string> scene_values(std::string const& scene) {
+/// Where a text has a value.
+struct Place {
+    std::size_t begin, end;
+    std::string_view in(std::string_view text) const { return text.substr(begin, end - begin); }
+};
+
+void add_places(std::map<std::string, Place>& places, Node const& table, std::string const& before) {
+    constexpr std::string_view bare = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+    for (Node const& node : table.children) {
+        std::string const name = before + (node.key.find_first_not_of(bare) == node.key.npos ? node.key : toml_string(node.key));
+        if (node.is_table() && !node.inline_table)
+            add_places(places, node, name + ".");
+        else
+            places[name] = {node.begin, node.end};
+    }
+}
+
+/// Of the values of a scene, by their keys; none of a text that is no scene.
+std::map<std::string, Place> places_in(std::string const& scene) {
+    std::map<std::string, Place> places;
+    try {
+        add_places(places, read_document(scene, "", {}), "");
+    } catch (SceneError const&) {  // an edited result may hold anything
+    }
+    return places;
+}
+
+std::optional<Place> find(std::string const& scene, std::string const& key) {
+    auto const places = places_in(scene);
+    auto const found = places.find(key);
+    return found == places.end() ? std::nullopt : std::optional(found->second);
+}
+
+/// What is compared: of study.table not where it lies.
+std::map<std::string, std::string> values_of(std::string const& scene) {
     std::map<std::string, std::string> values;
-    std::istringstream lines(scene);
-    std::string table, key;
-    for (std::string line; std::getline(lines, line);) {
-        if (auto const comment = line.find("  # "); comment != line.npos && line.find('"') == line.npos)
-            line.resize(comment);
-        if (line.empty() || line.starts_with("#")) continue;
-        if (line.starts_with("[") && line.ends_with("]") && line.find(',') == line.npos) {
-            table = line.substr(1, line.size() - 2) + ".";
-        } else if (auto const equals = line.find(" = "); equals != line.npos && !line.starts_with(" ")) {
-            key = table + line.substr(0, equals);
-            values[key] = line.substr(equals + 3);
-        } else {
-            values[key] += line;
-        }
+    for (auto const& [key, place] : places_in(scene)) {
+        std::string& value = values[key] = place.in(scene);
+        std::erase(value, '\n');
+        if (key == table_key) value = content_of_table(scene);
     }
     return values;
-}
-
-/// Where a resolved scene has a key of [study], from the end of the line before on: offset, or npos.  @param key "\nverify = "
-std::size_t place_in_study(std::string_view scene, std::string_view key) {
-    auto const start = scene.find("\n[study]\n");
-    if (start == scene.npos) return scene.npos;
-    auto const at = scene.find(key, start);
-    return scene.find("\n[", start + 1) < at ? scene.npos : at;
-}
-
-/// Where a resolved scene quotes the path of its table: offset and length, none without one.
-struct Quoted {
-    std::size_t at = 0, length = 0;
-};
-Quoted quoted_table(std::string_view scene) {
-    constexpr std::string_view key = "\ntable = ", comment = "\"  # ";
-    auto const at = place_in_study(scene, key);
-    if (at == scene.npos) return {};
-    std::size_t const first = at + key.size();
-    std::string_view const line = scene.substr(first, scene.find('\n', first) - first);
-    // From the end: a path may hold anything, the comment does not.
-    auto const end = line.rfind(comment);
-    if (end == line.npos) return {};
-    return {first, end + 1};
-}
-
-/// What is left to compare of study.table: "3 rows, FNV-1a 0123456789abcdef".
-std::string_view content_of_table(std::string_view value) {
-    auto const comment = value.rfind("  # ");
-    return comment == value.npos ? value : value.substr(comment + 4);
 }
 
 std::string named_arithmetic(std::string const& arithmetic) {
@@ -88,7 +84,7 @@ std::string RunIdentity::difference(RunIdentity const& earlier) const {
                            named_arithmetic(arithmetic));
     }
     if (scene != earlier.scene) {
-        auto const before = scene_values(earlier.scene), now = scene_values(scene);
+        auto const before = values_of(earlier.scene), now = values_of(scene);
         constexpr std::size_t longest = 60;
         auto const shown = [](std::string_view value) {
             return std::string(value.substr(0, longest)) + (value.size() <= longest ? "" : "...");
@@ -97,11 +93,10 @@ std::string RunIdentity::difference(RunIdentity const& earlier) const {
         std::vector<std::string> found, brought;
         for (auto const& [key, value] : now) {
             auto const old = before.find(key);
-            auto const words = [is_table = key == "study.table"](std::string_view text) { return is_table ? content_of_table(text) : text; };
             if (old == before.end())
                 brought.push_back(fmt::format("{} = {} is new", key, shown(value)));
             else if (old->second != value)
-                found.push_back(fmt::format("{} was {}, is {}", key, shown(words(old->second)), shown(words(value))));
+                found.push_back(fmt::format("{} was {}, is {}", key, shown(old->second), shown(value)));
         }
         found.insert(found.end(), brought.begin(), brought.end());
         for (auto const& [key, value] : before) {
@@ -119,21 +114,29 @@ std::string RunIdentity::difference(RunIdentity const& earlier) const {
 }
 
 std::string table_of(std::string const& scene) {
-    Quoted const table = quoted_table(scene);
-    return scene.substr(table.at, table.length);
+    auto const table = find(scene, table_key);
+    return table ? std::string(table->in(scene)) : std::string();
+}
+
+std::string content_of_table(std::string const& scene) {
+    constexpr std::string_view comment = "  # ";
+    auto const table = find(scene, table_key);
+    if (!table || scene.compare(table->end, comment.size(), comment) != 0) return {};
+    auto const begin = table->end + comment.size();
+    return scene.substr(begin, scene.find('\n', begin) - begin);
 }
 
 std::string with_table(std::string const& scene, std::string_view quoted) {
-    Quoted const table = quoted_table(scene);
-    if (table.length == 0) return scene;
-    return fmt::format("{}{}{}", scene.substr(0, table.at), quoted, scene.substr(table.at + table.length));
+    auto const table = find(scene, table_key);
+    return table ? fmt::format("{}{}{}", scene.substr(0, table->begin), quoted, scene.substr(table->end)) : scene;
 }
 
 std::string portable_scene(std::string const& scene) {
     std::string text = with_table(scene, fmt::format("\"{}\"", shard_names::table));
-    constexpr std::string_view checked = "\nverify = ";
-    // Once in a scene; a text that was edited may have it more often, or in other tables.
-    for (auto at = place_in_study(text, checked); at != text.npos; at = place_in_study(text, checked)) text.erase(at, text.find('\n', at + 1) - at);
+    if (auto const checked = find(text, "study.verify")) {
+        auto const line = text.rfind('\n', checked->begin) + 1;
+        text.erase(line, std::min(text.find('\n', line), text.size() - 1) + 1 - line);
+    }
     return text;
 }
 

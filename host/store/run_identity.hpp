@@ -27,6 +27,8 @@ std::string arithmetic_of(std::string_view isa);
 
 /// The path of the file of study.table in a resolved scene, quoted as it is there; "" without one.
 std::string table_of(std::string const& scene);
+/// What tells it from another: "3 rows, FNV-1a 0123456789abcdef", as the comment beside the path says; "" without one.
+std::string content_of_table(std::string const& scene);
 /// A resolved scene with another path there.  The comment beside it, with rows and checksum of the table, stays.
 std::string with_table(std::string const& scene, std::string_view quoted);
 /// The scene with a table beside it, wherever that lay: what a study that was moved has in common with the former.

@@ -7,7 +7,7 @@
 
 #include "host/base/bytes.hpp"
 #include "host/base/durable_file.hpp"
-#include "host/base/numbers.hpp"
+#include "host/config/document.hpp"
 #include "host/store/result_merge.hpp"
 #include "host/store/result_view.hpp"
 #include "host/store/statistics_merge.hpp"
@@ -102,12 +102,7 @@ std::string shard_folder_of(std::string const& output) { return output + ".shard
 Scene scene_of(ShardFolder const& folder) {
     std::string const& text = folder.identity().scene;
     Scene scene = parse_scene(text, in_folder(folder.path(), shard_names::identity));
-    // The comment of its line has the checksum.
-    auto const table_line = [](std::string const& of) {
-        auto const at = of.find(fmt::format("\ntable = \"{}\"", shard_names::table));
-        return at == of.npos ? std::string() : of.substr(at, of.find('\n', at + 1) - at);
-    };
-    if (scene.design.table != nullptr && table_line(text) != table_line(portable_scene(resolved_toml(scene)))) {
+    if (scene.design.table != nullptr && content_of_table(text) != content_of_table(resolved_toml(scene))) {
         throw FileError(fmt::format("{}: is not the table of this run (its checksum differs); put that one there",
                                     in_folder(folder.path(), shard_names::table)));
     }
@@ -221,11 +216,10 @@ std::optional<std::uint64_t> asked_check(ShardFolder const& folder, std::vector<
     if (shards.empty() || !scene.stores_members()) return {};
     std::vector<std::byte> const bytes = folder.read(shards.front());
     std::string const text = NetcdfFile::open_in_memory(shards.front().name, bytes).text(NetcdfFile::global, "scene");
-    constexpr std::string_view key = "\nverify = ";
-    auto const at = text.find(key, text.find("\n[study]\n"));
-    if (at == text.npos) return {};
-    auto const from = at + key.size();
-    return parse_number<std::uint64_t>(std::string_view(text).substr(from, text.find('\n', from) - from));
+    Node const document = read_document(text, shards.front().name, {});
+    Node const* const verify = document.find_path("study.verify");
+    if (verify == nullptr) return {};
+    return static_cast<std::uint64_t>(verify->integer);
 }
 
 Provenance shard_origin(ShardFolder const& folder, std::vector<Shard> const& shards, Scene const& scene) {

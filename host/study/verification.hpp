@@ -99,11 +99,11 @@ struct VerificationRequest {
 double foreseen_check(Scene const& scene, std::optional<std::uint64_t> asked, std::uint64_t all);
 
 /// Checks a study whose members are all in a result.  Deterministic: what is run again follows from the scene and from what members took,
-/// which do not depend on threads or machines.  Differences count where they are beyond chance (a paired t-test of the mean, Welch's against all members of the study (of a dozen members or more, and numbers that are not skewed), a two-sample
-/// Kolmogorov–Smirnov test of the distribution, adjusted by Holm: one false alarm in fifty studies) and relevant: larger than half the 95 %
-/// interval of the study's mean and a thousandth of it; of times, than a ten-thousandth of the run's; of energies, than that of what
-/// the slider's fall through its clearance gives.  The energy residual of a law that keeps energy is the integration's own error, and is
-/// not compared.
+/// which do not depend on threads or machines.  Differences count where they are beyond chance: a paired t-test of the mean, Welch's against
+/// all members of the study (of a dozen members or more, and numbers that are not skewed), a two-sample Kolmogorov–Smirnov test of the
+/// distribution, adjusted by Holm, one false alarm in fifty studies.  And where they are relevant: larger than half the 95 % interval of the
+/// study's mean and a thousandth of it; of times, than a ten-thousandth of the run's; of energies, than that of what the slider's fall
+/// through its clearance gives.  The energy residual of a law that keeps energy is the integration's own error, and is not compared.
 Verification verify(ResultView const& results, Scene const& scene, Backend const& backend,
                     VerificationRequest const& request);
 

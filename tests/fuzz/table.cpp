@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "host/base/csv.hpp"
+#include "host/config/document.hpp"
+#include "host/config/reader.hpp"
 #include "host/config/scene.hpp"
 #include "host/study/series_file.hpp"
 #include "host/study/state_table.hpp"
@@ -45,9 +47,17 @@ void read_rows(std::string const& text, CsvReader::Separator separator) {
 void read_members(std::string const& text) {
     static std::string const scene_text =
         "schema = 1\n[friction]\n[study]\nkind = \"tolerance\"\ndesign = \"table\"\ntable = \"t.csv\"\nduration = \"10 ms\"\n";
+    static std::string const path = (folder() / "scene.toml").string();
     write_file(folder() / "t.csv", text);
-    std::string const path = (folder() / "scene.toml").string();
-    Scene scene;
+    // Most tables are refused: for them the scene around is read once.
+    static Node const document = read_document(scene_text, path, {});
+    static Scene const without = [] {
+        Scene of_path;
+        of_path.path = path;
+        return of_path;
+    }();
+    Scene scene = without;
+    if (!accepted([&] { read_member_table(*document.find_path("study.table"), document, scene); })) return;
     if (!accepted([&] { scene = parse_scene(scene_text, path); })) return;
     MemberTable const& table = *scene.design.table;
     require(scene.members == table.rows() && table.values.size() == table.rows() * table.columns, "a member a row");

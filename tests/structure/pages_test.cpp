@@ -172,6 +172,41 @@ TEST(Pages, StatusesAreExplained) {
     EXPECT_NE(page.find("\n### `not_run`\n"), std::string::npos);
 }
 
+/// The lines of fenced blocks that call the program by its name alone, before the page has said to put `folder` on the PATH.
+std::vector<std::string> calls_without_path(std::string const& text, std::string const& folder) {
+    std::vector<std::string> calls;
+    bool fenced = false;
+    std::string prose;  // whose sentences go over lines
+    for (std::string const& line : lines_of(text)) {
+        bool const fence = line.starts_with("```");
+        if (fence) fenced = !fenced;
+        if (!fence && !fenced) prose += line + ' ';
+        auto const folder_at = prose.find(folder);
+        if (folder_at != std::string::npos && prose.find("`PATH`", folder_at) != std::string::npos) return calls;
+        std::string const command = line.substr(line.starts_with("$ ") ? 2 : 0);
+        if (fenced && command.starts_with("slideway ")) calls.push_back(line);
+    }
+    return calls;
+}
+
+/// Whoever reads from the top can call the program where the first command does.
+TEST(Pages, SayWhereTheProgramIsBeforeTheyCallIt) {
+    std::size_t found = 0;
+    for (SourceFile const& page : pages()) {
+        if (page.path != "README.md" && page.path != "docs/tutorial.md") continue;
+        ++found;
+        for (std::string const& call : calls_without_path(page.text, "`build/release/bin")) ADD_FAILURE() << page.path << ": " << call;
+    }
+    EXPECT_EQ(found, 2u);
+}
+
+TEST(Pages, CallsWithoutAPathAreRecognised) {
+    std::string const call = "```\n$ slideway run a.toml\n```\n", path = "It is `bin/slideway`;\nput `bin` on your `PATH`.\n";
+    EXPECT_EQ(calls_without_path(call + path, "`bin"), std::vector<std::string>{"$ slideway run a.toml"});
+    EXPECT_EQ(calls_without_path("```\nslideway list\n```\n", "`bin"), std::vector<std::string>{"slideway list"});
+    EXPECT_TRUE(calls_without_path("```\nbash scripts/demo.sh\n```\n" + path + call, "`bin").empty());
+}
+
 /// Rows of tables cannot be broken, fenced blocks show what a program prints, and the program writes docs/keys.md.
 TEST(Pages, LinesFit) {
     for (SourceFile const& page : pages()) {
