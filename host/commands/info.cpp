@@ -40,10 +40,11 @@ void print_hash(char const* label, std::string const& stored, std::string const&
 
 /// Of a damaged file what it says of itself; of what its numbers come to nothing.
 void print_info(InfoArguments const& arguments, ResultReader const& results, SealCheck const& seal) {
+    constexpr std::size_t longest = 500;  // flags of a compiler are many
     print_field("file", arguments.path);
     for (char const* const name : {"title", "created", "version", "commit", "compiler", "flags", "machine", "backend",
                                    "isa", "threads", "seed", "completeness"}) {
-        print_field(name, one_line(results.attribute(name)));
+        print_field(name, one_line(results.attribute(name), longest));
     }
     print_field("format", fmt::format("{}", seal.version));
     print_hash("payload", seal.payload, seal.payload_found, seal.data_match(), "data");

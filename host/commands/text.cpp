@@ -81,7 +81,7 @@ std::string shards_text(Scene const& scene, Prediction const& prediction) {
 std::string counted(std::uint64_t count, std::string_view noun) { return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s"); }
 
 std::string scene_text(Scene const& scene, std::string const& path) {
-    return scene.title.empty() ? path : fmt::format("{} ({})", one_line(scene.title), path);
+    return scene.title.empty() ? path : fmt::format("{} ({})", one_line(scene.title, 200), path);
 }
 
 std::size_t line_width() {
@@ -108,6 +108,7 @@ void print_columns(TextRows const& rows, std::vector<std::size_t> const& widths,
         for (; end < widths.size() && (end == first || terminal == 0 || length + widths[end] <= terminal); ++end) length += widths[end] + gap;
         if (first > left) fmt::print("\n");
         for (auto const& row : rows) {
+            if (first > left && row.size() <= first) continue;  // it has nothing in these columns
             std::string line = " ";
             for (std::size_t i = 0; i < std::min(row.size(), end); ++i) {
                 if (i >= left && i < first) continue;

@@ -126,8 +126,7 @@ std::string unshielded(std::string_view text) {
     return result;
 }
 
-std::string one_line(std::string_view text) {
-    constexpr std::size_t longest = 80;
+std::string one_line(std::string_view text, std::size_t longest) {
     std::string line;
     for (std::size_t at = 0; at < text.size();) {
         if (line.size() > longest) return line + "...";

@@ -1,6 +1,7 @@
 // The text of a scene file before it is parsed, and texts in messages.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -19,8 +20,8 @@ std::string shielded(std::string_view text);
 /// The inverse; characters that were private ones from U+F0080 on before `shielded` do not come back.
 std::string unshielded(std::string_view text);
 
-/// Control characters and broken UTF-8 as \xNN, at most about 80 characters.
-std::string one_line(std::string_view text);
+/// Control characters and broken UTF-8 as \xNN, at most about `longest` bytes.
+std::string one_line(std::string_view text, std::size_t longest = 80);
 
 /// The shortest text that TOML reads back to the same double.
 std::string toml_number(double value);

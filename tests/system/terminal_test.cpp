@@ -62,5 +62,20 @@ TEST_F(Terminal, HasRoomForResults) {
     EXPECT_NE(on_terminal({"probe", scenes + "/slider_crank_0.1mm.toml"}, 80).find("P8"), std::string::npos);
 }
 
+TEST_F(Terminal, ShowsNoRowThatHasNothingInItsColumns) {
+    std::string const file = path("s.nc").string(), scene = std::string(SLIDEWAY_SCENES) + "/tolerance_0.1mm.toml";
+    run({"run", scene, "--set", "study.base=8", "study.duration=0.002", "--quiet", "-o", file});
+    std::string const info = on_terminal({"info", file}, 80);
+    std::istringstream lines(info);
+    std::size_t sums = 0;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.find("all first orders") == line.npos) continue;
+        ++sums;
+        EXPECT_NE(line.find('['), line.npos) << line;  // the interval of the first orders; there is no total of them
+    }
+    EXPECT_GT(sums, 0u) << info;
+    EXPECT_EQ(info.find("..."), info.npos) << "flags of the compiler are whole: " << info;
+}
+
 }  // namespace
 }  // namespace slideway::testing::terminal_test
