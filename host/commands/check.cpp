@@ -55,7 +55,7 @@ void print_parts(Scene const& scene) {
     if (mechanism.spatial) sort(scene.parts.misaligned_way, "pose of a misaligned way");
     sort(!scene.sample_times.empty(), "time series");
     print_field("parts in", fmt::format("{}", fmt::join(in, "; ")));
-    print_field("parts out", fmt::format("{}", fmt::join(out, "; ")));
+    print_field("parts out", out.empty() ? "none" : fmt::format("{}", fmt::join(out, "; ")));
 
     std::vector<std::string_view> asked, left;
     for (int q = 0; q < quantity_count; ++q) {

@@ -73,6 +73,8 @@ TEST_F(Usage, CheckShowsThePartsOfEachMechanism) {
     EXPECT_EQ(parts("kind = \"planar_slider_crank\"\ncrank = \"free\"\n[contact]\nrestitution = 0.5"),
               "parts in     planar_slider_crank mechanism; free crank; contact of corners; restitution\n"
               "parts out    friction; time series");
+    // One that has them all.
+    EXPECT_NE(run({"check", std::string(SLIDEWAY_SCENES) + "/planar_rigid.toml"}).out.find("\nparts out    none\n"), std::string::npos);
 }
 
 TEST_F(Usage, CheckShowsThePartsOfEachLaw) {
