@@ -120,6 +120,39 @@ TEST(RigidPlanar, IsWhatTimeSteppingConvergesTo) {
     EXPECT_LT(distance_of_time_stepping(tilted, true, of_tilted, 1e-6L), 0.25 * distance_of_time_stepping(tilted, true, of_tilted, 1.6e-5L));
 }
 
+/// What Siconos' repository of examples keeps of this mechanism, for its own tests (examples/mechanics/SliderCrank of siconos-tutorials, the run with
+/// direct projection): flat at the start, friction 0.01, Moreau and Jean's time stepping with steps of 0.1 ms.
+struct StoredState {
+    std::size_t millisecond;
+    double turns, height;  // of the crank; of the slider [clearances]
+};
+constexpr StoredState stored_by_siconos[]{{2, 0.0439361465, 0.4870712196},
+                                          {5, 0.0919559941, 0.8398104170},
+                                          {6, 0.1051814756, 0.9877432286},
+                                          {7, 0.1175517649, 0.9558875475}};
+
+TEST(RigidPlanar, StoredRunOfSiconosIsAsNearAsItsStep) {
+    auto in = oracle::planar_check_inputs();
+    in.friction_static = in.friction_kinetic = 0.01;
+    auto const exact = reference(in, true);
+    EXPECT_LT(distance(in, true, 1e-12, exact).offset, 1e-8);
+    auto const stepped = oracle::moreau_jean_run(in, rigid_planar_parts(true, true), 1e-3L, 8, 1e-4L);
+    auto const turns = [](oracle::PlanarState const& s) {
+        return static_cast<double>(s[0] / (2 * std::numbers::pi_v<long double>));
+    };
+    auto const height = [&in](oracle::PlanarState const& s) {
+        return static_cast<double>((in.crank_length * std::sin(s[0]) + in.rod_length * std::sin(s[1])) /
+                                   in.clearance_y);
+    };
+    // Two programs with the same method and step and other ways to take forces and gaps: one is about as far as the other.
+    for (auto const& [ms, of_turns, of_height] : stored_by_siconos) {
+        EXPECT_LT(std::abs(of_turns - turns(exact[ms])), 2 * std::abs(turns(stepped[ms]) - turns(exact[ms]))) << ms;
+        EXPECT_LT(std::abs(of_height - height(exact[ms])), 2 * std::abs(height(stepped[ms]) - height(exact[ms]))) << ms;
+        EXPECT_NEAR(of_turns, turns(exact[ms]), 6e-3 * of_turns) << ms;
+        EXPECT_NEAR(of_height, height(exact[ms]), 0.035) << ms;
+    }
+}
+
 /// Largest distance of the slider's height [clearances] between compliant corners and rigid ones.
 double distance_of_compliant(Inputs in, double stiffness) {
     auto o = rigid_options(rigid_planar_parts(false, true), 1e-10, 0.05);
