@@ -14,6 +14,7 @@ from .figures import bifurcation, energy_residual, heyoka, modes, poincare, tole
 from .film import film
 from .impacts import rigid
 from .overviews import layers, plots, report, stability
+from .regimes import regimes
 from .style import Picture, largest
 
 PICTURES: dict[str, Picture] = {
@@ -27,6 +28,7 @@ PICTURES: dict[str, Picture] = {
     "tolerance": tolerance,
     "work_precision": work_precision,
     "rigid": rigid,
+    "regimes": regimes,
     "heyoka": heyoka,
     "stability": stability,
     "layers": layers,
