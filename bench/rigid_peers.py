@@ -1,8 +1,9 @@
-"""MuJoCo and Drake beside slideway's rigid contacts: the planar slider-crank of scenes/planar_rigid.toml, flat and without friction.
+"""MuJoCo, Drake and Siconos beside slideway's rigid contacts: the planar slider-crank of scenes/planar_rigid.toml, flat and without friction.
 
-Usage: rigid_peers.py [-o TABLE.md]; needs drake and mujoco from PyPI and the slideway package.  One core; all in one run, medians of processor time.
+Usage: rigid_peers.py [-o TABLE.md]; needs drake and mujoco from PyPI and the slideway package, and python3-siconos of Debian, without which its
+rows are left out.  One core; all in one run, medians of processor time.
 The reference is slideway at rtol 1e-12, which is within 2e-9 clearances of an 80-bit program that goes from event to event (docs/rigid.md).
-Neither peer has a coefficient of restitution: their contacts are springs and dampers, made here to return e = 0.4 and as stiff as some
+MuJoCo and Drake have no coefficient of restitution: their contacts are springs and dampers, made here to return e = 0.4 and as stiff as some
 steps an impact resolve.  Both have spheres at the block's corners, because each of their boxes touches a plane in its own way; Drake's pressure fields
 have the box.  Errors are of the slider's height, in clearances, over 50 ms.
 """
@@ -10,6 +11,7 @@ have the box.  Errors are of the slider's height, in clearances, over 50 ms.
 from __future__ import annotations
 
 import argparse
+import importlib.util
 import pathlib
 import time
 
@@ -58,6 +60,11 @@ def main() -> None:
     for setting in rigid_drake.settings:
         repeats = 1 if 0 < setting.step < 2e-6 else 3
         add(f"Drake {rigid_drake.version}", setting.name, setting.step or setting.accuracy, *rigid_drake.run(setting, repeats))
+    if importlib.util.find_spec("siconos") is not None:
+        import rigid_siconos
+
+        for step in rigid_siconos.settings:
+            add(f"Siconos {rigid_siconos.version}", "rigid, Moreau and Jean", step, *rigid_siconos.run(step, rounds if step > 2e-6 else 1))
     for tolerance in (1e-4, 1e-6, 1e-8, 1e-10):
         add("slideway", "rigid", tolerance, by_slideway(tolerance, 1)[0], by_slideway(tolerance, members)[1])
     if options.output:
