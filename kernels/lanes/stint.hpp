@@ -58,6 +58,7 @@ private:
     static constexpr double time_resolution = shadows_have_events ? 1e-19 : 8 * 2.220446049250313e-16;
     static constexpr bool impacts_end_it = Stepper::stiff && Model::has_patterns;
     static constexpr bool by_clock = Stepper::by_clock;
+    static constexpr double hair = 1.000001;  // how much longer than it may be a step gets to land
     using Impacts = ImpactSteps<Stepper, Model, Real>;
     using Choice = MethodChoice<Model, Real>;
     // Within an impact errors differ much from step to step.
@@ -94,7 +95,7 @@ private:
         } else {
             Real const h = Stepper::adaptive ? c.h : Real(settings_.fixed_step);
             // A last step a hair short of the end would leave a crumb below the resolution of time.
-            lands = remaining <= h * Real(1.000001);
+            lands = remaining <= h * Real(hair);
             attempt_.step = select(pack_.busy, select(lands, remaining, h), Real(0.0));
         }
         pack_.template count_attempt<Stepper>(pack_.busy);
@@ -170,6 +171,11 @@ private:
                 // A step that an event cuts short says nothing of its error.
                 pack_.state.course.error_memory = select(verdict.cut, former_memory, pack_.state.course.error_memory);
                 allowed = by_contacts;
+                if constexpr (!by_clock) {
+                    // An event a hair before the landing: the step would land again and be cut again, without end.
+                    auto const again = verdict.cut & landing.lands & (attempt_.step <= allowed.next * Real(hair));
+                    allowed.next = select(again, attempt_.step * Real(1 - 2 * (hair - 1)), allowed.next);
+                }
             }
         }
         if constexpr (impacts_end_it) {

@@ -65,6 +65,19 @@ TEST(RigidJoint, FlatBouncesHaveTheirHeightsAndTimes) {
     }
 }
 
+TEST(RigidJoint, ImpactsAHairBeforeTheEndAreThere) {
+    double const e = 0.6;
+    auto const in = slider(e);
+    double const first = static_cast<double>(Ball{in.gravity, in.clearance_y, e}.first());
+    for (double hair = 1e-4; hair > 1e-15; hair /= 3) {
+        auto o = rigid_options(rigid_joint_parts(false), 1e-9, first * (1 + hair));
+        o.settings.max_steps = 1000;
+        auto const r = testing::run(best_isa(), o, {in});
+        ASSERT_EQ(r.records[0].status, Status::finished) << hair;
+        if (hair > 1e-12) EXPECT_NEAR(r.states[0][2], e * in.gravity * first, 1e-9 + 2 * hair) << hair;
+    }
+}
+
 TEST(RigidJoint, FlatBouncesEndWithTheirGeometricSum) {
     for (Mechanism const mechanism : {Mechanism::free_slider, Mechanism::carriage, Mechanism::scotch_yoke}) {
         for (double const e : {0.3, 0.6, 0.9}) {
