@@ -11,13 +11,16 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Guide, class Real> class JointImpact {
 public:
     using Pairs = JointPairs<Guide, Real>;
-    static constexpr int most_sweeps = 12;
-    static constexpr double settled = 1e-13;  // of the speeds: what counts as no change of them
+    static constexpr int sweeps = 2;
+    static constexpr double settled = 1e-15;  // of the speeds: what counts as no change of them
+    static constexpr double bearable = 1e-13;
+    static constexpr double resolved = 0.1;   // of the least speed
 
     PairSolver<Guide, Real> pairs;  // `before` and `after` are velocities, `normal` and `along` impulses
 
-    /// @param coefficient μ, or nullptr without friction
-    SLIDEWAY_HD JointImpact(Pairs const& all, Twist<Real> const& velocity, Mask<Real> const (&near)[pair_count], Real const* coefficient)
+    /// @param coefficient μ, or nullptr without friction  @param least_speed of a pair that is not at rest [m/s]
+    SLIDEWAY_HD JointImpact(Pairs const& all, Twist<Real> const& velocity, Mask<Real> const (&near)[pair_count], Real const* coefficient,
+                            Real least_speed)
         : pairs(all, velocity), all_(all), friction_(coefficient != nullptr) {
         Real const zero(0.0), rounding(2.220446049250313e-16);
         Real size = zero, slip = zero;
@@ -30,6 +33,7 @@ public:
             slip = max(slip, select(near[i], slides, zero));
         }
         enough_ = max(Real(settled) * size, rounding * slip);
+        bearable_ = max(max(Real(bearable) * size, Real(16.0) * rounding * slip), Real(resolved) * least_speed);
     }
 
     /// @param restitution of each pair  @return energy that it makes [J], ≤ 0 but for rounding
@@ -39,7 +43,7 @@ public:
             row.target = negated(restitution[row.number]) * min(approach(row), Real(0.0));
             row.normal = row.along[0] = row.along[1] = Real(0.0);
         }
-        pairs.solve(in, enough_, most_sweeps, friction_);
+        pairs.solve(in, enough_, bearable_, sweeps, friction_);
         return energy_made();
     }
 
@@ -109,7 +113,7 @@ private:
 
     Pairs const& all_;
     bool friction_;
-    Real enough_;  // change of a velocity that is none [m/s]
+    Real enough_, bearable_;  // change of a velocity that is none, or is where it cannot be made less [m/s]
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -65,7 +65,7 @@ public:
         auto const at_once = memory.at_once >= Real(most_with_restitution);
         Real restitution[pair_count];
         for (int i = 0; i < pair_count; ++i) restitution[i] = select(held[i] | at_once, zero, restitution_);
-        JointImpact<Guide, Real> impact(pairs_, velocity, near, friction_ != nullptr ? &friction_->kinetic_coefficient : nullptr);
+        JointImpact<Guide, Real> impact(pairs_, velocity, near, friction_ != nullptr ? &friction_->kinetic_coefficient : nullptr, least_speed);
         Real const made = impact.solve(event, restitution);
         auto const makes_energy = event & (made > Real(1e-12) * impact.energy_moved());
         if (friction_ != nullptr && any(makes_energy)) impact.limit_energy(makes_energy);

@@ -35,7 +35,7 @@ public:
     using Pairs = JointPairs<Guide, Real>;
     /// Change of an acceleration, in units of what the slider would have without contact, that counts as none.
     static constexpr double settled = 1e-13;
-    static constexpr int most_sweeps = 40;
+    static constexpr int sweeps = 1;
 
     Real normal[pair_count];            // λ [N]
     Real along[2][pair_count];          // friction of pairs that stick [N]
@@ -76,7 +76,8 @@ public:
             wedged = wedged | wedge;
             size = max(size, select(last.held[i], abs(row.target - dot(row.pair.normal, pairs.before)), zero));
         }
-        pairs.solve(size > zero, Real(settled) * size, most_sweeps, any(sticking));
+        Real const enough = Real(settled) * size;
+        pairs.solve(size > zero, enough, enough, sweeps, any(sticking));
         failed = pairs.failed | wedged;
         take(pairs, velocity);
     }

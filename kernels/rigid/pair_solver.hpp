@@ -2,6 +2,8 @@
 
 #include "kernels/real.hpp"
 #include "kernels/rigid/pair_barrier.hpp"
+#include "kernels/rigid/pair_newton.hpp"
+#include "kernels/rigid/pair_rest.hpp"
 #include "kernels/rigid/touching_pair.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
@@ -13,7 +15,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Guide, class Real> class PairSolver {
 public:
     using Pairs = JointPairs<Guide, Real>;
-    static constexpr int most_last_sweeps = 24, most_sweeps_of_rest = 1000;
+    static constexpr int most_last_sweeps = 24;
     static constexpr double well_enough = 1e-4;  // of the motion: a change of it that is no failure yet
 
     Twist<Real> before, after;  // motion of the slider without loads and with them
@@ -32,8 +34,9 @@ public:
     SLIDEWAY_FN TouchingPair<Real> const& row(int k) const { return rows_[k]; }
 
     /// From the loads that the rows have.
-    /// @param enough change of the motion that counts as none  @param sweeps to take at most before the barrier  @param friction some pair may stick
-    SLIDEWAY_HD void solve(Mask<Real> in, Real enough, int sweeps, bool friction) {
+    /// @param enough change of the motion that counts as none  @param bearable one that does where it cannot be made less
+    /// @param sweeps to begin with  @param friction some pair may stick
+    SLIDEWAY_HD void solve(Mask<Real> in, Real enough, Real bearable, int sweeps, bool friction) {
         Real const zero(0.0);
         after = before;
         Real size = zero;
@@ -55,6 +58,8 @@ public:
         }
         failed = mask_of<Real>(false);
         if (none(active)) return;
+        active = PairNewton<Guide, Real>(pairs_, rows_, count_, before, friction).solve(active, size, enough, bearable, after);
+        if (none(active)) return;
         after = PairBarrier<Guide, Real>(pairs_, rows_, count_, before, friction).solve(active, after);
         for (int sweep = 0; sweep < most_last_sweeps && any(active); ++sweep) {
             change = this->sweep(active, friction);
@@ -63,35 +68,9 @@ public:
         failed = active & !(change <= Real(well_enough) * size);
     }
 
-    /// Takes from pairs that rest what is left of their normal motion, with the friction of the bounces that would have done so, and from those
-    /// that are still what is left of their slip: next to nothing, whichever way it goes.
-    /// @param coefficient μ, or nullptr without friction
+    /// Ends what is left of the motion of pairs that rest, and of the slip of those that are still (PairRest).
     SLIDEWAY_HD void rest(Mask<Real> in, Mask<Real> const (&rests)[pair_count], Mask<Real> const (&still)[pair_count], Real const* coefficient) {
-        Real const zero(0.0);
-        Real size = zero, drag[2][pair_count];
-        auto const see = [&](Mask<Real> of, Twist<Real> const& direction) { size = max(size, select(of, abs(dot(direction, after)), zero)); };
-        for (int k = 0; k < count_; ++k) {
-            auto const& row = rows_[k];
-            see(rests[row.number], row.pair.normal);
-            for (auto const& slip : row.pair.slip) see(still[row.number], slip);
-            drag[0][k] = drag[1][k] = zero;
-            if (coefficient != nullptr) find_drag(row, rests[row.number] & !still[row.number], *coefficient, drag[0][k], drag[1][k]);
-        }
-        auto active = in & (size > zero);
-        for (int sweep = 0; sweep < most_sweeps_of_rest && any(active); ++sweep) {
-            Real change = zero;
-            for (int k = 0; k < count_; ++k) {
-                auto& row = rows_[k];
-                auto const pushed = fma(drag[0][k], row.pair.dragged[0], fma(drag[1][k], row.pair.dragged[1], row.pair.pushed));
-                Real const step = stop(active & rests[row.number], row.pair.normal, pushed, change);
-                row.normal = row.normal + step;
-                for (int j = 0; j < 2; ++j) {
-                    Real const held = stop(active & still[row.number], row.pair.slip[j], row.pair.dragged[j], change);
-                    row.along[j] = row.along[j] + fma(step, drag[j][k], held);
-                }
-            }
-            active = active & (change > Real(1e-13) * size);
-        }
+        after = PairRest<Guide, Real>(pairs_, rows_, count_, before, coefficient != nullptr).solve(in, rests, still, coefficient, after);
     }
 
     /// Of all pairs on the slider.
@@ -102,29 +81,6 @@ public:
     }
 
 private:
-    /// Friction per unit load of a pair that slips; none where it outweighs the push.
-    SLIDEWAY_HD void find_drag(TouchingPair<Real> const& row, Mask<Real> slips, Real coefficient, Real& first, Real& second) const {
-        Real const zero(0.0), one(1.0);
-        Real const slip[2] = {dot(row.pair.slip[0], after), dot(row.pair.slip[1], after)};
-        Real const square = fma(slip[0], slip[0], slip[1] * slip[1]);
-        auto const moves = slips & (square > zero);
-        Real const share = select(moves, negated(coefficient) / sqrt(select(moves, square, one)), zero);
-        Real const by_friction = share * fma(slip[0], dot(row.pair.normal, row.pair.dragged[0]), slip[1] * dot(row.pair.normal, row.pair.dragged[1]));
-        Real const own = dot(row.pair.normal, row.pair.pushed);
-        auto const tame = own + by_friction > Real(0.1) * own;
-        first = select(tame, share * slip[0], zero);
-        second = select(tame, share * slip[1], zero);
-    }
-
-    /// A step that ends the motion along a direction.  @return its load
-    SLIDEWAY_HD Real stop(Mask<Real> in, Twist<Real> const& direction, Twist<Real> const& pushed, Real& change) {
-        Real const own = dot(direction, pushed);
-        Real const step = select(in, negated(dot(direction, after)) / own, Real(0.0));
-        after = fma(step, pushed, after);
-        change = max(change, abs(step) * own);
-        return step;
-    }
-
     /// From pair to pair.  @return the largest change of a motion
     SLIDEWAY_HD Real sweep(Mask<Real> in, bool friction) {
         Real change(0.0);

@@ -183,12 +183,17 @@ protected:
             at += c.sticks ? 3 : 1;
         }
         if (n == 0) return {frame_.free(), Column(0), Column(0)};
-        Column const forces = spread * least_norm(equations * p.mobility * spread, -equations * p.motion);
+        Table rows(3 * n, 6);
+        for (Index i = 0; i < n; ++i) rows.middleRows(3 * i, 3) = frame_.pair(contacts[static_cast<std::size_t>(i)].pair).rows;
+        // Equal springs under a rigid slider: their loads are those of one small displacement of it.
+        Table const springs = equations * rows;
+        Column const displacement = least_norm(equations * p.mobility * spread * springs, -equations * p.motion);
+        Column const forces = spread * (springs * displacement);
         return {frame_.free() + change_by(pairs, forces), Column(forces(Eigen::seq(0, Eigen::last, 3))), forces};
     }
 
-    /// Of the contacts that are held, at the frame's place.  Loads that are shared in more than one way are shared as evenly as may be: the least squares
-    /// of all, and of those alone that do not come to pull.
+    /// Of the contacts that are held, at the frame's place.  Loads that are shared in more than one way are those of equal springs (M13.13), which do not
+    /// pull.
     [[nodiscard]] Forces lasting() const {
         std::vector<Held> now = held_;
         for (Held& c : now) turn_along(c);

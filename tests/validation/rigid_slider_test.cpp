@@ -62,10 +62,14 @@ long double first_rest(oracle::RigidSliderRun const& run) {
 
 struct Compared {
     int impacts = 0, lasting = 0, samples = 0;  // that were compared; samples with pairs in lasting contact
+    int parted = 0;                             // members that are off after their first contact that lasts
 };
 
-/// Compares with the reference at each half millisecond.  With friction up to the first contact that lasts: what bounces without end come to depends on where
-/// they are ended (M13.6), and loads that more than three pairs share are not unique.
+/// With friction after the first contact that lasts: impacts without end are ended at some 1e-6 m/s (M13.6), which is 5e-5 of the speeds.
+constexpr double after_rest = 1e-5;
+
+/// Compares with the reference at each half millisecond.  Without restitution and with friction only as long as up to four pairs last: with more the reference
+/// takes minutes.
 Compared expect_reference(std::vector<Inputs> const& members, Parts const& parts, int samples, double tolerance) {
     std::vector<double> times;
     for (int i = 1; i <= samples; ++i) times.push_back(5e-4 * i);
@@ -76,7 +80,7 @@ Compared expect_reference(std::vector<Inputs> const& members, Parts const& parts
     Compared all;
     for (std::size_t m = 0; m < members.size(); ++m) {
         EXPECT_EQ(r.records[m].status, Status::finished) << m;
-        std::size_t const most_held = parts.friction ? 3 : 16;
+        std::size_t const most_held = parts.friction && members[m].restitution < 1e-9 ? 4 : 16;
         auto const reference = oracle::rigid_slider_run(members[m], parts, {times.begin(), times.end()}, most_held);
         EXPECT_TRUE(reference.solved) << m;
         EXPECT_LT(static_cast<double>(reference.largest_gain), 1e-20) << m;
@@ -92,10 +96,14 @@ Compared expect_reference(std::vector<Inputs> const& members, Parts const& parts
                 state.push_back(r.series[(i * members.size() + m) * times.size() + k]);
             }
             double const d = distance(members[m], parts, reference.samples[k], state);
-            if (parts.friction && times[k] > first_rest(reference)) break;
-            EXPECT_LT(d, tolerance) << "member " << m << " at " << times[k] << " after " << reference.impacts[k]
+            if (parts.friction && times[k] > first_rest(reference) && !(d < after_rest)) {
+                ++all.parted;
+                break;
+            }
+            double const allowed = parts.friction && times[k] > first_rest(reference) ? after_rest : tolerance;
+            EXPECT_LT(d, allowed) << "member " << m << " at " << times[k] << " after " << reference.impacts[k]
                                     << " impacts, " << reference.held[k].size() << " pairs last";
-            if (!(d < tolerance)) break;
+            if (!(d < allowed)) break;
             ++all.samples, all.lasting += reference.held[k].empty() ? 0 : 1;
             all.impacts += k == 0 ? reference.impacts[k] : reference.impacts[k] - reference.impacts[k - 1];
         }
@@ -114,9 +122,11 @@ TEST_P(RigidSlider, MovesAsTheReferenceWithoutFriction) {
 
 TEST_P(RigidSlider, MovesAsTheReferenceWithFriction) {
     auto const seen = expect_reference(random_sliders(6, 8, GetParam(), 0.1), rigid_joint_parts(true), 40, 3e-8);
-    EXPECT_GT(seen.samples, 6 * 4);
-    // Without restitution the first impact already ends in a contact that lasts.
-    EXPECT_GE(seen.impacts, GetParam() > 0 ? 6 * 3 : 0);
+    EXPECT_GT(seen.samples, 6 * (GetParam() > 0 ? 39 : 10));
+    EXPECT_GE(seen.lasting, GetParam() == 1 ? 0 : 6 * 4);
+    EXPECT_GE(seen.impacts, 6 * (GetParam() > 0 ? 10 : 2));
+    // One of the six meets two faces in turn, faster and faster, where it is ended at 1e-7 s: 3e-4 of the clearance follow.
+    EXPECT_LE(seen.parted, GetParam() > 0 ? 0 : 1);
 }
 
 TEST_P(RigidSlider, OfADriveMovesAsTheReference) {
@@ -124,7 +134,8 @@ TEST_P(RigidSlider, OfADriveMovesAsTheReference) {
         for (bool const friction : {false, true}) {
             auto const members = random_sliders(3, 9, GetParam(), friction ? 0.1 : 0);
             auto const seen = expect_reference(members, rigid_joint_parts(friction, false, mechanism), 30, 3e-8);
-            EXPECT_GE(seen.impacts, friction && GetParam() == 0 ? 0 : 3 * 3) << static_cast<int>(mechanism) << friction;
+            EXPECT_GE(seen.impacts, 3 * (friction && GetParam() == 0 ? 2 : 3)) << static_cast<int>(mechanism) << friction;
+            EXPECT_EQ(seen.parted, 0) << static_cast<int>(mechanism) << friction;
         }
     }
 }
@@ -137,7 +148,8 @@ TEST_P(RigidSlider, OfAMisalignedWayMovesAsTheReference) {
             in.roll += in.way_roll, in.yaw += in.way_yaw, in.pitch += in.way_pitch;
         }
         auto const seen = expect_reference(members, rigid_joint_parts(friction, true), 30, 3e-8);
-        EXPECT_GE(seen.impacts, friction && GetParam() == 0 ? 0 : 3 * 3) << friction;
+        EXPECT_GE(seen.impacts, 3 * (friction && GetParam() == 0 ? 2 : 3)) << friction;
+        EXPECT_EQ(seen.parted, 0) << friction;
     }
 }
 

@@ -1,0 +1,94 @@
+#pragma once
+
+#include "kernels/real.hpp"
+#include "kernels/rigid/pair_motion.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Takes from pairs that rest what is left of their normal motion, with the friction of the bounces that would have done so, and from those that are
+/// still what is left of their slip: equations, whatever the sign of their loads, which are those of (M13.13).  A slip that the drive has in hand stays: the
+/// loads against it are next to nothing.
+template <class Guide, class Real> class PairRest : PairMotion<Guide, Real> {
+    using Base = PairMotion<Guide, Real>;
+    using typename Base::Local;
+    using Base::count_, Base::course_, Base::rows_;
+
+public:
+    static constexpr int turns = 3;           // what a spring leaves, 1e-7 of it, is left to the next turn
+    static constexpr double stiffness = 1e7;  // as in a PairNewton
+    static constexpr double stiffness_along = 30;
+
+    using Base::Base;
+
+    /// @param coefficient μ, or nullptr without friction  @param after the motion so far  @return the motion then
+    SLIDEWAY_HD Twist<Real> solve(Mask<Real> in, Mask<Real> const (&rests)[pair_count], Mask<Real> const (&still)[pair_count],
+                                  Real const* coefficient, Twist<Real> const& after) {
+        Real const zero(0.0), one(1.0);
+        Real own = zero;
+        for (int k = 0; k < count_; ++k) own = max(own, select(rests[rows_[k].number], dot(rows_[k].pair.normal, rows_[k].pair.pushed), zero));
+        in = in & (own > zero);
+        if (none(in)) return after;
+        Real const per_own = one / select(in, own, one), stiff = Real(stiffness) * per_own, stiff_along = Real(stiffness_along) * per_own;
+        Mask<Real> rest[pair_count], stays[pair_count];
+        for (int k = 0; k < count_; ++k) {
+            rest[k] = in & rests[rows_[k].number];
+            stays[k] = rest[k] & still[rows_[k].number];
+            local_[k] = spring(stiff, stiff_along, rest[k], stays[k], coefficient != nullptr);
+            if (coefficient != nullptr) find_drag(rest[k] & !stays[k], *coefficient, after, rows_[k], local_[k]);
+        }
+        this->factor(local_);
+        auto motion = after;
+        for (int turn = 0; turn < turns; ++turn) {
+            for (int k = 0; k < count_; ++k) {
+                auto const& pair = rows_[k].pair;
+                local_[k].c_n = select(rest[k], negated(stiff * dot(pair.normal, motion)), zero);
+                if (coefficient == nullptr) continue;
+                for (int j = 0; j < 2; ++j) local_[k].c_t[j] = select(stays[k], negated(stiff_along * dot(pair.slip[j], motion)), zero);
+            }
+            this->step(local_);
+            for (int k = 0; k < count_; ++k) go(rest[k], coefficient != nullptr, k);
+            motion = this->moved();
+        }
+        return select(in, motion, after);
+    }
+
+private:
+    SLIDEWAY_FN static Local spring(Real stiff, Real stiff_along, Mask<Real> rests, Mask<Real> stays, bool friction) {
+        Real const zero(0.0);
+        Local l;
+        l.k = select(rests, stiff, zero);
+        if (!friction) return l;
+        for (int i = 0; i < 2; ++i) {
+            l.h[i] = zero;
+            for (int j = 0; j < 2; ++j) l.K[i][j] = i == j ? select(stays, stiff_along, zero) : zero;
+        }
+        return l;
+    }
+
+    /// Friction per unit load of a pair that slips; none where it outweighs the push.
+    SLIDEWAY_HD static void find_drag(Mask<Real> slips, Real coefficient, Twist<Real> const& after, TouchingPair<Real> const& row, Local& l) {
+        Real const zero(0.0), one(1.0);
+        Real const slip[2] = {dot(row.pair.slip[0], after), dot(row.pair.slip[1], after)};
+        Real const square = fma(slip[0], slip[0], slip[1] * slip[1]);
+        auto const moves = slips & (square > zero);
+        Real const share = select(moves, negated(coefficient) / sqrt(select(moves, square, one)), zero);
+        Real const by_friction = share * fma(slip[0], dot(row.pair.normal, row.pair.dragged[0]), slip[1] * dot(row.pair.normal, row.pair.dragged[1]));
+        Real const own = dot(row.pair.normal, row.pair.pushed);
+        auto const tame = own + by_friction > Real(0.1) * own;
+        for (int i = 0; i < 2; ++i) l.h[i] = select(tame, share * slip[i], zero);
+    }
+
+    SLIDEWAY_HD void go(Mask<Real> rests, bool friction, int k) {
+        auto& row = rows_[k];
+        Real const push = Base::push(local_[k], course_[k]);
+        row.normal = select(rests, row.normal + push, row.normal);
+        if (!friction) return;
+        for (int i = 0; i < 2; ++i) {
+            row.along[i] = select(rests, row.along[i] + Base::drag(local_[k], course_[k], push, i), row.along[i]);
+        }
+    }
+
+    Local local_[pair_count];
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA
