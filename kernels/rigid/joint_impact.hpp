@@ -27,7 +27,8 @@ public:
         for (int i = 0; i < pair_count; ++i) {
             if (none(near[i])) continue;
             auto& row = pairs.add(i);
-            row.start(all.pair(i), near[i], friction_ ? *coefficient : zero);
+            all.put_pair(i, row.pair);
+            row.start(near[i], friction_ ? *coefficient : zero);
             size = max(size, select(near[i], abs(approach(row)), zero));
             Real const slides = abs(dot(row.pair.slip[0], velocity)) + abs(dot(row.pair.slip[1], velocity));
             slip = max(slip, select(near[i], slides, zero));

@@ -70,16 +70,16 @@ public:
     }
 
     /// @param number 4 face + place in the face
-    SLIDEWAY_NOINLINE JointPair<Real> pair(int number) const {
+    SLIDEWAY_NOINLINE void put_pair(int number, JointPair<Real>& pair) const {
         int const face = number / 4, place = number % 4;
         Real const side(face % 2 == 0 ? 1.0 : -1.0);
         Real const along(place < 2 ? 1.0 : -1.0), across(place == 0 || place == 3 ? 1.0 : -1.0);
-        return face < 2 ? of_axis<Axis::y>(side, along, across) : of_axis<Axis::z>(side, along, across);
+        face < 2 ? put_pair_of<Axis::y>(side, along, across, pair) : put_pair_of<Axis::z>(side, along, across, pair);
     }
 
 private:
     /// @param along, across signs of the apex along X and across the face
-    template <Axis axis> SLIDEWAY_FN JointPair<Real> of_axis(Real side, Real along, Real across) const {
+    template <Axis axis> SLIDEWAY_FN void put_pair_of(Real side, Real along, Real across, JointPair<Real>& pair) const {
         using Faces = FacePair<axis>;
         auto const& g = p_.joint.geometry;
         Real const zero(0.0);
@@ -89,7 +89,6 @@ private:
         auto v = Faces::arranged(motion_.velocity);
         auto w = Faces::arranged_axial(motion_.spin);
         auto m = cross(w, n);
-        JointPair<Real> pair;
         // δ'' of constant u' and ω: s [(ω × (ω × n))·ρ − 2 (m_y v_y + m_z v_z)], m = ω × n; the gap is −δ.
         Real const turning = dot(cross(w, m), arm), moving = fma(m.y, v.y, m.z * v.z);
         pair.bias = negated(side * (turning - (moving + moving)));
@@ -107,7 +106,6 @@ private:
         pair.pushed = response(pair.normal);
         pair.dragged[0] = response(pair.slip[0]);
         pair.dragged[1] = response(pair.slip[1]);
-        return pair;
     }
 
     /// What a unit force comes to.  @param force on the translation  @param arm, direction of its moment

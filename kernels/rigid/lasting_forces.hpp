@@ -33,9 +33,9 @@ template <class Real> struct LastingPairs { Mask<Real> held[pair_count], sticks[
 template <class Guide, class Real> class LastingForces {
 public:
     using Pairs = JointPairs<Guide, Real>;
-    /// Change of an acceleration, in units of what the slider would have without contact, that counts as none.
-    static constexpr double settled = 1e-13;
-    static constexpr int sweeps = 1;
+    /// Change of an acceleration, in units of what the slider would have without contact, that counts as none, and one that does where it cannot be made less.
+    static constexpr double settled = 1e-15, bearable = 1e-13;
+    static constexpr int sweeps = 0;
 
     Real normal[pair_count];            // λ [N]
     Real along[2][pair_count];          // friction of pairs that stick [N]
@@ -59,7 +59,8 @@ public:
             if (none(asked[i] | last.held[i])) continue;
             auto& row = pairs.add(i);
             auto const sticks = last.held[i] & last.sticks[i];
-            row.start(all.pair(i), last.held[i], friction != nullptr ? select(sticks, holding_coefficient(*friction), zero) : zero);
+            all.put_pair(i, row.pair);
+            row.start(last.held[i], friction != nullptr ? select(sticks, holding_coefficient(*friction), zero) : zero);
             row.normal = select(last.held[i], number_of(start.normal, i), zero);
             for (int j = 0; j < 2; ++j) row.along[j] = select(sticks, number_of(start.along[j], i), zero);
             Real const rate = dot(row.pair.normal, velocity), gap = negated(number_of(depth, i));
@@ -76,8 +77,7 @@ public:
             wedged = wedged | wedge;
             size = max(size, select(last.held[i], abs(row.target - dot(row.pair.normal, pairs.before)), zero));
         }
-        Real const enough = Real(settled) * size;
-        pairs.solve(size > zero, enough, enough, sweeps, any(sticking));
+        pairs.solve(size > zero, Real(settled) * size, Real(bearable) * size, sweeps, any(sticking));
         failed = pairs.failed | wedged;
         take(pairs, velocity);
     }

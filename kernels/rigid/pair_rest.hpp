@@ -16,7 +16,7 @@ template <class Guide, class Real> class PairRest : PairMotion<Guide, Real> {
 public:
     static constexpr int turns = 3;           // what a spring leaves, 1e-7 of it, is left to the next turn
     static constexpr double stiffness = 1e7;  // as in a PairNewton
-    static constexpr double stiffness_along = 30;
+    static constexpr double stiffness_along = 100;
 
     using Base::Base;
 

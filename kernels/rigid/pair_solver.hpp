@@ -49,7 +49,7 @@ public:
         for (int k = 0; k < count_; ++k) {
             auto& row = rows_[k];
             for (auto* load : {&row.normal, &row.along[0], &row.along[1]}) *load = select(active, *load, zero);
-            after = row.answer(after);
+            if (sweeps > 0) after = row.answer(after);
         }
         Real change = zero;
         for (int sweep = 0; sweep < sweeps && any(active); ++sweep) {

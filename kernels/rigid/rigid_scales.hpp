@@ -38,7 +38,7 @@ template <class Real> SLIDEWAY_FN Real slip_scale(PlanarParameters<Real> const& 
 
 template <class Real> SLIDEWAY_FN Real slip_scale(SliderParameters<Real> const& p) { return p.crank_length * p.rate_scale; }
 /// A pair of the joint that slips slower than this comes to rest [slip scales], and one that sticks slips from `slip_again` on.
-inline constexpr double slip_stops = 1e-6, slip_again = 1e-5;
+inline constexpr double slip_stops = 3e-7, slip_again = 1e-5;
 
 /// Coefficient up to which a contact sticks: a static one below the kinetic has no meaning.
 template <class Real> SLIDEWAY_FN Real holding_coefficient(FrictionParameters<Real> const& friction) {

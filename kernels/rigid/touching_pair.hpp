@@ -22,13 +22,12 @@ template <class Real> struct TouchingPair {
     Real coefficient;     // of what friction can hold, 0 where the slip is known
     Real normal, along[2];  // loads
 
-    /// Of a pair without friction, or which has it as the loads find it.
-    SLIDEWAY_FN void start(JointPair<Real> const& of, Mask<Real> in, Real holding) {
+    /// Of a `pair` without friction, or which has it as the loads find it.
+    SLIDEWAY_FN void start(Mask<Real> in, Real holding) {
         Real const zero(0.0);
-        pair = of;
         here = in;
-        act = of.normal;
-        pushed = of.pushed;
+        act = pair.normal;
+        pushed = pair.pushed;
         coefficient = holding;
         hold[0] = hold[1] = zero;
         normal = along[0] = along[1] = zero;

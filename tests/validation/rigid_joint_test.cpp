@@ -1,6 +1,7 @@
 // Rigid contacts of a free slider in closed form (model.md 13): flat bounces, their end, rest, corners, and the angle of friction.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
