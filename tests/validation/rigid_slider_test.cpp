@@ -68,8 +68,8 @@ struct Compared {
 /// With friction after the first contact that lasts: impacts without end are ended at some 1e-6 m/s (M13.6), which is 5e-5 of the speeds.
 constexpr double after_rest = 1e-5;
 
-/// Compares with the reference at each half millisecond.  Without restitution and with friction only as long as up to four pairs last: with more the reference
-/// takes minutes.
+/// Compares with the reference at each half millisecond.  Without restitution and with friction only as long as up to three pairs last: with more the
+/// reference takes minutes.
 Compared expect_reference(std::vector<Inputs> const& members, Parts const& parts, int samples, double tolerance) {
     std::vector<double> times;
     for (int i = 1; i <= samples; ++i) times.push_back(5e-4 * i);
@@ -80,7 +80,7 @@ Compared expect_reference(std::vector<Inputs> const& members, Parts const& parts
     Compared all;
     for (std::size_t m = 0; m < members.size(); ++m) {
         EXPECT_EQ(r.records[m].status, Status::finished) << m;
-        std::size_t const most_held = parts.friction && members[m].restitution < 1e-9 ? 4 : 16;
+        std::size_t const most_held = parts.friction && members[m].restitution < 1e-9 ? 3 : 16;
         auto const reference = oracle::rigid_slider_run(members[m], parts, {times.begin(), times.end()}, most_held);
         EXPECT_TRUE(reference.solved) << m;
         EXPECT_LT(static_cast<double>(reference.largest_gain), 1e-20) << m;
@@ -121,10 +121,10 @@ TEST_P(RigidSlider, MovesAsTheReferenceWithoutFriction) {
 }
 
 TEST_P(RigidSlider, MovesAsTheReferenceWithFriction) {
-    auto const seen = expect_reference(random_sliders(6, 8, GetParam(), 0.1), rigid_joint_parts(true), 40, 3e-8);
-    EXPECT_GT(seen.samples, 6 * (GetParam() > 0 ? 39 : 10));
-    EXPECT_GE(seen.lasting, GetParam() == 1 ? 0 : 6 * 4);
-    EXPECT_GE(seen.impacts, 6 * (GetParam() > 0 ? 10 : 2));
+    auto const seen = expect_reference(random_sliders(6, 8, GetParam(), 0.1), rigid_joint_parts(true), GetParam() > 0 ? 40 : 12, 3e-8);
+    EXPECT_GT(seen.samples, 6 * (GetParam() > 0 ? 39 : 7));
+    EXPECT_GE(seen.lasting, GetParam() == 1 ? 0 : 6 * 2);
+    EXPECT_GE(seen.impacts, 6 * (GetParam() > 0 ? 10 : 1));
     // One of the six meets two faces in turn, faster and faster, where it is ended at 1e-7 s: 3e-4 of the clearance follow.
     EXPECT_LE(seen.parted, GetParam() > 0 ? 0 : 1);
 }
@@ -134,7 +134,7 @@ TEST_P(RigidSlider, OfADriveMovesAsTheReference) {
         for (bool const friction : {false, true}) {
             auto const members = random_sliders(3, 9, GetParam(), friction ? 0.1 : 0);
             auto const seen = expect_reference(members, rigid_joint_parts(friction, false, mechanism), 30, 3e-8);
-            EXPECT_GE(seen.impacts, 3 * (friction && GetParam() == 0 ? 2 : 3)) << static_cast<int>(mechanism) << friction;
+            EXPECT_GE(seen.impacts, 3 * (friction && GetParam() == 0 ? 1 : 3)) << static_cast<int>(mechanism) << friction;
             EXPECT_EQ(seen.parted, 0) << static_cast<int>(mechanism) << friction;
         }
     }
@@ -147,8 +147,9 @@ TEST_P(RigidSlider, OfAMisalignedWayMovesAsTheReference) {
             in.way_roll = 0.3, in.way_yaw = 0.02, in.way_pitch = -0.01, in.way_offset_y = 1e-5, in.way_offset_z = -2e-5;
             in.roll += in.way_roll, in.yaw += in.way_yaw, in.pitch += in.way_pitch;
         }
-        auto const seen = expect_reference(members, rigid_joint_parts(friction, true), 30, 3e-8);
-        EXPECT_GE(seen.impacts, 3 * (friction && GetParam() == 0 ? 2 : 3)) << friction;
+        // Without restitution more than three pairs last with friction after 4 ms, and the reference becomes slow.
+        auto const seen = expect_reference(members, rigid_joint_parts(friction, true), friction && GetParam() == 0 ? 8 : 30, 3e-8);
+        EXPECT_GE(seen.impacts, 3 * (friction && GetParam() == 0 ? 1 : 3)) << friction;
         EXPECT_EQ(seen.parted, 0) << friction;
     }
 }
