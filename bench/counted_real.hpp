@@ -47,6 +47,7 @@ SLIDEWAY_FN void split_exponent(Counted x, Counted& mantissa, Counted& exponent)
 }
 SLIDEWAY_FN SinCos<Counted> sincos(Counted x) { return detail::sine_and_cosine(x); }
 SLIDEWAY_FN Counted exp(Counted x) { return detail::exp_of_sum(x, Counted(0.0)); }
+template <int bit> SLIDEWAY_FN bool bit_of(Counted n) { return bit_of<bit>(n.value); }
 SLIDEWAY_FN double lane(Counted x, int) { return x.value; }
 SLIDEWAY_FN void set_lane(Counted& x, int, double value) { x.value = value; }
 

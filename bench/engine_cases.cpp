@@ -21,6 +21,7 @@ std::span<EngineCase const> engine_cases() {
         {"standard scene, paper", {Law::paper, Damping::point, true, false}, 1e-4, pi, 0, 0.05, 1e-6},
         {"standard scene, conservative", {Law::conservative, Damping::point, true, false}, 1e-4, pi, 0, 0.05, 1e-6},
         {"rattling, conservative", {Law::conservative, Damping::rate, true, false}, 5e-4, 47, 10, 0.05, 1e-5},
+        {"rattling by the clocks of impacts", {Law::conservative, Damping::rate, true, false}, 5e-4, 47, 10, 0.05, 1e-5, Method::verner65},
         {"settling, conservative", {Law::conservative, Damping::rate, true, false}, 1e-4, pi, 10, 0.4, 1e-4},
         {"crank turn, conservative", {Law::conservative, Damping::rate, true, false}, 1e-4, pi, 10, 2, 1e-3},
     };
@@ -36,6 +37,7 @@ IntegratorSettings settings_of(EngineCase const& c) {
     IntegratorSettings settings;
     settings.end_time = c.end_time;
     settings.rtol = settings.atol = c.rtol;
+    settings.method = c.method;
     return settings;
 }
 

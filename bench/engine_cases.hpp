@@ -1,4 +1,4 @@
-// What the benchmarks of the whole engine run: five scenes, and members that scatter about them.
+// What the benchmarks of the whole engine run: six scenes, and members that scatter about them.
 #pragma once
 
 #include <cstddef>
@@ -15,6 +15,7 @@ struct EngineCase {
     std::string name;
     Parts parts;
     double clearance, crank_speed, chi, end_time, rtol;
+    Method method = Method::automatic;
 };
 std::span<EngineCase const> engine_cases();
 /// "0.05 s, rtol 1e-06, clearance 0.1 mm …"

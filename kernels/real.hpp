@@ -96,6 +96,9 @@ SLIDEWAY_FN double power_of_two(double n) {
     return detail::from_bits(detail::bits_of(n + (4503599627370496.0 + 1023.0)) << 52);
 }
 
+/// Bit of a whole number in [0, 2^52).
+template <int bit> SLIDEWAY_FN bool bit_of(double n) { return (detail::bits_of(n + 4503599627370496.0) >> bit & 1u) != 0; }
+
 SLIDEWAY_FN double lane(double x, int) { return x; }
 SLIDEWAY_FN void set_lane(double& x, int, double value) { x = value; }
 SLIDEWAY_FN unsigned mask_bits(bool m) { return m ? 1u : 0u; }
@@ -160,6 +163,14 @@ template <class Arch> SLIDEWAY_FN Batch<Arch> power_of_two(Batch<Arch> n) {
     using Bits = xsimd::batch<std::uint64_t, Arch>;
     auto const bits = xsimd::bitwise_cast<Bits>(n + Batch<Arch>(4503599627370496.0 + 1023.0));
     return xsimd::bitwise_cast<Batch<Arch>>(bits << 52);
+}
+
+/// Bit of a whole number in [0, 2^52).
+template <int bit, class Arch> SLIDEWAY_FN BatchMask<Arch> bit_of(Batch<Arch> n) {
+    using Bits = xsimd::batch<std::uint64_t, Arch>;
+    // 1, or the bit's number of units in the last place above it.
+    auto const bits = xsimd::bitwise_cast<Bits>(n + Batch<Arch>(4503599627370496.0)) & Bits(std::uint64_t{1} << bit);
+    return xsimd::bitwise_cast<Batch<Arch>>(bits | Bits(0x3ff0000000000000u)) > Batch<Arch>(1.0);
 }
 
 template <class Arch> SLIDEWAY_FN double lane(Batch<Arch> const& x, int index) {

@@ -22,13 +22,14 @@ template <class Real, int quads = face_count> struct ContactMemory {
     /// The pair whose δ a step takes from its clock instead of the state: 4 face + place in the face, −1 where there is none.
     Real clock;
     Real clock_depth;  // that δ [m]
+    Real touched;      // the face that is held to touch, and what of it (HeldFace); of a spatial slider
 };
 
 template <class Real, int quads> SLIDEWAY_FN void start_memory(ContactMemory<Real, quads>& memory) {
     Real const zero(0.0), least(least_impact_speed);
     for (auto& face : memory.impact_speed) face = {least, least, least, least};
     for (auto& face : memory.held) face = {zero, zero, zero, zero};
-    memory.holding = memory.clock_depth = zero;
+    memory.holding = memory.clock_depth = memory.touched = zero;
     memory.clock = Real(-1.0);
 }
 

@@ -21,10 +21,12 @@ template <class Real> struct ContactReport : ContactTotals<Real> {
     Quad<Real> rate[face_count];          // [m/s]; filled where steps end at events of the contacts
     Quad<Real> normal_force[face_count];  // [N]
 
-    SLIDEWAY_FN void clear() {
+    /// @param powers_alone nothing else will be told
+    SLIDEWAY_FN void clear(bool powers_alone) {
         Real const zero(0.0);
-        for (auto& force : normal_force) force = {zero, zero, zero, zero};
         this->clear_totals();
+        if (powers_alone) return;
+        for (auto& force : normal_force) force = {zero, zero, zero, zero};
     }
 
     /// A face of every lane: `face` where is_plus holds, the one opposite elsewhere.
@@ -36,19 +38,50 @@ template <class Real> struct ContactReport : ContactTotals<Real> {
                 plus.c + select(is_plus, f.normal.c, zero), plus.d + select(is_plus, f.normal.d, zero)};
         minus = {minus.a + select(is_plus, zero, f.normal.a), minus.b + select(is_plus, zero, f.normal.b),
                  minus.c + select(is_plus, zero, f.normal.c), minus.d + select(is_plus, zero, f.normal.d)};
-        this->potential = this->potential + f.potential;
+        add_modes(m, f);
+    }
+
+    /// One face of every lane.  @param number of it  @param normal F in its own order of the apices
+    SLIDEWAY_FN void add_one_face(Real number, Quad<Real> const& normal, FaceMotion<Real> const& m, FaceForces<Real> const& f) {
+        Real const zero(0.0);
+        for (int face = 0; face < face_count; ++face) {
+            auto const is = number == Real(static_cast<double>(face));
+            auto& sum = normal_force[face];
+            sum = {sum.a + select(is, normal.a, zero), sum.b + select(is, normal.b, zero), sum.c + select(is, normal.c, zero),
+                   sum.d + select(is, normal.d, zero)};
+        }
+        add_modes(m, f);
+    }
+
+    SLIDEWAY_FN void add_powers(FaceMotion<Real> const& m, FaceForces<Real> const& f) {
         auto const& apex = m.apex;
         Real const front = fma(f.normal.a - f.elastic.a, apex.a.rate, (f.normal.b - f.elastic.b) * apex.b.rate);
         Real const rear = fma(f.normal.c - f.elastic.c, apex.c.rate, (f.normal.d - f.elastic.d) * apex.d.rate);
         this->damping_power = this->damping_power + (front + rear);
         this->elastic_power = this->elastic_power + (fma(f.elastic.a, apex.a.rate, f.elastic.b * apex.b.rate) +
                                          fma(f.elastic.c, apex.c.rate, f.elastic.d * apex.d.rate));
-        auto modes = face_modes<Real>(m.touching);
+    }
+    SLIDEWAY_FN void add_modes(FaceMotion<Real> const& m, FaceForces<Real> const& f) {
+        this->potential = this->potential + f.potential;
+        count_modes(m.touching);
+    }
+    SLIDEWAY_FN void count_modes(Quad<Mask<Real>> const& touching) {
+        auto modes = face_modes<Real>(touching);
         this->surfaces = this->surfaces + count<Real>(modes.surface);
         this->lines = this->lines + ((count<Real>(modes.line.a) + count<Real>(modes.line.b)) +
                          (count<Real>(modes.line.c) + count<Real>(modes.line.d)));
         this->points = this->points + ((count<Real>(modes.point.a) + count<Real>(modes.point.b)) +
                            (count<Real>(modes.point.c) + count<Real>(modes.point.d)));
+    }
+
+    /// The modes of what is held.
+    SLIDEWAY_FN void take_modes(Quad<Real> const* held) {
+        Real const half(0.5);
+        this->surfaces = this->lines = this->points = Real(0.0);
+        for (int face = 0; face < face_count; ++face) {
+            auto const& q = held[face];
+            count_modes({Mask<Real>(q.a > half), Mask<Real>(q.b > half), Mask<Real>(q.c > half), Mask<Real>(q.d > half)});
+        }
     }
 
     /// Which of the 16 apex–face pairs touch, as a number: bit 4 f + i for apex i of face f.

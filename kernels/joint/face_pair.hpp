@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/joint/way.hpp"
+#include "kernels/laws/apex_order.hpp"
 #include "kernels/laws/contact.hpp"
 #include "kernels/laws/face.hpp"
 #include "kernels/math/vec3.hpp"
@@ -28,8 +29,37 @@ template <class Real> struct ApexNumbers {
         Real const front = centre + forwards, rear = centre - forwards;
         return {front + sideways, front - sideways, rear - sideways, rear + sideways};
     }
+    /// The same in another order.
+    template <bool all> SLIDEWAY_FN Quad<Real> on(Real side, ApexOrder<Real> const& order) const {
+        return order.template around<all>(fma(side, middle, base), side * along, side * across);
+    }
+    /// Of one, by its signs.
+    SLIDEWAY_FN Real at(Real side, Real sign_along, Real sign_across) const {
+        return (fma(side, middle, base) + sign_along * (side * along)) + sign_across * (side * across);
+    }
     /// The largest of the four, bit for bit, since rounding keeps the order.
     SLIDEWAY_FN Real largest(Real side) const { return (fma(side, middle, base) + abs(along)) + abs(across); }
+};
+
+/// Two opposite faces in the frame (x, main, across), `main` along their normal if the slider lies straight.
+template <class Real> struct FaceFrame {
+    Vec3<Real> normal;  // n of the face on side +1
+    Real shortfall;     // n_main − 1
+    Real main, across;  // the slider's centre p from the way's axis [m]
+    Real half_main, half_across, half_length, clearance;  // [m]
+
+    /// δ = −c + s[(n − 1) ρ + …] of the apices (model.md 3, clearance first).  With ρ = (s_x L_k/2, s w/2 − p, s_across w_across/2 −
+    /// p_across): base = −c + (n_main − 1) w/2, middle = −(n_main p + n_across p_across).
+    SLIDEWAY_FN ApexNumbers<Real> depths() const {
+        return {fms(shortfall, half_main, clearance), negated(fma(normal.z, across, fma(shortfall, main, main))),
+                normal.z * half_across, normal.x * half_length};
+    }
+    /// δ' = s[(ω × n)·ρ − n_y v_y − n_z v_z] (model.md 3).  @param m ω × n  @param v u', both in this frame
+    SLIDEWAY_FN ApexNumbers<Real> rates(Vec3<Real> const& m, Vec3<Real> const& v) const {
+        Real const turning = fma(m.y, main, m.z * across);
+        Real const moving = fma(normal.y, v.y, normal.z * v.z);
+        return {m.y * half_main, negated(turning + moving), m.z * half_across, m.x * half_length};
+    }
 };
 
 enum class Axis { y, z };
@@ -69,25 +99,27 @@ template <Axis axis> struct FacePair {
         return arranged(is_y ? motion.axes.y : motion.axes.z);
     }
 
-    /// δ = −c + s[(n − 1) ρ + …] of the apices (model.md 3, clearance first).  With ρ = (s_x L_k/2, s w/2 − p, s_across w_across/2 −
-    /// p_across) and n the face's normal: base = −c + (n_main − 1) w/2, middle = −(n_main p + n_across p_across).
+    /// δ of the apices.
     template <class Real>
     SLIDEWAY_FN static ApexNumbers<Real> depths(JointMotion<Real> const& motion, JointGeometry<Real> const& g) {
-        auto n = normal(motion);
-        Real const shortfall = is_y ? motion.axes.y_shortfall : motion.axes.z_shortfall;
-        Real const p = main(motion), p_across = across(motion);
-        return {fms(shortfall, half_main(g), is_y ? g.clearance_y : g.clearance_z),
-                negated(fma(n.z, p_across, fma(shortfall, p, p))), n.z * half_across(g), n.x * g.half_length};
+        return frame(motion, g).depths();
     }
-
-    /// δ' = s[(ω × n)·ρ − n_y v_y − n_z v_z] (model.md 3).  @param m ω × n  @param v u', both in the frame of the faces
+    /// δ'.  @param m ω × n  @param v u', both in the frame of the faces
     template <class Real>
     SLIDEWAY_FN static ApexNumbers<Real> rates(Vec3<Real> const& m, Vec3<Real> const& v, JointMotion<Real> const& motion,
                                                JointGeometry<Real> const& g) {
-        auto n = normal(motion);
-        Real const turning = fma(m.y, main(motion), m.z * across(motion));
-        Real const moving = fma(n.y, v.y, n.z * v.z);
-        return {m.y * half_main(g), negated(turning + moving), m.z * half_across(g), m.x * g.half_length};
+        return frame(motion, g).rates(m, v);
+    }
+    template <class Real>
+    SLIDEWAY_FN static FaceFrame<Real> frame(JointMotion<Real> const& motion, JointGeometry<Real> const& g) {
+        return {normal(motion),
+                is_y ? motion.axes.y_shortfall : motion.axes.z_shortfall,
+                main(motion),
+                across(motion),
+                half_main(g),
+                half_across(g),
+                g.half_length,
+                is_y ? g.clearance_y : g.clearance_z};
     }
 
     /// What the laws need to know of these faces.

@@ -4,7 +4,9 @@
 #include "kernels/joint/contact_memory.hpp"
 #include "kernels/joint/contact_report.hpp"
 #include "kernels/joint/face_pair.hpp"
+#include "kernels/joint/held_contacts.hpp"
 #include "kernels/joint/way.hpp"
+#include "kernels/joint/wrench.hpp"
 #include "kernels/laws/contact.hpp"
 #include "kernels/laws/face.hpp"
 #include "kernels/laws/friction.hpp"
@@ -12,20 +14,6 @@
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
-
-template <class Real> struct JointParameters {
-    JointGeometry<Real> geometry;
-    WayParameters<Real> way;
-    ContactParameters<Real> contact;
-    FrictionParameters<Real> friction;
-};
-
-/// What the way does to the slider, in way coordinates.  The force is what acts on the translation: of the normal forces
-/// without their component along the way's X, of friction all (model.md 4, 5).
-template <class Real> struct Wrench {
-    Vec3<Real> force;   // [N]
-    Vec3<Real> torque;  // about the slider's centre [N m]
-};
 
 /// The clearance joint: eight apices → sixteen penetrations → contact modes → forces → wrench on the slider.
 /// Source: Qian et al. 2020, 3.2; apices and faces as in its Table 2.
@@ -40,19 +28,29 @@ public:
     /// @param outside set where a line contact is beyond its domain; the wrench of such a lane is NaN.
     SLIDEWAY_FN Wrench<Real> wrench(Mask<Real>& outside) {
         outside = mask_of<Real>(false);
-        if constexpr (Full) report_->clear();
+        if constexpr (Full) report_->clear(block_.powers_alone);
         // 0, or NaN in a lane whose pose is: else it would depend on its neighbours' contacts what such a lane gets.
         Real const whole = (motion_.y + motion_.z) + (motion_.axes.x.x + motion_.axes.y.z);
         Real const nothing = whole - whole;
         Wrench<Real> w;
         w.force = w.torque = {nothing, nothing, nothing};
+        if (block_.in_impacts && any(memory_.holding > Real(0.5))) {
+            // Of a copy: what a function of its own sees stays in memory, and the faces below are to have it in registers.
+            auto seen = motion_;
+            auto held = HeldContacts<Real, Laws, Full>::wrench(seen, memory_, p_, block_, report_);
+            clock_rate_ = held.clock_rate;
+            outside = held.outside;
+            w.force = w.force + held.wrench.force;
+            w.torque = w.torque + held.wrench.torque;
+            return w;
+        }
         add_faces<Axis::y>(outside, w);
         add_faces<Axis::z>(outside, w);
         return w;
     }
 
     /// Whether the depth of a pair is the clock's in any lane, and then its rate δ' [m/s].
-    SLIDEWAY_FN bool has_clock() const { return block_.holds_contacts && any(memory_.clock > Real(-0.5)); }
+    SLIDEWAY_FN bool has_clock() const { return block_.in_impacts && any(memory_.clock > Real(-0.5)); }
     SLIDEWAY_FN Real clock_rate() const { return clock_rate_; }
 
 private:
@@ -81,10 +79,12 @@ private:
         auto depths = Faces::depths(motion_, p_.geometry);
         bool const holding = block_.holds_contacts && any(memory_.holding > Real(0.5));
         auto touched = sides<axis>(depths, holding);
-        bool const rates_reported = Full && (block_.remembers || holding);
+        bool const rates_reported = Full && !block_.powers_alone && (block_.remembers || holding);
         if constexpr (Full) {
-            report_->penetration[Faces::first_face] = depths.on(Real(1.0));
-            report_->penetration[Faces::first_face + 1] = depths.on(Real(-1.0));
+            if (!block_.powers_alone) {
+                report_->penetration[Faces::first_face] = depths.on(Real(1.0));
+                report_->penetration[Faces::first_face + 1] = depths.on(Real(-1.0));
+            }
         }
         bool const touches = any(touched.plus | touched.minus);
         if (!rates_reported && !touches) return;
@@ -112,11 +112,13 @@ private:
             FaceMotion<Real> face;
             set_motion<axis>(face, depths.on(side), rates.on(side), is_plus);
             set_touching<axis>(face, seen, holding, is_plus);
-            if (holding && has_clock()) set_clock<axis>(face, is_plus);
             auto f = loads(face, contact);
             outside = outside | f.outside;
             push.add(side, f.normal);
-            if constexpr (Full) report_->add_face(Faces::first_face, is_plus, face, f);
+            if constexpr (Full) {
+                report_->add_powers(face, f);
+                if (!block_.powers_alone) report_->add_face(Faces::first_face, is_plus, face, f);
+            }
             auto const friction = friction_of<axis>({n, fms(side, Faces::half_main(p_.geometry), Faces::main(motion_)),
                                                      negated(Faces::across(motion_)), p_.geometry.half_length,
                                                      Faces::half_across(p_.geometry), v, spin},
@@ -184,26 +186,6 @@ private:
             Mask<Real>(seen & (select(is_plus, plus.b, minus.b) > half)),
             Mask<Real>(seen & (select(is_plus, plus.c, minus.c) > half)),
             Mask<Real>(seen & (select(is_plus, plus.d, minus.d) > half))};
-    }
-
-    /// The pair of the clock has its depth from there; its rate is what the clock goes by.  Pairs of its face that are as deep, to the last
-    /// bit, move as one with it: a slider that lands flat stays flat.
-    template <Axis axis> SLIDEWAY_FN void set_clock(FaceMotion<Real>& face, Mask<Real> is_plus) {
-        constexpr int first = FacePair<axis>::first_face;
-        Real const place = memory_.clock - select(is_plus, Real(4.0 * first), Real(4.0 * (first + 1)));
-        auto& apex = face.apex;
-        Real depth(1e300);  // of the pair, in the state
-        auto const find = [&](ApexMotion<Real> const& one, double number) {
-            auto const here = place == Real(number);
-            depth = select(here, one.depth, depth);
-            clock_rate_ = select(here, one.rate, clock_rate_);
-        };
-        find(apex.a, 0), find(apex.b, 1), find(apex.c, 2), find(apex.d, 3);
-        auto const set = [&](ApexMotion<Real>& one, Mask<Real> touches) {
-            one.depth = select(touches & (one.depth == depth), memory_.clock_depth, one.depth);
-        };
-        auto const& touching = face.touching;
-        set(apex.a, touching.a), set(apex.b, touching.b), set(apex.c, touching.c), set(apex.d, touching.d);
     }
 
     /// Nothing where the scene has none.

@@ -45,7 +45,9 @@ public:
                                        Attempt<Model, Real>& to, Mask<Real> lanes) {
         Real const half(0.5);
         for (int i = 0; i < components; ++i) at_[i] = numbers_.at(i, whole_, half);
-        auto const slopes = evaluate(pack, from, to, lanes);
+        pack.tell_powers_alone(true);
+        auto const slopes = evaluate(pack, from, to, lanes, false);
+        pack.tell_powers_alone(false);
         for (int i = 0; i < components; ++i) numbers_.set_middle(lanes, i, whole_, slopes.of[i]);
         if (!from.needs.stages) return;
         Real values[parts];
@@ -59,7 +61,7 @@ public:
         share_ = select(lanes, share, share_);
         auto const early = share_ < Real(1.0);
         for (int i = 0; i < components; ++i) at_[i] = select(early, numbers_.at(i, whole_, share_), numbers_.end[i]);
-        evaluate(pack, from, to, lanes);
+        evaluate(pack, from, to, lanes, true);
         step_.own = whole_ * share_;
         finish(to);
         if (!from.needs.stages) return;
@@ -120,10 +122,11 @@ private:
     template <int s>
     SLIDEWAY_HD void stage(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
         constexpr bool last = s + 1 == Pair::stages;
+        pack.tell_powers_alone(!last);
         Pair::template stage_state<s>(numbers_.start, numbers_.k, step_.own, at_);
         // A fault of one stage is NaN in those after it, whose own faults say nothing.
         to.faults =
-            to.faults.or_else(evaluate_at(pack, from, to, last ? from.needs.ends : from.needs.stages, numbers_.k[s]));
+            to.faults.or_else(evaluate_at(pack, from, to, last ? from.needs.ends : from.needs.stages, numbers_.k[s], last));
         if (!from.needs.stages) return;
         Real const pace = numbers_.k[s][time];
         pack.integrands(to.report, integrals_.k[s]);
@@ -143,9 +146,11 @@ private:
 
     /// Evaluates the derivative at `at_`.
     SLIDEWAY_HD Faults<Real> evaluate_at(Pack<Model, Real> const& pack, StepStart<Model, Real> const& from,
-                                         Attempt<Model, Real>& to, bool report_wanted, Real* slopes) {
+                                         Attempt<Model, Real>& to, bool report_wanted, Real* slopes, bool at_end) {
         Real const u = at_[root];
         memory_.clock_depth = u * u;
+        // Who goes out there is out: what follows then has its derivative already.  Not quite zero, for means of depths divide by their sum.
+        if (at_end && !from.needs.switches) memory_.clock_depth = select(step_.is_little(u), Real(1e-30), memory_.clock_depth);
         rates_[size] = Real(0.0);
         auto const faults = pack.evaluate(from.t + at_[time], at_, memory_, rates_, report_wanted, to.report);
         Real const pace = step_.pace(u);
@@ -157,9 +162,9 @@ private:
 
     /// The same for lanes whose step is made already.
     SLIDEWAY_HD Slopes evaluate(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to,
-                                Mask<Real> lanes) {
+                                Mask<Real> lanes, bool at_end) {
         Slopes slopes;
-        to.faults = to.faults.or_else(evaluate_at(pack, from, to, true, slopes.of).within(lanes));
+        to.faults = to.faults.or_else(evaluate_at(pack, from, to, true, slopes.of, at_end).within(lanes));
         pack.count_evaluations(lanes, 1);
         return slopes;
     }

@@ -79,10 +79,11 @@ public:
 
     /// What an accepted step leaves of its contacts.  @return lanes whose step ended at a touch or a parting
     template <class Contact>
-    SLIDEWAY_HD Mask<Real> update(State& s, Stepper const& stepper, Mask<Real> accepted, Contact const& end) {
+    SLIDEWAY_HD auto update(State& s, Stepper const& stepper, Mask<Real> accepted, Contact const& end) {
         auto& [memory, watch] = s.contacts;
-        turned_ = watch.update(accepted, end, memory, stepper.step());
-        return turned_;
+        auto const turned = watch.update(accepted, end, memory, stepper.step());
+        turned_ = turned.lanes;
+        return turned;
     }
 
     /// Keeps the step that is to follow for the next attempt; after a touch or a parting another one.

@@ -43,7 +43,7 @@ public:
         Selection const for_status =
             is_always_audited(block.settings.method) ? MemberState<Model, Real>::Observer::audit_quantities : 0;
         pack_.needs = ReportNeeds::of<Model, Real>(model, block.quantities | for_status, block.settings);
-        if constexpr (can_hold_contacts<Model>) pack_.model.hold_contacts(holds_contacts(pack_.needs.watching));
+        if constexpr (can_hold_contacts<Model>) pack_.model.hold_contacts(pack_.needs.watching);
         start_memory(pack_.state.contacts.memory);
     }
 
@@ -265,6 +265,12 @@ private:
             bool const switching = Model::has_linearisation && block_.settings.method == Method::automatic &&
                                    !block_.settings.locate_modes;
             if (width == 1 && !switching) return;
+            if constexpr (has_clocks<Model>) {
+                if (pack_.needs.watching == Watching::impacts) {
+                    pattern_ = HeldFace<Real>::pattern(s.contacts.memory);
+                    return;
+                }
+            }
             pattern_ = pack_.model.contact_pattern(s.course.t, s.course.y, s.constants.parameters);
             if constexpr (Model::has_linearisation) {
                 if (switching && kind == Kind::explicit_pair) {

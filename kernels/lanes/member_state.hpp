@@ -43,7 +43,7 @@ template <class Real> struct ShadowCourse {
 struct NoShadowCourse {};
 
 /// Whether the steps of a model may take its contacts as given, and go by the clock of one (ContactClock).
-template <class Model> inline constexpr bool can_hold_contacts = requires(Model& model) { model.hold_contacts(true); };
+template <class Model> inline constexpr bool can_hold_contacts = requires(Model& model) { model.hold_contacts({}); };
 template <class Model>
 inline constexpr bool has_clocks = can_hold_contacts<Model> && Model::has_patterns && !Model::has_shadows;
 

@@ -20,7 +20,9 @@ template <class Model, class Real> struct Pack {
     using Report = typename Model::template Report<Real>;
     using Observer = typename Model::template Observer<Real>;
 
-    explicit SLIDEWAY_HD Pack(Model const& of_block) : model(of_block) {}
+    explicit SLIDEWAY_HD Pack(Model const& of_block) : model(of_block) {
+        for (auto& mean : integral) mean = Real(0.0);
+    }
 
     [[no_unique_address]] Model model;
     ReportNeeds needs;
@@ -56,30 +58,35 @@ template <class Model, class Real> struct Pack {
         }
     }
 
+    /// Says whether reports, from here on, tell of a state what the energy audit integrates and nothing else.
+    SLIDEWAY_HD void tell_powers_alone(bool alone) {
+        if constexpr (requires { model.tell_powers_alone(alone); }) model.tell_powers_alone(alone && needs.powers_alone);
+    }
+
     /// How many integrals a step may have: the observer's, then the accelerations'.
     static constexpr int integrals = Observer::integrals + AccelerationsOf<Model, Real>::Type::integrals;
 
     /// Those of them that the block asks for: the first ones.
-    SLIDEWAY_HD int integrals_in_use() const { return needs.accelerations ? integrals : Observer::integrals; }
+    SLIDEWAY_HD int integrals_in_use() const { return needs.accelerations ? integrals : observed(); }
 
     /// The integrands where a step starts, and at a report.
     SLIDEWAY_HD void integrands_at_start(Real* values) const {
-        for (int i = 0; i < Observer::integrals; ++i) values[i] = state.observation.integrand[i];
+        each_observed([&](int i) { values[i] = state.observation.integrand[i]; });
         with_accelerations([&](auto const& record) { record.integrands_at_start(values + Observer::integrals); });
     }
     SLIDEWAY_HD void integrands(Report const& report, Real* values) const {
-        Observer::integrands(report, values);
+        observe(report, values);
         with_accelerations([&](auto const& record) { record.integrands(report, values + Observer::integrals); });
     }
     /// Sets the means of the integrands over a step, in the lanes of the mask.
     SLIDEWAY_HD void set_means(Mask<Real> in, Real const* means) {
-        for (int i = 0; i < Observer::integrals; ++i) integral[i] = select(in, means[i], integral[i]);
+        each_observed([&](int i) { integral[i] = select(in, means[i], integral[i]); });
         with_accelerations([&](auto& record) { record.set_means(in, means + Observer::integrals); });
     }
 
     /// Begins the integrals over a step with the stage at its start.
     SLIDEWAY_HD void begin_integrals(StageWeights const& w) {
-        for (int i = 0; i < Observer::integrals; ++i) integral[i] = Real(w.value) * state.observation.integrand[i];
+        each_observed([&](int i) { integral[i] = Real(w.value) * state.observation.integrand[i]; });
         with_accelerations([&](auto& record) { record.begin_step(w.value); });
         for (int i = 0; i < Observer::audit_integrals; ++i) {
             Real const value = state.observation.integrand[i];
@@ -92,8 +99,8 @@ template <class Model, class Real> struct Pack {
     SLIDEWAY_HD void add_integrands(StageWeights const& w, Report const& report) {
         if (w.value == 0 && w.error == 0) return;
         Real values[room(Observer::integrals)];
-        Observer::integrands(report, values);
-        for (int i = 0; i < Observer::integrals; ++i) integral[i] = fma(Real(w.value), values[i], integral[i]);
+        observe(report, values);
+        each_observed([&](int i) { integral[i] = fma(Real(w.value), values[i], integral[i]); });
         with_accelerations([&](auto& record) { record.add_stage(w.value, report); });
         for (int i = 0; i < Observer::audit_integrals; ++i) {
             audit_error[i] = fma(Real(w.error), values[i], audit_error[i]);
@@ -107,10 +114,10 @@ template <class Model, class Real> struct Pack {
         for (int i = 0; i < size; ++i) c.rates[i] = select(in, rates[i], c.rates[i]);
         if (!needs.stages) return;
         Real values[room(Observer::integrals)];
-        Observer::integrands(report, values);
-        for (int i = 0; i < Observer::integrals; ++i) {
+        observe(report, values);
+        each_observed([&](int i) {
             state.observation.integrand[i] = select(in, values[i], state.observation.integrand[i]);
-        }
+        });
         with_accelerations([&](auto& record) { record.begin_next(in, report); });
     }
 
@@ -124,6 +131,31 @@ template <class Model, class Real> struct Pack {
     SLIDEWAY_HD void count_evaluations(Mask<Real> in, double evaluations) {
         auto& c = state.course;
         c.evaluations = c.evaluations + select(in, Real(evaluations), Real(0.0));
+    }
+
+private:
+    /// How many of the observer's integrals are asked for, and their integrands at a report.
+    SLIDEWAY_HD int observed() const {
+        if constexpr (integrates_powers<Observer>) {
+            if (needs.powers_alone) return Observer::powers;
+        }
+        return Observer::integrals;
+    }
+    /// Has a function see the number of each; one of two loops of constant length.
+    template <class Function> SLIDEWAY_FN void each_observed(Function const& see) const {
+        if constexpr (integrates_powers<Observer>) {
+            if (needs.powers_alone) {
+                for (int i = 0; i < Observer::powers; ++i) see(i);
+                return;
+            }
+        }
+        for (int i = 0; i < Observer::integrals; ++i) see(i);
+    }
+    SLIDEWAY_HD void observe(Report const& report, Real* values) const {
+        if constexpr (integrates_powers<Observer>) {
+            if (needs.powers_alone) return Observer::powers_of(report, values);
+        }
+        Observer::integrands(report, values);
     }
 };
 

@@ -7,11 +7,15 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
+/// Whether an observer can do with the powers of the energy audit, where nothing else is asked for that is integrated.
+template <class Observer> inline constexpr bool integrates_powers = requires { Observer::powers; };
+
 /// Which of a model's reports a block needs.
 struct ReportNeeds {
     bool quantities = false;     // the observer is at work
     bool stages = false;         // at every stage, for integrals
     bool accelerations = false;  // their record is at work
+    bool powers_alone = false;   // which are the energy audit's alone
     bool audit = false;          // the audit's integrals meet the tolerance too
     bool switches = false;       // the law does: the audit keeps books of it
     Watching watching = Watching::nothing;
@@ -31,6 +35,9 @@ struct ReportNeeds {
             needs.stages = needs.stages || Accelerations::needs_stages(quantities);
         }
         needs.audit = Observer::audits(quantities);
+        if constexpr (integrates_powers<Observer>) {
+            needs.powers_alone = needs.stages && !needs.accelerations && !Observer::integrates_more(quantities);
+        }
         if constexpr (Model::has_contacts) {
             needs.watching = model.watching(settings.locate_modes, Model::has_shadows);
             if (has_clocks<Model> && settings.method == Method::verner65) needs.watching = Watching::impacts;

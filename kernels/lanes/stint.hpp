@@ -295,7 +295,9 @@ private:
             if (!pack_.needs.watch()) return;
             auto touched = mask_of<Real>(false);
             if constexpr (by_clock) {
-                touched = impacts_.update(pack_.state, stepper_, accepted, attempt_.report.contact);
+                auto const turned = impacts_.update(pack_.state, stepper_, accepted, attempt_.report.contact);
+                touched = pack_.needs.switches ? turned.lanes : turned.by_depth;
+                turn_modes(turned.lanes);
             } else {
                 auto& [memory, watch] = pack_.state.contacts;
                 touched =
@@ -337,6 +339,13 @@ private:
         c.stop = c.stop + count<Real>(at);
     }
 
+    /// Where other contacts are held from here on.
+    SLIDEWAY_HD void turn_modes(Mask<Real> turned) {
+        if (!pack_.needs.quantities || none(turned)) return;
+        attempt_.report.contact.take_modes(pack_.state.contacts.memory.held);
+        pack_.state.observation.observer.turn_mode(turned, attempt_.report);
+    }
+
     /// New impact speeds or other contacts change the derivative at the same state.
     SLIDEWAY_HD void restart(Mask<Real> touched) {
         auto const& c = pack_.state.course;
@@ -345,7 +354,6 @@ private:
         if (pack_.needs.quantities) {
             auto& observer = pack_.state.observation.observer;
             observer.switch_over(touched, attempt_.report, pack_.needs.switches);
-            if constexpr (by_clock) observer.turn_mode(touched, attempt_.report);
         }
         pack_.begin_next(touched, attempt_.end_rates, attempt_.report);
     }

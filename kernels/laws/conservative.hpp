@@ -15,7 +15,8 @@ struct ConservativeLaw {
     static constexpr LawInfo info{.name = "conservative",
                                   .words = "one potential of all contacts, no switching",
                                   .switches = false,
-                                  .groups = contact_groups};
+                                  .groups = contact_groups,
+                                  .of_touching_alone = true};
 
     template <class Damping, class Real>
     SLIDEWAY_FN static FaceForces<Real> forces(FaceMotion<Real> const& motion, FaceContact<Real> const& face,
@@ -50,6 +51,7 @@ private:
     SLIDEWAY_FN static Quad<Real> depth_reciprocals(Quad<Mask<Real>> const& edge, FaceMotion<Real> const& m) {
         auto const& d = m.apex;
         Real const one(1.0);
+        if (none((edge.b | edge.c) | edge.d)) return {one / select(edge.a, d.a.depth + d.b.depth, one), one, one, one};
         return reciprocals(Quad<Real>{
             select(edge.a, d.a.depth + d.b.depth, one), select(edge.b, d.b.depth + d.c.depth, one),
             select(edge.c, d.c.depth + d.d.depth, one), select(edge.d, d.d.depth + d.a.depth, one)});

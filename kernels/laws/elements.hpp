@@ -123,6 +123,11 @@ SLIDEWAY_FN void add_line(Quad<Mask<Real>> const& lines, LineLoad<Real> const& l
 template <class Mean, class Damping, class Real>
 SLIDEWAY_FN void add_lines(Quad<Mask<Real>> const& lines, Quad<Real> const& reciprocal, FaceMotion<Real> const& m,
                            FaceContact<Real> const& face, ContactParameters<Real> const& contact, FaceForces<Real>& f) {
+    if (none((lines.b | lines.c) | lines.d)) {
+        auto h = Mean::template of<0>(lines.a, m, reciprocal.a);
+        add_line<Damping, 0>(lines, line_load<Real>(lines.a, h.mean, face.across), h, m, contact, f);
+        return;
+    }
     Quad<EdgeMean<Real>> h{Mean::template of<0>(lines.a, m, reciprocal.a), Mean::template of<1>(lines.b, m, reciprocal.b),
                            Mean::template of<2>(lines.c, m, reciprocal.c), Mean::template of<3>(lines.d, m, reciprocal.d)};
     auto loads = line_loads<Real>(lines, {h.a.mean, h.b.mean, h.c.mean, h.d.mean}, face.across, face.along);

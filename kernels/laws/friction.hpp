@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/laws/apex_order.hpp"
 #include "kernels/laws/face.hpp"
 #include "kernels/math/trigonometry.hpp"
 #include "kernels/math/vec3.hpp"
@@ -30,6 +31,12 @@ template <class Real> struct FrictionLoad {
     Vec3<Real> force;   // [N]
     Vec3<Real> torque;  // about the slider's centre [N m]
     Real power;         // Σ μ F V, what friction takes [W]
+};
+
+/// What friction does to an apex per newton that it is pressed with.
+template <class Real> struct Slip {
+    Vec3<Real> drag;  // μ v_t/V, against the force
+    Real power;       // μ V [m/s]
 };
 
 /// Stick–slip friction.  Source: Qian et al. 2020 (5)–(6), whose garbled cases continuity at Vs and Vd settles.
@@ -78,6 +85,44 @@ struct StickSlipFriction {
         return load;
     }
 
+    /// μ v_t/V at the apices that touch, v = u' + ω × ρ, and what it takes per newton, μ V.  An apex that touches in no lane is left out.
+    template <bool all, class Real>
+    SLIDEWAY_FN static Quad<Slip<Real>> slips(SlidingFace<Real> const& face, ApexOrder<Real> const& order,
+                                              Quad<Mask<Real>> const& touching, FrictionParameters<Real> const& friction) {
+        Vec3<Real> w = face.spin;
+        Vec3<Real> n = face.normal;
+        Real const main = face.centre_main, across = face.centre_across;
+        Real const length = face.half_length, width = face.half_across;
+        Real const zero(0.0);
+        auto velocity = order.template around<all>(tangential({fma(w.y, across, fnma(w.z, main, face.velocity.x)),
+                                                                fnma(w.x, across, face.velocity.y), fma(w.x, main, face.velocity.z)},
+                                                n),
+                                     tangential({zero, w.z * length, negated(w.y) * length}, n),
+                                     tangential({w.y * width, negated(w.x) * width, zero}, n));
+        Quad<Slip<Real>> slips{slip(velocity.a, touching.a, friction), slip(velocity.b, touching.b, friction), {}, {}};
+        if constexpr (all) slips.c = slip(velocity.c, touching.c, friction), slips.d = slip(velocity.d, touching.d, friction);
+        return slips;
+    }
+
+    /// What those come to.
+    template <bool all, class Real>
+    SLIDEWAY_FN static FrictionLoad<Real> load(SlidingFace<Real> const& face, ApexOrder<Real> const& order,
+                                               Quad<Slip<Real>> const& slips, Quad<Real> const& normal) {
+        Real const main = face.centre_main, across = face.centre_across;
+        Real const length = face.half_length, width = face.half_across;
+        Quad<Vec3<Real>> drag{normal.a * slips.a.drag, normal.b * slips.b.drag, {}, {}};
+        if constexpr (all) drag.c = normal.c * slips.c.drag, drag.d = normal.d * slips.d.drag;
+        auto sum = order.template sums<all>(drag);
+        FrictionLoad<Real> load;
+        load.force = {negated(sum.all.x), negated(sum.all.y), negated(sum.all.z)};
+        load.torque = {fma(across, sum.all.y, fms(width, sum.across.y, main * sum.all.z)),
+                       fms(length, sum.along.z, fma(across, sum.all.x, width * sum.across.x)),
+                       fms(main, sum.all.x, length * sum.along.y)};
+        load.power = fma(normal.a, slips.a.power, normal.b * slips.b.power);
+        if constexpr (all) load.power = load.power + fma(normal.c, slips.c.power, normal.d * slips.d.power);
+        return load;
+    }
+
     /// μ(V): μs sin(π V/2Vs) below Vs; (μs+μd)/2 + (μs−μd)/2 · cos(π (V−Vs)/(Vd−Vs)) up to Vd; μd above.  C¹.
     /// @param speed V >= 0 [m/s].
     template <class Real> SLIDEWAY_FN static Real coefficient(Real speed, FrictionParameters<Real> const& f) {
@@ -95,6 +140,18 @@ struct StickSlipFriction {
     }
 
 private:
+    template <class Real>
+    SLIDEWAY_FN static Slip<Real> slip(Vec3<Real> const& v, Mask<Real> touching, FrictionParameters<Real> const& friction) {
+        Real const zero(0.0);
+        if (none(touching)) return {{zero, zero, zero}, zero};
+        Real const square = dot(v, v), speed = sqrt(square);
+        auto const slow = touching & !(speed >= friction.slip_speed);
+        Real const mu = any(slow) ? coefficient(speed, friction) : friction.kinetic_coefficient;
+        Real const by_speed = mu * (speed * (Real(1.0) / max(square, Real(1e-70))));
+        return {{select(touching, by_speed * v.x, zero), select(touching, by_speed * v.y, zero), select(touching, by_speed * v.z, zero)},
+                select(touching, mu * speed, zero)};
+    }
+
     /// μ of four apices.
     template <class Real>
     SLIDEWAY_FN static Quad<Real> coefficients(Quad<Real> const& speed, FrictionParameters<Real> const& f) {

@@ -19,6 +19,7 @@ struct KelvinVoigt {
                                   .words = "a linear spring and damper at each apex, no modes",
                                   .switches = false,
                                   .groups = groups_of(KeyGroup::elastic),
+                                  .of_touching_alone = true,
                                   .keys = keys,
                                   .face_stiffness = &face_stiffness};
 

@@ -14,6 +14,7 @@ struct LawInfo {
     std::string_view words;  // one line: what it does
     bool switches;           // between modes, where its potential jumps: it makes energy, and steps may end there
     KeyGroups groups;        // of the keys of contacts, those that count for it
+    bool of_touching_alone = false;  // forces are on the apices that touch, and depend on no depth of another
     std::span<Key const> keys = {};  // its own, on Inputs::law_a … law_d
     /// Stiffness of a face [N/m] of which all apices are in contact, for predictions.  @param surface that of its surface, E_s A/l; none: it is that
     double (*face_stiffness)(Inputs const&, double surface) = nullptr;

@@ -67,6 +67,13 @@ SLIDEWAY_FN Quad<LineLoad<Real>> line_loads(Quad<Mask<Real>> const& line, Quad<R
             detail::line_load(line.d, approach.d, approach.d * w.d.denominator * inverse.d, along)};
 }
 
+/// The same of one edge, with the same bits as beside three without a line.
+template <class Real>
+SLIDEWAY_FN LineLoad<Real> line_load(Mask<Real> line, Real approach, LineContact<Real> const& contact) {
+    auto w = detail::line_ratio(line, detail::line_exponent(line, approach, contact));
+    return detail::line_load(line, approach, approach * w.denominator * (Real(1.0) / w.numerator), contact);
+}
+
 /// Load of a line contact and its stiffness.  δ = x w with w = −W₋₁ = 1 − ln(x R/l²) gives dδ/dx = w − 1, hence
 /// dP/dδ = π E* l/(w − 1).  Source: Qian et al. 2020 (9)–(14), as in line_load.
 /// @param approach δ [m], 0 < δ ≤ l²/R; NaN beyond.  At its end w = 1 and the stiffness is infinite: w − 1 is held at 1e-6.

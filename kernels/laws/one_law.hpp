@@ -35,6 +35,7 @@ template <class Law, class Damping> struct OneLaw {
         return Law::template stiffness<Damping>(m, face, contact);
     }
     SLIDEWAY_FN static bool couples() { return Damping::couples; }
+    SLIDEWAY_FN static bool of_touching_alone() { return Law::info.of_touching_alone; }
 };
 
 /// One of several laws with one of their dampings, chosen when the run begins; every call names its function.  The assembler for GPUs
@@ -72,6 +73,11 @@ template <class... Laws> struct AnyLaw {
         visit([&]<class One>(One) { answer = One::couples(); });
         return answer;
     }
+    SLIDEWAY_FN bool of_touching_alone() const {
+        bool answer = false;
+        visit([&]<class One>(One) { answer = One::of_touching_alone(); });
+        return answer;
+    }
 
 private:
     /// Calls the function with the `OneLaw` that is chosen.
@@ -98,13 +104,15 @@ template <class Real> struct LawFunctions {
     Of<FaceNormals<Real>>* normals = nullptr;
     Of<FaceForces<Real>>* forces = nullptr;
     Of<FaceStiffness<Real>>* stiffness = nullptr;
-    bool rates_couple = false;
+    bool rates_couple = false, touching_alone = false;
 
     SLIDEWAY_FN bool couples() const { return rates_couple; }
+    SLIDEWAY_FN bool of_touching_alone() const { return touching_alone; }
 
     template <class Law, class Damping> static constexpr LawFunctions of() {
         using One = OneLaw<Law, Damping>;
-        return {&One::template normals<Real>, &One::template forces<Real>, &One::template stiffness<Real>, Damping::couples};
+        return {&One::template normals<Real>, &One::template forces<Real>, &One::template stiffness<Real>, Damping::couples,
+                Law::info.of_touching_alone};
     }
 };
 

@@ -15,7 +15,8 @@ struct PaperLaw {
         .name = "paper",
         .words = "one mode per face: surface, lines or points (makes energy where it switches)",
         .switches = true,
-        .groups = contact_groups};
+        .groups = contact_groups,
+        .of_touching_alone = true};
 
     template <class Damping, class Real>
     SLIDEWAY_FN static FaceForces<Real> forces(FaceMotion<Real> const& m, FaceContact<Real> const& face,

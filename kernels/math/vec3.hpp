@@ -20,6 +20,10 @@ template <class Real> SLIDEWAY_FN Vec3<Real> operator*(Real factor, Vec3<Real> c
     return {factor * a.x, factor * a.y, factor * a.z};
 }
 
+template <class Real> SLIDEWAY_FN Vec3<Real> select(Mask<Real> m, Vec3<Real> const& yes, Vec3<Real> const& no) {
+    return {select(m, yes.x, no.x), select(m, yes.y, no.y), select(m, yes.z, no.z)};
+}
+
 /// factor·a + b.
 template <class Real> SLIDEWAY_FN Vec3<Real> fma(Real factor, Vec3<Real> const& a, Vec3<Real> const& b) {
     return {fma(factor, a.x, b.x), fma(factor, a.y, b.y), fma(factor, a.z, b.z)};

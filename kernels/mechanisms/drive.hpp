@@ -60,11 +60,11 @@ template <class Drive> struct DrivenGuide {
 
         template <class Report>
         SLIDEWAY_FN void tell(PointMotion<Real> const& centre, SliderTurning<Real> const& turning,
-                              Vec3<Real> const& force, SliderParameters<Real> const& p, Report& report) const {
+                              Vec3<Real> const& force, SliderParameters<Real> const& p, bool powers_alone, Report& report) const {
             // M x'' − F_cx − M g_x
             Real const drive =
                 Drive::is_free ? Real(0.0) : fms(p.slider_mass, centre.acceleration.x - p.gravity_x, force.x);
-            report.fill_guided(centre, turning, drive, p);
+            report.fill_guided(centre, turning, drive, p, powers_alone);
         }
 
     private:

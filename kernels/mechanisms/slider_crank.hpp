@@ -104,10 +104,10 @@ struct CrankAndRod {
 
         template <class Report>
         SLIDEWAY_FN void tell(PointMotion<Real> const& centre, SliderTurning<Real> const& turning,
-                              Vec3<Real> const& contact_force, SliderParameters<Real> const& p, Report& report) const {
+                              Vec3<Real> const& contact_force, SliderParameters<Real> const& p, bool powers_alone, Report& report) const {
             Real const zero(0.0);
             PointMotion<Real> pin{{pin_.x, pin_.y, zero}, {pin_.vx, pin_.vy, zero}, {aax_, aay_, zero}};
-            report.fill_crank(pin, centre, d_, turning, contact_force, p);
+            report.fill_crank(pin, centre, d_, turning, contact_force, p, powers_alone);
         }
 
     private:

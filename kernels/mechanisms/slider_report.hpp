@@ -42,7 +42,9 @@ template <class Real, class Contact> struct SliderReportOf : MechanismReport<Rea
 
     /// Of a slider without crank and rod.  @param drive force of the drive along X [N].
     SLIDEWAY_FN void fill_guided(PointMotion<Real> const& u, SliderTurning<Real> const& turning, Real drive,
-                                 SliderParameters<Real> const& p) {
+                                 SliderParameters<Real> const& p, bool powers_alone) {
+        this->crank_power = drive * u.velocity.x;
+        if (powers_alone) return;
         fill_slider(u, turning, p);
         Real const zero(0.0), half(0.5);
         auto const& w = turning.omega;
@@ -50,7 +52,6 @@ template <class Real, class Contact> struct SliderReportOf : MechanismReport<Rea
         Vec3<Real> momentum{p.inertia.x * w.x, p.inertia.y * w.y, p.inertia.z * w.z};
         Real const kinetic = half * fma(p.slider_mass, dot(u.velocity, u.velocity), dot(w, momentum));
         this->energy = fnma(p.slider_mass, dot(gravity, u.position), kinetic) + contact.potential;
-        this->crank_power = drive * u.velocity.x;
         this->crank_torque = this->drive_torque = this->rod_spin = rod_spin_z = zero;
         this->position_error = sqrt(fma(u.position.y, u.position.y, u.position.z * u.position.z));
     }
@@ -58,9 +59,8 @@ template <class Real, class Contact> struct SliderReportOf : MechanismReport<Rea
     /// Of a slider on a rod.  @param a, b motion of the crank pin and of the slider's centre  @param d their distance along X [m]
     SLIDEWAY_CARD_CALL void fill_crank(PointMotion<Real> const& a, PointMotion<Real> const& b, Real d,
                                 SliderTurning<Real> const& turning, Vec3<Real> const& contact_force,
-                                SliderParameters<Real> const& p) {
+                                SliderParameters<Real> const& p, bool powers_alone) {
         Real const zero(0.0), half(0.5), one(1.0);
-        fill_slider(b, turning, p);
         auto const& omega = turning.omega;
         Vec3<Real> gravity{p.gravity_x, p.gravity_y, zero};
 
@@ -70,6 +70,8 @@ template <class Real, class Contact> struct SliderReportOf : MechanismReport<Rea
         auto pin_force =
             p.m_aa * a.acceleration + p.m_ab * b.acceleration + rod_end - (p.slider_mass + p.rod_mass) * gravity;
         this->crank_power = dot(pin_force, a.velocity);
+        if (powers_alone) return;
+        fill_slider(b, turning, p);
         this->crank_torque = fms(a.position.x, pin_force.y, a.position.y * pin_force.x);
         // m_c g (r/2) cos(θ + β) = −(m_c r/2)(g_y cos θ − g_x sin θ)
         Real const inverse_r = one / p.crank_length;

@@ -49,7 +49,7 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
         turning.put_rates(wrench.torque, motion.axes, p.inertia, p.inverse_inertia, rates);
         guide.put_rates(acceleration, rates);
         if (joint.has_clock()) rates[Base::size] = joint.clock_rate();
-        if constexpr (Full) guide.tell({position, velocity, acceleration}, turning, force, p, *report);
+        if constexpr (Full) guide.tell({position, velocity, acceleration}, turning, force, p, block.powers_alone, *report);
         return faults;
     }
 

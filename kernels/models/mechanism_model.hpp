@@ -13,7 +13,11 @@ template <class Laws> struct ConditionsOfBlock {
     Conditions<Laws> block;
 
     SLIDEWAY_HD bool switches() const { return block.switches; }
-    SLIDEWAY_HD void hold_contacts(bool held) { block.holds_contacts = held; }
+    SLIDEWAY_HD void hold_contacts(Watching watching) {
+        block.holds_contacts = holds_contacts(watching);
+        block.in_impacts = watching == Watching::impacts;
+    }
+    SLIDEWAY_HD void tell_powers_alone(bool alone) { block.powers_alone = alone; }
     /// At which events of the contacts steps end.  @param neighbours members have some beside them
     SLIDEWAY_HD Watching watching(bool locate_modes, bool neighbours) const {
         if (block.remembers) return neighbours && block.switches ? Watching::touches_and_parts : Watching::touches;

@@ -18,7 +18,8 @@ public:
     using Report = Report_<Real>;
     using Places = QuantityPlaces<Keeper::mechanism, Report::apices>;
     static constexpr int columns = quantity_columns;  // of a member's row
-    /// Integrands: those of the quantities, then |crank power| and the springs' power, of which a law that switches keeps books.
+    /// Integrands: those of the energy audit, then |crank power| and the springs' power, of which a law that switches keeps books, then
+    /// those of other quantities.
     static constexpr int integrals = Places::integrals + 2;
     /// The first of them are the energy audit's.
     static constexpr int audit_integrals = Places::audit_integrals;
@@ -51,22 +52,37 @@ public:
     static constexpr Selection audit_quantities = quantities_where([](QuantityInfo const& info) { return info.audits(); });
     /// Whether the audit's integrals are asked for and must meet the tolerance themselves.
     SLIDEWAY_HD static constexpr bool audits(Selection q) { return (q & audit_quantities) != 0; }
+    /// Whether anything else is to be integrated.
+    SLIDEWAY_HD static constexpr bool integrates_more(Selection q) {
+        constexpr Selection others = quantities_where([](QuantityInfo const& info) {
+            return info.keeper == Keeper::mechanism && info.integrates() && !info.audits();
+        });
+        return (q & others) != 0;
+    }
     /// Whether a report is needed at the accepted steps.
     SLIDEWAY_HD static constexpr bool needs_reports(Selection q) { return q != 0; }
 
-    SLIDEWAY_FN static void integrands(Report const& r, Real* values) {
+    /// As many integrands, the first ones, are powers of the energy audit: reports may tell them alone.
+    static constexpr int powers = audit_integrals + 2;
+    SLIDEWAY_FN static void powers_of(Report const& r, Real* values) {
         for_each_quantity([&]<Quantity q>(Named<q>) {
-            if constexpr (Places::integrates(q)) {
-                constexpr bool squared = Places::info(q).statistic == Statistic::root_mean_square;
-                constexpr int width = Places::columns(q);
-                for (int i = 0; i < width; ++i) {
-                    Real const x = value<q>(r, AtStage{}, i);
-                    values[Places::template integral_of<q> + i] = squared ? x * x : x;
-                }
-            }
+            if constexpr (Places::is_audited(q)) values[place_of<q>] = value<q>(r, AtStage{}, 0);
         });
         values[turnover] = abs(r.crank_power);
         values[springs] = r.contact.elastic_power;
+    }
+
+    SLIDEWAY_FN static void integrands(Report const& r, Real* values) {
+        powers_of(r, values);
+        for_each_quantity([&]<Quantity q>(Named<q>) {
+            if constexpr (Places::integrates(q) && !Places::is_audited(q)) {
+                constexpr bool squared = Places::info(q).statistic == Statistic::root_mean_square;
+                for (int i = 0; i < Places::columns(q); ++i) {
+                    Real const x = value<q>(r, AtStage{}, i);
+                    values[place_of<q> + i] = squared ? x * x : x;
+                }
+            }
+        });
     }
 
     /// Begins the members in the lanes of the mask.
@@ -133,9 +149,9 @@ public:
 
     /// The energy audit up to the last accepted step, where it ran.
     SLIDEWAY_FN EnergyAudit<Real> audit() const {
-        Real const crank_work = integral_[Places::template integral_of<Quantity::crank_work>];
-        Real const friction_loss = integral_[Places::template integral_of<Quantity::friction_loss>];
-        Real const damping_loss = integral_[Places::template integral_of<Quantity::damping_loss>];
+        Real const crank_work = integral_[place_of<Quantity::crank_work>];
+        Real const friction_loss = integral_[place_of<Quantity::friction_loss>];
+        Real const damping_loss = integral_[place_of<Quantity::damping_loss>];
         return {energy_ - start_energy_, crank_work, friction_loss, damping_loss, integral_[turnover],
                 largest_potential_,      made_,      astray_,       exchanged_};
     }
@@ -153,7 +169,9 @@ public:
     }
 
 protected:
-    static constexpr int turnover = Places::integrals, springs = Places::integrals + 1;
+    static constexpr int turnover = audit_integrals, springs = audit_integrals + 1;
+    template <Quantity q>
+    static constexpr int place_of = Places::template integral_of<q> + (Places::is_audited(q) ? 0 : 2);
 
     /// A quantity of one lane.  @param mean 1/t, of the time integrated.
     template <Quantity q> SLIDEWAY_HD double result(int index, int column, double mean) const {
@@ -161,7 +179,7 @@ protected:
         if constexpr (info.statistic == Statistic::peak) {
             return lane(peak_[Places::template peak_of<q> + column], index);
         } else if constexpr (info.integrates()) {
-            double const total = lane(integral_[Places::template integral_of<q> + column], index);
+            double const total = lane(integral_[place_of<q> + column], index);
             if constexpr (info.statistic == Statistic::mean) return total * mean;
             else if constexpr (info.statistic == Statistic::root_mean_square) return sqrt(total * mean);
             else return total;

@@ -118,7 +118,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
         rates[9] = select(memory.jammed > zero, Real(not_a_number), rates[9]);
         if constexpr (Full) {
             Vec3<Real> const centre{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
-            guide.tell({centre, velocity, acceleration}, at.turning, force, p, *report);
+            guide.tell({centre, velocity, acceleration}, at.turning, force, p, false, *report);
         }
         Real const deepest = max(max(y.largest(Real(1.0)), y.largest(Real(-1.0))), max(z.largest(Real(1.0)), z.largest(Real(-1.0))));
         faults.contact_domain = jammed;
@@ -179,7 +179,7 @@ private:
     template <class Real>
     SLIDEWAY_FN static void begin_report(Place<Real> const& at, Quad<Real> const (&depth)[face_count], RigidJointMemory<Real> const& memory,
                                          RigidJointContact<Real>& contact) {
-        contact.clear();
+        contact.clear(false);
         contact.loads.clear();
         put_rates<Axis::y>(at, contact);
         put_rates<Axis::z>(at, contact);

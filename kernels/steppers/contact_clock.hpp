@@ -59,9 +59,10 @@ template <class Real> struct ClockedStep {
 
     /// Whether the pair of the clock parts at the end: what is left of u is little, either way.  The impulse that is left goes with u⁵.
     SLIDEWAY_FN Mask<Real> parts() const {
-        auto const runs = start.runs(), rises = end.rate < Real(0.0), is_out = abs(end.root) < Real(0.03) * start.root;
-        return runs & rises & is_out;
+        auto const rises = end.rate < Real(0.0);
+        return rises & is_little(end.root);
     }
+    SLIDEWAY_FN Mask<Real> is_little(Real root) const { return start.runs() & (abs(root) < Real(0.03) * start.root); }
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/joint/contact_memory.hpp"
+#include "kernels/joint/held_face.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/contact_clock.hpp"
 #include "kernels/steppers/gap_history.hpp"
@@ -37,7 +38,7 @@ public:
             turn_pairs(fresh, r, memory);
         }
         this->keep(fresh, r);
-        if (watching == Watching::impacts) hold_signs(memory);
+        if (watching == Watching::impacts) hold_signs(memory), note_face(memory);
     }
 
     /// The clock of the next step: the shallowest of the pairs that touch, none where a member flies.
@@ -70,28 +71,28 @@ public:
         auto const& from = step.start;
         auto const& to = step.end;
         Real const pace0 = step.pace_at_start(), pace1 = step.pace_at_end();
-        auto const change = [&](Mask<Real> in, Real d0, Real v0, Real d1, Real v1, Real within) {
-            return GapHistory<Real, quads>::first_change(in, d0, v0, d1, v1, step.own, within).fraction;
+        typename GapHistory<Real, quads>::FirstChange changes;
+        auto const add = [&](Mask<Real> in, Real d0, Real v0, Real d1, Real v1, Real within) {
+            changes.add(GapHistory<Real, quads>::passage(in, d0, v0, d1, v1, step.own, within));
         };
         Mask<Real> const by_clock = candidates & from.runs();
-        Real fraction = change(by_clock & !step.parts(), from.root, step.root_rate(from.root, from.rate), to.root,
-                               step.root_rate(to.root, to.rate), Real(0.0));
+        add(by_clock & !step.parts(), from.root, step.root_rate(from.root, from.rate), to.root, step.root_rate(to.root, to.rate), Real(0.0));
         auto const one = like_the_clocks(step, end);
         for (int face = 0; face < quads; ++face) {
             auto const look = [&](Real, Real d0, Real v0, Real d1, Real v1) {
                 Mask<Real> const in = candidates & !one(d0, d1);
-                fraction = min(fraction, change(in, d0, pace0 * v0, d1, pace1 * v1, located));
+                add(in, d0, pace0 * v0, d1, pace1 * v1, located);
             };
             each_pair(face, look, this->start_depth_[face], this->start_rate_[face], end.penetration[face], end.rate[face]);
         }
-        return fraction;
+        return changes.of_all();
     }
 
     /// Whether a step by a clock ends at a touch or a parting, so that `update` will turn a pair over.
     template <class Contact>
     SLIDEWAY_FN Mask<Real> turns(Memory const& memory, Contact const& end, ClockedStep<Real> const& step) const {
         auto turned = mask_of<Real>(false);
-        each_after(end, step, memory.held, [&](Real now, Real is_held) { turned = turned | (now != is_held); });
+        each_after(end, step, memory.held, [&](Real now, Real is_held, Mask<Real>) { turned = turned | (now != is_held); });
         return turned;
     }
 
@@ -120,17 +121,24 @@ public:
     /// As `update`, after a step by a clock.  A pair touches where it comes nearer: one that has just parted may be left within its face by
     /// what its parting was located to.  That of the clock parts where its clock says so, for its depth in the state is off by what the
     /// step's error is.
+    struct Turned {
+        Mask<Real> lanes;
+        Mask<Real> by_depth;  // those where a pair has parted that is not the clock's
+    };
     template <class Contact>
-    SLIDEWAY_FN Mask<Real> update(Mask<Real> accepted, Contact const& end, Memory& memory, ClockedStep<Real> const& step) {
+    SLIDEWAY_FN Turned update(Mask<Real> accepted, Contact const& end, Memory& memory, ClockedStep<Real> const& step) {
         take_speeds(accepted, end, memory);
-        auto changed = mask_of<Real>(false);
-        each_after(end, step, memory.held, [&](Real now, Real& is_held) {
-            changed = changed | (accepted & (now != is_held));
+        Turned turned{mask_of<Real>(false), mask_of<Real>(false)};
+        each_after(end, step, memory.held, [&](Real now, Real& is_held, Mask<Real> by_clock) {
+            auto const differs = accepted & (now != is_held);
+            turned.lanes = turned.lanes | differs;
+            turned.by_depth = turned.by_depth | (differs & (is_held > now) & negation(by_clock));
             is_held = select(accepted, now, is_held);
         });
         this->keep(accepted, end);
         hold_signs(memory);
-        return changed;
+        note_face(memory);
+        return turned;
     }
 
     /// Fraction of the step at which the first pair touches or parts, 1 where none does before the end or the end is the event.
@@ -179,7 +187,7 @@ private:
                 Mask<Real> const touches = is_held > Real(0.5), apart = !touches, is_in = depth > Real(0.0);
                 Mask<Real> const parts = over & one(before, depth), remains = !parts;
                 Mask<Real> const stays = touches & is_in & remains, begins = apart & is_in & (rate > Real(0.0));
-                see(select(stays | begins, Real(1.0), Real(0.0)), is_held);
+                see(select(stays | begins, Real(1.0), Real(0.0)), is_held, parts);
             };
             each_pair(face, look, this->start_depth_[face], end.penetration[face], end.rate[face], held[face]);
         }
@@ -207,6 +215,12 @@ private:
         for (int face = 0; face < quads; ++face) {
             auto const hold = [&](Real, Real& depth, Real is_held) { depth = select(is_held > half, depth, min(depth, zero)); };
             each_pair(face, hold, this->start_depth_[face], memory.held[face]);
+        }
+    }
+
+    SLIDEWAY_FN static void note_face(Memory& memory) {
+        if constexpr (quads == face_count) {
+            memory.touched = HeldFace<Real>::first_of(HeldFace<Real>::faces_of(memory), memory).packed();
         }
     }
 

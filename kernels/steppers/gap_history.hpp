@@ -28,9 +28,17 @@ protected:
         Mask<Real> returns;
     };
 
+    /// Values and slopes at both ends of [0, 1].
+    struct Curve { Real v0, s0, v1, s1; };
+
+    /// A pair that may change, turned so that it starts below zero.
+    struct Passage {
+        Mask<Real> lanes;
+        Curve depth;
+    };
+
     /// @param located depth up to which a change at the end of the step counts as its end.
-    SLIDEWAY_FN static Change first_change(Mask<Real> candidates, Real d0, Real v0, Real d1, Real v1, Real step,
-                                           Real located) {
+    SLIDEWAY_FN static Passage passage(Mask<Real> candidates, Real d0, Real v0, Real d1, Real v1, Real step, Real located) {
         Real const zero(0.0), target = Real(0.5) * located;
         // Turned so that all start below: on zero is apart, and there `located` makes room for a start that is the last change.
         auto const touches = d0 > zero;
@@ -38,10 +46,33 @@ protected:
         Real const along = select(touches, negated(step), step);
         Real const end = select(reached > located, reached, min(reached, zero));
         Curve const depth{start - target, along * v0, end - target, along * v1};
-        auto const crossing = candidates & may_cross(depth.v0, depth.s0, depth.v1, depth.s1);
-        if (none(crossing)) return {Real(1.0), mask_of<Real>(false)};
-        return first_zero(crossing, depth);
+        return {Mask<Real>(candidates & may_cross(depth.v0, depth.s0, depth.v1, depth.s1)), depth};
     }
+    SLIDEWAY_FN static Change first_change(Mask<Real> candidates, Real d0, Real v0, Real d1, Real v1, Real step, Real located) {
+        auto const pair = passage(candidates, d0, v0, d1, v1, step, located);
+        if (none(pair.lanes)) return {Real(1.0), mask_of<Real>(false)};
+        return first_zero(pair.lanes, pair.depth);
+    }
+
+    /// The first changes of pairs one after the other.  In most lanes one pair changes at most, not the same in all: it waits for those of
+    /// the others, and one search serves them all.
+    struct FirstChange {
+        Real fraction = Real(1.0);
+        Mask<Real> waits = mask_of<Real>(false);
+        Curve waiting{Real(0.0), Real(0.0), Real(0.0), Real(0.0)};
+
+        SLIDEWAY_FN void add(Passage const& pair) {
+            if (none(pair.lanes)) return;
+            Mask<Real> const both = pair.lanes & waits;
+            if (any(both)) [[unlikely]] fraction = min(fraction, first_zero(both, pair.depth).fraction);
+            auto const& to = waiting;
+            auto const& from = pair.depth;
+            waiting = {select(waits, to.v0, from.v0), select(waits, to.s0, from.s0), select(waits, to.v1, from.v1),
+                       select(waits, to.s1, from.s1)};
+            waits = waits | pair.lanes;
+        }
+        SLIDEWAY_FN Real of_all() const { return any(waits) ? min(fraction, first_zero(waits, waiting).fraction) : fraction; }
+    };
 
     /// The least fraction for a face: `of` tells that of one pair.
     template <class Contact, class OfPair>
@@ -57,11 +88,6 @@ protected:
     Quad<Real> start_depth_[quads], start_rate_[quads];
 
 private:
-    /// Values and slopes at both ends of [0, 1].
-    struct Curve {
-        Real v0, s0, v1, s1;
-    };
-
     SLIDEWAY_NOINLINE static Change first_zero(Mask<Real> crossing, Curve const& depth) {
         Real const zero(0.0), one(1.0);
         auto const rises = cubic_zeros(crossing, depth.v0, depth.s0, depth.v1, depth.s1, Direction::rising);

@@ -21,13 +21,17 @@ struct CostCase {
     double clearance, crank_speed, chi, end_time, rtol;
     std::size_t members = 8;
     Selection quantities = 0;
+    Method method = Method::automatic;
 };
+
+constexpr Selection audit = Selection(1) << static_cast<int>(Quantity::energy_residual);
 
 constexpr CostCase cases[] = {
     {"paper", {Law::paper, Damping::point, true, false}, 1e-4, pi, 0, 0.01, 1e-6},
     {"conservative", {Law::conservative, Damping::point, true, false}, 1e-4, pi, 0, 0.01, 1e-6},
     {"rattling", {Law::conservative, Damping::rate, true, false}, 5e-4, 47, 10, 0.05, 1e-6},
     {"rattling_order_3", {Law::conservative, Damping::rate, true, false}, 5e-4, 47, 10, 0.05, 1e-4},
+    {"rattling_clocks", {Law::conservative, Damping::rate, true, false}, 5e-4, 47, 10, 0.05, 1e-5, 8, audit, Method::verner65},
     {"settling", {Law::conservative, Damping::rate, true, false}, 1e-4, pi, 10, 0.2, 1e-4, 2},
     {"audited_restitution", {Law::conservative, Damping::restitution, true, true}, 5e-4, 47, 0, 0.05, 1e-6, 8, testing::all_quantities},
 };
@@ -49,6 +53,7 @@ void measure(Isa isa, CostCase const& c) {
     options.parts = c.parts;
     options.settings.end_time = c.end_time;
     options.settings.rtol = options.settings.atol = c.rtol;
+    options.settings.method = c.method;
     options.quantities = c.quantities;
     auto const starts = members_of(c);
     std::string const name = std::string(name_of(isa)) + " " + c.name;

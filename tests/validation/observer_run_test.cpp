@@ -246,5 +246,37 @@ TEST(Quantities, AskedForAloneAreWhatTheyAreTogether) {
     }
 }
 
+/// Where nothing else is integrated, reports of stages tell the powers of the audit alone.
+TEST(Quantities, OfTheAuditAreTheSameBesideAnyOther) {
+    auto const starts = soft_members(11);
+    for (Mechanism const mechanism : {Mechanism::slider_crank, Mechanism::carriage, Mechanism::free_slider}) {
+        for (Law const law : {Law::paper, Law::conservative, Law::kelvin_voigt}) {
+            auto members = starts;
+            for (auto& in : members) in = testing::with_own(in, law, 50);
+            for (Method const method :
+                 {Method::automatic, Method::dopri5, Method::bs32, Method::dop853, Method::verner65, Method::ros34pw2, Method::rk4}) {
+                auto o = options_of(1e-5, 0.01);
+                o.parts.law = law;
+                o.parts.mechanism = mechanism;
+                o.settings.method = method;
+                o.settings.fixed_step = 5e-6;
+                o.quantities = testing::all_quantities;
+                auto const all = testing::run(best_isa(), o, members);
+                o.quantities = audit;
+                auto const alone = testing::run(best_isa(), o, members);
+                for (std::size_t m = 0; m < members.size(); ++m) {
+                    auto const what = std::string(info(mechanism).name) + ", " + std::string(info(law).name) + ", " + std::string(name_of(method)) +
+                                      ", member " + std::to_string(m);
+                    EXPECT_EQ(alone.states[m], all.states[m]) << what;
+                    EXPECT_EQ(alone.records[m].rhs_evaluations, all.records[m].rhs_evaluations) << what;
+                    for (Quantity const q : {Quantity::crank_work, Quantity::friction_loss, Quantity::damping_loss, Quantity::energy_residual}) {
+                        EXPECT_EQ(alone.value(m, q), all.value(m, q)) << what << ", quantity " << static_cast<int>(q);
+                    }
+                }
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace slideway::observer_run_test

@@ -28,6 +28,7 @@ struct Forceless {
     static FaceNormals<Real> normals(FaceMotion<Real> const&, FaceContact<Real> const&, ContactParameters<Real> const&) {
         return {{Real(0.0), Real(0.0), Real(0.0), Real(0.0)}, mask_of<Real>(false)};
     }
+    static bool of_touching_alone() { return true; }
 };
 
 /// The slider-crank of a case, with and without its contacts' forces.

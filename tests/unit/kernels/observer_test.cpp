@@ -23,7 +23,7 @@ constexpr Selection everything = (Selection(1) << quantity_count) - 1;
 /// A report in which nothing happens.
 Report quiet() {
     Report r{};
-    r.contact.clear();
+    r.contact.clear(false);
     return r;
 }
 
@@ -119,8 +119,10 @@ TEST(Observer, PeaksAreTheLargestOfStartAndAcceptedSteps) {
     }
 }
 
-/// Where an integral stands; those of the audit come first, in the table's order.
-template <Quantity q> constexpr int place = Observer::Places::integral_of<q>;
+/// Where an integral stands: those of the audit come first, in the table's order, then two of which it keeps books, then the others.
+template <Quantity q> constexpr int place = Observer::Places::integral_of<q> + (Observer::Places::is_audited(q) ? 0 : 2);
+constexpr int crank_magnitude = Observer::audit_integrals, springs = crank_magnitude + 1;
+static_assert(Observer::powers == springs + 1);
 static_assert(place<Quantity::crank_work> == 0 && place<Quantity::friction_loss> == 1 && place<Quantity::damping_loss> == 2);
 
 TEST(Observer, IntegrandsAreThoseOfTheTable) {
@@ -133,9 +135,12 @@ TEST(Observer, IntegrandsAreThoseOfTheTable) {
     EXPECT_EQ(values[place<Quantity::rms_crank_torque>], 49);
     EXPECT_EQ(values[place<Quantity::rms_position_error>], 121);
     EXPECT_EQ(values[place<Quantity::rms_rod_angular_velocity>], 169);
-    EXPECT_EQ(values[Observer::integrals - 2], 2) << "the magnitude of the crank's power";
+    EXPECT_EQ(values[crank_magnitude], 2) << "the magnitude of the crank's power";
     for (int apex = 0; apex < 8; ++apex) EXPECT_EQ(values[place<Quantity::mean_apex_force> + apex], apex_forces[apex]) << apex;
-    EXPECT_EQ(values[Observer::integrals - 1], 19) << "the springs' power";
+    EXPECT_EQ(values[springs], 19) << "the springs' power";
+    double powers[Observer::powers];
+    Observer::powers_of(busy(), powers);
+    for (int i = 0; i < Observer::powers; ++i) EXPECT_EQ(powers[i], values[i]) << i;
 }
 
 TEST(AccelerationRecord, HoldsPeaksMeanSquaresAndAreas) {
@@ -213,7 +218,7 @@ Report with_contact(double energy, double potential, int apices) {
 std::vector<double> audit_means(double taken_up, double loss) {
     std::vector<double> means(Observer::integrals, 0.0);
     means[place<Quantity::friction_loss>] = loss;
-    means[Observer::integrals - 1] = taken_up;
+    means[springs] = taken_up;
     return means;
 }
 
@@ -260,7 +265,7 @@ TEST(Observer, ResumesWhereTheLawChangedWithoutAStep) {
 
 TEST(Observer, TellsTouchingPairsApart) {
     ContactReport<double> contact;
-    contact.clear();
+    contact.clear(false);
     for (auto& face : contact.penetration) face = {-1, 0, -1, 0};
     EXPECT_EQ(contact.pattern(), 0);
     double bit = 1;

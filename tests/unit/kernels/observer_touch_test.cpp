@@ -38,7 +38,7 @@ double& rate(ContactReport<double>& r, Pair const& p) { return r.rate[p.face].*p
 /// Every pair a clearance away from its face and at rest.
 ContactReport<double> apart() {
     ContactReport<double> r;
-    r.clear();
+    r.clear(false);
     for (auto const& p : pairs()) depth(r, p) = -clearance, rate(r, p) = 0;
     return r;
 }
@@ -261,14 +261,14 @@ TEST(ImpactWatch, LetsAPairGoOutThatHasPartedWithinItsFace) {
         // u has come to zero; by the error of the step the depth in the state has not.
         ClockedStep<double> const parting{1e-3, impacts.watch.clock(impacts.memory), {static_cast<double>(i), 1e-7, -0.1}};
         depth(report, p) = 1e-13;
-        EXPECT_TRUE(impacts.watch.update(true, report, impacts.memory, parting)) << i;
+        EXPECT_TRUE(impacts.watch.update(true, report, impacts.memory, parting).lanes) << i;
         EXPECT_FALSE(impacts.holds(p)) << i;
         ClockedStep<double> const flight{1e-5, {-1, 0, 0}, {-1, 0, 0}};
         depth(report, p) = 0.5e-13;
-        EXPECT_FALSE(impacts.watch.update(true, report, impacts.memory, flight)) << i << " still goes out";
+        EXPECT_FALSE(impacts.watch.update(true, report, impacts.memory, flight).lanes) << i << " still goes out";
         EXPECT_FALSE(impacts.holds(p)) << i;
         rate(report, p) = 0.1;
-        EXPECT_TRUE(impacts.watch.update(true, report, impacts.memory, flight)) << i << " comes back";
+        EXPECT_TRUE(impacts.watch.update(true, report, impacts.memory, flight).lanes) << i << " comes back";
         EXPECT_TRUE(impacts.holds(p)) << i;
     }
 }
