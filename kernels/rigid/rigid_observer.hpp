@@ -35,10 +35,10 @@ public:
         using enum Quantity;
         auto const& books = r.contact.books;
         auto const book = [in](Real& account, Real amount) { account = select(in, account + amount, account); };
-        book(this->integral_[Places::template integral_of<crank_work>], books.work);
-        book(this->integral_[Places::template integral_of<friction_loss>], books.friction);
-        book(this->integral_[Places::template integral_of<damping_loss>], books.damping);
-        book(this->integral_[Places::template integral_of<mean_normal_force>], books.impulse);
+        book(this->integral_[Base::template place_of<crank_work>], books.work);
+        book(this->integral_[Base::template place_of<friction_loss>], books.friction);
+        book(this->integral_[Base::template place_of<damping_loss>], books.damping);
+        book(this->integral_[Base::template place_of<mean_normal_force>], books.impulse);
         // As of compliant contacts: from free flight, however many corners meet their walls.
         this->onsets_ = this->onsets_ + slideway::count<Real>(in & (books.count > Real(0.0)) & (this->mode_ == Real(0.0)));
         this->mode_ = select(in, this->mode_class(r), this->mode_);
@@ -48,7 +48,6 @@ public:
 
 private:
     using Base = SliderObserver<Real, Report_>;
-    using Places = typename Base::Places;
     Real owed_;  // flight that is still to come [s]
 };
 

@@ -93,6 +93,8 @@ TEST(RigidJoint, FlatBouncesEndWithTheirGeometricSum) {
             EXPECT_NEAR(r.value(0, Quantity::mode_time, 0), sum, 1e-9) << e;
             EXPECT_NEAR(r.value(0, Quantity::mode_time, 3), end - sum, 1e-9) << e;
             EXPECT_NEAR(r.value(0, Quantity::damping_loss), in.slider_mass * in.gravity * in.clearance_y, 1e-15) << e;
+            // From rest to rest: impulses of impacts and forces of what lasts are those of the weight.
+            EXPECT_NEAR(r.value(0, Quantity::mean_normal_force), in.slider_mass * in.gravity, 1e-9) << e;
             // Rest is rest, and costs nothing.
             EXPECT_NEAR(r.states[0][0], -in.clearance_y, 1e-17);
             for (std::size_t i = 1; i < 10; ++i) EXPECT_LT(std::abs(r.states[0][i]), 1e-12) << i;
