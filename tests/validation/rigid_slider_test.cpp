@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <vector>
 
 #include "tests/oracle/rigid_slider.hpp"
@@ -18,10 +17,7 @@ using testing::rigid_options;
 
 /// Tilted, turning and drifting sliders of the paper's size in the middle of their way.
 std::vector<Inputs> random_sliders(std::size_t count, unsigned seed, double e, double friction) {
-    std::mt19937_64 draw(seed);
-    auto const uniform = [&draw](double low, double high) {
-        return low + (high - low) * static_cast<double>(draw() >> 11) * 0x1p-53;
-    };
+    testing::UniformDraws uniform(seed);
     std::vector<Inputs> members;
     for (std::size_t i = 0; i < count; ++i) {
         Inputs in;
