@@ -22,10 +22,11 @@ public:
 
     using Base::Base;
 
-    /// @return the motion after them
-    SLIDEWAY_HD Twist<Real> solve(Mask<Real> in, Twist<Real> const& so_far) {
+    /// @param size of the motion: the most that a pair without loads is off its target  @return the motion after them
+    SLIDEWAY_HD Twist<Real> solve(Mask<Real> in, Real size, Twist<Real> const& so_far) {
         Real const one(1.0);
         auto const all = in;
+        size_ = size;
         begin(in);
         Real length = one, best(1e300);
         for (int step = 0; step < most_steps; ++step) {
@@ -49,13 +50,8 @@ private:
 
     SLIDEWAY_HD void begin(Mask<Real> in) {
         Real const zero(0.0), one(1.0);
-        size_ = zero;
         Real near = zero;
-        for (int k = 0; k < count_; ++k) {
-            auto const& row = rows_[k];
-            size_ = max(size_, select(row.here, row.target - dot(row.pair.normal, this->before_), zero));
-            near = near + slideway::count<Real>(row.here);
-        }
+        for (int k = 0; k < count_; ++k) near = near + slideway::count<Real>(rows_[k].here);
         Real const share = size_ / max(near, one);
         for (int k = 0; k < count_; ++k) {
             auto& row = rows_[k];

@@ -34,6 +34,16 @@ protected:
         Real d_rate, d_slip[2];
     };
 
+    /// 1/ε of (M13.13), of what a pair's own load makes of its motion.
+    static constexpr double stiffness = 1e7;
+    /// The most that the load along the normal of one of some pairs makes of its motion [1/kg]; 0 where none is.  @param counts lanes of row k
+    template <class Counts> SLIDEWAY_HD Real largest_own(Counts const& counts) const {
+        Real const zero(0.0);
+        Real own = zero;
+        for (int k = 0; k < count_; ++k) own = max(own, select(counts(k), dot(rows_[k].pair.normal, rows_[k].pair.pushed), zero));
+        return own;
+    }
+
     /// Motion under the loads of the moment.
     SLIDEWAY_HD Twist<Real> moved() const {
         auto after = before_;

@@ -17,7 +17,6 @@ template <class Guide, class Real> class PairNewton : PairMotion<Guide, Real> {
 
 public:
     static constexpr int most_steps = 16;
-    static constexpr double stiffness = 1e7;   // 1/ε, of what a pair's own load makes of its motion
     static constexpr double unchanged = 1e-5;  // of the motion: Λ is that of its springs
 
     using Base::Base;
@@ -50,14 +49,10 @@ public:
 private:
     SLIDEWAY_HD void begin() {
         Real const zero(0.0);
-        Real own = zero;
-        for (int k = 0; k < count_; ++k) {
-            auto const& row = rows_[k];
-            own = max(own, select(row.here, dot(row.pair.normal, row.pair.pushed), zero));
-            normal_[k] = along_[0][k] = along_[1][k] = zero;
-        }
+        for (int k = 0; k < count_; ++k) normal_[k] = along_[0][k] = along_[1][k] = zero;
+        Real const own = this->largest_own([&](int k) { return rows_[k].here; });
         auto const some = own > zero;
-        stiff_ = select(some, Real(stiffness) / select(some, own, Real(1.0)), zero);
+        stiff_ = select(some, Real(Base::stiffness) / select(some, own, Real(1.0)), zero);
     }
 
     /// The linear equations of all pairs.  @return the largest change of a motion that the laws ask for at once
@@ -96,7 +91,7 @@ private:
         auto const holds = pushes & (row.coefficient > zero);
         auto const sticks = holds & (length <= bound), slips = holds & !sticks;
         Real const inverse = select(slips, one / select(slips, length, one), zero), share = bound * inverse;
-        Real const rest = one / max(one - share, Real(1.0 / stiffness)), damping = share * rest * row.per_across;
+        Real const rest = one / max(one - share, Real(1.0 / Base::stiffness)), damping = share * rest * row.per_across;
         Real const unit[2] = {pull[0] * inverse, pull[1] * inverse};
         Real const lies = fma(row.along[0], unit[0], row.along[1] * unit[1]);
         for (int i = 0; i < 2; ++i) {

@@ -14,8 +14,7 @@ template <class Guide, class Real> class PairRest : PairMotion<Guide, Real> {
     using Base::count_, Base::course_, Base::rows_;
 
 public:
-    static constexpr int turns = 3;           // what a spring leaves, 1e-7 of it, is left to the next turn
-    static constexpr double stiffness = 1e7;  // as in a PairNewton
+    static constexpr int turns = 3;  // what a spring leaves, 1e-7 of it, is left to the next turn
     static constexpr double stiffness_along = 100;
 
     using Base::Base;
@@ -24,11 +23,10 @@ public:
     SLIDEWAY_HD Twist<Real> solve(Mask<Real> in, Mask<Real> const (&rests)[pair_count], Mask<Real> const (&still)[pair_count],
                                   Real const* coefficient, Twist<Real> const& after) {
         Real const zero(0.0), one(1.0);
-        Real own = zero;
-        for (int k = 0; k < count_; ++k) own = max(own, select(rests[rows_[k].number], dot(rows_[k].pair.normal, rows_[k].pair.pushed), zero));
+        Real const own = this->largest_own([&](int k) { return rests[rows_[k].number]; });
         in = in & (own > zero);
         if (none(in)) return after;
-        Real const per_own = one / select(in, own, one), stiff = Real(stiffness) * per_own, stiff_along = Real(stiffness_along) * per_own;
+        Real const per_own = one / select(in, own, one), stiff = Real(Base::stiffness) * per_own, stiff_along = Real(stiffness_along) * per_own;
         Mask<Real> rest[pair_count], stays[pair_count];
         for (int k = 0; k < count_; ++k) {
             rest[k] = in & rests[rows_[k].number];

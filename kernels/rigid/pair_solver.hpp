@@ -60,7 +60,7 @@ public:
         if (none(active)) return;
         active = PairNewton<Guide, Real>(pairs_, rows_, count_, before, friction).solve(active, size, enough, bearable, after);
         if (none(active)) return;
-        after = PairBarrier<Guide, Real>(pairs_, rows_, count_, before, friction).solve(active, after);
+        after = PairBarrier<Guide, Real>(pairs_, rows_, count_, before, friction).solve(active, size, after);
         for (int sweep = 0; sweep < most_last_sweeps && any(active); ++sweep) {
             change = this->sweep(active, friction);
             active = active & (change > enough);
