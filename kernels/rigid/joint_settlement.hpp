@@ -118,7 +118,7 @@ private:
         for (int k = 0; k < pairs.count(); ++k) {
             auto const& row = pairs.row(k);
             Real const first = dot(row.pair.slip[0], pairs.after), second = dot(row.pair.slip[1], pairs.after);
-            still[row.number] = rests[row.number] & (fma(first, first, second * second) <= slow * slow);
+            still[row.number] = row.here & rests[row.number] & (fma(first, first, second * second) <= slow * slow);
         }
     }
 

@@ -23,13 +23,13 @@ public:
     SLIDEWAY_HD Twist<Real> solve(Mask<Real> in, Mask<Real> const (&rests)[pair_count], Mask<Real> const (&still)[pair_count],
                                   Real const* coefficient, Twist<Real> const& after) {
         Real const zero(0.0), one(1.0);
-        Real const own = this->largest_own([&](int k) { return rests[rows_[k].number]; });
+        Real const own = this->largest_own([&](int k) { return rows_[k].here & rests[rows_[k].number]; });
         in = in & (own > zero);
         if (none(in)) return after;
         Real const per_own = one / select(in, own, one), stiff = Real(Base::stiffness) * per_own, stiff_along = Real(stiffness_along) * per_own;
         Mask<Real> rest[pair_count], stays[pair_count];
         for (int k = 0; k < count_; ++k) {
-            rest[k] = in & rests[rows_[k].number];
+            rest[k] = in & rows_[k].here & rests[rows_[k].number];
             stays[k] = rest[k] & still[rows_[k].number];
             local_[k] = spring(stiff, stiff_along, rest[k], stays[k], coefficient != nullptr);
             if (coefficient != nullptr) find_drag(rest[k] & !stays[k], *coefficient, after, rows_[k], local_[k]);

@@ -160,5 +160,37 @@ TEST(RigidBits, OfSlidersWithEightApicesAreThoseOfScalarInAnyOrder) {
     }
 }
 
+/// Sliders of the paper's size that have lain down on a face within 30 ms: the last of its apices comes to rest with those that meet it.
+std::vector<Inputs> sliders_that_lie_down(std::size_t count) {
+    testing::UniformDraws uniform(3);
+    std::vector<Inputs> members;
+    for (std::size_t i = 0; i < count; ++i) {
+        Inputs in;
+        in.restitution = uniform(0.1, 0.6);
+        in.friction_kinetic = uniform(0.1, 0.5), in.friction_static = in.friction_kinetic * 1.2;
+        in.y = uniform(-4e-5, 4e-5), in.z = uniform(-4e-5, 4e-5);
+        in.roll = uniform(-1e-3, 1e-3), in.yaw = uniform(-1e-3, 1e-3), in.pitch = uniform(-1e-3, 1e-3);
+        members.push_back(complete_inputs(in));
+    }
+    return members;
+}
+
+TEST(RigidBits, OfSlidersThatLieDownAreThoseOfScalarInAnyOrder) {
+    auto const members = sliders_that_lie_down(64);
+    std::vector<Inputs> const reversed(members.rbegin(), members.rend());
+    for (bool const friction : {false, true}) {
+        auto o = testing::rigid_options(testing::rigid_joint_parts(friction, false, Mechanism::slider_crank), 1e-6, 0.03);
+        auto const scalar = testing::run(Isa::scalar, o, members);
+        auto const together = testing::run(best_isa(), o, members), turned = testing::run(best_isa(), o, reversed);
+        double resting = 0;
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            expect_same(scalar, i, together, i);
+            expect_same(scalar, i, turned, members.size() - 1 - i);
+            resting += scalar.value(i, Quantity::mode_time, 3) > 0 ? 1 : 0;
+        }
+        EXPECT_GT(resting, 48) << friction;
+    }
+}
+
 }  // namespace
 }  // namespace slideway::rigid_test
