@@ -190,17 +190,10 @@ void read_chaos(Node const& root, Scene& scene) {
         refuse(*root.find_path("study.kind"), {fmt::format("nothing drives a {0}, and no exponents are computed of it", info(scene.parts.mechanism).name),
                                                "use \"ensemble\" or \"poincare\""});
     }
-    bool const without_exponents = scene.parts.rigid && !has_rigid_exponents(scene.parts.mechanism);
-    Problem const no_exponents{fmt::format("no exponents are computed of a {} with contact.law \"rigid\"", info(scene.parts.mechanism).name),
-                               lyapunov ? "use \"ensemble\" or \"poincare\"" : "use exponents = 0"};
-    if (lyapunov && without_exponents) refuse(*root.find_path("study.kind"), no_exponents);
     chaos.transient = read_span(root, scene, transient_keys, lyapunov ? 2 : 20);
     chaos.span = read_span(root, scene, span_keys, lyapunov ? 10 : sweep ? 50 : 150);
     if (!lyapunov) read_section(root, scene);
     if (lyapunov || sweep) read_neighbours(root, scene);
-    if (sweep && without_exponents && chaos.exponents > 0) {
-        refuse_study(root, root.find_path("study.exponents"), "study.exponents", no_exponents);
-    }
     if (sweep) check_columns(root, scene);
     if (sweep && chaos.exponents > 0 && chaos.transient.value == 0 &&
         chaos.span.seconds(drive_period(scene.parts, scene.inputs)) < 2 * drive_period(scene.parts, scene.inputs)) {

@@ -37,7 +37,9 @@ public:
         : model_(model), before_(before), in_(in), at_start_(at_start) {
         lift(p, p_);
         lift(before.memory, memory_);
-        along_ = contact_along(before.rates, Real(1.0));
+        for (int i = 0; i < size; ++i) flow_[i] = before.rates[i];
+        along_ = contact_along(flow_, Real(1.0));
+        if constexpr (has_slips) look_before_stops(p);
     }
 
     /// How a shadow is carried.
@@ -52,7 +54,7 @@ public:
         auto contact = contact_along(offset, Real(0.0));
         auto const carried = delay_of(contact);
         Number y[size];
-        for (int i = 0; i < size; ++i) y[i] = {before_.y[i], fma(before_.rates[i], carried.delay, offset[i])};
+        for (int i = 0; i < size; ++i) y[i] = {before_.y[i], fma(flow_[i], carried.delay, offset[i])};
         // Of the member what it has itself, to the last bit: the same decisions follow.
         auto const* const own = reinterpret_cast<Real const*>(&before_.contact);
         auto const* const along = reinterpret_cast<Number const*>(&along_);
@@ -61,7 +63,9 @@ public:
             numbers[i] = {own[i], fma(along[i].slope, carried.delay, numbers[i].slope)};
         }
         auto memory = memory_;
-        model_.settle(in_, Number(before_.t, carried.delay), Number(before_.end), y, p_, memory, contact);
+        Number const t(before_.t, carried.delay);
+        model_.settle(in_, t, Number(before_.end), y, p_, memory, contact);
+        if constexpr (has_slips) model_.keep_offset(in_, t, y, p_, memory);
         for (int i = 0; i < size; ++i) offset[i] = y[i].slope;
         return carried;
     }
@@ -70,6 +74,7 @@ private:
     using Number = Tangent<Real>;
     using Contacts = std::remove_cvref_t<decltype(std::declval<typename Model::template Report<Number>>().contact)>;
     static constexpr bool has_grip = requires(Contact const& contact) { contact.grip; };
+    static constexpr bool has_slips = requires(Contact const& contact) { contact.slides; };
     /// Share of the longer of two delays by which they differ by more than rounding and curvature.
     static constexpr double same_delay = 1e-3;
     /// Change of a grip over the run that is more than rounding.
@@ -90,6 +95,23 @@ private:
         typename Model::template Report<Number> report;
         model_.template derivative<true>(Number(before_.t, of_time), y, p_, memory_, rates, &report);
         return report.contact;
+    }
+
+    /// Where a slip has come to rest friction may already have changed its sign, and the derivative before is that of a moment ago.
+    SLIDEWAY_NOINLINE void look_before_stops(Parameters const& p) {
+        Real const since = model_.since_slip(before_.contact, along_, p);
+        auto const earlier = in_ & (since > Real(0.0));
+        if (none(earlier) || at_start_) return;
+        Real y[size], rates[2][size];
+        typename Model::template Report<Real>* const no_report = nullptr;
+        for (int twice = 0; twice < 2; ++twice) {
+            Real const ago = twice == 0 ? since : since + since;
+            for (int i = 0; i < size; ++i) y[i] = fnma(ago, before_.rates[i], before_.y[i]);
+            model_.template derivative<false>(before_.t - ago, y, p, before_.memory, rates[twice], no_report);
+        }
+        // As it goes on from there.
+        for (int i = 0; i < size; ++i) flow_[i] = select(earlier, (rates[0][i] - rates[1][i]) + rates[0][i], flow_[i]);
+        along_ = contact_along(flow_, Real(1.0));
     }
 
     /// δt of the first of the member's events.  @param of how they change along the offset
@@ -142,6 +164,14 @@ private:
             pair(depth.c, rate.c, flow.c, change.c, press.c.slope, turn.c.slope);
             pair(depth.d, rate.d, flow.d, change.d, press.d.slope, turn.d.slope);
         }
+        if constexpr (has_slips) {
+            // Which of several slips ends first does not matter: those that end take away the same.
+            auto const no = mask_of<Real>(false);
+            before_.contact.each_slip(along_, of, [&](Mask<Real> stops, Mask<Real> starts, Real delay) {
+                Mask<Real> const turns = in_ & (stops | starts);
+                see(Event{turns, no, no, select(turns, delay, zero)});
+            });
+        }
         if constexpr (has_grip) {
             for (std::size_t i = 0; i < std::extent_v<decltype(Contact::grip)>; ++i) {
                 Real const flow = along_.grip[i].slope;
@@ -159,7 +189,8 @@ private:
     bool const at_start_;
     typename Model::template Parameters<Number> p_;
     typename Model::template Memory<Number> memory_;
-    Contacts along_;  // the flow
+    Real flow_[size];  // derivative before the event
+    Contacts along_;   // what the contacts report along it
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -176,14 +176,15 @@ private:
         }
         Real const least = Offset::rounding(pack), d0(plan_.d0);
         orthonormalise<size, width>(w, plan_.count, least, Offset::prescribed(pack.model), length);
-        auto lost = mask_of<Real>(false);
+        [[maybe_unused]] auto lost = mask_of<Real>(false);
         for (int s = 0; s < plan_.count; ++s) {
             auto& shadow = pack.state.shadows[s];
+            auto const shrunk = at & (length[s] < Real(noisy) * shadow.distance);
             auto const found = offset_growth(plan_, at, length[s], shadow.distance, least);
             shadow.growth = select(at, shadow.growth + found.growth, shadow.growth);
             shadow.distance = found.distance;
             counts.lost = counts.lost + count<Real>(at & found.lost);
-            lost = lost | (at & found.lost);
+            lost = lost | (at & found.lost) | shrunk;
             if (none(found.moved)) continue;
             Offset::template write<width>(pack, found.moved, w[s], d0, shadow);
             refresh(pack, shadow, found.moved);
@@ -193,7 +194,10 @@ private:
         }
     }
 
-    /// Takes from offsets along axes, which know of no contacts, what holds them: twice, as velocities follow from where the slider is.
+    /// Share of an offset that may be but what rounding left of it, in directions that contacts do not allow.
+    static constexpr double noisy = 1e-5;
+
+    /// Takes from offsets along axes or from rounding, which know of no contacts, what holds them: twice, as velocities follow from where the slider is.
     SLIDEWAY_NOINLINE void hold(Pack<Model, Real>& pack, Mask<Real> in) {
         auto const& c = pack.state.course;
         auto const& memory = pack.state.contacts.memory;

@@ -20,6 +20,9 @@ template <class Real> struct Tangent {
     SLIDEWAY_FN Tangent(Real at, Real change) : value(at), slope(change) {}
 };
 
+template <class Real> inline constexpr bool is_tangent = false;
+template <class Real> inline constexpr bool is_tangent<Tangent<Real>> = true;
+
 namespace detail {
 
 template <class Real> struct Traits<Tangent<Real>> {
@@ -81,6 +84,9 @@ template <class Real> SLIDEWAY_FN Tangent<Real> sqrt(Tangent<Real> const& a) {
     Real const root = sqrt(a.value);
     return {root, a.slope / (root + root)};
 }
+
+/// A step that does not change but where it jumps.
+template <class Real> SLIDEWAY_FN Tangent<Real> round_even(Tangent<Real> const& a) { return {round_even(a.value), Real(0.0)}; }
 
 template <class Real> SLIDEWAY_FN SinCos<Tangent<Real>> sincos(Tangent<Real> const& angle) {
     auto const of = sincos(angle.value);

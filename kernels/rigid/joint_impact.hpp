@@ -45,6 +45,7 @@ public:
             row.normal = row.along[0] = row.along[1] = Real(0.0);
         }
         pairs.solve(in, enough_, bearable_, sweeps, friction_);
+        pairs.follow(in, friction_);
         return energy_made();
     }
 

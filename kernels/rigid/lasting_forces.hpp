@@ -11,18 +11,6 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// A number of the pair `number` of sixteen.
-template <class Real> SLIDEWAY_FN Real& number_of(Quad<Real> (&of)[face_count], int number) {
-    auto& quad = of[number / 4];
-    int const place = number % 4;
-    return place == 0 ? quad.a : place == 1 ? quad.b : place == 2 ? quad.c : quad.d;
-}
-template <class Real> SLIDEWAY_FN Real number_of(Quad<Real> const (&of)[face_count], int number) {
-    auto const& quad = of[number / 4];
-    int const place = number % 4;
-    return place == 0 ? quad.a : place == 1 ? quad.b : place == 2 ? quad.c : quad.d;
-}
-
 /// Which pairs may push, and which of them stick.
 template <class Real> struct LastingPairs { Mask<Real> held[pair_count], sticks[pair_count]; };
 

@@ -2,9 +2,9 @@
 // kernels/rigid/<name>.hpp; `Type` is the struct in it.  CMake reads the rows too: each is a unit of kernels per instruction set, and one more where members may have shadows.
 #pragma once
 
-#define SLIDEWAY_RIGID(row)              \
-    row(slider_crank, RigidSliderCrank)  \
-    row(carriage, RigidCarriage)         \
-    row(scotch_yoke, RigidScotchYoke)    \
-    row(free_slider, RigidFreeSlider)    \
+#define SLIDEWAY_RIGID(row)                        \
+    row(slider_crank, RigidSliderCrank, Shadowed)  \
+    row(carriage, RigidCarriage, Shadowed)         \
+    row(scotch_yoke, RigidScotchYoke, Shadowed)    \
+    row(free_slider, RigidFreeSlider)              \
     row(planar_slider_crank, RigidPlanarSliderCrank, Shadowed)

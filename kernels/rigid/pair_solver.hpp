@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/math/tangent.hpp"
 #include "kernels/real.hpp"
 #include "kernels/rigid/pair_barrier.hpp"
 #include "kernels/rigid/pair_newton.hpp"
@@ -66,6 +67,11 @@ public:
             active = active & (change > enough);
         }
         failed = active & !(change <= Real(well_enough) * size);
+    }
+
+    /// Where loads are Tangents, their slopes and those of the motion: exact to the first order.
+    SLIDEWAY_HD void follow([[maybe_unused]] Mask<Real> in, [[maybe_unused]] bool friction) {
+        if constexpr (is_tangent<Real>) PairNewton<Guide, Real>(pairs_, rows_, count_, before, friction).follow(in, after);
     }
 
     /// Ends what is left of the motion of pairs that rest, and of the slip of those that are still (PairRest).

@@ -28,13 +28,4 @@ constexpr bool may_be_rigid(Mechanism mechanism) {
     return answer;
 }
 
-/// Whether members of a mechanism with rigid contacts may have shadows: what their exponents need.
-constexpr bool has_rigid_exponents(Mechanism mechanism) {
-    bool answer = false;
-#define SLIDEWAY_SHADOWED_ROW(name, Type, ...) answer = answer || (mechanism == Mechanism::name && (#__VA_ARGS__)[0] != 0);
-    SLIDEWAY_RIGID(SLIDEWAY_SHADOWED_ROW)
-#undef SLIDEWAY_SHADOWED_ROW
-    return answer;
-}
-
 }  // namespace slideway

@@ -61,6 +61,18 @@ template <class Real> SLIDEWAY_FN void start_memory(RigidMemory<Real>& memory) {
     memory.start();
 }
 
+/// A number of the pair `number` of sixteen.
+template <class Real> SLIDEWAY_FN Real& number_of(Quad<Real> (&of)[face_count], int number) {
+    auto& quad = of[number / 4];
+    int const place = number % 4;
+    return place == 0 ? quad.a : place == 1 ? quad.b : place == 2 ? quad.c : quad.d;
+}
+template <class Real> SLIDEWAY_FN Real number_of(Quad<Real> const (&of)[face_count], int number) {
+    auto const& quad = of[number / 4];
+    int const place = number % 4;
+    return place == 0 ? quad.a : place == 1 ? quad.b : place == 2 ? quad.c : quad.d;
+}
+
 /// Forces of apices on their faces [N].
 template <class Real> struct ApexLoads {
     Quad<Real> normal[face_count], along[2][face_count];  // along both directions of the slip: of pairs that stick

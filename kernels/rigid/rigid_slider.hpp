@@ -5,9 +5,9 @@
 #include "kernels/joint/face_pair.hpp"
 #include "kernels/joint/joint_gaps.hpp"
 #include "kernels/mechanisms/faults.hpp"
-#include "kernels/mechanisms/slider_turning.hpp"
 #include "kernels/observers/energy_audit.hpp"
 #include "kernels/real.hpp"
+#include "kernels/rigid/joint_offset.hpp"
 #include "kernels/rigid/joint_settlement.hpp"
 #include "kernels/rigid/joint_watch.hpp"
 #include "kernels/rigid/lasting_forces.hpp"
@@ -15,6 +15,7 @@
 #include "kernels/rigid/rigid_observer.hpp"
 #include "kernels/rigid/rigid_scales.hpp"
 #include "kernels/rigid/rigid_slider_report.hpp"
+#include "kernels/rigid/slider_place.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -80,7 +81,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
                                               Real* rates, RigidSliderReport<Real>* report) const {
         Real const zero(0.0), half(0.5);
         auto faults = Faults<Real>::none();
-        Place<Real> const at(t, s, p, misaligned_way, faults);
+        SliderPlace<Guide, Real> const at(t, s, p, misaligned_way, faults);
         auto const& guide = at.guide;
         // NaN in a lane whose pose is, whatever its neighbours touch.
         Real const whole = (at.motion.y + at.motion.z) + (at.motion.axes.x.x + at.motion.axes.y.z), nothing = whole - whole;
@@ -139,7 +140,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
         auto const changed = Settlement::find(in, memory, contact, where, least_speed, friction, event);
         if (none(event)) return changed;
         auto faults = Faults<Real>::none();
-        Place<Real> const at(t, s, p, misaligned_way, faults);
+        SliderPlace<Guide, Real> const at(t, s, p, misaligned_way, faults);
         Settlement settlement(at.pairs, at.guide, p, p.restitution, friction ? &p.joint.friction : nullptr, where, end);
         auto velocity = at.velocity;
         settlement.run(event, t, velocity, memory, contact, least_speed);
@@ -153,31 +154,25 @@ template <class Guide> struct RigidSlider : Guide::Base {
         return changed;
     }
 
+    /// Keeps an offset, which the slopes of a state are, to the pairs that last.
+    template <class Real>
+    SLIDEWAY_NOINLINE void keep_offset(Mask<Real> in, Tangent<Real> const& t, Tangent<Real>* s, RigidSliderParameters<Tangent<Real>> const& p,
+                                       RigidJointMemory<Tangent<Real>> const& memory) const {
+        JointOffset<Guide, Real>(p, misaligned_way, friction).keep(in, t, s, memory);
+    }
+    /// How long ago the slips of pairs that have just come to rest still were slips [s]; 0 where none has.
+    template <class Real>
+    SLIDEWAY_FN Real since_slip(RigidJointContact<Real> const& contact, RigidJointContact<Tangent<Real>> const& flow,
+                                RigidSliderParameters<Real> const& p) const {
+        return min(contact.since_slip(flow), Real(1e-4) / p.rate_scale);
+    }
+
 private:
-    /// The slider in one state.
-    template <class Real> struct Place {
-        typename Guide::template At<Real> guide;
-        SliderTurning<Real> turning;
-        JointMotion<Real> motion;
-        JointPairs<Guide, Real> pairs;
-        Twist<Real> velocity;
-        JointGeometry<Real> const& geometry;
-
-        SLIDEWAY_FN Place(Real t, Real const* s, SliderParameters<Real> const& p, bool misaligned, Faults<Real>& faults)
-            : guide(t, s, p, faults),
-              turning(SliderTurning<Real>::of(s)),
-              motion(joint_motion(misaligned, turning.axes, Vec3<Real>{guide.x, s[0], s[1]}, Vec3<Real>{guide.vx, s[2], s[3]}, turning.spin,
-                                  p.joint.way)),
-              pairs(guide, motion, turning, p, misaligned),
-              velocity(pairs.velocity(s[2], s[3])),
-              geometry(p.joint.geometry) {}
-    };
-
     /// β of (M13.10) [1/s]: what drifts is back within a part of the drive's period.
     template <class Real> SLIDEWAY_FN static Real drift_rate(SliderParameters<Real> const& p) { return Real(10.0) * p.rate_scale; }
 
     template <class Real>
-    SLIDEWAY_FN static void begin_report(Place<Real> const& at, Quad<Real> const (&depth)[face_count], RigidJointMemory<Real> const& memory,
+    SLIDEWAY_FN static void begin_report(SliderPlace<Guide, Real> const& at, Quad<Real> const (&depth)[face_count], RigidJointMemory<Real> const& memory,
                                          RigidJointContact<Real>& contact) {
         contact.clear(false);
         contact.loads.clear();
@@ -203,7 +198,7 @@ private:
             for (int j = 0; j < 2; ++j) keep(number_of(from.along[j], i), number_of(to.along[j], i));
         }
     }
-    template <Axis axis, class Real> SLIDEWAY_FN static void put_rates(Place<Real> const& at, RigidJointContact<Real>& contact) {
+    template <Axis axis, class Real> SLIDEWAY_FN static void put_rates(SliderPlace<Guide, Real> const& at, RigidJointContact<Real>& contact) {
         using Faces = FacePair<axis>;
         auto v = Faces::arranged(at.motion.velocity);
         auto spin = Faces::arranged_axial(at.motion.spin);

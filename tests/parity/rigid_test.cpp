@@ -44,7 +44,9 @@ EnsembleResult run(Isa isa, bool free_crank, std::vector<Inputs> const& members)
     return testing::run(isa, o, members);
 }
 
-template <class Row> bool same_bits(Row const& a, Row const& b) { return std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0; }
+template <class Row> bool same_bits(Row const& a, Row const& b) {
+    return std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
+}
 
 /// Of member i of one run and member j of another.
 void expect_same(EnsembleResult const& a, std::size_t i, EnsembleResult const& b, std::size_t j) {
@@ -80,45 +82,62 @@ TEST(RigidBits, AreAMembersOwn) {
 }
 
 /// With two shadows each.
-testing::ShadowResult run_shadowed(Isa isa, bool free_crank, std::vector<Inputs> const& members) {
-    testing::ShadowOptions options{testing::rigid_planar_parts(true, free_crank), 1e-7, 50, 1e-3, 2, 1e-6, {}};
+testing::ShadowOptions two_shadows(Parts const& parts, double tolerance, std::size_t stops) {
+    testing::ShadowOptions options{parts, tolerance, stops, 1e-3, 2, 1e-6, {}};
     options.max_steps = 4000;
-    options.directions = {0, 0.6, 0, 0, 0.8, 0, 0, 0, 0.8, 0, 0, 0.6};
-    return testing::run_shadowed(isa, options, members);
+    return options;
 }
 
-TEST(RigidBits, AreAMembersOwnWithShadowsToo) {
-    constexpr std::size_t width = 6, growths = 98;
-    auto const members = mixed_members(48);
+/// Of every instruction set, in another order, and alone.
+void expect_own_bits_with_shadows(testing::ShadowOptions const& options, std::vector<Inputs> const& members) {
+    auto const width = static_cast<std::size_t>(info(options.parts.mechanism).states),
+               growths = 2 * (options.stops - 1);
     auto const of = [](std::vector<double> const& all, std::size_t member, std::size_t count) {
         auto const from = all.begin() + static_cast<std::ptrdiff_t>(member * count);
         return std::vector<double>(from, from + static_cast<std::ptrdiff_t>(count));
     };
     // NaNs say nothing by their sign.
     auto const same = [](std::vector<double> const& a, std::vector<double> const& b) {
-        return std::ranges::equal(a, b, [](double x, double y) { return std::memcmp(&x, &y, sizeof x) == 0 || (std::isnan(x) && std::isnan(y)); });
+        return std::ranges::equal(a, b, [](double x, double y) {
+            return std::memcmp(&x, &y, sizeof x) == 0 || (std::isnan(x) && std::isnan(y));
+        });
     };
+    auto const scalar = testing::run_shadowed(Isa::scalar, options, members);
+    auto const expect = [&](testing::ShadowResult const& other, std::size_t i, std::size_t j) {
+        EXPECT_EQ(scalar.records[i].status, other.records[j].status) << i;
+        EXPECT_EQ(scalar.records[i].rhs_evaluations, other.records[j].rhs_evaluations) << i;
+        EXPECT_EQ(scalar.records[i].grown_offsets, other.records[j].grown_offsets) << i;
+        EXPECT_EQ(scalar.records[i].lost_offsets, other.records[j].lost_offsets) << i;
+        EXPECT_TRUE(same(of(scalar.states, i, width), of(other.states, j, width))) << i;
+        EXPECT_TRUE(same(of(scalar.growth, i, growths), of(other.growth, j, growths))) << i;
+    };
+    for (Isa const isa : built_isas()) {
+        if (!is_supported(isa)) continue;
+        auto const other = testing::run_shadowed(isa, options, members);
+        for (std::size_t i = 0; i < members.size(); ++i) expect(other, i, i);
+    }
+    std::vector<Inputs> backwards(members.rbegin(), members.rend());
+    auto const turned = testing::run_shadowed(best_isa(), options, backwards);
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        expect(turned, i, members.size() - 1 - i);
+        expect(testing::run_shadowed(best_isa(), options, {members[i]}), i, 0);
+    }
+}
+
+TEST(RigidBits, AreAMembersOwnWithShadowsToo) {
     for (bool const free_crank : {false, true}) {
-        auto const scalar = run_shadowed(Isa::scalar, free_crank, members);
-        auto const expect = [&](testing::ShadowResult const& other, std::size_t i, std::size_t j) {
-            EXPECT_EQ(scalar.records[i].status, other.records[j].status) << i;
-            EXPECT_EQ(scalar.records[i].rhs_evaluations, other.records[j].rhs_evaluations) << i;
-            EXPECT_EQ(scalar.records[i].grown_offsets, other.records[j].grown_offsets) << i;
-            EXPECT_EQ(scalar.records[i].lost_offsets, other.records[j].lost_offsets) << i;
-            EXPECT_TRUE(same(of(scalar.states, i, width), of(other.states, j, width))) << i;
-            EXPECT_TRUE(same(of(scalar.growth, i, growths), of(other.growth, j, growths))) << i;
-        };
-        for (Isa const isa : built_isas()) {
-            if (!is_supported(isa)) continue;
-            auto const other = run_shadowed(isa, free_crank, members);
-            for (std::size_t i = 0; i < members.size(); ++i) expect(other, i, i);
-        }
-        std::vector<Inputs> backwards(members.rbegin(), members.rend());
-        auto const turned = run_shadowed(best_isa(), free_crank, backwards);
-        for (std::size_t i = 0; i < members.size(); ++i) {
-            expect(turned, i, members.size() - 1 - i);
-            expect(run_shadowed(best_isa(), free_crank, {members[i]}), i, 0);
-        }
+        auto options = two_shadows(testing::rigid_planar_parts(true, free_crank), 1e-7, 50);
+        options.directions = {0, 0.6, 0, 0, 0.8, 0, 0, 0, 0.8, 0, 0, 0.6};
+        expect_own_bits_with_shadows(options, mixed_members(48));
+    }
+}
+
+TEST(RigidBits, AreAMembersOwnWithShadowsOfEightApices) {
+    for (Mechanism const mechanism : {Mechanism::slider_crank, Mechanism::carriage, Mechanism::scotch_yoke}) {
+        SCOPED_TRACE(info(mechanism).name);
+        auto options = two_shadows(testing::rigid_joint_parts(true, false, mechanism), 1e-6, 20);
+        options.directions = {0, 0.6, 0, 0, 0, 0.8, 0, 0, 0, 0, 0, 0, 0.8, 0, 0, 0, 0, 0, 0, 0.6};
+        expect_own_bits_with_shadows(options, testing::random_rigid_sliders(20, 5, 0.4));
     }
 }
 
@@ -149,7 +168,8 @@ std::vector<Inputs> mixed_sliders(std::size_t count) {
 TEST(RigidBits, OfSlidersWithEightApicesAreThoseOfScalarInAnyOrder) {
     auto const members = mixed_sliders(24);
     std::vector<Inputs> const reversed(members.rbegin(), members.rend());
-    for (auto const mechanism : {Mechanism::free_slider, Mechanism::carriage, Mechanism::scotch_yoke, Mechanism::slider_crank}) {
+    for (auto const mechanism :
+         {Mechanism::free_slider, Mechanism::carriage, Mechanism::scotch_yoke, Mechanism::slider_crank}) {
         for (bool const misaligned : {false, true}) {
             auto o = testing::rigid_options(testing::rigid_joint_parts(true, misaligned, mechanism), 1e-7, 0.02);
             o.settings.max_steps = 20'000;
@@ -179,7 +199,8 @@ TEST(RigidBits, OfSlidersThatLieDownAreThoseOfScalarInAnyOrder) {
     auto const members = sliders_that_lie_down(64);
     std::vector<Inputs> const reversed(members.rbegin(), members.rend());
     for (bool const friction : {false, true}) {
-        auto o = testing::rigid_options(testing::rigid_joint_parts(friction, false, Mechanism::slider_crank), 1e-6, 0.03);
+        auto o =
+            testing::rigid_options(testing::rigid_joint_parts(friction, false, Mechanism::slider_crank), 1e-6, 0.03);
         auto const scalar = testing::run(Isa::scalar, o, members);
         auto const together = testing::run(best_isa(), o, members), turned = testing::run(best_isa(), o, reversed);
         double resting = 0;

@@ -51,6 +51,24 @@ inline std::vector<Inputs> random_rigid_sliders(std::size_t count, unsigned seed
     return members;
 }
 
+/// Tilted, turning and drifting sliders of the paper's size in the middle of their way.
+inline std::vector<Inputs> drifting_sliders(std::size_t count, unsigned seed, double e, double friction) {
+    UniformDraws uniform(seed);
+    std::vector<Inputs> members;
+    for (std::size_t i = 0; i < count; ++i) {
+        Inputs in;
+        in.restitution = std::max(e, 1e-300);
+        in.friction_static = in.friction_kinetic = friction;
+        in.crank_speed = 10, in.start_angle = uniform(0, 6);
+        in.roll = uniform(-1e-3, 1e-3), in.yaw = uniform(-1e-3, 1e-3), in.pitch = uniform(-1e-3, 1e-3);
+        in.wx = uniform(-1, 1), in.wy = uniform(-1, 1), in.wz = uniform(-1, 1);
+        in.vx = uniform(-0.1, 0.1), in.vz = uniform(-0.02, 0.02);
+        in.y = uniform(-3e-5, 3e-5), in.z = uniform(-3e-5, 3e-5);
+        members.push_back(complete_inputs(in));
+    }
+    return members;
+}
+
 /// Numbers of a state, by name.
 struct JointState {
     long double y, z, vy, vz, roll, yaw, pitch, wx, wy, wz, x = 0, vx = 0;

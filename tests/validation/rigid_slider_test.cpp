@@ -12,26 +12,9 @@
 namespace slideway::rigid_slider_test {
 namespace {
 
+using testing::drifting_sliders;
 using testing::rigid_joint_parts;
 using testing::rigid_options;
-
-/// Tilted, turning and drifting sliders of the paper's size in the middle of their way.
-std::vector<Inputs> random_sliders(std::size_t count, unsigned seed, double e, double friction) {
-    testing::UniformDraws uniform(seed);
-    std::vector<Inputs> members;
-    for (std::size_t i = 0; i < count; ++i) {
-        Inputs in;
-        in.restitution = std::max(e, 1e-300);
-        in.friction_static = in.friction_kinetic = friction;
-        in.crank_speed = 10, in.start_angle = uniform(0, 6);
-        in.roll = uniform(-1e-3, 1e-3), in.yaw = uniform(-1e-3, 1e-3), in.pitch = uniform(-1e-3, 1e-3);
-        in.wx = uniform(-1, 1), in.wy = uniform(-1, 1), in.wz = uniform(-1, 1);
-        in.vx = uniform(-0.1, 0.1), in.vz = uniform(-0.02, 0.02);
-        in.y = uniform(-3e-5, 3e-5), in.z = uniform(-3e-5, 3e-5);
-        members.push_back(complete_inputs(in));
-    }
-    return members;
-}
 
 /// Largest distance of states, in clearances and what turns the slider by as much.
 double distance(Inputs const& in, Parts const& parts, oracle::RigidSliderState const& a, std::vector<double> const& b) {
@@ -110,14 +93,14 @@ Compared expect_reference(std::vector<Inputs> const& members, Parts const& parts
 class RigidSlider : public ::testing::TestWithParam<double> {};
 
 TEST_P(RigidSlider, MovesAsTheReferenceWithoutFriction) {
-    auto const seen = expect_reference(random_sliders(6, 7, GetParam(), 0), rigid_joint_parts(false), 40, 3e-8);
+    auto const seen = expect_reference(drifting_sliders(6, 7, GetParam(), 0), rigid_joint_parts(false), 40, 3e-8);
     EXPECT_EQ(seen.samples, 6 * 40);
     EXPECT_GT(seen.impacts, 6 * 12);
     EXPECT_GE(seen.lasting, GetParam() < 1 ? 6 * 5 : 0);
 }
 
 TEST_P(RigidSlider, MovesAsTheReferenceWithFriction) {
-    auto const seen = expect_reference(random_sliders(6, 8, GetParam(), 0.1), rigid_joint_parts(true), GetParam() > 0 ? 40 : 12, 3e-8);
+    auto const seen = expect_reference(drifting_sliders(6, 8, GetParam(), 0.1), rigid_joint_parts(true), GetParam() > 0 ? 40 : 12, 3e-8);
     EXPECT_GT(seen.samples, 6 * (GetParam() > 0 ? 39 : 7));
     EXPECT_GE(seen.lasting, GetParam() == 1 ? 0 : 6 * 2);
     EXPECT_GE(seen.impacts, 6 * (GetParam() > 0 ? 10 : 1));
@@ -128,7 +111,7 @@ TEST_P(RigidSlider, MovesAsTheReferenceWithFriction) {
 TEST_P(RigidSlider, OfADriveMovesAsTheReference) {
     for (Mechanism const mechanism : {Mechanism::carriage, Mechanism::scotch_yoke, Mechanism::slider_crank}) {
         for (bool const friction : {false, true}) {
-            auto const members = random_sliders(3, 9, GetParam(), friction ? 0.1 : 0);
+            auto const members = drifting_sliders(3, 9, GetParam(), friction ? 0.1 : 0);
             auto const seen = expect_reference(members, rigid_joint_parts(friction, false, mechanism), 30, 3e-8);
             EXPECT_GE(seen.impacts, 3 * (friction && GetParam() == 0 ? 1 : 3)) << static_cast<int>(mechanism) << friction;
             EXPECT_EQ(seen.parted, 0) << static_cast<int>(mechanism) << friction;
@@ -138,7 +121,7 @@ TEST_P(RigidSlider, OfADriveMovesAsTheReference) {
 
 TEST_P(RigidSlider, OfAMisalignedWayMovesAsTheReference) {
     for (bool const friction : {false, true}) {
-        auto members = random_sliders(3, 10, GetParam(), friction ? 0.1 : 0);
+        auto members = drifting_sliders(3, 10, GetParam(), friction ? 0.1 : 0);
         for (auto& in : members) {
             in.way_roll = 0.3, in.way_yaw = 0.02, in.way_pitch = -0.01, in.way_offset_y = 1e-5, in.way_offset_z = -2e-5;
             in.roll += in.way_roll, in.yaw += in.way_yaw, in.pitch += in.way_pitch;

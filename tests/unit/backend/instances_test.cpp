@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kernels/rigid/rigid_info.hpp"
 #include "tests/support/varied_blocks.hpp"
 
 namespace slideway::instances_test {
@@ -28,6 +29,18 @@ TEST(Instances, AreThereForEveryDampingThatALawHas) {
             }
         }
         EXPECT_GT(refused, 0);
+    }
+}
+
+TEST(Instances, OfRigidContactsHaveShadowsWhereThereAreExponents) {
+    for (std::size_t i = 0; i < mechanisms().size(); ++i) {
+        auto const mechanism = static_cast<Mechanism>(i);
+        SCOPED_TRACE(mechanisms()[i].name);
+        if (!may_be_rigid(mechanism)) continue;
+        Parts const parts{.damping = Damping::restitution, .mechanism = mechanism, .rigid = true};
+        for (Isa const isa : testing::supported_isas()) {
+            EXPECT_EQ(find_instance(isa, parts).kernels->run_shadowed != nullptr, mechanisms()[i].has_exponents);
+        }
     }
 }
 
