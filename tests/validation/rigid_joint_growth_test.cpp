@@ -34,16 +34,17 @@ struct Orbit {
     double loosest = 1e-9;  // tolerance with which it is the same
 };
 
-/// Of mechanisms with a crank.
-Offset scales(Inputs const& in) {
-    double const rate = std::max(std::abs(in.crank_speed), 1.0), y = in.clearance_y, z = in.clearance_z;
+Offset scales(Inputs const& in, Mechanism mechanism = Mechanism::slider_crank) {
+    bool const turns = mechanism != Mechanism::carriage;
+    double const own = turns ? std::abs(in.crank_speed) : std::numbers::pi / (in.stroke / in.carriage_speed + in.reversal_time);
+    double const rate = std::max(own, 1.0), y = in.clearance_y, z = in.clearance_z;
     double const tilt = 2 * std::min(y, z) / in.slider_length, turn = tilt * rate;
     return {y, z, y * rate, z * rate, tilt, tilt, tilt, turn, turn, turn};
 }
 
 Inputs beside(Orbit const& orbit, double by) {
     auto in = orbit.in;
-    auto const scale = scales(in);
+    auto const scale = scales(in, orbit.parts.mechanism);
     double* const of[size] = {&in.y, &in.z, &in.vy, &in.vz, &in.roll, &in.yaw, &in.pitch, &in.wx, &in.wy, &in.wz};
     for (std::size_t i = 0; i < size; ++i) *of[i] += by * orbit.start[i] * scale[i];
     return in;
@@ -72,7 +73,7 @@ Neighbours neighbours(Orbit const& orbit) {
         found.rests = static_cast<std::size_t>(std::ranges::count(run.events, rest, &oracle::RigidSliderEvent::kind));
         found.leaves = static_cast<std::size_t>(std::ranges::count(run.events, leave, &oracle::RigidSliderEvent::kind));
     }
-    auto const scale = scales(orbit.in);
+    auto const scale = scales(orbit.in, orbit.parts.mechanism);
     for (std::size_t k = 0; k <= orbit.stops; ++k) {
         std::vector<double> offset(size);
         double square = 0;
@@ -123,6 +124,8 @@ std::vector<Orbit> orbits() {
         {"single impacts", parts(slider_crank, false), slider(7, 0.9), aside, 40, 5e-4, 1e-8},
         {"impacts with friction", parts(slider_crank, true), slider(9, 0.8, 0.1, 0.1), aside, 30, 5e-4, 1e-8},
         {"impacts that stop slips", parts(scotch_yoke, true), slider(11, 0.9, 0.6, 0.7), aside, 30, 5e-4, 1e-8},
+        {"friction that turns slips", parts(slider_crank, true), slider(23, 0.8, 1.5, 2), aside, 20, 5e-4, 1e-8},
+        {"impacts on a carriage", parts(carriage, false, true), misaligned(slider(13, 0.9)), aside, 20, 5e-4, 1e-8},
         {"impacts on a turned way", parts(scotch_yoke, false, true), misaligned(slider(12, 0.9)), aside, 20, 5e-4,
          1e-8},
         {"bounces that end", parts(slider_crank, false), slider(7, 0.5), aside, 40, 5e-4, 1e-7},
