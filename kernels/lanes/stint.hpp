@@ -320,7 +320,10 @@ private:
                 Event const event{c.t, constants.end, attempt_.end, attempt_.end_rates, attempt_.report.contact, before};
                 shadows_.settle(pack_, event, changed, false);
             }
-            restart(changed);
+            auto const faults = restart(changed);
+            // No step leads out of where contacts have no forces.
+            auto const jams = changed & faults.contact_domain & !is_finite(c.y, attempt_.end_rates);
+            memory.jammed = select(jams, Real(1.0), memory.jammed);
             if constexpr (Model::has_shadows) shadows_.depart(pack_, changed);
         }
         watch.keep(accepted, attempt_.report.contact);
@@ -347,15 +350,16 @@ private:
     }
 
     /// New impact speeds or other contacts change the derivative at the same state.
-    SLIDEWAY_HD void restart(Mask<Real> touched) {
+    SLIDEWAY_HD Faults<Real> restart(Mask<Real> touched) {
         auto const& c = pack_.state.course;
-        pack_.evaluate(c.t, c.y, pack_.state.contacts.memory, attempt_.end_rates, true, attempt_.report);
+        auto const faults = pack_.evaluate(c.t, c.y, pack_.state.contacts.memory, attempt_.end_rates, true, attempt_.report);
         pack_.count_evaluations(touched, 1);
         if (pack_.needs.quantities) {
             auto& observer = pack_.state.observation.observer;
             observer.switch_over(touched, attempt_.report, pack_.needs.switches);
         }
         pack_.begin_next(touched, attempt_.end_rates, attempt_.report);
+        return faults;
     }
 
     Pack<Model, Real>& pack_;

@@ -11,7 +11,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Guide, class Real> class JointImpact {
 public:
     using Pairs = JointPairs<Guide, Real>;
-    static constexpr int sweeps = 2;
+    static constexpr int sweeps = 2, patience = 8192;
     static constexpr double settled = 1e-15;  // of the speeds: what counts as no change of them
     static constexpr double bearable = 1e-13;
     static constexpr double resolved = 0.1;   // of the least speed
@@ -44,13 +44,13 @@ public:
             row.target = negated(restitution[row.number]) * min(approach(row), Real(0.0));
             row.normal = row.along[0] = row.along[1] = Real(0.0);
         }
-        pairs.solve(in, enough_, bearable_, sweeps, friction_);
+        pairs.solve(in, enough_, bearable_, sweeps, patience, friction_);
         pairs.follow(in, friction_);
         return energy_made();
     }
 
     /// Takes as much from the impulses as it needs for them to make no energy: the largest κ ≤ 1 of Λ₀ + κ (Λ − Λ₀), Λ₀ being those without restitution
-    /// (M13.7).
+    /// (M13.7).  Λ₀ alone where there is no Λ: with e > 0 and friction there need not be one.
     SLIDEWAY_HD void limit_energy(Mask<Real> in) {
         Real const zero(0.0), one(1.0);
         Real whole[3][pair_count], no_restitution[pair_count];
@@ -61,7 +61,7 @@ public:
         auto const full = pairs.after;
         auto const had_failed = pairs.failed;
         solve(in, no_restitution);
-        pairs.failed = (pairs.failed & in) | had_failed;
+        pairs.failed = pairs.failed & in;
         // E(κ) = a κ² + b κ + c of the impulses P₀ + κ ΔP: a = ½ Δu·ΔP, b = u₀·ΔP, c = E(0), u₀ the velocity after P₀.
         auto const dead = pairs.load();
         auto const stopped = pairs.after;
@@ -76,7 +76,7 @@ public:
         Real const root = sqrt(max(fnma(Real(4.0) * a, c, b * b), zero));
         auto const curved = a > zero;
         Real const share = select(curved, (root - b) / select(curved, a + a, one), zero);
-        Real const kept = min(max(share, zero), one);
+        Real const kept = select(had_failed, zero, min(max(share, zero), one));
         for (int k = 0; k < pairs.count(); ++k) {
             for (int j = 0; j < 3; ++j) {
                 Real& least = impulse_of(pairs.row(k), j);

@@ -62,14 +62,14 @@ public:
             near[i] = held[i] | (event & (number_of(contact.penetration, i) > Real(-4.0) * located_));
         }
         count_events(event, t, memory);
-        auto const at_once = memory.at_once >= Real(most_with_restitution);
+        auto const endless = memory.quick >= Real(most_quick_events), at_once = endless | (memory.at_once >= Real(most_with_restitution));
         Real restitution[pair_count];
         for (int i = 0; i < pair_count; ++i) restitution[i] = select(held[i] | at_once, zero, restitution_);
         JointImpact<Guide, Real> impact(pairs_, velocity, near, friction_ != nullptr ? &friction_->kinetic_coefficient : nullptr, least_speed);
         Real const made = impact.solve(event, restitution);
-        auto const makes_energy = event & (made > Real(1e-12) * impact.energy_moved());
-        if (friction_ != nullptr && any(makes_energy)) impact.limit_energy(makes_energy);
         auto& pairs = impact.pairs;
+        auto const less = event & ((made > Real(1e-12) * impact.energy_moved()) | pairs.failed);
+        if (friction_ != nullptr && any(less)) impact.limit_energy(less);
         memory.jammed = select(event & pairs.failed, one, memory.jammed);
         Mask<Real> rests[pair_count];
         for (auto& rest : rests) rest = mask_of<Real>(false);
@@ -80,7 +80,7 @@ public:
             rests[i] = near[i] & (dot(row.pair.normal, pairs.after) <= least_speed);
             met = met | (near[i] & (!held[i]) & (dot(row.pair.normal, pairs.before) < zero));
         }
-        Real const flight = end_bounces(pairs.after, contact, near, rests);
+        Real const flight = end_bounces(pairs.after, contact, near, select(endless, Real(quick_time), Real(chatter_time)), rests);
         complete_faces(event, contact, rests);
         Mask<Real> still[pair_count];
         find_still(pairs, rests, still);
@@ -135,7 +135,7 @@ private:
     /// that those which rest leave it they are over after 2 γ/(a (1 − e)) (M13.6); those that end so change what the others feel.
     /// @return the longest such time [s]
     SLIDEWAY_HD Real end_bounces(Twist<Real> const& velocity, RigidJointContact<Real> const& contact, Mask<Real> const (&near)[pair_count],
-                                 Mask<Real> (&rests)[pair_count]) const {
+                                 Real no_flight, Mask<Real> (&rests)[pair_count]) const {
         Real const zero(0.0), one(1.0);
         Real flight = zero;
         auto go_on = mask_of<Real>(true);
@@ -148,7 +148,7 @@ private:
             for (int i = 0; i < pair_count; ++i) {
                 Real const speed = max(lasting.gap_rate[i], zero), twice = speed + speed;
                 Real const pressing = negated(lasting.acceleration[i]), braking = pressing * (one - restitution_);
-                auto const soon = (twice <= Real(chatter_time) * braking) | (speed * speed <= Real(8.0) * located_ * pressing);
+                auto const soon = (twice <= no_flight * braking) | (speed * speed <= Real(8.0) * located_ * pressing);
                 auto const ends = go_on & near[i] & (!rests[i]) & (braking > zero) & soon;
                 flight = max(flight, select(ends, twice / select(ends, braking, one), zero));
                 rests[i] = rests[i] | ends;
@@ -177,7 +177,9 @@ private:
 
     SLIDEWAY_HD void count_events(Mask<Real> event, Real t, Memory& memory) const {
         Real const zero(0.0), one(1.0);
-        auto const again = t - memory.last <= no_time(end_);
+        Real const since = t - memory.last;
+        auto const again = since <= no_time(end_), soon = since <= Real(quick_time);
+        memory.quick = select(event, select(soon, memory.quick + one, zero), memory.quick);
         memory.at_once = select(event, select(again, memory.at_once + one, zero), memory.at_once);
         memory.last = select(event, t, memory.last);
         memory.jammed = select(event & (memory.at_once >= Real(most_events_at_once)), one, memory.jammed);

@@ -23,7 +23,7 @@ public:
     using Pairs = JointPairs<Guide, Real>;
     /// Change of an acceleration, in units of what the slider would have without contact, that counts as none, and one that does where it cannot be made less.
     static constexpr double settled = 1e-15, bearable = 1e-13;
-    static constexpr int sweeps = 0;
+    static constexpr int sweeps = 0, patience = 2048;
 
     Real normal[pair_count];            // λ [N]
     Real along[2][pair_count];          // friction of pairs that stick [N]
@@ -65,7 +65,7 @@ public:
             wedged = wedged | wedge;
             size = max(size, select(last.held[i], abs(row.target - dot(row.pair.normal, pairs.before)), zero));
         }
-        pairs.solve(size > zero, Real(settled) * size, Real(bearable) * size, sweeps, any(sticking));
+        pairs.solve((size > zero) & !wedged, Real(settled) * size, Real(bearable) * size, sweeps, patience, any(sticking));
         failed = pairs.failed | wedged;
         take(pairs, velocity);
     }

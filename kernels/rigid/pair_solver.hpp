@@ -17,7 +17,10 @@ template <class Guide, class Real> class PairSolver {
 public:
     using Pairs = JointPairs<Guide, Real>;
     static constexpr int most_last_sweeps = 24;
+    static constexpr int first_lot = 32;         // of sweeps where all else has failed
     static constexpr double well_enough = 1e-4;  // of the motion: a change of it that is no failure yet
+    static constexpr double far_enough = 1e-9;   // and one with which to stop while there still is patience
+    static constexpr double eased = 0.3;         // share of a step
 
     Twist<Real> before, after;  // motion of the slider without loads and with them
     Mask<Real> failed;
@@ -36,8 +39,8 @@ public:
 
     /// From the loads that the rows have.
     /// @param enough change of the motion that counts as none  @param bearable one that does where it cannot be made less
-    /// @param sweeps to begin with  @param friction some pair may stick
-    SLIDEWAY_HD void solve(Mask<Real> in, Real enough, Real bearable, int sweeps, bool friction) {
+    /// @param sweeps to begin with  @param patience the most in one lot where nothing else settles  @param friction some pair may stick
+    SLIDEWAY_HD void solve(Mask<Real> in, Real enough, Real bearable, int sweeps, int patience, bool friction) {
         Real const zero(0.0);
         after = before;
         Real size = zero;
@@ -64,9 +67,11 @@ public:
         after = PairBarrier<Guide, Real>(pairs_, rows_, count_, before, friction).solve(active, size, after);
         for (int sweep = 0; sweep < most_last_sweeps && any(active); ++sweep) {
             change = this->sweep(active, friction);
-            active = active & (change > enough);
+            active = active & !(change <= enough);
         }
-        failed = active & !(change <= Real(well_enough) * size);
+        active = active & !(change <= Real(well_enough) * size);
+        if (any(active)) active = persist(active, size, enough, bearable, patience, friction);
+        failed = active;
     }
 
     /// Where loads are Tangents, their slopes and those of the motion: exact to the first order.
@@ -87,31 +92,59 @@ public:
     }
 
 private:
-    /// From pair to pair.  @return the largest change of a motion
-    SLIDEWAY_HD Real sweep(Mask<Real> in, bool friction) {
+    /// Where neither method settles: more and more sweeps, after each lot of which Newton's method begins anew where they have come to.
+    /// Every second lot goes but a part of the way, which ends the cycles that large friction makes.  @return lanes that still are not solved
+    SLIDEWAY_HD Mask<Real> persist(Mask<Real> active, Real size, Real enough, Real bearable, int patience, bool friction) {
+        bool eases = true;
+        for (int lot = first_lot; lot <= patience && any(active); lot *= 2, eases = !eases) {
+            Real change(0.0);
+            for (int sweep = 0; sweep < lot && any(active); ++sweep) {
+                change = this->sweep(active, friction, Real(eases ? eased : 1.0));
+                active = active & !(change <= enough);
+            }
+            active = active & !(change <= Real(lot < patience ? far_enough : well_enough) * size);
+            if (any(active)) active = try_newton(active, size, enough, bearable, friction);
+        }
+        return active;
+    }
+
+    /// From the loads of the moment, which stay where it does not solve them.
+    SLIDEWAY_HD Mask<Real> try_newton(Mask<Real> active, Real size, Real enough, Real bearable, bool friction) {
+        Real kept[3][pair_count];
+        for (int k = 0; k < count_; ++k) kept[0][k] = rows_[k].normal, kept[1][k] = rows_[k].along[0], kept[2][k] = rows_[k].along[1];
+        active = PairNewton<Guide, Real>(pairs_, rows_, count_, before, friction).solve(active, size, enough, bearable, after);
+        for (int k = 0; k < count_; ++k) {
+            rows_[k].normal = select(active, kept[0][k], rows_[k].normal);
+            for (int j = 0; j < 2; ++j) rows_[k].along[j] = select(active, kept[1 + j][k], rows_[k].along[j]);
+        }
+        return active;
+    }
+
+    /// From pair to pair.  @param share of the way of each step  @return the largest change of a motion
+    SLIDEWAY_HD Real sweep(Mask<Real> in, bool friction, Real share = Real(1.0)) {
         Real change(0.0);
         for (int k = 0; k < count_; ++k) {
             auto& row = rows_[k];
             auto const here = in & row.here;
             Real const wish = (row.target - dot(row.pair.normal, after)) * row.per_own;
-            Real const step = select(here, max(wish, negated(row.normal)), Real(0.0));
+            Real const step = select(here, share * max(wish, negated(row.normal)), Real(0.0));
             row.normal = row.normal + step;
             after = fma(step, row.pushed, after);
             change = max(change, abs(step) * row.own);
-            if (friction) change = max(change, hold(row, here));
+            if (friction) change = max(change, hold(row, here, share));
         }
         return change;
     }
 
     /// A step of the friction of one pair.  @return its largest change of a motion
-    SLIDEWAY_HD Real hold(TouchingPair<Real>& row, Mask<Real> here) {
+    SLIDEWAY_HD Real hold(TouchingPair<Real>& row, Mask<Real> here, Real part) {
         Real const zero(0.0);
         auto const& pair = row.pair;
         Real wish[2], change[2];
         for (int j = 0; j < 2; ++j) wish[j] = row.along[j] - (dot(pair.slip[j], after) - row.hold[j]) * row.per_across;
         Real const share = share_within(wish, row.coefficient * row.normal);
         for (int j = 0; j < 2; ++j) {
-            change[j] = select(here, fms(share, wish[j], row.along[j]), zero);
+            change[j] = select(here, part * fms(share, wish[j], row.along[j]), zero);
             row.along[j] = row.along[j] + change[j];
             after = fma(change[j], pair.dragged[j], after);
         }

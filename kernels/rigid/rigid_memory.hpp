@@ -90,6 +90,7 @@ template <class Real> struct RigidJointMemory : RigidCourse<Real> {
     static constexpr int speeds = 0;
     Quad<Real> held[face_count];    // 1 where an apex lasts on its face, else 0
     Quad<Real> sticks[face_count];  // 1 where it does not slip either
+    Real quick;                     // events of which each came within `quick_time` of the one before it
     ApexLoads<Real> loads;          // of those that last, where the last step ended: where the search for the next begins
 };
 
@@ -97,6 +98,7 @@ template <class Real> SLIDEWAY_FN void start_memory(RigidJointMemory<Real>& memo
     Real const zero(0.0);
     for (auto& face : memory.held) face = {zero, zero, zero, zero};
     for (auto& face : memory.sticks) face = {zero, zero, zero, zero};
+    memory.quick = zero;
     memory.loads.clear();
     memory.start();
 }

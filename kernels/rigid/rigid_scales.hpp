@@ -9,6 +9,9 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// Bounces that would be over within this time [s] end at once, in lasting contact: the sum of a geometric series.
 inline constexpr double chatter_time = 1e-7;
+/// Events of which each comes within this time [s] of the one before, and how many of them count as impacts without end: apices that meet their faces in
+/// turn, whose speeds friction keeps up.  From there on impacts have no restitution, and flights of that time end at once.
+inline constexpr double quick_time = 1e-6, most_quick_events = 256;
 /// So do impacts of both corners in turn whose next is due within this time.  Events that are nearer to one another than some 1e-13 of the
 /// run are no longer located.  @param end of the run [s]
 template <class Real> SLIDEWAY_FN Real rattle_time(Real end) { return max(Real(1e-11), Real(1e-12) * end); }

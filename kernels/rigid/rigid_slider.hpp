@@ -116,7 +116,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
         rates[3] = acceleration.z;
         at.turning.put_rates(torque, at.motion.axes, p.inertia, p.inverse_inertia, rates);
         guide.put_rates(acceleration, rates);
-        rates[9] = select(memory.jammed > zero, Real(not_a_number), rates[9]);
+        rates[9] = select(jammed, Real(not_a_number), rates[9]);
         if constexpr (Full) {
             Vec3<Real> const centre{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
             guide.tell({centre, velocity, acceleration}, at.turning, force, p, false, *report);
