@@ -7,7 +7,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// Takes from pairs that rest what is left of their normal motion, with the friction of the bounces that would have done so, and from those that are
 /// still what is left of their slip: equations, whatever the sign of their loads, which are those of (M13.13).  A slip that the drive has in hand stays: the
-/// loads against it are next to nothing.
+/// loads against it are next to nothing.  Equations of several pairs with friction may make energy, or next to any: then without the friction.
 template <class Guide, class Real> class PairRest : PairMotion<Guide, Real> {
     using Base = PairMotion<Guide, Real>;
     using typename Base::Local;
@@ -34,23 +34,66 @@ public:
             local_[k] = spring(stiff, stiff_along, rest[k], stays[k], coefficient != nullptr);
             if (coefficient != nullptr) find_drag(rest[k] & !stays[k], *coefficient, after, rows_[k], local_[k]);
         }
-        this->factor(local_);
-        auto motion = after;
-        for (int turn = 0; turn < turns; ++turn) {
+        keep();
+        auto motion = stop(rest, stays, stiff, stiff_along, coefficient != nullptr, after);
+        auto const makes = in & makes_energy(after, motion);
+        if (coefficient != nullptr && any(makes)) {
+            put_back(makes);
             for (int k = 0; k < count_; ++k) {
-                auto const& pair = rows_[k].pair;
-                local_[k].c_n = select(rest[k], negated(stiff * dot(pair.normal, motion)), zero);
-                if (coefficient == nullptr) continue;
-                for (int j = 0; j < 2; ++j) local_[k].c_t[j] = select(stays[k], negated(stiff_along * dot(pair.slip[j], motion)), zero);
+                rest[k] = rest[k] & makes;
+                for (auto& drag : local_[k].h) drag = zero;
             }
-            this->step(local_);
-            for (int k = 0; k < count_; ++k) go(rest[k], coefficient != nullptr, k);
-            motion = this->moved();
+            motion = slideway::select(makes, stop(rest, stays, stiff, stiff_along, true, after), motion);
         }
         return select(in, motion, after);
     }
 
 private:
+    /// With the springs of the moment.  @return the motion then
+    SLIDEWAY_HD Twist<Real> stop(Mask<Real> const (&rest)[pair_count], Mask<Real> const (&stays)[pair_count], Real stiff, Real stiff_along, bool friction,
+                                 Twist<Real> motion) {
+        Real const zero(0.0);
+        this->factor(local_);
+        for (int turn = 0; turn < turns; ++turn) {
+            for (int k = 0; k < count_; ++k) {
+                auto const& pair = rows_[k].pair;
+                local_[k].c_n = select(rest[k], negated(stiff * dot(pair.normal, motion)), zero);
+                if (!friction) continue;
+                for (int j = 0; j < 2; ++j) local_[k].c_t[j] = select(stays[k], negated(stiff_along * dot(pair.slip[j], motion)), zero);
+            }
+            this->step(local_);
+            for (int k = 0; k < count_; ++k) go(rest[k], friction, k);
+            motion = this->moved();
+        }
+        return motion;
+    }
+
+    SLIDEWAY_HD void keep() {
+        for (int k = 0; k < count_; ++k) kept_[0][k] = rows_[k].normal, kept_[1][k] = rows_[k].along[0], kept_[2][k] = rows_[k].along[1];
+    }
+    SLIDEWAY_HD void put_back(Mask<Real> in) {
+        for (int k = 0; k < count_; ++k) {
+            rows_[k].normal = select(in, kept_[0][k], rows_[k].normal);
+            for (int j = 0; j < 2; ++j) rows_[k].along[j] = select(in, kept_[1 + j][k], rows_[k].along[j]);
+        }
+    }
+    /// Whether ½ (u⁻ + u⁺) · ΔP of what has come to the loads since they were kept is above zero.
+    SLIDEWAY_HD Mask<Real> makes_energy(Twist<Real> const& from, Twist<Real> const& to) const {
+        auto const mean = from + to;
+        Real sum(0.0), size(0.0);
+        auto const add = [&](Twist<Real> const& direction, Real load) {
+            Real const part = dot(direction, mean) * load;
+            sum = sum + part;
+            size = size + abs(part);
+        };
+        for (int k = 0; k < count_; ++k) {
+            auto const& row = rows_[k];
+            add(row.pair.normal, row.normal - kept_[0][k]);
+            for (int j = 0; j < 2; ++j) add(row.pair.slip[j], row.along[j] - kept_[1 + j][k]);
+        }
+        return !(sum <= Real(1e-9) * size);
+    }
+
     SLIDEWAY_FN static Local spring(Real stiff, Real stiff_along, Mask<Real> rests, Mask<Real> stays, bool friction) {
         Real const zero(0.0);
         Local l;
@@ -87,6 +130,7 @@ private:
     }
 
     Local local_[pair_count];
+    Real kept_[3][pair_count];  // loads
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA
