@@ -7,7 +7,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// Takes from pairs that rest what is left of their normal motion, with the friction of the bounces that would have done so, and from those that are
 /// still what is left of their slip: equations, whatever the sign of their loads, which are those of (M13.13).  A slip that the drive has in hand stays: the
-/// loads against it are next to nothing.  Equations of several pairs with friction may make energy, or next to any: then without the friction.
+/// loads against it are next to nothing.  Equations of several pairs with friction may have next to no inverse: then it is done without the friction.
 template <class Guide, class Real> class PairRest : PairMotion<Guide, Real> {
     using Base = PairMotion<Guide, Real>;
     using typename Base::Local;
@@ -16,6 +16,8 @@ template <class Guide, class Real> class PairRest : PairMotion<Guide, Real> {
 public:
     static constexpr int turns = 3;  // what a spring leaves, 1e-7 of it, is left to the next turn
     static constexpr double stiffness_along = 100;
+    static constexpr double most = 1e3;       // of a slip's change, in units of the motion that is to be taken away
+    static constexpr double rounding = 1e-9;  // of a slip
 
     using Base::Base;
 
@@ -36,14 +38,15 @@ public:
         }
         keep();
         auto motion = stop(rest, stays, stiff, stiff_along, coefficient != nullptr, after);
-        auto const makes = in & makes_energy(after, motion);
-        if (coefficient != nullptr && any(makes)) {
-            put_back(makes);
+        if (coefficient == nullptr) return select(in, motion, after);
+        auto const wild = in & runs_away(rest, stays, after, motion);
+        if (any(wild)) {
+            put_back(wild);
             for (int k = 0; k < count_; ++k) {
-                rest[k] = rest[k] & makes;
+                rest[k] = rest[k] & wild;
                 for (auto& drag : local_[k].h) drag = zero;
             }
-            motion = slideway::select(makes, stop(rest, stays, stiff, stiff_along, true, after), motion);
+            motion = slideway::select(wild, stop(rest, stays, stiff, stiff_along, true, after), motion);
         }
         return select(in, motion, after);
     }
@@ -77,21 +80,22 @@ private:
             for (int j = 0; j < 2; ++j) rows_[k].along[j] = select(in, kept_[1 + j][k], rows_[k].along[j]);
         }
     }
-    /// Whether ½ (u⁻ + u⁺) · ΔP of what has come to the loads since they were kept is above zero.
-    SLIDEWAY_HD Mask<Real> makes_energy(Twist<Real> const& from, Twist<Real> const& to) const {
-        auto const mean = from + to;
-        Real sum(0.0), size(0.0);
-        auto const add = [&](Twist<Real> const& direction, Real load) {
-            Real const part = dot(direction, mean) * load;
-            sum = sum + part;
-            size = size + abs(part);
-        };
+    /// Whether slips change by far more than there was to take away.
+    SLIDEWAY_HD Mask<Real> runs_away(Mask<Real> const (&rest)[pair_count], Mask<Real> const (&stays)[pair_count], Twist<Real> const& from,
+                                     Twist<Real> const& to) const {
+        Real const zero(0.0);
+        auto const by = to - from;
+        Real taken = zero, change = zero, speed = zero;
         for (int k = 0; k < count_; ++k) {
-            auto const& row = rows_[k];
-            add(row.pair.normal, row.normal - kept_[0][k]);
-            for (int j = 0; j < 2; ++j) add(row.pair.slip[j], row.along[j] - kept_[1 + j][k]);
+            auto const& pair = rows_[k].pair;
+            taken = max(taken, select(rest[k], abs(dot(pair.normal, from)), zero));
+            for (auto const& along : pair.slip) {
+                taken = max(taken, select(stays[k], abs(dot(along, from)), zero));
+                change = max(change, select(rest[k], abs(dot(along, by)), zero));
+                speed = max(speed, select(rest[k], abs(dot(along, from)), zero));
+            }
         }
-        return !(sum <= Real(1e-9) * size);
+        return !(change <= max(Real(most) * taken, Real(rounding) * speed));
     }
 
     SLIDEWAY_FN static Local spring(Real stiff, Real stiff_along, Mask<Real> rests, Mask<Real> stays, bool friction) {

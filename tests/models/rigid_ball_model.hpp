@@ -11,10 +11,10 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 template <class Real> struct RigidBallMemory {
     static constexpr int speeds = 0;
-    Real begun, held;  // 1 after the start, 1 on the table
+    Real begun, held, jammed;  // 1 after the start, 1 on the table, never
 };
 template <class Real> SLIDEWAY_FN void start_memory(RigidBallMemory<Real>& memory) {
-    memory.begun = memory.held = Real(0.0);
+    memory.begun = memory.held = memory.jammed = Real(0.0);
 }
 
 /// Of the four pairs that a quad has the first alone is the ball's.

@@ -180,6 +180,23 @@ TEST(RigidBits, OfSlidersWithEightApicesAreThoseOfScalarInAnyOrder) {
     }
 }
 
+/// Of a random search: conditions that few methods settle, impacts without end, rests whose equations make energy, and some that jam.
+TEST(RigidBits, OfSlidersThatAreHardToSolveAreThoseOfScalarInAnyOrder) {
+    auto const all = testing::random_rigid_sliders(16'384, 1000, 1);
+    std::vector<Inputs> members;
+    for (std::size_t const member : {43, 794, 922, 1298, 1893, 2278, 2805, 2964, 4719, 5003, 5113, 6009, 6135, 7829, 8746, 10434, 11009, 13788, 16144}) {
+        members.push_back(all[member]);
+    }
+    std::vector<Inputs> const reversed(members.rbegin(), members.rend());
+    for (auto const mechanism : {Mechanism::free_slider, Mechanism::slider_crank}) {
+        auto o = testing::rigid_options(testing::rigid_joint_parts(true, false, mechanism), 1e-6, 0.01);
+        o.settings.max_steps = 20'000;
+        auto const scalar = testing::run(Isa::scalar, o, members);
+        auto const others = testing::run(best_isa(), o, reversed);
+        for (std::size_t i = 0; i < members.size(); ++i) expect_same(scalar, i, others, members.size() - 1 - i);
+    }
+}
+
 /// Sliders of the paper's size that have lain down on a face within 30 ms: the last of its apices comes to rest with those that meet it.
 std::vector<Inputs> sliders_that_lie_down(std::size_t count) {
     testing::UniformDraws uniform(3);
