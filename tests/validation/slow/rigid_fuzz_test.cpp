@@ -49,7 +49,7 @@ Found search(std::size_t count, double most_friction, Parts const& parts, Draws 
             double const scale = std::abs(r.value(i, Quantity::crank_work)) + std::abs(r.value(i, Quantity::energy_change));
             // Rounding is all that a slider which scarcely moved has gained or lost.
             double const start = members[i].slider_mass * (members[i].vy * members[i].vy + members[i].vz * members[i].vz) / 2;
-            bool const made = ended && lost < -1e-6 * scale && lost < -1e-12 * start;
+            bool const made = ended && lost < -1e-6 * scale && lost < -1e-10 * start;
             found.made_energy += made;
             if (made) std::printf("seed %u, member %zu: %g J lost, of %g J\n", 100 + seed, i, lost, scale);
             found.costs.push_back(static_cast<double>(r.records[i].rhs_evaluations));
@@ -87,7 +87,7 @@ TEST_P(RigidSliderFuzz, MostOfAMillionEndAndMakeNoEnergy) {
     auto const mild = search(851'968, 0.3, parts, sliders);
     EXPECT_EQ(mild.others, 0);
     EXPECT_EQ(mild.made_energy, 0);
-    EXPECT_LT(mild.jammed, mild.members / 5000);
+    EXPECT_LT(mild.jammed, mild.members / 10'000);
     EXPECT_LT(mild.spent, mild.members / 100'000);
     EXPECT_LT(mild.dear(), mild.members / 20'000);
 }
