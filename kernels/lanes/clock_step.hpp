@@ -135,11 +135,13 @@ private:
 
     /// The integrals over the whole step.
     SLIDEWAY_HD void integrate(Pack<Model, Real>& pack, Attempt<Model, Real> const& to) {
-        // Of the last stage the weights are those of the step.
-        Pair::template stage_state<Pair::stages - 1>(integrals_.start, integrals_.k, whole_, integrals_.end);
         Real const per_time = Real(1.0) / to.step, own_per_time = whole_ * per_time;
         Real means[parts];
-        for (int i = 0; i < pack.integrals_in_use(); ++i) means[i] = integrals_.end[i] * per_time;
+        for (int i = 0; i < pack.integrals_in_use(); ++i) {
+            // Of the last stage the weights are those of the step.
+            integrals_.end[i] = Pair::template stage_value<Pair::stages - 1>(integrals_.start, integrals_.k, whole_, i);
+            means[i] = integrals_.end[i] * per_time;
+        }
         pack.set_means(to.step > Real(0.0), means);
         for (int i = 0; i < Pack<Model, Real>::Observer::audit_integrals; ++i) pack.audit_error[i] = own_per_time * Pair::error_slope(integrals_.k, i);
     }
@@ -147,13 +149,13 @@ private:
     /// Evaluates the derivative at `at_`.
     SLIDEWAY_HD Faults<Real> evaluate_at(Pack<Model, Real> const& pack, StepStart<Model, Real> const& from,
                                          Attempt<Model, Real>& to, bool report_wanted, Real* slopes, bool at_end) {
-        Real const u = at_[root];
+        // The pace first: its root and its division need not wait for what follows.
+        Real const u = at_[root], pace = step_.pace(u);
         memory_.clock_depth = u * u;
         // Who goes out there is out: what follows then has its derivative already.  Not quite zero, for means of depths divide by their sum.
         if (at_end && !from.needs.switches) memory_.clock_depth = select(step_.is_little(u), Real(1e-30), memory_.clock_depth);
         rates_[size] = Real(0.0);
         auto const faults = pack.evaluate(from.t + at_[time], at_, memory_, rates_, report_wanted, to.report);
-        Real const pace = step_.pace(u);
         for (int i = 0; i < size; ++i) slopes[i] = pace * rates_[i];
         slopes[time] = pace;
         slopes[root] = step_.root_rate(u, rates_[size]);

@@ -77,11 +77,12 @@ public:
     /// What such a step takes of time, at least where it is tried again [s].
     SLIDEWAY_HD static Real time_of(Stepper const& stepper, Real next) { return stepper.step().start.time_of(next); }
 
-    /// What an accepted step leaves of its contacts.  @return lanes whose step ended at a touch or a parting
+    /// What an accepted step leaves of its contacts.  @param remembers impact speeds are asked for
+    /// @return lanes whose step ended at a touch or a parting
     template <class Contact>
-    SLIDEWAY_HD auto update(State& s, Stepper const& stepper, Mask<Real> accepted, Contact const& end) {
+    SLIDEWAY_HD auto update(State& s, Stepper const& stepper, Mask<Real> accepted, Contact const& end, bool remembers) {
         auto& [memory, watch] = s.contacts;
-        auto const turned = watch.update(accepted, end, memory, stepper.step());
+        auto const turned = watch.update(accepted, end, memory, stepper.step(), remembers);
         turned_ = turned.lanes;
         return turned;
     }

@@ -295,7 +295,7 @@ private:
             if (!pack_.needs.watch()) return;
             auto touched = mask_of<Real>(false);
             if constexpr (by_clock) {
-                auto const turned = impacts_.update(pack_.state, stepper_, accepted, attempt_.report.contact);
+                auto const turned = impacts_.update(pack_.state, stepper_, accepted, attempt_.report.contact, pack_.model.remembers());
                 touched = pack_.needs.switches ? turned.lanes : turned.by_depth;
                 turn_modes(turned.lanes);
             } else {

@@ -80,8 +80,9 @@ public:
         auto const one = like_the_clocks(step, end);
         for (int face = 0; face < quads; ++face) {
             auto const look = [&](Real, Real d0, Real v0, Real d1, Real v1) {
-                Mask<Real> const in = candidates & !one(d0, d1);
-                add(in, d0, pace0 * v0, d1, pace1 * v1, located);
+                Real const s0 = pace0 * v0, s1 = pace1 * v1;
+                Mask<Real> const in = candidates & GapHistory<Real, quads>::nears_zero(d0, s0, d1, s1, step.own, located);
+                if (any(in)) add(in & !one(d0, d1), d0, s0, d1, s1, located);
             };
             each_pair(face, look, this->start_depth_[face], this->start_rate_[face], end.penetration[face], end.rate[face]);
         }
@@ -126,8 +127,8 @@ public:
         Mask<Real> by_depth;  // those where a pair has parted that is not the clock's
     };
     template <class Contact>
-    SLIDEWAY_FN Turned update(Mask<Real> accepted, Contact const& end, Memory& memory, ClockedStep<Real> const& step) {
-        take_speeds(accepted, end, memory);
+    SLIDEWAY_FN Turned update(Mask<Real> accepted, Contact const& end, Memory& memory, ClockedStep<Real> const& step, bool remembers) {
+        if (remembers) take_speeds(accepted, end, memory);
         Turned turned{mask_of<Real>(false), mask_of<Real>(false)};
         each_after(end, step, memory.held, [&](Real now, Real& is_held, Mask<Real> by_clock) {
             auto const differs = accepted & (now != is_held);
@@ -137,7 +138,7 @@ public:
         });
         this->keep(accepted, end);
         hold_signs(memory);
-        note_face(memory);
+        if (any(turned.lanes)) note_face(memory);
         return turned;
     }
 
@@ -177,15 +178,16 @@ private:
         see(Real(first + 3), of.d...);
     }
 
-    /// Has a function see what each pair will be held to be after a step by a clock, and what it is held to be.
+    /// Has a function see what pairs that may change will be held to be after a step by a clock, and what they are held to be.
     template <class Contact, class Held, class Function>
     SLIDEWAY_FN void each_after(Contact const& end, ClockedStep<Real> const& step, Held& held, Function const& see) const {
         Mask<Real> const over = step.parts();
         auto const one = like_the_clocks(step, end);
         for (int face = 0; face < quads; ++face) {
             auto const look = [&](Real, Real before, Real depth, Real rate, auto& is_held) {
-                Mask<Real> const touches = is_held > Real(0.5), apart = !touches, is_in = depth > Real(0.0);
-                Mask<Real> const parts = over & one(before, depth), remains = !parts;
+                Mask<Real> const touches = is_held > Real(0.5), is_in = depth > Real(0.0);
+                if (none((touches ^ is_in) | (touches & over))) return;
+                Mask<Real> const parts = over & one(before, depth), apart = !touches, remains = !parts;
                 Mask<Real> const stays = touches & is_in & remains, begins = apart & is_in & (rate > Real(0.0));
                 see(select(stays | begins, Real(1.0), Real(0.0)), is_held, parts);
             };
