@@ -48,7 +48,7 @@ public:
         // A clock has steps of any size; what it does to time may round to nothing.
         Mask<Real> const long_enough = before.accepted & (step.start.runs() | (own > resolution * Real(64.0)));
         Real const depth = Real(located(rtol, pack.needs.switches)) * Model::touch_scale(pack.state.constants.parameters);
-        Real share = pack.state.contacts.watch.earliest(long_enough, to.report.contact, step, depth);
+        Real share = pack.state.contacts.watch.earliest(long_enough, pack.state.contacts.memory, to.report.contact, step, depth);
         auto cut = share < Real(1.0);
         if (any(cut)) cut = end_early(pack, stepper, to, cut, depth, share);
         ended_early_ = before.accepted & (share < Real(1.0)) & !cut;
@@ -106,7 +106,7 @@ private:
         stepper.look_inside(pack, pack.start(), to, open);
         for (int tries = 0; tries < 4; ++tries) {
             stepper.end_early(pack, pack.start(), to, open, share);
-            Real const again = watch.earliest(open, to.report.contact, step, depth);
+            Real const again = watch.earliest(open, memory, to.report.contact, step, depth);
             Mask<Real> const beyond = open & (again < Real(1.0));
             Mask<Real> const before = open & !beyond & !watch.turns(memory, to.report.contact, step);
             open = beyond | before;

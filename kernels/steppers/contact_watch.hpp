@@ -38,7 +38,7 @@ public:
             turn_pairs(fresh, r, memory);
         }
         this->keep(fresh, r);
-        if (watching == Watching::impacts) hold_signs(memory), note_face(memory);
+        if (watching == Watching::impacts) note_face(memory);
     }
 
     /// The clock of the next step: the shallowest of the pairs that touch, none where a member flies.
@@ -65,9 +65,11 @@ public:
         return held;
     }
 
-    /// As `earliest`, of a step by a clock: fraction of what it is by the clock.
+    /// As `earliest`, of a step by a clock: fraction of what it is by the clock.  A pair that is held apart may start within its face by what its
+    /// parting was located to, or by the error of the step before: it counts from where it starts.
     template <class Contact>
-    SLIDEWAY_FN Real earliest(Mask<Real> candidates, Contact const& end, ClockedStep<Real> const& step, Real located) const {
+    SLIDEWAY_FN Real earliest(Mask<Real> candidates, Memory const& memory, Contact const& end, ClockedStep<Real> const& step,
+                              Real located) const {
         auto const& from = step.start;
         auto const& to = step.end;
         Real const pace0 = step.pace_at_start(), pace1 = step.pace_at_end();
@@ -79,12 +81,15 @@ public:
         add(by_clock & !step.parts(), from.root, step.root_rate(from.root, from.rate), to.root, step.root_rate(to.root, to.rate), Real(0.0));
         auto const one = like_the_clocks(step, end);
         for (int face = 0; face < quads; ++face) {
-            auto const look = [&](Real, Real d0, Real v0, Real d1, Real v1) {
-                Real const s0 = pace0 * v0, s1 = pace1 * v1;
-                Mask<Real> const in = candidates & GapHistory<Real, quads>::nears_zero(d0, s0, d1, s1, step.own, located);
-                if (any(in)) add(in & !one(d0, d1), d0, s0, d1, s1, located);
+            auto const look = [&](Real, Real d0, Real v0, Real d1, Real v1, Real is_held) {
+                Real const s0 = pace0 * v0, s1 = pace1 * v1, zero(0.0);
+                Mask<Real> const touches = is_held > Real(0.5);
+                Mask<Real> const in = candidates & GapHistory<Real, quads>::may_change(touches, d0, s0, d1, s1, step.own, located);
+                if (none(in)) return;
+                Real const from = select(touches, zero, max(d0, zero));
+                add(in & !one(d0, d1), d0 - from, s0, d1 - from, s1, located);
             };
-            each_pair(face, look, this->start_depth_[face], this->start_rate_[face], end.penetration[face], end.rate[face]);
+            each_pair(face, look, this->start_depth_[face], this->start_rate_[face], end.penetration[face], end.rate[face], memory.held[face]);
         }
         return changes.of_all();
     }
@@ -93,7 +98,7 @@ public:
     template <class Contact>
     SLIDEWAY_FN Mask<Real> turns(Memory const& memory, Contact const& end, ClockedStep<Real> const& step) const {
         auto turned = mask_of<Real>(false);
-        each_after(end, step, memory.held, [&](Real now, Real is_held, Mask<Real>) { turned = turned | (now != is_held); });
+        each_after(end, step, memory, [&](Real now, Real is_held, Mask<Real>, Real, Real) { turned = turned | (now != is_held); });
         return turned;
     }
 
@@ -111,7 +116,7 @@ public:
         for (int face = 0; face < quads; ++face) {
             auto const look = [&](Real, Real before, Real depth, Real rate, Real is_held) {
                 Mask<Real> const touches = is_held > Real(0.5), counts = !one(before, depth);
-                Real const gap = target - select(touches, negated(depth), depth);
+                Real const gap = target - select(touches, negated(depth), depth - max(before, Real(0.0)));
                 least = min(least, way(counts, gap, pace * select(touches, negated(rate), rate)));
             };
             each_pair(face, look, this->start_depth_[face], end.penetration[face], end.rate[face], memory.held[face]);
@@ -128,16 +133,16 @@ public:
     };
     template <class Contact>
     SLIDEWAY_FN Turned update(Mask<Real> accepted, Contact const& end, Memory& memory, ClockedStep<Real> const& step, bool remembers) {
-        if (remembers) take_speeds(accepted, end, memory);
         Turned turned{mask_of<Real>(false), mask_of<Real>(false)};
-        each_after(end, step, memory.held, [&](Real now, Real& is_held, Mask<Real> by_clock) {
+        auto const turn = [&](Real now, Real& is_held, Mask<Real> by_clock, Real rate, Real& speed) {
             auto const differs = accepted & (now != is_held);
             turned.lanes = turned.lanes | differs;
             turned.by_depth = turned.by_depth | (differs & (is_held > now) & negation(by_clock));
+            if (remembers) speed = select(differs & (now > is_held), max(rate, Real(least_impact_speed)), speed);
             is_held = select(accepted, now, is_held);
-        });
+        };
+        each_after(end, step, memory, turn);
         this->keep(accepted, end);
-        hold_signs(memory);
         if (any(turned.lanes)) note_face(memory);
         return turned;
     }
@@ -178,20 +183,20 @@ private:
         see(Real(first + 3), of.d...);
     }
 
-    /// Has a function see what pairs that may change will be held to be after a step by a clock, and what they are held to be.
-    template <class Contact, class Held, class Function>
-    SLIDEWAY_FN void each_after(Contact const& end, ClockedStep<Real> const& step, Held& held, Function const& see) const {
+    /// Has a function see what pairs that may change will be held to be after a step by a clock, what they are held to be, and their speeds.
+    template <class Contact, class Memories, class Function>
+    SLIDEWAY_FN void each_after(Contact const& end, ClockedStep<Real> const& step, Memories& memory, Function const& see) const {
         Mask<Real> const over = step.parts();
         auto const one = like_the_clocks(step, end);
         for (int face = 0; face < quads; ++face) {
-            auto const look = [&](Real, Real before, Real depth, Real rate, auto& is_held) {
+            auto const look = [&](Real, Real before, Real depth, Real rate, auto& is_held, auto& speed) {
                 Mask<Real> const touches = is_held > Real(0.5), is_in = depth > Real(0.0);
                 if (none((touches ^ is_in) | (touches & over))) return;
                 Mask<Real> const parts = over & one(before, depth), apart = !touches, remains = !parts;
                 Mask<Real> const stays = touches & is_in & remains, begins = apart & is_in & (rate > Real(0.0));
-                see(select(stays | begins, Real(1.0), Real(0.0)), is_held, parts);
+                see(select(stays | begins, Real(1.0), Real(0.0)), is_held, parts, rate, speed);
             };
-            each_pair(face, look, this->start_depth_[face], end.penetration[face], end.rate[face], held[face]);
+            each_pair(face, look, this->start_depth_[face], end.penetration[face], end.rate[face], memory.held[face], memory.impact_speed[face]);
         }
     }
 
@@ -209,15 +214,6 @@ private:
             each_pair(face, look, depths[face]);
         }
         return depth;
-    }
-
-    /// A pair that is held apart starts apart, though its depth may be above zero by what its parting was located to.
-    SLIDEWAY_FN void hold_signs(Memory const& memory) {
-        Real const zero(0.0), half(0.5);
-        for (int face = 0; face < quads; ++face) {
-            auto const hold = [&](Real, Real& depth, Real is_held) { depth = select(is_held > half, depth, min(depth, zero)); };
-            each_pair(face, hold, this->start_depth_[face], memory.held[face]);
-        }
     }
 
     SLIDEWAY_FN static void note_face(Memory& memory) {

@@ -48,11 +48,12 @@ protected:
         Curve const depth{start - target, along * v0, end - target, along * v1};
         return {Mask<Real>(candidates & may_cross(depth.v0, depth.s0, depth.v1, depth.s1)), depth};
     }
-    /// Whether a pair may be one, told from less: a cubic lies within the span of its Bézier ordinates (`may_cross`), and those of most pairs
-    /// are all apart, or all deeper than `located`.
-    SLIDEWAY_FN static Mask<Real> nears_zero(Real d0, Real v0, Real d1, Real v1, Real step, Real located) {
+    /// Whether a pair that touches, or does not, may change, told from less: a cubic lies within the span of its Bézier ordinates (`may_cross`),
+    /// and those of most pairs are all apart, or all deeper than `located`.
+    SLIDEWAY_FN static Mask<Real> may_change(Mask<Real> touches, Real d0, Real v0, Real d1, Real v1, Real step, Real located) {
         Real const third = Real(1.0 / 3) * step, c1 = fma(third, v0, d0), c2 = fnma(third, v1, d1);
-        return (max(max(d0, d1), max(c1, c2)) > Real(0.0)) & (min(min(d0, d1), min(c1, c2)) <= located);
+        auto const rises = max(max(d0, d1), max(c1, c2)) > Real(0.0), falls = min(min(d0, d1), min(c1, c2)) <= located;
+        return (touches & falls) | (negation(touches) & rises);
     }
     SLIDEWAY_FN static Change first_change(Mask<Real> candidates, Real d0, Real v0, Real d1, Real v1, Real step, Real located) {
         auto const pair = passage(candidates, d0, v0, d1, v1, step, located);
