@@ -202,6 +202,9 @@ void read_integrator(Node const& root, Scene& scene) {
     // A step may not leap over an impact: between two of them the slider flies for milliseconds.
     constexpr double longest_step = 1e-3;
     double max_step = std::min(longest_step, period / 2000);
+    // That finds its touches inside a step, by the depths and rates at its ends.
+    bool const finds_touches = settings.method == Method::verner65 && info(scene.parts.mechanism).spatial && scene.chaos.exponents == 0;
+    if (finds_touches) max_step = std::min(longest_step, period / 200);
     // Rigid contacts are found inside a step by its ends' depths and rates, and nothing happens fast between them.
     if (scene.parts.rigid) max_step = std::min(50 * longest_step, period / 50);
     // Nor over a carriage's reversal, which accelerates it for a small part of its period.

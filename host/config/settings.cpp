@@ -57,7 +57,7 @@ Settings settings() {
          .what = "absolute tolerance", .range = absolute_tolerance, .methods = method_sets::controlled,
          .number = of_integrator<&IntegratorSettings::atol>},
         {.name = "integrator.max_step", .type = Type::number, .unit = "s", .meaning = "largest step of the explicit methods",
-         .preset = "1 ms, or a 2000th of the drive's period, or a 20th of a reversal; with rigid contacts 50 ms, or a 50th of the period", .what = "largest step", .range = time_of_steps,
+         .preset = "1 ms, or a 2000th (verner65: a 200th) of the drive's period, or a 20th of a reversal; with rigid contacts 50 ms, or a 50th of the period", .what = "largest step", .range = time_of_steps,
          .methods = method_sets::controlled, .number = of_integrator<&IntegratorSettings::max_step>},
         {.name = "integrator.stiff_max_step", .type = Type::number, .unit = "s", .meaning = "largest step of the stiff method",
          .preset = "10 max_step", .what = "largest step", .range = time_of_steps, .methods = method_sets::stiff, .of_faces = true,
