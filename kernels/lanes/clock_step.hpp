@@ -150,7 +150,7 @@ private:
     SLIDEWAY_HD Faults<Real> evaluate_at(Pack<Model, Real> const& pack, StepStart<Model, Real> const& from,
                                          Attempt<Model, Real>& to, bool report_wanted, Real* slopes, bool at_end) {
         // The pace first: its root and its division need not wait for what follows.
-        Real const u = at_[root], pace = step_.pace(u);
+        Real const u = at_[root], evenness = step_.evenness(u), pace = step_.pace(u, evenness);
         memory_.clock_depth = u * u;
         // Who goes out there is out: what follows then has its derivative already.  Not quite zero, for means of depths divide by their sum.
         if (at_end && !from.needs.switches) memory_.clock_depth = select(step_.is_little(u), Real(1e-30), memory_.clock_depth);
@@ -158,7 +158,7 @@ private:
         auto const faults = pack.evaluate(from.t + at_[time], at_, memory_, rates_, report_wanted, to.report);
         for (int i = 0; i < size; ++i) slopes[i] = pace * rates_[i];
         slopes[time] = pace;
-        slopes[root] = step_.root_rate(u, rates_[size]);
+        slopes[root] = step_.root_rate_by(evenness, rates_[size]);
         return faults;
     }
 

@@ -51,11 +51,13 @@ template <class Real> struct ClockedStep {
         return sqrt(select(is_deep(), from + from, one) / select(is_deep(), fma(root, root, from), one));
     }
     /// dt/ds.
-    SLIDEWAY_FN Real pace(Real root) const { return select(start.runs(), (root + root) * evenness(root), Real(1.0)); }
+    SLIDEWAY_FN Real pace(Real root) const { return pace(root, evenness(root)); }
+    SLIDEWAY_FN Real pace(Real root, Real evenness) const { return select(start.runs(), (root + root) * evenness, Real(1.0)); }
     SLIDEWAY_FN Real pace_at_start() const { return pace(start.root); }
     SLIDEWAY_FN Real pace_at_end() const { return pace(end.root); }
     /// du/ds where δ' is `rate`.
-    SLIDEWAY_FN Real root_rate(Real root, Real rate) const { return select(start.runs(), rate * evenness(root), Real(0.0)); }
+    SLIDEWAY_FN Real root_rate(Real root, Real rate) const { return root_rate_by(evenness(root), rate); }
+    SLIDEWAY_FN Real root_rate_by(Real evenness, Real rate) const { return select(start.runs(), rate * evenness, Real(0.0)); }
 
     /// Whether the pair of the clock parts at the end: what is left of u is little, either way.  The impulse that is left goes with u⁵.
     SLIDEWAY_FN Mask<Real> parts() const {
