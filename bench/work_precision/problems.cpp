@@ -234,7 +234,7 @@ Problem relief_valve(std::vector<double> tolerances) {
 }  // namespace
 
 std::vector<Problem> all_problems(bool quick) {
-    Crowd const many = quick ? Crowd{32, 8} : Crowd{128, 32};
+    Crowd const many = quick ? Crowd{32, 8} : Crowd{128, 128};
     // Of 32 members the second worst would say which of two methods is better.
     Crowd const crowd = quick ? many : Crowd{512, 256};
     // Finest tolerance: of states, of energies where the run is short, and where it is long.

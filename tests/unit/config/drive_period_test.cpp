@@ -80,6 +80,18 @@ TEST(Revolutions, OfADrivenPlanarCrankAreItsTurns) {
     EXPECT_DOUBLE_EQ(scene.integrator.max_step, 5e-5);
 }
 
+/// What finds its touches inside steps may take longer ones than what may leap over an impact.
+TEST(Revolutions, LimitTheStepsOfVerner65TenTimesLess) {
+    auto const longest = [](std::string const& method, std::string const& speed) {
+        return scene_of(with_kind("slider_crank", "crank_speed = " + speed + "\n[integrator]\nmethod = \"" + method + "\"")).integrator.max_step;
+    };
+    EXPECT_DOUBLE_EQ(longest("dopri5", "\"600 rpm\""), 5e-5);
+    EXPECT_DOUBLE_EQ(longest("verner65", "\"600 rpm\""), 5e-4);
+    EXPECT_EQ(longest("verner65", "1"), 1e-3);
+    EXPECT_DOUBLE_EQ(scene_of(with_kind("planar_slider_crank", "crank_speed = \"600 rpm\"\n[integrator]\nmethod = \"verner65\"")).integrator.max_step, 5e-5)
+        << "its corners have no clocks";
+}
+
 TEST(Revolutions, AreNoneWhereNothingDrives) {
     EXPECT_EQ(error_of(with_kind("free_slider", "[study]\nrevolutions = 2")),
               "scene.toml:5: study.revolutions is 2 (nothing drives a free_slider, so there are no revolutions); "

@@ -261,14 +261,18 @@ TEST(ImpactWatch, LetsAPairGoOutThatHasPartedWithinItsFace) {
         // u has come to zero; by the error of the step the depth in the state has not.
         ClockedStep<double> const parting{1e-3, impacts.watch.clock(impacts.memory), {static_cast<double>(i), 1e-7, -0.1}};
         depth(report, p) = 1e-13;
-        EXPECT_TRUE(impacts.watch.update(true, report, impacts.memory, parting).lanes) << i;
+        EXPECT_TRUE(impacts.watch.update(true, report, impacts.memory, parting, false).lanes) << i;
         EXPECT_FALSE(impacts.holds(p)) << i;
-        ClockedStep<double> const flight{1e-5, {-1, 0, 0}, {-1, 0, 0}};
+        ClockedStep<double> const flight{5e-13, {-1, 0, 0}, {-1, 0, 0}};
         depth(report, p) = 0.5e-13;
-        EXPECT_FALSE(impacts.watch.update(true, report, impacts.memory, flight).lanes) << i << " still goes out";
+        double const located = 1e-15;
+        EXPECT_EQ(impacts.watch.earliest(true, impacts.memory, report, flight, located), 1.0) << i << " was never out, and is on its way";
+        EXPECT_FALSE(impacts.watch.update(true, report, impacts.memory, flight, false).lanes) << i << " still goes out";
         EXPECT_FALSE(impacts.holds(p)) << i;
         rate(report, p) = 0.1;
-        EXPECT_TRUE(impacts.watch.update(true, report, impacts.memory, flight).lanes) << i << " comes back";
+        depth(report, p) = 2e-13;
+        EXPECT_LT(impacts.watch.earliest(true, impacts.memory, report, flight, located), 1.0) << i << " comes back";
+        EXPECT_TRUE(impacts.watch.update(true, report, impacts.memory, flight, false).lanes) << i << " comes back";
         EXPECT_TRUE(impacts.holds(p)) << i;
     }
 }
@@ -283,7 +287,8 @@ TEST(ImpactWatch, FindsTheTouchOfAnotherPairByTheClock) {
         double const other = static_cast<double>((i + 3) % pairs().size()), itself = static_cast<double>(i);
         auto const earliest = [&](double pair) {
             ClockedStep<double> const step{own, {pair, u0, 0.01}, {pair, u1, 0.01}};
-            return Impacts(arc.start).watch.earliest(true, arc.end, step, 1e-9 * clearance);
+            Impacts const impacts(arc.start);
+            return impacts.watch.earliest(true, impacts.memory, arc.end, step, 1e-9 * clearance);
         };
         EXPECT_NEAR(earliest(other), touch, 1e-6) << i;
         EXPECT_EQ(earliest(itself), 1.0) << "its own pair is the clock's affair";
