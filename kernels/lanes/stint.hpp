@@ -62,7 +62,7 @@ private:
     using Impacts = ImpactSteps<Stepper, Model, Real>;
     using Choice = MethodChoice<Model, Real>;
     // Within an impact errors differ much from step to step.
-    using Control = StepControl<Stepper::order, by_clock ? 25 : 20, by_clock ? 87 : 90>;
+    using Control = StepControl<Stepper::order, by_clock ? 25 : 20>;
 
     /// A known time at which the step ends at the latest, and the lanes where it ends there.
     struct Landing {

@@ -32,7 +32,7 @@ template <class Real> struct ContactClock {
     /// That step in place of one that would nearly go there, or further.
     SLIDEWAY_FN Real ending(Real own) const {
         Real const whole = way_out();
-        return select(own > Real(0.8) * whole, whole, own);
+        return select(own > Real(0.9) * whole, whole, own);
     }
 };
 

@@ -11,9 +11,9 @@ inline constexpr double step_control_start = -26.575424759098897;
 /// Proportional–integral step control for a method whose local error falls with h^order.  Source: Hairer & Wanner, Solving Ordinary
 /// Differential Equations II (1996), IV.2 (Gustafsson).  Works on the logarithm of the squared norm, so that one exponential and
 /// one logarithm serve each attempt; four digits of them do, for the error is an estimate.
-/// @tparam percent of the exponent 1/order that the former error has  @tparam safety_percent of the step that would just do
-template <int order, int percent = 20, int safety_percent = 90> struct StepControl {
-    static constexpr double safety = safety_percent / 100.0, shrink = 0.2, grow = 10.0;
+/// @tparam percent of the exponent 1/order that the former error has
+template <int order, int percent = 20> struct StepControl {
+    static constexpr double safety = 0.9, shrink = 0.2, grow = 10.0;
     static constexpr double integral = percent / 100.0 / order, proportional = 1.0 / order - 0.75 * integral;
 
     /// Factor for the next step, and the controller's memory: log₂ of the squared norm of the last accepted error.
