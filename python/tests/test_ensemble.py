@@ -225,7 +225,8 @@ def test_ensembles_in_several_threads_give_what_they_give_alone() -> None:
     for thread in threads:
         thread.join()
     for place in range(len(threads)):
-        xr.testing.assert_identical(found[place], alone[place // 2])
+        # But for when they ran.
+        xr.testing.assert_identical(found[place].assign_attrs(created=""), alone[place // 2].assign_attrs(created=""))
 
 
 def test_memory_stays_flat_over_many_runs() -> None:
