@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
     std::string folder = ".", only, only_method;
     double budget = 0;
     bool members = false, no_scalar = false;
-    words.flag("--quick", quick, "fewer members and tolerances: about half a minute instead of some ten");
+    words.flag("--quick", quick, "fewer members and tolerances: about half a minute");
     words.folder("-o,--output", folder, "folder for the table and the plots");
     words.option("--problem", only, "only problems whose name contains this");
     words.option("--method", only_method, "only methods whose name contains this, or one of these, separated by commas");

@@ -9,13 +9,14 @@
 
 #include "tests/oracle/planar_runs.hpp"
 #include "tests/oracle/rigid_block.hpp"
-#include "tests/support/rigid.hpp"
+#include "tests/support/rigid_growth.hpp"
 
 namespace slideway::rigid_growth_test {
 namespace {
 
 using testing::rigid_planar_parts;
 using testing::ShadowOptions;
+using testing::with_friction;
 
 constexpr std::size_t size = 6;  // θ1 θ2 ψ and their rates
 
@@ -37,11 +38,6 @@ Inputs mechanism(double restitution, double inertia, double speed, double spin) 
     in.friction_static = in.friction_kinetic = 0;
     return in;
 }
-Inputs with_friction(Inputs in, double kinetic, double holding) {
-    in.friction_kinetic = kinetic, in.friction_static = holding;
-    return in;
-}
-
 /// Sizes of the state's numbers, in which offsets are measured.
 std::vector<double> scales(Inputs const& in) {
     double const rate = std::max(std::abs(in.crank_speed), 1.0), c = in.clearance_y;
@@ -58,41 +54,19 @@ Inputs beside(Orbit const& orbit, double by) {
     return in;
 }
 
-struct Neighbours {
-    std::vector<double> first;    // offset at the start, of unit length
-    std::vector<double> lengths;  // of the offset, at the start and at each stop
-    std::size_t impacts = 0, rests = 0, leaves = 0;
-};
-
-/// By central differences of two orbits of the reference.
-Neighbours neighbours(Orbit const& orbit) {
+/// Of two orbits of the reference.  @param impacts of both
+testing::OffsetLengths neighbours(Orbit const& orbit, std::size_t& impacts) {
     constexpr double by = 1e-9;
     std::vector<oracle::PlanarState> states[2];
-    Neighbours found;
+    impacts = 0;
     for (int side : {0, 1}) {
         auto const run = oracle::rigid_block_run(beside(orbit, side == 0 ? -by : by), orbit.parts(), static_cast<long double>(orbit.every),
                                                  static_cast<int>(orbit.stops), 2e-5L);
         EXPECT_TRUE(run.solved);
         states[side] = run.samples;
-        using enum oracle::RigidBlockEvent::Kind;
-        for (auto const& event : run.events) {
-            found.impacts += event.kind == impact, found.rests += event.kind == rest, found.leaves += event.kind == leave;
-        }
+        impacts += static_cast<std::size_t>(std::ranges::count(run.events, oracle::RigidBlockEvent::Kind::impact, &oracle::RigidBlockEvent::kind));
     }
-    auto const scale = scales(orbit.in);
-    for (std::size_t k = 0; k <= orbit.stops; ++k) {
-        std::vector<double> offset(size);
-        double square = 0;
-        for (std::size_t i = 0; i < size; ++i) {
-            offset[i] = static_cast<double>((states[1][k][i] - states[0][k][i]) / (2 * by * scale[i]));
-            square += offset[i] * offset[i];
-        }
-        found.lengths.push_back(std::sqrt(square));
-        if (k > 0) continue;
-        for (double& x : offset) x /= found.lengths[0];
-        found.first = offset;
-    }
-    return found;
+    return testing::offset_lengths(states[1], states[0], by, scales(orbit.in));
 }
 
 TEST(RigidGrowth, IsThatOfNeighbouringOrbitsOfTheReference) {
@@ -111,27 +85,18 @@ TEST(RigidGrowth, IsThatOfNeighbouringOrbitsOfTheReference) {
              Orbit{"slips that turn round", with_friction(swinging(100, -1.2, 0.5), 0.05, 0.05), true, true, 30, 1e-2},
          }) {
         SCOPED_TRACE(orbit.what);
-        auto const want = neighbours(orbit);
-        EXPECT_GT(want.impacts, 4u);
+        std::size_t impacts = 0;
+        auto const want = neighbours(orbit, impacts);
+        EXPECT_GT(impacts, 4u);
         ShadowOptions options{orbit.parts(), 1e-12, orbit.stops, orbit.every, 1, 1e-6, want.first};
-        auto const found = run_shadowed(best_isa(), options, {orbit.in});
-        ASSERT_EQ(found.records[0].status, Status::finished);
-        EXPECT_EQ(found.records[0].grown_offsets + found.records[0].lost_offsets, 0u);
-        for (std::size_t k = 1; k < orbit.stops; ++k) {
-            EXPECT_NEAR(found.growth[k - 1], std::log(want.lengths[k + 1] / want.lengths[k]), 2e-5) << k;
-        }
+        testing::expect_growth(run_shadowed(best_isa(), options, {orbit.in}), want, 2e-5);
     }
 }
 
 /// All offsets of a driven mechanism.
 ShadowOptions all_of_driven(bool friction, std::size_t stops, double tolerance) {
-    ShadowOptions options{rigid_planar_parts(friction, false), tolerance, stops, 1e-3, 4, 1e-6, {}};
-    for (std::size_t const i : {1u, 2u, 4u, 5u}) {
-        std::vector<double> axis(size);
-        axis[i] = 1;
-        options.directions.insert(options.directions.end(), axis.begin(), axis.end());
-    }
-    return options;
+    constexpr std::size_t axes[] = {1, 2, 4, 5};
+    return {rigid_planar_parts(friction, false), tolerance, stops, 1e-3, 4, 1e-6, testing::directions_along(axes, size)};
 }
 
 TEST(RigidGrowth, ContractsVolumesByTheSquareOfRestitutionAtEachImpact) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/oracle/rigid_slider.hpp"
+#include "tests/support/rigid_growth.hpp"
 #include "tests/support/rigid_joint.hpp"
 #include "tests/support/table_bounce.hpp"
 
@@ -18,6 +19,7 @@ namespace {
 using testing::drifting_sliders;
 using testing::rigid_joint_parts;
 using testing::ShadowOptions;
+using testing::with_friction;
 
 constexpr std::size_t size = 10;  // y z vy vz roll yaw pitch wx wy wz
 using Offset = std::array<double, size>;
@@ -50,53 +52,23 @@ Inputs beside(Orbit const& orbit, double by) {
     return in;
 }
 
-struct Neighbours {
-    std::vector<double> first;    // offset at the start, of unit length
-    std::vector<double> lengths;  // of the offset, at the start and at each stop
-    int impacts = 0;
-    std::size_t rests = 0, leaves = 0;
-};
-
-/// By central differences of two orbits of the reference.
-Neighbours neighbours(Orbit const& orbit) {
+/// Of two orbits of the reference.
+testing::OffsetLengths neighbours(Orbit const& orbit) {
     std::vector<long double> times;
     for (std::size_t k = 0; k <= orbit.stops; ++k)
         times.push_back(static_cast<long double>(orbit.every) * static_cast<long double>(k));
     std::vector<oracle::RigidSliderState> states[2];
-    Neighbours found;
     for (int side : {0, 1}) {
         auto const run = oracle::rigid_slider_run(beside(orbit, side == 0 ? -orbit.by : orbit.by), orbit.parts, times);
         EXPECT_TRUE(run.solved);
         states[side] = run.samples;
-        found.impacts = run.impacts.back();
-        using enum oracle::RigidSliderEvent::Kind;
-        found.rests = static_cast<std::size_t>(std::ranges::count(run.events, rest, &oracle::RigidSliderEvent::kind));
-        found.leaves = static_cast<std::size_t>(std::ranges::count(run.events, leave, &oracle::RigidSliderEvent::kind));
     }
-    auto const scale = scales(orbit.in, orbit.parts.mechanism);
-    for (std::size_t k = 0; k <= orbit.stops; ++k) {
-        std::vector<double> offset(size);
-        double square = 0;
-        for (std::size_t i = 0; i < size; ++i) {
-            offset[i] = static_cast<double>((states[1][k][i] - states[0][k][i]) /
-                                            (2 * static_cast<long double>(orbit.by) * scale[i]));
-            square += offset[i] * offset[i];
-        }
-        found.lengths.push_back(std::sqrt(square));
-        if (k > 0) continue;
-        for (double& x : offset) x /= found.lengths[0];
-        found.first = offset;
-    }
-    return found;
+    return testing::offset_lengths(states[1], states[0], orbit.by, scales(orbit.in, orbit.parts.mechanism));
 }
 
 /// In all directions, and in those of a plane alone.
 constexpr Offset aside{0.2, 0.5, 1, -0.3, 0.1, -0.2, 0.3, -0.7, 0.4, 1}, in_plane{0, 0, 1, 0, 0, 0, 0, 0, 0, 1};
 
-Inputs with_friction(Inputs in, double kinetic, double holding) {
-    in.friction_kinetic = kinetic, in.friction_static = holding;
-    return in;
-}
 Inputs slider(unsigned seed, double e, double kinetic = 0, double holding = 0) {
     return with_friction(drifting_sliders(1, seed, e, 0)[0], kinetic, holding);
 }
@@ -142,25 +114,15 @@ TEST(RigidJointGrowth, IsThatOfNeighbouringOrbitsOfTheReference) {
         auto const want = neighbours(orbit);
         for (double const tolerance : {1e-12, orbit.loosest}) {
             ShadowOptions options{orbit.parts, tolerance, orbit.stops, orbit.every, 1, 1e-6, want.first};
-            auto const found = run_shadowed(best_isa(), options, {orbit.in});
-            ASSERT_EQ(found.records[0].status, Status::finished);
-            EXPECT_EQ(found.records[0].grown_offsets + found.records[0].lost_offsets, 0u);
-            for (std::size_t k = 1; k < orbit.stops; ++k) {
-                EXPECT_NEAR(found.growth[k - 1], std::log(want.lengths[k + 1] / want.lengths[k]), 1e-5) << k;
-            }
+            testing::expect_growth(run_shadowed(best_isa(), options, {orbit.in}), want, 1e-5);
         }
     }
 }
 
 /// Of all directions.
 ShadowOptions all_of(Parts const& parts, std::size_t stops, double every, double tolerance) {
-    ShadowOptions options{parts, tolerance, stops, every, size, 1e-6, {}};
-    for (std::size_t i = 0; i < size; ++i) {
-        std::vector<double> axis(size);
-        axis[i] = 1;
-        options.directions.insert(options.directions.end(), axis.begin(), axis.end());
-    }
-    return options;
+    constexpr std::size_t axes[size] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+    return {parts, tolerance, stops, every, size, 1e-6, testing::directions_along(axes, size)};
 }
 
 TEST(RigidJointGrowth, ContractsVolumesByTheSquareOfRestitutionAtEachImpact) {

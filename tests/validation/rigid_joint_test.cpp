@@ -77,7 +77,9 @@ TEST(RigidJoint, ImpactsAHairBeforeTheEndAreThere) {
         o.settings.max_steps = 1000;
         auto const r = testing::run(best_isa(), o, {in});
         ASSERT_EQ(r.records[0].status, Status::finished) << hair;
-        if (hair > 1e-12) EXPECT_NEAR(r.states[0][2], e * in.gravity * first, 1e-9 + 2 * hair) << hair;
+        if (hair > 1e-12) {
+            EXPECT_NEAR(r.states[0][2], e * in.gravity * first, 1e-9 + 2 * hair) << hair;
+        }
     }
 }
 
