@@ -147,7 +147,10 @@ TEST(ImpactSteps, LeavePartingsBehindAtLooseTolerances) {
     auto options = options_of(parts, Method::verner65, 1e-2, 0.05);
     options.settings.max_steps = 20'000;
     auto members = testing::scattered_starts(512, clearance, crank_speed, parts.law);
-    for (auto& in : members) in.roll = in.yaw = in.pitch = in.vy = in.vz = in.wx = in.wy = in.wz = 0;
+    for (auto& in : members) {
+        in.roll = in.yaw = in.pitch = in.vy = in.vz = in.wx = in.wy = in.wz = 0;
+        in.chi_line = in.chi_surface = 10;
+    }
     auto const r = testing::run(best_isa(), options, members);
     std::vector<double> costs;
     for (auto const& record : r.records) {
