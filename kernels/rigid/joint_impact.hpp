@@ -45,7 +45,6 @@ public:
             row.normal = row.along[0] = row.along[1] = Real(0.0);
         }
         pairs.solve(in, enough_, bearable_, sweeps, patience, friction_);
-        pairs.follow(in, friction_);
         return energy_made();
     }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "kernels/math/tangent.hpp"
 #include "kernels/real.hpp"
 #include "kernels/rigid/pair_motion.hpp"
 
@@ -45,35 +44,6 @@ public:
             for (int k = 0; k < count_; ++k) go(in, k);
         }
         return in;
-    }
-
-    /// One more step from loads that are found, of their slopes alone: a search that ends where values stand still leaves slopes a step behind.
-    /// @param after the motion, of which slopes change too
-    SLIDEWAY_HD void follow(Mask<Real> in, Twist<Real>& after) requires is_tangent<Real> {
-        begin();
-        Real before[3][pair_count];
-        for (int k = 0; k < count_; ++k) {
-            auto const& row = rows_[k];
-            before[0][k] = normal_[k] = row.normal;
-            for (int j = 0; j < 2; ++j) before[1 + j][k] = along_[j][k] = row.along[j];
-        }
-        this->measure(in, after);
-        look(false);
-        this->factor(local_);
-        this->step(local_);
-        for (int k = 0; k < count_; ++k) {
-            go(in, k);
-            rows_[k].normal.value = before[0][k].value;
-            for (int j = 0; j < 2; ++j) rows_[k].along[j].value = before[1 + j][k].value;
-        }
-        auto const moved = this->moved();
-        auto const take = [in](Vec3<Real> const& from, Vec3<Real>& to) {
-            to.x.slope = slideway::select(in, from.x.slope, to.x.slope);
-            to.y.slope = slideway::select(in, from.y.slope, to.y.slope);
-            to.z.slope = slideway::select(in, from.z.slope, to.z.slope);
-        };
-        take(moved.linear, after.linear);
-        take(moved.angular, after.angular);
     }
 
 private:

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "kernels/math/tangent.hpp"
 #include "kernels/real.hpp"
 #include "kernels/rigid/pair_barrier.hpp"
 #include "kernels/rigid/pair_newton.hpp"
@@ -72,11 +71,6 @@ public:
         active = active & !(change <= Real(well_enough) * size);
         if (any(active)) active = persist(active, size, enough, bearable, patience, friction);
         failed = active;
-    }
-
-    /// Where loads are Tangents, their slopes and those of the motion: exact to the first order.
-    SLIDEWAY_HD void follow([[maybe_unused]] Mask<Real> in, [[maybe_unused]] bool friction) {
-        if constexpr (is_tangent<Real>) PairNewton<Guide, Real>(pairs_, rows_, count_, before, friction).follow(in, after);
     }
 
     /// Ends what is left of the motion of pairs that rest, and of the slip of those that are still (PairRest).
