@@ -3,6 +3,7 @@
 #include "kernels/real.hpp"
 #include "kernels/rigid/pair_barrier.hpp"
 #include "kernels/rigid/pair_newton.hpp"
+#include "kernels/rigid/pair_path.hpp"
 #include "kernels/rigid/pair_rest.hpp"
 #include "kernels/rigid/touching_pair.hpp"
 
@@ -70,6 +71,7 @@ public:
         }
         active = active & !(change <= Real(well_enough) * size);
         if (any(active)) active = persist(active, size, enough, bearable, patience, friction);
+        if (any(active)) active = PairPath<Guide, Real>(pairs_, rows_, count_, before, friction).solve(active, size, Real(well_enough) * size, after);
         failed = active;
     }
 

@@ -47,6 +47,15 @@ INSTANTIATE_TEST_SUITE_P(Sliders, RigidFoundImpacts,
                                            Found{Mechanism::slider_crank, 1000, 12405}, Found{Mechanism::scotch_yoke, 1000, 4719},
                                            Found{Mechanism::scotch_yoke, 1000, 5113}, Found{Mechanism::scotch_yoke, 1000, 5121}));
 
+/// Apices that wedge between two faces, in impacts that stop their slip and while they last, with loads a thousand times those of their approach.
+using RigidFoundWedges = RigidFound;
+TEST_P(RigidFoundWedges, HaveLoads) { expect_balance(); }
+INSTANTIATE_TEST_SUITE_P(Sliders, RigidFoundWedges,
+                         ::testing::Values(Found{Mechanism::slider_crank, 100, 2760}, Found{Mechanism::slider_crank, 104, 10986},
+                                           Found{Mechanism::slider_crank, 116, 12341}, Found{Mechanism::slider_crank, 112, 1138},
+                                           Found{Mechanism::scotch_yoke, 103, 12759}, Found{Mechanism::scotch_yoke, 111, 16177},
+                                           Found{Mechanism::free_slider, 105, 13722}, Found{Mechanism::free_slider, 113, 8398}));
+
 /// Apices hit in turn every few nanoseconds, at speeds that friction keeps up: more than 100,000 steps if they go on.
 using RigidFoundRattles = RigidFound;
 TEST_P(RigidFoundRattles, ComeToAnEnd) {
