@@ -31,6 +31,7 @@ small: dict[str, Any] = {
 studies = {
     "ensemble_starts": {"study.members": 12, "study.duration": "20 ms"},
     "lyapunov_0.1mm": {"study.members": 3, "study.transient_revolutions": 1, "study.revolutions": 2, "mechanism.crank_speed": "600 rpm"},
+    "lyapunov_rigid": {"study.members": 3, "study.transient_revolutions": 0, "study.revolutions": 1},
     "tolerance_0.1mm": {"study.base": 8, "study.duration": "1 ms"},
     "tolerance_table": {"study.duration": "1 ms"},
     "poincare_0.1mm": {"study.members": 3, "study.transient_revolutions": 1, "study.revolutions": 3, "mechanism.crank_speed": "120 rpm"},
