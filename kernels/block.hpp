@@ -23,7 +23,7 @@ struct IntegratorSettings {
     double end_time = 0;                    // [s]
     double max_step = 1e-3;                 // [s], of the explicit methods; what a step may leap over in free flight
     double stiff_max_step = 1e-2;           // [s], of the stiff method, which runs in lasting contact only
-    double fixed_step = 0;                  // [s], of rk4
+    double fixed_step = 0;                  // [s], of rk4 and moreau_jean
     bool locate_modes = false;              // steps end where the contacts change: for a law that switches
     std::uint64_t max_steps = 100'000'000;  // tried steps per member
 };

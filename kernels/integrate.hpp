@@ -20,6 +20,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 ///  - `has_impacts`: contacts then are rigid, `located(parameters, end)` is the length of the watch instead, and `settle(…)` says what follows
 ///    where a step has ended (kernels/rigid); with shadows both it and the derivative are called with a Tangent for `Real` too, and the
 ///    contact's report has the depths `watched` and their `rate`, and where slips turn round `grip` (kernels/lanes/saltation.hpp);
+///    for time stepping (kernels/lanes/moreau_jean_step.hpp) `push(…)`, the impulses of a step, `rate_components` and `put_place_rates(…)`;
 ///  - `scales(parameters, scale)`: sizes of the state's components that the absolute tolerance is meant against;
 ///  - `has_linearisation`: then `Linearisation<Real>` and `linearise(…)` serve the stiff method;
 ///  - `has_shadows`: then members have shadows beside them (kernels/lanes/shadows.hpp; kernels/models/shadowed.hpp makes such a model of

@@ -3,7 +3,7 @@
 
 namespace slideway {
 
-enum class Method { automatic, dopri5, dop853, bs32, ros34pw2, rk4, verner65 };
+enum class Method { automatic, dopri5, dop853, bs32, ros34pw2, rk4, verner65, moreau_jean };
 
 struct MethodInfo {
     char const* name;
@@ -18,12 +18,16 @@ inline constexpr MethodInfo method_table[] = {
     {"ros34pw2", "Rosenbrock W-method 3(2) alone: for lasting contact, it loses energy in impacts"},
     {"rk4", "classical Runge-Kutta with the fixed step integrator.step"},
     {"verner65", "Verner 6(5) with steps that end where contacts begin and end, and a clock within them: for impacts"},
+    {"moreau_jean", "Moreau and Jean's time stepping with the fixed step integrator.step: for contact.law \"rigid\", where contacts are many"},
 };
 inline constexpr int method_count = sizeof(method_table) / sizeof(method_table[0]);
 
-/// Methods that do not notice when they fail: rk4 has no error control, and that of ros34pw2 does not see what an impact loses. Their
-/// members carry the energy audit along whether or not it is asked for, so that their status can tell.
-constexpr bool is_always_audited(Method method) { return method == Method::ros34pw2 || method == Method::rk4; }
+/// Methods of the fixed step `integrator.step`, without error control.
+constexpr bool has_fixed_step(Method method) { return method == Method::rk4 || method == Method::moreau_jean; }
+
+/// Methods that do not notice when they fail: those of a fixed step have no error control, and that of ros34pw2 does not see what an impact loses.
+/// Their members carry the energy audit along whether or not it is asked for, so that their status can tell.
+constexpr bool is_always_audited(Method method) { return method == Method::ros34pw2 || has_fixed_step(method); }
 
 /// Explicit Runge-Kutta methods with error control.
 constexpr bool is_explicit_pair(Method method) {

@@ -74,7 +74,7 @@ std::string range_text(std::string const& least, std::string const& most) {
 
 std::string cost_text(Scene const& scene, Prediction const& prediction, std::optional<Trial> const& trial) {
     std::string const threads = counted(static_cast<std::uint64_t>(prediction.busy_threads), "thread");
-    if (scene.integrator.method == Method::rk4) {
+    if (has_fixed_step(scene.integrator.method)) {
         return fmt::format("{:.0f} steps, all fixed; some {} on {}", prediction.most_steps,
                            duration_text(trial ? trial->seconds : prediction.most_seconds), threads);
     }

@@ -53,6 +53,7 @@ std::string replay_command(RunArguments const& arguments, Scene const& scene, st
 std::string_view advice_on(Method method) {
     switch (method) {
         case Method::rk4:
+        case Method::moreau_jean:
             return "use a smaller integrator.step, or method = \"auto\"";
         case Method::ros34pw2:
             return "it is for lasting contact alone; use method = \"auto\" where there are impacts";
@@ -67,12 +68,12 @@ void print_instability(Scene const& scene, Statuses const& ended) {
     std::uint64_t const unstable = count_of(ended, Status::unstable);
     // A step beyond the limit throws the slider out of its joint, if it does not end in infinity.
     std::uint64_t const broken =
-        method == Method::rk4
+        has_fixed_step(method)
             ? count_of(ended, Status::nonfinite) + count_of(ended, Status::geometry) + count_of(ended, Status::contact_domain)
             : 0;
     if (unstable + broken == 0) return;
-    std::string const name = method == Method::rk4
-                                 ? fmt::format("rk4 with a step of {:.3g} s", scene.integrator.fixed_step)
+    std::string const name = has_fixed_step(method)
+                                 ? fmt::format("{} with a step of {:.3g} s", name_of(method), scene.integrator.fixed_step)
                                  : std::string(name_of(method));
     std::vector<std::string> what;
     if (unstable > 0) what.push_back(fmt::format("{} unstable by the energy audit", unstable));

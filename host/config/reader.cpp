@@ -116,6 +116,11 @@ std::optional<Problem> why_unknown(Quantity quantity, Scene const& scene) {
     return {};
 }
 
+std::optional<Problem> why_unknown(Series series, Scene const& scene) {
+    if (scene.integrator.method != Method::moreau_jean || !selects(series_without_time_stepping, series)) return {};
+    return Problem{"moreau_jean knows impulses of whole steps, and no forces of an instant", "remove it, or use method = \"auto\""};
+}
+
 void refuse_at_rest(Node const& node, Parts const& parts, std::string_view instead) {
     refuse(node, {fmt::format("{}, so there are no revolutions", why_no_period(parts)), fmt::format("use {} instead", instead)});
 }

@@ -81,6 +81,7 @@ double shortest_reversal(Scene const& scene);
 [[noreturn]] void refuse_foreign_quantity(Node const& node, std::string_view name, Mechanism mechanism);
 /// Why the scene's members do not have a quantity of their mechanism, where it is so.
 std::optional<Problem> why_unknown(Quantity quantity, Scene const& scene);
+std::optional<Problem> why_unknown(Series series, Scene const& scene);
 
 /// How long the members of a study of orbits run [s], and how often their steps end at known times.
 struct RunLength {

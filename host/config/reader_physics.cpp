@@ -73,7 +73,7 @@ void check_located_modes(Node const& node, Scene const& scene) {
     if (scene.parts.damping == Damping::restitution) {
         refuse(node, {"contact.restitution ends steps at its touches already", "remove one of the two"});
     }
-    if (scene.integrator.method == Method::ros34pw2 || scene.integrator.method == Method::rk4) {
+    if (scene.integrator.method == Method::ros34pw2 || has_fixed_step(scene.integrator.method)) {
         refuse(node, {fmt::format("{} cannot end its steps there", name_of(scene.integrator.method)),
                       "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\" or \"bs32\""});
     }
@@ -101,6 +101,20 @@ void read_located_modes(Node const& root, Scene& scene) {
                         : fmt::format("integrator.method is {}", name_of(settings.method)),
                     info(scene.parts.law).name,
                     can ? "leave it out" : "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\" or \"bs32\""));
+}
+
+/// Impulses want bodies that do not give way, and neighbours that pass through the same impacts.
+void check_time_stepping(Node const& root, Scene& scene) {
+    Node const& method = *root.find_path("integrator.method");
+    if (!scene.parts.rigid) {
+        refuse(method, {"time stepping is of rigid contacts", fmt::format("use contact.law = \"{}\", or method = \"auto\"", rigid_contact.name)});
+    }
+    if (scene.chaos.exponents > 0 && !runs_to_end(scene.study)) {
+        refuse(method, {"time stepping takes no neighbours along, which exponents are of", "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\" or \"bs32\""});
+    }
+    Node const* const holding = root.find_path("friction.static");
+    if (holding == nullptr || scene.inputs.friction_static == scene.inputs.friction_kinetic) return;
+    scene.warnings.push_back("friction.static has no effect with method moreau_jean, whose contacts stick up to friction.kinetic");
 }
 
 void warn_of_idle_integrator_keys(Node const& table, Scene& scene) {
@@ -182,7 +196,7 @@ void read_integrator(Node const& root, Scene& scene) {
                                   : "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\", \"bs32\" or \"rk4\""});
     }
     Node const* const step = root.find_path("integrator.step");
-    if (settings.method == Method::rk4 && step == nullptr) {
+    if (has_fixed_step(settings.method) && step == nullptr) {
         refuse(*root.find_path("integrator.method"), {"the method has no step control", "give integrator.step"});
     }
     if (settings.method == Method::rk4 && scene.parts.damping == Damping::restitution) {
@@ -191,6 +205,7 @@ void read_integrator(Node const& root, Scene& scene) {
                 scene.parts.rigid ? "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\" or \"bs32\""
                                   : "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\", \"bs32\" or \"ros34pw2\""});
     }
+    if (settings.method == Method::moreau_jean) check_time_stepping(root, scene);
     read_located_modes(root, scene);
     auto const is_given = [&](std::string_view name) { return root.find_path(name) != nullptr; };
     if (!is_given("integrator.atol")) settings.atol = atol_per_rtol * settings.rtol;

@@ -95,6 +95,7 @@ void read_quantities(Node const& list, Scene& scene) {
                           scene.study == StudyKind::ensemble ? "set study.samples_per_revolution or study.samples"
                                                              : "remove it, or use kind = \"ensemble\""});
         }
+        if (auto const why = why_unknown(static_cast<Series>(index - quantity_count), scene)) refuse(node, *why);
         scene.series |= Selection{1} << (index - quantity_count);
     }
 }
@@ -196,7 +197,7 @@ void read_recording(Node const& root, Scene& scene) {
     EndTime const end = samples ? read_end_time(root, scene) : EndTime{run_length(scene).seconds, NAN};
     RunLength const length = samples ? RunLength{end.seconds, end.seconds, 0} : run_length(scene);
     scene.integrator.end_time = end.seconds;
-    if (scene.integrator.method == Method::rk4) {
+    if (has_fixed_step(scene.integrator.method)) {
         read_max_steps_of_fixed(root, scene.integrator, length);
     } else if (root.find_path("integrator.max_steps") == nullptr) {
         scene.integrator.max_steps = default_max_steps(length, scene.integrator.max_step);

@@ -66,7 +66,7 @@ Settings settings() {
          .meaning = "tolerance of vibrations that the stiff method damps, where rtol is smaller", .preset = "", .what = "least tolerance of ringing",
          .range = relative_tolerance, .methods = method_sets::stiff, .of_faces = true,
          .number = of_integrator<&IntegratorSettings::stiff_tolerance>},
-        {.name = "integrator.step", .type = Type::number, .unit = "s", .meaning = "the fixed step of rk4", .preset = "-", .what = "fixed step",
+        {.name = "integrator.step", .type = Type::number, .unit = "s", .meaning = "the fixed step of rk4 and moreau_jean", .preset = "-", .what = "fixed step",
          .range = time_of_steps, .methods = method_sets::fixed, .number = of_integrator<&IntegratorSettings::fixed_step>},
         {.name = "integrator.locate_modes", .type = Type::truth, .unit = "",
          .meaning = "end steps where the contact mode switches; for laws that switch",

@@ -29,7 +29,7 @@ using MethodSet = unsigned;
 constexpr MethodSet set_of(Method method) { return 1u << static_cast<int>(method); }
 
 namespace method_sets {
-inline constexpr MethodSet all = (1u << method_count) - 1, fixed = set_of(Method::rk4), controlled = all & ~fixed,
+inline constexpr MethodSet all = (1u << method_count) - 1, fixed = set_of(Method::rk4) | set_of(Method::moreau_jean), controlled = all & ~fixed,
                            stiff = set_of(Method::automatic) | set_of(Method::ros34pw2),
                            explicit_pairs = controlled & ~set_of(Method::ros34pw2);
 }  // namespace method_sets

@@ -72,7 +72,7 @@ StepRange steps_of_member(Scene const& scene) {
     OrbitSchedule const schedule = orbit_schedule(scene);
     double const end = schedule.end;
     auto const stops = static_cast<double>(schedule.stops.count);
-    if (scene.integrator.method == Method::rk4) {
+    if (has_fixed_step(scene.integrator.method)) {
         double const steps = fixed_steps(scene.integrator) + stops;
         return {steps, steps};
     }

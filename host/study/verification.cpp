@@ -17,7 +17,7 @@ constexpr double first_share = 0.8;   // of what is left
 constexpr double steps_beyond = 2;    // how much more than foreseen a check may take
 
 std::string remedy(Scene const& scene, Verification const& v) {
-    if (scene.integrator.method == Method::rk4) return "use a smaller integrator.step, or method = \"auto\"";
+    if (has_fixed_step(scene.integrator.method)) return "use a smaller integrator.step, or method = \"auto\"";
     bool const tolerance = std::ranges::any_of(
         v.findings, [&](CheckedColumn const& found) { return found.differs && v.methods[found.method].starts_with(name_of(scene.integrator.method)); });
     std::string const tighter = fmt::format("integrator.rtol = {:.0e} and atol likewise", check_tightening * scene.integrator.rtol);

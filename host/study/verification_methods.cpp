@@ -58,7 +58,7 @@ Scene without_series(Scene scene) {
 }
 
 std::string words_of(IntegratorSettings const& settings) {
-    if (settings.method == Method::rk4) return fmt::format("rk4 with steps of {:.3g} s", settings.fixed_step);
+    if (has_fixed_step(settings.method)) return fmt::format("{} with steps of {:.3g} s", name_of(settings.method), settings.fixed_step);
     return fmt::format("{} at rtol {:.0e}", name_of(settings.method), settings.rtol);
 }
 
@@ -75,18 +75,18 @@ std::vector<CheckMethod> check_methods(Scene const& scene) {
     std::string_view const located = locates ? ", switches located" : "";
 
     Scene tight = bare;
-    if (own == Method::rk4) {
+    if (has_fixed_step(own)) {
         tight.integrator.fixed_step *= fewer_steps;
         tight.integrator.max_steps = static_cast<std::uint64_t>(static_cast<double>(scene.integrator.max_steps) / fewer_steps);
     } else {
         tighten(tight.integrator);
         tight.integrator.locate_modes = tight.integrator.locate_modes || locates;
     }
-    add(tight, cost_of(own, own), own == Method::rk4 ? "" : located);
+    add(tight, cost_of(own, own), has_fixed_step(own) ? "" : located);
 
     Scene other = bare;
     other.integrator.method = other_method(own, scene.parts);
-    if (own == Method::rk4) {
+    if (has_fixed_step(own)) {
         IntegratorSettings const usual;
         other.integrator.rtol = usual.rtol;
         other.integrator.atol = usual.atol;

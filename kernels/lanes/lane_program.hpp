@@ -8,6 +8,7 @@
 #include "kernels/lanes/explicit_step.hpp"
 #include "kernels/lanes/member_state.hpp"
 #include "kernels/lanes/method_choice.hpp"
+#include "kernels/lanes/moreau_jean_step.hpp"
 #include "kernels/lanes/new_member.hpp"
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/results.hpp"
@@ -161,6 +162,8 @@ private:
             start();
         } else if (kind == Kind::stiff) {
             if constexpr (Model::has_linearisation) work<StiffStep<Model, Real>>();
+        } else if (is_time_stepping()) {
+            if constexpr (has_time_stepping<Model>) work<MoreauJeanStep<Model, Real>>();
         } else if (settings.method == Method::rk4) {
             work<ExplicitStep<RungeKutta4, Model, Real>>();
         } else if (is_analytic<Model> && settings.method == Method::automatic) {
@@ -179,6 +182,8 @@ private:
         }
         look(kind);
     }
+
+    SLIDEWAY_HD bool is_time_stepping() const { return has_time_stepping<Model> && block_.settings.method == Method::moreau_jean; }
 
     /// A stint of Taylor series of the order that suits the tolerance, −½ ln(rtol) or so.
     SLIDEWAY_HD void series() {
@@ -208,7 +213,9 @@ private:
         if (pack_.needs.quantities) pack_.state.observation.observer.start(pack_.busy, report, c.y, pack_.needs.switches);
         pack_.with_accelerations([&](auto& a) { a.start(pack_.busy, report); });
         pack_.begin_next(pack_.busy, rates, report);
-        if constexpr (has_impacts<Model>) {
+        if (is_time_stepping()) {
+            if constexpr (has_time_stepping<Model>) contacts.memory.begun = select(pack_.busy, Real(1.0), contacts.memory.begun);
+        } else if constexpr (has_impacts<Model>) {
             faults = faults.or_else(settle_start(rates, report));
         } else if constexpr (Model::has_contacts) {
             if (pack_.needs.watch()) contacts.watch.begin(pack_.busy, report.contact, contacts.memory, pack_.needs.watching);

@@ -7,6 +7,7 @@
 #include "kernels/lanes/event_search.hpp"
 #include "kernels/lanes/impact_steps.hpp"
 #include "kernels/lanes/method_choice.hpp"
+#include "kernels/lanes/moreau_jean_step.hpp"
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/results.hpp"
 #include "kernels/lanes/shadows.hpp"
@@ -263,7 +264,9 @@ private:
         c.t = select(accepted, t_end, c.t);
         if constexpr (Stepper::stiff) c.stiff_steps = c.stiff_steps + count<Real>(accepted);
         pack_.begin_next(accepted, attempt_.end_rates, attempt_.report);
-        if constexpr (has_impacts<Model>) {
+        if constexpr (has_impulses<Stepper>) {
+            // What touches is looked for in each step anew.
+        } else if constexpr (has_impacts<Model>) {
             if constexpr (Model::has_shadows) shadows_.advance(pack_, accepted);
             settle_contacts(accepted);
         } else {
@@ -284,6 +287,7 @@ private:
 
     SLIDEWAY_HD void observe(Mask<Real> accepted) {
         if (!pack_.needs.quantities) return;
+        if constexpr (has_impulses<Stepper>) pack_.state.observation.observer.take_impulses(accepted, attempt_.report);
         pack_.state.observation.observer.accept(accepted, attempt_.step, pack_.integral, attempt_.report, attempt_.end,
                                                 pack_.needs.switches);
         pack_.with_accelerations([&](auto& a) { a.accept(accepted, attempt_.step, attempt_.report); });

@@ -11,17 +11,23 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Guide, class Real> class JointImpact {
 public:
     using Pairs = JointPairs<Guide, Real>;
-    static constexpr int sweeps = 2, patience = 8192;
+    static constexpr int sweeps = 2;
     static constexpr double settled = 1e-15;  // of the speeds: what counts as no change of them
     static constexpr double bearable = 1e-13;
     static constexpr double resolved = 0.1;   // of the least speed
 
+    int patience = 8192;
     PairSolver<Guide, Real> pairs;  // `before` and `after` are velocities, `normal` and `along` impulses
 
     /// @param coefficient μ, or nullptr without friction  @param least_speed of a pair that is not at rest [m/s]
     SLIDEWAY_HD JointImpact(Pairs const& all, Twist<Real> const& velocity, Mask<Real> const (&near)[pair_count], Real const* coefficient,
                             Real least_speed)
-        : pairs(all, velocity), all_(all), friction_(coefficient != nullptr) {
+        : JointImpact(all, velocity, velocity, near, coefficient, least_speed) {}
+
+    /// In which pairs come nearer at another velocity than impulses change: `arrival`.
+    SLIDEWAY_HD JointImpact(Pairs const& all, Twist<Real> const& velocity, Twist<Real> const& arrival, Mask<Real> const (&near)[pair_count],
+                            Real const* coefficient, Real least_speed)
+        : pairs(all, velocity), all_(all), arrival_(arrival), friction_(coefficient != nullptr) {
         Real const zero(0.0), rounding(2.220446049250313e-16);
         Real size = zero, slip = zero;
         for (int i = 0; i < pair_count; ++i) {
@@ -41,7 +47,7 @@ public:
     SLIDEWAY_HD Real solve(Mask<Real> in, Real const (&restitution)[pair_count]) {
         for (int k = 0; k < pairs.count(); ++k) {
             auto& row = pairs.row(k);
-            row.target = negated(restitution[row.number]) * min(approach(row), Real(0.0));
+            row.target = negated(restitution[row.number]) * min(dot(row.pair.normal, arrival_), Real(0.0));
             row.normal = row.along[0] = row.along[1] = Real(0.0);
         }
         pairs.solve(in, enough_, bearable_, sweeps, patience, friction_);
@@ -98,7 +104,7 @@ public:
     SLIDEWAY_HD Taken taken() const {
         Real const zero(0.0), half(0.5);
         Taken t{zero, zero, zero};
-        auto const mean = half * (pairs.before + pairs.after);
+        auto const mean = half * (arrival_ + pairs.after);
         for (int k = 0; k < pairs.count(); ++k) {
             auto const& row = pairs.row(k);
             t.damping = fnma(dot(row.pair.normal, mean), row.normal, t.damping);
@@ -113,6 +119,7 @@ private:
     SLIDEWAY_FN static Real& impulse_of(TouchingPair<Real>& row, int j) { return j == 0 ? row.normal : row.along[j - 1]; }
 
     Pairs const& all_;
+    Twist<Real> arrival_;
     bool friction_;
     Real enough_, bearable_;  // change of a velocity that is none, or is where it cannot be made less [m/s]
 };

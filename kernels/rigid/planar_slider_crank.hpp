@@ -9,6 +9,7 @@
 #include "kernels/real.hpp"
 #include "kernels/rigid/planar_settlement.hpp"
 #include "kernels/rigid/planar_stance.hpp"
+#include "kernels/rigid/planar_step_impulse.hpp"
 #include "kernels/rigid/rigid_memory.hpp"
 #include "kernels/rigid/rigid_observer.hpp"
 #include "kernels/rigid/rigid_planar_report.hpp"
@@ -113,6 +114,19 @@ struct RigidPlanarSliderCrank : PlanarBase {
                                         RigidPlanarContact<Real> const& contact) const {
         PlanarSettlement<Real> settlement(p, friction, free_crank, located(p, end), end);
         return settlement.run(in, t, s, memory, contact);
+    }
+
+    /// Components of the state that are rates of the others, a bit each, and what the rates of those are.
+    static constexpr unsigned rate_components = 0b111000;
+    template <class Real> SLIDEWAY_FN static void put_place_rates(Real const* s, PlanarParameters<Real> const&, Real* rates) {
+        for (int i = 0; i < 3; ++i) rates[i] = s[3 + i];
+    }
+
+    /// Impulses of a step of time stepping, as of a RigidSlider.
+    template <class Real>
+    SLIDEWAY_NOINLINE Mask<Real> push(Real t, Real h, Real const* s, Real* free, PlanarParameters<Real> const& p,
+                                      RigidPlanarContact<Real>& contact) const {
+        return PlanarStepImpulse<Real>(p, friction, free_crank).run(t, h, s, free, contact);
     }
 
 private:

@@ -32,13 +32,8 @@ public:
 
     /// After an event.
     SLIDEWAY_FN void switch_over(Mask<Real> in, Report const& r, bool switches) {
-        using enum Quantity;
         auto const& books = r.contact.books;
-        auto const book = [in](Real& account, Real amount) { account = select(in, account + amount, account); };
-        book(this->integral_[Base::template place_of<crank_work>], books.work);
-        book(this->integral_[Base::template place_of<friction_loss>], books.friction);
-        book(this->integral_[Base::template place_of<damping_loss>], books.damping);
-        book(this->integral_[Base::template place_of<mean_normal_force>], books.impulse);
+        book(in, books);
         // As of compliant contacts: from free flight, however many corners meet their walls.
         this->onsets_ = this->onsets_ + slideway::count<Real>(in & (books.count > Real(0.0)) & (this->mode_ == Real(0.0)));
         this->mode_ = select(in, this->mode_class(r), this->mode_);
@@ -46,8 +41,25 @@ public:
         this->resume(in, r, switches);
     }
 
+    /// Of a step that is about to be accepted and has the impulses in it: what they make of the energy is not the method's.
+    SLIDEWAY_FN void take_impulses(Mask<Real> in, Report const& r) {
+        auto const& books = r.contact.books;
+        book(in, books);
+        this->energy_ = select(in, this->energy_ + (books.work - books.friction - books.damping), this->energy_);
+    }
+
 private:
     using Base = SliderObserver<Real, Report_>;
+
+    SLIDEWAY_FN void book(Mask<Real> in, ImpactBooks<Real> const& books) {
+        using enum Quantity;
+        auto const add = [&](Real& account, Real amount) { account = select(in, account + amount, account); };
+        add(this->integral_[Base::template place_of<crank_work>], books.work);
+        add(this->integral_[Base::template place_of<friction_loss>], books.friction);
+        add(this->integral_[Base::template place_of<damping_loss>], books.damping);
+        add(this->integral_[Base::template place_of<mean_normal_force>], books.impulse);
+    }
+
     Real owed_;  // flight that is still to come [s]
 };
 

@@ -9,6 +9,7 @@
 #include "kernels/real.hpp"
 #include "kernels/rigid/joint_offset.hpp"
 #include "kernels/rigid/joint_settlement.hpp"
+#include "kernels/rigid/joint_step_impulse.hpp"
 #include "kernels/rigid/joint_watch.hpp"
 #include "kernels/rigid/lasting_forces.hpp"
 #include "kernels/rigid/rigid_memory.hpp"
@@ -152,6 +153,50 @@ template <class Guide> struct RigidSlider : Guide::Base {
         put(9, velocity.angular.z);
         if constexpr (Base::size > state_size) put(11, velocity.linear.x);
         return changed;
+    }
+
+    /// Components of the state that are rates of the others, a bit each, and what the rates of those are.
+    static constexpr unsigned rate_components = 0b1011'1000'1100;
+    template <class Real> SLIDEWAY_FN static void put_place_rates(Real const* s, RigidSliderParameters<Real> const& p, Real* rates) {
+        Real const zero(0.0);
+        auto const turning = SliderTurning<Real>::of(s);
+        rates[0] = s[2];
+        rates[1] = s[3];
+        turning.put_rates({zero, zero, zero}, turning.axes, p.inertia, p.inverse_inertia, rates);
+        if constexpr (Base::size > state_size) rates[10] = s[11];
+    }
+
+    /// Impulses of a step of time stepping on what touches in its middle (M13.14).
+    /// @param t of the middle  @param h of the step, 0 without one [s]  @param s places in the middle, and the rates at the start
+    /// @param free the same with the rates that the step has without impulses, and then with them
+    /// @param contact of the report in the middle, then with the impulses' books and modes  @return lanes where there are no such impulses
+    template <class Real>
+    SLIDEWAY_NOINLINE Mask<Real> push(Real t, Real h, Real const* s, Real* free, RigidSliderParameters<Real> const& p,
+                                      RigidJointContact<Real>& contact) const {
+        using Impulse = JointStepImpulse<Guide, Real>;
+        auto const changed = [&](int i) { return abs(free[i] - s[i]); };
+        // Of a rate, and of where it leads to.
+        auto const turned = [&](int i) { return fma(h, s[i] * s[i], changed(i)); };
+        Real const of_apices = p.joint.geometry.half_length * ((turned(7) + turned(8)) + turned(9));
+        Impulse impulse(h, (changed(2) + changed(3)) + of_apices, contact, p);
+        if (none(impulse.touching())) return impulse.tell(contact);
+        auto faults = Faults<Real>::none();
+        SliderPlace<Guide, Real> const at(t, free, p, misaligned_way, faults);
+        put_rates<Axis::y>(at, contact);
+        put_rates<Axis::z>(at, contact);
+        impulse.keep_meeting(contact);
+        if (none(impulse.touching())) return impulse.tell(contact);
+        typename Guide::template At<Real> const guide(t, s, p, faults);
+        Twist<Real> const start{{guide.vx, s[2], s[3]}, {s[7], s[8], s[9]}};
+        auto const velocity = impulse.solve(at, start, p.restitution, friction ? &p.joint.friction : nullptr);
+        auto const put = [&](int i, Real value) { free[i] = select(impulse.touching(), value, free[i]); };
+        put(2, velocity.linear.y);
+        put(3, velocity.linear.z);
+        put(7, velocity.angular.x);
+        put(8, velocity.angular.y);
+        put(9, velocity.angular.z);
+        if constexpr (Base::size > state_size) put(11, velocity.linear.x);
+        return impulse.tell(contact);
     }
 
     /// Keeps an offset, which the slopes of a state are, to the pairs that last.

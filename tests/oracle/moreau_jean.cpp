@@ -17,12 +17,19 @@ using namespace detail;
 /// friction, by the fewest violated conditions among all guesses of what those do.
 class Stepper {
 public:
-    Stepper(Inputs const& in, Parts const& parts) : in_(in), free_(parts.free_crank), friction_(parts.friction ? Real(in.friction_kinetic) : Real(0)) {}
+    Stepper(Inputs const& in, Parts const& parts, MoreauJeanRates rates)
+        : in_(in), free_(parts.free_crank), predicts_(rates == MoreauJeanRates::of_middle), friction_(parts.friction ? Real(in.friction_kinetic) : Real(0)) {}
 
     void advance(PlanarState& s, Real h) const {
-        for (int i = 0; i < 3; ++i) s[i] += h / 2 * s[3 + i];
-        RigidFrame const f = rigid_frame(in_, s);
         Vector3 const u(s[3], s[4], s[5]);
+        PlanarState middle = s;
+        if (predicts_) {
+            RigidFrame const start = rigid_frame(in_, s);
+            Vector3 const change = solved(start, h / 2 * start.load, {}, {}, u);
+            for (int i = 0; i < 3; ++i) middle[3 + i] += change[i];
+        }
+        for (int i = 0; i < 3; ++i) s[i] += h / 2 * u[i], middle[i] = s[i];
+        RigidFrame const f = rigid_frame(in_, middle);
         // Corners that leave by themselves take no part: what another throws back meets its wall in a step of its own.
         Vector3 const free = u + solved(f, h * f.load, {}, {}, u);
         std::vector<int> active;
@@ -105,14 +112,15 @@ private:
     }
 
     Inputs in_;
-    bool free_;
+    bool free_, predicts_;
     Real friction_;
 };
 
 }  // namespace
 
-std::vector<PlanarState> moreau_jean_run(Inputs const& in, Parts const& parts, long double every, int count, long double step) {
-    Stepper const stepper(in, parts);
+std::vector<PlanarState> moreau_jean_run(Inputs const& in, Parts const& parts, long double every, int count, long double step,
+                                         MoreauJeanRates rates) {
+    Stepper const stepper(in, parts, rates);
     PlanarState s = planar_start(in);
     std::vector<PlanarState> samples{s};
     long const steps = std::lround(every / step);

@@ -9,7 +9,11 @@
 
 namespace oracle {
 
+/// Where the forces that depend on rates have them from: the step's start, or as they would be in its middle without contacts.
+enum class MoreauJeanRates { of_start, of_middle };
+
 /// States at each of `count` multiples of `every` [s], the start first.  @param step [s], a whole fraction of `every`
-std::vector<PlanarState> moreau_jean_run(slideway::Inputs const& completed, slideway::Parts const& parts, long double every, int count, long double step);
+std::vector<PlanarState> moreau_jean_run(slideway::Inputs const& completed, slideway::Parts const& parts, long double every, int count, long double step,
+                                         MoreauJeanRates rates = MoreauJeanRates::of_start);
 
 }  // namespace oracle

@@ -18,12 +18,14 @@ using testing::scene_of;
 IntegratorSettings settings_of(std::string const& lines) {
     return scene_of("schema = 1\n[integrator]\n" + lines).integrator;
 }
+/// Contacts that a method is for, behind its own lines.
+std::string contacts_of(std::string_view method) { return method == "moreau_jean" ? "[contact]\nlaw = \"rigid\"\nrestitution = 0.5\n" : ""; }
 std::string refusal_of(std::string const& lines) { return error_of("schema = 1\n[integrator]\n" + lines); }
 
 TEST(SceneMethods, EveryNameIsItsMethod) {
     for (int i = 0; i < method_count; ++i) {
         auto const method = static_cast<Method>(i);
-        auto const text = fmt::format("method = \"{}\"\nstep = \"2 us\"", name_of(method));
+        auto const text = fmt::format("method = \"{}\"\nstep = \"2 us\"\n{}", name_of(method), contacts_of(name_of(method)));
         EXPECT_EQ(settings_of(text).method, method);
         EXPECT_EQ(settings_of(text).fixed_step, 2e-6);
     }
@@ -34,7 +36,38 @@ TEST(SceneMethods, FixedStepsNeedAStep) {
     EXPECT_EQ(refusal_of("method = \"rk4\""),
               "scene.toml:3: integrator.method is \"rk4\" (the method has no step control); give integrator.step");
     EXPECT_EQ(refusal_of("method = \"rk4\"\nstep = 1e-6"), "");
+    EXPECT_EQ(refusal_of("method = \"moreau_jean\"\n" + contacts_of("moreau_jean")),
+              "scene.toml:3: integrator.method is \"moreau_jean\" (the method has no step control); give integrator.step");
     EXPECT_EQ(refusal_of("method = \"bs32\""), "");
+}
+
+TEST(SceneMethods, TimeSteppingIsOfRigidContacts) {
+    std::string const method = "method = \"moreau_jean\"\nstep = 1e-5\n", rigid = contacts_of("moreau_jean");
+    EXPECT_TRUE(contains(refusal_of(method), "scene.toml:3: integrator.method is \"moreau_jean\"")) << refusal_of(method);
+    EXPECT_EQ(refusal_of(method + rigid), "");
+    // Exponents need neighbours; orbits alone do not.
+    EXPECT_TRUE(contains(refusal_of(method + rigid + "[study]\nkind = \"lyapunov\""), "scene.toml:3: integrator.method is"));
+    std::string const sweep = "[study]\nkind = \"sweep\"\nexponents = {}\nparameter = \"joint.clearance\"\nvalues = [1e-4, 2e-4]";
+    EXPECT_TRUE(contains(refusal_of(method + rigid + fmt::format(fmt::runtime(sweep), 1)), "scene.toml:3: integrator.method is"));
+    EXPECT_EQ(refusal_of(method + rigid + fmt::format(fmt::runtime(sweep), 0)), "");
+    EXPECT_EQ(refusal_of(method + rigid + "[study]\nkind = \"poincare\""), "");
+}
+
+TEST(SceneMethods, TimeSteppingHasOneCoefficientOfFriction) {
+    auto const warnings = [](char const* friction) {
+        return scene_of(fmt::format("schema = 1\n[integrator]\nmethod = \"moreau_jean\"\nstep = 1e-5\n{}[friction]\n{}", contacts_of("moreau_jean"), friction)).warnings;
+    };
+    EXPECT_TRUE(warnings("kinetic = 0.1\nstatic = 0.1").empty());
+    ASSERT_EQ(warnings("kinetic = 0.1\nstatic = 0.2").size(), 1u);
+    EXPECT_TRUE(contains(warnings("kinetic = 0.1\nstatic = 0.2")[0], "friction.static"));
+}
+
+TEST(SceneMethods, TimeSteppingKnowsNoForcesOfAnInstant) {
+    auto const with = [](std::string const& series) {
+        return refusal_of("method = \"moreau_jean\"\nstep = 1e-5\n" + contacts_of("moreau_jean") + "[study]\nsamples = 11\nquantities = [\"" + series + "\"]");
+    };
+    for (auto const* series : {"normal_force", "crank_torque", "surfaces", "ay"}) EXPECT_TRUE(contains(with(series), "scene.toml:9: ")) << with(series);
+    for (auto const* series : {"x", "rod_angular_velocity"}) EXPECT_EQ(with(series), "");
 }
 
 TEST(SceneMethods, FixedStepsFindNoTouchesForRestitution) {
@@ -119,14 +152,14 @@ TEST(SceneMethods, WarnOfKeysWithoutEffect) {
         char const *key, *methods;  // with which it has an effect
     };
     for (auto const& [key, methods] :
-         {Case{"step", "rk4"}, Case{"rtol", "auto dopri5 dop853 bs32 ros34pw2 verner65"}, Case{"atol", "auto dopri5 dop853 bs32 ros34pw2 verner65"},
+         {Case{"step", "rk4 moreau_jean"}, Case{"rtol", "auto dopri5 dop853 bs32 ros34pw2 verner65"}, Case{"atol", "auto dopri5 dop853 bs32 ros34pw2 verner65"},
           Case{"max_step", "auto dopri5 dop853 bs32 ros34pw2 verner65"}, Case{"stiff_max_step", "auto ros34pw2"},
           Case{"stiff_tolerance", "auto ros34pw2"}}) {
         for (MethodInfo const& method : method_table) {
-            std::string const fixed = std::string_view(method.name) == "rk4" ? "step = 1e-5\n" : "";
+            std::string const fixed = std::string_view("rk4 moreau_jean").find(method.name) != std::string_view::npos ? "step = 1e-5\n" : "";
             std::string const line = std::string_view(key) == "step" ? "step = 1e-5\n" : fixed + key + " = 1e-5\n";
             Scene const scene =
-                scene_of(fmt::format("schema = 1\n[integrator]\nmethod = \"{}\"\n{}", method.name, line));
+                scene_of(fmt::format("schema = 1\n[integrator]\nmethod = \"{}\"\n{}{}", method.name, line, contacts_of(method.name)));
             bool const counts = contains(methods, method.name);
             std::vector<std::string> expected;
             if (!counts)

@@ -95,6 +95,7 @@ TEST(EnergyAudit, OfASliderThatNeverMovedIsStable) {
 
 TEST(Methods, WithoutASafeErrorControlAreAlwaysAudited) {
     EXPECT_TRUE(is_always_audited(Method::rk4));
+    EXPECT_TRUE(is_always_audited(Method::moreau_jean));
     EXPECT_TRUE(is_always_audited(Method::ros34pw2));
     EXPECT_FALSE(is_always_audited(Method::automatic));
     EXPECT_FALSE(is_always_audited(Method::dopri5));

@@ -19,7 +19,8 @@ TEST(Methods, AreNamedInTheirOrder) {
     EXPECT_STREQ(name_of(Method::ros34pw2), "ros34pw2");
     EXPECT_STREQ(name_of(Method::rk4), "rk4");
     EXPECT_STREQ(name_of(Method::verner65), "verner65");
-    EXPECT_EQ(method_count, 7);
+    EXPECT_STREQ(name_of(Method::moreau_jean), "moreau_jean");
+    EXPECT_EQ(method_count, 8);
     for (auto const& info : method_table) EXPECT_GT(std::string_view(info.description).size(), 20u) << info.name;
     EXPECT_EQ(IntegratorSettings{}.method, Method::automatic);
 }

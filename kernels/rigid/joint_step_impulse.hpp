@@ -1,0 +1,110 @@
+#pragma once
+
+#include "kernels/real.hpp"
+#include "kernels/rigid/joint_impact.hpp"
+#include "kernels/rigid/rigid_memory.hpp"
+#include "kernels/rigid/rigid_scales.hpp"
+#include "kernels/rigid/rigid_slider_report.hpp"
+#include "kernels/rigid/slider_place.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Impulses of a step of time stepping (M13.14): of all pairs that touch in its middle, with Newton's restitution of the velocity at its start.
+template <class Guide, class Real> class JointStepImpulse {
+public:
+    /// @param h of the step [s]  @param change of the rates in it without impulses [m/s]  @param contact of the report in its middle
+    SLIDEWAY_HD JointStepImpulse(Real h, Real change, RigidJointContact<Real> const& contact, SliderParameters<Real> const& p) : p_(p) {
+        Real const zero(0.0), height = Real(-0.5) * h * change;
+        Mask<Real> const in = h > zero;
+        touching_ = failed_ = mask_of<Real>(false);
+        for (int i = 0; i < pair_count; ++i) {
+            Real const depth = number_of(contact.penetration, i);
+            near_[i] = in & (depth >= zero);
+            touching_ = touching_ | near_[i];
+            failed_ = failed_ | (near_[i] & (depth > (i < pair_count / 2 ? p.length_scale_y : p.length_scale_z)));
+            auto const hovers = in & (depth >= height) & (abs(number_of(contact.rate, i)) <= change);
+            number_of(closed_, i) = count<Real>(hovers);
+        }
+    }
+
+    /// Pairs that leave by themselves take no part: one that another throws back meets its face in a step of its own, with its restitution.
+    /// @param contact with the rates that the step would end with
+    SLIDEWAY_HD void keep_meeting(RigidJointContact<Real> const& contact) {
+        touching_ = mask_of<Real>(false);
+        for (int i = 0; i < pair_count; ++i) {
+            near_[i] = near_[i] & (number_of(contact.rate, i) > Real(0.0));
+            touching_ = touching_ | near_[i];
+        }
+    }
+
+    /// Lanes with anything to do.
+    SLIDEWAY_FN Mask<Real> touching() const { return touching_; }
+
+    /// @param at in the middle of the step, with the velocity that it has without impulses  @param start velocity at its start
+    /// @param friction nullptr without  @return the velocity at its end
+    SLIDEWAY_HD Twist<Real> solve(SliderPlace<Guide, Real> const& at, Twist<Real> const& start, Real restitution,
+                                  FrictionParameters<Real> const* friction) {
+        Real const least_speed = Real(slip_at_rest) * max(p_.length_scale_y, p_.length_scale_z) * p_.rate_scale;
+        JointImpact<Guide, Real> impact(at.pairs, at.velocity, start, near_, friction != nullptr ? &friction->kinetic_coefficient : nullptr,
+                                        least_speed);
+        impact.patience = patience;
+        Real each[pair_count];
+        for (auto& e : each) e = restitution;
+        Real const made = impact.solve(touching_, each);
+        auto& pairs = impact.pairs;
+        auto const less = touching_ & ((made > Real(1e-12) * impact.energy_moved()) | pairs.failed);
+        if (friction != nullptr && any(less)) impact.limit_energy(less);
+        failed_ = failed_ | (touching_ & pairs.failed);
+        for (int k = 0; k < pairs.count(); ++k) {
+            auto const& row = pairs.row(k);
+            Real& closed = number_of(closed_, row.number);
+            closed = select(row.here & (row.normal > Real(0.0)), Real(1.0), closed);
+        }
+        rest(pairs, least_speed, friction);
+        auto const taken = impact.taken();
+        books_.work = at.guide.impulse_work(pairs.load().linear, (pairs.after - at.velocity).linear, p_);
+        books_.friction = taken.friction;
+        books_.damping = taken.damping;
+        books_.impulse = taken.impulse;
+        return pairs.after;
+    }
+
+    /// Puts books and modes of the impulses into the contact.  @return lanes where there are none that satisfy the conditions
+    SLIDEWAY_HD Mask<Real> tell(RigidJointContact<Real>& contact) const {
+        Real const zero(0.0);
+        auto const put = [&](Real& account, Real amount) { account = select(touching_, amount, zero); };
+        contact.books = ImpactBooks<Real>::none();
+        put(contact.books.work, books_.work);
+        put(contact.books.friction, books_.friction);
+        put(contact.books.damping, books_.damping);
+        put(contact.books.impulse, books_.impulse);
+        contact.take_modes(closed_);
+        return failed_;
+    }
+
+private:
+    /// Ends what the solver leaves of the motion of pairs that rest, and of the slip of those that stick: it would add up from step to step.
+    SLIDEWAY_HD void rest(PairSolver<Guide, Real>& pairs, Real least_speed, FrictionParameters<Real> const* friction) const {
+        Mask<Real> rests[pair_count], still[pair_count];
+        auto any_rests = mask_of<Real>(false);
+        for (int i = 0; i < pair_count; ++i) rests[i] = still[i] = any_rests;
+        for (int k = 0; k < pairs.count(); ++k) {
+            auto const& row = pairs.row(k);
+            rests[row.number] = row.here & (row.normal > Real(0.0)) & (dot(row.pair.normal, pairs.after) <= least_speed);
+            any_rests = any_rests | rests[row.number];
+            Real const hold = row.coefficient * row.normal, drag = fma(row.along[0], row.along[0], row.along[1] * row.along[1]);
+            still[row.number] = rests[row.number] & (drag < Real(1 - 1e-9) * (hold * hold));
+        }
+        if (any(any_rests)) pairs.rest(touching_ & any_rests, rests, still, friction != nullptr ? &friction->kinetic_coefficient : nullptr);
+    }
+
+    /// Sweeps in one lot where nothing else settles: a step of many, and the next one has another problem.
+    static constexpr int patience = 256;
+
+    SliderParameters<Real> const& p_;
+    Mask<Real> near_[pair_count], touching_, failed_;
+    Quad<Real> closed_[face_count];  // 1 where a pair pushes, or is no farther and no faster than the step makes it without impulses; else 0
+    ImpactBooks<Real> books_ = ImpactBooks<Real>::none();
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA
