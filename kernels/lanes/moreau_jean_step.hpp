@@ -11,7 +11,7 @@ template <class Model> inline constexpr bool has_time_stepping = has_impacts<Mod
 /// Whether impulses are a part of the steps, so that nothing happens between them.
 template <class Stepper> inline constexpr bool has_impulses = requires { requires Stepper::has_impulses; };
 
-/// Time stepping by the midpoint rule of Moreau and Jean (M13.14): places go half a step with the rates of the start, what touches there has
+/// Time stepping by the midpoint rule of Moreau and Jean (M13.15): places go half a step with the rates of the start, what touches there has
 /// impulses against the rates that the step would end with, and places go on with the rates that it does end with.  Without events; of first order, and of
 /// second in flight.
 /// Source: J. J. Moreau, Unilateral contact and dry friction in finite freedom dynamics (1988); M. Jean, The non-smooth contact dynamics method (1999).

@@ -9,7 +9,7 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Impulses of a step of time stepping (M13.14): of all pairs that touch in its middle, with Newton's restitution of the velocity at its start.
+/// Impulses of a step of time stepping (M13.16): of all pairs that touch in its middle, with Newton's restitution of the velocity at its start.
 template <class Guide, class Real> class JointStepImpulse {
 public:
     /// @param h of the step [s]  @param change of the rates in it without impulses [m/s]  @param contact of the report in its middle

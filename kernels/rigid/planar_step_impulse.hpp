@@ -11,7 +11,7 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Impulses of a step of time stepping (M13.14) of the rigid planar slider-crank: of the corners that touch in its middle, with Newton's restitution of the
+/// Impulses of a step of time stepping (M13.16) of the rigid planar slider-crank: of the corners that touch in its middle, with Newton's restitution of the
 /// velocity at its start.
 template <class Real> class PlanarStepImpulse {
 public:

@@ -166,7 +166,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
         if constexpr (Base::size > state_size) rates[10] = s[11];
     }
 
-    /// Impulses of a step of time stepping on what touches in its middle (M13.14).
+    /// Impulses of a step of time stepping on what touches in its middle (M13.16).
     /// @param t of the middle  @param h of the step, 0 without one [s]  @param s places in the middle, and the rates at the start
     /// @param free the same with the rates that the step has without impulses, and then with them
     /// @param contact of the report in the middle, then with the impulses' books and modes  @return lanes where there are no such impulses
