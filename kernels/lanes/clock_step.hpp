@@ -2,6 +2,7 @@
 
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/pair_stages.hpp"
+#include "kernels/lanes/step_integrals.hpp"
 #include "kernels/lanes/stepped_numbers.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/contact_clock.hpp"
@@ -16,6 +17,7 @@ public:
     static constexpr bool adaptive = true;
     static constexpr bool stiff = false;
     static constexpr bool by_clock = true;
+    static constexpr bool ends_early = false;  // but as its clocks say (ImpactSteps)
     static constexpr int evaluations = Pair::stages - 1;  // per attempt
     static constexpr bool has_two_estimates = false;
     static constexpr int jacobians = 0;
@@ -37,7 +39,7 @@ public:
         share_ = Real(1.0);
         whole_ = step_.own;
         finish(to);
-        if (from.needs.stages) integrate(pack, to);
+        if (from.needs.stages) integrals_.finish(pack, to.step, whole_);
     }
 
     /// Prepares steps in the lanes of the mask to end early: with a slope in the middle the inside of a step is known to order 5.
@@ -49,10 +51,7 @@ public:
         auto const slopes = evaluate(pack, from, to, lanes, false);
         pack.tell_powers_alone(false);
         for (int i = 0; i < components; ++i) numbers_.set_middle(lanes, i, whole_, slopes.of[i]);
-        if (!from.needs.stages) return;
-        Real values[parts];
-        pack.integrands(to.report, values);
-        for (int i = 0; i < pack.integrals_in_use(); ++i) integrals_.set_middle(lanes, i, whole_, values[i] * slopes.of[time]);
+        if (from.needs.stages) integrals_.middle(pack, to.report, slopes.of[time], lanes, whole_);
     }
 
     /// Ends steps early in the lanes of the mask, whose others stay as they are.  @param share of the whole step by its clock
@@ -64,10 +63,7 @@ public:
         evaluate(pack, from, to, lanes, true);
         step_.own = whole_ * share_;
         finish(to);
-        if (!from.needs.stages) return;
-        Real means[parts];
-        for (int i = 0; i < pack.integrals_in_use(); ++i) means[i] = integrals_.at(i, whole_, share_) / to.step;
-        pack.set_means(early, means);
+        if (from.needs.stages) integrals_.end_early(pack, early, to.step, whole_, share_);
     }
 
     /// The last step by its clock.
@@ -90,7 +86,6 @@ public:
 private:
     static constexpr int size = Model::size;
     static constexpr int time = size, root = size + 1, components = size + 2;
-    static constexpr int parts = room(Pack<Model, Real>::integrals);
     using Stages = PairStages<Pair>;
 
     /// Derivatives by the clock.
@@ -110,13 +105,7 @@ private:
         numbers_.k[0][time] = pace;
         numbers_.k[0][root] = step_.root_rate(clock.root, clock.rate);
         numbers_.forget_middle();
-        if (!from.needs.stages) return;
-        pack.integrands_at_start(integrals_.k[0]);
-        for (int i = 0; i < pack.integrals_in_use(); ++i) {
-            integrals_.start[i] = Real(0.0);
-            integrals_.k[0][i] = integrals_.k[0][i] * pace;
-        }
-        integrals_.forget_middle();
+        if (from.needs.stages) integrals_.begin(pack, pace);
     }
 
     template <int s>
@@ -127,23 +116,7 @@ private:
         // A fault of one stage is NaN in those after it, whose own faults say nothing.
         to.faults =
             to.faults.or_else(evaluate_at(pack, from, to, last ? from.needs.ends : from.needs.stages, numbers_.k[s], last));
-        if (!from.needs.stages) return;
-        Real const pace = numbers_.k[s][time];
-        pack.integrands(to.report, integrals_.k[s]);
-        for (int i = 0; i < pack.integrals_in_use(); ++i) integrals_.k[s][i] = integrals_.k[s][i] * pace;
-    }
-
-    /// The integrals over the whole step.
-    SLIDEWAY_HD void integrate(Pack<Model, Real>& pack, Attempt<Model, Real> const& to) {
-        Real const per_time = Real(1.0) / to.step, own_per_time = whole_ * per_time;
-        Real means[parts];
-        for (int i = 0; i < pack.integrals_in_use(); ++i) {
-            // Of the last stage the weights are those of the step.
-            integrals_.end[i] = Pair::template stage_value<Pair::stages - 1>(integrals_.start, integrals_.k, whole_, i);
-            means[i] = integrals_.end[i] * per_time;
-        }
-        pack.set_means(to.step > Real(0.0), means);
-        for (int i = 0; i < Pack<Model, Real>::Observer::audit_integrals; ++i) pack.audit_error[i] = own_per_time * Pair::error_slope(integrals_.k, i);
+        if (from.needs.stages) integrals_.template stage<s>(pack, to.report, numbers_.k[s][time]);
     }
 
     /// Evaluates the derivative at `at_`.
@@ -196,7 +169,7 @@ private:
     ClockedStep<Real> step_;
     typename Model::template Memory<Real> memory_;  // of the member, with the clock
     SteppedNumbers<Pair, components, Real> numbers_;
-    SteppedNumbers<Pair, parts, Real> integrals_;  // if needs.stages
+    StepIntegrals<Pair, Model, Real> integrals_;   // if needs.stages
     Real whole_, share_;                           // of the step by its clock: as it was tried, and what is left of it
     Real at_[components];                          // where the derivative is evaluated
     Real rates_[size + 1];                         // the derivative there, and the clock's

@@ -13,6 +13,7 @@ public:
     static constexpr bool adaptive = Pair::adaptive;
     static constexpr bool stiff = false;
     static constexpr bool by_clock = false;
+    static constexpr bool ends_early = false;
     static constexpr int evaluations = Pair::stages - 1;  // per attempt
     static constexpr bool has_two_estimates = Pair::has_two_estimates;
     static constexpr int jacobians = 0;

@@ -5,6 +5,7 @@
 
 #include "kernels/block.hpp"
 #include "kernels/lanes/clock_step.hpp"
+#include "kernels/lanes/ending_step.hpp"
 #include "kernels/lanes/explicit_step.hpp"
 #include "kernels/lanes/member_state.hpp"
 #include "kernels/lanes/method_choice.hpp"
@@ -74,6 +75,7 @@ private:
     static constexpr int width = lanes<Real>;
     static constexpr int seats = width == 1 ? 1 : 8 * width;
     static constexpr bool is_smooth = !Model::has_contacts && !Model::has_linearisation;
+    static constexpr bool ends_early = has_impacts<Model> && !Model::has_shadows;
     // Attempts of a stint: few where lanes are regrouped by what they touch, many where all have the same work.
     static constexpr int attempts = Model::has_patterns ? 16 : 512;
     using Kind = typename Roster<seats, width>::Kind;
@@ -178,7 +180,7 @@ private:
                    (settings.method == Method::automatic && settings.rtol >= bs32_from)) {
             work<ExplicitStep<BogackiShampine, Model, Real>>();
         } else {
-            work<ExplicitStep<DormandPrince, Model, Real>>();
+            work<std::conditional_t<ends_early, EndingStep<DormandPrince, Model, Real>, ExplicitStep<DormandPrince, Model, Real>>>();
         }
         look(kind);
     }

@@ -14,6 +14,7 @@ public:
     static constexpr bool adaptive = true;
     static constexpr bool stiff = true;
     static constexpr bool by_clock = false;
+    static constexpr bool ends_early = false;
     static constexpr bool has_two_estimates = false;
     static constexpr int evaluations = Ros34pw2Tableau::stages;  // per attempt, the end's included
     static constexpr int jacobians = 1;

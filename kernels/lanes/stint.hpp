@@ -4,6 +4,7 @@
 
 #include "kernels/lanes/crossing_search.hpp"
 #include "kernels/lanes/error_norm.hpp"
+#include "kernels/lanes/event_end.hpp"
 #include "kernels/lanes/event_search.hpp"
 #include "kernels/lanes/impact_steps.hpp"
 #include "kernels/lanes/method_choice.hpp"
@@ -59,6 +60,7 @@ private:
     static constexpr double time_resolution = shadows_have_events ? 1e-19 : 8 * 2.220446049250313e-16;
     static constexpr bool impacts_end_it = Stepper::stiff && Model::has_patterns;
     static constexpr bool by_clock = Stepper::by_clock;
+    static constexpr double inside_within = 0.03;  // of the tolerance
     static constexpr double hair = 1.000001;  // how much longer than it may be a step gets to land
     using Impacts = ImpactSteps<Stepper, Model, Real>;
     using Choice = MethodChoice<Model, Real>;
@@ -194,6 +196,7 @@ private:
         if constexpr (Stepper::adaptive) squared_norm = squared_error_norm(pack_.start(), attempt_);
         if constexpr (Model::has_shadows) squared_norm = larger_norm(squared_norm, shadows_.squared_norm());
         Mask<Real> const accepted = pack_.busy & (squared_norm <= Real(1.0));
+        if constexpr (Stepper::ends_early) squared_norm_ = squared_norm;
         divergent = !(squared_norm < Real(1e300));
         // Whether what is beyond all bounds came out infinite or NaN may be the neighbours' doing.
         squared_norm = select(divergent, Real(not_a_number), squared_norm);
@@ -220,7 +223,18 @@ private:
         Real const located = located_depth(watching);
         Real fraction = pack_.state.contacts.watch.earliest(early, attempt_.report.contact, step, located, watching);
         if constexpr (shadows_have_events) fraction = min(fraction, shadows_.earliest(pack_, early, located));
-        auto const cut = fraction < Real(1.0);
+        auto cut = fraction < Real(1.0);
+        if constexpr (Stepper::ends_early) {
+            // Where the error says that its inside is as exact as its end.
+            auto const known = cut & (squared_norm_ <= Real(inside_within * inside_within));
+            ended_early_ = known;
+            if (any(known)) {
+                ended_early_ = EventEnd<Stepper, Model, Real>(pack_, stepper_, attempt_, located).run(known, fraction);
+                cut = cut & !ended_early_;
+            }
+            // A shorter attempt knows its inside better, and is to have the event there.
+            fraction = select(fraction < Real(0.6), Real(1.02) * fraction, fraction);
+        }
         Allowance<Real> allowed{Mask<Real>(before.accepted & !cut),
                                 select(cut, max(step * fraction, resolution() * Real(32.0)), before.next)};
         if constexpr (shadows_have_events) shadows_.go_on(pack_, step, cut, allowed);
@@ -244,6 +258,7 @@ private:
         auto& c = pack_.state.course;
         auto landed = accepted & landing.lands;
         if constexpr (by_clock) landed = landed & !impacts_.ended_early();
+        if constexpr (Stepper::ends_early) landed = landed & !ended_early_;
         Real t_end = c.t + attempt_.step;
         if constexpr (shadows_have_events) t_end = shadows_.time_after(pack_, attempt_.step, accepted, landed);
         t_end = select(landed, landing.time, t_end);
@@ -374,8 +389,10 @@ private:
     [[no_unique_address]] std::conditional_t<Model::has_shadows, Shadows<Model, Real>, NoShadowSteps> shadows_;
     [[no_unique_address]] std::conditional_t<by_clock, Impacts, NoImpactSteps> impacts_;
     Attempt<Model, Real> attempt_;  // the members' own
+    Real squared_norm_;             // of its error, of a stepper that ends early
     double max_step_;
     Mask<Real> left_;
+    Mask<Real> ended_early_;        // lanes whose last attempt did
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -21,6 +21,7 @@ public:
     static constexpr bool adaptive = true;
     static constexpr bool stiff = false;
     static constexpr bool by_clock = false;
+    static constexpr bool ends_early = false;
     static constexpr int evaluations = order + 1;  // per attempt: its coefficients, and the end
     static constexpr bool has_two_estimates = false;
     static constexpr int jacobians = 0;

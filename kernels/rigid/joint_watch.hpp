@@ -24,30 +24,47 @@ public:
     template <class Contact>
     SLIDEWAY_FN Real earliest(Mask<Real> candidates, Contact const& end, Real step, Real located, Watching watching) const {
         Real fraction = Touches::earliest(candidates, end, step, located, watching);
-        auto const see = [&](Real slides, Real u0, Real v0, Real u1, Real v1) {
-            fraction = min(fraction, turning(candidates, slides, {u0, v0}, {u1, v1}));
+        each_slip(end, [&](Falls const& slides, Falls const& sticks) {
+            fraction = min(fraction, Touches::falling(candidates & slides.in, slides.before, slides.after));
+            fraction = min(fraction, Touches::falling(candidates & sticks.in, sticks.before, sticks.after));
+        });
+        return fraction;
+    }
+
+    template <class Contact> SLIDEWAY_FN Real way_on(Contact const& end, Real step, Real located) const {
+        auto way = Touches::way_of_touches(end, located);
+        each_slip(end, [&](Falls const& slides, Falls const& sticks) {
+            way.fall(slides.in, slides.before, slides.after, step);
+            way.fall(sticks.in, sticks.before, sticks.after, step);
+        });
+        return way.time();
+    }
+
+private:
+    /// A number of a pair that must not become negative.
+    struct Falls {
+        Mask<Real> in;
+        Real before, after;
+    };
+
+    /// Has a function see of each pair its slip, where it slides, along what that was, and what is left of it until one that sticks slips.
+    template <class Contact, class See> SLIDEWAY_FN void each_slip(Contact const& end, See const& see) const {
+        auto const one_pair = [&](Real slides, Real u0, Real v0, Real u1, Real v1) {
+            Real const zero(0.0), most(slip_again);
+            Real const start = sqrt(fma(u0, u0, v0 * v0));
+            auto const moves = start > zero;
+            Real const along = fma(u0, u1, v0 * v1) / select(moves, start, Real(1.0));
+            Real const now = sqrt(fma(u1, u1, v1 * v1));
+            see(Falls{Mask<Real>(moves & (slides > zero)), start, along}, Falls{Mask<Real>(slides < zero), most - start, most - now});
         };
         for (int face = 0; face < face_count; ++face) {
             auto const& kind = slides_[face];
             auto const &u0 = slip_[0][face], &v0 = slip_[1][face], &u1 = end.slip[0][face], &v1 = end.slip[1][face];
-            see(kind.a, u0.a, v0.a, u1.a, v1.a);
-            see(kind.b, u0.b, v0.b, u1.b, v1.b);
-            see(kind.c, u0.c, v0.c, u1.c, v1.c);
-            see(kind.d, u0.d, v0.d, u1.d, v1.d);
+            one_pair(kind.a, u0.a, v0.a, u1.a, v1.a);
+            one_pair(kind.b, u0.b, v0.b, u1.b, v1.b);
+            one_pair(kind.c, u0.c, v0.c, u1.c, v1.c);
+            one_pair(kind.d, u0.d, v0.d, u1.d, v1.d);
         }
-        return fraction;
-    }
-
-private:
-    /// Where a slip turns against what it was, or one that was none is no longer that.
-    SLIDEWAY_FN static Real turning(Mask<Real> candidates, Real slides, Real const (&before)[2], Real const (&after)[2]) {
-        Real const zero(0.0), one(1.0);
-        Real const start = sqrt(fma(before[0], before[0], before[1] * before[1]));
-        auto const moves = start > zero;
-        Real const along = fma(before[0], after[0], before[1] * after[1]) / select(moves, start, one);
-        Real const of_slip = Touches::falling(candidates & moves & (slides > zero), start, along);
-        Real const end = sqrt(fma(after[0], after[0], after[1] * after[1])), most(slip_again);
-        return min(of_slip, Touches::falling(candidates & (slides < zero), most - start, most - end));
     }
 
     Quad<Real> slip_[2][face_count], slides_[face_count];

@@ -12,7 +12,15 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// Which pairs may push, and which of them stick.
-template <class Real> struct LastingPairs { Mask<Real> held[pair_count], sticks[pair_count]; };
+template <class Real> struct LastingPairs {
+    Mask<Real> held[pair_count], sticks[pair_count];
+
+    SLIDEWAY_FN Mask<Real> any() const {
+        auto some = mask_of<Real>(false);
+        for (auto const& each : held) some = some | each;
+        return some;
+    }
+};
 
 /// Forces of the pairs that last: (M13.11) for accelerations, so that none of them comes nearer,
 ///   λ ≥ 0 ⊥ γ' + 2 β γ + β² g ≥ 0,                                                                                        (M13.10)

@@ -29,6 +29,7 @@ struct RigidPlanarSliderCrank : PlanarBase {
     static constexpr int events = 0;
     static constexpr bool has_contacts = true;
     static constexpr bool has_impacts = true;
+    static constexpr bool sees_contacts = false;  // its watch asks for forces
     static constexpr bool has_shadows = false;
     static constexpr bool has_crossings = true;
     static constexpr bool has_patterns = false;

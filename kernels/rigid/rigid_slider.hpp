@@ -36,6 +36,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
     static constexpr int events = 0;
     static constexpr bool has_contacts = true;
     static constexpr bool has_impacts = true;
+    static constexpr bool sees_contacts = true;
     static constexpr bool has_shadows = false;
     static constexpr bool has_crossings = true;
     static constexpr bool has_patterns = false;
@@ -80,23 +81,23 @@ template <class Guide> struct RigidSlider : Guide::Base {
     template <bool Full, class Real>
     SLIDEWAY_NOINLINE Faults<Real> derivative(Real t, Real const* s, RigidSliderParameters<Real> const& p, RigidJointMemory<Real> const& memory,
                                               Real* rates, RigidSliderReport<Real>* report) const {
-        Real const zero(0.0), half(0.5);
+        Real const zero(0.0);
         auto faults = Faults<Real>::none();
         SliderPlace<Guide, Real> const at(t, s, p, misaligned_way, faults);
         auto const& guide = at.guide;
         // NaN in a lane whose pose is, whatever its neighbours touch.
         Real const whole = (at.motion.y + at.motion.z) + (at.motion.axes.x.x + at.motion.axes.y.z), nothing = whole - whole;
         Vec3<Real> force{nothing, nothing, nothing}, torque = force;
-        LastingPairs<Real> last;
-        auto holding = mask_of<Real>(false);
-        for (int i = 0; i < pair_count; ++i) {
-            last.held[i] = number_of(memory.held, i) > half;
-            last.sticks[i] = number_of(memory.sticks, i) > half;
-            holding = holding | last.held[i];
+        auto const last = lasting_pairs(memory);
+        auto const holding = last.any();
+        Depths<Real> const depths(at);
+        auto const& depth = depths.of;
+        if constexpr (Full) {
+            report->contact.clear(false);
+            report->contact.loads.clear();
+            report->contact.books = memory.books;
+            see(at, depths, memory, report->contact);
         }
-        auto const y = FacePair<Axis::y>::depths(at.motion, p.joint.geometry), z = FacePair<Axis::z>::depths(at.motion, p.joint.geometry);
-        Quad<Real> const depth[face_count] = {y.on(Real(1.0)), y.on(Real(-1.0)), z.on(Real(1.0)), z.on(Real(-1.0))};
-        if constexpr (Full) begin_report(at, depth, memory, report->contact);
         auto jammed = memory.jammed > zero;
         if (any(holding)) {
             LastingForces<Guide, Real> lasting;
@@ -122,10 +123,28 @@ template <class Guide> struct RigidSlider : Guide::Base {
             Vec3<Real> const centre{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
             guide.tell({centre, velocity, acceleration}, at.turning, force, p, false, *report);
         }
-        Real const deepest = max(max(y.largest(Real(1.0)), y.largest(Real(-1.0))), max(z.largest(Real(1.0)), z.largest(Real(-1.0))));
         faults.contact_domain = jammed;
-        faults.geometry = faults.geometry | ((memory.begun == zero) & (deepest > Real(1e-6) * p.length_scale_y));
+        faults.geometry = faults.geometry | ((memory.begun == zero) & (depths.deepest > Real(1e-6) * p.length_scale_y));
         return faults;
+    }
+
+    /// What the watch sees of a state, without its forces.  @param contact its depths, rates and slips are filled in
+    template <class Real>
+    SLIDEWAY_NOINLINE void see(Real t, Real const* s, RigidSliderParameters<Real> const& p, RigidJointMemory<Real> const& memory,
+                               RigidJointContact<Real>& contact) const {
+        auto faults = Faults<Real>::none();
+        SliderPlace<Guide, Real> const at(t, s, p, misaligned_way, faults);
+        see(at, Depths<Real>(at), memory, contact);
+        auto const last = lasting_pairs(memory);
+        if (!friction || none(last.any())) return;
+        Real const per_scale = Real(1.0) / slip_scale(p);
+        for (int i = 0; i < pair_count; ++i) {
+            if (none(last.held[i])) continue;
+            JointPair<Real> pair;
+            at.pairs.put_pair(i, pair);
+            Real const slip[2] = {dot(pair.slip[0], at.velocity), dot(pair.slip[1], at.velocity)};
+            tell_slip(i, last, slip, per_scale, contact);
+        }
     }
 
     /// What follows from where a step has ended: impacts, and pairs that begin or cease to last.
@@ -216,25 +235,50 @@ private:
     /// β of (M13.10) [1/s]: what drifts is back within a part of the drive's period.
     template <class Real> SLIDEWAY_FN static Real drift_rate(SliderParameters<Real> const& p) { return Real(10.0) * p.rate_scale; }
 
+    /// Of all pairs [m].
+    template <class Real> struct Depths {
+        Quad<Real> of[face_count];
+        Real deepest;
+
+        SLIDEWAY_FN explicit Depths(SliderPlace<Guide, Real> const& at) {
+            Real const one(1.0), minus(-1.0);
+            auto const y = FacePair<Axis::y>::depths(at.motion, at.geometry), z = FacePair<Axis::z>::depths(at.motion, at.geometry);
+            of[0] = y.on(one), of[1] = y.on(minus), of[2] = z.on(one), of[3] = z.on(minus);
+            deepest = max(max(y.largest(one), y.largest(minus)), max(z.largest(one), z.largest(minus)));
+        }
+    };
+    template <class Real> SLIDEWAY_FN static LastingPairs<Real> lasting_pairs(RigidJointMemory<Real> const& memory) {
+        Real const half(0.5);
+        LastingPairs<Real> last;
+        for (int i = 0; i < pair_count; ++i) {
+            last.held[i] = number_of(memory.held, i) > half;
+            last.sticks[i] = number_of(memory.sticks, i) > half;
+        }
+        return last;
+    }
+
     template <class Real>
-    SLIDEWAY_FN static void begin_report(SliderPlace<Guide, Real> const& at, Quad<Real> const (&depth)[face_count], RigidJointMemory<Real> const& memory,
-                                         RigidJointContact<Real>& contact) {
-        contact.clear(false);
-        contact.loads.clear();
+    SLIDEWAY_FN static void see(SliderPlace<Guide, Real> const& at, Depths<Real> const& depths, RigidJointMemory<Real> const& memory,
+                                RigidJointContact<Real>& contact) {
         put_rates<Axis::y>(at, contact);
         put_rates<Axis::z>(at, contact);
-        Real const far(-1.0), half(0.5);
+        Real const far(-1.0), half(0.5), zero(0.0);
         auto const watched = [&](Real held, Real d) { return select(held > half, far, d); };
-        Real const zero(0.0);
         Quad<Real> const none{zero, zero, zero, zero};
         for (int face = 0; face < face_count; ++face) {
-            auto const& d = depth[face];
+            auto const& d = depths.of[face];
             auto const& held = memory.held[face];
             contact.penetration[face] = d;
             contact.slides[face] = contact.slip[0][face] = contact.slip[1][face] = none;
             contact.watched[face] = {watched(held.a, d.a), watched(held.b, d.b), watched(held.c, d.c), watched(held.d, d.d)};
         }
-        contact.books = memory.books;
+    }
+    /// Of one pair.  @param slip [m/s]
+    template <class Real>
+    SLIDEWAY_FN static void tell_slip(int pair, LastingPairs<Real> const& last, Real const (&slip)[2], Real per_scale, RigidJointContact<Real>& contact) {
+        Real const zero(0.0), one(1.0), minus(-1.0);
+        number_of(contact.slides, pair) = select(last.held[pair], select(last.sticks[pair], minus, one), zero);
+        for (int j = 0; j < 2; ++j) number_of(contact.slip[j], pair) = slip[j] * per_scale;
     }
     template <class Real> SLIDEWAY_HD static void keep_loads(Mask<Real> in, ApexLoads<Real> const& from, ApexLoads<Real>& to) {
         for (int i = 0; i < pair_count; ++i) {
@@ -255,14 +299,11 @@ private:
     template <class Real>
     SLIDEWAY_FN static void tell(LastingForces<Guide, Real> const& lasting, LastingPairs<Real> const& last, Real slip_scale,
                                  RigidJointContact<Real>& contact) {
-        Real const zero(0.0), one(1.0), minus(-1.0), per_scale = one / slip_scale;
+        Real const per_scale = Real(1.0) / slip_scale;
         for (int i = 0; i < pair_count; ++i) {
-            number_of(contact.slides, i) = select(last.held[i], select(last.sticks[i], minus, one), zero);
+            tell_slip(i, last, {lasting.slip[0][i], lasting.slip[1][i]}, per_scale, contact);
             number_of(contact.loads.normal, i) = lasting.normal[i];
-            for (int j = 0; j < 2; ++j) {
-                number_of(contact.slip[j], i) = lasting.slip[j][i] * per_scale;
-                number_of(contact.loads.along[j], i) = lasting.along[j][i];
-            }
+            for (int j = 0; j < 2; ++j) number_of(contact.loads.along[j], i) = lasting.along[j][i];
         }
         for (int face = 0; face < face_count; ++face) {
             auto const* const force = &lasting.normal[4 * face];

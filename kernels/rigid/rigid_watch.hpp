@@ -28,6 +28,15 @@ public:
         return fraction;
     }
 
+    template <class Contact> SLIDEWAY_FN Real way_on(Contact const& end, Real step, Real located) const {
+        auto way = this->way_of_touches(end, located);
+        for (int i = 0; i < 2; ++i) {
+            way.fall(mask_of<Real>(true), pressure_[i], end.pressure[i], step);
+            way.fall(mask_of<Real>(true), grip_[i], end.grip[i], step);
+        }
+        return way.time();
+    }
+
 private:
     Real pressure_[2], grip_[2];
 };

@@ -39,9 +39,52 @@ public:
         return fraction;
     }
 
+    /// Time until the next event, of a step that ends before all of them [s], as fast as what changes does; 0 where one is there, or none comes.
+    /// @param step that has come so far [s]
+    template <class Contact> SLIDEWAY_FN Real way_on(Contact const& end, [[maybe_unused]] Real step, Real located) const {
+        return way_of_touches(end, located).time();
+    }
+
 protected:
     /// What a number that must not be negative may fall below 0 by.
     static constexpr double slack = 1e-9;
+
+    /// The shortest of several times.
+    class Way {
+    public:
+        SLIDEWAY_FN void add(Mask<Real> in, Real time) { least_ = select(in, min(least_, time), least_); }
+        SLIDEWAY_FN void is_there(Mask<Real> in) { least_ = select(in, Real(0.0), least_); }
+        /// Until a number falls to 0, by the straight line through both ends of the step.
+        SLIDEWAY_FN void fall(Mask<Real> in, Real before, Real after, Real step) {
+            auto const falls = in & (after < before) & (before > Real(slack));
+            add(falls & (after > Real(slack)), step * after / select(falls, before - after, Real(1.0)));
+            is_there(falls & (after <= Real(slack)));
+        }
+        SLIDEWAY_FN Real time() const { return select(least_ < Real(never), least_, Real(0.0)); }
+
+    private:
+        static constexpr double never = 1e300;
+        Real least_ = Real(never);
+    };
+
+    /// Until pairs meet.
+    template <class Contact> SLIDEWAY_FN static Way way_of_touches(Contact const& end, Real located) {
+        Way way;
+        auto const meet = [&](Real depth, Real rate) {
+            auto const comes = rate > Real(0.0);
+            way.add(comes & (depth < negated(located)), negated(depth) / select(comes, rate, Real(1.0)));
+            way.is_there(comes & (depth >= negated(located)));
+        };
+        for (int face = 0; face < quads; ++face) {
+            auto const& depth = end.watched[face];
+            auto const& rate = end.rate[face];
+            meet(depth.a, rate.a);
+            meet(depth.b, rate.b);
+            meet(depth.c, rate.c);
+            meet(depth.d, rate.d);
+        }
+        return way;
+    }
 
     /// Where it falls just below 0, by the straight line through both ends.
     SLIDEWAY_FN static Real falling(Mask<Real> candidates, Real before, Real after) {
