@@ -47,9 +47,9 @@ public:
                                        Attempt<Model, Real>& to, Mask<Real> lanes) {
         Real const half(0.5);
         for (int i = 0; i < components; ++i) at_[i] = numbers_.at(i, whole_, half);
-        pack.tell_powers_alone(true);
+        pack.tell_stages(true);
         auto const slopes = evaluate(pack, from, to, lanes, false);
-        pack.tell_powers_alone(false);
+        pack.tell_stages(false);
         for (int i = 0; i < components; ++i) numbers_.set_middle(lanes, i, whole_, slopes.of[i]);
         if (from.needs.stages) integrals_.middle(pack, to.report, slopes.of[time], lanes, whole_);
     }
@@ -111,7 +111,7 @@ private:
     template <int s>
     SLIDEWAY_HD void stage(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
         constexpr bool last = s + 1 == Pair::stages;
-        pack.tell_powers_alone(!last);
+        pack.tell_stages(!last);
         Pair::template stage_state<s>(numbers_.start, numbers_.k, step_.own, at_);
         // A fault of one stage is NaN in those after it, whose own faults say nothing.
         to.faults =

@@ -80,7 +80,7 @@ private:
         constexpr bool last = s + 1 == Pair::stages;
         Real* const at = last ? to.end : at_;
         Pair::template stage_state<s>(numbers_.start, numbers_.k, whole_, at);
-        pack.tell_powers_alone(!last);
+        pack.tell_stages(!last);
         // A fault of one stage is NaN in those after it, whose own faults say nothing.
         to.faults = to.faults.or_else(pack.evaluate(fma(whole_, Real(w.c[s]), from.t), at, from.memory, numbers_.k[s],
                                                     last ? from.needs.ends : from.needs.stages, to.report));

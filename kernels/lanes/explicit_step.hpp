@@ -63,7 +63,7 @@ private:
         Real* const at = last ? to.end : at_;
         Pair::template stage_state<s>(from.y, k_, to.step, at);
         Real const t = fma(to.step, Real(w.c[s]), from.t);
-        pack.tell_powers_alone(!last);
+        pack.tell_stages(!last);
         auto const faults =
             pack.evaluate(t, at, from.memory, k_[s], last ? from.needs.ends : from.needs.stages, to.report);
         // A fault of one stage is NaN in those after it, whose own faults say nothing.

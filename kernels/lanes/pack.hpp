@@ -58,9 +58,11 @@ template <class Model, class Real> struct Pack {
         }
     }
 
-    /// Says whether reports, from here on, tell of a state what the energy audit integrates and nothing else.
-    SLIDEWAY_HD void tell_powers_alone(bool alone) {
-        if constexpr (requires { model.tell_powers_alone(alone); }) model.tell_powers_alone(alone && needs.powers_alone);
+    /// Says whether reports, from here on, are of stages inside a step: they tell of a state what is integrated and nothing else, which may be what
+    /// the energy audit integrates.
+    SLIDEWAY_HD void tell_stages(bool inside) {
+        if constexpr (requires { model.tell_powers_alone(inside); }) model.tell_powers_alone(inside && needs.powers_alone);
+        if constexpr (requires { model.tell_integrands_alone(inside); }) model.tell_integrands_alone(inside);
     }
 
     /// How many integrals a step may have: the observer's, then the accelerations'.

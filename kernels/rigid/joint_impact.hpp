@@ -35,6 +35,8 @@ public:
             auto& row = pairs.add(i);
             all.put_pair(i, row.pair);
             row.start(near[i], friction_ ? *coefficient : zero);
+            row.weigh(dot(row.pair.normal, row.pushed));
+            if (friction_) row.weigh_along();
             size = max(size, select(near[i], abs(approach(row)), zero));
             Real const slides = abs(dot(row.pair.slip[0], velocity)) + abs(dot(row.pair.slip[1], velocity));
             slip = max(slip, select(near[i], slides, zero));

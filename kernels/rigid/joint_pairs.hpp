@@ -16,7 +16,7 @@ inline constexpr int pair_count = 4 * face_count;
 template <class Real> struct JointPair {
     Twist<Real> normal, slip[2];
     Twist<Real> pushed, dragged[2];  // velocities that unit impulses along them give
-    Real bias, slip_bias[2];         // γ' and v' of a slider that keeps its velocity [m/s²]
+    Real bias;                       // γ' of a slider that keeps its velocity [m/s²]
 };
 
 /// The pairs of a slider in one state, and how it answers to impulses there.
@@ -71,21 +71,41 @@ public:
 
     /// @param number 4 face + place in the face
     SLIDEWAY_NOINLINE void put_pair(int number, JointPair<Real>& pair) const {
-        int const face = number / 4, place = number % 4;
-        Real const side(face % 2 == 0 ? 1.0 : -1.0);
-        Real const along(place < 2 ? 1.0 : -1.0), across(place == 0 || place == 3 ? 1.0 : -1.0);
-        face < 2 ? put_pair_of<Axis::y>(side, along, across, pair) : put_pair_of<Axis::z>(side, along, across, pair);
+        Signs const signs(number);
+        number < 8 ? put_pair_of<Axis::y>(signs, pair) : put_pair_of<Axis::z>(signs, pair);
+    }
+
+    /// v' of the slip of a slider that keeps its velocity [m/s²].
+    SLIDEWAY_NOINLINE void put_slip_bias(int number, Real (&bias)[2]) const {
+        Signs const signs(number);
+        number < 8 ? put_slip_bias_of<Axis::y>(signs, bias) : put_slip_bias_of<Axis::z>(signs, bias);
     }
 
 private:
-    /// @param along, across signs of the apex along X and across the face
-    template <Axis axis> SLIDEWAY_FN void put_pair_of(Real side, Real along, Real across, JointPair<Real>& pair) const {
+    /// Of a pair: which side its face is on, and where its apex is along X and across the face.
+    struct Signs {
+        Real side, along, across;
+
+        SLIDEWAY_FN explicit Signs(int number)
+            : side(number / 4 % 2 == 0 ? 1.0 : -1.0), along(number % 4 < 2 ? 1.0 : -1.0), across(number % 4 == 0 || number % 4 == 3 ? 1.0 : -1.0) {}
+    };
+    /// ρ of an apex, as arranged for its face.
+    template <Axis axis> SLIDEWAY_FN Vec3<Real> arm_of(Signs const& signs) const {
         using Faces = FacePair<axis>;
         auto const& g = p_.joint.geometry;
-        Real const zero(0.0);
+        return {signs.along * g.half_length, fms(signs.side, Faces::half_main(g), Faces::main(motion_)),
+                fms(signs.across, Faces::half_across(g), Faces::across(motion_))};
+    }
+    template <Axis axis> SLIDEWAY_FN Vec3<Real> second_slip() const {
+        using Faces = FacePair<axis>;
+        return Faces::arranged(Faces::is_y ? motion_.axes.z : motion_.axes.y);
+    }
+
+    template <Axis axis> SLIDEWAY_FN void put_pair_of(Signs const& signs, JointPair<Real>& pair) const {
+        using Faces = FacePair<axis>;
+        Real const zero(0.0), side = signs.side;
         auto n = Faces::normal(motion_);
-        Vec3<Real> arm{along * g.half_length, fms(side, Faces::half_main(g), Faces::main(motion_)),
-                       fms(across, Faces::half_across(g), Faces::across(motion_))};
+        auto const arm = arm_of<axis>(signs);
         auto v = Faces::arranged(motion_.velocity);
         auto w = Faces::arranged_axial(motion_.spin);
         auto m = cross(w, n);
@@ -95,17 +115,24 @@ private:
         // Of the normal force the translation feels what acts across the way (model.md 4).
         pair.normal = row<axis>({zero, side * n.y, side * n.z}, arm, side * n);
         auto const first = Faces::arranged(motion_.axes.x);
-        auto const second = Faces::arranged(Faces::is_y ? motion_.axes.z : motion_.axes.y);
+        auto const second = second_slip<axis>();
         pair.slip[0] = row<axis>(first, arm, first);
         pair.slip[1] = row<axis>(second, arm, second);
-        // v = u' + ω × ρ along e: v' = e · (u'' + α × ρ) + e · (ω × ρ') + (ω × e) · v, ρ' = (0, −y', −z').
-        auto const apex = v + cross(w, arm);
-        auto const shift = cross(w, Vec3<Real>{zero, negated(v.y), negated(v.z)});
-        pair.slip_bias[0] = dot(first, shift) + dot(cross(w, first), apex);
-        pair.slip_bias[1] = dot(second, shift) + dot(cross(w, second), apex);
         pair.pushed = response(pair.normal);
         pair.dragged[0] = response(pair.slip[0]);
         pair.dragged[1] = response(pair.slip[1]);
+    }
+
+    /// v = u' + ω × ρ along e: v' = e · (u'' + α × ρ) + e · (ω × ρ') + (ω × e) · v, ρ' = (0, −y', −z').
+    template <Axis axis> SLIDEWAY_FN void put_slip_bias_of(Signs const& signs, Real (&bias)[2]) const {
+        using Faces = FacePair<axis>;
+        auto v = Faces::arranged(motion_.velocity);
+        auto w = Faces::arranged_axial(motion_.spin);
+        auto const first = Faces::arranged(motion_.axes.x), second = second_slip<axis>();
+        auto const apex = v + cross(w, arm_of<axis>(signs));
+        auto const shift = cross(w, Vec3<Real>{Real(0.0), negated(v.y), negated(v.z)});
+        bias[0] = dot(first, shift) + dot(cross(w, first), apex);
+        bias[1] = dot(second, shift) + dot(cross(w, second), apex);
     }
 
     /// What a unit force comes to.  @param force on the translation  @param arm, direction of its moment

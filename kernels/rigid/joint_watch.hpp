@@ -51,6 +51,7 @@ private:
     template <class Contact, class See> SLIDEWAY_FN void each_slip(Contact const& end, See const& see) const {
         auto const one_pair = [&](Real slides, Real u0, Real v0, Real u1, Real v1) {
             Real const zero(0.0), most(slip_again);
+            if (none(slides != zero)) return;
             Real const start = sqrt(fma(u0, u0, v0 * v0));
             auto const moves = start > zero;
             Real const along = fma(u0, u1, v0 * v1) / select(moves, start, Real(1.0));

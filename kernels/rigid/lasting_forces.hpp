@@ -64,12 +64,14 @@ public:
             row.target = negated(fma(beta, fma(beta, gap, rate + rate), row.pair.bias));
             if (friction != nullptr) {
                 for (int j = 0; j < 2; ++j) slip[j][i] = dot(row.pair.slip[j], velocity);
-                drag(row, {slip[0][i], slip[1][i]}, beta, last.held[i] & !last.sticks[i], *friction);
+                drag(row, {slip[0][i], slip[1][i]}, last.held[i] & !last.sticks[i], *friction);
                 sticking = sticking | sticks;
+                if (any(sticks)) hold(row, i, all, beta);
             }
             // Friction that outweighs the push would have to press harder the more it is pressed.
-            auto const wedge = last.held[i] & (row.own <= Real(1e-3) * dot(row.pair.normal, row.pair.pushed));
-            row.weigh(select(wedge, Real(1.0), row.own));
+            Real const own = dot(row.pair.normal, row.pushed);
+            auto const wedge = last.held[i] & (own <= Real(1e-3) * dot(row.pair.normal, row.pair.pushed));
+            row.weigh(select(wedge, Real(1.0), own));
             wedged = wedged | wedge;
             size = max(size, select(last.held[i], abs(row.target - dot(row.pair.normal, pairs.before)), zero));
         }
@@ -96,15 +98,21 @@ private:
         }
     }
 
-    /// Of a pair that slips, friction per unit load; of one that sticks, what its slip is to come to.
-    SLIDEWAY_HD static void drag(TouchingPair<Real>& row, Real const (&slip)[2], Real beta, Mask<Real> slips,
-                                 FrictionParameters<Real> const& friction) {
+    /// Of a pair that slips, friction per unit load.
+    SLIDEWAY_HD static void drag(TouchingPair<Real>& row, Real const (&slip)[2], Mask<Real> slips, FrictionParameters<Real> const& friction) {
         Real const one(1.0);
         Real const square = fma(slip[0], slip[0], slip[1] * slip[1]);
         auto const moves = slips & (square > Real(0.0));
         Real const share = select(moves, negated(friction.kinetic_coefficient) / sqrt(select(moves, square, one)), Real(0.0));
         row.slide(slips, {share * slip[0], share * slip[1]});
-        for (int j = 0; j < 2; ++j) row.hold[j] = negated(fma(beta + beta, slip[j], row.pair.slip_bias[j]));
+    }
+
+    /// Of one that sticks, what its slip is to come to.
+    SLIDEWAY_HD void hold(TouchingPair<Real>& row, int number, Pairs const& all, Real beta) const {
+        Real bias[2];
+        all.put_slip_bias(number, bias);
+        for (int j = 0; j < 2; ++j) row.hold[j] = negated(fma(beta + beta, slip[j][number], bias[j]));
+        row.weigh_along();
     }
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/real.hpp"
+#include "kernels/rigid/direct_loads.hpp"
 #include "kernels/rigid/pair_barrier.hpp"
 #include "kernels/rigid/pair_newton.hpp"
 #include "kernels/rigid/pair_path.hpp"
@@ -55,6 +56,8 @@ public:
             for (auto* load : {&row.normal, &row.along[0], &row.along[1]}) *load = select(active, *load, zero);
             if (sweeps > 0) after = row.answer(after);
         }
+        // Where no sweep is to come first the loads are those of contact that lasts: nearly always all pairs push.
+        if (sweeps == 0 && any(active)) active = DirectLoads<Real>(rows_, count_, before).solve(active, bearable, after);
         Real change = zero;
         for (int sweep = 0; sweep < sweeps && any(active); ++sweep) {
             change = this->sweep(active, friction);

@@ -43,6 +43,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
     static constexpr bool has_linearisation = false;
 
     bool friction = false, misaligned_way = false;
+    bool integrands_alone = false;  // reports tell what is integrated, and nothing else
 
     explicit constexpr RigidSlider(Parts const& parts) : friction(parts.friction), misaligned_way(parts.misaligned_way) {}
 
@@ -55,6 +56,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
         return p;
     }
 
+    SLIDEWAY_HD void tell_integrands_alone(bool alone) { integrands_alone = alone; }
     static constexpr bool switches() { return false; }
     static constexpr Watching watching(bool, bool) { return Watching::touches; }
 
@@ -96,7 +98,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
             report->contact.clear(false);
             report->contact.loads.clear();
             report->contact.books = memory.books;
-            see(at, depths, memory, report->contact);
+            if (!integrands_alone) see(at, depths, memory, report->contact);
         }
         auto jammed = memory.jammed > zero;
         if (any(holding)) {
@@ -109,7 +111,10 @@ template <class Guide> struct RigidSlider : Guide::Base {
             add(force, lasting.force.linear);
             add(torque, moment);
             jammed = jammed | (holding & lasting.failed);
-            if constexpr (Full) tell(lasting, last, slip_scale(p), report->contact);
+            if constexpr (Full) tell(lasting, report->contact);
+            if constexpr (Full) {
+                if (!integrands_alone) tell_modes(lasting, last, Real(1.0) / slip_scale(p), report->contact);
+            }
         }
         auto acceleration = guide.accelerations(force, p);
         rates[0] = s[2];
@@ -296,28 +301,27 @@ private:
         contact.rate[Faces::first_face + 1] = rates.on(Real(-1.0));
     }
 
+    template <class Real> SLIDEWAY_FN static void tell(LastingForces<Guide, Real> const& lasting, RigidJointContact<Real>& contact) {
+        for (int face = 0; face < face_count; ++face) {
+            auto const* const force = &lasting.normal[4 * face];
+            contact.normal_force[face] = {force[0], force[1], force[2], force[3]};
+        }
+        contact.friction_power = lasting.friction_power;
+        contact.damping_power = negated(lasting.normal_power);
+    }
+    /// What no integral asks for: slips, loads, and in which way the slider touches.
     template <class Real>
-    SLIDEWAY_FN static void tell(LastingForces<Guide, Real> const& lasting, LastingPairs<Real> const& last, Real slip_scale,
-                                 RigidJointContact<Real>& contact) {
-        Real const per_scale = Real(1.0) / slip_scale;
+    SLIDEWAY_FN static void tell_modes(LastingForces<Guide, Real> const& lasting, LastingPairs<Real> const& last, Real per_scale,
+                                       RigidJointContact<Real>& contact) {
         for (int i = 0; i < pair_count; ++i) {
             tell_slip(i, last, {lasting.slip[0][i], lasting.slip[1][i]}, per_scale, contact);
             number_of(contact.loads.normal, i) = lasting.normal[i];
             for (int j = 0; j < 2; ++j) number_of(contact.loads.along[j], i) = lasting.along[j][i];
         }
         for (int face = 0; face < face_count; ++face) {
-            auto const* const force = &lasting.normal[4 * face];
-            contact.normal_force[face] = {force[0], force[1], force[2], force[3]};
             auto const* const touch = &last.held[4 * face];
-            auto const modes = face_modes<Real>(Quad<Mask<Real>>{touch[0], touch[1], touch[2], touch[3]});
-            contact.surfaces = contact.surfaces + count<Real>(modes.surface);
-            contact.lines = contact.lines + ((count<Real>(modes.line.a) + count<Real>(modes.line.b)) +
-                                             (count<Real>(modes.line.c) + count<Real>(modes.line.d)));
-            contact.points = contact.points + ((count<Real>(modes.point.a) + count<Real>(modes.point.b)) +
-                                               (count<Real>(modes.point.c) + count<Real>(modes.point.d)));
+            contact.count_modes(Quad<Mask<Real>>{touch[0], touch[1], touch[2], touch[3]});
         }
-        contact.friction_power = lasting.friction_power;
-        contact.damping_power = negated(lasting.normal_power);
     }
 };
 

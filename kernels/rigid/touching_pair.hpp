@@ -31,7 +31,7 @@ template <class Real> struct TouchingPair {
         coefficient = holding;
         hold[0] = hold[1] = zero;
         normal = along[0] = along[1] = zero;
-        measure();
+        own = across = per_own = per_across = Real(1.0);
     }
     /// With the friction of a known slip: a unit load drags by `drag` along both directions.
     SLIDEWAY_FN void slide(Mask<Real> in, Real const (&drag)[2]) {
@@ -39,12 +39,17 @@ template <class Real> struct TouchingPair {
         auto const comes = fma(drag[0], pair.dragged[0], fma(drag[1], pair.dragged[1], pushed));
         act = select(in, with, act);
         pushed = select(in, comes, pushed);
-        weigh(dot(pair.normal, pushed));
     }
-    /// With another change of γ by a unit load.
+    /// With a change of γ by a unit load.
     SLIDEWAY_FN void weigh(Real by_load) {
         own = by_load;
         per_own = Real(1.0) / by_load;
+    }
+    /// With the changes of the slip, which count where friction is to be found.
+    SLIDEWAY_FN void weigh_along() {
+        Real const first = dot(pair.slip[0], pair.dragged[0]), second = dot(pair.slip[1], pair.dragged[1]);
+        across = max(first, second) + abs(dot(pair.slip[0], pair.dragged[1]));
+        per_across = Real(1.0) / across;
     }
     /// Of all its loads together.
     SLIDEWAY_FN Twist<Real> load() const {
@@ -52,14 +57,6 @@ template <class Real> struct TouchingPair {
     }
     SLIDEWAY_FN Twist<Real> answer(Twist<Real> const& so_far) const {
         return fma(along[0], pair.dragged[0], fma(along[1], pair.dragged[1], fma(normal, pushed, so_far)));
-    }
-
-private:
-    SLIDEWAY_FN void measure() {
-        weigh(dot(pair.normal, pushed));
-        Real const first = dot(pair.slip[0], pair.dragged[0]), second = dot(pair.slip[1], pair.dragged[1]);
-        across = max(first, second) + abs(dot(pair.slip[0], pair.dragged[1]));
-        per_across = Real(1.0) / across;
     }
 };
 
