@@ -60,7 +60,7 @@ private:
     static constexpr double time_resolution = shadows_have_events ? 1e-19 : 8 * 2.220446049250313e-16;
     static constexpr bool impacts_end_it = Stepper::stiff && Model::has_patterns;
     static constexpr bool by_clock = Stepper::by_clock;
-    static constexpr double inside_within = 0.03;  // of the tolerance
+    static constexpr double inside_within = 1e-3;  // of the tolerance
     static constexpr double hair = 1.000001;  // how much longer than it may be a step gets to land
     using Impacts = ImpactSteps<Stepper, Model, Real>;
     using Choice = MethodChoice<Model, Real>;
@@ -225,20 +225,26 @@ private:
         if constexpr (shadows_have_events) fraction = min(fraction, shadows_.earliest(pack_, early, located));
         auto cut = fraction < Real(1.0);
         if constexpr (Stepper::ends_early) {
-            // Where the error says that its inside is as exact as its end.
-            auto const known = cut & (squared_norm_ <= Real(inside_within * inside_within));
+            auto const known = cut & knows_inside(fraction);
             ended_early_ = known;
             if (any(known)) {
                 ended_early_ = EventEnd<Stepper, Model, Real>(pack_, stepper_, attempt_, located).run(known, fraction);
                 cut = cut & !ended_early_;
             }
-            // A shorter attempt knows its inside better, and is to have the event there.
+            // A shorter attempt knows its inside better, near its end above all.
             fraction = select(fraction < Real(0.6), Real(1.02) * fraction, fraction);
         }
         Allowance<Real> allowed{Mask<Real>(before.accepted & !cut),
                                 select(cut, max(step * fraction, resolution() * Real(32.0)), before.next)};
         if constexpr (shadows_have_events) shadows_.go_on(pack_, step, cut, allowed);
         return allowed;
+    }
+
+    /// Whether the attempt is as exact there as at its end.  The continuous extension errs as θ²(1 − θ)², by about the error of the step at most; a
+    /// bounce that ends early feels it relative to its own time θ.
+    SLIDEWAY_HD Mask<Real> knows_inside(Real theta) const {
+        Real const rest = Real(1.0) - theta, part = Real(6.75) * theta * (rest * rest);
+        return part * part * squared_norm_ <= Real(inside_within * inside_within);
     }
 
     /// Depth up to which an event of the contacts counts as located.
