@@ -14,7 +14,7 @@ public:
         : pack_(pack), stepper_(stepper), to_(to), located_(located), whole_(to.step) {}
 
     /// @param in lanes with an event  @param share of the attempt at which its ends have it
-    /// @return lanes whose attempt ends there, or a little before
+    /// @return lanes whose attempt ends there, or a little before; the others are to try again
     SLIDEWAY_NOINLINE Mask<Real> run(Mask<Real> in, Real share) {
         auto const& watch = pack_.state.contacts.watch;
         Real const zero(0.0), half(0.5), one(1.0), per_whole = one / select(in, whole_, one);
@@ -32,7 +32,9 @@ public:
         }
         auto const unseen = sees ? in : open;
         if (any(unseen)) stepper_.end_early(pack_, pack_.start(), to_, unseen, share);
-        return in & !(earliest(in, to_.report.contact, share) < one);
+        auto const ended = in & !(earliest(in, to_.report.contact, share) < one);
+        to_.step = select(in & !ended, whole_, to_.step);
+        return ended;
     }
 
 private:

@@ -178,7 +178,7 @@ private:
             if constexpr (has_clocks<Model>) work<ClockStep<Verner65, Model, Real>>();
             else work<ExplicitStep<Verner65, Model, Real>>();
         } else if (settings.method == Method::bs32 ||
-                   (settings.method == Method::automatic && settings.rtol >= bs32_from)) {
+                   (settings.method == Method::automatic && !has_impacts<Model> && settings.rtol >= bs32_from)) {
             work<ExplicitStep<BogackiShampine, Model, Real>>();
         } else {
             work<std::conditional_t<ends_early, EndingStep<DormandPrince, Model, Real>, ExplicitStep<DormandPrince, Model, Real>>>();
@@ -298,7 +298,7 @@ private:
         }
     }
 
-    /// From this tolerance on Bogacki–Shampine beats Dormand–Prince (docs/integrators.md).
+    /// From this tolerance on Bogacki–Shampine beats Dormand–Prince (docs/integrators.md), but where steps end early (docs/rigid.md).
     static constexpr double bs32_from = 1e-5;
 
     Block& block_;

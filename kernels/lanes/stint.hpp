@@ -225,7 +225,7 @@ private:
         if constexpr (shadows_have_events) fraction = min(fraction, shadows_.earliest(pack_, early, located));
         auto cut = fraction < Real(1.0);
         if constexpr (Stepper::ends_early) {
-            auto const known = cut & knows_inside(fraction);
+            auto const known = cut & knows_inside(fraction) & (step * fraction > resolution() * Real(64.0));
             ended_early_ = known;
             if (any(known)) {
                 ended_early_ = EventEnd<Stepper, Model, Real>(pack_, stepper_, attempt_, located).run(known, fraction);
