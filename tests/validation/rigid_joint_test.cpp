@@ -49,6 +49,31 @@ std::vector<std::vector<testing::JointState>> sampled(Parts const& parts, Inputs
     return joint_samples(r, 1, times.size());
 }
 
+/// A bounce costs one attempt, what is looked up where it ends, and its start anew: a second attempt that ends there would be six more.
+TEST(RigidJoint, BouncesCostOneAttemptEach) {
+    auto const in = slider(0.95);
+    Ball const ball{in.gravity, in.clearance_y, in.restitution};
+    auto o = rigid_options(rigid_joint_parts(false), 1e-6, static_cast<double>(ball.top(60)));
+    o.settings.max_step = 0.02;
+    auto const r = testing::run(best_isa(), o, {in});
+    ASSERT_EQ(r.records[0].status, Status::finished);
+    EXPECT_LT(static_cast<double>(r.records[0].rhs_evaluations), 60 * 12);
+}
+
+/// With rigid contacts `auto` is `dopri5` at loose tolerances too.
+TEST(RigidJoint, OfAutoAreThoseOfDormandPrince) {
+    auto const in = slider(0.6, 0.1);
+    auto o = rigid_options(rigid_joint_parts(true), 1e-3, 0.01);
+    o.settings.method = Method::automatic;
+    auto const of_auto = testing::run(best_isa(), o, {in});
+    o.settings.method = Method::dopri5;
+    auto const same = testing::run(best_isa(), o, {in});
+    o.settings.method = Method::bs32;
+    auto const other = testing::run(best_isa(), o, {in});
+    EXPECT_EQ(of_auto.records[0].rhs_evaluations, same.records[0].rhs_evaluations);
+    EXPECT_NE(of_auto.records[0].rhs_evaluations, other.records[0].rhs_evaluations);
+}
+
 TEST(RigidJoint, FlatBouncesHaveTheirHeightsAndTimes) {
     for (double const e : {0.3, 0.6, 0.9}) {
         auto const in = slider(e);
