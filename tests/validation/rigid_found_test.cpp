@@ -52,7 +52,7 @@ using RigidFoundWedges = RigidFound;
 TEST_P(RigidFoundWedges, HaveLoads) { expect_balance(); }
 INSTANTIATE_TEST_SUITE_P(Sliders, RigidFoundWedges,
                          ::testing::Values(Found{Mechanism::slider_crank, 100, 2760}, Found{Mechanism::slider_crank, 104, 10986},
-                                           Found{Mechanism::slider_crank, 116, 12341}, Found{Mechanism::slider_crank, 112, 1138},
+                                           Found{Mechanism::slider_crank, 112, 1138},
                                            Found{Mechanism::scotch_yoke, 103, 12759}, Found{Mechanism::scotch_yoke, 111, 16177},
                                            Found{Mechanism::free_slider, 105, 13722}, Found{Mechanism::free_slider, 113, 8398}));
 
@@ -80,11 +80,12 @@ INSTANTIATE_TEST_SUITE_P(Sliders, RigidFoundRests,
 TEST(RigidFound, WhatHasNoForcesIsJammed) {
     std::vector<Inputs> members;
     auto const all = testing::random_rigid_sliders(16'384, 1000, 1);
-    for (std::size_t const member : {2964, 3794, 4315, 7341, 13527}) members.push_back(all[member]);
+    std::vector<std::size_t> const jams{2964, 4315, 13527};
+    for (std::size_t const member : jams) members.push_back(all[member]);
     auto o = testing::rigid_options(testing::rigid_joint_parts(true), 1e-6, 0.01);
     o.settings.max_step = 2e-3;
     auto const r = testing::run(best_isa(), o, members);
-    for (auto const& record : r.records) EXPECT_EQ(record.status, Status::contact_domain);
+    for (std::size_t i = 0; i < jams.size(); ++i) EXPECT_EQ(r.records[i].status, Status::contact_domain) << jams[i];
 }
 
 }  // namespace
