@@ -21,6 +21,7 @@ public:
     static constexpr bool adaptive = false;
     static constexpr bool stiff = false;
     static constexpr bool by_clock = false;
+    static constexpr bool ends_early = false;
     static constexpr bool has_impulses = true;
     static constexpr int evaluations = 2;  // per attempt
     static constexpr int jacobians = 0;
