@@ -48,6 +48,7 @@ public:
         JointImpact<Guide, Real> impact(at.pairs, at.velocity, start, near_, friction != nullptr ? &friction->kinetic_coefficient : nullptr,
                                         least_speed);
         impact.patience = patience;
+        impact.pairs.follows_path = false;
         Real each[pair_count];
         for (auto& e : each) e = restitution;
         Real const made = impact.solve(touching_, each);
@@ -98,7 +99,7 @@ private:
         if (any(any_rests)) pairs.rest(touching_ & any_rests, rests, still, friction != nullptr ? &friction->kinetic_coefficient : nullptr);
     }
 
-    /// Sweeps in one lot where nothing else settles: a step of many, and the next one has another problem.
+    /// Sweeps in one lot where nothing else settles, and nothing dearer than these: a step of many, and the next one has another problem.
     static constexpr int patience = 256;
 
     SliderParameters<Real> const& p_;

@@ -25,6 +25,7 @@ public:
 
     Twist<Real> before, after;  // motion of the slider without loads and with them
     Mask<Real> failed;
+    bool follows_path = true;  // where nothing else settles
 
     SLIDEWAY_HD PairSolver(Pairs const& pairs, Twist<Real> const& motion) : before(motion), after(motion), pairs_(pairs) {}
 
@@ -74,7 +75,7 @@ public:
         }
         active = active & !(change <= Real(well_enough) * size);
         if (any(active)) active = persist(active, size, enough, bearable, patience, friction);
-        if (any(active)) active = PairPath<Guide, Real>(pairs_, rows_, count_, before, friction).solve(active, size, Real(well_enough) * size, after);
+        if (follows_path && any(active)) active = PairPath<Guide, Real>(pairs_, rows_, count_, before, friction).solve(active, size, Real(well_enough) * size, after);
         failed = active;
     }
 
