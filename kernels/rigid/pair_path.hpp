@@ -36,17 +36,21 @@ public:
             rows_[k].along[1] = select(lanes, second_along, rows_[k].along[1]);
         };
         Real const zero(0.0);
+        auto left = in;
         for (double const share : shares) {
             for (int k = 0; k < count_; ++k) put(in, k, zero, zero, zero);
             go_along(in, share);
             auto const motion = this->moved();
-            auto const solved = in & (this->measure(in, motion) <= enough);
+            Real const missed = this->measure(in, motion), whole = dot(motion, motion);
+            // Of numbers that are none the largest may be one.
+            auto const solved = in & (missed <= enough) & (whole - whole == zero);
             after = slideway::select(solved, motion, after);
-            in = in & !solved;
-            if (none(in) || !friction_) break;
+            left = left & !solved;
+            in = left & holds_;
+            if (none(in)) break;
         }
-        for (int k = 0; k < count_; ++k) put(in, k, kept[0][k], kept[1][k], kept[2][k]);
-        return in;
+        for (int k = 0; k < count_; ++k) put(left, k, kept[0][k], kept[1][k], kept[2][k]);
+        return left;
     }
 
 private:
@@ -56,9 +60,11 @@ private:
         auto const some = own > zero;
         stiff_ = select(some, Real(Base::stiffness) / select(some, own, Real(1.0)), zero);
         reach_ = size;
+        holds_ = mask_of<Real>(false);
         for (int k = 0; k < count_; ++k) {
             auto const& row = rows_[k];
             auto const holds = row.here & (row.coefficient > zero);
+            holds_ = holds_ | holds;
             for (int j = 0; j < 2; ++j) {
                 reach_ = max(reach_, select(holds, abs(dot(row.pair.slip[j], this->before_) - row.hold[j]), zero));
             }
@@ -67,8 +73,8 @@ private:
 
     SLIDEWAY_HD void go_along(Mask<Real> in, double share) {
         for (int k = 0; k < count_; ++k) normal_[k] = Real(0.0);
-        for (double length = friction_ ? first : last; length > last; length *= share)
-            settle(in, Real(length) * reach_);
+        auto const holds = in & holds_;
+        for (double length = first; length > last && any(holds); length *= share) settle(holds, Real(length) * reach_);
         for (int turn = 0; turn < last_turns; ++turn) {
             settle(in, Real(last) * reach_);
             for (int k = 0; k < count_; ++k) normal_[k] = rows_[k].normal;
@@ -128,6 +134,7 @@ private:
     }
 
     Real stiff_, reach_;
+    Mask<Real> holds_;         // lanes with friction to find: no other may depend on whether its neighbours have
     Real normal_[pair_count];  // Λ⁰
     Local local_[pair_count];
 };
