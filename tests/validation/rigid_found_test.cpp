@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "tests/support/rigid_joint.hpp"
@@ -68,6 +69,24 @@ INSTANTIATE_TEST_SUITE_P(Sliders, RigidFoundRattles,
                                            Found{Mechanism::carriage, 1002, 8192}, Found{Mechanism::carriage, 1007, 1617},
                                            Found{Mechanism::slider_crank, 1000, 435}, Found{Mechanism::slider_crank, 1001, 8470},
                                            Found{Mechanism::scotch_yoke, 1002, 13246}, Found{Mechanism::scotch_yoke, 1022, 12576}));
+
+/// A wedged member of a pack goes the way that it goes alone: what its neighbours hold by friction is theirs.
+TEST(RigidFoundBeside, OthersAreAsAlone) {
+    std::vector<Inputs> members;
+    for (auto const& [seed, member] : {std::pair{100u, 2760u}, {104u, 10986u}, {112u, 1138u}}) {
+        auto const all = testing::random_rigid_sliders(member + 3, seed, 0.3);
+        members.insert(members.end(), all.end() - 3, all.end());
+    }
+    auto o = testing::rigid_options(testing::rigid_joint_parts(true, false, Mechanism::slider_crank), 1e-6, 0.01);
+    o.settings.max_step = 2e-3;
+    auto const together = testing::run(best_isa(), o, members);
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        auto const alone = testing::run(best_isa(), o, {members[i]});
+        EXPECT_EQ(together.records[i].status, alone.records[0].status) << i;
+        EXPECT_EQ(together.records[i].rhs_evaluations, alone.records[0].rhs_evaluations) << i;
+        EXPECT_EQ(together.value(i, Quantity::friction_loss), alone.value(0, Quantity::friction_loss)) << i;
+    }
+}
 
 /// Six pairs on three faces that come to rest at once, whose equations with friction have next to no inverse.
 using RigidFoundRests = RigidFound;
