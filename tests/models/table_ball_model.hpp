@@ -16,7 +16,7 @@ template <class Real> struct TableBallMemory {
 template <class Real> SLIDEWAY_FN void start_memory(TableBallMemory<Real>& memory) { memory.speed = Real(0.0); }
 
 /// What an impact needs of a state.
-template <class Real> struct TableBallContact { Real gap, rate, restitution; };
+template <class Real> struct TableBallContact { Real gap = Real(0.0), rate = Real(0.0), restitution = Real(0.0); };
 template <class Real> struct TableBallReport { TableBallContact<Real> contact; };
 
 /// Ends steps where the ball meets the table, and throws it back there.

@@ -259,11 +259,11 @@ TEST(ImpactWatch, LetsAPairGoOutThatHasPartedWithinItsFace) {
         Impacts impacts(report);
         ASSERT_TRUE(impacts.holds(p));
         // u has come to zero; by the error of the step the depth in the state has not.
-        ClockedStep<double> const parting{1e-3, impacts.watch.clock(impacts.memory), {static_cast<double>(i), 1e-7, -0.1}};
+        ClockedStep<double> const parting{1e-3, impacts.watch.clock(impacts.memory), {static_cast<double>(i), 1e-7, -0.1}, 0};
         depth(report, p) = 1e-13;
         EXPECT_TRUE(impacts.watch.update(true, report, impacts.memory, parting, false).lanes) << i;
         EXPECT_FALSE(impacts.holds(p)) << i;
-        ClockedStep<double> const flight{5e-13, {-1, 0, 0}, {-1, 0, 0}};
+        ClockedStep<double> const flight{5e-13, {-1, 0, 0}, {-1, 0, 0}, 0};
         depth(report, p) = 0.5e-13;
         double const located = 1e-15;
         EXPECT_EQ(impacts.watch.earliest(true, impacts.memory, report, flight, located), 1.0) << i << " was never out, and is on its way";
@@ -286,7 +286,7 @@ TEST(ImpactWatch, FindsTheTouchOfAnotherPairByTheClock) {
         rate(arc.end, pairs()[i]) /= own * 2 * u1;
         double const other = static_cast<double>((i + 3) % pairs().size()), itself = static_cast<double>(i);
         auto const earliest = [&](double pair) {
-            ClockedStep<double> const step{own, {pair, u0, 0.01}, {pair, u1, 0.01}};
+            ClockedStep<double> const step{own, {pair, u0, 0.01}, {pair, u1, 0.01}, 0};
             Impacts const impacts(arc.start);
             return impacts.watch.earliest(true, impacts.memory, arc.end, step, 1e-9 * clearance);
         };
