@@ -21,7 +21,7 @@ shorter = {{
     "slider_crank": ["study.revolutions=0.1", "study.samples_per_revolution=10000"],
     "tolerance": ["study.base=4", "study.duration=5 ms"],
     "ensemble": ["study.members=16", "study.duration=2 ms", "study.samples=5"],
-    "lyapunov": ["study.members=4", "study.transient_revolutions=0", "study.revolutions=0.02", "study.history=10"],
+    "lyapunov": ["study.members=4", "study.transient_revolutions=0", "study.revolutions=0.02", "study.rescalings_per_revolution=2000", "study.history=10"],
     "poincare": ["study.members=2", "study.transient_revolutions=0", "study.revolutions=1", "mechanism.crank_speed=600 rpm"],
     "sweep": ["study.members=2", "study.points=2", "study.transient_revolutions=0", "study.revolutions=2", "mechanism.crank_speed=600 rpm"],
     "carriage": ["study.revolutions=0.01"],
