@@ -95,7 +95,7 @@ test, divided by the number of good parts. These prices are assumptions: put you
 
 - Losses in impacts grow with the clearance; friction losses hardly depend on it. A tighter fit does not help a crosshead that fails by friction.
 - Rigid and compliant contacts agree on the mean energy of impacts within {100 * apart:.0f} %. Rigid members run {faster:.0f} times faster here, where the
-  crosshead mostly flies or slides; with more impacts per unit of time it can be 75 times ([rigid.md](rigid.md#what-it-costs)).
+  crosshead mostly flies or slides; with more impacts per unit of time it can be 85 times ([rigid.md](rigid.md#what-it-costs)).
 - The study sets no limit on peak forces, because they depend on the stiffness of the contact: the compliant corners of this page reach
   {quantile(compliant[2].peaks, 0.5):.0f} N in {middle.name} (median), the same crosshead in space with steel faces {np.median(space[0].peaks) / 1e3:.1f} kN (below). Limit the energy or the
   impulse, or measure the stiffness first.
