@@ -46,7 +46,6 @@ public:
             is_always_audited(block.settings.method) ? MemberState<Model, Real>::Observer::audit_quantities : 0;
         pack_.needs = ReportNeeds::of<Model, Real>(model, block.quantities | for_status, block.settings);
         if constexpr (can_hold_contacts<Model>) pack_.model.hold_contacts(pack_.needs.watching);
-        if constexpr (requires { pack_.model.set_tolerance(1.0); }) pack_.model.set_tolerance(block.settings.rtol);
         start_memory(pack_.state.contacts.memory);
     }
 

@@ -43,7 +43,6 @@ template <class Guide> struct RigidSlider : Guide::Base {
     static constexpr bool has_linearisation = false;
 
     bool friction = false, misaligned_way = false;
-    double slip_units = 1;          // slip scales
     bool integrands_alone = false;  // reports tell what is integrated, and nothing else
 
     explicit constexpr RigidSlider(Parts const& parts) : friction(parts.friction), misaligned_way(parts.misaligned_way) {}
@@ -57,7 +56,6 @@ template <class Guide> struct RigidSlider : Guide::Base {
         return p;
     }
 
-    SLIDEWAY_HD void set_tolerance(double rtol) { slip_units = slip_unit(rtol); }
     SLIDEWAY_HD void tell_integrands_alone(bool alone) { integrands_alone = alone; }
     static constexpr bool switches() { return false; }
     static constexpr Watching watching(bool, bool) { return Watching::touches; }
@@ -115,7 +113,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
             jammed = jammed | (holding & lasting.failed);
             if constexpr (Full) tell(lasting, report->contact);
             if constexpr (Full) {
-                if (!integrands_alone) tell_modes(lasting, last, Real(1.0) / unit_of_slip(p), report->contact);
+                if (!integrands_alone) tell_modes(lasting, last, Real(1.0) / slip_scale(p), report->contact);
             }
         }
         auto acceleration = guide.accelerations(force, p);
@@ -144,7 +142,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
         see(at, Depths<Real>(at), memory, contact);
         auto const last = lasting_pairs(memory);
         if (!friction || none(last.any())) return;
-        Real const per_scale = Real(1.0) / unit_of_slip(p);
+        Real const per_scale = Real(1.0) / slip_scale(p);
         for (int i = 0; i < pair_count; ++i) {
             if (none(last.held[i])) continue;
             JointPair<Real> pair;
@@ -168,7 +166,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
         if (none(event)) return changed;
         auto faults = Faults<Real>::none();
         SliderPlace<Guide, Real> const at(t, s, p, misaligned_way, faults);
-        Settlement settlement(at.pairs, at.guide, p, p.restitution, friction ? &p.joint.friction : nullptr, where, end, unit_of_slip(p));
+        Settlement settlement(at.pairs, at.guide, p, p.restitution, friction ? &p.joint.friction : nullptr, where, end);
         auto velocity = at.velocity;
         settlement.run(event, t, velocity, memory, contact, least_speed);
         auto const put = [&](int i, Real value) { s[i] = select(event, value, s[i]); };
@@ -239,8 +237,6 @@ template <class Guide> struct RigidSlider : Guide::Base {
     }
 
 private:
-    /// [m/s]
-    template <class Real> SLIDEWAY_FN Real unit_of_slip(SliderParameters<Real> const& p) const { return Real(slip_units) * slip_scale(p); }
     /// β of (M13.10) [1/s]: what drifts is back within a part of the drive's period.
     template <class Real> SLIDEWAY_FN static Real drift_rate(SliderParameters<Real> const& p) { return Real(10.0) * p.rate_scale; }
 
