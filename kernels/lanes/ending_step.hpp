@@ -76,14 +76,7 @@ private:
 
     template <int s>
     SLIDEWAY_HD void stage(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
-        constexpr typename Pair::Tableau w{};
-        constexpr bool last = s + 1 == Pair::stages;
-        Real* const at = last ? to.end : at_;
-        Pair::template stage_state<s>(numbers_.start, numbers_.k, whole_, at);
-        pack.tell_stages(!last);
-        // A fault of one stage is NaN in those after it, whose own faults say nothing.
-        to.faults = to.faults.or_else(pack.evaluate(fma(whole_, Real(w.c[s]), from.t), at, from.memory, numbers_.k[s],
-                                                    last ? from.needs.ends : from.needs.stages, to.report));
+        Stages::template evaluate<s>(pack, from, to, numbers_.k, at_);
         if (from.needs.stages) integrals_.template stage<s>(pack, to.report, Real(1.0));
     }
 

@@ -58,16 +58,7 @@ private:
 
     template <int s>
     SLIDEWAY_HD void stage(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
-        constexpr typename Pair::Tableau w{};
-        constexpr bool last = s + 1 == Pair::stages;
-        Real* const at = last ? to.end : at_;
-        Pair::template stage_state<s>(from.y, k_, to.step, at);
-        Real const t = fma(to.step, Real(w.c[s]), from.t);
-        pack.tell_stages(!last);
-        auto const faults =
-            pack.evaluate(t, at, from.memory, k_[s], last ? from.needs.ends : from.needs.stages, to.report);
-        // A fault of one stage is NaN in those after it, whose own faults say nothing.
-        to.faults = to.faults.or_else(faults);
+        Stages::template evaluate<s>(pack, from, to, k_, at_);
         if (from.needs.stages) pack.add_integrands(Stages::template weights<s>(), to.report);
     }
 

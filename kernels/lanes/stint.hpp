@@ -19,6 +19,12 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 struct NoSearch {};
 struct NoImpactSteps {};
+/// What a stepper that ends early needs to know of its last attempt.
+template <class Real> struct EarlyEnds {
+    Real squared_norm;                         // of its error
+    Mask<Real> lanes = mask_of<Real>(false);  // whose attempt ended early
+};
+struct NoEarlyEnds {};
 struct NoShadowSteps {
     explicit SLIDEWAY_HD NoShadowSteps(ShadowPlan const&) {}
 };
@@ -196,7 +202,7 @@ private:
         if constexpr (Stepper::adaptive) squared_norm = squared_error_norm(pack_.start(), attempt_);
         if constexpr (Model::has_shadows) squared_norm = larger_norm(squared_norm, shadows_.squared_norm());
         Mask<Real> const accepted = pack_.busy & (squared_norm <= Real(1.0));
-        if constexpr (Stepper::ends_early) squared_norm_ = squared_norm;
+        if constexpr (Stepper::ends_early) early_.squared_norm = squared_norm;
         divergent = !(squared_norm < Real(1e300));
         // Whether what is beyond all bounds came out infinite or NaN may be the neighbours' doing.
         squared_norm = select(divergent, Real(not_a_number), squared_norm);
@@ -226,10 +232,10 @@ private:
         auto cut = fraction < Real(1.0);
         if constexpr (Stepper::ends_early) {
             auto const known = cut & knows_inside(fraction) & (step * fraction > resolution() * Real(64.0));
-            ended_early_ = known;
+            early_.lanes = known;
             if (any(known)) {
-                ended_early_ = EventEnd<Stepper, Model, Real>(pack_, stepper_, attempt_, located).run(known, fraction);
-                cut = cut & !ended_early_;
+                early_.lanes = EventEnd<Stepper, Model, Real>(pack_, stepper_, attempt_, located).run(known, fraction);
+                cut = cut & !early_.lanes;
             }
             // A shorter attempt knows its inside better, near its end above all.
             fraction = select(fraction < Real(0.6), Real(1.02) * fraction, fraction);
@@ -244,7 +250,7 @@ private:
     /// bounce that ends early feels it relative to its own time θ.
     SLIDEWAY_HD Mask<Real> knows_inside(Real theta) const {
         Real const rest = Real(1.0) - theta, part = Real(6.75) * theta * (rest * rest);
-        return part * part * squared_norm_ <= Real(inside_within * inside_within);
+        return part * part * early_.squared_norm <= Real(inside_within * inside_within);
     }
 
     /// Depth up to which an event of the contacts counts as located.
@@ -264,7 +270,7 @@ private:
         auto& c = pack_.state.course;
         auto landed = accepted & landing.lands;
         if constexpr (by_clock) landed = landed & !impacts_.ended_early();
-        if constexpr (Stepper::ends_early) landed = landed & !ended_early_;
+        if constexpr (Stepper::ends_early) landed = landed & !early_.lanes;
         Real t_end = c.t + attempt_.step;
         if constexpr (shadows_have_events) t_end = shadows_.time_after(pack_, attempt_.step, accepted, landed);
         t_end = select(landed, landing.time, t_end);
@@ -394,11 +400,10 @@ private:
     [[no_unique_address]] std::conditional_t<(Model::events > 0), EventSearch<Model, Real>, NoSearch> search_;
     [[no_unique_address]] std::conditional_t<Model::has_shadows, Shadows<Model, Real>, NoShadowSteps> shadows_;
     [[no_unique_address]] std::conditional_t<by_clock, Impacts, NoImpactSteps> impacts_;
+    [[no_unique_address]] std::conditional_t<Stepper::ends_early, EarlyEnds<Real>, NoEarlyEnds> early_;
     Attempt<Model, Real> attempt_;  // the members' own
-    Real squared_norm_;             // of its error, of a stepper that ends early
     double max_step_;
     Mask<Real> left_;
-    Mask<Real> ended_early_;        // lanes whose last attempt did
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -169,13 +169,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
         Settlement settlement(at.pairs, at.guide, p, p.restitution, friction ? &p.joint.friction : nullptr, where, end);
         auto velocity = at.velocity;
         settlement.run(event, t, velocity, memory, contact, least_speed);
-        auto const put = [&](int i, Real value) { s[i] = select(event, value, s[i]); };
-        put(2, velocity.linear.y);
-        put(3, velocity.linear.z);
-        put(7, velocity.angular.x);
-        put(8, velocity.angular.y);
-        put(9, velocity.angular.z);
-        if constexpr (Base::size > state_size) put(11, velocity.linear.x);
+        put_velocity(event, velocity, s);
         return changed;
     }
 
@@ -213,13 +207,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
         typename Guide::template At<Real> const guide(t, s, p, faults);
         Twist<Real> const start{{guide.vx, s[2], s[3]}, {s[7], s[8], s[9]}};
         auto const velocity = impulse.solve(at, start, p.restitution, friction ? &p.joint.friction : nullptr);
-        auto const put = [&](int i, Real value) { free[i] = select(impulse.touching(), value, free[i]); };
-        put(2, velocity.linear.y);
-        put(3, velocity.linear.z);
-        put(7, velocity.angular.x);
-        put(8, velocity.angular.y);
-        put(9, velocity.angular.z);
-        if constexpr (Base::size > state_size) put(11, velocity.linear.x);
+        put_velocity(impulse.touching(), velocity, free);
         return impulse.tell(contact);
     }
 
@@ -284,6 +272,15 @@ private:
         Real const zero(0.0), one(1.0), minus(-1.0);
         number_of(contact.slides, pair) = select(last.held[pair], select(last.sticks[pair], minus, one), zero);
         for (int j = 0; j < 2; ++j) number_of(contact.slip[j], pair) = slip[j] * per_scale;
+    }
+    template <class Real> SLIDEWAY_FN static void put_velocity(Mask<Real> in, Twist<Real> const& velocity, Real* s) {
+        auto const put = [&](int i, Real value) { s[i] = select(in, value, s[i]); };
+        put(2, velocity.linear.y);
+        put(3, velocity.linear.z);
+        put(7, velocity.angular.x);
+        put(8, velocity.angular.y);
+        put(9, velocity.angular.z);
+        if constexpr (Base::size > state_size) put(11, velocity.linear.x);
     }
     template <class Real> SLIDEWAY_HD static void keep_loads(Mask<Real> in, ApexLoads<Real> const& from, ApexLoads<Real>& to) {
         for (int i = 0; i < pair_count; ++i) {
