@@ -144,6 +144,8 @@ private:
             for (int i = 0; i < pair_count; ++i) last.held[i] = rests[i], last.sticks[i] = mask_of<Real>(false);
             LastingForces<Guide, Real> lasting;
             lasting.solve(pairs_, velocity, contact.penetration, zero, near, last, contact.loads, friction_);
+            // Where none of the forces exist nothing is pressed.
+            go_on = go_on & !lasting.failed;
             auto ended = mask_of<Real>(false), flies = ended;
             for (int i = 0; i < pair_count; ++i) {
                 Real const speed = max(lasting.gap_rate[i], zero), twice = speed + speed;
