@@ -21,16 +21,16 @@ namespace slideway::inline SLIDEWAY_ISA {
 ///    where a step has ended (kernels/rigid); with shadows both it and the derivative are called with a Tangent for `Real` too, and the
 ///    contact's report has the depths `watched` and their `rate`, and where slips turn round `grip` (kernels/lanes/saltation.hpp);
 ///    for time stepping (kernels/lanes/moreau_jean_step.hpp) `push(…)`, the impulses of a step, `rate_components` and `put_place_rates(…)`;
-///    `sees_contacts`: then `see(t, state, parameters, memory, contact)` fills in what the watch asks for without the forces;
-///    `tell_integrands_alone(inside)` if the model has use for it;
+///    `sees_contacts`: then `see(t, state, parameters, memory, contact)` fills in what the watch asks for without the forces; `set_tolerance(rtol)`
+///    and `tell_integrands_alone(inside)` if the model has use for them;
 ///  - `scales(parameters, scale)`: sizes of the state's components that the absolute tolerance is meant against;
 ///  - `has_linearisation`: then `Linearisation<Real>` and `linearise(…)` serve the stiff method;
 ///  - `has_shadows`: then members have shadows beside them (kernels/lanes/shadows.hpp; kernels/models/shadowed.hpp makes such a model of
 ///    another), with contacts also `remembered(speed)`, an impact speed as it may be carried on, and `prescribed()` if its drive leaves some of the
 ///    state without offsets;
 ///  - `has_crossings`: then `gap(…)`, beside the components of the state, may serve as a section (kernels/lanes/crossing_search.hpp);
-///  - `has_patterns`: then `contact_pattern(…)` says which lanes have like work to do, and with a linearisation `squared_speed(…)`,
-///    `approach_speed(…)` and `energy_scale(…)` what is a creep and what an impact;
+///  - `has_patterns`: then `contact_pattern(…)`, of a state or with `has_impacts` of a memory, says which lanes have like work to do, and with a
+///    linearisation `squared_speed(…)`, `approach_speed(…)` and `energy_scale(…)` what is a creep and what an impact;
 ///  - `is_analytic`: its derivative decides by nothing that changes within a step, so that `auto` may call it with series
 ///    (kernels/math/jet.hpp) instead of numbers; at most 48 operations, and no contacts;
 ///  - `events`: then `event_table`, `event_values(…)`, whose values follow from the state alone, and `reset(…)`

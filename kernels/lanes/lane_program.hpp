@@ -46,6 +46,7 @@ public:
             is_always_audited(block.settings.method) ? MemberState<Model, Real>::Observer::audit_quantities : 0;
         pack_.needs = ReportNeeds::of<Model, Real>(model, block.quantities | for_status, block.settings);
         if constexpr (can_hold_contacts<Model>) pack_.model.hold_contacts(pack_.needs.watching);
+        if constexpr (requires { pack_.model.set_tolerance(1.0); }) pack_.model.set_tolerance(block.settings.rtol);
         start_memory(pack_.state.contacts.memory);
     }
 
@@ -76,8 +77,8 @@ private:
     static constexpr int seats = width == 1 ? 1 : 8 * width;
     static constexpr bool is_smooth = !Model::has_contacts && !Model::has_linearisation;
     static constexpr bool ends_early = has_impacts<Model> && !Model::has_shadows;
-    // Attempts of a stint: few where lanes are regrouped by what they touch, many where all have the same work.
-    static constexpr int attempts = Model::has_patterns ? 16 : 512;
+    // Attempts of a stint: few where lanes are regrouped by what they touch, the fewer the sooner that changes, many where all have the same work.
+    static constexpr int attempts = !Model::has_patterns ? 512 : has_impacts<Model> && !Model::has_shadows ? 8 : 16;
     using Kind = typename Roster<seats, width>::Kind;
     using Record = MemberState<Model, double>;
     struct NoRecords {};
@@ -269,7 +270,9 @@ private:
     /// Between stints: who touches what, and who is better off with the stiff method.
     SLIDEWAY_HD void look(Kind kind) {
         pattern_ = Real(0.0);
-        if constexpr (Model::has_patterns) {
+        if constexpr (Model::has_patterns && has_impacts<Model>) {
+            pattern_ = pack_.model.contact_pattern(pack_.state.contacts.memory);
+        } else if constexpr (Model::has_patterns) {
             auto const& s = pack_.state;
             bool const switching = Model::has_linearisation && block_.settings.method == Method::automatic &&
                                    !block_.settings.locate_modes;

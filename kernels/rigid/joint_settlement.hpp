@@ -21,8 +21,8 @@ public:
 
     /// @param pairs where the step has ended  @param friction nullptr without
     SLIDEWAY_HD JointSettlement(Pairs const& pairs, typename Guide::template At<Real> const& guide, SliderParameters<Real> const& p,
-                                Real restitution, FrictionParameters<Real> const* friction, Real located, Real end)
-        : pairs_(pairs), guide_(guide), p_(p), restitution_(restitution), friction_(friction), located_(located), end_(end) {}
+                                Real restitution, FrictionParameters<Real> const* friction, Real located, Real end, Real slip_unit)
+        : pairs_(pairs), guide_(guide), p_(p), restitution_(restitution), friction_(friction), located_(located), end_(end), slip_unit_(slip_unit) {}
 
     /// Which pairs meet, which are let go, and which change between slipping and sticking.  @return lanes with any of it
     SLIDEWAY_HD static Mask<Real> find(Mask<Real> in, Memory& memory, RigidJointContact<Real> const& contact, Real located,
@@ -112,7 +112,7 @@ private:
 
     /// Which of the pairs that rest along their normals do so along their faces too.
     SLIDEWAY_HD void find_still(PairSolver<Guide, Real> const& pairs, Mask<Real> const (&rests)[pair_count], Mask<Real> (&still)[pair_count]) const {
-        Real const slow = Real(slip_stops) * slip_scale(p_);
+        Real const slow = Real(slip_stops) * slip_unit_;
         for (auto& each : still) each = mask_of<Real>(false);
         if (friction_ == nullptr) return;
         for (int k = 0; k < pairs.count(); ++k) {
@@ -192,7 +192,7 @@ private:
     SliderParameters<Real> const& p_;
     Real restitution_;
     FrictionParameters<Real> const* friction_;
-    Real located_, end_;
+    Real located_, end_, slip_unit_;
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -40,8 +40,14 @@ template <class Real> SLIDEWAY_FN Real force_scale(PlanarParameters<Real> const&
 template <class Real> SLIDEWAY_FN Real slip_scale(PlanarParameters<Real> const& p) { return p.crank_length * p.rate_scale; }
 
 template <class Real> SLIDEWAY_FN Real slip_scale(SliderParameters<Real> const& p) { return p.crank_length * p.rate_scale; }
-/// A pair of the joint that slips slower than this comes to rest [slip scales], and one that sticks slips from `slip_again` on.
-inline constexpr double slip_stops = 3e-7, slip_again = 1e-5;
+/// A pair of the joint that slips slower than this comes to rest [slip units], and one that sticks slips from `slip_again` on.
+inline constexpr double slip_stops = 3e-7, slip_again = 1e-6;
+/// Slip unit of a run [slip scales].  Around the dead centres friction turns all at once, and steps become as short as it takes to follow: what is
+/// made of them below a slip v costs as v² of the friction's work, which is to be far less than the tolerance.
+SLIDEWAY_HD inline double slip_unit(double rtol) {
+    double const wide = ::sqrt(::sqrt(rtol * 1e12));
+    return wide < 1 ? 1.0 : wide > 100 ? 100.0 : wide;
+}
 
 /// Coefficient up to which a contact sticks: a static one below the kinetic has no meaning.
 template <class Real> SLIDEWAY_FN Real holding_coefficient(FrictionParameters<Real> const& friction) {

@@ -39,10 +39,11 @@ template <class Guide> struct RigidSlider : Guide::Base {
     static constexpr bool sees_contacts = true;
     static constexpr bool has_shadows = false;
     static constexpr bool has_crossings = true;
-    static constexpr bool has_patterns = false;
+    static constexpr bool has_patterns = true;
     static constexpr bool has_linearisation = false;
 
     bool friction = false, misaligned_way = false;
+    double slip_units = 1;          // slip scales
     bool integrands_alone = false;  // reports tell what is integrated, and nothing else
 
     explicit constexpr RigidSlider(Parts const& parts) : friction(parts.friction), misaligned_way(parts.misaligned_way) {}
@@ -56,10 +57,20 @@ template <class Guide> struct RigidSlider : Guide::Base {
         return p;
     }
 
+    SLIDEWAY_HD void set_tolerance(double rtol) { slip_units = slip_unit(rtol); }
     SLIDEWAY_HD void tell_integrands_alone(bool alone) { integrands_alone = alone; }
     static constexpr bool switches() { return false; }
     static constexpr Watching watching(bool, bool) { return Watching::touches; }
 
+    /// Pairs that last, a bit each, and those of them that stick.
+    template <class Real> SLIDEWAY_FN static Real contact_pattern(RigidJointMemory<Real> const& memory) {
+        Real pattern(0.0);
+        for (int i = 0; i < pair_count; ++i) {
+            pattern = fma(Real(static_cast<double>(1u << i)), number_of(memory.held, i), pattern);
+            pattern = fma(Real(static_cast<double>(1u << (pair_count + i))), number_of(memory.sticks, i), pattern);
+        }
+        return pattern;
+    }
     /// Depth [m] up to which an apex that meets its face is located: what rounding leaves of it, as the crank's angle grows too.
     template <class Real> SLIDEWAY_FN static Real located(RigidSliderParameters<Real> const& p, Real end) {
         Real const turned = fma(p.rate_scale, end, Real(6.3));
@@ -113,7 +124,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
             jammed = jammed | (holding & lasting.failed);
             if constexpr (Full) tell(lasting, report->contact);
             if constexpr (Full) {
-                if (!integrands_alone) tell_modes(lasting, last, Real(1.0) / slip_scale(p), report->contact);
+                if (!integrands_alone) tell_modes(lasting, last, Real(1.0) / unit_of_slip(p), report->contact);
             }
         }
         auto acceleration = guide.accelerations(force, p);
@@ -142,7 +153,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
         see(at, Depths<Real>(at), memory, contact);
         auto const last = lasting_pairs(memory);
         if (!friction || none(last.any())) return;
-        Real const per_scale = Real(1.0) / slip_scale(p);
+        Real const per_scale = Real(1.0) / unit_of_slip(p);
         for (int i = 0; i < pair_count; ++i) {
             if (none(last.held[i])) continue;
             JointPair<Real> pair;
@@ -166,7 +177,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
         if (none(event)) return changed;
         auto faults = Faults<Real>::none();
         SliderPlace<Guide, Real> const at(t, s, p, misaligned_way, faults);
-        Settlement settlement(at.pairs, at.guide, p, p.restitution, friction ? &p.joint.friction : nullptr, where, end);
+        Settlement settlement(at.pairs, at.guide, p, p.restitution, friction ? &p.joint.friction : nullptr, where, end, unit_of_slip(p));
         auto velocity = at.velocity;
         settlement.run(event, t, velocity, memory, contact, least_speed);
         put_velocity(event, velocity, s);
@@ -225,6 +236,8 @@ template <class Guide> struct RigidSlider : Guide::Base {
     }
 
 private:
+    /// [m/s]
+    template <class Real> SLIDEWAY_FN Real unit_of_slip(SliderParameters<Real> const& p) const { return Real(slip_units) * slip_scale(p); }
     /// β of (M13.10) [1/s]: what drifts is back within a part of the drive's period.
     template <class Real> SLIDEWAY_FN static Real drift_rate(SliderParameters<Real> const& p) { return Real(10.0) * p.rate_scale; }
 
