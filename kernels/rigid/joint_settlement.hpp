@@ -83,7 +83,7 @@ public:
         Real const flight = end_bounces(pairs.after, contact, near, select(endless, Real(quick_time), Real(chatter_time)), rests);
         complete_faces(event, contact, rests);
         Mask<Real> still[pair_count];
-        find_still(pairs, rests, still);
+        find_still(pairs, rests, met, still);
         pairs.rest(event, rests, still, friction_ != nullptr ? &friction_->kinetic_coefficient : nullptr);
         auto const taken = impact.taken();
         auto& books = memory.books;
@@ -110,9 +110,11 @@ private:
         return ends;
     }
 
-    /// Which of the pairs that rest along their normals do so along their faces too.
-    SLIDEWAY_HD void find_still(PairSolver<Guide, Real> const& pairs, Mask<Real> const (&rests)[pair_count], Mask<Real> (&still)[pair_count]) const {
-        Real const slow = Real(slip_stops) * slip_unit_;
+    /// Which of the pairs that rest along their normals do so along their faces too.  In an impact the end of a slip sets others in motion, which is to be
+    /// far below what bounces: there it has the least slip unit.
+    SLIDEWAY_HD void find_still(PairSolver<Guide, Real> const& pairs, Mask<Real> const (&rests)[pair_count], Mask<Real> met,
+                                Mask<Real> (&still)[pair_count]) const {
+        Real const slow = Real(slip_stops) * select(met, slip_scale(p_), slip_unit_);
         for (auto& each : still) each = mask_of<Real>(false);
         if (friction_ == nullptr) return;
         for (int k = 0; k < pairs.count(); ++k) {

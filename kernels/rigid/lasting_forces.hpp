@@ -31,7 +31,7 @@ public:
     using Pairs = JointPairs<Guide, Real>;
     /// Change of an acceleration, in units of what the slider would have without contact, that counts as none, and one that does where it cannot be made less.
     static constexpr double settled = 1e-15, bearable = 1e-13;
-    static constexpr int sweeps = 0, patience = 256;
+    static constexpr int sweeps = 0, patience = 2048;
 
     Real normal[pair_count];            // λ [N]
     Real along[2][pair_count];          // friction of pairs that stick [N]
