@@ -81,7 +81,9 @@ INSTANTIATE_TEST_SUITE_P(Sliders, RigidFoundSlips,
                          ::testing::Values(Found{Mechanism::carriage, 124, 6945}, Found{Mechanism::carriage, 137, 7814},
                                            Found{Mechanism::carriage, 138, 6222}, Found{Mechanism::scotch_yoke, 100, 14565},
                                            Found{Mechanism::scotch_yoke, 122, 13351}, Found{Mechanism::slider_crank, 122, 13351},
-                                           Found{Mechanism::slider_crank, 137, 10944}));
+                                           Found{Mechanism::slider_crank, 137, 10944},
+                                           // And where the end of a slip, in impacts too, sets others in motion.
+                                           Found{Mechanism::free_slider, 111, 6342}, Found{Mechanism::free_slider, 122, 6996}));
 
 /// A wedged member of a pack goes the way that it goes alone: what its neighbours hold by friction is theirs.
 TEST(RigidFoundBeside, OthersAreAsAlone) {
