@@ -21,8 +21,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 ///    where a step has ended (kernels/rigid); with shadows both it and the derivative are called with a Tangent for `Real` too, and the
 ///    contact's report has the depths `watched` and their `rate`, and where slips turn round `grip` (kernels/lanes/saltation.hpp);
 ///    for time stepping (kernels/lanes/moreau_jean_step.hpp) `push(…)`, the impulses of a step, `rate_components` and `put_place_rates(…)`;
-///    `sees_contacts`: then `see(t, state, parameters, memory, contact)` fills in what the watch asks for without the forces; `set_tolerance(rtol)`
-///    and `tell_integrands_alone(inside)` if the model has use for them;
+///    `sees_contacts`: then `see(t, state, parameters, memory, contact)` fills in what the watch asks for without the forces;
+///  - `set_tolerance(rtol)` and `tell_integrands_alone(inside)` if the model has use for them;
 ///  - `scales(parameters, scale)`: sizes of the state's components that the absolute tolerance is meant against;
 ///  - `has_linearisation`: then `Linearisation<Real>` and `linearise(…)` serve the stiff method;
 ///  - `has_shadows`: then members have shadows beside them (kernels/lanes/shadows.hpp; kernels/models/shadowed.hpp makes such a model of

@@ -78,7 +78,7 @@ private:
     static constexpr bool is_smooth = !Model::has_contacts && !Model::has_linearisation;
     static constexpr bool ends_early = has_impacts<Model> && !Model::has_shadows;
     // Attempts of a stint: few where lanes are regrouped by what they touch, the fewer the sooner that changes, many where all have the same work.
-    static constexpr int attempts = !Model::has_patterns ? 512 : has_impacts<Model> && !Model::has_shadows ? 8 : 16;
+    static constexpr int many_attempts = 512, attempts = !regroups<Model> ? many_attempts : has_impacts<Model> ? 8 : 16;
     using Kind = typename Roster<seats, width>::Kind;
     using Record = MemberState<Model, double>;
     struct NoRecords {};
@@ -200,7 +200,7 @@ private:
     template <class Stepper> SLIDEWAY_NOINLINE void work() {
         Stint<Stepper, Model, Real> stint(pack_, results_, block_.settings);
         // Lanes that leave the stiff method wait for the others.
-        stint.work(Stepper::stiff ? attempts / 4 : attempts);
+        stint.work(has_impulses<Stepper> ? many_attempts : Stepper::stiff ? attempts / 4 : attempts);
     }
 
     /// First evaluation of new members.  A start that cannot be evaluated ends its member before the first step.
@@ -270,9 +270,9 @@ private:
     /// Between stints: who touches what, and who is better off with the stiff method.
     SLIDEWAY_HD void look(Kind kind) {
         pattern_ = Real(0.0);
-        if constexpr (Model::has_patterns && has_impacts<Model>) {
+        if constexpr (regroups<Model> && has_impacts<Model>) {
             pattern_ = pack_.model.contact_pattern(pack_.state.contacts.memory);
-        } else if constexpr (Model::has_patterns) {
+        } else if constexpr (regroups<Model>) {
             auto const& s = pack_.state;
             bool const switching = Model::has_linearisation && block_.settings.method == Method::automatic &&
                                    !block_.settings.locate_modes;

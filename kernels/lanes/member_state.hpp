@@ -50,6 +50,9 @@ inline constexpr bool has_clocks = can_hold_contacts<Model> && Model::has_patter
 /// Whether impacts of a model have no duration: where a step ends its `settle` says what follows.
 template <class Model> inline constexpr bool has_impacts = requires { requires Model::has_impacts; };
 
+/// Whether members take turns in the lanes with those that touch alike.  Those with shadows are too much to move for the little that impacts last.
+template <class Model> inline constexpr bool regroups = Model::has_patterns && !(has_impacts<Model> && Model::has_shadows);
+
 /// What a member remembers for its next impact, of a method with clocks.
 template <class Real> struct ImpactCourse {
     Real step;          // the next by its clock, 0 before there is one

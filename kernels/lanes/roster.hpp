@@ -17,7 +17,7 @@ public:
 
     struct Seat {
         Kind kind = Kind::none;
-        std::uint32_t pattern = 0;  // touching apex–face pairs, a bit each
+        std::uint32_t pattern = 0;  // apex–face pairs that touch, or of rigid ones those that last and those that stick, a bit each
         double time = 0;            // how far the member is
     };
 

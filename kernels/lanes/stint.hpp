@@ -44,7 +44,7 @@ public:
         int const members_at_start = held_lanes(members);
         for (int i = 0; i < attempts && any(pack_.busy); ++i) {
             // Where nothing is decided between stints, a lane that falls free ends the stint and is filled at once.
-            if (!Model::has_patterns && held_lanes(pack_.busy) < members_at_start) break;
+            if ((!regroups<Model> || has_impulses<Stepper>) && held_lanes(pack_.busy) < members_at_start) break;
             auto const landing = begin();
             // Before the member: what the stepper knows of the step is then the member's.
             if constexpr (Model::has_shadows) {

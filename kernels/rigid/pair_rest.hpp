@@ -7,8 +7,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// Takes from pairs that rest what is left of their normal motion, with the friction of the bounces that would have done so, and from those that are
 /// still what is left of their slip: equations, whatever the sign of their loads, which are those of (M13.13).  A slip that the drive has in hand stays: the
-/// loads against it are next to nothing.  Loads that pull, or turn a slip round, have friction that drives: where all loads together would make energy it is
-/// done without the friction.
+/// loads against it are next to nothing.  Loads that pull, or turn a slip round, have friction that drives, and equations of several pairs with friction may have
+/// next to no inverse: where all loads together would make energy, or slips run away, it is done without the friction.
 template <class Guide, class Real> class PairRest : PairMotion<Guide, Real> {
     using Base = PairMotion<Guide, Real>;
     using typename Base::Local;
@@ -17,7 +17,9 @@ template <class Guide, class Real> class PairRest : PairMotion<Guide, Real> {
 public:
     static constexpr int turns = 3;  // what a spring leaves, 1e-7 of it, is left to the next turn
     static constexpr double stiffness_along = 100;
-    static constexpr double rounding = 1e-12;  // of what the loads do
+    static constexpr double most = 1e3;       // of a slip's change, in units of the motion that is to be taken away
+    static constexpr double rounding = 1e-9;  // of a slip
+    static constexpr double no_work = 1e-13;  // of what the loads do, and of the slips' energy
 
     using Base::Base;
 
@@ -39,14 +41,14 @@ public:
         keep();
         auto motion = stop(rest, stays, stiff, stiff_along, coefficient != nullptr, after);
         if (coefficient == nullptr) return select(in, motion, after);
-        auto const makes = in & makes_energy(motion);
-        if (any(makes)) {
-            put_back(makes);
+        auto const wild = in & (makes_energy(motion) | runs_away(rest, stays, after, motion));
+        if (any(wild)) {
+            put_back(wild);
             for (int k = 0; k < count_; ++k) {
-                rest[k] = rest[k] & makes;
+                rest[k] = rest[k] & wild;
                 for (auto& drag : local_[k].h) drag = zero;
             }
-            motion = slideway::select(makes, stop(rest, stays, stiff, stiff_along, true, after), motion);
+            motion = slideway::select(wild, stop(rest, stays, stiff, stiff_along, true, after), motion);
         }
         return select(in, motion, after);
     }
@@ -86,12 +88,35 @@ private:
         auto const twice = this->before_ + motion;
         Real made = zero, moved = zero;
         for (int k = 0; k < count_; ++k) {
-            Real const work = dot(twice, rows_[k].load());
+            auto const& row = rows_[k];
+            Real const work = dot(twice, row.load());
             made = made + work;
             moved = moved + abs(work);
+            // What rounding leaves of a rate is no reason: loads against it work on the slip.
+            Real const slip[2] = {dot(row.pair.slip[0], twice), dot(row.pair.slip[1], twice)};
+            moved = fma(fma(slip[0], slip[0], slip[1] * slip[1]), row.per_across, moved);
         }
-        return !(made <= Real(rounding) * moved);
+        return !(made <= Real(no_work) * moved);
     }
+
+    /// Whether slips change by far more than there was to take away.
+    SLIDEWAY_HD Mask<Real> runs_away(Mask<Real> const (&rest)[pair_count], Mask<Real> const (&stays)[pair_count], Twist<Real> const& from,
+                                     Twist<Real> const& to) const {
+        Real const zero(0.0);
+        auto const by = to - from;
+        Real taken = zero, change = zero, speed = zero;
+        for (int k = 0; k < count_; ++k) {
+            auto const& pair = rows_[k].pair;
+            taken = max(taken, select(rest[k], abs(dot(pair.normal, from)), zero));
+            for (auto const& along : pair.slip) {
+                taken = max(taken, select(stays[k], abs(dot(along, from)), zero));
+                change = max(change, select(rest[k], abs(dot(along, by)), zero));
+                speed = max(speed, select(rest[k], abs(dot(along, from)), zero));
+            }
+        }
+        return !(change <= max(Real(most) * taken, Real(rounding) * speed));
+    }
+
     SLIDEWAY_FN static Local spring(Real stiff, Real stiff_along, Mask<Real> rests, Mask<Real> stays, bool friction) {
         Real const zero(0.0);
         Local l;

@@ -43,10 +43,11 @@ template <class Real> SLIDEWAY_FN Real slip_scale(SliderParameters<Real> const& 
 /// A pair of the joint that slips slower than this comes to rest [slip units], and one that sticks slips from `slip_again` on.
 inline constexpr double slip_stops = 3e-7, slip_again = 1e-6;
 /// Slip unit of a run [slip scales].  Around the dead centres friction turns all at once, and steps become as short as it takes to follow: what is
-/// made of them below a slip v costs as v² of the friction's work, which is to be far less than the tolerance.
-SLIDEWAY_HD inline double slip_unit(double rtol) {
+/// made of them below a slip v costs as v² of the friction's work, which is to be far less than the tolerance.  What an impact leaves of a slip is
+/// against the slip scale: its end sets others in motion.
+SLIDEWAY_FN double slip_unit(double rtol) {
     double const wide = ::sqrt(::sqrt(rtol * 1e12));
-    return wide < 1 ? 1.0 : wide > 100 ? 100.0 : wide;
+    return !(wide > 1) ? 1.0 : wide > 100 ? 100.0 : wide;
 }
 
 /// Coefficient up to which a contact sticks: a static one below the kinetic has no meaning.

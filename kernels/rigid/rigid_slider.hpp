@@ -57,7 +57,8 @@ template <class Guide> struct RigidSlider : Guide::Base {
         return p;
     }
 
-    SLIDEWAY_HD void set_tolerance(double rtol) { slip_units = slip_unit(rtol); }
+    /// A slider without a drive has no speed that slips are to be seen against.
+    SLIDEWAY_HD void set_tolerance(double rtol) { slip_units = Base::size > state_size ? 1.0 : slip_unit(rtol); }
     SLIDEWAY_HD void tell_integrands_alone(bool alone) { integrands_alone = alone; }
     static constexpr bool switches() { return false; }
     static constexpr Watching watching(bool, bool) { return Watching::touches; }
