@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Sets up, builds and runs all tests but those labelled slow.  Exit code 0 only when everything passed.
-# Usage: scripts/test.sh [--cuda] [--all-isas].  The GPU module and its tests are built where a GPU is found (not with CI=true) or with
-# --cuda; without a GPU for sm_90, and tested on a simulated one.  With less than four cores the instruction sets are
+# Usage: scripts/test.sh [--cuda] [--all-isas | --isas scalar,avx2].  The GPU module and its tests are built where a GPU is found (not with
+# CI=true) or with --cuda; without a GPU for sm_90, and tested on a simulated one.  With less than four cores the instruction sets are
 # scalar and the widest of this machine, headers are not compiled one by one, and host and tests are compiled several files at once; all of that
-# apart with --all-isas: before a release.
+# apart with --all-isas: before a release.  --isas names the instruction sets: `scalar,avx2` tests what a machine without AVX-512 would.
+# With CI=true on a machine with AVX-512, what depends on the instruction set runs once more as on one without.
 # The last line is `N passed, N failed`, with `, N skipped` when tests were skipped.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -28,14 +29,20 @@ stop() {
     exit 1
 }
 
-cuda=OFF all_isas=false
+cuda=OFF all_isas=false isas=
 ((jobs < 4)) || all_isas=true
-for word in "$@"; do
-    case $word in
+while (($# > 0)); do
+    case $1 in
         --cuda) cuda=ON ;;
         --all-isas) all_isas=true ;;
-        *) stop "cannot make sense of: $word; use --cuda, --all-isas or nothing, no test ran" ;;
+        --isas)
+            [[ -n ${2:-} ]] || stop "--isas wants names with commas between them, as in --isas scalar,avx2, no test ran"
+            all_isas=false isas=${2//,/;}
+            shift
+            ;;
+        *) stop "cannot make sense of: $1; use --cuda, --all-isas, --isas scalar,avx2 or nothing, no test ran" ;;
     esac
+    shift
 done
 bash scripts/setup.sh tests || stop "the set-up failed, no test ran"
 
@@ -45,13 +52,18 @@ else
     # Without a GPU one architecture checks the kernels as well as two, in half the time.
     export CUDAARCHS=90-real
 fi
-isas=all unity=OFF
+unity=OFF
 # Two cores would compile and test them for minutes; a file by itself takes twice the time that it takes among others.
-if [[ $all_isas == false ]]; then
-    isas=native unity=ON
-    echo "test.sh: less than four cores: instruction sets but scalar and the widest, and headers and files alone," \
+if [[ $all_isas == true ]]; then
+    isas=all
+else
+    unity=ON
+    [[ -n $isas ]] || echo "test.sh: less than four cores: instruction sets but scalar and the widest, and headers and files alone," \
         "are left to scripts/test.sh --all-isas"
 fi
+without_avx512=false
+[[ ${CI:-false} == true && -z $isas ]] && grep -qw avx512f /proc/cpuinfo && without_avx512=true
+isas=${isas:-native}
 options=("-DSLIDEWAY_CUDA=$cuda" "-DSLIDEWAY_ISAS=$isas" "-DSLIDEWAY_UNITY=$unity")
 
 SECONDS=0
@@ -71,42 +83,58 @@ cmake --build "$build" --parallel "$jobs" || stop "the build failed, no test ran
 bash scripts/python_environment.sh "$build" >/dev/null || stop "the Python package could not be made, no test ran"
 echo "build: $SECONDS s"
 
-SECONDS=0
-code=0
-rm -rf "$build/gtest"
-ctest --test-dir "$build" --label-exclude '^slow$' --parallel "$((jobs + 1))" --timeout 300 --no-tests=error \
-    --output-on-failure | tee "$log" || code=$?
-echo "tests: $SECONDS s on $jobs cores"
+# run_tests [OPTIONS of ctest]: adds what they come to, to passed, failed and skipped.
+passed_in_all=0 failed_in_all=0 skipped_in_all=0 code=0
+run_tests() {
+    SECONDS=0
+    local code_here=0
+    rm -rf "$build/gtest"
+    ctest --test-dir "$build" "$@" --parallel "$((jobs + 1))" --timeout 300 --no-tests=error \
+        --output-on-failure | tee "$log" || code_here=$?
+    echo "tests: $SECONDS s on $jobs cores"
 
-# ctest's summary: `P% tests passed, F tests failed out of N`, where N leaves out the disabled tests and counts the
-# skipped ones as passed; after it both are listed by name.
-# shellcheck disable=SC2016  # sed's own $
-summary=$(sed -n '/^[0-9]*% tests passed, /h; /^[0-9]*% tests passed, /!H; ${x;p}' "$log")
-[[ $summary =~ ^[0-9]+%\ tests\ passed,\ ([0-9]+)\ tests\ failed\ out\ of\ ([0-9]+) ]] ||
-    stop "ctest ended with code $code and without a summary"
-failed=${BASH_REMATCH[1]}
-total=${BASH_REMATCH[2]}
-skipped=$(grep -c '(Skipped)$' <<<"$summary" || true)
-disabled=$(grep -c '(Disabled)$' <<<"$summary" || true)
-# A suite that ctest has as one test counts as the tests in it, which are in its XML file; without one, it ended in the middle, it stays one.
-# shellcheck disable=SC2016  # awk's own $
-counts=$(find "$build/gtest" -name '*.xml' -exec cat {} + 2>/dev/null | awk -F'"' '
-    /<testsuite / { ++suites; tests += $4; failures += $6; disabled += $8; skipped += $10; bad += $6 > 0 }
-    END { print tests - suites, failures - bad, disabled + 0, skipped + 0 }')
-read -r more more_failed more_disabled more_skipped <<<"$counts"
-((total += more - more_disabled, failed += more_failed, disabled += more_disabled, skipped += more_skipped, 1))
-sed -n 's/^\[  FAILED  \] \([^ ,]*\).* ([0-9]* ms)$/failed: \1/p' "$log"
+    # ctest's summary: `P% tests passed, F tests failed out of N`, where N leaves out the disabled tests and counts the
+    # skipped ones as passed; after it both are listed by name.
+    # shellcheck disable=SC2016  # sed's own $
+    summary=$(sed -n '/^[0-9]*% tests passed, /h; /^[0-9]*% tests passed, /!H; ${x;p}' "$log")
+    [[ $summary =~ ^[0-9]+%\ tests\ passed,\ ([0-9]+)\ tests\ failed\ out\ of\ ([0-9]+) ]] ||
+        stop "ctest ended with code $code_here and without a summary"
+    failed=${BASH_REMATCH[1]}
+    total=${BASH_REMATCH[2]}
+    skipped=$(grep -c '(Skipped)$' <<<"$summary" || true)
+    disabled=$(grep -c '(Disabled)$' <<<"$summary" || true)
+    # A suite that ctest has as one test counts as the tests in it, which are in its XML file; without one, it ended in the middle, it stays one.
+    # shellcheck disable=SC2016  # awk's own $
+    counts=$(find "$build/gtest" -name '*.xml' -exec cat {} + 2>/dev/null | awk -F'"' '
+        /<testsuite / { ++suites; tests += $4; failures += $6; disabled += $8; skipped += $10; bad += $6 > 0 }
+        END { print tests - suites, failures - bad, disabled + 0, skipped + 0 }')
+    read -r more more_failed more_disabled more_skipped <<<"$counts"
+    ((total += more - more_disabled, failed += more_failed, disabled += more_disabled, skipped += more_skipped, 1))
+    sed -n 's/^\[  FAILED  \] \([^ ,]*\).* ([0-9]* ms)$/failed: \1/p' "$log"
 
-# Why: what ctest hides of a skipped test, from GTEST_SKIP, or from a command that says "skipped: <reason>".
-if ((skipped > 0)); then
-    awk 'follows { ++count[NF ? $0 : "no reason is given"]; follows = 0 }
-         /: Skipped$/ { follows = 1 }
-         sub(/^skipped: /, "") { ++count[$0] }
-         END { for (reason in count) printf "skipped: %s (%d test%s)\n", reason, count[reason], count[reason] == 1 ? "" : "s" }
-        ' "$build/Testing/Temporary/LastTest.log" | sort || true
+    # Why: what ctest hides of a skipped test, from GTEST_SKIP, or from a command that says "skipped: <reason>".
+    if ((skipped > 0)); then
+        awk 'follows { ++count[NF ? $0 : "no reason is given"]; follows = 0 }
+             /: Skipped$/ { follows = 1 }
+             sub(/^skipped: /, "") { ++count[$0] }
+             END { for (reason in count) printf "skipped: %s (%d test%s)\n", reason, count[reason], count[reason] == 1 ? "" : "s" }
+            ' "$build/Testing/Temporary/LastTest.log" | sort || true
+    fi
+    ((passed_in_all += total - failed - skipped, failed_in_all += failed, skipped_in_all += skipped + disabled, 1))
+    ((code_here == 0)) || code=$code_here
+}
+
+run_tests --label-exclude '^slow$'
+if [[ $without_avx512 == true ]]; then
+    # In the same folder: kernels of AVX2 are compiled, and what knows the instruction sets is linked anew.
+    SECONDS=0
+    cmake --preset release --log-level=WARNING "${options[@]}" "-DSLIDEWAY_ISAS=scalar;avx2" || stop "the configuration failed"
+    cmake --build "$build" --parallel "$jobs" || stop "the build without AVX-512 failed"
+    echo "build without AVX-512: $SECONDS s"
+    run_tests --label-regex '^(parity|integration|system|validation)$' --label-exclude '^(slow|python)$'
 fi
 
-line="$((total - failed - skipped)) passed, $failed failed"
-((skipped + disabled > 0)) && line+=", $((skipped + disabled)) skipped"
+line="$passed_in_all passed, $failed_in_all failed"
+((skipped_in_all > 0)) && line+=", $skipped_in_all skipped"
 echo "$line"
 exit "$code"
