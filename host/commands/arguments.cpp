@@ -14,6 +14,7 @@
 #include "host/commands/commands.hpp"
 #include "host/commands/description.hpp"
 #include "host/commands/text.hpp"
+#include "host/config/settings.hpp"
 #include "host/store/provenance.hpp"
 
 namespace slideway::cli {
@@ -115,14 +116,14 @@ void add_run(Options& options, RunArguments& run) {
                   parse_part);
     options.value("--block-members", "N", run.study.block_members,
                   "Members that a thread takes at once (default: by their cost); a crash loses the unfinished ones", whole_number(1, most_block_members));
-    options.flag("--verify", *verify, "Repeat 16 members to check the study, whatever it costs (study.verify = 16)");
+    options.flag("--verify", *verify, "Repeat members until the study's resolution is known, all of them if need be");
     options.flag("--no-progress", run.no_progress, "No lines of progress on stderr");
     options.flag("--quiet", run.quiet, "No progress and no summary: warnings and errors alone");
     options.json(run.json);
     options.at_end([&run, member, verify] {
         if (*member && run.members) throw SceneError("--member and --members exclude each other; use one");
         if (*member) run.members = MemberRange{**member, 1};
-        if (*verify) run.scene.overrides.emplace_back("study.verify", "16");
+        if (*verify) run.scene.overrides.emplace_back("study.verify", std::to_string(most_verified));
     });
 }
 

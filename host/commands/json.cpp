@@ -96,6 +96,25 @@ Json of_report(ToleranceReport const& report) {
     return json;
 }
 
+/// What the check of a result's resolution says of each of its numbers.
+Json of_verdicts(ResultReader const& results) {
+    Json list = Json::array();
+    for (StoredVerdict const& one : stored_verdicts(results)) {
+        list.push_back({{"name", one.name},
+                        {"members_of", one.members_of},
+                        {"verdict", verdict_names[static_cast<int>(one.verdict)]},
+                        {"value", number(one.value)},
+                        {"half_width", number(one.half_width)},
+                        {"sd", number(one.sd)},
+                        {"difference", number(one.difference)},
+                        {"error_bound", number(one.error_bound)},
+                        {"margin", number(one.margin)},
+                        {"pairs", number(one.pairs)},
+                        {"cut", number(one.cut)}});
+    }
+    return list;
+}
+
 }  // namespace
 
 std::string result_json(char const* command, ResultReader const& results, SealCheck const& seal, std::optional<ToleranceReport> const& report,
@@ -127,7 +146,7 @@ std::string result_json(char const* command, ResultReader const& results, SealCh
         json["sections"] = {{"count", sections->sections}, {"members_without", sections->without}, {"beyond_room", sections->beyond}};
     }
     if (auto const summary = verification_summary(results)) {
-        json["verification"] = {{"resolution", results.group_attribute(verification_group, "resolution")}, {"summary", *summary}};
+        json["verification"] = {{"resolution", results.group_attribute(verification_group, "resolution")}, {"summary", *summary}, {"numbers", of_verdicts(results)}};
     }
     if (members) json["members"] = of_members(results, *members);
     if (totals != nullptr) {

@@ -79,6 +79,7 @@ double fixed_steps(IntegratorSettings const& settings);
 
 /// Largest study.members.
 inline constexpr std::uint64_t most_members = 1'000'000'000;
+inline constexpr std::uint64_t most_verified = 1'000'000;  // members that run again
 /// Largest integrator.max_steps.
 inline constexpr std::uint64_t most_steps = 1'000'000'000'000'000;
 /// Longest study [s].

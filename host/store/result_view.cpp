@@ -90,9 +90,11 @@ DataFile::Variable const& ResultView::find(std::string const& variable) const {
 std::string ResultView::attribute(std::string const& name) const { return attribute_text(*file_, name); }
 
 std::string ResultView::group_attribute(std::string const& group, std::string const& name) const {
-    if (!file_->has_group(group)) return {};
-    return attribute_text(*file_->group(group), name);
+    auto const found = this->group(group);
+    return found ? attribute_text(*found, name) : std::string();
 }
+
+std::unique_ptr<DataFile> ResultView::group(std::string const& name) const { return file_->has_group(name) ? file_->group(name) : nullptr; }
 
 bool ResultView::has(std::string const& variable) const { return std::ranges::count(variables_, variable, &DataFile::Variable::name) > 0; }
 

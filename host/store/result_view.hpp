@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ public:
     bool stores_members() const { return attribute("store") != "statistics"; }
     std::string attribute(std::string const& name) const;  // as text, also numbers; "" when there is none
     std::string group_attribute(std::string const& group, std::string const& name) const;  // "" when there is none
+    std::unique_ptr<DataFile> group(std::string const& name) const;  // not to outlive the file; nullptr where there is none
     bool has(std::string const& variable) const;
     std::vector<std::string> variable_names() const;
     std::string unit(std::string const& variable) const;

@@ -21,7 +21,8 @@
 namespace slideway {
 namespace {
 
-constexpr double jacobian_work = 1.5;  // right-hand sides
+constexpr double jacobian_work = 1.5;   // right-hand sides
+constexpr double work_of_a_step = 16;   // right-hand sides at most, as members take them on average: nine stages, and what ends of steps at events take
 constexpr char const* contact_names[] = {"surfaces at the end", "lines at the end", "points at the end"};
 using EndContacts = std::array<double, std::size(contact_names)>;
 
@@ -35,13 +36,17 @@ std::vector<QuantityColumn> compared_columns(Scene const& scene) {
 }
 
 MemberNumbers empty_numbers(Scene const& scene) {
+    using Kind = MemberNumbers::Kind;
     MemberNumbers numbers;
-    for (QuantityColumn const& column : compared_columns(scene)) numbers.columns.push_back({column.name(), column.unit, false, {}});
+    for (QuantityColumn const& column : compared_columns(scene)) numbers.columns.push_back({column.name(), column.unit});
+    for (Limit const& limit : scene.limits) numbers.columns.push_back({"yield of " + limit.name(), "1", Kind::limit});
     int const exponents = shadow_plan(scene).count;
-    for (int j = 1; j <= exponents; ++j) numbers.columns.push_back({fmt::format("lyapunov_exponent[{}]", j), "1/s", true, {}});
-    for (char const* name : contact_names) numbers.columns.push_back({name, "1", false, {}});
+    for (int j = 1; j <= exponents; ++j) numbers.columns.push_back({fmt::format("lyapunov_exponent[{}]", j), "1/s", Kind::exponent});
+    for (char const* name : contact_names) numbers.columns.push_back({name, "1", Kind::contacts});
     return numbers;
 }
+
+double is_met(Limit const& limit, double value) { return value >= limit.low && value <= limit.high ? 1 : 0; }
 
 /// Surfaces, lines and points that touch in states; NaN where one cannot be evaluated.
 /// @param inputs of the members, by value: they start where they ended  @param states [members][states of the mechanism]
@@ -67,21 +72,7 @@ double work_of(double right_hand_sides, double jacobians) { return right_hand_si
 
 }  // namespace
 
-std::size_t MemberNumbers::finished() const {
-    auto const& ends = columns.back().values;
-    return static_cast<std::size_t>(std::count_if(ends.begin(), ends.end(), [](double x) { return !std::isnan(x); }));
-}
-
 double MemberNumbers::total_work() const { return std::accumulate(work.begin(), work.end(), 0.0); }
-
-WholeColumn whole_of(std::vector<double> const& values) {
-    Summary const summary = summarise(values);
-    double cubes = 0;
-    for (double const x : values) {
-        if (!std::isnan(x)) cubes += std::pow((x - summary.mean) / summary.sd, 3);
-    }
-    return {summary, cubes / static_cast<double>(summary.count)};
-}
 
 std::vector<std::uint64_t> spread_over(std::uint64_t all, std::uint64_t count) {
     std::vector<std::uint64_t> members;
@@ -97,22 +88,31 @@ std::vector<double> stored_work(ToleranceMembers const& members) {
     return work;
 }
 
-MemberNumbers stored_numbers(ToleranceMembers const& members, Scene const& scene, std::vector<std::uint64_t> const& rows,
-                             std::vector<double> const& work, std::vector<WholeColumn>& whole) {
+MemberNumbers stored_numbers(ToleranceMembers const& members, Scene const& scene) {
     MemberNumbers numbers = empty_numbers(scene);
-    for (std::size_t const row : rows) numbers.work.push_back(work[row]);
+    numbers.work = stored_work(members);
+    for (std::size_t row = 0; row < members.size(); ++row) numbers.finished.push_back(members.finished(row));
     auto next = numbers.columns.begin();
     auto const put = [&](std::vector<double> values) {
         for (std::size_t row = 0; row < values.size(); ++row) {
             if (!members.finished(row)) values[row] = nan;
         }
-        for (std::size_t const row : rows) next->values.push_back(values[row]);
-        whole.push_back(whole_of(values));
-        ++next;
+        (next++)->values = std::move(values);
     };
     for (QuantityColumn const& column : compared_columns(scene)) put(members.column(column.quantity, column.index));
+    std::vector<QuantityColumn> const stored = columns_of(scene.quantities);
+    for (Limit const& limit : scene.limits) {
+        QuantityColumn const* const column = column_of(stored, limit);
+        std::vector<double> values = column != nullptr ? members.column(column->quantity, column->index) : std::vector<double>(members.size(), nan);
+        for (double& value : values) value = is_met(limit, value);
+        put(std::move(values));
+    }
     for (int j = 0; j < shadow_plan(scene).count; ++j) put(members.column("lyapunov_exponent", static_cast<std::size_t>(j)));
+    for (; next != numbers.columns.end(); ++next) next->values.assign(members.size(), nan);
+    return numbers;
+}
 
+void add_end_contacts(MemberNumbers& numbers, ToleranceMembers const& members, Scene const& scene, std::vector<std::size_t> const& rows) {
     MechanismInfo const& has = info(scene.parts.mechanism);
     auto const width = static_cast<std::size_t>(has.states);
     std::vector<double> const ends = members.column("end_time");
@@ -127,51 +127,89 @@ MemberNumbers stored_numbers(ToleranceMembers const& members, Scene const& scene
         for (std::size_t i = 0; i < rows.size(); ++i) states[i * width + k] = values[rows[i]];
     }
     std::vector<EndContacts> const contacts = end_contacts(scene, std::move(inputs), times, states);
-    for (std::size_t kind = 0; kind < std::size(contact_names); ++kind, ++next) {
-        for (std::size_t i = 0; i < rows.size(); ++i) next->values.push_back(members.finished(rows[i]) ? contacts[i][kind] : nan);
+    auto column = numbers.columns.end() - std::ssize(contact_names);
+    for (std::size_t kind = 0; kind < std::size(contact_names); ++kind, ++column) {
+        for (std::size_t i = 0; i < rows.size(); ++i) column->values[rows[i]] = members.finished(rows[i]) ? contacts[i][kind] : nan;
     }
-    return numbers;
 }
 
-MemberNumbers fresh_numbers(Scene const& scene, std::vector<std::uint64_t> const& members, Backend const& backend, int threads,
-                            StopRequest const* stop, Progress* progress, double weight) {
-    MemberNumbers numbers = empty_numbers(scene);
-    numbers.work.assign(members.size(), nan);
-    for (auto& column : numbers.columns) column.values.assign(members.size(), nan);
-    std::map<std::uint64_t, std::size_t> places;
-    for (std::size_t i = 0; i < members.size(); ++i) places[members[i]] = i;
+namespace {
 
-    ExponentTable const exponents(scene);
-    auto const offsets = static_cast<std::size_t>(shadow_plan(scene).count);
-    std::vector<std::size_t> quantities;
-    for (QuantityColumn const& column : compared_columns(scene)) quantities.push_back(column.place);
-    bool const audited = selects(scene.quantities, Quantity::energy_residual);
-    auto const residual = static_cast<std::size_t>(quantity_column(Quantity::energy_residual));
-    if (audited) numbers.energy_residual.assign(members.size(), nan);
-    auto const take = [&](BlockResult const& block) {
+/// Puts what the members of a block came to into their places.
+class FreshTaker {
+public:
+    FreshTaker(Scene const& scene, std::vector<std::uint64_t> const& members) : scene_(scene), exponents_(scene) {
+        numbers_ = empty_numbers(scene);
+        numbers_.work.assign(members.size(), nan);
+        numbers_.steps.assign(members.size(), 0);
+        numbers_.finished.assign(members.size(), 0);
+        for (auto& column : numbers_.columns) column.values.assign(members.size(), nan);
+        if (selects(scene.quantities, Quantity::energy_residual)) numbers_.energy_residual.assign(members.size(), nan);
+        for (std::size_t i = 0; i < members.size(); ++i) places_[members[i]] = i;
+        for (QuantityColumn const& column : compared_columns(scene)) quantities_.push_back(column.place);
+        std::vector<QuantityColumn> const columns = columns_of(scene.quantities);
+        for (Limit const& limit : scene.limits) limited_.push_back(column_of(columns, limit)->place);
+    }
+
+    void take(BlockResult const& block) {
         std::vector<double> times;
         for (MemberRecord const& record : block.records) times.push_back(record.time);
-        StudyValues const of_exponents = exponents.values(block);
-        auto const contacts = end_contacts(scene, {block.inputs.begin(), block.inputs.end()}, times, block.final_states);
+        StudyValues const of_exponents = exponents_.values(block);
+        auto const offsets = static_cast<std::size_t>(shadow_plan(scene_).count);
+        auto const contacts = end_contacts(scene_, {block.inputs.begin(), block.inputs.end()}, times, block.final_states);
+        auto const residual = static_cast<std::size_t>(quantity_column(Quantity::energy_residual));
         for (std::size_t i = 0; i < block.members.size(); ++i) {
-            std::size_t const place = places.at(block.members[i]);
+            std::size_t const place = places_.at(block.members[i]);
             MemberRecord const& record = block.records[i];
-            numbers.work[place] =
-                work_of(static_cast<double>(record.rhs_evaluations), static_cast<double>(record.jacobian_evaluations));
+            double const* const quantities = &block.quantities[i * quantity_columns];
+            numbers_.work[place] = work_of(static_cast<double>(record.rhs_evaluations), static_cast<double>(record.jacobian_evaluations));
+            numbers_.steps[place] = record.steps_accepted + record.steps_rejected;
+            numbers_.finished[place] = record.status == Status::finished;
             if (record.status != Status::finished) continue;
-            if (audited) numbers.energy_residual[place] = block.quantities[i * quantity_columns + residual];
-            auto next = numbers.columns.begin();
+            if (!numbers_.energy_residual.empty()) numbers_.energy_residual[place] = quantities[residual];
+            auto next = numbers_.columns.begin();
             auto const put = [&](double value) { (next++)->values[place] = value; };
-            for (std::size_t const q : quantities) put(block.quantities[i * quantity_columns + q]);
+            for (std::size_t const q : quantities_) put(quantities[q]);
+            for (std::size_t j = 0; j < limited_.size(); ++j) put(is_met(scene_.limits[j], quantities[limited_[j]]));
             for (std::size_t j = 0; j < offsets; ++j) put(of_exponents[0][i * offsets + j]);
             for (double const count : contacts[i]) put(count);
         }
-    };
-    EnsemblePlan const plan = ensemble_plan(scene, MemberSet::of(members), backend, threads);
+    }
+    MemberNumbers numbers() { return std::move(numbers_); }
+
+private:
+    Scene const& scene_;
+    ExponentTable const exponents_;
+    MemberNumbers numbers_;
+    std::map<std::uint64_t, std::size_t> places_;
+    std::vector<std::size_t> quantities_, limited_;  // places in a member's row
+};
+
+void run_some(Scene const& scene, std::vector<std::uint64_t> const& members, FreshRun const& run, FreshTaker& taker) {
+    EnsemblePlan const plan = ensemble_plan(scene, MemberSet::of(members), run.backend, run.threads);
     StopRequest const nobody;
-    BlockKernel const kernel = backend.kernel(scene.parts, plan.request.shadows.count > 0);
-    run_ensemble(plan, kernel, take, stop != nullptr ? *stop : nobody, progress, weight);
-    return numbers;
+    BlockKernel const kernel = run.backend.kernel(scene.parts, plan.request.shadows.count > 0);
+    run_ensemble(plan, kernel, [&](BlockResult const& block) { taker.take(block); }, run.stop != nullptr ? *run.stop : nobody, run.progress, run.weight);
+}
+
+}  // namespace
+
+MemberNumbers fresh_numbers(Scene const& scene, std::vector<std::uint64_t> const& members, FreshRun const& run, std::vector<double> const& most_work) {
+    FreshTaker taker(scene, members);
+    if (most_work.empty()) {
+        run_some(scene, members, run, taker);
+        return taker.numbers();
+    }
+    // One number of steps bounds a run: those that may take as much run together.
+    std::map<double, std::vector<std::uint64_t>> by_bound;
+    for (std::size_t i = 0; i < members.size(); ++i) by_bound[most_work[i]].push_back(members[i]);
+    for (auto const& [most, some] : by_bound) {
+        Scene bounded = scene;
+        double const steps = most / (work_of_a_step * (1 + shadow_plan(scene).count));
+        bounded.integrator.max_steps = std::min(scene.integrator.max_steps, static_cast<std::uint64_t>(std::clamp(steps, 1.0, 1e18)));
+        run_some(bounded, some, run, taker);
+    }
+    return taker.numbers();
 }
 
 }  // namespace slideway

@@ -96,7 +96,7 @@ ProgressTask progress_task(Scene const& scene, StudyOptions const& options, Stud
     // Rank 0 alone checks, and its lanes take as long for few members as for those that fill them.
     EnsemblePlan const plan = ensemble_plan(scene, work.todo, *options.backend, options.threads, options.block_members);
     double const lanes = static_cast<double>(plan.threads) * static_cast<double>(plan.blocks.bounds.lanes);
-    double const check = foreseen_check(scene, scene.verify, task.members) * std::max(1 / lanes, 1 / static_cast<double>(most_checked)) *
+    double const check = foreseen_check(scene, scene.verify, task.members) * std::max(1 / lanes, 1 / static_cast<double>(2 * least_members)) *
                          std::min(all, ranks * lanes);
     task.check_follows = check > small * all;
     if (!task.check_follows) task.after = check;

@@ -9,6 +9,8 @@
 
 namespace slideway {
 
+std::size_t design_width(Scene const& scene) { return scene.design.kind == DesignKind::saltelli ? scene.variations.size() + 2 : 0; }
+
 ToleranceMembers::ToleranceMembers(ResultView const& results, std::size_t width, std::uint64_t members)
     : results_(results), width_(width) {
     std::vector<double> const numbers = results.values("member");

@@ -14,9 +14,12 @@
 
 namespace slideway {
 
+/// Members per row of a saltelli design, d + 2; of other designs 0.
+std::size_t design_width(Scene const& scene);
+
 class ToleranceMembers {
 public:
-    /// @param width members per row of a saltelli design, d + 2; else 0.  @param members of the whole design.
+    /// @param width `design_width` of the scene, or 0 where draws make no difference.  @param members of the whole design.
     /// @throws FileError if a number is not of the design or comes twice.
     ToleranceMembers(ResultView const& results, std::size_t width, std::uint64_t members);
 

@@ -145,7 +145,7 @@ ToleranceReport statistics_report(ResultView const& results, Scene const& scene)
 ToleranceReport tolerance_report(ResultView const& results, Scene const& scene, ReportSettings const& settings) {
     if (!results.stores_members()) return statistics_report(results, scene);
     bool const radial = scene.design.kind == DesignKind::saltelli;
-    std::size_t const width = radial ? scene.variations.size() + 2 : 0;
+    std::size_t const width = design_width(scene);
     std::uint64_t const size = radial ? scene.design.base * width : scene.members;
     ToleranceMembers const members(results, width, size);
     std::vector<QuantityColumn> const columns = stored_columns(results);

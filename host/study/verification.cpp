@@ -1,207 +1,296 @@
 #include "host/study/verification.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
 #include <numeric>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <utility>
 
 #include "host/study/continued_sweep.hpp"
-#include "host/study/orbit_schedule.hpp"
 
 namespace slideway {
 namespace {
 
-constexpr double of_the_study = 0.1;  // that a check may cost unasked
-constexpr double first_share = 0.8;   // of what is left
-constexpr double steps_beyond = 2;    // how much more than foreseen a check may take
+constexpr double of_the_study = 0.1;      // that a check may cost unasked
+constexpr std::size_t first_members = 8;  // by each method, before it is known what they cost
+constexpr double at_hand = 1.5;           // times what members are foreseen to take must be left before they begin
+constexpr double beyond_foreseen = 12;    // how much more than foreseen a member may take unasked
 
-std::string remedy(Scene const& scene, Verification const& v) {
-    if (has_fixed_step(scene.integrator.method)) return "use a smaller integrator.step, or method = \"auto\"";
-    bool const tolerance = std::ranges::any_of(
-        v.findings, [&](CheckedColumn const& found) { return found.differs && v.methods[found.method].starts_with(name_of(scene.integrator.method)); });
-    std::string const tighter = fmt::format("integrator.rtol = {:.0e} and atol likewise", check_tightening * scene.integrator.rtol);
-    if (scene.integrator.method == Method::automatic || tolerance) return "use " + tighter;
-    return fmt::format("use {}, or method = \"auto\"", tighter);
+double sum(std::vector<double> const& numbers) {
+    return std::accumulate(numbers.begin(), numbers.end(), 0.0,
+                           [](double so_far, double x) { return std::isnan(x) ? so_far : so_far + x; });
 }
 
-std::string describe(Verification const& v, Scene const& scene) {
-    std::string by = v.methods.front();
-    for (std::size_t i = 1; i < v.methods.size(); ++i) by += (i + 1 == v.methods.size() ? " and by " : ", by ") + v.methods[i];
-    std::string const again = fmt::format("{} members again by {} ({:.2g} % of the study's work)", v.members.size(), by, 100 * v.share);
-    std::string unfinished;
-    for (std::size_t i = 0; i < v.methods.size(); ++i) {
-        if (v.finished[i] < v.members.size())
-            unfinished += fmt::format("\n  by {} {} of {} finished", v.methods[i], v.finished[i], v.members.size());
+/// Of members that took so much: bounds alike for those that are alike, so that they fill lanes together.
+std::vector<double> shared_bounds(std::vector<double> const& work) {
+    constexpr double alike = 3;
+    std::vector<std::size_t> order(work.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return work[a] > work[b]; });
+    std::vector<double> bounds(work.size());
+    double bound = 0;
+    for (std::size_t const i : order) {
+        if (!(work[i] * alike > bound)) bound = 0;
+        if (bound == 0) bound = work[i];
+        bounds[i] = bound;
     }
-    std::string const energy =
-        v.energy ? fmt::format("energy audit: the integration makes {:.2g} % of the energy of the slider's fall through its clearance in a period of the drive{}",
-                               100 * v.energy->share, v.energy->is_too_much ? ": too much for exponents" : "")
-                 : "";
-    if (v.resolution == Resolution::resolved)
-        return fmt::format("resolved: {}: no mean and no distribution differs beyond chance{}{}", again, v.energy ? "; " : "", energy) + unfinished;
-    std::string text = fmt::format("NOT RESOLVED by {}: {}", v.settings, again) + unfinished;
-    for (CheckedColumn const& found : v.findings) {
-        if (!found.differs) continue;
-        auto const& column = v.numbers.front().columns[found.column];
-        text += fmt::format("\n  {}: {:.4g} of these members, {:.4g} by {} (difference {:.3g} ± {:.2g} {}, p = {:.1g}){}", column.name,
-                            found.pairs.first, found.pairs.second, v.methods[found.method], found.pairs.difference,
-                            found.pairs.interval.half_width(), column.unit, found.p,
-                            found.refutes_sign ? ": the sign of the study's is refuted" : "");
-    }
-    if (v.energy && v.energy->is_too_much) text += "\n  " + energy;
-    return text + "\n  " + remedy(scene, v);
+    return bounds;
 }
 
-Verification not_checked(Verification v, std::string const& why) {
-    v.resolution = Resolution::not_checked;
-    v.summary = "not checked against tighter tolerances: " + why;
-    return v;
-}
-
-/// Which checks there is work for.  Each may have what is left of the whole, shared with those after it: the first ones may take most
-/// of it, for one check is better than several halves.
-class Budget {
+/// The members of a study, and which of them run again.
+class Check {
 public:
-    /// @param asked as in VerificationRequest  @param all members of the study  @param total their work
-    /// @param members that are chosen already, or 0
-    Budget(std::optional<std::uint64_t> asked, std::uint64_t all, double total, std::uint64_t members)
-        : is_asked_(asked.has_value()), most_(std::min<std::uint64_t>(asked.value_or(most_checked), all)), mean_work_(total / static_cast<double>(all)),
-          left_(of_the_study * total), members_(members) {}
-
-    /// Members that the next check may run again, each taking `cost` times what a member of the study takes; 0: none.
-    std::uint64_t next(double cost, bool is_last) {
-        share_ = is_last ? left_ : first_share * left_;
-        of_a_member_ = cost * mean_work_;
-        auto const affordable = static_cast<std::uint64_t>(share_ / of_a_member_);
-        if (members_ == 0) {
-            std::uint64_t const count = is_asked_ ? most_ : std::min(most_, affordable);
-            if (!is_asked_ && count < least_members) return 0;
-            members_ = count;
-        }
-        return is_asked_ || share_ >= static_cast<double>(members_) * of_a_member_ ? members_ : 0;
+    Check(Verification& v, Scene const& scene, Backend const& backend, VerificationRequest const& request)
+        : v_(v), scene_(scene), backend_(backend), request_(request), methods_(check_methods(scene)) {
+        for (CheckMethod const& method : methods_) of_exponents_.push_back(method.of_exponents);
+        given_up_.resize(methods_.size());
+        left_over_.resize(methods_.size());
+        v_.cut.resize(methods_.size());
     }
-    /// What one of them may take.
-    double most_of_a_member() const { return std::min(share_ / static_cast<double>(members_), steps_beyond * of_a_member_); }
-    void spend(double work) { left_ -= work; }
+
+    /// Of a result that stores its members.
+    void look_at(ToleranceMembers const& stored) {
+        stored_ = &stored;
+        all_ = stored.size();
+        v_.study = stored_numbers(stored, scene_);
+        v_.groups = member_groups(stored, scene_);
+        std::vector<std::size_t> rows;
+        for (std::size_t row = 0; row < stored.size(); ++row) {
+            v_.members.push_back(stored.number(row));
+            draws_.push_back(stored.is_draw(row));
+            if (stored.finished(row)) rows.push_back(row);
+        }
+        total_ = v_.study.total_work();
+        take_samples(rows);
+        left_ = of_the_study * total_;
+    }
+
+    /// Of a study that keeps no members: some run in the study's way, and stand for all.
+    void run_some_anew() {
+        all_ = member_count(scene_);
+        double const of_a_member = 1 + at_hand * methods_.front().cost;
+        auto const affordable = static_cast<std::uint64_t>(of_the_study * static_cast<double>(all_) / of_a_member);
+        auto const most = static_cast<std::size_t>(std::min(all_, request_.members.value_or(affordable)));
+        std::vector<std::size_t> everybody(most);
+        std::iota(everybody.begin(), everybody.end(), std::size_t{0});
+        CheckSample numbers(everybody, {}, {}, scene_.seed);
+        double const spacing = static_cast<double>(all_) / static_cast<double>(std::max<std::size_t>(most, 1));
+        for (std::size_t const i : numbers.next(most))
+            v_.members.push_back(static_cast<std::uint64_t>(static_cast<double>(i) * spacing));
+        std::ranges::sort(v_.members);
+        v_.study = run_again(without_series(scene_), v_.members, {}, 1);
+        std::vector<std::size_t> rows;
+        std::vector<char> finished = v_.study.finished;
+        for (std::size_t row = 0; row < finished.size(); ++row) {
+            if (finished[row]) rows.push_back(row);
+        }
+        draws_.assign(finished.size(), 1);
+        double const spent = v_.study.total_work();
+        total_ = spent * spacing;
+        spent_ = spent;
+        v_.groups = {{"", std::move(finished)}};
+        take_samples(rows);
+        left_ = of_the_study * total_ - spent;
+    }
+
+    double total() const { return total_; }
+
+    /// Adds members until every number is decided, or there is no more to be had.
+    void run() {
+        for (std::size_t wanted = first_members; !stopped();) {
+            std::size_t const before = v_.pairs.size();
+            for (std::size_t method = 0; method < methods_.size() && !stopped(); ++method)
+                add(method, samples_[method]->next(affordable(method, wanted)), false);
+            for (std::size_t method = 0; method < methods_.size() && !stopped(); ++method)
+                add(method, std::exchange(left_over_[method], {}), true);
+            if (v_.pairs.size() == before) break;
+            compare();
+            if (is_decided() || samples_.front()->left() == 0) break;
+            // Twice as many as there are: few members alone leave lanes empty.
+            wanted = std::max(first_members, 2 * v_.pairs.size() / methods_.size());
+        }
+        if (!residuals_.empty()) v_.energy = audit_energy(residuals_, scene_);
+        for (CheckMethod const& method : methods_) v_.methods.push_back(method.words);
+        v_.share = spent_ / total_;
+    }
+
+    bool stopped() const { return request_.stop != nullptr && request_.stop->reason() != StopReason::none; }
 
 private:
-    bool const is_asked_;
-    std::uint64_t const most_;
-    double const mean_work_;
-    double left_, share_ = 0, of_a_member_ = 0;
-    std::uint64_t members_;
+    /// Each member runs by one method; those that only count for exponents have a sample of their own.
+    void take_samples(std::vector<std::size_t> const& rows) {
+        auto const both = std::make_shared<CheckSample>(rows, v_.groups, v_.study.work, scene_.seed);
+        for (CheckMethod const& method : methods_)
+            samples_.push_back(method.of_exponents
+                                   ? std::make_shared<CheckSample>(rows, v_.groups, v_.study.work, scene_.seed)
+                                   : both);
+    }
+
+    /// How many members may run by a method now.
+    std::size_t affordable(std::size_t method, std::size_t wanted) const {
+        std::size_t const methods_left =
+            request_.members ? 2 - std::min<std::size_t>(method, 1) : methods_.size() - method;
+        if (given_up_[method]) return 0;
+        if (request_.members) {
+            std::uint64_t const asked = std::max<std::uint64_t>(*request_.members, v_.pairs.size()) - v_.pairs.size();
+            std::uint64_t const room = std::min<std::uint64_t>(asked, samples_[method]->left());
+            if (methods_[method].of_exponents) return static_cast<std::size_t>(std::min<std::uint64_t>(wanted, room));
+            return static_cast<std::size_t>(std::min<std::uint64_t>(wanted, (room + methods_left - 1) / methods_left));
+        }
+        // Methods that come later have their share, for one alone may err as the study does.
+        double const of_a_member = at_hand * methods_[method].cost * total_ / static_cast<double>(all_);
+        bool const is_first =
+            std::ranges::none_of(v_.pairs, [&](CheckPair const& pair) { return pair.method == method; });
+        double const least = is_first ? least_members : 1, room = left_ / of_a_member,
+                     share = room / static_cast<double>(methods_left);
+        if (room < least) return 0;
+        return std::min(wanted, static_cast<std::size_t>(std::clamp(share, least, 1e9)));
+    }
+
+    /// Runs members by a method.  @param again those that another one has cut short
+    void add(std::size_t method, std::vector<std::size_t> const& rows, bool again) {
+        if (rows.empty()) return;
+        std::vector<std::uint64_t> members;
+        std::vector<double> own, most;
+        for (std::size_t const row : rows) {
+            members.push_back(v_.members[row]);
+            own.push_back(v_.study.work[row]);
+        }
+        if (!request_.members) {
+            most = shared_bounds(own);
+            double const per_own = std::min(left_ / sum(most), beyond_foreseen * methods_[method].cost);
+            for (double& bound : most) bound *= std::max(per_own, 0.0);
+        }
+        MemberNumbers const numbers = run_again(methods_[method].scene, members, most, methods_[method].cost);
+        if (stored_ != nullptr) add_end_contacts(v_.study, *stored_, scene_, rows);
+        keep(method, rows, numbers, again);
+        double const spent = sum(numbers.work);
+        left_ -= spent;
+        spent_ += spent;
+        // What it costs is known from now on.
+        if (!again) methods_[method].cost = spent / sum(own);
+    }
+
+    /// A pair for each member that came to its end, and for those that no method has brought there.
+    void keep(std::size_t method, std::vector<std::size_t> const& rows, MemberNumbers const& numbers, bool again) {
+        v_.again.resize(numbers.columns.size());
+        std::size_t cut = 0;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            bool const finished = numbers.finished[i] != 0;
+            cut += !finished;
+            if (!finished && !again) {
+                // The other of the two that run for all numbers.
+                if (!methods_[method].of_exponents) left_over_[1 - method].push_back(rows[i]);
+                continue;
+            }
+            v_.pairs.push_back({rows[i], method, finished});
+            for (std::size_t column = 0; column < numbers.columns.size(); ++column)
+                v_.again[column].push_back(numbers.columns[column].values[i]);
+        }
+        v_.cut[method] += cut;
+        given_up_[method] = given_up_[method] || (method > 0 && !again && 2 * cut >= rows.size());
+        if (methods_[method].audits_energy)
+            residuals_.insert(residuals_.end(), numbers.energy_residual.begin(), numbers.energy_residual.end());
+    }
+
+    MemberNumbers run_again(Scene const& scene, std::vector<std::uint64_t> const& members,
+                            std::vector<double> const& most_work, double weight) {
+        ProgressTask task{members.size()};
+        task.work =
+            std::max(foreseen_check(scene_, request_.members, all_), static_cast<double>(members.size()) * weight);
+        task.is_check = true;
+        if (!progress_)
+            progress_.emplace(task, request_.progress, stderr, request_.stop != nullptr ? *request_.stop : nobody_);
+        return fresh_numbers(scene, members, {backend_, request_.threads, request_.stop, &*progress_, weight},
+                             most_work);
+    }
+
+    void compare() {
+        v_.numbers = check_numbers({v_.study, v_.groups, v_.pairs, v_.again, of_exponents_, draws_, all_}, scene_);
+    }
+
+    bool is_decided() const {
+        return std::ranges::all_of(v_.numbers, [](CheckedNumber const& n) {
+            return n.verdict == Verdict::resolved || n.verdict == Verdict::not_resolved;
+        });
+    }
+
+    Verification& v_;
+    Scene const& scene_;
+    Backend const& backend_;
+    VerificationRequest const& request_;
+    std::vector<CheckMethod> methods_;
+    std::vector<char> of_exponents_, draws_;
+    std::vector<char> given_up_;                       // [methods] that cut most of their members short
+    std::vector<std::vector<std::size_t>> left_over_;  // [methods] rows that another one has cut short
+    ToleranceMembers const* stored_ = nullptr;
+    std::uint64_t all_ = 0;
+    double total_ = 0, left_ = 0, spent_ = 0;
+    std::vector<std::shared_ptr<CheckSample>> samples_;  // [methods]
+    std::vector<double> residuals_;
+    StopRequest const nobody_;
+    std::optional<Progress> progress_;
 };
 
-/// What checks are foreseen to take, in the work of members of the study.
-double foreseen_work(std::vector<CheckMethod> const& methods, Budget budget, double mean_work) {
-    double work = 0;
-    for (std::size_t i = 0; i < methods.size(); ++i) {
-        double const of_check = static_cast<double>(budget.next(methods[i].cost, i + 1 == methods.size())) * methods[i].cost;
-        budget.spend(of_check * mean_work);
-        work += of_check;
-    }
-    return work;
-}
-
 /// Of a study that keeps no members: whether some run again to be compared.
-bool runs_members_anew(std::optional<std::uint64_t> asked, std::uint64_t all) { return asked || all * of_the_study > 2 * most_checked; }
-
-/// Bounds what a check may take, in steps.
-void limit_steps(Scene& check, double work_of_a_member) {
-    constexpr double of_a_step = 4;  // right-hand sides, of the cheapest method
-    double const steps = work_of_a_member / (of_a_step * (1 + shadow_plan(check).count));
-    check.integrator.max_steps = std::min(check.integrator.max_steps, static_cast<std::uint64_t>(std::max(1.0, steps)));
+bool runs_members_anew(std::optional<std::uint64_t> asked, std::uint64_t all) {
+    return asked || all >= 100 * least_members;
 }
 
-/// What follows from the findings.  @param was_asked for so many members, whatever they cost
-Verification concluded(Verification v, Scene const& scene, bool was_asked) {
-    bool const enough = std::ranges::any_of(v.findings, [&](CheckedColumn const& found) {
-        return found.pairs.pairs >= least_members && 2 * found.pairs.pairs > v.members.size();
-    });
-    bool const differs = (v.energy && v.energy->is_too_much) || std::ranges::any_of(v.findings, &CheckedColumn::differs);
-    if (!enough && !differs) {
-        if (v.numbers.front().finished() < least_members) return not_checked(std::move(v), "too few of its members finished");
-        std::vector<std::string> ends;
-        for (std::size_t i = 0; i < v.methods.size(); ++i) ends.push_back(fmt::format("{} of {} by {}", v.finished[i], v.members.size(), v.methods[i]));
-        return not_checked(std::move(v), fmt::format("too few members finished again ({}){}", fmt::join(ends, ", "),
-                                                     was_asked ? "" : "; run --verify gives them more time"));
-    }
-    v.resolution = differs ? Resolution::not_resolved : Resolution::resolved;
-    v.summary = describe(v, scene);
-    return v;
+/// Nothing varies: all members are one.
+bool is_one_member(Scene const& scene) {
+    return member_count(scene) == 1 || (scene.variations.empty() && scene.study != StudyKind::sweep);
 }
 
 }  // namespace
 
 double foreseen_check(Scene const& scene, std::optional<std::uint64_t> asked, std::uint64_t all) {
     if (asked == 0u || is_continued(scene)) return 0;
-    std::uint64_t const most = std::min<std::uint64_t>(asked.value_or(most_checked), all);
+    std::vector<CheckMethod> const methods = check_methods(scene);
+    double cost = 0;
+    for (CheckMethod const& method : methods) cost += method.cost;
+    double const of_a_member = cost / static_cast<double>(methods.size());
+    if (is_one_member(scene)) return asked ? 1 + cost : 0;
     bool const stored = scene.stores_members();
     if (!stored && !runs_members_anew(asked, all)) return 0;
-    Budget const budget(asked, all, static_cast<double>(all), stored ? 0 : most);
-    return foreseen_work(check_methods(scene), budget, 1) + (stored ? 0.0 : static_cast<double>(most));
+    auto const members = static_cast<double>(all);
+    if (asked) return static_cast<double>(std::min(*asked, all)) * (of_a_member + (stored ? 0 : 1));
+    double const room = of_the_study * members;
+    return room < at_hand * methods.front().cost * least_members ? 0 : room;
 }
 
-Verification verify(ResultView const& results, Scene const& scene, Backend const& backend, VerificationRequest const& request) {
+Verification verify(ResultView const& results, Scene const& scene, Backend const& backend,
+                    VerificationRequest const& request) {
     Verification v;
     v.settings = words_of(scene.integrator);
-    if (request.members == 0u) return not_checked(std::move(v), "study.verify is 0");
-    if (is_continued(scene)) return not_checked(std::move(v), "columns of this sweep go on from one another");
+    auto const not_checked = [&](std::string const& why) {
+        v.resolution = Resolution::not_checked;
+        v.summary = "not checked against tighter tolerances: " + why;
+        return v;
+    };
+    if (request.members == 0u) return not_checked("study.verify is 0");
+    if (is_continued(scene)) return not_checked("columns of this sweep go on from one another");
+    if (is_one_member(scene)) {
+        if (!request.members) return not_checked("there is one member; run --verify compares its orbit");
+        return verify_orbit(scene, backend, request);
+    }
     std::optional<ToleranceMembers> stored;
-    if (results.stores_members()) stored.emplace(results, 0, member_count(scene));
-    std::uint64_t const all = stored ? stored->size() : member_count(scene);
-    auto const choose = [&](std::uint64_t count) {
-        std::vector<std::uint64_t> rows = spread_over(all, count);
-        for (std::uint64_t const row : rows) v.members.push_back(stored ? stored->number(row) : row);
-        return rows;
-    };
-    StopRequest const nobody;
-    std::optional<Progress> progress;
-    auto const run_again = [&](Scene const& check, double weight) {
-        ProgressTask task{v.members.size()};
-        task.work = foreseen_check(scene, request.members, all);
-        task.is_check = true;
-        if (!progress) progress.emplace(task, request.progress, stderr, request.stop != nullptr ? *request.stop : nobody);
-        return fresh_numbers(check, v.members, backend, request.threads, request.stop, &*progress, weight);
-    };
-    std::vector<double> work;
-    std::vector<WholeColumn> whole;
-    double total = 0, dearest = 0;
-    if (stored) {
-        work = stored_work(*stored);
-        total = std::accumulate(work.begin(), work.end(), 0.0);
-    } else if (runs_members_anew(request.members, all)) {
-        // What members came to is not there: those that are compared run as in the study, too.
-        choose(std::min<std::uint64_t>(request.members.value_or(most_checked), all));
-        v.numbers.push_back(run_again(without_series(scene), 1));
-        total = v.numbers.front().total_work() * static_cast<double>(all) / static_cast<double>(v.members.size());
+    Check check(v, scene, backend, request);
+    if (results.stores_members()) {
+        stored.emplace(results, design_width(scene), member_count(scene));
+        check.look_at(*stored);
+    } else if (runs_members_anew(request.members, member_count(scene))) {
+        check.run_some_anew();
     }
-    if (!(total > 0)) return not_checked(std::move(v), stored ? "no member ran" : "members are not stored; run --verify does it");
-    std::vector<CheckMethod> methods = check_methods(scene);
-
-    Budget budget(request.members, all, total, v.members.size());
-    for (std::size_t i = 0; i < methods.size(); ++i) {
-        CheckMethod& method = methods[i];
-        dearest += method.cost * static_cast<double>(std::min<std::uint64_t>(most_checked, all));
-        std::uint64_t const count = budget.next(method.cost, i + 1 == methods.size());
-        if (count == 0) continue;
-        if (v.members.empty()) v.numbers.push_back(stored_numbers(*stored, scene, choose(count), work, whole));
-        if (!request.members) limit_steps(method.scene, budget.most_of_a_member());
-        v.numbers.push_back(run_again(method.scene, method.cost));
-        if (method.audits_energy) v.energy = audit_energy(v.numbers.back(), method.scene);
-        if (request.stop != nullptr && request.stop->reason() != StopReason::none) return not_checked(std::move(v), "the run was stopped");
-        v.methods.push_back(method.words);
-        v.finished.push_back(v.numbers.back().finished());
-        budget.spend(v.numbers.back().total_work());
-        v.share += v.numbers.back().total_work() / total;
-    }
-    if (v.methods.empty()) {
-        return not_checked(std::move(v), fmt::format("it would take some {:.2g} times the study's work; run --verify does it",
-                                                     dearest / static_cast<double>(all)));
-    }
-    v.findings = compare(v.numbers, scene, whole, all);
-    return concluded(std::move(v), scene, request.members.has_value());
+    if (!(check.total() > 0))
+        return not_checked(stored ? "no member ran" : "members are not stored; run --verify does it");
+    check.run();
+    if (check.stopped()) return not_checked("the run was stopped");
+    if (v.pairs.empty())
+        return not_checked("a tenth of the study's work is not enough for six members; run --verify does it");
+    conclude(v, scene, request);
+    return v;
 }
 
 }  // namespace slideway

@@ -1,5 +1,7 @@
 // A verification in a result file.
 #include <algorithm>
+#include <map>
+#include <string_view>
 
 #include "host/base/numbers.hpp"
 #include "host/store/group_writer.hpp"
@@ -10,50 +12,61 @@ namespace slideway {
 namespace {
 
 constexpr char const* sign_refuted = "refuted";
-constexpr char const* resolution_names[] = {"resolved", "not_resolved", "not_checked"};
 
-/// Of each column and check, in the order of their dimensions.
-template <class Value> std::vector<double> of_findings(Verification const& v, std::size_t width, Value const& value) {
-    std::size_t const columns = v.numbers.front().columns.size();
-    std::vector<double> values(columns * v.methods.size() * width, nan);
-    for (CheckedColumn const& found : v.findings) {
-        for (std::size_t i = 0; i < width; ++i)
-            values[(found.column * v.methods.size() + found.method) * width + i] = value(found, i);
+/// Members that ran again: what they had come to, and what they came to then.
+void write_pairs(GroupWriter& group, Verification const& v) {
+    group.labels("check", "by which members ran again", v.methods);
+    group.labels("source", "by which a member ran", {"study", "check"});
+    group.dimension("pair", v.pairs.size());
+    std::vector<double> members, methods, finished, values;
+    for (CheckPair const& pair : v.pairs) {
+        members.push_back(static_cast<double>(v.members[pair.row]));
+        methods.push_back(static_cast<double>(pair.method));
+        finished.push_back(pair.finished);
     }
-    return values;
+    for (std::size_t column = 0; column < v.study.columns.size(); ++column) {
+        for (CheckPair const& pair : v.pairs) values.push_back(v.study.columns[column].values[pair.row]);
+        values.insert(values.end(), v.again[column].begin(), v.again[column].end());
+    }
+    group.put({"pair_member", "1", "member that ran again", {"pair"}}, members);
+    group.put({"pair_check", "1", "by which check, from 0", {"pair"}}, methods);
+    group.put({"pair_finished", "1", "1 where it came to its end", {"pair"}}, finished);
+    group.put({"value",
+               "",
+               "what a member came to, in the unit of checked_name",
+               {"checked", "source", "pair"},
+               "checked_name source_name"},
+              values);
 }
 
 void write_numbers(GroupWriter& group, Verification const& v) {
-    std::vector<std::string> columns, sources{"study"};
-    for (auto const& column : v.numbers.front().columns) columns.push_back(column.name + " [" + column.unit + "]");
-    sources.insert(sources.end(), v.methods.begin(), v.methods.end());
-    group.labels("checked", "number that is compared, with its unit", columns);
-    group.labels("source", "by which members ran", sources);
-    group.labels("check", "by which members ran again", v.methods);
-    group.labels("bound", "end of an interval", {"low", "high"});
-    group.dimension("verified", v.members.size());
-    std::vector<double> const members(v.members.begin(), v.members.end());
-    group.put({"verified_member", "1", "member that ran again", {"verified"}}, members);
-
-    std::vector<double> values, work;
-    for (std::size_t column = 0; column < columns.size(); ++column) {
-        for (MemberNumbers const& source : v.numbers) {
-            auto const& of_source = source.columns[column].values;
-            values.insert(values.end(), of_source.begin(), of_source.end());
-        }
-    }
-    for (MemberNumbers const& source : v.numbers) work.insert(work.end(), source.work.begin(), source.work.end());
-    group.put({"value", "", "what a member came to, in the unit of checked_name", {"checked", "source", "verified"}, "checked_name source_name"}, values);
-    group.put({"work", "1", "right-hand sides of a member, a Jacobian counting one and a half", {"source", "verified"}, "source_name"}, work);
-    std::string const labels("checked_name check_name");
-    group.put({"difference", "", "mean over the members, check less study, in the unit of checked_name", {"checked", "check"}, labels},
-              of_findings(v, 1, [](CheckedColumn const& f, std::size_t) { return f.pairs.difference; }));
-    group.put({"difference_interval", "", "95 % confidence interval of the difference", {"checked", "check", "bound"}, labels},
-              of_findings(v, 2, [](CheckedColumn const& f, std::size_t i) { return i == 0 ? f.pairs.interval.low : f.pairs.interval.high; }));
-    group.put({"p_value", "1", "chance of what was found if nothing differed, adjusted for all that was compared", {"checked", "check"}, labels},
-              of_findings(v, 1, [](CheckedColumn const& f, std::size_t) { return f.p; }));
-    group.put({"differs", "1", "1 where study and check differ beyond chance", {"checked", "check"}, labels},
-              of_findings(v, 1, [](CheckedColumn const& f, std::size_t) { return f.differs ? 1.0 : 0.0; }));
+    std::vector<std::string> columns, groups;
+    for (auto const& column : v.study.columns) columns.push_back(column.name + " [" + column.unit + "]");
+    for (MemberGroup const& one : v.groups) groups.push_back(one.name.empty() ? "all members" : one.name);
+    group.labels("checked", "number that is checked, with its unit", columns);
+    group.labels("members_of", "members that a number is of", groups);
+    auto const put = [&](std::string const& name, std::string const& unit, std::string const& meaning,
+                         auto const& value) {
+        std::vector<double> values(v.numbers.size());
+        for (CheckedNumber const& n : v.numbers)
+            values[n.group * v.study.columns.size() + n.column] = static_cast<double>(value(n));
+        group.put({name, unit, meaning, {"members_of", "checked"}, "members_of_name checked_name"}, values);
+    };
+    put("number", "", "what the study says, in the unit of checked_name", [](auto const& n) { return n.value; });
+    put("number_half_width", "", "half the 95 % interval of it", [](auto const& n) { return n.half_width; });
+    put("number_sd", "", "standard deviation of its members", [](auto const& n) { return n.spread; });
+    put("difference", "", "mean over the pairs, check less study; of one method where that is larger",
+        [](auto const& n) { return n.error.difference; });
+    put("difference_half_width", "", "half the 95 % interval of the difference",
+        [](auto const& n) { return n.error.half_width; });
+    put("error_bound", "", "bound of the integration error", [](auto const& n) { return n.error.bound; });
+    put("margin", "", "errors below it do not count", [](auto const& n) { return n.margin; });
+    put("p_value", "1", "chance of such a difference if there were none, adjusted for all that was looked at",
+        [](auto const& n) { return n.p; });
+    put("pairs", "1", "members that ran again and came to their end", [](auto const& n) { return n.error.pairs; });
+    put("cut", "1", "members that ran again and were cut short", [](auto const& n) { return n.cut; });
+    put("verdict", "1", "0 resolved, 1 error bounded, 2 undecided, 3 not resolved",
+        [](auto const& n) { return static_cast<int>(n.verdict); });
 }
 
 }  // namespace
@@ -64,15 +77,65 @@ void write_verification(DataFile& file, Verification const& v) {
     group.attribute("summary", v.summary);
     group.attribute("settings", v.settings);
     group.attribute("share_of_work", v.share);
-    bool const refuted = std::any_of(v.findings.begin(), v.findings.end(), [](CheckedColumn const& f) { return f.refutes_sign; });
+    bool const refuted = std::ranges::any_of(v.numbers, &CheckedNumber::refutes_sign);
     group.attribute("exponent_sign", std::string(refuted ? sign_refuted : "kept"));
-    if (!v.findings.empty()) write_numbers(group, v);
+    if (v.orbit) {
+        group.attribute("orbit_end", v.orbit->end);
+        group.attribute("orbit_parting", v.orbit->parting);
+    }
+    if (v.numbers.empty()) return;
+    write_numbers(group, v);
+    write_pairs(group, v);
 }
 
 std::optional<std::string> verification_summary(ResultView const& results) {
     std::string summary = results.group_attribute(verification_group, "summary");
     if (summary.empty()) return std::nullopt;
     return summary;
+}
+
+std::vector<StoredVerdict> stored_verdicts(ResultView const& results) {
+    auto const group = results.group(verification_group);
+    if (!group) return {};
+    std::map<std::string, DataFile::Variable> variables;
+    for (DataFile::Variable& variable : group->variables()) variables.emplace(variable.name, variable);
+    auto const texts = [&](char const* name) {
+        std::vector<std::string> found;
+        auto const at = variables.find(name);
+        if (at == variables.end() || at->second.shape.size() != 2) return found;
+        std::vector<signed char> const bytes = group->read<signed char>(at->second);
+        std::size_t const width = at->second.shape[1];
+        for (std::size_t i = 0; i < at->second.shape[0]; ++i) {
+            std::string const padded(bytes.begin() + static_cast<std::ptrdiff_t>(i * width),
+                                     bytes.begin() + static_cast<std::ptrdiff_t>((i + 1) * width));
+            found.push_back(padded.substr(0, padded.find_last_not_of(std::string_view(" \0", 2)) + 1));
+        }
+        return found;
+    };
+    std::vector<std::string> const names = texts("checked_name"), groups = texts("members_of_name");
+    std::vector<StoredVerdict> verdicts(names.size() * groups.size());
+    for (std::size_t i = 0; i < verdicts.size(); ++i)
+        verdicts[i] = {names[i % names.size()], groups[i / names.size()], nan, nan, nan, nan, nan, nan, nan, nan, {}};
+    auto const put = [&](char const* name, auto const& into) {
+        auto const at = variables.find(name);
+        if (at == variables.end() || at->second.type != DataFile::Type::float64 || at->second.size() != verdicts.size())
+            return false;
+        std::vector<double> const values = group->read<double>(at->second);
+        for (std::size_t i = 0; i < values.size(); ++i) into(verdicts[i], values[i]);
+        return true;
+    };
+    bool const whole = put("number", [](auto& v, double x) { v.value = x; }) &&
+                       put("number_half_width", [](auto& v, double x) { v.half_width = x; }) &&
+                       put("number_sd", [](auto& v, double x) { v.sd = x; }) &&
+                       put("difference", [](auto& v, double x) { v.difference = x; }) &&
+                       put("error_bound", [](auto& v, double x) { v.error_bound = x; }) &&
+                       put("margin", [](auto& v, double x) { v.margin = x; }) &&
+                       put("pairs", [](auto& v, double x) { v.pairs = x; }) &&
+                       put("cut", [](auto& v, double x) { v.cut = x; }) && put("verdict", [](auto& v, double x) {
+                           v.verdict =
+                               static_cast<Verdict>(x >= 0 && x < std::size(verdict_names) ? static_cast<int>(x) : 2);
+                       });
+    return whole ? verdicts : std::vector<StoredVerdict>{};
 }
 
 bool refutes_sign(ResultView const& results) {

@@ -11,41 +11,37 @@ namespace {
 
 /// Tolerances below are beyond what doubles resolve.
 constexpr double least_tolerance = 1e-13;
+/// And those above may not be the equations' yet.
+constexpr double coarsest_check = 1e-6;
 /// How much smaller a fixed step is, and of neighbours how much farther they start.
 constexpr double fewer_steps = 0.25, farther = 10;
 
 void tighten(IntegratorSettings& settings) {
-    settings.rtol = std::max(least_tolerance, check_tightening * settings.rtol);
-    settings.atol = std::max(least_tolerance, check_tightening * settings.atol);
+    // A hundredth of a coarse tolerance may err as much itself.
+    double const factor = std::min(check_tightening, coarsest_check / settings.rtol);
+    settings.rtol = std::max(least_tolerance, factor * settings.rtol);
+    settings.atol = std::max(least_tolerance, factor * settings.atol);
     settings.stiff_tolerance = std::max(settings.rtol, check_tightening * settings.stiff_tolerance);
 }
 
-/// Who is least like the study's own.
-Method other_method(Method method, Parts const& parts) {
-    // Without a stiff method `auto` is dopri5.
-    bool const may_be_stiff = info(parts.mechanism).spatial && !parts.rigid;
-    switch (method) {
-        case Method::automatic:
-            return may_be_stiff ? Method::dopri5 : Method::verner65;
-        case Method::dop853:
-        case Method::bs32:
-        case Method::verner65:
-            return Method::dopri5;
-        case Method::dopri5:
-            return may_be_stiff ? Method::automatic : Method::bs32;
-        default:
-            return Method::automatic;
-    }
+/// Whether `auto` has a method for stiff members there; without one it is dopri5, or bs32.
+bool may_be_stiff(Parts const& parts) { return info(parts.mechanism).spatial && !parts.rigid; }
+
+/// By which method the tolerance is tightened: the study's own; where vibrating contacts deceive an explicit one, by that which damps them.
+Method tightened_method(Scene const& scene) {
+    Method const own = scene.integrator.method;
+    return is_explicit_pair(own) && may_be_stiff(scene.parts) ? Method::automatic : own;
 }
+
+/// An explicit one that is neither the study's nor an arm of `auto`.
+Method other_method(Method own) { return own == Method::verner65 ? Method::dop853 : Method::verner65; }
 
 /// Right-hand sides of a member beside those at the study's own settings, as found for settled and rattling sliders (docs/integrators.md).
 double cost_of(Method study, Method check) {
     bool const high_order = study == Method::dopri5 || study == Method::dop853 || study == Method::verner65;
     if (study == check) return high_order ? 2.5 : 4;
-    if (study == Method::dop853) return 1;
-    if (study == Method::verner65) return 3;
-    if (study == Method::dopri5) return 0.2;  // in lasting contact, where it is needed most
-    return check == Method::dopri5 ? 10 : 4;
+    if (check == Method::automatic) return 1;  // a fifth in lasting contact, four times in impacts
+    return high_order ? 3 : 10;
 }
 
 }  // namespace
@@ -58,7 +54,8 @@ Scene without_series(Scene scene) {
 }
 
 std::string words_of(IntegratorSettings const& settings) {
-    if (has_fixed_step(settings.method)) return fmt::format("{} with steps of {:.3g} s", name_of(settings.method), settings.fixed_step);
+    if (has_fixed_step(settings.method))
+        return fmt::format("{} with steps of {:.3g} s", name_of(settings.method), settings.fixed_step);
     return fmt::format("{} at rtol {:.0e}", name_of(settings.method), settings.rtol);
 }
 
@@ -67,7 +64,7 @@ std::vector<CheckMethod> check_methods(Scene const& scene) {
     Scene const bare = without_series(scene);
     std::vector<CheckMethod> methods;
     auto const add = [&](Scene check, double cost, std::string_view beside = "") {
-        methods.push_back({words_of(check.integrator) + std::string(beside), std::move(check), cost, false});
+        methods.push_back({words_of(check.integrator) + std::string(beside), std::move(check), cost});
     };
     // Where forces jump, no tolerance brings a step across that does not end there: far below the study's, steps become too small.
     bool const jumps = makes_energy(scene.parts) && scene.parts.damping != Damping::restitution;
@@ -75,17 +72,19 @@ std::vector<CheckMethod> check_methods(Scene const& scene) {
     std::string_view const located = locates ? ", switches located" : "";
 
     Scene tight = bare;
+    tight.integrator.method = tightened_method(scene);
     if (has_fixed_step(own)) {
         tight.integrator.fixed_step *= fewer_steps;
-        tight.integrator.max_steps = static_cast<std::uint64_t>(static_cast<double>(scene.integrator.max_steps) / fewer_steps);
+        tight.integrator.max_steps =
+            static_cast<std::uint64_t>(static_cast<double>(scene.integrator.max_steps) / fewer_steps);
     } else {
         tighten(tight.integrator);
         tight.integrator.locate_modes = tight.integrator.locate_modes || locates;
     }
-    add(tight, cost_of(own, own), has_fixed_step(own) ? "" : located);
+    add(tight, cost_of(own, tight.integrator.method), has_fixed_step(own) ? "" : located);
 
     Scene other = bare;
-    other.integrator.method = other_method(own, scene.parts);
+    other.integrator.method = other_method(own);
     if (has_fixed_step(own)) {
         IntegratorSettings const usual;
         other.integrator.rtol = usual.rtol;
@@ -105,10 +104,9 @@ std::vector<CheckMethod> check_methods(Scene const& scene) {
         wide.chaos.d0_lower *= factor;
         wide.chaos.d0_upper *= factor;
         add(wide, 1, fmt::format(", d0 = {:.0e}", wide.chaos.d0));
+        methods.back().of_exponents = true;
         methods.back().audits_energy = !makes_energy(scene.parts);
     }
-    // The cheap one first: it may be all that there is room for.
-    std::stable_sort(methods.begin(), methods.end(), [](CheckMethod const& a, CheckMethod const& b) { return a.cost < b.cost; });
     return methods;
 }
 

@@ -18,6 +18,7 @@ from .errors import FileError, RunError, SceneError, SlidewayError, StoppedEarly
 from .example import example
 from .keys import Key, Keys, keys
 from .members import finished, statuses
+from .resolution import Resolution, resolution
 from .results import groups, open  # noqa: A004 (slideway.open is the name that users expect)
 from .runs import info, run
 from .scenes import scene
@@ -33,6 +34,7 @@ __all__ = [
     "FileError",
     "Key",
     "Keys",
+    "Resolution",
     "ResultAccessor",
     "RunError",
     "SceneError",
@@ -50,6 +52,7 @@ __all__ = [
     "open",
     "plot",
     "report",
+    "resolution",
     "run",
     "scene",
     "sections",

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <random>
 
 #include "tests/support/scene_fixture.hpp"
@@ -13,13 +14,13 @@ namespace slideway::testing::verification_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t members = 16;
+using Kind = MemberNumbers::Kind;
 
 Scene scene() {
-    return scene_of("schema = 1\n[mechanism]\nkind = \"slider_crank\"\n[study]\nkind = \"ensemble\"\nmembers = 1000\nduration = \"1 s\"\nsamples = 0\n");
+    return scene_of("schema = 1\n[mechanism]\nkind = \"slider_crank\"\n[study]\nkind = \"ensemble\"\nmembers = 400\nduration = \"1 s\"\nsamples = 0\n");
 }
 
-std::vector<double> draws(double mean, double sd, unsigned seed, std::size_t count = members) {
+std::vector<double> draws(double mean, double sd, unsigned seed, std::size_t count = 400) {
     std::mt19937_64 engine(seed);
     std::normal_distribution<double> draw(mean, sd);
     std::vector<double> values(count);
@@ -27,63 +28,205 @@ std::vector<double> draws(double mean, double sd, unsigned seed, std::size_t cou
     return values;
 }
 
-std::vector<double> plus(std::vector<double> values, double shift) {
-    for (double& x : values) x += shift;
-    return values;
+/// A study of one number, some of whose members run again by two methods in turn.
+struct MadeUp {
+    std::vector<double> own;
+    std::vector<double> again;  // of the first members
+    Kind kind = Kind::quantity;
+    std::string unit = "kg";
+    std::vector<std::size_t> cut = {};  // of them
+    std::vector<MemberGroup> groups = {};
+    double other = 0;  // what the second method adds
+
+    CheckedNumber checked(std::size_t group = 0) const {
+        MemberNumbers study;
+        study.columns.push_back({"column", unit, kind, own});
+        study.finished.assign(own.size(), 1);
+        std::vector<MemberGroup> all{{"", std::vector<char>(own.size(), 1)}};
+        all.insert(all.end(), groups.begin(), groups.end());
+        std::vector<CheckPair> pairs;
+        std::vector<std::vector<double>> values(1);
+        for (std::size_t i = 0; i < again.size(); ++i) {
+            bool const finished = std::ranges::count(cut, i) == 0;
+            pairs.push_back({i, i % 2, finished});
+            values[0].push_back(finished ? again[i] + (i % 2) * other : nan);
+        }
+        std::vector<char> const of_exponents{0, 0}, is_draw(own.size(), 1);
+        return check_numbers({study, all, pairs, values, of_exponents, is_draw, own.size()}, scene())[group];
+    }
+};
+
+std::vector<double> first(std::vector<double> const& values, std::size_t count, double shift = 0, double scatter = 0) {
+    std::vector<double> some = draws(shift, scatter > 0 ? scatter : 1e-300, 99, count);
+    for (std::size_t i = 0; i < count; ++i) some[i] += values[i];
+    return some;
 }
 
-/// One column of a study and of one check of it.
-std::vector<MemberNumbers> numbers(std::vector<double> own, std::vector<double> again, bool is_exponent = false, std::string unit = "N") {
-    return {{{{"column", unit, is_exponent, std::move(own)}}, {}, {}}, {{{"column", unit, is_exponent, std::move(again)}}, {}, {}}};
+/// Of 400 members with a standard deviation of 10 the interval is ± 0.98, and a thousandth of 100 is 0.1: the margin.
+TEST(Verdict, IsResolvedWhereTheErrorIsBelowTheStudysOwnInterval) {
+    auto const own = draws(100, 10, 1);
+    CheckedNumber const same = MadeUp{own, first(own, 40)}.checked();
+    EXPECT_EQ(same.verdict, Verdict::resolved);
+    EXPECT_NEAR(same.half_width, 1.966 * 10 / 20, 0.1);
+    EXPECT_EQ(same.margin, same.half_width);
+    EXPECT_EQ(MadeUp({own, first(own, 40, 0.5)}).checked().verdict, Verdict::resolved);
 }
 
-CheckedColumn checked(std::vector<MemberNumbers> const& numbers, std::vector<double> const& whole = {}) {
-    std::vector<WholeColumn> columns;
-    if (!whole.empty()) columns.push_back(whole_of(whole));
-    auto const findings = compare(numbers, scene(), columns, 1000);
-    EXPECT_EQ(findings.size(), 1u);
-    return findings.front();
+TEST(Verdict, IsNotResolvedWhereADifferenceIsBeyondChanceAndAboveTheMargin) {
+    auto const own = draws(100, 10, 1);
+    CheckedNumber const found = MadeUp{own, first(own, 40, 3, 2)}.checked();
+    EXPECT_EQ(found.verdict, Verdict::not_resolved);
+    EXPECT_NEAR(found.error.difference, 3, 1);
+    EXPECT_LT(found.p, 0.02);
 }
 
-/// A check by `auto` at a hundredth of the tolerance costs four times a member's work, one by dopri5 ten times (docs/integrators.md); together they may
-/// have a tenth of the study's, the first one four fifths of that, for six members at least and sixteen at most.
-TEST(ForeseenCheck, IsOfAsManyMembersAsATenthOfTheWorkAllows) {
-    EXPECT_EQ(foreseen_check(scene(), {}, 1000), 16 * 4);              // of 100 left for both 36 are no room for 16 · 10
-    EXPECT_EQ(foreseen_check(scene(), {}, 300), 6 * 4);                // 0.8 · 30 / 4
-    EXPECT_EQ(foreseen_check(scene(), {}, 10'000), 16 * 4 + 16 * 10);  // 800, and then 936
-    EXPECT_EQ(foreseen_check(scene(), {}, 100), 0);                    // not even for six
+TEST(Verdict, BoundsTheErrorWhereOrbitsPart) {
+    // Pairs are as good as independent: 2.02 · √2 · 10/√40 = 4.5.
+    CheckedNumber const parted = MadeUp{draws(100, 10, 1), draws(100, 10, 2, 40)}.checked();
+    EXPECT_EQ(parted.verdict, Verdict::bounded);
+    EXPECT_NEAR(parted.error.half_width, 4.5, 1);
+    EXPECT_GE(parted.error.bound, parted.error.half_width);
 }
 
-TEST(ForeseenCheck, IsOfTheMembersThatAreAskedFor) {
-    EXPECT_EQ(foreseen_check(scene(), 5u, 1000), 5 * 14);
-    EXPECT_EQ(foreseen_check(scene(), 5u, 1), 14);
-    EXPECT_EQ(foreseen_check(scene(), 0u, 1000), 0);
+TEST(Verdict, IsUndecidedWhereTheBoundSaysNothing) {
+    auto const own = draws(100, 10, 1);
+    EXPECT_EQ(MadeUp({own, {own[0] - 20, own[1] + 20, own[2] + 20, own[3] - 20}}).checked().verdict, Verdict::undecided) << "above the members' own scatter";
+    EXPECT_EQ(MadeUp({own, {}}).checked().verdict, Verdict::undecided) << "nobody ran again";
 }
 
-TEST(ForeseenCheck, RunsMembersThatAreNotStoredInTheStudysWayToo) {
-    Scene kept = scene();
-    kept.store = Store::statistics;
-    EXPECT_EQ(foreseen_check(kept, {}, 1000), 16 + 16 * 4);
-    EXPECT_EQ(foreseen_check(kept, {}, 300), 0);
+TEST(Verdict, IsUndecidedWhereMembersWereCutShort) {
+    auto const own = draws(100, 10, 1);
+    CheckedNumber const found = MadeUp{.own = own, .again = first(own, 40), .cut = {7}}.checked();
+    EXPECT_EQ(found.verdict, Verdict::undecided);
+    EXPECT_EQ(found.cut, 1u);
+    EXPECT_EQ(found.error.pairs, 39u);
+}
+
+TEST(Verdict, IsNotResolvedByFewPairsThatSeeNothing) {
+    // The margin is 0.98; six pairs leave room for 0.39 of the members, at 10 each.
+    auto const own = draws(100, 10, 1);
+    CheckedNumber const found = MadeUp{own, first(own, 6)}.checked();
+    EXPECT_EQ(found.verdict, Verdict::bounded);
+    EXPECT_NEAR(found.error.bound, 3.9, 0.3);
+}
+
+TEST(Verdict, IsOfTheMethodThatSeesMost) {
+    // The first method sees nothing, the second 1.6; their mean, 0.8, would pass.
+    auto const own = draws(100, 10, 1);
+    CheckedNumber const found = MadeUp{.own = own, .again = first(own, 80, 0, 0.01), .other = 1.6}.checked();
+    EXPECT_EQ(found.verdict, Verdict::not_resolved);
+    EXPECT_NEAR(found.error.difference, 1.6, 0.01);
+}
+
+TEST(Verdict, IsOfEachGroupAlone) {
+    // Ten of 400 members share a value, and are off by 30: that moves the mean of all by 0.75 alone.
+    MadeUp made{draws(100, 10, 1), {}};
+    MemberGroup slow{"speed = 3", std::vector<char>(400, 0)};
+    for (std::size_t i = 0; i < 10; ++i) slow.has[i] = 1;
+    made.again = first(made.own, 400, 0, 1e-3);
+    for (std::size_t i = 0; i < 10; ++i) made.again[i] += 30;
+    made.groups = {slow};
+    EXPECT_NE(made.checked(0).verdict, Verdict::not_resolved);
+    EXPECT_EQ(made.checked(1).verdict, Verdict::not_resolved);
+    EXPECT_NEAR(made.checked(1).error.difference, 30, 1e-2);
+}
+
+TEST(Verdict, OfAYieldThatNobodyMissesKnowsThatTheNextMight) {
+    std::vector<double> const all(400, 1.0);
+    CheckedNumber const found = MadeUp{.own = all, .again = first(all, 50), .kind = Kind::limit, .unit = "1"}.checked();
+    EXPECT_NEAR(found.half_width, 0.5 * 3.84 / 403.84, 1e-4);  // Wilson's interval reaches from 400/403.84 to 1
+    EXPECT_GT(found.spread, 0);
+    EXPECT_EQ(found.verdict, Verdict::resolved);
+    auto missed = first(all, 40);
+    for (std::size_t i = 0; i < 4; ++i) missed[i] = 0;
+    EXPECT_NE(MadeUp({all, missed, Kind::limit, "1"}).checked().verdict, Verdict::resolved);
+}
+
+TEST(Verdict, OfNumbersThatAreZeroButForRoundingIsResolved) {
+    auto const own = draws(0, 1e-19, 4);
+    EXPECT_EQ(MadeUp({.own = own, .again = first(own, 40, 3e-19, 1e-19), .unit = "J"}).checked().verdict, Verdict::resolved);
+    EXPECT_EQ(MadeUp({.own = own, .again = first(own, 40, 3e-8, 1e-9), .unit = "J"}).checked().verdict, Verdict::not_resolved);
+}
+
+TEST(Verdict, RefutesASignThatOnlyTheStudyIsCertainOf) {
+    auto const refuted = [](std::vector<double> const& own, std::vector<double> const& again, Kind kind = Kind::exponent) {
+        return MadeUp{own, again, kind, "1/s"}.checked().refutes_sign;
+    };
+    auto const positive = draws(4000, 500, 7);
+    EXPECT_TRUE(refuted(positive, draws(-1, 0.1, 8, 16)));
+    EXPECT_TRUE(refuted(positive, draws(0, 100, 9, 16)));
+    EXPECT_FALSE(refuted(positive, first(positive, 16, 100))) << "larger, of the same sign";
+    EXPECT_FALSE(refuted(draws(0, 100, 10), draws(5, 100, 11, 16))) << "certain in neither";
+    EXPECT_FALSE(refuted(positive, draws(-1, 0.1, 8, 16), Kind::quantity)) << "no exponent";
+}
+
+/// Members of a study beside what is drawn of them.
+TEST(CheckSample, TakesEachMemberOnceAndAllInTheEnd) {
+    std::vector<std::size_t> rows(100);
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    CheckSample sample(rows, {{"", std::vector<char>(100, 1)}}, std::vector<double>(100, 1), 7);
+    std::vector<std::size_t> drawn;
+    for (std::size_t const count : {3u, 30u, 50u, 40u}) {
+        for (std::size_t const row : sample.next(count)) drawn.push_back(row);
+    }
+    std::ranges::sort(drawn);
+    EXPECT_EQ(drawn, rows);
+    EXPECT_EQ(sample.left(), 0u);
+    EXPECT_TRUE(sample.next(1).empty());
+}
+
+TEST(CheckSample, IsEvenOverGroupsAndOverCostWithinThem) {
+    // 64 members of either of two groups, in turn; the cost rises along the members.
+    std::vector<std::size_t> rows(128);
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    std::vector<double> const cost(rows.begin(), rows.end());
+    MemberGroup odd{"odd", std::vector<char>(128)}, even{"even", std::vector<char>(128)};
+    for (std::size_t i = 0; i < 128; ++i) (i % 2 ? odd : even).has[i] = 1;
+    for (std::uint64_t seed = 0; seed < 50; ++seed) {
+        CheckSample sample(rows, {{"", std::vector<char>(128, 1)}, even, odd}, cost, seed);
+        std::array<int, 8> cells{};  // [group][quarter of the cost]
+        for (std::size_t const row : sample.next(8)) ++cells[4 * (row % 2) + row / 32];
+        EXPECT_EQ(std::ranges::count(cells, 1), 8) << seed;
+    }
+}
+
+TEST(CheckSample, DrawsEveryMemberAlikeOften) {
+    std::vector<std::size_t> rows(40);
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    std::vector<int> drawn(40);
+    for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+        CheckSample sample(rows, {{"", std::vector<char>(40, 1)}}, std::vector<double>(40, 1), seed);
+        for (std::size_t const row : sample.next(10)) ++drawn[row];
+    }
+    // 1000 times each, with a standard deviation of √(4000 · ¼ · ¾) = 27.
+    EXPECT_GT(std::ranges::min(drawn), 850);
+    EXPECT_LT(std::ranges::max(drawn), 1150);
+}
+
+/// A check of six members by `auto` at a hundredth of the tolerance, foreseen at four times a member's work, is more than a tenth of few members' work.
+TEST(ForeseenCheck, IsATenthOfTheWorkWhereThatIsEnough) {
+    Scene const varied = scene_of("schema = 1\n[study]\nmembers = 400\nduration = \"1 s\"\n[study.vary]\n\"initial.y\" = { dist = \"norm\", mean = 0, sd = 1e-5 }\n");
+    EXPECT_EQ(foreseen_check(varied, {}, 10'000), 1000);
+    EXPECT_EQ(foreseen_check(varied, {}, 100), 0);
+    EXPECT_EQ(foreseen_check(varied, 0u, 1000), 0);
+    EXPECT_GT(foreseen_check(varied, 50u, 1000), 50);
+    EXPECT_EQ(foreseen_check(varied, 5000u, 1000), foreseen_check(varied, 1000u, 1000)) << "no more than there are";
+    EXPECT_EQ(foreseen_check(scene(), {}, 400), 0) << "nothing varies: they are one member";
 }
 
 /// A steel block of 0.1872 kg falls through 0.1 mm: 1.8366e-4 J with what the crank's speed of π rad/s adds.
 TEST(EnergyCheck, IsOfTheFallThroughTheClearance) {
     EXPECT_NEAR(fall_energy(scene()), 0.1872 * (9.81 * 1e-4 + std::pow(1e-4 * std::numbers::pi, 2)), 1e-12);
-    MemberNumbers numbers;
-    EXPECT_FALSE(audit_energy(numbers, scene())) << "no check asked for it";
-    numbers.energy_residual = {1e-6, -1e-6, nan, 1e-6};
-    auto const little = audit_energy(numbers, scene());  // 1 s is less than a revolution, and counts as one
+    EXPECT_FALSE(audit_energy({}, scene())) << "no check asked for it";
+    auto const little = audit_energy({1e-6, -1e-6, nan, 1e-6}, scene());  // 1 s is less than a revolution, and counts as one
     ASSERT_TRUE(little);
     EXPECT_NEAR(little->share, 1e-6 / fall_energy(scene()), 1e-12);
     EXPECT_FALSE(little->is_too_much);
-    numbers.energy_residual.assign(4, -2e-6);
-    EXPECT_TRUE(audit_energy(numbers, scene())->is_too_much);
+    EXPECT_TRUE(audit_energy(std::vector<double>(4, -2e-6), scene())->is_too_much);
     Scene longer = scene();
     longer.integrator.end_time = 20;  // ten revolutions
-    EXPECT_NEAR(audit_energy(numbers, longer)->share, 2e-7 / fall_energy(scene()), 1e-12);
-    numbers.energy_residual.assign(4, nan);
-    EXPECT_FALSE(audit_energy(numbers, scene())) << "nobody came to the end";
+    EXPECT_NEAR(audit_energy(std::vector<double>(4, -2e-6), longer)->share, 2e-7 / fall_energy(scene()), 1e-12);
+    EXPECT_FALSE(audit_energy(std::vector<double>(4, nan), scene())) << "nobody came to the end";
 }
 
 TEST(EnergyCheck, IsAskedOfExponentsUnderALawThatKeepsEnergyByOneCheckAlone) {
@@ -96,6 +239,7 @@ TEST(EnergyCheck, IsAskedOfExponentsUnderALawThatKeepsEnergyByOneCheckAlone) {
             if (m.audits_energy) {
                 EXPECT_EQ(m.scene.integrator.rtol, study.integrator.rtol);
                 EXPECT_TRUE(selects(m.scene.quantities, Quantity::energy_residual));
+                EXPECT_TRUE(m.of_exponents);
             }
         }
         return std::ranges::count_if(methods, &CheckMethod::audits_energy);
@@ -108,105 +252,58 @@ TEST(EnergyCheck, IsAskedOfExponentsUnderALawThatKeepsEnergyByOneCheckAlone) {
     EXPECT_EQ(audits("paper", "tolerance", residual), 0);
 }
 
-/// `auto` is dopri5 where no method for stiff members stands beside it: each of the two would say what the other says.
-TEST(CheckMethods, AreTwoWhereAutoHasNoStiffMethodToo) {
+/// Steps of one member by each check of a scene.
+std::vector<std::uint64_t> steps_of_checks(std::string const& text) {
+    std::vector<std::uint64_t> steps;
+    auto const backend = cpu_backend(best_isa());
+    Scene const study = scene_of(text);
+    FreshRun const run{*backend};
+    steps.push_back(fresh_numbers(without_series(study), {0}, run).steps.front());
+    for (CheckMethod const& method : check_methods(study)) steps.push_back(fresh_numbers(method.scene, {0}, run).steps.front());
+    return steps;
+}
+
+TEST(CheckMethods, TakeStepsOfTheirOwn) {
     std::string const planar = "[mechanism]\nkind = \"planar_slider_crank\"\n", rigid = "[contact]\nlaw = \"rigid\"\nrestitution = 0.5\n";
-    for (std::string const& scene : {planar, planar + rigid, rigid}) {
+    for (std::string const& what : {std::string(), std::string("[contact]\nlaw = \"conservative\"\n"), planar, planar + rigid, rigid}) {
         for (std::string const method : {"auto", "dopri5", "bs32", "dop853", "verner65"}) {
-            Scene const study = scene_of("schema = 1\n" + scene + "[integrator]\nmethod = \"" + method + "\"\n[study]\nmembers = 8\nduration = \"2 s\"\n");
-            std::vector<CheckMethod> const methods = check_methods(study);
-            ASSERT_EQ(methods.size(), 2u);
-            auto const explicit_method = [](CheckMethod const& one) {
-                return one.scene.integrator.method == Method::automatic ? Method::dopri5 : one.scene.integrator.method;
-            };
-            EXPECT_NE(explicit_method(methods[0]), explicit_method(methods[1])) << scene << method;
+            auto const steps = steps_of_checks("schema = 1\n" + what + "[integrator]\nmethod = \"" + method +
+                                               "\"\n[initial]\nvy = 0.1\n[study]\nmembers = 8\nduration = \"8 ms\"\n");
+            ASSERT_EQ(steps.size(), 3u);
+            EXPECT_NE(steps[1], steps[2]) << "the checks are two: " << what << method;
+            EXPECT_NE(steps[0], steps[2]) << what << method;
         }
     }
 }
 
-TEST(CheckedNumbers, ThatScatterByRoundingAreTheSame) {
-    auto const own = draws(100, 10, 1);
-    auto again = own;
-    for (double& x : again) x *= 1 + 1e-9;
-    EXPECT_FALSE(checked(numbers(own, again)).differs);
-}
-
-TEST(CheckedNumbers, ThatAllShiftDifferOnceItCounts) {
-    auto const own = draws(100, 10, 1);
-    // Half the interval of a mean of a thousand is 0.6: certain, and of no interest, below.
-    EXPECT_FALSE(checked(numbers(own, plus(own, 0.2))).differs);
-    CheckedColumn const found = checked(numbers(own, plus(own, 2)));
-    EXPECT_TRUE(found.differs);
-    EXPECT_NEAR(found.pairs.difference, 2, 1e-12);
-    EXPECT_FALSE(found.refutes_sign);
-}
-
-TEST(CheckedNumbers, OfTooFewMembersAreNotTested) {
-    std::vector<double> const own{1, 2, 3, 4, 5};
-    EXPECT_FALSE(checked(numbers(own, plus(own, 100))).differs);
-}
-
-TEST(CheckedNumbers, OfMembersThatFailedOnEitherSideAreLeftOut) {
-    auto own = draws(100, 10, 1), again = plus(own, 2);
-    own[3] = nan;
-    again[5] = nan;
-    CheckedColumn const found = checked(numbers(own, again));
-    EXPECT_EQ(found.pairs.pairs, members - 2);
-    EXPECT_TRUE(found.differs);
-}
-
-TEST(CheckedNumbers, OfAnotherDistributionWithTheSameMeanDiffer) {
-    auto const own = draws(0, 1, 1, 64);
-    EXPECT_TRUE(checked(numbers(own, draws(0, 100, 2, 64))).differs);
-}
-
-TEST(CheckedNumbers, OfManyMembersTellWhatFewDoNot) {
-    // What these members were by chance hides what the study is off by.
-    auto const again = draws(1, 0.1, 3);
-    auto const own = draws(1, 10, 4);
-    auto const whole = draws(6, 10, 5, 1000);
-    EXPECT_FALSE(checked(numbers(own, again)).differs);
-    EXPECT_TRUE(checked(numbers(own, again), whole).differs);
-}
-
-TEST(CheckedNumbers, AsSkewedAsRareEventsAreNotHeldAgainstAllMembers) {
-    // One member in a hundred does all of it; the check has none of them.
-    std::vector<double> whole(1000, 0);
-    for (std::size_t i = 0; i < whole.size(); i += 100) whole[i] = 100;
-    auto const own = draws(0, 1e-3, 6);
-    EXPECT_FALSE(checked(numbers(own, own), whole).differs);
-    EXPECT_EQ(checked(numbers(own, own), whole).welch, 0);
-}
-
-TEST(CheckedNumbers, RefuteASignThatOnlyTheStudyIsCertainOf) {
-    auto const positive = draws(4000, 500, 7), negative = draws(-1, 0.1, 8);
-    EXPECT_TRUE(checked(numbers(positive, negative, true)).refutes_sign);
-    EXPECT_TRUE(checked(numbers(positive, draws(0, 100, 9), true)).refutes_sign);
-    EXPECT_FALSE(checked(numbers(positive, plus(positive, 100), true)).refutes_sign) << "larger, of the same sign";
-    EXPECT_FALSE(checked(numbers(draws(0, 100, 10), draws(5, 100, 11), true)).refutes_sign) << "certain in neither";
-    EXPECT_FALSE(checked(numbers(positive, negative)).refutes_sign) << "no exponent";
-}
-
-TEST(CheckedNumbers, BelowWhatTheFallThroughTheClearanceGivesAreTheSame) {
-    // 1e-4 of some 0.2 mJ.
-    auto const own = draws(0, 1e-12, 12);
-    EXPECT_FALSE(checked(numbers(own, plus(own, 1e-9), false, "J")).differs);
-    EXPECT_TRUE(checked(numbers(own, plus(own, 1e-6), false, "J")).differs);
-    EXPECT_FALSE(checked(numbers(own, plus(own, 5e-5), false, "s")).differs) << "of one second";
-    EXPECT_TRUE(checked(numbers(own, plus(own, 1e-3), false, "s")).differs);
-}
-
-TEST(CheckedNumbers, LeaveOutTheResidualOfALawThatKeepsEnergy) {
+TEST(MemberNumbers, LeaveOutTheResidualOfALawThatKeepsEnergy) {
     auto const has_residual = [](char const* law) {
-        Scene scene = scene_of(std::string("schema = 1\n[mechanism]\nkind = \"slider_crank\"\n[contact]\nlaw = \"") + law +
-                               "\"\n[study]\nkind = \"ensemble\"\nmembers = 1\nduration = \"1 us\"\nsamples = 0\nquantities = [\"energy_residual\"]\n");
+        Scene const study = scene_of(std::string("schema = 1\n[mechanism]\nkind = \"slider_crank\"\n[contact]\nlaw = \"") + law +
+                                     "\"\n[study]\nkind = \"ensemble\"\nmembers = 1\nduration = \"1 us\"\nsamples = 0\nquantities = [\"energy_residual\"]\n");
         auto const backend = cpu_backend(best_isa());
-        auto const columns = fresh_numbers(scene, {0}, *backend, 1, nullptr).columns;
-        return std::any_of(columns.begin(), columns.end(), [](auto const& column) { return column.name == "energy_residual"; });
+        auto const columns = fresh_numbers(study, {0}, {*backend}).columns;
+        return std::ranges::any_of(columns, [](auto const& column) { return column.name == "energy_residual"; });
     };
     EXPECT_TRUE(has_residual("paper"));
     EXPECT_FALSE(has_residual("conservative"));
     EXPECT_FALSE(has_residual("kelvin_voigt"));
+}
+
+TEST(MemberNumbers, OfMembersThatAreCutShortAreNone) {
+    Scene const study = scene_of("schema = 1\n[study]\nmembers = 4\nduration = \"20 ms\"\nquantities = [\"crank_work\"]\n"
+                                 "[study.vary]\n\"initial.y\" = { dist = \"unif\", low = \"-0.05 mm\", high = \"0.05 mm\" }\n");
+    auto const backend = cpu_backend(best_isa());
+    MemberNumbers const whole = fresh_numbers(study, {0, 1, 2, 3}, {*backend});
+    MemberNumbers const bounded = fresh_numbers(study, {0, 1, 2, 3}, {*backend}, {1e9, 0.3 * whole.work[1], 1e9, 0.3 * whole.work[3]});
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_TRUE(whole.finished[i]);
+        EXPECT_EQ(bounded.finished[i] != 0, i % 2 == 0);
+        EXPECT_EQ(std::isnan(bounded.columns[0].values[i]), i % 2 == 1);
+        if (i % 2 == 1) {
+            EXPECT_LE(bounded.work[i], 0.3 * whole.work[i]);
+        }
+    }
+    EXPECT_EQ(bounded.columns[0].values[0], whole.columns[0].values[0]);
 }
 
 }  // namespace

