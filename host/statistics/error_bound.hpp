@@ -22,8 +22,8 @@ struct ErrorBound {
 
 /// Two bounds, of which the larger holds.  Where many members differ, the mean of n pairs drawn at random is off by Student's t.  Where none of n
 /// pairs does, up to a share `unseen_share(n, members)` of the members may, by any amount: Student's t would tell nothing of them.  They come from
-/// the same study, and their mean is taken to be off by no more than one standard deviation of the members.
-/// @param differences of the pairs, those of members drawn at random  @param members of the study, >= pairs  @param spread their standard deviation
+/// the same study, and their mean is taken to be off by no more than its `spread`.
+/// @param differences of the pairs, those of members drawn at random  @param members of the study, >= pairs  @param spread their standard deviation, or what else they may be off by
 /// @param grain of numbers that are its multiples, as counts are of 1; else 0.  A few of them that are alike by chance are not certain: p takes them to
 /// scatter by their rounding, grain/√12, at least.
 ErrorBound error_bound(std::span<double const> differences, std::uint64_t members, double spread, double grain = 0);

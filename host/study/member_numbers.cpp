@@ -22,7 +22,6 @@ namespace slideway {
 namespace {
 
 constexpr double jacobian_work = 1.5;   // right-hand sides
-constexpr double work_of_a_step = 16;   // right-hand sides at most, as members take them on average: nine stages, and what ends of steps at events take
 constexpr char const* contact_names[] = {"surfaces at the end", "lines at the end", "points at the end"};
 using EndContacts = std::array<double, std::size(contact_names)>;
 
@@ -194,19 +193,18 @@ void run_some(Scene const& scene, std::vector<std::uint64_t> const& members, Fre
 
 }  // namespace
 
-MemberNumbers fresh_numbers(Scene const& scene, std::vector<std::uint64_t> const& members, FreshRun const& run, std::vector<double> const& most_work) {
+MemberNumbers fresh_numbers(Scene const& scene, std::vector<std::uint64_t> const& members, FreshRun const& run, std::vector<std::uint64_t> const& most_steps) {
     FreshTaker taker(scene, members);
-    if (most_work.empty()) {
+    if (most_steps.empty()) {
         run_some(scene, members, run, taker);
         return taker.numbers();
     }
-    // One number of steps bounds a run: those that may take as much run together.
-    std::map<double, std::vector<std::uint64_t>> by_bound;
-    for (std::size_t i = 0; i < members.size(); ++i) by_bound[most_work[i]].push_back(members[i]);
+    // One number of steps bounds a run: those that may take as many run together.
+    std::map<std::uint64_t, std::vector<std::uint64_t>> by_bound;
+    for (std::size_t i = 0; i < members.size(); ++i) by_bound[most_steps[i]].push_back(members[i]);
     for (auto const& [most, some] : by_bound) {
         Scene bounded = scene;
-        double const steps = most / (work_of_a_step * (1 + shadow_plan(scene).count));
-        bounded.integrator.max_steps = std::min(scene.integrator.max_steps, static_cast<std::uint64_t>(std::clamp(steps, 1.0, 1e18)));
+        bounded.integrator.max_steps = std::min(scene.integrator.max_steps, most);
         run_some(bounded, some, run, taker);
     }
     return taker.numbers();

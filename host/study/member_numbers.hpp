@@ -50,7 +50,7 @@ struct FreshRun {
     Progress* progress = nullptr;
     double weight = 1;  // of a member's work in the progress
 };
-/// @param most_work [members] after which a member is cut short; empty: the scene's integrator.max_steps alone
-MemberNumbers fresh_numbers(Scene const& scene, std::vector<std::uint64_t> const& members, FreshRun const& run, std::vector<double> const& most_work = {});
+/// @param most_steps [members] after which a member is cut short; empty: the scene's integrator.max_steps alone
+MemberNumbers fresh_numbers(Scene const& scene, std::vector<std::uint64_t> const& members, FreshRun const& run, std::vector<std::uint64_t> const& most_steps = {});
 
 }  // namespace slideway

@@ -8,14 +8,17 @@
 #include <utility>
 
 #include "host/study/continued_sweep.hpp"
+#include "host/study/orbit_schedule.hpp"
 
 namespace slideway {
 namespace {
 
 constexpr double of_the_study = 0.1;      // that a check may cost unasked
+constexpr double nearly = 0.97;           // of that: a step may take more than foreseen
 constexpr std::size_t first_members = 8;  // by each method, before it is known what they cost
-constexpr double at_hand = 1.5;           // times what members are foreseen to take must be left before they begin
+constexpr double at_hand = 3;             // times what members are foreseen to take must be left before they begin; of the first ones half of that
 constexpr double beyond_foreseen = 12;    // how much more than foreseen a member may take unasked
+constexpr double more_than_average = 1.2;  // right-hand sides of a step that a member may take, beside those before it
 
 double sum(std::vector<double> const& numbers) {
     return std::accumulate(numbers.begin(), numbers.end(), 0.0,
@@ -63,7 +66,7 @@ public:
         }
         total_ = v_.study.total_work();
         take_samples(rows);
-        left_ = of_the_study * total_;
+        left_ = nearly * of_the_study * total_;
     }
 
     /// Of a study that keeps no members: some run in the study's way, and stand for all.
@@ -91,7 +94,7 @@ public:
         spent_ = spent;
         v_.groups = {{"", std::move(finished)}};
         take_samples(rows);
-        left_ = of_the_study * total_ - spent;
+        left_ = nearly * of_the_study * total_ - spent;
     }
 
     double total() const { return total_; }
@@ -139,9 +142,10 @@ private:
             return static_cast<std::size_t>(std::min<std::uint64_t>(wanted, (room + methods_left - 1) / methods_left));
         }
         // Methods that come later have their share, for one alone may err as the study does.
-        double const of_a_member = at_hand * methods_[method].cost * total_ / static_cast<double>(all_);
         bool const is_first =
             std::ranges::none_of(v_.pairs, [&](CheckPair const& pair) { return pair.method == method; });
+        double const of_a_member =
+            (is_first ? 0.5 : 1) * at_hand * methods_[method].cost * total_ / static_cast<double>(all_);
         double const least = is_first ? least_members : 1, room = left_ / of_a_member,
                      share = room / static_cast<double>(methods_left);
         if (room < least) return 0;
@@ -152,16 +156,12 @@ private:
     void add(std::size_t method, std::vector<std::size_t> const& rows, bool again) {
         if (rows.empty()) return;
         std::vector<std::uint64_t> members;
-        std::vector<double> own, most;
+        std::vector<double> own;
         for (std::size_t const row : rows) {
             members.push_back(v_.members[row]);
             own.push_back(v_.study.work[row]);
         }
-        if (!request_.members) {
-            most = shared_bounds(own);
-            double const per_own = std::min(left_ / sum(most), beyond_foreseen * methods_[method].cost);
-            for (double& bound : most) bound *= std::max(per_own, 0.0);
-        }
+        std::vector<std::uint64_t> const most = request_.members ? std::vector<std::uint64_t>{} : most_steps(method, own);
         MemberNumbers const numbers = run_again(methods_[method].scene, members, most, methods_[method].cost);
         if (stored_ != nullptr) add_end_contacts(v_.study, *stored_, scene_, rows);
         keep(method, rows, numbers, again);
@@ -169,7 +169,21 @@ private:
         left_ -= spent;
         spent_ += spent;
         // What it costs is known from now on.
-        if (!again) methods_[method].cost = spent / sum(own);
+        if (again) return;
+        methods_[method].cost = spent / sum(own);
+        double const steps = std::accumulate(numbers.steps.begin(), numbers.steps.end(), 0.0);
+        methods_[method].work_of_a_step = more_than_average * spent / (steps * (1 + shadow_plan(scene_).count));
+    }
+
+    /// Steps after which members that took so much in the study are cut short: bounds alike for those that are alike, so that they fill lanes together.
+    std::vector<std::uint64_t> most_steps(std::size_t method, std::vector<double> const& own) const {
+        std::vector<double> const bounds = shared_bounds(own);
+        CheckMethod const& by = methods_[method];
+        double const per_own = std::max(0.0, std::min(left_ / sum(bounds), beyond_foreseen * by.cost));
+        double const of_a_step = by.work_of_a_step * (1 + shadow_plan(scene_).count);
+        std::vector<std::uint64_t> most;
+        for (double const bound : bounds) most.push_back(static_cast<std::uint64_t>(std::clamp(per_own * bound / of_a_step, 1.0, 1e18)));
+        return most;
     }
 
     /// A pair for each member that came to its end, and for those that no method has brought there.
@@ -195,7 +209,7 @@ private:
     }
 
     MemberNumbers run_again(Scene const& scene, std::vector<std::uint64_t> const& members,
-                            std::vector<double> const& most_work, double weight) {
+                            std::vector<std::uint64_t> const& most, double weight) {
         ProgressTask task{members.size()};
         task.work =
             std::max(foreseen_check(scene_, request_.members, all_), static_cast<double>(members.size()) * weight);
@@ -203,7 +217,7 @@ private:
         if (!progress_)
             progress_.emplace(task, request_.progress, stderr, request_.stop != nullptr ? *request_.stop : nobody_);
         return fresh_numbers(scene, members, {backend_, request_.threads, request_.stop, &*progress_, weight},
-                             most_work);
+                             most);
     }
 
     void compare() {
@@ -257,7 +271,7 @@ double foreseen_check(Scene const& scene, std::optional<std::uint64_t> asked, st
     auto const members = static_cast<double>(all);
     if (asked) return static_cast<double>(std::min(*asked, all)) * (of_a_member + (stored ? 0 : 1));
     double const room = of_the_study * members;
-    return room < at_hand * methods.front().cost * least_members ? 0 : room;
+    return room < 0.5 * at_hand * methods.front().cost * least_members ? 0 : room;
 }
 
 Verification verify(ResultView const& results, Scene const& scene, Backend const& backend,

@@ -23,6 +23,7 @@ struct CheckMethod {
     std::string words;  // "dopri5 at rtol 1e-08"
     Scene scene;        // the study's, integrated in that way, without time series
     double cost;        // what a member takes, roughly, in units of what it took in the study
+    double work_of_a_step = 14;  // right-hand sides at most, on average: nine stages, and what ends of steps at events take
     bool of_exponents = false;   // the study's own orbits once more, with neighbours farther off: of exponents alone
     bool audits_energy = false;  // under a law that keeps energy
 };
@@ -56,6 +57,7 @@ struct CheckedNumber {
     std::size_t column, group;
     double value, half_width;  // what the study says, and half its 95 % interval
     double spread;             // standard deviation of its members
+    double unseen;             // what a member may be off by that no pair stands for
     double margin;             // errors below it do not count
     double least_felt;         // differences below it are bounded, and no alarm: margin or more
     ErrorBound error;

@@ -16,6 +16,7 @@ using Kind = MemberNumbers::Kind;
 constexpr double level = 0.95;
 constexpr double false_alarms = 0.02;    // of studies
 constexpr double least_relative = 1e-3;  // errors of a number that nobody prints
+constexpr double most_skewed = 3;        // of numbers whose mean is made by many
 constexpr double most_energy = 0.01;     // made a period of the drive, of what that fall gives
 constexpr double felt = 1e-4;  // of what a fall through the clearance comes to: of smaller differences nobody is warned
 constexpr double rounding = 1e-9;  // of what a fall through the clearance comes to: numbers that are 0 but for that
@@ -45,22 +46,34 @@ std::vector<double> group_values(Comparison const& c, MemberGroup const& group, 
     return values;
 }
 
+/// Mean cube of what is off the mean, in standard deviations; 0 where all are alike.
+double skewness(std::vector<double> const& values, Summary const& summary) {
+    double cubes = 0;
+    for (double const x : values) cubes += std::isnan(x) ? 0 : std::pow(x - summary.mean, 3);
+    return summary.sd > 0 ? cubes / static_cast<double>(summary.count) / std::pow(summary.sd, 3) : 0;
+}
+
 /// What the study says of a number, how sure it is, and how far its members scatter.
 void describe_study(CheckedNumber& n, Comparison const& c, Scene const& scene) {
     auto const& column = c.study.columns[n.column];
-    Summary const summary = summarise(group_values(c, c.groups[n.group], n.column));
+    std::vector<double> const values = group_values(c, c.groups[n.group], n.column);
+    Summary const summary = summarise(values);
     auto const known = static_cast<double>(summary.count);
     // Of a study whose members are not stored some stand for all.
     double const all = n.group == 0 && c.members > c.study.finished.size() ? static_cast<double>(c.members) : known;
     n.value = summary.count > 0 ? summary.mean : nan;
     n.half_width = summary.count > 1 ? mean_interval(summary, level).half_width() * std::sqrt(known / all) : 0;
     n.spread = summary.count > 1 ? summary.sd : 0;
+    // Where forces jump, orbits do not follow their start; and where few members make the mean, their like may be missing.
+    bool const jumps = makes_energy(scene.parts), by_few = std::abs(skewness(values, summary)) > most_skewed;
+    n.unseen = (jumps || by_few) && summary.count > 1 ? summary.max - summary.min : n.spread;
     if (column.kind == Kind::limit && summary.count > 0) {
         // Where all meet it, or none, the next might not.
         auto const met = static_cast<std::uint64_t>(std::llround(summary.mean * known));
         n.half_width = proportion(met, summary.count, level).interval.half_width() * std::sqrt(known / all);
         double const share = (static_cast<double>(met) + 2) / (known + 4);
         n.spread = std::sqrt(share * (1 - share));
+        n.unseen = jumps ? 1 : n.spread;
     }
     double const natural = natural_scale(column.unit, scene);
     n.margin = std::max({n.half_width, least_relative * std::abs(n.value), rounding * natural});
@@ -89,12 +102,12 @@ void bound_error(CheckedNumber& n, Comparison const& c, std::vector<double>& p) 
     std::size_t const members =
         n.group == 0 ? std::max<std::size_t>(c.groups[0].size(), c.members) : c.groups[n.group].size();
     double const grain = c.study.columns[n.column].unit == "1" ? 1 : 0;
-    n.error = error_bound(differences(c, n), members, n.spread, grain);
+    n.error = error_bound(differences(c, n), members, n.unseen, grain);
     p.push_back(n.error.p);
     double largest = std::abs(n.error.difference);
     for (std::size_t method = 0; method < c.of_exponents.size(); ++method) {
         ErrorBound const of_method =
-            error_bound(differences(c, n, static_cast<std::ptrdiff_t>(method)), members, n.spread, grain);
+            error_bound(differences(c, n, static_cast<std::ptrdiff_t>(method)), members, n.unseen, grain);
         p.push_back(of_method.pairs >= least_members ? of_method.p : nan);
         if (of_method.pairs < 2 || !(std::abs(of_method.difference) > largest)) continue;
         largest = std::abs(of_method.difference);
