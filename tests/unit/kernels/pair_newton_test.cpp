@@ -43,7 +43,7 @@ TEST(PairNewton, MayMissByWhatRoundingLeavesOfLargeLoads) {
         normals[1] = fma(4e-3, random_motion(draw), -1.0 * normals[0]);
         auto const before = random_motion(draw);
         auto want = before;
-        TouchingPair<double> rows[2];
+        TouchingPair<double> rows[2]{};
         for (int k = 0; k < 2; ++k) {
             rows[k].number = k;
             rows[k].pair.normal = normals[k];
