@@ -81,13 +81,17 @@ private:
 };
 
 /// A surface in state space whose crossings are recorded: a component of the state, or the gap of an apex to its Y or Z faces (the
-/// penetration negated, > 0 apart), at a level.
+/// penetration negated, > 0 apart), at a level; or the impacts of rigid contacts, of any pair, or of an apex on its Y or Z faces.  Of an
+/// impact the state before it is recorded where gaps are to fall, the state after it where they are to rise.
 struct CrossingPlan {
-    enum class On { nothing, state, gap_y, gap_z } on = On::nothing;
+    enum class On { nothing, state, gap_y, gap_z, impacts, impacts_y, impacts_z } on = On::nothing;
     enum class Direction { rising, falling, both } direction = Direction::rising;
     int index = 0;         // of the component, or of the apex, P1…P8 from 0
     double level = 0;      // [unit of the component, or m]
     std::size_t room = 0;  // of each member; later crossings are counted only
+
+    constexpr bool wants(Direction way) const { return direction == way || direction == Direction::both; }
+    constexpr bool of_impacts() const { return on == On::impacts || on == On::impacts_y || on == On::impacts_z; }
 };
 
 /// Shadows: copies of a member that start a little off it and take its steps, to tell how offsets grow.  Distances are

@@ -29,6 +29,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 ///    another), with contacts also `remembered(speed)`, an impact speed as it may be carried on, and `prescribed()` if its drive leaves some of the
 ///    state without offsets;
 ///  - `has_crossings`: then `gap(…)`, beside the components of the state, may serve as a section (kernels/lanes/crossing_search.hpp);
+///    with `has_impacts` the memory has `books` of the last impact, and `met_bit(…)` names a pair among those that it met
+///    (kernels/lanes/impact_rows.hpp);
 ///  - `has_patterns`: then `contact_pattern(…)`, of a state or with `has_impacts` of a memory, says which lanes have like work to do, and with a
 ///    linearisation `squared_speed(…)`, `approach_speed(…)` and `energy_scale(…)` what is a creep and what an impact;
 ///  - `is_analytic`: its derivative decides by nothing that changes within a step, so that `auto` may call it with series

@@ -112,6 +112,9 @@ void check_time_stepping(Node const& root, Scene& scene) {
     if (scene.chaos.exponents > 0 && !runs_to_end(scene.study)) {
         refuse(method, {"time stepping takes no neighbours along, which exponents are of", "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\" or \"bs32\""});
     }
+    if (scene.chaos.section.on == SectionSurface::On::impacts) {
+        refuse(method, {"time stepping knows impulses of whole steps, and no impacts", "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\" or \"bs32\""});
+    }
     Node const* const holding = root.find_path("friction.static");
     if (!scene.parts.friction || holding == nullptr || scene.inputs.friction_static == scene.inputs.friction_kinetic) return;
     scene.warnings.push_back("friction.static has no effect with method moreau_jean, whose contacts stick up to friction.kinetic");

@@ -27,16 +27,25 @@ void read_phase(Node const& root, Scene& scene) {
                                                   : "give the crank a speed"});
 }
 
-/// Names of what a section may be taken of: states, then gaps.
+/// Names of what a section may be taken of: states, gaps, and at last impacts.
 std::vector<std::string> surface_names(MechanismInfo const& mechanism) {
     std::vector<std::string> names;
-    names.reserve(static_cast<std::size_t>(mechanism.states) + 2 * std::size_t{apices});
+    names.reserve(static_cast<std::size_t>(mechanism.states) + 2 * std::size_t{apices} + 1);
     for (int i = 0; i < mechanism.states; ++i) names.emplace_back(state_info(mechanism, i).name);
-    if (!mechanism.spatial) return names;
     for (char const* const face : {"gap_y", "gap_z"}) {
-        for (int apex = 1; apex <= apices; ++apex) names.push_back(fmt::format("{}[P{}]", face, apex));
+        for (int apex = 1; mechanism.spatial && apex <= apices; ++apex) names.push_back(fmt::format("{}[P{}]", face, apex));
     }
+    names.emplace_back(impacts_name);
     return names;
+}
+
+/// Of compliant contacts an impact lasts, and a gap at a small level tells its beginning and its end.
+void check_impacts(Node const& on, Node const* value, Parts const& parts) {
+    if (!parts.rigid) {
+        std::string_view const gap = info(parts.mechanism).spatial ? "on = \"gap_y[P1]\" with value = \"1 nm\", " : "";
+        refuse(on, {"impacts of compliant contacts last", fmt::format("use {}the quantity contact_onsets, or contact.law = \"rigid\"", gap)});
+    }
+    if (value != nullptr) refuse(*value, {"an impact has no level", "remove it"});
 }
 
 void read_section_table(Node const& table, Scene& scene) {
@@ -63,10 +72,15 @@ void read_section_table(Node const& table, Scene& scene) {
     int const index = static_cast<int>(found - known.begin());
     using On = SectionSurface::On;
     int const states = mechanism.states;
-    section.on = index < states ? On::state : index < states + apices ? On::gap_y : On::gap_z;
-    section.index = index < states ? index : (index - states) % apices;
-    if (Node const* const value = table.find("value")) {
-        section.level = read_number(*value, section_unit(section, scene.parts.mechanism));
+    Node const* const value = table.find("value");
+    if (name == impacts_name) {
+        check_impacts(*on, value, scene.parts);
+        section.on = On::impacts;
+        section.direction = CrossingDirection::both;
+    } else {
+        section.on = index < states ? On::state : index < states + apices ? On::gap_y : On::gap_z;
+        section.index = index < states ? index : (index - states) % apices;
+        if (value != nullptr) section.level = read_number(*value, section_unit(section, scene.parts.mechanism));
     }
     if (Node const* const direction = table.find("direction")) {
         section.direction =

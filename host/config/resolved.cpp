@@ -77,6 +77,9 @@ std::string span_line(Span const& span, std::string_view turns, std::string_view
 std::string section_line(SectionSurface const& section, Mechanism mechanism) {
     using On = SectionSurface::On;
     if (section.on == On::phase) return number_line("phase", section.level, "rad");
+    if (section.on == On::impacts) {
+        return fmt::format("section = {{ on = \"{}\", direction = \"{}\" }}\n", impacts_name, name_of(section.direction));
+    }
     std::string const on = section.on == On::state
                                ? std::string(state_info(info(mechanism), section.index).name)
                                : fmt::format("{}[P{}]", section.on == On::gap_y ? "gap_y" : "gap_z", section.index + 1);

@@ -50,10 +50,11 @@ constexpr std::string_view name_of(CrossingDirection direction) {
     return crossing_direction_names[static_cast<int>(direction)];
 }
 
-/// Where a section of the orbit is taken: at a phase of the drive, a known time, or where a state or a gap crosses a level.
+/// Where a section of the orbit is taken: at a phase of the drive, a known time, where a state or a gap crosses a level, or at the
+/// impacts of rigid contacts, before and after each.
 /// A gap is the penetration of an apex, negated: > 0 apart.
 struct SectionSurface {
-    enum class On { phase, state, gap_y, gap_z };
+    enum class On { phase, state, gap_y, gap_z, impacts };
     On on = On::phase;
     int index = 0;  // in the mechanism's state (mechanism_info.hpp), or of the apex, P1…P8 from 0
     double level =
@@ -62,6 +63,9 @@ struct SectionSurface {
 
     friend bool operator==(SectionSurface const&, SectionSurface const&) = default;
 };
+
+/// How scenes name impacts as a section.
+inline constexpr std::string_view impacts_name = "impacts";
 
 /// SI unit of a section's level, as keys have it.
 std::string_view section_unit(SectionSurface const& section, Mechanism mechanism);

@@ -102,7 +102,7 @@ Settings settings() {
         {.name = "study.phase", .type = Type::number, .unit = "rad", .meaning = "crank angle of the sections, or phase of a carriage",
          .preset = "0", .studies = poincare | sweep, .rivals = {"study.section"}},
         {.name = "study.section", .type = Type::table, .unit = "",
-         .meaning = "{ on = \"vy\", value = \"0 mm/s\", direction = \"rising\" }: a state, or in space a gap like gap_y[P1]; rising, falling, both",
+         .meaning = "{ on = \"vy\", value = \"0 mm/s\", direction = \"rising\" }: a state, in space a gap like gap_y[P1], or \"impacts\" of rigid contacts; rising, falling, both",
          .preset = "-", .studies = poincare, .rivals = {"study.phase"}},
         {.name = "study.max_crossings", .type = Type::count, .unit = "1", .meaning = "most crossings of study.section that are recorded of a member",
          .preset = "1000", .studies = poincare, .what = "number of crossings", .least = 1, .most = 1'000'000},

@@ -74,16 +74,29 @@ OrbitSchedule of_sections(Scene const& scene) {
     return schedule;
 }
 
+/// What is recorded of a section: where a rigid contact closes its gap, an impact.
+CrossingPlan::On crossings_of(Scene const& scene) {
+    SectionSurface const& section = scene.chaos.section;
+    bool const closes = section.level == 0 && scene.parts.rigid && scene.integrator.method != Method::moreau_jean;
+    using On = SectionSurface::On;
+    switch (section.on) {
+        case On::gap_y:
+            return closes ? CrossingPlan::On::impacts_y : CrossingPlan::On::gap_y;
+        case On::gap_z:
+            return closes ? CrossingPlan::On::impacts_z : CrossingPlan::On::gap_z;
+        case On::impacts:
+            return CrossingPlan::On::impacts;
+        default:
+            return CrossingPlan::On::state;
+    }
+}
+
 /// Crossings from the end of the transient on.
 OrbitSchedule of_crossings(Scene const& scene) {
     ChaosSettings const& chaos = scene.chaos;
-    using On = SectionSurface::On;
     OrbitSchedule schedule;
     schedule.sections = true;
-    schedule.crossings = {chaos.section.on == On::state   ? CrossingPlan::On::state
-                          : chaos.section.on == On::gap_y ? CrossingPlan::On::gap_y
-                                                          : CrossingPlan::On::gap_z,
-                          chaos.section.direction, chaos.section.index, chaos.section.level, chaos.max_crossings};
+    schedule.crossings = {crossings_of(scene), chaos.section.direction, chaos.section.index, chaos.section.level, chaos.max_crossings};
     schedule.timing = [parts = scene.parts, transient = chaos.transient, span = chaos.span](Inputs const& inputs) {
         double const period = drive_period(parts, inputs), from = transient.seconds(period);
         return MemberClock{from + span.seconds(period), from, 0};

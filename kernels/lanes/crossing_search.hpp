@@ -10,26 +10,40 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// Finds where members cross the surface of a section inside their accepted steps, and records time and state.  The cubic through the
 /// ends' values and slopes tells in which steps, up to three times in each; a step of the same method from the same start then ends
 /// there, so that a section has the accuracy of the steps themselves, and the orbit does not know of it.
+/// A crossing is a change of side.  Who is on the surface, to the last bit, where a step ends is on the side where it came from until it
+/// leaves: it crosses there if it leaves to the other side, and has touched the surface if not.  A start on the surface has come from
+/// neither side and is no crossing; nor has who ends the run there left.
 template <class Stepper, class Model, class Real> class CrossingSearch {
 public:
     /// @param stepper that made the step  @param accepted lanes with an accepted step.
     SLIDEWAY_HD static void run(Pack<Model, Real>& pack, Results<Model>& results, Stepper const& stepper,
                                 Attempt<Model, Real> const& whole, Mask<Real> accepted) {
-        auto const& c = pack.state.course;
+        auto& c = pack.state.course;
         Surface const surface{pack, stepper, results.crossings(), whole.step};
-        auto const recorded = accepted & (c.t + whole.step > pack.state.constants.first_stop);
-        if (none(recorded)) return;
+        Real const zero(0.0), end = c.t + whole.step;
+        auto const recorded = accepted & (end > pack.state.constants.first_stop);
         Span span;
-        span.v0 = surface.value(c.t, c.y);
-        span.v1 = surface.value(c.t + whole.step, whole.end);
-        // Derivatives at the ends of a stiff step belong to fast motions that the method damps.
-        Real const chord = span.v1 - span.v0;
-        span.s0 = Stepper::stiff ? chord : surface.time_at_start() * surface.slope(c.t, c.y, c.rates, span.v0);
-        span.s1 = Stepper::stiff
-                      ? chord
-                      : surface.time_at_end(stepper) * surface.slope(c.t + whole.step, whole.end, whole.end_rates, span.v1);
-        auto const candidates = recorded & may_cross(span.v0, span.s0, span.v1, span.s1);
-        if (any(candidates)) record(pack, results, candidates, surface, span);
+        span.v1 = surface.value(end, whole.end);
+        Real ends_on = side_of(span.v1, c.side);
+        if (any(recorded)) {
+            span.v0 = surface.value(c.t, c.y);
+            // Derivatives at the ends of a stiff step belong to fast motions that the method damps.
+            Real const chord = span.v1 - span.v0;
+            span.s0 = Stepper::stiff ? chord : surface.time_at_start() * surface.slope(c.t, c.y, c.rates, span.v0);
+            span.s1 = Stepper::stiff ? chord : surface.time_at_end(stepper) * surface.slope(end, whole.end, whole.end_rates, span.v1);
+            // What rests on the surface leaves it some time within the step, which the cubic cannot know: it swings.  What turns round there
+            // by s0²/4 v1, which rounding of the values does not show, rests too.
+            auto const rests = (span.v0 == zero) & (abs(span.s0) <= Real(1e-8) * abs(span.v1));
+            Real const goes = select(rests, span.v1, span.s0), leaves_to = side_of(span.v0, side_of(goes, c.side));
+            auto const leaves = recorded & (span.v0 == zero) & (c.t >= pack.state.constants.first_stop) & (leaves_to * c.side < zero);
+            if (any(leaves)) record_start(pack, results, leaves, leaves_to);
+            ends_on = select(recorded, side_of(span.v1, leaves_to), ends_on);
+            span.v0 = beside_zero(span.v0, leaves_to);
+            span.v1 = beside_zero(span.v1, ends_on);
+            auto const candidates = recorded & (!rests) & may_cross(span.v0, span.s0, span.v1, span.s1);
+            if (any(candidates)) record(pack, results, candidates, surface, span);
+        }
+        c.side = select(accepted, ends_on, c.side);
     }
 
 private:
@@ -76,14 +90,32 @@ private:
     /// The surface's values at the ends of the step, and their slopes per step.
     struct Span { Real v0, s0, v1, s1; };
 
+    /// 1 or −1, by the sign of a number; the other one's where it is 0.
+    SLIDEWAY_FN static Real side_of(Real value, Real of_zero) {
+        Real const zero(0.0);
+        return select(value > zero, Real(1.0), select(value < zero, Real(-1.0), of_zero));
+    }
+    /// A value, on a side: what is 0 becomes the least number that is not.
+    SLIDEWAY_FN static Real beside_zero(Real value, Real side) { return select(value == Real(0.0), Real(1e-300) * side, value); }
+
+    /// The crossing of lanes whose step starts on the surface.  @param side that they go to
+    SLIDEWAY_HD static void record_start(Pack<Model, Real>& pack, Results<Model>& results, Mask<Real> at, Real side) {
+        using Way = CrossingPlan::Direction;
+        auto const& c = pack.state.course;
+        Mask<Real> const rises = side > Real(0.0);
+        if (!results.crossings().wants(Way::rising)) at = at & !rises;
+        if (!results.crossings().wants(Way::falling)) at = at & rises;
+        results.take_crossing(pack, at, c.t, c.y);
+    }
+
     SLIDEWAY_NOINLINE static void record(Pack<Model, Real>& pack, Results<Model>& results, Mask<Real> candidates,
                                          Surface const& surface, Span const& span) {
         auto const zeros = cubic_zeros(candidates, span.v0, span.s0, span.v1, span.s1, direction_of(surface.plan));
         if (none(zeros.any)) return;
         auto const starts_below = span.v0 < Real(0.0), ends_below = span.v1 < Real(0.0);
         auto sides = mask_of<Real>(false);  // of those that are looked for
-        if (surface.plan.direction != CrossingPlan::Direction::falling) sides = sides | (starts_below & !ends_below);
-        if (surface.plan.direction != CrossingPlan::Direction::rising) sides = sides | ((!starts_below) & ends_below);
+        if (surface.plan.wants(CrossingPlan::Direction::rising)) sides = sides | (starts_below & !ends_below);
+        if (surface.plan.wants(CrossingPlan::Direction::falling)) sides = sides | ((!starts_below) & ends_below);
         Real const found = present(zeros.at[0]) + present(zeros.at[1]) + present(zeros.at[2]);
         Mask<Real> const single = sides & (found == Real(1.0));
         // The members' attempt stays as it is: another stepper makes its own.

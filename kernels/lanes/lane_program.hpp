@@ -7,6 +7,7 @@
 #include "kernels/lanes/clock_step.hpp"
 #include "kernels/lanes/ending_step.hpp"
 #include "kernels/lanes/explicit_step.hpp"
+#include "kernels/lanes/impact_rows.hpp"
 #include "kernels/lanes/member_state.hpp"
 #include "kernels/lanes/method_choice.hpp"
 #include "kernels/lanes/moreau_jean_step.hpp"
@@ -252,6 +253,7 @@ private:
         for (int i = 0; i < size; ++i) start[i] = c.y[i];
         [[maybe_unused]] auto const changed =
             pack_.model.settle(pack_.busy, c.t, constants.end, c.y, constants.parameters, memory, report.contact);
+        if constexpr (Model::has_crossings) ImpactRows<Model, Real>::take(pack_, results_, changed, start);
         if constexpr (Model::has_shadows) {
             using Event = typename Saltation<Model, Real>::Before;
             if (any(changed)) shadows.settle(pack_, Event{c.t, constants.end, start, rates, report.contact, before}, changed, true);

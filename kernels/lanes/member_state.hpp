@@ -80,6 +80,7 @@ template <class Model, class Real> struct MemberState {
         Real sample;        // the next sample
         Real stop;          // the next stop
         Real crossings;     // so far
+        Real side;          // of the section's surface that it was on last, 1 or −1; 0 where it has been on none
         Real t, h;          // time, next step [s]
         Real error_memory;  // of the step control
         Real y[Model::size], rates[Model::size];

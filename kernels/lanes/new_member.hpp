@@ -25,7 +25,7 @@ template <class Model> struct NewMember {
         c.h = 1e-3 * block.settings.max_step;
         c.error_memory = step_control_start;
         Model::initial_state(inputs, c.y);
-        c.stop = c.crossings = 0;
+        c.stop = c.crossings = c.side = 0;
         MemberClock const clock = block.clocks != nullptr ? block.clocks[member] : MemberClock{block.settings.end_time};
         r.constants.end = clock.end;
         r.constants.first_stop = clock.first_stop;

@@ -6,6 +6,7 @@
 #include "kernels/lanes/error_norm.hpp"
 #include "kernels/lanes/event_end.hpp"
 #include "kernels/lanes/event_search.hpp"
+#include "kernels/lanes/impact_rows.hpp"
 #include "kernels/lanes/impact_steps.hpp"
 #include "kernels/lanes/method_choice.hpp"
 #include "kernels/lanes/moreau_jean_step.hpp"
@@ -280,7 +281,7 @@ private:
             landed = landed & !search_.ended();
         }
         if constexpr (Model::has_crossings && !Model::has_shadows) {
-            if (results_.crossings().room > 0) {
+            if (results_.crossings().room > 0 && !results_.crossings().of_impacts()) {
                 CrossingSearch<Stepper, Model, Real>::run(pack_, results_, stepper_, attempt_, accepted);
             }
         }
@@ -346,6 +347,7 @@ private:
         [[maybe_unused]] auto const before = memory;
         auto const changed = pack_.model.settle(accepted, c.t, constants.end, c.y, constants.parameters, memory, attempt_.report.contact);
         if (any(changed)) {
+            if constexpr (Model::has_crossings) ImpactRows<Model, Real>::take(pack_, results_, changed, attempt_.end);
             if constexpr (Model::has_shadows) {
                 using Event = typename Saltation<Model, Real>::Before;
                 Event const event{c.t, constants.end, attempt_.end, attempt_.end_rates, attempt_.report.contact, before};

@@ -14,9 +14,9 @@ public:
     /// @param rows `count` pairs in the order of their numbers
     SLIDEWAY_HD DirectLoads(TouchingPair<Real>* rows, int count, Twist<Real> const& before) : rows_(rows), count_(count), before_(before) {}
 
-    /// @param bearable what a rate may miss its target by  @param after the motion, changed in lanes that are solved; so are the loads of the rows
-    /// @return lanes that are not
-    SLIDEWAY_NOINLINE Mask<Real> solve(Mask<Real> in, Real bearable, Twist<Real>& after) {
+    /// @param size of the motion  @param bearable what a rate may miss its target by, or more where loads are large (`bearable_under`)
+    /// @param after the motion, changed in lanes that are solved; so are the loads of the rows  @return lanes that are not
+    SLIDEWAY_NOINLINE Mask<Real> solve(Mask<Real> in, Real size, Real bearable, Twist<Real>& after) {
         Real const zero(0.0);
         auto sound = in & suits();
         if (none(sound)) return in;
@@ -34,6 +34,7 @@ public:
                 motion = fma(load_[k], rows_[k].pushed, motion);
             }
         }
+        bearable = bearable_under<Real>(rows_, count_, [&](int k) { return load_[k]; }, size, bearable);
         for (int k = 0; k < count_; ++k) {
             auto const& row = rows_[k];
             auto const right = (load_[k] >= zero) & (abs(row.target - dot(row.pair.normal, motion)) <= bearable);
@@ -49,7 +50,7 @@ public:
 
 private:
     static constexpr double most_pairs = 6;        // of a member: the free velocities
-    static constexpr double least_pivot = 1e-4;    // of what a load makes of its own pair's motion: below it pairs are next to dependent
+    static constexpr double least_pivot = 1e-9;    // of what a load makes of its own pair's motion: below it pairs are next to dependent
 
     SLIDEWAY_HD Mask<Real> suits() const {
         Real pairs(0.0);

@@ -74,11 +74,14 @@ public:
         Mask<Real> rests[pair_count];
         for (auto& rest : rests) rest = mask_of<Real>(false);
         auto met = mask_of<Real>(false);
+        Real pattern = zero;
         for (int k = 0; k < pairs.count(); ++k) {
             auto const& row = pairs.row(k);
             int const i = row.number;
             rests[i] = near[i] & (dot(row.pair.normal, pairs.after) <= least_speed);
-            met = met | (near[i] & (!held[i]) & (dot(row.pair.normal, pairs.before) < zero));
+            auto const meets = near[i] & (!held[i]) & (dot(row.pair.normal, pairs.before) < zero);
+            met = met | meets;
+            pattern = pattern + select(meets, Real(static_cast<double>(1u << i)), zero);
         }
         Real const flight = end_bounces(pairs.after, contact, near, select(endless, Real(quick_time), Real(chatter_time)), rests);
         complete_faces(event, contact, rests);
@@ -93,6 +96,7 @@ public:
         book(books.damping, taken.damping);
         book(books.impulse, taken.impulse);
         book(books.count, count<Real>(met));
+        book(books.met, pattern);
         book(books.flight, flight);
         keep(event, rests, still, memory);
         velocity = select(event, pairs.after, velocity);

@@ -30,8 +30,9 @@ public:
         for (int turn = 0; turn < most_steps; ++turn) {
             auto const motion = this->moved();
             Real const missed = this->measure(in, motion);
+            Real const borne = bearable_under<Real>(rows_, count_, [&](int k) { return rows_[k].normal; }, size, bearable);
             // The loads at the start are never good enough: what they leave would add up over steps.
-            auto const done = in & mask_of<Real>(turn > 0) & ((missed <= enough) | ((missed <= bearable) & (missed > Real(0.5) * last)));
+            auto const done = in & mask_of<Real>(turn > 0) & ((missed <= enough) | ((missed <= borne) & (missed > Real(0.5) * last)));
             last = missed;
             after = slideway::select(done, motion, after);
             in = in & !done;

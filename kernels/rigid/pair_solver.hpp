@@ -58,7 +58,7 @@ public:
             if (sweeps > 0) after = row.answer(after);
         }
         // Where no sweep is to come first the loads are those of contact that lasts: nearly always all pairs push.
-        if (sweeps == 0 && any(active)) active = DirectLoads<Real>(rows_, count_, before).solve(active, bearable, after);
+        if (sweeps == 0 && any(active)) active = DirectLoads<Real>(rows_, count_, before).solve(active, size, bearable, after);
         Real change = zero;
         for (int sweep = 0; sweep < sweeps && any(active); ++sweep) {
             change = this->sweep(active, friction);

@@ -81,6 +81,7 @@ private:
         for (int i = 0; i < 2; ++i) {
             auto const up = above[i] >= below[i];
             was_held_[i] = memory.held[i].side != zero;
+            met_[i] = mask_of<Real>(false);
             side_[i] = select(was_held_[i], memory.held[i].side, select(up, one, minus));
             depth_[i] = select(side_[i] == one, above[i], below[i]);
             near_[i] = event & (was_held_[i] | (depth_[i] > negated(located_)));
@@ -117,6 +118,7 @@ private:
         for (int i = 0; i < 2; ++i) {
             auto const met = event & answer.state[i].closed & !was_held_[i] & (before.normal[i] < zero);
             books_.count = books_.count + count<Real>(met);
+            met_[i] = met_[i] | met;
         }
         push(event, before, answer.force);
     }
@@ -321,6 +323,13 @@ private:
     SLIDEWAY_FN static Real sum_of(PairOf<Real> const& m) {
         return (abs(m.normal[0]) + abs(m.normal[1])) + (abs(m.along[0]) + abs(m.along[1]));
     }
+    /// A bit for each corner that met its wall, a to d (PlanarCorners).
+    SLIDEWAY_FN Real met_corners() const {
+        auto const bit = [&](int i, double above, double below) {
+            return select(met_[i], select(side_[i] > Real(0.0), Real(above), Real(below)), Real(0.0));
+        };
+        return bit(0, 1, 2) + bit(1, 8, 4);
+    }
     SLIDEWAY_HD void book(Mask<Real> in, RigidMemory<Real>& memory) const {
         auto& b = memory.books;
         auto const put = [in](Real& to, Real value) { to = select(in, value, to); };
@@ -329,6 +338,7 @@ private:
         put(b.damping, books_.damping);
         put(b.impulse, books_.impulse);
         put(b.count, books_.count);
+        put(b.met, met_corners());
         put(b.flight, books_.flight);
     }
 
@@ -338,7 +348,7 @@ private:
     PlanarLinks<Real>* links_ = nullptr;
     PlanarStance<Real> const* stance_ = nullptr;
     Real side_[2], depth_[2], spin_, acceleration_;
-    Mask<Real> near_[2], was_held_[2], jammed_ = mask_of<Real>(false);
+    Mask<Real> near_[2], was_held_[2], met_[2], jammed_ = mask_of<Real>(false);
     ImpactBooks<Real> books_;
 };
 

@@ -62,6 +62,8 @@ struct RigidPlanarSliderCrank : PlanarBase {
     template <class Real> SLIDEWAY_FN Real gap(Real t, Real const* s, PlanarParameters<Real> const& p, bool, int corner) const {
         return planar_gap(t, s, p, free_crank, {false, corner});
     }
+    /// The bit of a corner among those that an impact `met`.
+    static constexpr int met_bit(bool, int corner) { return corner; }
     template <class Real>
     SLIDEWAY_HD static Mask<Real> left_stable_range(EnergyAudit<Real> const& audit, PlanarParameters<Real> const& p) {
         return slideway::left_stable_range(audit, energy_scale(p));

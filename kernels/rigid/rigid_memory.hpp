@@ -19,11 +19,12 @@ template <class Real> struct ImpactBooks {
     Real damping;   // loss by restitution [J]
     Real impulse;   // sum of the normal impulses [N s]
     Real count;     // of contacts that met their wall
+    Real met;       // which, a bit each
     Real flight;    // how long the bounces that it ends would have gone on [s]
 
     SLIDEWAY_FN static ImpactBooks none() {
         Real const zero(0.0);
-        return {zero, zero, zero, zero, zero, zero};
+        return {zero, zero, zero, zero, zero, zero, zero};
     }
 };
 
@@ -43,7 +44,7 @@ template <class Real> struct RigidCourse {
     }
     SLIDEWAY_FN void clear_books(Mask<Real> in) {
         Real const zero(0.0);
-        for (auto* value : {&books.work, &books.friction, &books.damping, &books.impulse, &books.count, &books.flight}) {
+        for (auto* value : {&books.work, &books.friction, &books.damping, &books.impulse, &books.count, &books.met, &books.flight}) {
             *value = select(in, zero, *value);
         }
     }

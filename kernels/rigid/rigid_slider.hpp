@@ -86,6 +86,13 @@ template <class Guide> struct RigidSlider : Guide::Base {
                                        still, p.joint.way);
         return negated(penetration(pose, p.joint.geometry, Apex{z_faces, apex}));
     }
+    /// The bit of an apex and its Y or Z face among those that an impact `met`.
+    static constexpr int met_bit(bool z_faces, int apex) {
+        for (int pair = z_faces ? 8 : 0; pair < pair_count; ++pair) {
+            if (face_apex(pair / 4, pair % 4) == apex) return pair;
+        }
+        return pair_count;
+    }
     template <class Real>
     SLIDEWAY_HD static Mask<Real> left_stable_range(EnergyAudit<Real> const& audit, RigidSliderParameters<Real> const& p) {
         return slideway::left_stable_range(audit, Base::energy_scale(p));

@@ -60,6 +60,15 @@ template <class Real> struct TouchingPair {
     }
 };
 
+/// What the conditions of pairs may be missed by where it cannot be made less: `bearable`, or what rounding leaves of the motion that loads large
+/// beside it make and take away again.  Loads that have run away have no such excuse.
+/// @param size of the motion  @param load of row k, a function
+template <class Real, class Load> SLIDEWAY_HD Real bearable_under(TouchingPair<Real> const* rows, int count, Load const& load, Real size, Real bearable) {
+    Real moved(0.0);
+    for (int k = 0; k < count; ++k) moved = max(moved, select(rows[k].here, rows[k].own * load(k), Real(0.0)));
+    return select(moved <= Real(1e6) * size, max(bearable, Real(1e-13) * moved), bearable);
+}
+
 /// The share of a vector that is no longer than `bound`.
 template <class Real> SLIDEWAY_FN Real share_within(Real const (&of)[2], Real bound) {
     Real const length = sqrt(fma(of[0], of[0], of[1] * of[1]));

@@ -60,6 +60,18 @@ TEST(SceneChaosErrors, Sections) {
     EXPECT_TRUE(contains(error("poincare", "section = {on=\"y\"}\nmax_crossings = 0"), "study.max_crossings is 0"));
 }
 
+TEST(SceneChaosErrors, SectionsAtImpacts) {
+    EXPECT_EQ(error("poincare", "section = { on = \"impacts\" }"),
+              "scene.toml:4: study.section.on is \"impacts\" (impacts of compliant contacts last); use on = \"gap_y[P1]\" with value = \"1 nm\", "
+              "the quantity contact_onsets, or contact.law = \"rigid\"");
+    std::string const rigid = "\n[contact]\nlaw = \"rigid\"\nrestitution = 0.5\n[integrator]\n";
+    EXPECT_EQ(error("poincare", "section = { on = \"impacts\", value = 1 }" + rigid),
+              "scene.toml:4: study.section.value is 1 (an impact has no level); remove it");
+    EXPECT_EQ(error("poincare", "section = { on = \"impacts\" }" + rigid + "step = 1e-5\nmethod = \"moreau_jean\""),
+              "scene.toml:10: integrator.method is \"moreau_jean\" (time stepping knows impulses of whole steps, and no impacts); "
+              "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\" or \"bs32\"");
+}
+
 TEST(SceneChaosErrors, LengthsOfTime) {
     EXPECT_TRUE(contains(error("poincare", "revolutions = 0"), "scene.toml:4: study.revolutions is 0 (out of range"));
     EXPECT_TRUE(contains(error("poincare", "duration = \"0 s\""), "study.duration is 0 s (out of range"));

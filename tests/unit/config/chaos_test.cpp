@@ -108,6 +108,18 @@ TEST(SceneChaos, PoincareWhereAGapCrosses) {
     EXPECT_EQ(table.chaos.section, (SectionSurface{On::gap_z, 2, 0, CrossingDirection::rising}));
 }
 
+TEST(SceneChaos, PoincareAtTheImpactsOfRigidContacts) {
+    for (char const* const kind : {"free_slider", "slider_crank", "planar_slider_crank"}) {
+        auto const section = [&](char const* more) {
+            return study("poincare", fmt::format("Ttr = 1\nduration = 1\nsection = {{ on = \"impacts\"{} }}\n[mechanism]\nkind = \"{}\"\n"
+                                                 "[contact]\nlaw = \"rigid\"\nrestitution = 0.5", more, kind))
+                .chaos.section;
+        };
+        EXPECT_EQ(section(""), (SectionSurface{On::impacts, 0, 0, CrossingDirection::both})) << kind;
+        EXPECT_EQ(section(", direction = \"falling\"").direction, CrossingDirection::falling) << kind;
+    }
+}
+
 TEST(SceneChaos, LyapunovDefaults) {
     Scene const scene = study("lyapunov");
     EXPECT_EQ(scene.chaos.exponents, 1);

@@ -170,6 +170,7 @@ TEST(ResolvedScene, StudiesOfChaosReadBack) {
          {"", "phase = \"77 deg\"\nTtr = 0.1\nduration = 7.3\nmembers = 3\nseed = 4", "revolutions = 0.3",
           "section = {on=\"wy\", value=\"1 rpm\", direction=\"both\"}\nmax_crossings = 3\ntransient_revolutions = 0",
           "section = {on=\"gap_z[P8]\", value=-1e-7, direction=\"falling\"}\n[mechanism]\ncrank_speed = 0",
+          "section = {on=\"impacts\", direction=\"rising\"}\n[contact]\nlaw = \"rigid\"\nrestitution = 0.5",
           "section = {on=\"gap_y[P1]\"}\nquantities = [\"mode_time\"]"}) {
         expect_study_round_trip("poincare", lines);
     }

@@ -238,6 +238,20 @@ TEST(OrbitSchedule, OfCrossingsKnowsStatesAndDirections) {
     EXPECT_EQ(plan("on = \"gap_y[P8]\"").index, 7);
 }
 
+TEST(OrbitSchedule, OfRigidContactsTakesTheImpactsThatCloseAGap) {
+    auto const on = [](std::string const& section, std::string const& more = "") {
+        return orbit_schedule(study("poincare", fmt::format("section = {{ {} }}\n[contact]\nlaw = \"rigid\"\nrestitution = 0.5\n{}", section, more)))
+            .crossings.on;
+    };
+    using enum CrossingPlan::On;
+    EXPECT_EQ(on("on = \"impacts\""), impacts);
+    EXPECT_EQ(on("on = \"gap_y[P3]\""), impacts_y);
+    EXPECT_EQ(on("on = \"gap_z[P3]\", value = 0"), impacts_z);
+    EXPECT_EQ(on("on = \"gap_z[P3]\", value = 1e-9"), gap_z);
+    EXPECT_EQ(on("on = \"y\""), state);
+    EXPECT_EQ(on("on = \"gap_y[P3]\"", "[integrator]\nmethod = \"moreau_jean\"\nstep = 1e-5"), gap_y) << "time stepping knows no impacts";
+}
+
 // The kernels land on fma(i, period, first): an end one bit beyond the last stop would ask for a step of no length.
 TEST(OrbitSchedule, EndsAtItsLastStopToTheLastBit) {
     for (Scene const& scene :
