@@ -60,9 +60,24 @@ Json of_exponents(ResultReader const& results) {
                         {"second_half", of_mean(one.late)},
                         {"quantile_05", number(one.low)},
                         {"quantile_95", number(one.high)},
-                        {"members_positive", one.positive},
-                        {"members_negative", one.negative},
-                        {"members_undecided", one.undecided}});
+                        {"sign", words_of(one.sign)},
+                        {"members_positive", one.above},
+                        {"members_negative", one.below},
+                        {"members_undecided", one.undecided},
+                        {"members_power_of_time", one.power_of_time}});
+    }
+    return list;
+}
+
+Json of_columns(ResultReader const& results) {
+    Json list = Json::array();
+    for (SweepColumn const& column : summarise_columns(results)) {
+        Json one{{"value", column.value}, {"members", column.members}, {"finished", column.finished}};
+        if (results.has("lyapunov_exponent")) {
+            one["exponent"] = of_mean(column.exponent.mean);
+            one["sign"] = words_of(column.exponent.sign);
+        }
+        list.push_back(std::move(one));
     }
     return list;
 }
@@ -123,6 +138,7 @@ std::string result_json(char const* command, ResultReader const& results, SealCh
     json["quantities"] = of_quantities(results);
     if (report) json["tolerance"] = of_report(*report);
     if (Json exponents = of_exponents(results); !exponents.empty()) json["exponents"] = std::move(exponents);
+    if (Json columns = of_columns(results); !columns.empty()) json["columns"] = std::move(columns);
     if (auto const sections = summarise_sections(results)) {
         json["sections"] = {{"count", sections->sections}, {"members_without", sections->without}, {"beyond_room", sections->beyond}};
     }
@@ -206,6 +222,7 @@ std::string stats_json(StatsArguments const& arguments, std::string const& serie
                             {"systematic", number(a.growth->systematic)},
                             {"is_seen", a.growth_is_seen()},
                             {"is_exponential", a.growth_is_exponential()},
+                            {"is_beyond_a_power", a.growth->is_beyond_a_power()},
                             {"first_sample", a.growth->window.first},
                             {"last_sample", a.growth->window.last},
                             {"r_squared", number(a.growth->line.r_squared)}};
