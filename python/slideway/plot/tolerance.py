@@ -100,6 +100,10 @@ def sensitivity(result: xr.Dataset, name: str | None = None, component: str | No
         raise SlidewayError(f'the sensitivities have no {name}; add "{name}" to study.quantities')
     own = group[f"{name}_{next(iter(kinds))}"]
     entry = _component(own, component)
+    if not np.isfinite(own.isel(entry.place).values).any():
+        full = f"{name}[{entry.label}]" if entry.label else name
+        why = [reason.removeprefix(full) for reason in str(group.attrs.get("without_index", "")).split("; ") if reason.startswith(full + " ")]
+        raise SlidewayError(f"{full} has no sensitivities{', for it' + why[0] if why else ''}; plot a quantity that varies")
     order = np.argsort(np.abs(own.isel(entry.place).values))
     inputs = own["input"].values[order]
     place = np.arange(order.size)
