@@ -50,4 +50,3 @@ def test_file_has_no_numbers_and_the_reason(result: xr.Dataset) -> None:
     assert int(group["friction_loss_rank"].max()) == 0
     assert float(group["damping_loss_rank_correlation"].sel(input="initial.y")) > 0.99
     assert "friction_loss varies by" in group.attrs["without_index"]
-

@@ -82,7 +82,7 @@ def sensitivity(result: xr.Dataset, name: str | None = None, component: str | No
         component: of a quantity with several values per member, one of its labels ("free", "P1", "x"); left out: the first.
 
     Raises:
-        SlidewayError: the result has no group "sensitivity", or no such quantity.
+        SlidewayError: the result has no group "sensitivity", no such quantity, or one that varies by no more than rounding.
 
     >>> import xarray as xr
     >>> group = xr.Dataset({"wear_rank_correlation": ("input", [0.8, -0.2])}, coords={"input": ["way.roll", "friction.kinetic"]})
