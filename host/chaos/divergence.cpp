@@ -181,6 +181,24 @@ double change_with_window(DivergenceCurve const& curve, FitWindow window, double
     return most;
 }
 
+/// Σ(y - ŷ)² of the best line through y over x.
+double unexplained(std::span<double const> x, std::span<double const> y) {
+    Moments const m = moments(x, y);
+    return std::max(0.0, m.yy - m.xy * m.xy / m.xx);
+}
+
+/// Unexplained by a line over ln k, over that by a line over k; from k = 1, where there is a logarithm.
+double power_over_line(DivergenceCurve const& curve, std::size_t last) {
+    std::vector<double> k, log_k;
+    for (std::size_t i = 1; i <= last; ++i) {
+        k.push_back(static_cast<double>(i));
+        log_k.push_back(std::log(k.back()));
+    }
+    if (k.size() < 3) return 0;
+    auto const y = std::span(curve.mean_log).subspan(1, k.size());
+    return unexplained(log_k, y) / std::max(unexplained(k, y), std::numeric_limits<double>::min());
+}
+
 }  // namespace
 
 LinearFit fit_line(std::span<double const> x, std::span<double const> y) {
@@ -247,6 +265,7 @@ std::optional<Growth> fit_growth(DivergenceCurve const& curve, FitWindow window,
                   line.slope,
                   jackknife_error(curve, window, spacing),
                   line.slope * length,
+                  power_over_line(curve, window.last),
                   change_with_window(curve, window, spacing, line.slope)};
 }
 

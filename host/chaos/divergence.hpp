@@ -65,11 +65,13 @@ struct Growth {
     double exponent;    // λ₁ = line.slope [1/unit of spacing]
     double error;       // standard error of λ₁ by the jackknife over the parts of `without`
     double rise;        // exponent times the length of the window: e-foldings seen
+    double of_power;    // squares of the curve, up to the window's end, that a power of time leaves, over those that a line leaves
     double systematic;  // what the choice of window changes, and what a caller knows besides [as the exponent]
 
     /// Of the 95 % interval: Student's t of ten parts times the error, and the systematic part in full.
     double chance() const { return 2.262 * error; }
     double half_width() const { return chance() + systematic; }
+    bool is_beyond_a_power() const { return of_power >= 5; }
 };
 
 /// Line through the curve in the window.  The error of the regression takes the points of the curve as independent, which
@@ -77,6 +79,11 @@ struct Growth {
 /// counts for both its stretches, which is cautious: over 5,000 points of Lorenz the error is half as large again as the scatter.
 /// Systematic: the most that the slope changes where the window is moved by a quarter of its length, to either side; the jackknife
 /// cannot see a bend that all stretches share.
+/// Distances that grow like a power of time, d ~ k^p (a drifting frequency: p = 1), have a slope too, p over the length of the
+/// window.  So ⟨ln d⟩ from k = 1 to the end of the window is fitted by a + b k and by a + p ln k: growth is beyond a power where the
+/// line leaves a fifth of the power's squares or less.  The window alone, chosen for its straightness, tells less.  Of 43 Lorenz and
+/// Rössler series of 1,000 to 5,000 samples the line leaves at most 0.17 in 41, of 24 chirps at least 0.6, of 7 walking phases 3 and
+/// more, of 23 walking frequencies 0.01 to 1.8, more than a fifth in 14.
 /// @param spacing of samples.  @return nothing for a window with less than two points or outside the curve.
 std::optional<Growth> fit_growth(DivergenceCurve const& curve, FitWindow window, double spacing);
 

@@ -60,9 +60,24 @@ Json of_exponents(ResultReader const& results) {
                         {"second_half", of_mean(one.late)},
                         {"quantile_05", number(one.low)},
                         {"quantile_95", number(one.high)},
-                        {"members_positive", one.positive},
-                        {"members_negative", one.negative},
-                        {"members_undecided", one.undecided}});
+                        {"sign", words_of(one.sign)},
+                        {"members_positive", one.above},
+                        {"members_negative", one.below},
+                        {"members_undecided", one.undecided},
+                        {"members_power_of_time", one.power_of_time}});
+    }
+    return list;
+}
+
+Json of_columns(ResultReader const& results) {
+    Json list = Json::array();
+    for (SweepColumn const& column : summarise_columns(results)) {
+        Json one{{"value", column.value}, {"members", column.members}, {"finished", column.finished}};
+        if (results.has("lyapunov_exponent")) {
+            one["exponent"] = of_mean(column.exponent.mean);
+            one["sign"] = words_of(column.exponent.sign);
+        }
+        list.push_back(std::move(one));
     }
     return list;
 }
@@ -77,11 +92,43 @@ Json of_yield(std::string const& name, Limit const& limit, std::string const& un
     return json;
 }
 
+Json of_estimate(IndexEstimate const& index) { return of_estimate(index.value, index.interval); }
+
+/// A column's name, why it has no sensitivities (or null), and what there is of each input.
+template <class Column, class OfInput> Json of_inputs(ToleranceReport const& report, Column const& column, OfInput of_input) {
+    Json one{{"name", column.column.name()}, {"without", column.why_none.empty() ? Json(nullptr) : Json(column.why_none)}, {"inputs", Json::array()}};
+    for (std::size_t i = 0; i < report.inputs.size(); ++i) {
+        one["inputs"].push_back({{"name", report.inputs[i]}});
+        of_input(one["inputs"].back(), i);
+    }
+    return one;
+}
+
+Json of_sensitivity(ToleranceReport const& report) {
+    Json list = Json::array();
+    for (ColumnIndices const& column : report.indices ? report.indices->columns : std::vector<ColumnIndices>()) {
+        list.push_back(of_inputs(report, column, [&](Json& input, std::size_t i) {
+            input["first"] = of_estimate(column.indices.first[i]);
+            input["total"] = of_estimate(column.indices.total[i]);
+        }));
+        list.back()["first_sum"] = of_estimate(column.indices.first_sum);
+    }
+    for (ColumnCorrelations const& column : report.correlations) {
+        list.push_back(of_inputs(report, column, [&](Json& input, std::size_t i) {
+            input["rank_correlation"] = of_estimate(column.ranks[i].value, column.ranks[i].interval);
+            input["regression"] = number(column.regression.coefficients[i]);
+        }));
+        list.back()["r_squared"] = number(column.regression.r_squared);
+    }
+    return list;
+}
+
 Json of_report(ToleranceReport const& report) {
     Json json{{"design", name_of(report.design)}, {"policy", report.policy}, {"intervals", report.intervals}};
     json["quantile_error"] = report.quantile_error.empty() ? Json(nullptr) : Json(report.quantile_error);
     json["confidence"] = confidence_level;
     json["quantities"] = json["yields"] = Json::array();
+    json["sensitivity"] = of_sensitivity(report);
     for (ColumnStatistics const& entry : report.columns) {
         Json one{{"name", entry.column.name()}, {"unit", entry.column.unit}, {"count", entry.summary.count}};
         one["mean"] = of_estimate(entry.summary.mean, entry.mean);
@@ -142,6 +189,7 @@ std::string result_json(char const* command, ResultReader const& results, SealCh
     json["quantities"] = of_quantities(results);
     if (report) json["tolerance"] = of_report(*report);
     if (Json exponents = of_exponents(results); !exponents.empty()) json["exponents"] = std::move(exponents);
+    if (Json columns = of_columns(results); !columns.empty()) json["columns"] = std::move(columns);
     if (auto const sections = summarise_sections(results)) {
         json["sections"] = {{"count", sections->sections}, {"members_without", sections->without}, {"beyond_room", sections->beyond}};
     }
@@ -225,6 +273,7 @@ std::string stats_json(StatsArguments const& arguments, std::string const& serie
                             {"systematic", number(a.growth->systematic)},
                             {"is_seen", a.growth_is_seen()},
                             {"is_exponential", a.growth_is_exponential()},
+                            {"is_beyond_a_power", a.growth->is_beyond_a_power()},
                             {"first_sample", a.growth->window.first},
                             {"last_sample", a.growth->window.last},
                             {"r_squared", number(a.growth->line.r_squared)}};

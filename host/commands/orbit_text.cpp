@@ -27,7 +27,7 @@ void print_history(std::vector<HistoryPoint> const& history) {
 }
 
 /// What makes exponents wrong without a sign in their intervals.
-void print_doubts(ResultReader const& results, ExponentSummary const& largest) {
+void print_doubts(ResultReader const& results) {
     OffsetHealth const health = offset_health(results);
     if (health.grown > 0.01) {
         tell("warning: at {:.0f} % of the rescalings an offset had grown to the size of the joint: exponents are "
@@ -40,8 +40,16 @@ void print_doubts(ResultReader const& results, ExponentSummary const& largest) {
             "rescale oftener or use a larger study.d0\n",
             100 * health.lost);
     }
-    if (largest.mean.mean > largest.mean.half_width && !(largest.late.mean > largest.late.half_width)) {
-        print_text(4, "  The second half alone is not above zero: what grew, grew early. Leave out a longer transient.");
+}
+
+/// What the members' own signs are, and that of the mean.
+void print_signs(ExponentSummary const& largest) {
+    std::string const powers = largest.power_of_time > 0 ? fmt::format(" ({} of them: {})", largest.power_of_time, words_of(ExponentSign::power_of_time)) : "";
+    print_text(4, "  largest: {} members above zero, {} below, {} undecided{}; their mean: {}", largest.above, largest.below, largest.undecided, powers,
+               words_of(largest.sign));
+    if (largest.sign == ExponentSign::power_of_time) {
+        print_text(4, "  In the second half of the record offsets grew or shrank by no more than t³ does, which has no exponent: a longer run tells them "
+                      "apart, a longer transient leaves out what grew early.");
     }
 }
 
@@ -52,13 +60,13 @@ void print_sweep_columns(ResultReader const& results) {
     constexpr std::size_t most = 60;
     std::string const parameter = results.attribute("sweep_parameter");
     std::size_t const every = (columns.size() + most - 1) / most;
-    fmt::print("\nLargest exponent [1/s] per column, ± the 95 % interval of the mean{}:\n  {:>16}  {:>10}  {:>22}\n",
+    fmt::print("\nLargest exponent [1/s] per column, ± the 95 % interval of the mean, and its sign{}:\n  {:>16}  {:>10}  {:>22}\n",
                every > 1 ? fmt::format(", every {}th column", every) : "",
                fmt::format("{} [{}]", parameter, results.unit(parameter)), "finished", "exponent");
     for (std::size_t i = 0; i < columns.size(); i += every) {
         SweepColumn const& c = columns[i];
-        fmt::print("  {:>16.6g}  {:>10}  {:>22}\n", c.value, fmt::format("{} of {}", c.finished, c.members),
-                   text(c.exponent));
+        fmt::print("  {:>16.6g}  {:>10}  {:>22}  {}\n", c.value, fmt::format("{} of {}", c.finished, c.members), text(c.exponent.mean),
+                   c.finished > 0 ? words_of(c.exponent.sign) : "");
     }
 }
 
@@ -73,7 +81,7 @@ void print_exponents(ResultReader const& results) {
     }
     if (!results.attribute("sweep_parameter").empty()) {
         print_sweep_columns(results);
-        print_doubts(results, exponents.front());
+        print_doubts(results);
         return;
     }
     print_text(0, "\nLyapunov exponents [1/s] over the members that finished; ± is the 95 % interval of the mean:");
@@ -91,8 +99,7 @@ void print_exponents(ResultReader const& results) {
     if (refutes_sign(results)) {
         print_text(4, "  largest: NOT RESOLVED: tighter tolerances do not confirm its sign (see below)");
     } else {
-        print_text(4, "  largest: {} members above zero, {} below, {} undecided by their own 95 % intervals",
-                   largest.positive, largest.negative, largest.undecided);
+        print_signs(largest);
     }
     print_text(4, "  its second half alone: {}", text(largest.late));
     print_history(exponent_history(results));
@@ -101,7 +108,7 @@ void print_exponents(ResultReader const& results) {
         print_text(4, "  Kaplan-Yorke dimension of the map over a turn: median {}, {} to {}", short_number(dimension.median),
                    short_number(dimension.min), short_number(dimension.max));
     }
-    print_doubts(results, largest);
+    print_doubts(results);
 }
 
 void print_sections(ResultReader const& results) {

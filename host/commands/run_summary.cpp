@@ -8,6 +8,7 @@
 
 #include "host/config/descriptors.hpp"
 #include "host/store/run_identity.hpp"
+#include "host/study/noise_floor.hpp"
 #include "host/study/orbit_schedule.hpp"
 #include "host/study/verification.hpp"
 
@@ -123,9 +124,13 @@ void print_energy_made(Scene const& scene, Statuses const& ended, std::vector<Qu
     std::string const cause =
         doubtful ? fmt::format("The {} law's mode switching and the errors of {} together", law.name, name_of(method))
                  : fmt::format("Mode switching of the {} law", law.name);
+    if (std::max(std::abs(residual->values.min), std::abs(residual->values.max)) <= least_energy(scene)) {
+        print_text(0, "\n{} made no energy: {:.2g} J per member on average is rounding.", cause, made);
+        return;
+    }
     std::string sentence = fmt::format("\n{} made {:.3g} J of energy per member on average", cause, made);
     QuantitySummary const* const work = mean_of("crank_work");
-    if (work != nullptr && work->values.mean != 0) {
+    if (work != nullptr && std::abs(work->values.mean) > least_energy(scene)) {
         sentence += fmt::format(", {:.3g} % of the {}'s work of {:.3g} J", 100 * made / std::abs(work->values.mean),
                    counts_for(*find_key("mechanism.rod_length"), scene.parts.mechanism) ? "crank" : "drive", work->values.mean);
     }

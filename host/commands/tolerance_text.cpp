@@ -92,9 +92,9 @@ void print_ranked(std::string const& name, std::size_t width, std::vector<std::s
     fmt::print("{}\n", line);
 }
 
-/// Nothing tells inputs apart for an output that does not vary.
-std::vector<std::string> cells_or_dash(std::vector<std::string> cells) {
-    if (cells.empty()) cells.emplace_back("-");
+/// Nothing tells inputs apart for an output that varies by no more than its error.
+std::vector<std::string> cells_or_dash(std::vector<std::string> cells, std::string const& why_none) {
+    if (cells.empty()) cells.push_back(why_none.empty() ? "-" : "- " + why_none);
     return cells;
 }
 
@@ -113,7 +113,6 @@ void print_indices(ToleranceReport const& report) {
         std::string name = entry.column.name();
         for (std::size_t rank = 0; rank < std::min(top_inputs, entry.ranking.size()); ++rank) {
             std::size_t const input = entry.ranking[rank];
-            // Nothing tells inputs apart for an output that does not vary.
             if (std::isnan(found.total[input].value)) break;
             table.push_back({std::exchange(name, {}), report.inputs[input], text(found.first[input]), text(found.total[input])});
         }
@@ -123,6 +122,9 @@ void print_indices(ToleranceReport const& report) {
             table.push_back({name, "-"});
     }
     print_table([&](int) { return table; }, 3, 2, 24);
+    for (ColumnIndices const& entry : indices.columns) {
+        if (!entry.why_none.empty()) print_wrapped(fmt::format("  {}: no index, it {}", entry.column.name(), entry.why_none));
+    }
 }
 
 void print_correlations(ToleranceReport const& report) {
@@ -141,7 +143,7 @@ void print_correlations(ToleranceReport const& report) {
             cells.push_back(
                 fmt::format("{} {}{}", report.inputs[input], share(estimate.value), interval_text(estimate.interval)));
         }
-        print_ranked(entry.column.name(), width, cells_or_dash(std::move(cells)));
+        print_ranked(entry.column.name(), width, cells_or_dash(std::move(cells), entry.why_none));
     }
 }
 

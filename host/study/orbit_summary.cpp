@@ -27,19 +27,6 @@ std::vector<double> finished_column(std::vector<double> const& values, std::vect
     return column;
 }
 
-/// What rounding may have added does not average out over members.
-MeanOfMembers mean_with_rounding(std::vector<double> const& values, double resolution) {
-    MeanOfMembers mean = mean_of_members(values);
-    mean.half_width += resolution;
-    return mean;
-}
-
-double largest_of(std::vector<double> const& values) {
-    double largest = 0;
-    for (double const x : values) largest = std::max(largest, std::isnan(x) ? 0.0 : x);
-    return largest;
-}
-
 /// Of a member: the last of a variable's dimensions.  @throws FileError of a variable that has others, or none of them
 std::size_t exponents_of(ResultView const& results, char const* variable = "lyapunov_exponent", char const* dimensions = "member, exponent") {
     auto const shape = results.shape(variable);
@@ -48,39 +35,57 @@ std::size_t exponents_of(ResultView const& results, char const* variable = "lyap
     throw FileError(fmt::format("{}: {} is not ({})", results.path(), variable, dimensions));
 }
 
+/// What a file has of the exponents of the members that finished.
+class StoredExponents {
+public:
+    explicit StoredExponents(ResultView const& results)
+        : finished_(finished_members(results)),
+          width_(exponents_of(results)),
+          value_(results.values("lyapunov_exponent", finished_.size() * width_)),
+          half_width_(results.values("lyapunov_exponent_half_width", finished_.size() * width_)),
+          late_(results.values("lyapunov_exponent_late", finished_.size() * width_)),
+          time_(results.values("lyapunov_time", finished_.size())),
+          resolution_(results.values("lyapunov_resolution", finished_.size())) {}
+
+    std::size_t width() const { return width_; }
+
+    /// Of exponent j, of the members from `first` to before `last`.
+    std::vector<ExponentRecord> records(std::size_t j, std::size_t first, std::size_t last) const {
+        std::vector<ExponentRecord> records;
+        for (std::size_t i = first; i < last; ++i) {
+            std::size_t const at = i * width_ + j;
+            if (finished_[i]) records.push_back({value_[at], half_width_[at], late_[at], time_[i]});
+        }
+        return records;
+    }
+    ExponentOfMembers over_members(std::size_t j, std::size_t first, std::size_t last) const {
+        double largest = 0;
+        for (std::size_t i = first; i < last; ++i) {
+            if (finished_[i] && resolution_[i] > largest) largest = resolution_[i];
+        }
+        return exponent_of_members(records(j, first, last), largest);
+    }
+
+private:
+    std::vector<char> finished_;
+    std::size_t width_;
+    std::vector<double> value_, half_width_, late_, time_, resolution_;
+};
+
 }  // namespace
 
 std::vector<ExponentSummary> summarise_exponents(ResultView const& results) {
     std::vector<ExponentSummary> summaries;
     if (!results.has("lyapunov_exponent")) return summaries;
-    auto const finished = finished_members(results);
-    std::size_t const exponents = exponents_of(results);
-    std::size_t const count = finished.size() * exponents;
-    auto const values = results.values("lyapunov_exponent", count), late = results.values("lyapunov_exponent_late", count);
-    auto const half_widths = results.values("lyapunov_exponent_half_width", count);
-    double const resolution = largest_of(finished_column(results.values("lyapunov_resolution", finished.size()), finished, 1, 0));
-    for (std::size_t j = 0; j < exponents; ++j) {
-        auto const of_members = finished_column(values, finished, exponents, j);
-        auto const reach = finished_column(half_widths, finished, exponents, j);
-        auto const of_late = finished_column(late, finished, exponents, j);
-        ExponentSummary& summary = summaries.emplace_back();
-        summary.mean = mean_with_rounding(of_members, resolution);
-        summary.late = mean_with_rounding(of_late, resolution);
-        summary.values = summarise(of_members);
-        std::vector<double> sorted = of_members;
-        std::erase_if(sorted, [](double x) { return std::isnan(x); });
-        std::ranges::sort(sorted);
-        summary.low = quantile(sorted, 0.05);
-        summary.high = quantile(sorted, 0.95);
-        for (std::size_t i = 0; i < of_members.size(); ++i) {
-            // Of growth at the start alone nothing is left in the second half.
-            if (of_members[i] - reach[i] > 0 && of_late[i] > 0)
-                ++summary.positive;
-            else if (of_members[i] + reach[i] < 0)
-                ++summary.negative;
-            else
-                ++summary.undecided;
-        }
+    StoredExponents const stored(results);
+    std::size_t const members = results.values("status").size();
+    for (std::size_t j = 0; j < stored.width(); ++j) {
+        std::vector<double> values;
+        for (ExponentRecord const& record : stored.records(j, 0, members)) values.push_back(record.rate);
+        Summary const summary = summarise(values);
+        std::erase_if(values, [](double x) { return std::isnan(x); });
+        std::ranges::sort(values);
+        summaries.push_back({stored.over_members(j, 0, members), summary, quantile(values, 0.05), quantile(values, 0.95)});
     }
     std::stable_sort(summaries.begin(), summaries.end(),
                      [](auto const& a, auto const& b) { return a.mean.mean > b.mean.mean; });
@@ -106,22 +111,17 @@ std::vector<SweepColumn> summarise_columns(ResultView const& results) {
     if (parameter.empty()) return columns;
     auto const finished = finished_members(results);
     auto const values = results.values(parameter, finished.size());
-    bool const has_exponents = results.has("lyapunov_exponent");
-    std::size_t const width = has_exponents ? exponents_of(results) : 0;
-    auto const exponents = has_exponents ? results.values("lyapunov_exponent", values.size() * width) : std::vector<double>{};
-    std::vector<double> of_column;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        bool const is_new = columns.empty() || values[i] != columns.back().value;
-        if (is_new) {
-            columns.push_back({values[i], 0, 0, {}});
-            of_column.clear();
-        }
-        SweepColumn& column = columns.back();
-        ++column.members;
-        if (!finished[i]) continue;
-        ++column.finished;
-        if (has_exponents) of_column.push_back(exponents[i * width]);
-        column.exponent = mean_of_members(of_column);
+    std::optional<StoredExponents> exponents;
+    if (results.has("lyapunov_exponent")) exponents.emplace(results);
+    for (std::size_t first = 0, last = 0; first < values.size(); first = last) {
+        while (last < values.size() && values[last] == values[first]) ++last;
+        last = std::max(last, first + 1);  // of NaN, in a file that was edited
+        auto const from = finished.begin() + static_cast<std::ptrdiff_t>(first), to = finished.begin() + static_cast<std::ptrdiff_t>(last);
+        SweepColumn& column = columns.emplace_back();
+        column.value = values[first];
+        column.members = last - first;
+        column.finished = static_cast<std::uint64_t>(std::count(from, to, 1));
+        column.exponent = exponents ? exponents->over_members(0, first, last) : exponent_of_members({}, 0);
     }
     return columns;
 }

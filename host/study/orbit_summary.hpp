@@ -5,20 +5,16 @@
 #include <optional>
 #include <vector>
 
-#include "host/chaos/exponents.hpp"
+#include "host/chaos/exponent_sign.hpp"
 #include "host/statistics/summary.hpp"
 #include "host/store/result_view.hpp"
 
 namespace slideway {
 
 /// One exponent over the members that finished [1/s].
-struct ExponentSummary {
-    MeanOfMembers mean;  // the interval with the offsets' rounding
-    MeanOfMembers late;  // of the second half of the record alone
+struct ExponentSummary : ExponentOfMembers {
     Summary values;
     double low, high;  // 5 % and 95 % quantiles
-    /// Members whose own 95 % interval lies above zero, in the second half too; below zero; neither.
-    std::uint64_t positive = 0, negative = 0, undecided = 0;
 };
 
 /// The largest mean first; empty if the file holds none.
@@ -34,7 +30,7 @@ OffsetHealth offset_health(ResultView const& results);
 struct SweepColumn {
     double value;
     std::uint64_t members, finished;
-    MeanOfMembers exponent;  // the largest one; of no members without exponents
+    ExponentOfMembers exponent;  // the largest one; of no members without exponents
 };
 /// In the file's order; empty if it is no sweep.
 std::vector<SweepColumn> summarise_columns(ResultView const& results);

@@ -123,7 +123,9 @@ bool SeriesAnalysis::growth_is_seen() const {
     return growth && growth->exponent > 2 * growth->error && growth->rise >= std::log(2.0);
 }
 
-bool SeriesAnalysis::growth_is_exponential() const { return growth_is_seen() && growth->line.r_squared >= straight; }
+bool SeriesAnalysis::growth_is_exponential() const {
+    return growth_is_seen() && growth->line.r_squared >= straight && growth->is_beyond_a_power();
+}
 
 SeriesAnalysis analyse_series(std::span<double const> series, double spacing, SeriesOptions const& options) {
     require_usable(series);
@@ -144,6 +146,9 @@ SeriesAnalysis analyse_series(std::span<double const> series, double spacing, Se
     if (analysis.growth) {
         analysis.growth->systematic += change_with_dimension(analysis, series, options);
         if (!analysis.from_map) analysis.growth->systematic += flow_bend * std::abs(analysis.growth->exponent);
+        if (!analysis.growth->is_beyond_a_power()) {
+            analysis.growth->systematic = std::max(analysis.growth->systematic, std::abs(analysis.growth->exponent));
+        }
     }
     analysis.stride = zero_one_stride(period);
     analysis.zero_one = zero_one_test(series, {.stride = analysis.stride});
@@ -160,7 +165,10 @@ std::string verdict(SeriesAnalysis const& analysis) {
         if (has_k && k > chaotic_k) return fmt::format("consistent with chaos, exponent {}", exponent);
         return fmt::format("neighbours part exponentially, {}; {}", exponent, no_k);
     }
-    if (analysis.growth_is_seen()) return "undecided: neighbours part, but not along a line; the exponent means little";
+    if (analysis.growth_is_seen()) {
+        return fmt::format("undecided: neighbours part, but {}; the exponent means little",
+                           analysis.growth->is_beyond_a_power() ? "not along a line" : "no faster than a power of time");
+    }
     if (has_k && k > chaotic_k) {
         return "irregular, but no exponential growth is seen: noise, sampling too coarse, or too few points";
     }
@@ -180,6 +188,9 @@ std::vector<std::string> reservations(SeriesAnalysis const& analysis) {
     if (analysis.growth && analysis.growth->line.r_squared < straight) {
         lines.push_back(
             fmt::format("R² = {:.3f}: the curve is no line in the fit window", analysis.growth->line.r_squared));
+    }
+    if (analysis.growth && !analysis.growth->is_beyond_a_power()) {
+        lines.emplace_back("a power of time fits the curve about as well as a line: the interval reaches to 0");
     }
     if (!analysis.growth) {
         lines.emplace_back(why_no_growth(analysis.divergence));

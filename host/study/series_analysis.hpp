@@ -33,14 +33,15 @@ struct SeriesAnalysis {
     std::size_t wanted_dimension;                   // what the C–C window asks for, before it was cut to the points
 
     DivergenceCurve divergence;
-    /// Its systematic part: change with the window, with one coordinate more or less, and of sampled motions a fifth of the exponent.
+    /// Its systematic part: change with the window, with one coordinate more or less, and of sampled motions a fifth of the exponent; all
+    /// of the exponent where a power of time fits as well, for then there may be none.
     std::optional<Growth> growth;
     ZeroOneTest zero_one;
     std::size_t stride;  // of the 0–1 test [samples]
 
     bool few_points() const;             // fewer than 10^(m/2), the least for dimension m (Eckmann and Ruelle 1992)
     bool growth_is_seen() const;         // exponent > 2 standard errors, and distances at least double in the window
-    bool growth_is_exponential() const;  // seen, along a line
+    bool growth_is_exponential() const;  // seen, along a line, and beyond a power of time
 };
 
 /// τ: C–C; one sample if the average period is shorter than six, for then the series is taken as iterates of a map.

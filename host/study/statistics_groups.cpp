@@ -168,9 +168,10 @@ void write_yields(DataFile& file, ToleranceReport const& report) {
     group.put({"all_share_interval", "1", "confidence interval of the share", {"bound"}}, std::array{all.interval.low, all.interval.high});
 }
 
-/// Of each input its rank.
-std::vector<int> ranks_of(std::vector<std::size_t> const& ranking) {
+/// Of each input its rank; 0 of all where the column has none.
+std::vector<int> ranks_of(std::vector<std::size_t> const& ranking, std::string const& why_none) {
     std::vector<int> ranks(ranking.size());
+    if (!why_none.empty()) return ranks;
     for (std::size_t rank = 0; rank < ranking.size(); ++rank) ranks[ranking[rank]] = static_cast<int>(rank) + 1;
     return ranks;
 }
@@ -192,7 +193,7 @@ void write_indices(GroupWriter& group, IndexReport const& report) {
         writer.numbers("first_sum", "1", "sum of the first-order indices", {}, [](Entry const& e) { return e.indices.first_sum.value; });
         writer.numbers("first_sum_interval", "1", "confidence interval of the sum of the first-order indices", {"bound"},
                        [](Entry const& e) { return e.indices.first_sum.interval; });
-        writer.counts("rank", "rank of the input by its total index, 1 the largest", {"input"}, [](Entry const& e) { return ranks_of(e.ranking); });
+        writer.counts("rank", "rank of the input by its total index, 1 the largest; 0: it has none", {"input"}, [](Entry const& e) { return ranks_of(e.ranking, e.why_none); });
     }
 }
 
@@ -207,9 +208,18 @@ void write_correlations(GroupWriter& group, std::vector<ColumnCorrelations> cons
         writer.numbers("regression", "1", "standardised regression coefficient", {"input"}, [](Entry const& e) { return e.regression.coefficients; });
         writer.numbers("r_squared", "1", "share of the variance that the linear regression explains", {},
                        [](Entry const& e) { return e.regression.r_squared; });
-        writer.counts("rank", "rank of the input by the magnitude of its rank correlation, 1 the largest", {"input"},
-                      [](Entry const& e) { return ranks_of(e.ranking); });
+        writer.counts("rank", "rank of the input by the magnitude of its rank correlation, 1 the largest; 0: it has none", {"input"},
+                      [](Entry const& e) { return ranks_of(e.ranking, e.why_none); });
     }
+}
+
+/// Columns without sensitivities and why, as an attribute; they are NaN.
+void write_reasons(GroupWriter& group, auto const& columns) {
+    std::vector<std::string> reasons;
+    for (auto const& entry : columns) {
+        if (!entry.why_none.empty()) reasons.push_back(entry.column.name() + " " + entry.why_none);
+    }
+    if (!reasons.empty()) group.attribute("without_index", fmt::format("{}", fmt::join(reasons, "; ")));
 }
 
 void write_sensitivity(DataFile& file, ToleranceReport const& report) {
@@ -217,7 +227,11 @@ void write_sensitivity(DataFile& file, ToleranceReport const& report) {
     GroupWriter group(file, "sensitivity");
     describe_group(group, report);
     group.labels("input", "key that varies", report.inputs);
-    if (report.indices) write_indices(group, *report.indices);
+    if (report.indices) {
+        write_reasons(group, report.indices->columns);
+        write_indices(group, *report.indices);
+    }
+    write_reasons(group, report.correlations);
     write_correlations(group, report.correlations);
 }
 

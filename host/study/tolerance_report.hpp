@@ -42,6 +42,7 @@ struct LimitYield {
 
 struct ColumnIndices {
     QuantityColumn column;
+    std::string why_none;              // in words, where the column varies by no more than rounding: then indices are NaN; else ""
     SobolIndices indices;              // [inputs]
     std::vector<std::size_t> ranking;  // inputs, the largest total index first; those without an index last
 };
@@ -57,6 +58,7 @@ struct IndexReport {
 
 struct ColumnCorrelations {
     QuantityColumn column;
+    std::string why_none;                    // as of indices
     std::size_t members = 0;                 // used: finished, with a number
     std::vector<CorrelationEstimate> ranks;  // [inputs], Spearman's
     StandardisedRegression regression;       // [inputs]
@@ -84,6 +86,8 @@ struct ReportSettings {
     /// Members that take part in correlations, at most: of more, as many that the scene's seed chooses at random.
     std::size_t most_correlated = std::size_t{1} << 20;
     std::function<void()> pause = [] {};  // called now and then; what it throws ends the report
+    /// Error of a number of a column, where members were run again: no index is given of what varies by less.
+    std::function<std::optional<double>(QuantityColumn const&)> measured_error = [](QuantityColumn const&) { return std::nullopt; };
 };
 
 /// Statistics of a result of the study `tolerance`, by this policy:
@@ -91,7 +95,8 @@ struct ReportSettings {
 /// - members that failed are counted by status, and meet no limit;
 /// - members that did not run are counted, and left out everywhere else; there are no intervals then, for the slow ones are missing;
 /// - of a saltelli design distributions and yields are of the 2N members of A and B, each a draw of all inputs; rows
-///   with a member that failed or is missing are left out of the indices whole, and counted.
+///   with a member that failed or is missing are left out of the indices whole, and counted;
+/// - a column that varies by no more than the error of its numbers (noise_floor.hpp) has no indices or correlations.
 /// Members are known by their number (variable `member`), so the file may hold a part of the design, in any order.  One
 /// column of all members is in memory at a time, and the inputs of at most `most_correlated` members.
 /// A result that keeps statistics in place of members has the same report without correlations: moments, ends and yields are those of the

@@ -1,3 +1,4 @@
+#include "host/study/noise_floor.hpp"
 #include "host/study/tolerance_members.hpp"
 
 #include <algorithm>
@@ -68,20 +69,26 @@ std::vector<double> taken(std::vector<double> const& values, std::vector<std::si
     return chosen;
 }
 
+/// Numbers that are the same but for their error become so.  @return why; "" where they are not
+std::string equal_within_error(std::vector<double>& values, QuantityColumn const& column, Scene const& scene, ReportSettings const& settings) {
+    std::string why = why_no_sensitivity(column, values, scene, settings.measured_error(column));
+    if (!why.empty()) std::ranges::replace_if(values, [](double x) { return !std::isnan(x); }, 0.0);
+    return why;
+}
+
 /// An input with the members' ranks, which all outputs without gaps share.
 struct Input {
     std::vector<double> values, ranks;
 };
 
-ColumnCorrelations correlations_of(QuantityColumn const& column, std::vector<Input> const& inputs,
-                                   std::vector<double> output, bool independent) {
+ColumnCorrelations correlations_of(ColumnCorrelations result, std::vector<Input> const& inputs, std::vector<double> output, bool independent) {
     std::vector<std::size_t> numbers;
     for (std::size_t i = 0; i < output.size(); ++i) {
         if (!std::isnan(output[i])) numbers.push_back(i);
     }
     bool const gaps = numbers.size() < output.size();
     if (gaps) output = taken(output, numbers);
-    ColumnCorrelations result{column, output.size(), {}, {}, {}};
+    result.members = output.size();
     std::vector<double> const output_ranks = midranks(output);
     std::vector<std::vector<double>> values;
     for (Input const& input : inputs) {
@@ -113,12 +120,13 @@ IndexReport index_report(ToleranceMembers const& members, Scene const& scene, st
                 radial.insert(radial.end(), from, from + static_cast<std::ptrdiff_t>(width));
             }
         }
+        std::string why_none = equal_within_error(radial, column, scene, settings);
         BootstrapSettings bootstrap;
         bootstrap.level = confidence_level;
         bootstrap.seed = scene.seed;
         bootstrap.threads = settings.threads;
         if (!independent) bootstrap.replicates = 0;
-        ColumnIndices result{column, sobol_indices({inputs, radial}, bootstrap), {}};
+        ColumnIndices result{column, std::move(why_none), sobol_indices({inputs, radial}, bootstrap), {}};
         result.ranking = ranking(inputs, [&](std::size_t i) { return result.indices.total[i].value; });
         report.columns.push_back(std::move(result));
     }
@@ -140,7 +148,8 @@ std::vector<ColumnCorrelations> correlation_report(ToleranceMembers const& membe
     for (QuantityColumn const& column : columns) {
         settings.pause();
         std::vector<double> output = taken(members.column(column.quantity, column.index), used);
-        report.push_back(correlations_of(column, inputs, std::move(output), independent));
+        std::string why_none = equal_within_error(output, column, scene, settings);
+        report.push_back(correlations_of({column, std::move(why_none), 0, {}, {}, {}}, inputs, std::move(output), independent));
     }
     return report;
 }

@@ -16,6 +16,7 @@ from .control_variates import ControlVariate, control_variate
 from .ensemble import Ensemble
 from .errors import FileError, RunError, SceneError, SlidewayError, StoppedEarly, TooManyFailures
 from .example import example
+from .exponent_signs import exponent_signs
 from .keys import Key, Keys, keys
 from .members import finished, statuses
 from .resolution import Resolution, resolution
@@ -45,6 +46,7 @@ __all__ = [
     "__version__",
     "control_variate",
     "example",
+    "exponent_signs",
     "finished",
     "groups",
     "info",

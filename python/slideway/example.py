@@ -84,6 +84,8 @@ def example() -> xr.Dataset:
     per_member: dict[str, tuple[np.ndarray, str, str]] = {
         "peak_normal_force": (random.lognormal(6.5, 0.4, members), "N", "largest sum of the normal forces"),
         "lyapunov_exponent": (exponent, "s-1", "finite-time Lyapunov exponents, by shadows"),
+        "lyapunov_exponent_half_width": (np.full((members, 1), 30.0), "s-1", "half the width of the exponent's 95 % interval"),
+        "lyapunov_exponent_late": (exponent.copy(), "s-1", "exponent of the second half of the record alone"),
         "lyapunov_time": (np.full(members, 4.0), "s", "time over which the exponents are taken"),
         "rescalings": (np.full(members, 4000.0), "1", "times that offsets were rescaled"),
         "lyapunov_history": (exponent[:, None] + 300 * spread, "s-1", "running exponents after so many rescalings"),

@@ -61,8 +61,7 @@ def _regime(result: xr.Dataset, member: int) -> str:
         return "rests"
     if turns := period(_sections(result, member)):
         return "every turn" if turns == 1 else "every 2 to 8 turns"
-    surely = result.lyapunov_exponent.values[member, 0] - result.lyapunov_exponent_half_width.values[member, 0]
-    return "chaotic" if surely > 0 else "undecided"
+    return "chaotic" if slideway.exponent_signs(result).values[member, 0] == "above zero" else "undecided"
 
 
 def row(root: Path, name: str, value: float, tolerance: float = 1e-6) -> list[list[str]]:

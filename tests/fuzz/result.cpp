@@ -51,7 +51,7 @@ constexpr std::array names = {"status", "member", "end_time", "time", "y", "accu
                               "failed_status", "failed_time", "section_time", "section_count", "section_y", "section_crossings", "peak_normal_force",
                               "mode_time", "steps_accepted", "steps_rejected", "lyapunov_exponent", "lyapunov_exponent_late",
                               "lyapunov_exponent_half_width", "lyapunov_resolution", "lyapunov_history", "history", "rescalings", "lost_offsets",
-                              "grown_offsets"};
+                              "grown_offsets", "lyapunov_time"};
 constexpr std::array dimensions = {"member", "sample", "section", "mode_class"};
 constexpr unsigned growing = 0;
 constexpr std::array types = {DataFile::Type::int8, DataFile::Type::int32, DataFile::Type::float64,

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 
 from ..arguments import one_line, whole
 from ..errors import SlidewayError
-from ..intervals import student_t
+from ..exponent_signs import half_width_of_mean
 from ..members import with_members
 from ..palette import colours, grey
 from ..series_statistics import SeriesStatistics, stats
@@ -152,7 +152,11 @@ def _columns(result: xr.Dataset) -> list[tuple[str, np.ndarray]]:
 def _half_width(values: np.ndarray, result: xr.Dataset, exponent: int, of: np.ndarray) -> float:
     """Of the 95 % interval: of the members' mean, or of the one member's own estimate."""
     if values.size > 1:
-        return student_t(values.size - 1) * float(values.std(ddof=1)) / float(np.sqrt(values.size))
+        half, late = (
+            _exponent(result[name], exponent).values[of] if name in result else None
+            for name in ("lyapunov_exponent_half_width", "lyapunov_exponent_late")
+        )
+        return half_width_of_mean(values, half, late, result["lyapunov_time"].values[of] if "lyapunov_time" in result else None)
     if "lyapunov_exponent_half_width" in result:
         return float(_exponent(result["lyapunov_exponent_half_width"], exponent).values[of][0])
     return float("nan")

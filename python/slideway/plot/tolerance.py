@@ -82,7 +82,7 @@ def sensitivity(result: xr.Dataset, name: str | None = None, component: str | No
         component: of a quantity with several values per member, one of its labels ("free", "P1", "x"); left out: the first.
 
     Raises:
-        SlidewayError: the result has no group "sensitivity", or no such quantity.
+        SlidewayError: the result has no group "sensitivity", no such quantity, or one that varies by no more than rounding.
 
     >>> import xarray as xr
     >>> group = xr.Dataset({"wear_rank_correlation": ("input", [0.8, -0.2])}, coords={"input": ["way.roll", "friction.kinetic"]})
@@ -100,6 +100,10 @@ def sensitivity(result: xr.Dataset, name: str | None = None, component: str | No
         raise SlidewayError(f'the sensitivities have no {name}; add "{name}" to study.quantities')
     own = group[f"{name}_{next(iter(kinds))}"]
     entry = _component(own, component)
+    if not np.isfinite(own.isel(entry.place).values).any():
+        full = f"{name}[{entry.label}]" if entry.label else name
+        why = [reason.removeprefix(full) for reason in str(group.attrs.get("without_index", "")).split("; ") if reason.startswith(full + " ")]
+        raise SlidewayError(f"{full} has no sensitivities{', for it' + why[0] if why else ''}; plot a quantity that varies")
     order = np.argsort(np.abs(own.isel(entry.place).values))
     inputs = own["input"].values[order]
     place = np.arange(order.size)

@@ -20,19 +20,22 @@ def exponent_words(result: xr.Dataset) -> list[str]:
         return []
     ended = slideway.finished(result).values
     largest = result["lyapunov_exponent"].values[ended, 0]
-    wide = result["lyapunov_exponent_half_width"].values[ended, 0]
     if len(largest) == 0:
         return ["No member finished, so there are no exponents."]
-    positive, negative = int((largest - wide > 0).sum()), int((largest + wide < 0).sum())
+    signs = slideway.exponent_signs(result).values[ended, 0]
+    positive, negative, power = (int((signs == word).sum()) for word in ("above zero", "below zero", "no growth beyond a power of time"))
     sweep = sweep_of(result)
     sentences = [
         _of_columns(sweep, np.where(ended, result["lyapunov_exponent"].values[:, 0], np.nan))
         if sweep
         else f"Largest exponent: {number(float(largest.mean()))} s⁻¹ on average of {counted(len(largest), 'member')}, from "
         f"{number(float(largest.min()))} to {number(float(largest.max()))} s⁻¹.",
-        f"With its 95 % interval it is positive in {positive}, negative in {negative} and undecided in "
-        f"{len(largest) - positive - negative} of {counted(len(largest), 'member')}; positive means that neighbouring motions part exponentially.",
+        f"With its 95 % interval and growth beyond t³ in the second half of the record it is positive in {positive}, negative in {negative} "
+        f"and undecided in {len(largest) - positive - negative} of {counted(len(largest), 'member')}; positive means that neighbouring motions part "
+        "exponentially.",
     ]
+    if power > 0:
+        sentences.append(f"Of {power} of the undecided the interval alone excludes 0, but there is no growth beyond a power of time.")
     for name, words in (
         (
             "grown_offsets",

@@ -165,6 +165,7 @@ def sensitivity(result: xr.Dataset) -> Figure | None:
                 variants.append(Variant(name if label is None else f"{name}[{label}]", data, layout))
     if not variants:
         return None
+    without = str(group.attrs.get("without_index", ""))
     if len(kinds) > 1:
         caption = (
             f"Sobol indices of {counted(int(group['rows_used']), 'row')} of the design, bars: 95 % intervals. "
@@ -172,6 +173,8 @@ def sensitivity(result: xr.Dataset) -> Figure | None:
         )
     else:
         caption = "Spearman's rank correlation of input and quantity, from −1 to 1, bars: 95 % intervals where the design allows some."
+    if without:
+        caption += f" Without an index: {text(without)}."
     return Figure(
         "sensitivity", "What drives the scatter", caption, variants, height=140 + 42 * len(inputs), choice="Quantity"
     )

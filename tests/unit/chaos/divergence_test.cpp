@@ -135,6 +135,21 @@ TEST(GrowthWindow, IsTheUsersIfGiven) {
     EXPECT_FALSE(fit_growth(curve, {7, 7}, 1));
 }
 
+TEST(Growth, OfALineIsBeyondAPowerOfTimeAndOfALogarithmNot) {
+    auto const grown = [](auto law) {
+        DivergenceCurve curve{{}, {}, 9, {}};
+        for (int k = 0; k < 200; ++k) {
+            curve.mean_log.push_back(law(k) + 0.02 * std::sin(k));
+            curve.pairs.push_back(9);
+        }
+        curve.without.assign(10, curve.mean_log);
+        return fit_growth(curve, {40, 199}, 1)->is_beyond_a_power();
+    };
+    EXPECT_TRUE(grown([](int k) { return 0.01 * k; }));
+    for (double const power : {0.5, 1.0, 2.0}) EXPECT_FALSE(grown([&](int k) { return power * std::log1p(k); })) << power;
+    EXPECT_FALSE(grown([](int) { return 1.0; }));
+}
+
 TEST(Growth, ErrorIsThatOfTheJackknife) {
     // Slopes 1 … 10 of the rests: (n-1)/n Σ(s - s̄)² = 0.9·82.5.
     DivergenceCurve curve{{0, 1, 2}, {9, 9, 9}, 5, {}};

@@ -68,6 +68,16 @@ inline std::vector<double> sine_series(std::size_t count, double period, double 
     return out;
 }
 
+/// A tone whose frequency drifts: phase ωt + drift t²/2.  What starts alike at different times parts like t.
+inline std::vector<double> drifting_series(std::size_t count, double frequency, double drift) {
+    std::vector<double> out(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        auto const t = static_cast<double>(i);
+        out[i] = std::cos((frequency + drift * t / 2) * t);
+    }
+    return out;
+}
+
 inline std::vector<double> sum(std::vector<double> a, std::vector<double> const& b) {
     for (std::size_t i = 0; i < a.size(); ++i) a[i] += b[i];
     return a;

@@ -83,6 +83,16 @@ TEST_F(ToleranceText, RanksInputsByTheirTotalIndices) {
     EXPECT_EQ(text.find("Yield"), std::string::npos);
 }
 
+TEST_F(ToleranceText, SaysWhyAQuantityHasNoCorrelations) {
+    auto members = ramp(101);
+    for (MadeUpMember& m : members) m.mode_time[2] = 2 + 1e-13 * static_cast<double>(m.number);
+    NetcdfFile const file = write(members);
+    std::string const text = printed(tolerance_report(ResultView(file), scene(DesignKind::mc, 101)));
+    expect_lines_fit(text);
+    EXPECT_NE(text.find("mode_time[line]     - varies by 2.9e-12 s, no more than its error of 2e-06 s\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("mode_time[point]    - does not vary\n"), std::string::npos) << text;
+}
+
 TEST_F(ToleranceText, SaysWhenThereIsNothingToTell) {
     auto members = ramp(5);
     for (MadeUpMember& m : members) m.status = Status::nonfinite;

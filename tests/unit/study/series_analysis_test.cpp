@@ -67,6 +67,23 @@ TEST(SeriesAnalysis, ClaimsNoChaosForRegularMotion) {
     EXPECT_TRUE(verdict(analyse_series(sine_series(3000, 62.83), 1)).ends_with("the 0–1 test has too few samples"));
 }
 
+TEST(SeriesAnalysis, ClaimsNoExponentWhereNeighboursPartLikeAPowerOfTime) {
+    for (std::size_t const count : {1000u, 3000u, 6000u}) {
+        for (double const drift : {2e-5, 6e-5}) {
+            SeriesAnalysis const a = analyse_series(drifting_series(count, 0.1, drift), 1);
+            ASSERT_TRUE(a.growth) << count;
+            EXPECT_FALSE(a.growth->is_beyond_a_power()) << count << ' ' << drift;
+            EXPECT_GE(a.growth->half_width(), a.growth->exponent) << count << ' ' << drift;
+            EXPECT_EQ(verdict(a).find("exponentially"), std::string::npos) << verdict(a);
+            EXPECT_EQ(verdict(a).find("consistent"), std::string::npos) << verdict(a);
+            EXPECT_TRUE(contains(reservations(a), "a power of time fits the curve"));
+        }
+    }
+    SeriesAnalysis const chaos = analyse_series(lorenz_series(3000, 0.05), 0.05);
+    EXPECT_TRUE(chaos.growth->is_beyond_a_power());
+    EXPECT_FALSE(contains(reservations(chaos), "power of time"));
+}
+
 TEST(SeriesAnalysis, ClaimsNoChaosForNoise) {
     std::vector<double> coloured = white_series(5000);
     for (std::size_t i = 1; i < coloured.size(); ++i) coloured[i] += 0.95 * coloured[i - 1];

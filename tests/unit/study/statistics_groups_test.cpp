@@ -137,7 +137,7 @@ TEST_F(StatisticsGroups, HoldIndices) {
     EXPECT_EQ(stored(sensitivity, "mode_time_total").values[1], report.indices->columns[1].indices.total[1].value);
     EXPECT_EQ(stored(sensitivity, "peak_normal_force_first_interval").values[2],
               report.indices->columns[0].indices.first[1].interval.low);
-    EXPECT_EQ(stored(sensitivity, "mode_time_rank").values, (std::vector<double>{2, 1, 2, 1, 1, 2, 1, 2}));
+    EXPECT_EQ(stored(sensitivity, "mode_time_rank").values, (std::vector<double>{2, 1, 2, 1, 0, 0, 1, 2}));
     EXPECT_EQ(stored(sensitivity, "peak_normal_force_first_sum").values[0],
               report.indices->columns[0].indices.first_sum.value);
 }

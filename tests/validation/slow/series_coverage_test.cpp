@@ -73,12 +73,14 @@ std::vector<System> systems() {
 
 void expect_held(std::size_t points) {
     for (System const& system : systems()) {
-        std::size_t held = 0, found = 0;
+        std::size_t held = 0, found = 0, seen = 0, told = 0;
         double mean = 0, chance = 0, systematic = 0;
         for (std::size_t i = 1; i <= stretches; ++i) {
             SeriesAnalysis const a = analyse_series(system.series(points, i), system.spacing);
             if (!a.growth) continue;
             ++found;
+            seen += a.growth_is_seen() && a.growth->line.r_squared >= 0.95;
+            told += a.growth_is_exponential();
             held += std::abs(a.growth->exponent - system.exponent) <= a.growth->half_width();
             mean += a.growth->exponent;
             chance += a.growth->chance();
@@ -86,10 +88,11 @@ void expect_held(std::size_t points) {
         }
         auto const n = static_cast<double>(found);
         fmt::print(
-            "{:<26} {:>6} samples: {} of {} held, mean {:.4f} for {:.4f}, ± {:.4f} statistical ± {:.4f} systematic\n",
-            system.name, points, held, found, mean / n, system.exponent, chance / n, systematic / n);
+            "{:<26} {:>6} samples: {} of {} held, {} of {} seen told, mean {:.4f} for {:.4f}, ± {:.4f} statistical ± {:.4f} systematic\n",
+            system.name, points, held, found, told, seen, mean / n, system.exponent, chance / n, systematic / n);
         EXPECT_GE(found, 15u) << system.name;
         EXPECT_GE(20 * held, 19 * found) << system.name;
+        EXPECT_GE(20 * told, 19 * seen) << system.name << ": no power of time";
     }
 }
 
