@@ -145,6 +145,8 @@ double foreseen_check(Scene const& scene, std::optional<std::uint64_t> asked, st
 Verification verify(ResultView const& results, Scene const& scene, Backend const& backend,
                     VerificationRequest const& request);
 
+inline constexpr char const* check_was_stopped = "not checked against tighter tolerances: the run was stopped";
+
 /// A study of one member, or of copies of one: its orbit beside those of the checks.
 Verification verify_orbit(Scene const& scene, Backend const& backend, VerificationRequest const& request);
 

@@ -19,7 +19,7 @@ constexpr double least_relative = 1e-3;  // errors of a number that nobody print
 constexpr double most_skewed = 3;        // of numbers whose mean is made by many
 constexpr double most_energy = 0.01;     // made a period of the drive, of what that fall gives
 constexpr double felt = 1e-4;  // of what a fall through the clearance comes to: of smaller differences nobody is warned
-constexpr double rounding = 1e-9;  // of what a fall through the clearance comes to: numbers that are 0 but for that
+constexpr double of_rounding = 1e-9; // of what a fall through the clearance comes to: numbers that are 0 but for that
 
 /// What a number with this unit is on the scale of the joint: of a fall through its clearance.
 double natural_scale(std::string const& unit, Scene const& scene) {
@@ -76,7 +76,7 @@ void describe_study(CheckedNumber& n, Comparison const& c, Scene const& scene) {
         n.unseen = jumps ? 1 : n.spread;
     }
     double const natural = natural_scale(column.unit, scene);
-    n.margin = std::max({n.half_width, least_relative * std::abs(n.value), rounding * natural});
+    n.margin = std::max({n.half_width, least_relative * std::abs(n.value), of_rounding * natural});
     n.least_felt = std::max(n.margin, felt * natural);
 }
 
@@ -127,6 +127,15 @@ Verdict verdict_of(CheckedNumber const& n, Kind kind) {
     return n.spread > 0 && n.error.bound > n.spread ? Verdict::undecided : Verdict::bounded;
 }
 
+/// A number in which all members are alike tells nothing by itself: those that would show it may be missing.  It is resolved where all others are.
+void follow_others(std::vector<CheckedNumber>& numbers, MemberNumbers const& study) {
+    for (CheckedNumber& n : numbers) {
+        if (n.spread > 0 || n.verdict != Verdict::resolved || study.columns[n.column].kind == Kind::contacts) continue;
+        bool const others = std::ranges::all_of(numbers, [&](CheckedNumber const& o) { return o.group != n.group || o.spread == 0 || o.verdict == Verdict::resolved; });
+        if (!others) n.verdict = Verdict::undecided;
+    }
+}
+
 }  // namespace
 
 double fall_energy(Scene const& scene) {
@@ -171,6 +180,7 @@ std::vector<CheckedNumber> check_numbers(Comparison const& c, Scene const& scene
                          is_certain(n.value, n.half_width) && other_sign && n.error.p < 1 - level;
         n.verdict = verdict_of(n, column.kind);
     }
+    follow_others(numbers, c.study);
     return numbers;
 }
 

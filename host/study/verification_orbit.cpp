@@ -59,7 +59,7 @@ Orbit orbit_of(Scene const& scene, FreshRun const& run) {
     EnsemblePlan const plan = ensemble_plan(looked, MemberSet(MemberRange{0, 1}), run.backend, run.threads);
     StopRequest const nobody;
     run_ensemble(plan, run.backend.kernel(scene.parts, plan.request.shadows.count > 0), take,
-                 run.stop != nullptr ? *run.stop : nobody);
+                 run.stop != nullptr ? *run.stop : nobody, run.progress, run.weight);
     auto const end = std::ranges::find_if(orbit.sections, [](double x) { return std::isnan(x); });
     auto const width = static_cast<std::ptrdiff_t>(1 + orbit.states);
     orbit.sections.resize(static_cast<std::size_t>((end - orbit.sections.begin()) / width * width));
@@ -134,7 +134,15 @@ void judge(CheckedNumber& n, std::vector<double> const& differences, std::size_t
 Verification verify_orbit(Scene const& scene, Backend const& backend, VerificationRequest const& request) {
     Verification v;
     v.settings = words_of(scene.integrator);
-    FreshRun const run{backend, request.threads, request.stop};
+    // Each runs for its numbers and once more for its orbit.
+    std::vector<CheckMethod> const methods = check_methods(scene);
+    ProgressTask task{1};
+    task.is_check = true;
+    task.work = 2;
+    for (CheckMethod const& method : methods) task.work += (method.of_exponents ? 1 : 2) * method.cost;
+    StopRequest const nobody;
+    Progress progress(task, request.progress, stderr, request.stop != nullptr ? *request.stop : nobody);
+    FreshRun run{backend, request.threads, request.stop, &progress};
     std::vector<double> const scales = parting_scales(scene);
     double const end = orbit_schedule(scene).end;
     Scene const bare = without_series(scene);
@@ -146,7 +154,10 @@ Verification verify_orbit(Scene const& scene, Backend const& backend, Verificati
     v.again.resize(v.study.columns.size());
     std::vector<char> of_exponents;
     double spent = 0;
-    for (CheckMethod const& method : check_methods(scene)) {
+    auto const stopped = [&] { return request.stop != nullptr && request.stop->reason() != StopReason::none; };
+    for (CheckMethod const& method : methods) {
+        if (stopped()) break;
+        run.weight = method.cost;
         MemberNumbers const numbers = fresh_numbers(method.scene, {0}, run);
         std::size_t const index = v.methods.size();
         v.methods.push_back(method.words);
@@ -159,8 +170,13 @@ Verification verify_orbit(Scene const& scene, Backend const& backend, Verificati
         spent += numbers.total_work();
         if (method.of_exponents) continue;
         Orbit const other = orbit_of(method.scene, run);
+        if (stopped()) break;
         v.orbit->parting = std::min(v.orbit->parting, parting_of(own, other, scales, end));
         v.orbit->sections_before = std::min(v.orbit->sections_before, sections_alike(own, other, scales, end));
+    }
+    if (stopped()) {
+        v.summary = check_was_stopped;
+        return v;
     }
     v.share = spent / v.study.total_work();
     v.numbers = check_numbers({v.study, v.groups, v.pairs, v.again, of_exponents, {1}, 1}, scene);
@@ -178,10 +194,6 @@ Verification verify_orbit(Scene const& scene, Backend const& backend, Verificati
         n.refutes_sign = false;
         if (n.verdict == Verdict::undecided && !differences.empty())
             judge(n, differences, checks, v.orbit->parting <= end);
-    }
-    if (request.stop != nullptr && request.stop->reason() != StopReason::none) {
-        v.summary = "not checked against tighter tolerances: the run was stopped";
-        return v;
     }
     conclude(v, scene, request);
     return v;

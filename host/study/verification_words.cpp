@@ -52,8 +52,10 @@ std::string who_was_cut(Verification const& v) {
     return text;
 }
 
+/// Whether a number speaks for itself: how contacts end, and what all members have alike, are said where they differ.
 bool counts(Verification const& v, CheckedNumber const& n) {
-    return v.study.columns[n.column].kind != MemberNumbers::Kind::contacts || n.verdict == Verdict::not_resolved;
+    bool const speaks = v.study.columns[n.column].kind != MemberNumbers::Kind::contacts && (n.spread > 0 || v.orbit);
+    return speaks || n.verdict == Verdict::not_resolved;
 }
 
 std::string name_of(Verification const& v, CheckedNumber const& n) {
@@ -109,7 +111,7 @@ std::string names_of(Verification const& v, Verdict verdict) {
     constexpr std::size_t most = 24;
     std::vector<std::string> names;
     for (CheckedNumber const& n : v.numbers) {
-        if (n.verdict == verdict && counts(v, n) && v.study.columns[n.column].kind != MemberNumbers::Kind::contacts)
+        if (n.verdict == verdict && counts(v, n))
             names.push_back(name_of(v, n));
     }
     if (names.empty()) return "";
@@ -197,7 +199,7 @@ std::string summarise(Verification const& v, Scene const& scene, VerificationReq
 
 void conclude(Verification& v, Scene const& scene, VerificationRequest const& request) {
     auto const any = [&](Verdict verdict) {
-        return std::ranges::any_of(v.numbers, [&](CheckedNumber const& n) { return n.verdict == verdict; });
+        return std::ranges::any_of(v.numbers, [&](CheckedNumber const& n) { return n.verdict == verdict && counts(v, n); });
     };
     if (any(Verdict::not_resolved) || (v.energy && v.energy->is_too_much))
         v.resolution = Resolution::not_resolved;

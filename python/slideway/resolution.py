@@ -42,7 +42,7 @@ def resolution(result: StrPath | xr.Dataset) -> Resolution | None:
     Returns:
         None where it was not asked: of shards that were merged before all members had run.
 
-    >>> found = slideway.resolution(slideway.example())
+    >>> found = slideway.resolution(example_file)
     >>> found.verdict, bool(found)
     ('not_checked', False)
     """

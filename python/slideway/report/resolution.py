@@ -35,7 +35,7 @@ class Resolution:
 
 def resolution(result: xr.Dataset) -> Resolution | None:
     """Of a result of slideway run; None where it was not asked (merged shards, results of earlier versions)."""
-    found = slideway.resolution(slideway.results.path_of(result))
+    found = slideway.resolution(result)
     if found is None:
         return None
     lines = tuple(line.strip() for line in found.summary.splitlines())
