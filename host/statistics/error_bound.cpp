@@ -39,7 +39,9 @@ ErrorBound error_bound(std::span<double const> differences, std::uint64_t member
     bound.difference = summary.count > 0 ? summary.mean : nan;
     bound.half_width = summary.count == 1 && members == 1 ? 0 : mean_interval(summary).half_width();
     bound.unseen = unseen_share(summary.count, members) * (members == 1 ? 0 : spread);
-    double const seen = std::abs(bound.difference) + bound.half_width;
+    // At 95 % one in forty of the errors just above a bound would hide below it.
+    double const reach = bound.half_width == 0 ? 0 : mean_interval(summary, 0.99).half_width();
+    double const seen = std::abs(bound.difference) + reach;
     bound.bound = std::isnan(seen + bound.unseen) ? nan : std::max(seen, bound.unseen);
     bound.p = paired_t_p(summary, grain);
     return bound;

@@ -15,7 +15,7 @@ struct ErrorBound {
     double
         half_width;  // of its 95 % interval, by Student's t; 0 where all members are pairs and there is one; NaN of one pair of several
     double unseen;  // what members that are no pairs may add, though no pair has shown it
-    double bound;   // x = max(|difference| + half_width, unseen); NaN where one of them is
+    double bound;   // x = max(|difference| + half of its 99 % interval, unseen); NaN where one of them is
     double
         p;  // of a mean difference as large if there were none: paired t-test (Student 1908); NaN of fewer than two pairs
 };

@@ -161,7 +161,9 @@ private:
             members.push_back(v_.members[row]);
             own.push_back(v_.study.work[row]);
         }
-        std::vector<std::uint64_t> const most = request_.members ? std::vector<std::uint64_t>{} : most_steps(method, own);
+        // Of a fixed step nobody takes more than was foreseen.
+        bool const bounded = !request_.members && !has_fixed_step(methods_[method].scene.integrator.method);
+        std::vector<std::uint64_t> const most = bounded ? most_steps(method, own) : std::vector<std::uint64_t>{};
         MemberNumbers const numbers = run_again(methods_[method].scene, members, most, methods_[method].cost);
         if (stored_ != nullptr) add_end_contacts(v_.study, *stored_, scene_, rows);
         keep(method, rows, numbers, again);
@@ -301,8 +303,10 @@ Verification verify(ResultView const& results, Scene const& scene, Backend const
         return not_checked(stored ? "no member ran" : "members are not stored; run --verify does it");
     check.run();
     if (check.stopped()) return not_checked("the run was stopped");
-    if (v.pairs.empty())
-        return not_checked("a tenth of the study's work is not enough for six members; run --verify does it");
+    if (v.pairs.empty()) {
+        bool const nobody = std::ranges::count(v.study.finished, 1) == 0;
+        return not_checked(nobody ? "no member finished" : "a tenth of the study's work is not enough for six members; run --verify does it");
+    }
     conclude(v, scene, request);
     return v;
 }

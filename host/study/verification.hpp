@@ -61,6 +61,7 @@ struct CheckedNumber {
     double margin;             // errors below it do not count
     double least_felt;         // differences below it are bounded, and no alarm: margin or more
     ErrorBound error;
+    bool two_methods = false;  // each has a quarter of the pairs or more: one alone may err as the study does
     double p = 1;              // of a difference by chance, adjusted for all that were looked at (Holm)
     std::size_t cut = 0;       // members that ran again and did not come to their end
     bool refutes_sign = false;  // of an exponent: certain in the study, and not so, or the other, here

@@ -37,8 +37,10 @@ Method tightened_method(Scene const& scene) {
 Method other_method(Method own) { return own == Method::verner65 ? Method::dop853 : Method::verner65; }
 
 /// Right-hand sides of a member beside those at the study's own settings, as found for settled and rattling sliders (docs/integrators.md).
-double cost_of(Method study, Method check) {
-    bool const high_order = study == Method::dopri5 || study == Method::dop853 || study == Method::verner65;
+double cost_of(Parts const& parts, Method study, Method check) {
+    // Without a stiff method `auto` is dopri5.
+    bool const is_dopri5 = study == Method::automatic && !may_be_stiff(parts);
+    bool const high_order = is_dopri5 || study == Method::dopri5 || study == Method::dop853 || study == Method::verner65;
     if (study == check) return high_order ? 2.5 : 4;
     if (check == Method::automatic) return 1;  // a fifth in lasting contact, four times in impacts
     return high_order ? 3 : 10;
@@ -81,7 +83,7 @@ std::vector<CheckMethod> check_methods(Scene const& scene) {
         tighten(tight.integrator);
         tight.integrator.locate_modes = tight.integrator.locate_modes || locates;
     }
-    add(tight, cost_of(own, tight.integrator.method), has_fixed_step(own) ? "" : located);
+    add(tight, cost_of(scene.parts, own, tight.integrator.method), has_fixed_step(own) ? "" : located);
 
     Scene other = bare;
     other.integrator.method = other_method(own);
@@ -93,7 +95,7 @@ std::vector<CheckMethod> check_methods(Scene const& scene) {
     }
     tighten(other.integrator);
     other.integrator.locate_modes = other.integrator.locate_modes || locates;
-    add(other, cost_of(own, other.integrator.method), located);
+    add(other, cost_of(scene.parts, own, other.integrator.method), located);
 
     if (scene.chaos.exponents > 0 && !runs_to_end(scene.study)) {
         Scene wide = bare;

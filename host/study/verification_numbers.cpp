@@ -1,5 +1,6 @@
 // What the study says of its members beside what they say when they run again.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "host/base/numbers.hpp"
@@ -114,7 +115,13 @@ void bound_error(CheckedNumber& n, Comparison const& c, std::vector<double>& p) 
         n.error.difference = of_method.difference;
         n.error.bound = std::max(n.error.bound, largest);
     }
-    for (CheckPair const& pair : c.pairs) n.cut += !pair.finished && c.groups[n.group].has[pair.row];
+    std::array<std::size_t, 2> by{};  // the first two methods are of all numbers
+    for (CheckPair const& pair : c.pairs) {
+        if (!c.groups[n.group].has[pair.row]) continue;
+        n.cut += !pair.finished;
+        if (pair.finished && pair.method < by.size()) ++by[pair.method];
+    }
+    n.two_methods = 4 * std::min(by[0], by[1]) >= by[0] + by[1];
 }
 
 Verdict verdict_of(CheckedNumber const& n, Kind kind) {
@@ -123,7 +130,7 @@ Verdict verdict_of(CheckedNumber const& n, Kind kind) {
     // How contacts end is said of nobody: it tells that something differs, or nothing.
     if (kind == Kind::contacts) return Verdict::resolved;
     if (n.cut > 0 || std::isnan(n.error.bound)) return Verdict::undecided;
-    if (n.error.bound <= n.margin) return Verdict::resolved;
+    if (n.error.bound <= n.margin && n.two_methods) return Verdict::resolved;
     return n.spread > 0 && n.error.bound > n.spread ? Verdict::undecided : Verdict::bounded;
 }
 

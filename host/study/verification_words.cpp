@@ -82,6 +82,7 @@ std::string line_of(Verification const& v, CheckedNumber const& n) {
         text += ", undecided: fewer than two of its members ran again";
     } else {
         text += fmt::format(", error at most {:.2g}{}", n.error.bound, shown);
+        if (n.verdict == Verdict::bounded && n.error.bound <= n.margin) text += " by one method alone";
         if (n.verdict == Verdict::undecided)
             text += v.orbit ? ": undecided" : ": undecided, for its members scatter by no more";
     }

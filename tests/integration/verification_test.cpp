@@ -102,6 +102,24 @@ TEST(Verdict, IsUndecidedWhereMembersWereCutShort) {
     EXPECT_EQ(found.error.pairs, 39u);
 }
 
+TEST(Verdict, NamesMembersThatWereCutShort) {
+    Verification v;
+    v.methods = {"auto at rtol 1e-08", "verner65 at rtol 1e-08"};
+    v.cut = {1, 3};
+    v.study.columns.push_back({"column", "N", Kind::quantity, {1, 2, 3, 4}});
+    v.study.finished = {1, 1, 1, 1};
+    v.members = {100, 101, 102, 103};
+    v.groups = {{"", {1, 1, 1, 1}}};
+    v.pairs = {{0, 0, true}, {1, 1, true}, {2, 0, false}};
+    v.again = {{1, 2, nan}};
+    v.numbers = check_numbers({v.study, v.groups, v.pairs, v.again, {0, 0}, {1, 1, 1, 1}, 4}, scene());
+    conclude(v, scene(), {});
+    EXPECT_EQ(v.resolution, Resolution::undecided);
+    EXPECT_TRUE(v.summary.starts_with("undecided: 2 members again")) << v.summary;
+    EXPECT_TRUE(contains(v.summary, "cut short: member 102")) << v.summary;
+    EXPECT_TRUE(contains(v.summary, "verner65 at rtol 1e-08 took too long for 3 of them")) << v.summary;
+}
+
 TEST(Verdict, IsNotResolvedByFewPairsThatSeeNothing) {
     // The margin is 0.98; six pairs leave room for 0.39 of the members, at 10 each.
     auto const own = draws(100, 10, 1);

@@ -20,7 +20,8 @@ TEST(ErrorBound, IsOfStudentsPairedInterval) {
     EXPECT_EQ(bound.pairs, 10u);
     EXPECT_NEAR(bound.difference, 1.58, 1e-12);
     EXPECT_NEAR(bound.half_width, 0.8798858, 1e-6);
-    EXPECT_NEAR(bound.bound, 2.4598858, 1e-6);
+    // Its 99 % interval: t = 3.2498355 in place of 2.2621572.
+    EXPECT_NEAR(bound.bound, 1.58 + 0.8798858 * 3.2498355 / 2.2621572, 1e-5);
     EXPECT_NEAR(bound.p, 0.002833, 1e-6);
 }
 
