@@ -1,7 +1,6 @@
 // Whether numbers of members differ by more than the error that each of them has.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 
@@ -15,16 +14,13 @@ namespace slideway {
 /// left is their rounding, and has no size of its own to be compared with.
 double least_energy(Scene const& scene);
 
-/// Error of a column's numbers, in its unit: what was measured, but no less than their rounding, 1e-12; else 1e-6, the default tolerance,
-/// of the largest magnitude.  Of energies at least that share of a fall through the clearance.
-/// @param measured_error of one number of the column, by running members again
-double error_of_column(QuantityColumn const& column, std::span<double const> values, Scene const& scene,
-                       std::optional<double> measured_error = std::nullopt);
+/// Error of a column's numbers, in its unit: 1e-6, the default tolerance, of the largest magnitude.  Of energies at least that share of a fall
+/// through the clearance.
+double error_of_column(QuantityColumn const& column, std::span<double const> values, Scene const& scene);
 
 /// Why sensitivities of a column would be those of rounding: its standard deviation is no more than its numbers' error, or it is that
 /// error (the energy residual of a law that makes no energy).  "" where it varies by more, or is not finite.
 /// @param values of members; NaN are left out
-std::string why_no_sensitivity(QuantityColumn const& column, std::span<double const> values, Scene const& scene,
-                               std::optional<double> measured_error = std::nullopt);
+std::string why_no_sensitivity(QuantityColumn const& column, std::span<double const> values, Scene const& scene);
 
 }  // namespace slideway

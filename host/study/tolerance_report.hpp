@@ -86,8 +86,6 @@ struct ReportSettings {
     /// Members that take part in correlations, at most: of more, as many that the scene's seed chooses at random.
     std::size_t most_correlated = std::size_t{1} << 20;
     std::function<void()> pause = [] {};  // called now and then; what it throws ends the report
-    /// Error of a number of a column, where members were run again: no index is given of what varies by less.
-    std::function<std::optional<double>(QuantityColumn const&)> measured_error = [](QuantityColumn const&) { return std::nullopt; };
 };
 
 /// Statistics of a result of the study `tolerance`, by this policy:

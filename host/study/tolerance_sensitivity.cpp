@@ -71,7 +71,7 @@ std::vector<double> taken(std::vector<double> const& values, std::vector<std::si
 
 /// Numbers that are the same but for their error become so.  @return why; "" where they are not
 std::string equal_within_error(std::vector<double>& values, QuantityColumn const& column, Scene const& scene, ReportSettings const& settings) {
-    std::string why = why_no_sensitivity(column, values, scene, settings.measured_error(column));
+    std::string why = why_no_sensitivity(column, values, scene);
     if (!why.empty()) std::ranges::replace_if(values, [](double x) { return !std::isnan(x); }, 0.0);
     return why;
 }

@@ -53,13 +53,6 @@ TEST(NoiseFloor, OfEnergiesIsAMillionthOfAFall) {
     EXPECT_NE(why_no_sensitivity(loss, alternating(1, 9e-7), falling()), "") << "of larger numbers that of the numbers";
 }
 
-TEST(NoiseFloor, IsWhatWasMeasuredIfItWas) {
-    QuantityColumn const force = named("peak_normal_force", "N");
-    EXPECT_NE(why_no_sensitivity(force, alternating(3, 0.01), falling(), 0.02), "");
-    EXPECT_EQ(why_no_sensitivity(force, alternating(3, 1e-7), falling(), 1e-8), "");
-    EXPECT_NE(why_no_sensitivity(force, alternating(3, 1e-13), falling(), 0.0), "") << "rounding is left";
-}
-
 TEST(NoiseFloor, OfAResidualIsAllOfItWhereTheLawMakesNoEnergy) {
     QuantityColumn const residual = named("energy_residual", "J");
     EXPECT_EQ(why_no_sensitivity(residual, alternating(1e-6, 1e-6), falling()), "is the integration's error");
