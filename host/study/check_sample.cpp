@@ -47,8 +47,12 @@ std::vector<MemberGroup> member_groups(ToleranceMembers const& members, Scene co
         std::ranges::move(found, std::back_inserter(groups));
     };
     if (scene.study == StudyKind::sweep) add(*scene.chaos.parameter, members.size());
+    // Starts of a sweep come again in each column, and rows of a table may: they are no values that the study is about.
     std::size_t const most = std::min(most_values, groups.front().size() / 2);
-    for (Variation const& variation : scene.variations) add(*variation.key, most);
+    for (Variation const& variation : scene.variations) {
+        bool const is_list = variation.column == Variation::no_column && variation.distribution.kind == Distribution::Kind::values;
+        if (is_list || scene.design.kind == DesignKind::grid) add(*variation.key, most);
+    }
     return groups;
 }
 

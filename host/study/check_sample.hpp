@@ -20,7 +20,7 @@ struct MemberGroup {
     std::size_t size() const;
 };
 
-/// All, and behind it one for each value of whatever takes few: the parameter of a sweep, and what varies with at most `most_values` of them, that is
+/// All, and behind it one for each value of whatever takes few: the parameter of a sweep, lists and grids with at most `most_values` of them, that is
 /// two members or more to each on average.
 /// @param rows those of the members that finished, which alone count
 std::vector<MemberGroup> member_groups(ToleranceMembers const& members, Scene const& scene);

@@ -70,7 +70,7 @@ std::vector<double> taken(std::vector<double> const& values, std::vector<std::si
 }
 
 /// Numbers that are the same but for their error become so.  @return why; "" where they are not
-std::string equal_within_error(std::vector<double>& values, QuantityColumn const& column, Scene const& scene, ReportSettings const& settings) {
+std::string equal_within_error(std::vector<double>& values, QuantityColumn const& column, Scene const& scene) {
     std::string why = why_no_sensitivity(column, values, scene);
     if (!why.empty()) std::ranges::replace_if(values, [](double x) { return !std::isnan(x); }, 0.0);
     return why;
@@ -120,7 +120,7 @@ IndexReport index_report(ToleranceMembers const& members, Scene const& scene, st
                 radial.insert(radial.end(), from, from + static_cast<std::ptrdiff_t>(width));
             }
         }
-        std::string why_none = equal_within_error(radial, column, scene, settings);
+        std::string why_none = equal_within_error(radial, column, scene);
         BootstrapSettings bootstrap;
         bootstrap.level = confidence_level;
         bootstrap.seed = scene.seed;
@@ -148,7 +148,7 @@ std::vector<ColumnCorrelations> correlation_report(ToleranceMembers const& membe
     for (QuantityColumn const& column : columns) {
         settings.pause();
         std::vector<double> output = taken(members.column(column.quantity, column.index), used);
-        std::string why_none = equal_within_error(output, column, scene, settings);
+        std::string why_none = equal_within_error(output, column, scene);
         report.push_back(correlations_of({column, std::move(why_none), 0, {}, {}, {}}, inputs, std::move(output), independent));
     }
     return report;

@@ -72,7 +72,7 @@ public:
     /// Of a study that keeps no members: some run in the study's way, and stand for all.
     void run_some_anew() {
         all_ = member_count(scene_);
-        double const of_a_member = 1 + at_hand * methods_.front().cost;
+        double const of_a_member = 1 + 0.5 * at_hand * methods_.front().cost;
         auto const affordable = static_cast<std::uint64_t>(of_the_study * static_cast<double>(all_) / of_a_member);
         auto const most = static_cast<std::size_t>(std::min(all_, request_.members.value_or(affordable)));
         std::vector<std::size_t> everybody(most);
@@ -98,6 +98,9 @@ public:
     }
 
     double total() const { return total_; }
+    bool compares() const {
+        return std::ranges::any_of(v_.study.columns, [](auto const& one) { return one.kind != MemberNumbers::Kind::contacts; });
+    }
 
     /// Adds members until every number is decided, or there is no more to be had.
     void run() {
@@ -227,8 +230,9 @@ private:
     }
 
     bool is_decided() const {
-        return std::ranges::all_of(v_.numbers, [](CheckedNumber const& n) {
-            return n.verdict == Verdict::resolved || n.verdict == Verdict::not_resolved;
+        return std::ranges::all_of(v_.numbers, [&](CheckedNumber const& n) {
+            return n.verdict == Verdict::resolved || n.verdict == Verdict::not_resolved ||
+                   v_.study.columns[n.column].kind == MemberNumbers::Kind::contacts;
         });
     }
 
@@ -256,7 +260,10 @@ bool runs_members_anew(std::optional<std::uint64_t> asked, std::uint64_t all) {
 
 /// Nothing varies: all members are one.
 bool is_one_member(Scene const& scene) {
-    return member_count(scene) == 1 || (scene.variations.empty() && scene.study != StudyKind::sweep);
+    bool const varies = std::ranges::any_of(scene.variations, [](Variation const& one) {
+        return one.column != Variation::no_column || one.distribution.kind != Distribution::Kind::constant;
+    });
+    return member_count(scene) == 1 || (!varies && scene.study != StudyKind::sweep);
 }
 
 }  // namespace
@@ -301,6 +308,7 @@ Verification verify(ResultView const& results, Scene const& scene, Backend const
     }
     if (!(check.total() > 0))
         return not_checked(stored ? "no member ran" : "members are not stored; run --verify does it");
+    if (!check.compares()) return not_checked("the study has no number that is compared: ask for study.quantities");
     check.run();
     if (check.stopped()) return not_checked("the run was stopped");
     if (v.pairs.empty()) {

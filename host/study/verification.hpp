@@ -30,6 +30,8 @@ struct CheckMethod {
 
 /// What a check makes of rtol and atol.
 inline constexpr double check_tightening = 0.01;
+/// Tolerances above may not be the equations' yet, whatever they are a hundredth of.
+inline constexpr double coarsest_check = 1e-6;
 
 /// How a study is checked.  First by its own method with a hundredth of the tolerance, at most 1e-6 (a quarter of a fixed step); an explicit one by `auto` where that
 /// has a stiff method.  Second by an explicit method that neither the study nor `auto` takes; where exponents are asked for also by the study's own

@@ -11,8 +11,6 @@ namespace {
 
 /// Tolerances below are beyond what doubles resolve.
 constexpr double least_tolerance = 1e-13;
-/// And those above may not be the equations' yet.
-constexpr double coarsest_check = 1e-6;
 /// How much smaller a fixed step is, and of neighbours how much farther they start.
 constexpr double fewer_steps = 0.25, farther = 10;
 
@@ -43,7 +41,7 @@ double cost_of(Parts const& parts, Method study, Method check) {
     bool const high_order = is_dopri5 || study == Method::dopri5 || study == Method::dop853 || study == Method::verner65;
     if (study == check) return high_order ? 2.5 : 4;
     if (check == Method::automatic) return 1;  // a fifth in lasting contact, four times in impacts
-    return high_order ? 3 : 10;
+    return high_order || !may_be_stiff(parts) ? 3 : 10;
 }
 
 }  // namespace

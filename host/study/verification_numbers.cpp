@@ -79,6 +79,9 @@ void describe_study(CheckedNumber& n, Comparison const& c, Scene const& scene) {
     double const natural = natural_scale(column.unit, scene);
     n.margin = std::max({n.half_width, least_relative * std::abs(n.value), of_rounding * natural});
     n.least_felt = std::max(n.margin, felt * natural);
+    // What scatters by rounding does not scatter.
+    double const largest = std::max(std::abs(summary.min), std::abs(summary.max));
+    if (n.spread <= of_rounding * std::max(natural, largest)) n.spread = n.unseen = 0;
 }
 
 /// Differences of a group's pairs, check less study; of one method, or of all that count for the column.
@@ -110,7 +113,10 @@ void bound_error(CheckedNumber& n, Comparison const& c, std::vector<double>& p) 
         ErrorBound const of_method =
             error_bound(differences(c, n, static_cast<std::ptrdiff_t>(method)), members, n.unseen, grain);
         p.push_back(of_method.pairs >= least_members ? of_method.p : nan);
-        if (of_method.pairs < 2 || !(std::abs(of_method.difference) > largest)) continue;
+        // Offsets that collapse into rounding tell nothing but that they collapse.
+        bool const collapse = c.of_exponents[method] && n.value < 0 && n.value + of_method.difference < 0;
+        if (collapse) p.back() = nan;
+        if (collapse || of_method.pairs < 2 || !(std::abs(of_method.difference) > largest)) continue;
         largest = std::abs(of_method.difference);
         n.error.difference = of_method.difference;
         n.error.bound = std::max(n.error.bound, largest);
@@ -124,22 +130,34 @@ void bound_error(CheckedNumber& n, Comparison const& c, std::vector<double>& p) 
     n.two_methods = 4 * std::min(by[0], by[1]) >= by[0] + by[1];
 }
 
-Verdict verdict_of(CheckedNumber const& n, Kind kind) {
+/// Whether those that ran again are not certain of the sign of the study's mean, by their own interval.
+bool has_other_sign(CheckedNumber const& n, Comparison const& c) {
+    std::vector<double> again;
+    for (std::size_t i = 0; i < c.pairs.size(); ++i) {
+        if (c.groups[n.group].has[c.pairs[i].row]) again.push_back(c.again[n.column][i]);
+    }
+    Summary const summary = summarise(again);
+    if (summary.count < least_members) return false;
+    return n.value * summary.mean < 0 || !is_certain(summary.mean, mean_interval(summary, level).half_width());
+}
+
+Verdict verdict_of(CheckedNumber const& n) {
     bool const differs = n.refutes_sign || (n.p < false_alarms && std::abs(n.error.difference) > n.least_felt);
     if (differs) return Verdict::not_resolved;
-    // How contacts end is said of nobody: it tells that something differs, or nothing.
-    if (kind == Kind::contacts) return Verdict::resolved;
     if (n.cut > 0 || std::isnan(n.error.bound)) return Verdict::undecided;
     if (n.error.bound <= n.margin && n.two_methods) return Verdict::resolved;
     return n.spread > 0 && n.error.bound > n.spread ? Verdict::undecided : Verdict::bounded;
 }
 
-/// A number in which all members are alike tells nothing by itself: those that would show it may be missing.  It is resolved where all others are.
-void follow_others(std::vector<CheckedNumber>& numbers, MemberNumbers const& study) {
+/// A number in which all members are alike tells nothing by itself: those that would show it may be missing.  It is worth what the others are.
+void follow_others(std::vector<CheckedNumber>& numbers, Comparison const& c) {
+    auto const is_alike = [](CheckedNumber const& n) { return n.spread == 0 && n.verdict == Verdict::resolved; };
+    std::vector<Verdict> worst(c.groups.size(), Verdict::resolved);
+    for (CheckedNumber const& n : numbers) {
+        if (c.study.columns[n.column].kind != Kind::contacts && !is_alike(n)) worst[n.group] = std::max(worst[n.group], n.verdict);
+    }
     for (CheckedNumber& n : numbers) {
-        if (n.spread > 0 || n.verdict != Verdict::resolved || study.columns[n.column].kind == Kind::contacts) continue;
-        bool const others = std::ranges::all_of(numbers, [&](CheckedNumber const& o) { return o.group != n.group || o.spread == 0 || o.verdict == Verdict::resolved; });
-        if (!others) n.verdict = Verdict::undecided;
+        if (is_alike(n)) n.verdict = std::min(worst[n.group], Verdict::undecided);
     }
 }
 
@@ -180,14 +198,10 @@ std::vector<CheckedNumber> check_numbers(Comparison const& c, Scene const& scene
         CheckedNumber& n = numbers[i];
         for (std::size_t test = 0; test < tests; ++test) n.p = std::fmin(n.p, adjusted[i * tests + test]);
         auto const& column = c.study.columns[n.column];
-        // A sign is what is said of an exponent first: it needs no adjustment for all the other numbers.
-        double const again = n.value + n.error.difference;
-        bool const other_sign = n.value * again < 0 || !is_certain(again, n.half_width + n.error.half_width);
-        n.refutes_sign = column.kind == Kind::exponent && n.error.pairs >= least_members &&
-                         is_certain(n.value, n.half_width) && other_sign && n.error.p < 1 - level;
-        n.verdict = verdict_of(n, column.kind);
+        n.refutes_sign = column.kind == Kind::exponent && is_certain(n.value, n.half_width) && n.p < 1 - level && has_other_sign(n, c);
+        n.verdict = verdict_of(n);
     }
-    follow_others(numbers, c.study);
+    follow_others(numbers, c);
     return numbers;
 }
 

@@ -23,7 +23,7 @@ std::string who_ran(Verification const& v) {
     std::size_t ran = 0;
     for (std::size_t method = 0; method < v.methods.size(); ++method) {
         std::size_t const count = pairs_by(v, method);
-        ran += count;
+        if (method < 2 || v.orbit) ran += count;
         if (count > 0) by.push_back(fmt::format("{} by {}", count, v.methods[method]));
     }
     return fmt::format("{} member{} again, {} ({:.2g} % of the study's work)", ran, ran == 1 ? "" : "s",
@@ -47,16 +47,18 @@ std::string who_was_cut(Verification const& v) {
     }
     for (std::size_t method = 0; method < v.cut.size(); ++method) {
         if (v.cut[method] > 0 && !v.orbit)
-            text += fmt::format("\n  {} took too long for {} of them", v.methods[method], v.cut[method]);
+            text += fmt::format("\n  {} did not bring {} of them to their end", v.methods[method], v.cut[method]);
     }
     return text;
 }
 
-/// Whether a number speaks for itself: how contacts end, and what all members have alike, are said where they differ.
+/// How contacts end is said of nobody: it counts where it tells that something differs.
 bool counts(Verification const& v, CheckedNumber const& n) {
-    bool const speaks = v.study.columns[n.column].kind != MemberNumbers::Kind::contacts && (n.spread > 0 || v.orbit);
-    return speaks || n.verdict == Verdict::not_resolved;
+    return v.study.columns[n.column].kind != MemberNumbers::Kind::contacts || n.verdict == Verdict::not_resolved;
 }
+
+/// A number that is not resolved because others are not (follow_others).
+bool follows(CheckedNumber const& n) { return n.spread == 0 && n.error.bound <= n.margin; }
 
 std::string name_of(Verification const& v, CheckedNumber const& n) {
     auto const& column = v.study.columns[n.column];
@@ -94,7 +96,7 @@ std::string lines_of(Verification const& v, Verdict verdict) {
     constexpr std::size_t most = 12;
     std::vector<CheckedNumber const*> found;
     for (CheckedNumber const& n : v.numbers) {
-        if (n.verdict == verdict && counts(v, n)) found.push_back(&n);
+        if (n.verdict == verdict && counts(v, n) && !(verdict != Verdict::resolved && follows(n))) found.push_back(&n);
     }
     std::ranges::stable_sort(found, [](auto const* a, auto const* b) {
         double const x = a->error.bound / a->margin, y = b->error.bound / b->margin;
@@ -124,8 +126,8 @@ std::string names_of(Verification const& v, Verdict verdict) {
 
 std::string remedy(Verification const& v, Scene const& scene) {
     if (has_fixed_step(scene.integrator.method)) return "use a smaller integrator.step, or method = \"auto\"";
-    std::string const tighter =
-        fmt::format("integrator.rtol = {:.0e} and atol likewise", check_tightening * scene.integrator.rtol);
+    double const rtol = std::min(check_tightening * scene.integrator.rtol, coarsest_check);
+    std::string const tighter = fmt::format("integrator.rtol = {:.0e} and atol likewise", rtol);
     bool const own =
         scene.integrator.method == Method::automatic || v.methods.front().starts_with(name_of(scene.integrator.method));
     return own ? "use " + tighter : fmt::format("use {}, or method = \"auto\"", tighter);
@@ -202,9 +204,10 @@ void conclude(Verification& v, Scene const& scene, VerificationRequest const& re
     auto const any = [&](Verdict verdict) {
         return std::ranges::any_of(v.numbers, [&](CheckedNumber const& n) { return n.verdict == verdict && counts(v, n); });
     };
+    bool const parts = v.orbit && (v.orbit->parting <= v.orbit->end || v.orbit->sections_before < v.orbit->sections);
     if (any(Verdict::not_resolved) || (v.energy && v.energy->is_too_much))
         v.resolution = Resolution::not_resolved;
-    else if (any(Verdict::undecided))
+    else if (any(Verdict::undecided) || parts)
         v.resolution = Resolution::undecided;
     else
         v.resolution = any(Verdict::bounded) ? Resolution::bounded : Resolution::resolved;

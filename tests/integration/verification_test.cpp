@@ -117,7 +117,7 @@ TEST(Verdict, NamesMembersThatWereCutShort) {
     EXPECT_EQ(v.resolution, Resolution::undecided);
     EXPECT_TRUE(v.summary.starts_with("undecided: 2 members again")) << v.summary;
     EXPECT_TRUE(contains(v.summary, "cut short: member 102")) << v.summary;
-    EXPECT_TRUE(contains(v.summary, "verner65 at rtol 1e-08 took too long for 3 of them")) << v.summary;
+    EXPECT_TRUE(contains(v.summary, "verner65 at rtol 1e-08 did not bring 3 of them to their end")) << v.summary;
 }
 
 TEST(Verdict, IsNotResolvedByFewPairsThatSeeNothing) {
