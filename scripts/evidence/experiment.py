@@ -20,8 +20,7 @@ class Size:
     turns: float = 1.0
     exponents: int = 16
     draws: int = 240
-    studies: int = 200
-    verify: int | None = 16
+    verify: int | None = 48
     laws: tuple[str, ...] | None = None
 
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+import slideway
+import xarray as xr
 from evidence.__main__ import page, text
 from evidence.experiment import Experiment
-from evidence.experiments import EXPERIMENTS, SIZES, fall
+from evidence.experiments import EXPERIMENTS, SIZES, fall, resolution
 from evidence.loop import loop
 from reproduction.runs import Laboratory
 
@@ -54,3 +56,17 @@ def test_a_loop_of_poses_gives_work_under_the_published_law_alone(made: dict[str
     for name in sharings:
         assert rows[name][0] == pytest.approx(-rows[name][1], rel=1e-6)
         assert rows[name][0] > 1e-5
+
+
+def test_errors_are_told_as_shares_of_their_numbers_with_the_verdict_where_it_is_another(monkeypatch: pytest.MonkeyPatch) -> None:
+    names = ["landings [1]", "loss [J]", "flight [s]", "rest [s]"]
+    verdicts = ["error_bounded", "resolved", "undecided", "not_resolved"]
+    values = {"number": [40.0, 1.0, -2.0, 0.5], "error_bound": [2.0, 0.001, 3.0, 0.1]}
+    numbers = xr.Dataset(
+        {name: (("members_of", "checked"), [row]) for name, row in {**values, "verdict": verdicts}.items()},
+        {"members_of": ["all members"], "checked": names},
+    )
+    said = slideway.Resolution("not_resolved", "", numbers)
+    monkeypatch.setattr(slideway, "resolution", lambda path: said)
+    assert resolution(Path("any"), "landings", "loss", "flight", "rest") == "5.0 %; resolved; 150 % (undecided); 20 % (not resolved)"
+    assert resolution(Path("any")) == "not resolved"
