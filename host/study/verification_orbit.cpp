@@ -133,6 +133,25 @@ void judge(CheckedNumber& n, std::vector<double> const& differences, std::size_t
                                                    : Verdict::bounded;
 }
 
+/// Each number by what the checks that are of it say.
+void judge_numbers(Verification& v, std::vector<char> const& of_exponents) {
+    for (CheckedNumber& n : v.numbers) {
+        auto const& column = v.study.columns[n.column];
+        std::vector<double> differences;
+        std::size_t checks = 0;
+        for (CheckPair const& pair : v.pairs) {
+            if (of_exponents[pair.method] && column.kind != MemberNumbers::Kind::exponent) continue;
+            ++checks;
+            double const difference = v.again[n.column][pair.method] - column.values[0];
+            if (!std::isnan(difference)) differences.push_back(difference);
+        }
+        n.verdict = column.kind == MemberNumbers::Kind::contacts ? Verdict::resolved : Verdict::undecided;
+        n.refutes_sign = false;
+        if (n.verdict == Verdict::undecided && !differences.empty())
+            judge(n, differences, checks, v.orbit->parting <= v.orbit->end);
+    }
+}
+
 }  // namespace
 
 Verification verify_orbit(Scene const& scene, Backend const& backend, VerificationRequest const& request) {
@@ -188,21 +207,7 @@ Verification verify_orbit(Scene const& scene, Backend const& backend, Verificati
     }
     v.share = spent / v.study.total_work();
     v.numbers = check_numbers({v.study, v.groups, v.pairs, v.again, of_exponents, {1}, 1}, scene);
-    for (CheckedNumber& n : v.numbers) {
-        auto const& column = v.study.columns[n.column];
-        std::vector<double> differences;
-        std::size_t checks = 0;
-        for (CheckPair const& pair : v.pairs) {
-            if (of_exponents[pair.method] && column.kind != MemberNumbers::Kind::exponent) continue;
-            ++checks;
-            double const difference = v.again[n.column][pair.method] - column.values[0];
-            if (!std::isnan(difference)) differences.push_back(difference);
-        }
-        n.verdict = column.kind == MemberNumbers::Kind::contacts ? Verdict::resolved : Verdict::undecided;
-        n.refutes_sign = false;
-        if (n.verdict == Verdict::undecided && !differences.empty())
-            judge(n, differences, checks, v.orbit->parting <= end);
-    }
+    judge_numbers(v, of_exponents);
     conclude(v, scene, request);
     return v;
 }
