@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "host/base/numbers.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/orbit_schedule.hpp"
 
@@ -164,8 +165,9 @@ private:
             members.push_back(v_.members[row]);
             own.push_back(v_.study.work[row]);
         }
-        // Of a fixed step nobody takes more than was foreseen.
-        bool const bounded = !request_.members && !has_fixed_step(methods_[method].scene.integrator.method);
+        // Of a fixed step nobody takes more than was foreseen; whom another method left to it, only as far as that is there.
+        bool const fixed = has_fixed_step(methods_[method].scene.integrator.method), bounded = !request_.members && !fixed;
+        if (again && fixed && !request_.members && methods_[method].cost * sum(own) > left_) return give_up(method, rows);
         std::vector<std::uint64_t> const most = bounded ? most_steps(method, own) : std::vector<std::uint64_t>{};
         MemberNumbers const numbers = run_again(methods_[method].scene, members, most, methods_[method].cost);
         if (stored_ != nullptr) add_end_contacts(v_.study, *stored_, scene_, rows);
@@ -189,6 +191,15 @@ private:
         std::vector<std::uint64_t> most;
         for (double const bound : bounds) most.push_back(static_cast<std::uint64_t>(std::clamp(per_own * bound / of_a_step, 1.0, 1e18)));
         return most;
+    }
+
+    /// Members that nobody brings to their end.
+    void give_up(std::size_t method, std::vector<std::size_t> const& rows) {
+        v_.again.resize(v_.study.columns.size());
+        for (std::size_t const row : rows) {
+            v_.pairs.push_back({row, method, false});
+            for (auto& column : v_.again) column.push_back(nan);
+        }
     }
 
     /// A pair for each member that came to its end, and for those that no method has brought there.
