@@ -172,9 +172,9 @@ std::string reach_of(Verification const& v, VerificationRequest const& request) 
     std::string text =
         fmt::format("\n  the largest bound is {:.2g} of its members' standard deviation, {:.2g} of its interval",
                     of_spread, of_interval);
-    // Where orbits part, pairs are as good as independent, and √2 of a mean's interval is what a repeat of all comes to.
+    // Where orbits part, pairs are as good as independent, and a repeat of all comes to 2.58 √2/1.96 of a mean's interval.
     if (!request.members)
-        text += "; run --verify repeats all members if need be: where orbits part, some 1.4 intervals";
+        text += "; run --verify repeats all members if need be: where orbits part, some 1.9 intervals";
     return text;
 }
 
