@@ -130,7 +130,7 @@ def test_lines_that_a_program_does_not_print_are_found() -> None:
     assert missing(["a b", "c"], "a  b\nd\nc\n") == []
     assert missing(["a b", "cost 3 s", "e"], "a  b\nd\nc\n") == ["e"]
     assert missing(["c", "a b"], "a  b\nd\nc\n") == ["a b"]
-    assert [command.split()[1] for command, shown in transcripts("docs/tutorial.md")] == ["check", "run", "info", "stats", "report", "run", "run"]
+    assert [command.split()[1] for command, shown in transcripts("docs/tutorial.md")] == ["check", "run", "info", "stats", "report", "run", "run", "run"]
     assert all(shown for command, shown in transcripts("README.md"))
 
 
