@@ -59,7 +59,6 @@ std::vector<MemberGroup> member_groups(ToleranceMembers const& members, Scene co
 CheckSample::CheckSample(std::vector<std::size_t> rows, std::vector<MemberGroup> const& groups,
                          std::vector<double> const& cost, std::uint64_t seed)
     : order_(std::move(rows)), axis_(scrambled_axis(seed)) {
-    if (cost.empty()) return;
     std::ranges::stable_sort(order_, [&](std::size_t a, std::size_t b) {
         for (MemberGroup const& group : groups) {
             if (group.has[a] != group.has[b]) return group.has[a] > group.has[b];

@@ -30,7 +30,7 @@ inline constexpr std::size_t most_values = 16;
 /// along that order, so that any 2^k in a row fall into as many equal stretches of it, and each row is as likely as any other.
 class CheckSample {
 public:
-    /// @param rows that may be drawn  @param groups whose rows stay together  @param cost [all rows]; empty: unknown
+    /// @param rows that may be drawn  @param groups whose rows stay together  @param cost [all rows]
     CheckSample(std::vector<std::size_t> rows, std::vector<MemberGroup> const& groups, std::vector<double> const& cost,
                 std::uint64_t seed);
     /// As many as are asked for, or are left.

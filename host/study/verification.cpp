@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "host/base/numbers.hpp"
+#include "host/sampling/random.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/orbit_schedule.hpp"
 
@@ -76,12 +77,9 @@ public:
         double const of_a_member = 1 + 0.5 * at_hand * methods_.front().cost;
         auto const affordable = static_cast<std::uint64_t>(of_the_study * static_cast<double>(all_) / of_a_member);
         auto const most = static_cast<std::size_t>(std::min(all_, request_.members.value_or(affordable)));
-        std::vector<std::size_t> everybody(most);
-        std::iota(everybody.begin(), everybody.end(), std::size_t{0});
-        CheckSample numbers(everybody, {}, {}, scene_.seed);
-        double const spacing = static_cast<double>(all_) / static_cast<double>(std::max<std::size_t>(most, 1));
-        for (std::size_t const i : numbers.next(most))
-            v_.members.push_back(static_cast<std::uint64_t>(static_cast<double>(i) * spacing));
+        // At random: every n-th of a design may be one slice of it.
+        Permutation const order(all_, {scene_.seed, name_hash("verification")});
+        for (std::size_t i = 0; i < most; ++i) v_.members.push_back(order(i));
         std::ranges::sort(v_.members);
         v_.study = run_again(without_series(scene_), v_.members, {}, 1);
         std::vector<std::size_t> rows;
@@ -91,7 +89,7 @@ public:
         }
         draws_.assign(finished.size(), 1);
         double const spent = v_.study.total_work();
-        total_ = spent * spacing;
+        total_ = spent * static_cast<double>(all_) / static_cast<double>(std::max<std::size_t>(most, 1));
         spent_ = spent;
         v_.groups = {{"", std::move(finished)}};
         take_samples(rows);

@@ -26,7 +26,7 @@ struct Orbit {
     std::size_t section_count() const { return sections.size() / (1 + states); }
 };
 
-/// The same member with its states along its time, and of exponents its offsets left out: their orbit is the same.
+/// The same scene, with the states of its members along their time.
 Scene looked_at(Scene scene) {
     MechanismInfo const& has = info(scene.parts.mechanism);
     double const end = orbit_schedule(scene).end;
@@ -170,8 +170,9 @@ Verification verify_orbit(Scene const& scene, Backend const& backend, Verificati
     double const end = orbit_schedule(scene).end;
     Scene const bare = without_series(scene);
     v.study = fresh_numbers(bare, {0}, run);
+    auto const stopped = [&] { return request.stop != nullptr && request.stop->reason() != StopReason::none; };
     if (!v.study.finished.front()) {
-        v.summary = "not checked against tighter tolerances: no member finished";
+        v.summary = stopped() ? check_was_stopped : "not checked against tighter tolerances: no member finished";
         return v;
     }
     v.members = {0};
@@ -181,7 +182,6 @@ Verification verify_orbit(Scene const& scene, Backend const& backend, Verificati
     v.again.resize(v.study.columns.size());
     std::vector<char> of_exponents;
     double spent = 2 * v.study.total_work();
-    auto const stopped = [&] { return request.stop != nullptr && request.stop->reason() != StopReason::none; };
     for (CheckMethod const& method : methods) {
         if (stopped()) break;
         run.weight = method.cost;

@@ -3,7 +3,7 @@
 Each study runs with its check. The truth is all of its members by two methods at a thousandth of its tolerance. A number is *wrong* where
 both differ from it by more than its margin, *right* where both differ by less than half of it; numbers between are not counted.
 
-    python -m evidence.verdicts PROGRAM FOLDER [--studies 400] [--seed 1] [--resume]
+    python -m evidence.verdicts PROGRAM FOLDER [--studies 400] [--first 0] [--seed 1]
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
 // What a run says of its numbers, beside the right ones: studies of seconds.  Those of minutes are in slow/verdicts_test.cpp.
+#include <algorithm>
+#include <set>
+
 #include "tests/support/verdicts.hpp"
 
 namespace slideway::testing::verdicts_test {
@@ -49,7 +52,24 @@ TEST_F(Verdicts, OfASobolDesignAreOfAllOfIt) {
     }
 }
 
-/// Six speeds of which one is wrong: of its own members it is said, whatever the mean of all is.
+/// A study that keeps no members has them drawn at random too, not every n-th of its design.
+TEST_F(Verdicts, OfStatisticsAloneAreOfNoSlice) {
+    verdicts_of(crosshead, {"study.store=statistics", "study.duration=0.01 s"}, false);
+    auto const result = results("o.nc");
+    auto const group = result.group("verification");
+    ASSERT_TRUE(group);
+    std::vector<double> members;
+    for (DataFile::Variable const& variable : group->variables()) {
+        if (variable.name == "pair_member") members = group->read<double>(variable);
+    }
+    ASSERT_GE(members.size(), 12u);
+    std::ranges::sort(members);
+    std::set<double> distances;
+    for (std::size_t i = 1; i < members.size(); ++i) distances.insert(members[i] - members[i - 1]);
+    EXPECT_GT(distances.size(), members.size() / 2);
+}
+
+/// Each value that members share has pairs of its own.
 TEST_F(Verdicts, AreOfEachValueOfAList) {
     std::string const speeds = R"(study.vary={ "mechanism.crank_speed" = { dist = "values", values = [5, 60] }, "initial.wz" = { dist = "norm", mean = 0, sd = 0.1 } })";
     auto const verdicts = verdicts_of(crosshead, {"study.members=400", "study.design=mc", "study.duration=0.05 s", speeds, R"(study.quantities=["damping_loss", "contact_onsets"])"});
