@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <limits>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -39,6 +41,25 @@ EndTime read_end_time(Node const& root, Scene const& scene) {
         throw SceneError(fmt::format("{}: study.revolutions is 1 ({}); {}", root.where, reason, advice));
     }
     return {seconds, revolutions};
+}
+
+/// The drive's place follows from the time alone.  The last bit of a double moves a crank pin after N revolutions by 2π N ε r.
+void check_drive_is_resolved(Node const& root, Scene const& scene, double seconds) {
+    double const turn = drive_period(scene.parts, scene.inputs);
+    if (!std::isfinite(turn)) return;
+    bool const cranks = info(scene.parts.mechanism).drive == DriveKind::crank;
+    double const radius = cranks ? scene.inputs.crank_length : scene.inputs.stroke / 2;
+    constexpr double of_clearance = 1e-6;
+    double const per_turn = 2 * std::numbers::pi * std::numeric_limits<double>::epsilon() * radius;
+    double const most = of_clearance * scene.inputs.clearance_y / per_turn, turns = seconds / turn;
+    if (!(turns > most)) return;
+    std::string const reason = fmt::format("after {:.3g} {} the last bit of a number of double precision moves the drive by {:.2g} of the clearance",
+                                           turns, cranks ? "revolutions" : "cycles", of_clearance * turns / most);
+    std::string const advice = fmt::format("stay below {:.2g} s, or run several members", most * turn);
+    for (char const* const key : {"study.revolutions", "study.duration"}) {
+        if (Node const* const node = root.find_path(key)) refuse(*node, {reason, advice});
+    }
+    throw SceneError(fmt::format("{}: the study is too long: {}; {}", root.where, reason, advice));
 }
 
 /// The node that asks for a time series, and how many times it has.
@@ -197,6 +218,7 @@ void read_recording(Node const& root, Scene& scene) {
     EndTime const end = samples ? read_end_time(root, scene) : EndTime{run_length(scene).seconds, NAN};
     RunLength const length = samples ? RunLength{end.seconds, end.seconds, 0} : run_length(scene);
     scene.integrator.end_time = end.seconds;
+    check_drive_is_resolved(root, scene, length.longest);
     if (has_fixed_step(scene.integrator.method)) {
         read_max_steps_of_fixed(root, scene.integrator, length);
     } else if (root.find_path("integrator.max_steps") == nullptr) {

@@ -34,8 +34,6 @@ struct NoShadowContacts {};
 
 /// What a member has on account of its shadows.
 template <class Real> struct ShadowCourse {
-    Real
-        fine_time;  // beyond the last bit of t [s]: member and shadow meet an event at times that t itself could not tell apart
     Real uncut;  // a step that was cut at an event, which the member is to go on with [s]
     Real lost;   // times that an offset had shrunk into rounding
     Real grown;  // times that one had grown to the size of the joint
@@ -82,6 +80,7 @@ template <class Model, class Real> struct MemberState {
         Real crossings;     // so far
         Real side;          // of the section's surface that it was on last, 1 or −1; 0 where it has been on none
         Real t, h;          // time, next step [s]
+        Real fine_time;     // what t has rounded off [s] (FineTime), 0 where that is not kept
         Real error_memory;  // of the step control
         Real y[Model::size], rates[Model::size];
         Real accepted, rejected, evaluations, jacobians, stiff_steps;

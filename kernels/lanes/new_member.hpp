@@ -21,7 +21,7 @@ template <class Model> struct NewMember {
         auto& c = r.course;
         c.member = static_cast<double>(member);
         c.sample = 0;
-        c.t = 0;
+        c.t = c.fine_time = 0;
         c.h = 1e-3 * block.settings.max_step;
         c.error_memory = step_control_start;
         Model::initial_state(inputs, c.y);
@@ -31,7 +31,7 @@ template <class Model> struct NewMember {
         r.constants.first_stop = clock.first_stop;
         r.constants.stop_period = clock.period;
         if constexpr (Model::has_shadows) {
-            c.shadowed.fine_time = c.shadowed.uncut = c.shadowed.lost = c.shadowed.grown = 0;
+            c.shadowed.uncut = c.shadowed.lost = c.shadowed.grown = 0;
             place_shadows(r, block.shadows, member);
         }
         if constexpr (has_clocks<Model>) c.impacts = {0.0, c.h, 0.0, 0.0, 0.0};

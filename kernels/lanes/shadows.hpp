@@ -89,17 +89,6 @@ public:
         uncut = select(allowed.accepted, Real(0.0), select(cut, max(uncut, step), uncut));
     }
 
-    /// Time after the step: the sum and what it rounds off (Knuth's two-sum); a landing starts a new count.
-    SLIDEWAY_HD Real time_after(Pack<Model, Real>& pack, Real of_attempt, Mask<Real> accepted,
-                                Mask<Real> landed) const {
-        auto& c = pack.state.course;
-        Real const step = of_attempt + c.shadowed.fine_time, sum = c.t + step;
-        Real const of_step = sum - c.t;
-        Real const rest = (c.t - (sum - of_step)) + (step - of_step);
-        c.shadowed.fine_time = select(accepted, select(landed, Real(0.0), rest), c.shadowed.fine_time);
-        return sum;
-    }
-
     /// Moves to the end of the step; the pack's time is that of the end.
     SLIDEWAY_HD void advance(Pack<Model, Real>& pack, Mask<Real> accepted) {
         for (int s = 0; s < plan_.count; ++s) {

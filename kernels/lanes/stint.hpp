@@ -6,6 +6,7 @@
 #include "kernels/lanes/error_norm.hpp"
 #include "kernels/lanes/event_end.hpp"
 #include "kernels/lanes/event_search.hpp"
+#include "kernels/lanes/fine_time.hpp"
 #include "kernels/lanes/impact_rows.hpp"
 #include "kernels/lanes/impact_steps.hpp"
 #include "kernels/lanes/method_choice.hpp"
@@ -62,9 +63,7 @@ public:
 private:
     static constexpr int size = Model::size;
     static constexpr int width = lanes<Real>;
-    /// Least step, in units of the end time.
     static constexpr bool shadows_have_events = Model::has_shadows && !has_impacts<Model>;
-    static constexpr double time_resolution = shadows_have_events ? 1e-19 : 8 * 2.220446049250313e-16;
     static constexpr bool impacts_end_it = Stepper::stiff && Model::has_patterns;
     static constexpr bool by_clock = Stepper::by_clock;
     static constexpr double inside_within = 1e-3;  // of the tolerance
@@ -165,8 +164,8 @@ private:
         pack_.busy = pack_.busy & !leaving;
     }
 
-    /// Least step [s] that still moves time.
-    SLIDEWAY_HD Real resolution() const { return Real(time_resolution) * pack_.state.constants.end; }
+    SLIDEWAY_HD FineTime<Real> fine_time() const { return {pack_.state.constants.end, shadows_have_events}; }
+    SLIDEWAY_HD Real resolution() const { return fine_time().resolution(); }
 
     /// Folds what all who may shorten the step allow: its error first, then the events of what it may still be.
     SLIDEWAY_HD Verdict judge(Landing const& landing) {
@@ -272,9 +271,7 @@ private:
         auto landed = accepted & landing.lands;
         if constexpr (by_clock) landed = landed & !impacts_.ended_early();
         if constexpr (Stepper::ends_early) landed = landed & !early_.lanes;
-        Real t_end = c.t + attempt_.step;
-        if constexpr (shadows_have_events) t_end = shadows_.time_after(pack_, attempt_.step, accepted, landed);
-        t_end = select(landed, landing.time, t_end);
+        Real t_end = select(landed, landing.time, fine_time().after(c.t, attempt_.step, c.fine_time, accepted, landed));
         if constexpr (Model::events > 0) {
             search_.run(pack_, stepper_, attempt_, accepted);
             t_end = select(search_.ended(), fma(attempt_.step, search_.fraction(), c.t), t_end);
