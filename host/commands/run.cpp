@@ -132,7 +132,7 @@ int conclude(RunArguments const& arguments, Scene const& scene, StudyOptions con
     bool const tells = arguments.json || !arguments.quiet;
     if (tells && !report && asks_for_report(scene)) report = tolerance_report(results, scene, {options.threads});
     if (arguments.json) {
-        fmt::print("{}", result_json("run", results, results.seal(), report, totals));
+        fmt::print("{}", result_json("run", results, results.seal(), report, totals, 0, {}, &scene));
     } else if (!arguments.quiet) {
         print_results(arguments, scene, results, report);
         fmt::print("\n");
