@@ -47,6 +47,7 @@ std::string replay_command(RunArguments const& arguments, Scene const& scene, st
     for (auto const& [key, value] : arguments.scene.overrides) command += " --set " + shell_quoted(fmt::format("{}={}", key, value));
     // Without a row of its own there is nothing to look at.
     if (!scene.stores_members()) command += " --set study.store=members";
+    if (arguments.any_start) command += " --any-start";
     std::string_view const backend = replay_backend(isa);
     return command + fmt::format(" {}{} --member {}", backend, backend.ends_with(' ') ? isa : "", member);
 }
