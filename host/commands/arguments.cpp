@@ -43,6 +43,7 @@ public:
         return option;
     }
 
+    void any_start(bool& to) { flag("--any-start", to, "Take starts that no mechanism has, such as inside the way"); }
     void force(bool& to) { flag("--force", to, "Replace an existing result of slideway; inputs and other files are never replaced"); }
     CLI::Option* json(bool& to) { return flag("--json", to, "One object in JSON in place of text (docs/json.md)"); }
     void threads(int& to) {
@@ -116,6 +117,7 @@ void add_run(Options& options, RunArguments& run) {
                   parse_part);
     options.value("--block-members", "N", run.study.block_members,
                   "Members that a thread takes at once (default: by their cost); a crash loses the unfinished ones", whole_number(1, most_block_members));
+    options.any_start(run.any_start);
     options.flag("--verify", *verify, "Repeat members until the study's resolution is known, all of them if need be");
     options.flag("--no-progress", run.no_progress, "No lines of progress on stderr");
     options.flag("--quiet", run.quiet, "No progress and no summary: warnings and errors alone");
@@ -133,7 +135,7 @@ void add_check(Options& options, CheckArguments& check) {
     add_backend(options, check.scene);
     CLI::Option* const json = options.json(check.json);
     options.flag("--resolved", check.resolved, "Print the resolved scene alone, as a scene file")->excludes(json);
-    options.flag("--force", check.force, "Accept starts inside the way");
+    options.any_start(check.any_start);
 }
 
 void add_probe(Options& options, ProbeArguments& probe) {

@@ -8,7 +8,6 @@
 #include "host/study/continued_sweep.hpp"
 #include "host/study/orbit_schedule.hpp"
 #include "host/study/prediction.hpp"
-#include "host/study/probe.hpp"
 
 namespace slideway::cli {
 namespace {
@@ -149,19 +148,13 @@ void print_design(Scene const& scene) {
 }  // namespace
 
 int execute(CheckArguments const& arguments) {
-    Scene const scene = load_scene(arguments.scene);
+    Scene const scene = admitted_scene(arguments.scene, arguments.any_start);
     int const threads = arguments.threads;
-    print_warnings(scene);
     BackendRequest request = arguments.scene.backend;
     request.threads = threads;
     BackendChoice const choice =
         choose_backend(request, scene, place_count(scene, MemberSet(MemberRange{0, member_count(scene)})));
     Prediction const prediction = predict(scene, *choice.backend, threads);
-
-    if (!arguments.force) {
-        if (auto const wrong = impossible_starts(scene, best_isa()))
-            throw SceneError(fmt::format("{}: {}; change [initial] or [joint], or add --force", scene.path, *wrong));
-    }
 
     if (arguments.resolved) {
         fmt::print("{}", resolved_toml(scene));

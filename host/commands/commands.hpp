@@ -93,6 +93,7 @@ struct RunArguments {
     std::optional<double> max_hours;
     FailureLimit max_failures;
     std::optional<MemberRange> members;  // empty: all
+    bool any_start = false;  // also one that no mechanism has
     bool no_progress = false;
     bool quiet = false;  // no progress, no summary
     bool json = false;   // an object in place of the summary
@@ -103,7 +104,7 @@ int execute(RunArguments const& arguments);
 struct CheckArguments {
     SceneArguments scene;
     int threads = default_threads();
-    bool force = false;  // also of starts that no mechanism has
+    bool any_start = false;  // also one that no mechanism has
     bool json = false;
     bool resolved = false;  // the resolved scene alone, which runs as it is
 };

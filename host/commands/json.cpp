@@ -53,6 +53,18 @@ Json of_members(ResultReader const& results, MemberRange const& range) {
     return list;
 }
 
+/// The first of those that did not finish, with what columns of text of the scene's table call them.
+Json of_failed(ResultReader const& results, Scene const* scene) {
+    constexpr std::size_t most = 100;
+    Json list = Json::array();
+    for (FailedMember const& member : failed_members(results, most)) {
+        list.push_back({{"member", member.member}, {"status", name_of(member.status)}, {"end_time", number(member.time)}});
+        std::string const label = scene != nullptr ? label_of(*scene, member.member) : "";
+        if (!label.empty()) list.back()["label"] = label;
+    }
+    return list;
+}
+
 Json of_exponents(ResultReader const& results) {
     Json list = Json::array();
     for (ExponentSummary const& one : summarise_exponents(results)) {
@@ -165,7 +177,7 @@ Json of_verdicts(ResultReader const& results) {
 }  // namespace
 
 std::string result_json(char const* command, ResultReader const& results, SealCheck const& seal, std::optional<ToleranceReport> const& report,
-                        EnsembleTotals const* totals, std::uint64_t left, std::optional<MemberRange> const& members) {
+                        EnsembleTotals const* totals, std::uint64_t left, std::optional<MemberRange> const& members, Scene const* scene) {
     Json json = object(command);
     json["file"] = results.path();
     for (char const* const name : {"title", "created", "version", "commit", "compiler", "flags", "machine", "backend", "isa", "completeness"})
@@ -186,6 +198,7 @@ std::string result_json(char const* command, ResultReader const& results, SealCh
     Json& statuses = json["statuses"] = Json::object();
     for (StatusCount const& count : count_statuses(results)) statuses[name_of(count.status)] = count.members;
     json["members_left"] = left;
+    json["failed"] = of_failed(results, scene);
     json["quantities"] = of_quantities(results);
     if (report) json["tolerance"] = of_report(*report);
     if (Json exponents = of_exponents(results); !exponents.empty()) json["exponents"] = std::move(exponents);

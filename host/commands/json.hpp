@@ -22,9 +22,10 @@ inline constexpr int json_version = 1;
 /// Provenance, dimensions, statuses, statistics over the members that finished, exponents, sections and what the check of the resolution found; of a damaged
 /// file provenance and dimensions alone.
 /// @param report of a scene that `asks_for_report`  @param totals of the run that has just made it, or nullptr  @param left members that have not run
-/// @param members to list one by one
+/// @param members to list one by one  @param scene of the run, which has labels of members
 std::string result_json(char const* command, ResultReader const& results, SealCheck const& seal, std::optional<ToleranceReport> const& report,
-                        EnsembleTotals const* totals = nullptr, std::uint64_t left = 0, std::optional<MemberRange> const& members = {});
+                        EnsembleTotals const* totals = nullptr, std::uint64_t left = 0, std::optional<MemberRange> const& members = {},
+                        Scene const* scene = nullptr);
 /// A run that ended before its result.
 std::string stopped_json(std::string const& folder, std::uint64_t left);
 /// @param trial nothing where no member was tried

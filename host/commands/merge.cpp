@@ -72,7 +72,7 @@ int execute(MergeArguments const& arguments) {
     replay.scene.path = scene_path;
     ResultReader const results(arguments.output);
     if (arguments.json) {
-        fmt::print("{}", result_json("merge", results, results.seal(), report, nullptr, left));
+        fmt::print("{}", result_json("merge", results, results.seal(), report, nullptr, left, {}, &scene));
         return left == 0 ? exit_code::done : exit_code::stopped_early;
     }
     print_field("scene", scene_text(scene, scene_path));

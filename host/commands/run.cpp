@@ -12,7 +12,6 @@
 #include "host/commands/text.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/prediction.hpp"
-#include "host/study/probe.hpp"
 
 namespace slideway::cli {
 namespace {
@@ -132,7 +131,7 @@ int conclude(RunArguments const& arguments, Scene const& scene, StudyOptions con
     bool const tells = arguments.json || !arguments.quiet;
     if (tells && !report && asks_for_report(scene)) report = tolerance_report(results, scene, {options.threads});
     if (arguments.json) {
-        fmt::print("{}", result_json("run", results, results.seal(), report, totals));
+        fmt::print("{}", result_json("run", results, results.seal(), report, totals, 0, {}, &scene));
     } else if (!arguments.quiet) {
         print_results(arguments, scene, results, report);
         fmt::print("\n");
@@ -231,17 +230,13 @@ int execute(RunArguments const& arguments) {
     bool invited = ranks->rank() > 0;
     try {
         if (ranks->rank() > 0) return help(arguments, *ranks, stop);
-        Scene const scene = load_scene(arguments.scene);
-        print_warnings(scene);
+        Scene const scene = admitted_scene(arguments.scene, arguments.any_start);
         StudyOptions options = study_options(arguments, scene);
         BackendChoice const choice = chosen_backend(arguments, scene, options, *ranks);
         options.backend = choice.backend;
         // Of a card that lacks the memory this is the last word: nothing is on the disk yet.
         Prediction const prediction = predict(scene, *options.backend, options.threads, options.block_members);
         StudyRun study(scene, options);
-        if (!study.is_complete()) {
-            if (auto const wrong = impossible_starts(scene, best_isa())) tell("warning: {}\n", *wrong);
-        }
         warn_of_losses(options, study);
         if (arguments.shows_progress() && !study.is_complete()) announce(scene, options, choice.reason, prediction, study);
         invited = true;

@@ -47,6 +47,7 @@ std::string replay_command(RunArguments const& arguments, Scene const& scene, st
     for (auto const& [key, value] : arguments.scene.overrides) command += " --set " + shell_quoted(fmt::format("{}={}", key, value));
     // Without a row of its own there is nothing to look at.
     if (!scene.stores_members()) command += " --set study.store=members";
+    if (arguments.any_start) command += " --any-start";
     std::string_view const backend = replay_backend(isa);
     return command + fmt::format(" {}{} --member {}", backend, backend.ends_with(' ') ? isa : "", member);
 }
@@ -100,7 +101,8 @@ void print_failures(RunArguments const& arguments, Scene const& scene, Statuses 
                count_failed(ended) > listed ? fmt::format(", the first {}", listed) : "");
     for (FailedMember const& member : failed) {
         auto const why = defect(member_inputs(scene, member.member), scene.parts);
-        print_text(4, "  member {}: {}{}", member.member, name_of(member.status), why ? ": " + *why : fmt::format(" at t = {:.6g} s", member.time));
+        std::string const label = label_of(scene, member.member);
+        print_text(4, "  member {}{}: {}{}", member.member, label.empty() ? "" : fmt::format(" ({})", label), name_of(member.status), why ? ": " + *why : fmt::format(" at t = {:.6g} s", member.time));
         fmt::print("    {}\n", replay_command(arguments, scene, results.attribute("isa"), member.member));
     }
 }

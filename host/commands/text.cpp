@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "host/config/scene_text.hpp"
+#include "host/study/admission.hpp"
 
 namespace slideway::cli {
 
@@ -45,8 +46,12 @@ Scene load_scene(SceneArguments const& arguments) {
 
 void tell_text(std::string const& text) noexcept { std::fwrite(text.data(), 1, text.size(), stderr); }
 
-void print_warnings(Scene const& scene) {
+Scene admitted_scene(SceneArguments const& arguments, bool any_start) {
+    Scene scene = load_scene(arguments);
+    auto const starts = admit(scene, any_start);
     for (std::string const& warning : scene.warnings) tell("warning: {}\n", warning);
+    if (starts) tell("warning: {}\n", *starts);
+    return scene;
 }
 
 void warn_of_mending(std::string const& file) {

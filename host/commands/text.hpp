@@ -23,8 +23,8 @@ namespace slideway::cli {
 /// Reads the scene of a command line.  @throws SceneError, also when the file is missing.
 Scene load_scene(SceneArguments const& arguments);
 
-/// To stderr: what the scene gives and does not use.
-void print_warnings(Scene const& scene);
+/// The same of a scene whose members are to run: refused where they cannot (host/study/admission); its warnings go to stderr.
+Scene admitted_scene(SceneArguments const& arguments, bool any_start);
 
 /// To stderr.  Where that cannot be written, nobody is there to read it, and the command goes on: never an exception.
 void tell_text(std::string const& text) noexcept;

@@ -25,7 +25,7 @@ template <class Infos, class Knows> std::vector<std::string_view> owners(Infos c
 }
 
 KeyReference reference_of(Setting const& row) {
-    KeyReference key{.name = row.name, .unit = row.unit, .meaning = row.meaning, .type = row.type, .range = row.range, .choices = {},
+    KeyReference key{.name = row.name, .unit = row.unit, .meaning = row.meaning, .type = row.type, .range = row.range, .usual = {}, .choices = {},
                      .preset = preset_text(row), .mechanisms = {}, .laws = {}, .studies = {}, .methods = {}};
     if (row.type == Type::count) key.range = {static_cast<double>(row.least), static_cast<double>(row.most)};
     key.choices.assign(row.choices.begin(), row.choices.end());
@@ -40,7 +40,7 @@ KeyReference reference_of(Setting const& row) {
 }
 
 KeyReference reference_of(Key const& of) {
-    KeyReference key{.name = of.name, .unit = of.unit, .meaning = of.meaning, .type = Type::number, .range = range_of(of.rule), .choices = {},
+    KeyReference key{.name = of.name, .unit = of.unit, .meaning = of.meaning, .type = Type::number, .range = range_of(of.rule), .usual = usual_range(of), .choices = {},
                      .preset = {}, .mechanisms = {}, .laws = {}, .studies = {}, .methods = {}};
     key.preset = of.member == &Inputs::restitution ? "" : std::isnan(of.preset) ? "follows from others" : fmt::format("{:.10g}", of.preset);
     key.mechanisms = owners(mechanism_names(), [&](std::size_t i) { return counts_for(of, static_cast<Mechanism>(i)); });
@@ -105,6 +105,11 @@ std::string domain_text(KeyReference const& key) {
     return text;
 }
 
+std::string usual_text(KeyReference const& key) {
+    if (!std::isfinite(key.usual.high)) return {};
+    return key.usual.low > 0 ? fmt::format("{:g} to {:g}", key.usual.low, key.usual.high) : fmt::format("≤ {:g}", key.usual.high);
+}
+
 std::string owners_text(KeyReference const& key) {
     std::string text;
     auto const add = [&](char const* what, std::vector<std::string_view> const& names) {
@@ -142,6 +147,7 @@ std::string keys_json(std::vector<KeyReference> const& keys) {
         Json one{{"name", key.name}, {"type", name_of(key.type)}};
         if (!key.unit.empty()) one["unit"] = key.unit;
         put_range(one, key.range, "minimum", "exclusive_minimum", "maximum");
+        put_range(one, key.usual, "usual_minimum", "usual_minimum", "usual_maximum");
         if (!key.choices.empty()) one["choices"] = key.choices;
         if (!key.preset.empty()) one["default"] = key.preset;
         for (auto const& [what, names] : {std::pair{"mechanisms", &key.mechanisms}, {"laws", &key.laws}, {"studies", &key.studies}, {"methods", &key.methods}}) {
@@ -181,21 +187,22 @@ std::string keys_markdown(std::vector<KeyReference> const& keys) {
     std::string text =
         "# Keys of a scene\n\nEvery key that a scene may have. `slideway list --markdown` writes this page, `slideway list --json` the same for programs, and "
         "`slideway list --schema` a JSON Schema to editors of TOML\n(put `#:schema scene.schema.json` into a scene's first line for Taplo and Even Better "
-        "TOML). Numbers are in SI units, or texts with a unit: `\"0.1 mm\"`, `\"30 rpm\"`.\n";
+        "TOML). Numbers are in SI units, or texts with a unit: `\"0.1 mm\"`, `\"30 rpm\"`.\n"
+        "Outside its usual range a number, its sign aside, is a warning ([troubleshooting.md](troubleshooting.md#warnings-of-unusual-numbers)).\n";
     std::string_view table = "none yet";
     for (KeyReference const& key : keys) {
         if (key.table() != table) {
             table = key.table();
             text += table.empty() ? "\n## At the top\n" : fmt::format("\n## [{}]\n", table);
-            text += "| key | type | unit | domain | default | meaning | applies to |\n|---|---|---|---|---|---|---|\n";
+            text += "| key | type | unit | domain | usual | default | meaning | applies to |\n|---|---|---|---|---|---|---|---|\n";
         }
         auto const cell = [](std::string_view words) {
             std::string safe;
             for (char const c : words) safe += c == '|' ? std::string("\\|") : std::string(1, c);
             return safe;
         };
-        text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", key.key(), name_of(key.type),
-                            key.unit == "1" ? "" : key.unit, cell(domain_text(key)), cell(key.preset), cell(key.meaning), owners_text(key));
+        text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} | {} |\n", key.key(), name_of(key.type),
+                            key.unit == "1" ? "" : key.unit, cell(domain_text(key)), usual_text(key), cell(key.preset), cell(key.meaning), owners_text(key));
     }
     return text;
 }

@@ -14,6 +14,7 @@ struct KeyReference {
     std::string_view name, unit, meaning;
     Setting::Type type = Setting::Type::number;
     Range range;                                // of numbers and counts
+    Range usual;                                // of numbers of the physics, by magnitude
     std::vector<std::string_view> choices;
     std::string preset;                         // "" for nothing
     std::vector<std::string_view> mechanisms, laws, studies, methods;  // that know it; empty: all
@@ -32,6 +33,9 @@ std::vector<KeyReference> const& known_keys();
 std::string_view name_of(Setting::Type type);
 /// "> 0", "from 0 to 1, 1 included"; "" where any number will do.
 std::string domain_text(KeyReference const& key);
+
+/// "0.0001 to 10"; "" where any number is usual.
+std::string usual_text(KeyReference const& key);
 
 /// "slider_crank, carriage; law paper": who knows it; "" where all do.
 std::string owners_text(KeyReference const& key);

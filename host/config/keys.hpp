@@ -67,6 +67,20 @@ Range range_of(Rule rule);
 /// The problem of one value with its key's rule; NaN and infinity break every rule.
 std::optional<Problem> broken_rule(Key const& key, double value);
 
+/// What numbers of a key usually are, by magnitude where it may be negative.  A number outside may be right, and is likelier a slip.
+Range usual_range(Key const& key);
+
+/// What is unusual about a number, in words ("is 1 m (usually 1e-08 to 0.01 m); did you mean \"1 mm\"?"), or nothing.
+std::optional<std::string> unusual(Key const& key, double value);
+
+/// The same of numbers that are usual each and not together: a clearance that is large beside the way, a fast crank pin.  The key is the
+/// one to blame.
+struct UnusualPair {
+    Key const* key;
+    std::string words;
+};
+std::optional<UnusualPair> unusual_pair(Inputs const& inputs, Parts const& parts);
+
 /// What `defect` found: the key to blame, and another one whose value it clashes with (nullptr if none).
 struct Defect {
     Key const* key;

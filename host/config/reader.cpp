@@ -55,6 +55,20 @@ void check_schema(Node const& root) {
     }
 }
 
+/// A title is one line of pages and summaries, and its line of the resolved scene must be one that is read again.
+std::string read_title(Node const& root) {
+    constexpr std::size_t most_characters = 1000, longest_line = 4000;
+    Node const* const node = root.find("title");
+    if (node == nullptr) return {};
+    std::string const& title = read_text_value(*node);
+    auto const goes_on = [](char byte) { return (static_cast<unsigned char>(byte) & 0xc0u) == 0x80u; };
+    auto const characters = title.size() - static_cast<std::size_t>(std::ranges::count_if(title, goes_on));
+    if (characters > most_characters || toml_string(title).size() > longest_line) {
+        refuse(*node, {characters > most_characters ? fmt::format("{} characters", characters) : std::string("too many control characters"), fmt::format("use at most {} characters, and put notes into comments", most_characters)});
+    }
+    return title;
+}
+
 /// The node to blame for a key's value: its own, that of a key which sets it too, or the whole scene.
 Node const* find_given(std::vector<GivenKey> const& given, Key const* key) {
     Node const* found = nullptr;
@@ -153,7 +167,7 @@ Scene parse_scene(std::string const& text, std::string const& name, Overrides co
     check_schema(root);
     Scene scene;
     scene.path = name;
-    if (Node const* const title = root.find("title")) scene.title = read_text_value(*title);
+    scene.title = read_title(root);
     read_physics(root, scene);
     check_inputs(root, scene);
     read_variations(root, scene);
@@ -161,6 +175,7 @@ Scene parse_scene(std::string const& text, std::string const& name, Overrides co
     check_restitution(root, scene);
     read_integrator(root, scene);
     read_recording(root, scene);
+    warn_of_unusual(root, scene);
     prepare_sampler(scene);
     return scene;
 }

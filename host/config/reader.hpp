@@ -55,6 +55,9 @@ void read_sweep(Node const& root, Scene& scene);
 void check_columns(Node const& root, Scene const& scene);
 /// [integrator]; needs the period of the drive and the study.
 void read_integrator(Node const& root, Scene& scene);
+/// How many steps a member may take: IntegratorSettings::max_steps.  Refuses steps that come to no end.
+struct RunLength;
+void read_steps(Node const& root, Scene& scene, RunLength const& length);
 /// Until when, and what of [study] is recorded on the way; needs everything above.
 void read_recording(Node const& root, Scene& scene);
 
@@ -96,6 +99,9 @@ inline constexpr double most_values = 1e10;
 
 /// `count` times from 0 to end_time, both included; count is 0 or at least 2.
 std::vector<double> uniform_times(double end_time, std::size_t count);
+
+/// Warns of numbers that no mechanism has, likely slips of a unit (docs/troubleshooting.md): given ones, rows of a table, draws, columns of a sweep.
+void warn_of_unusual(Node const& root, Scene& scene);
 
 /// What is given of the bound settings of a table.
 void read_bound(Node const& root, std::string_view table, Scene& scene, Settings rows = settings());

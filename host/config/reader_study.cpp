@@ -72,6 +72,9 @@ Sampling read_sampling(Node const& root, Scene const& scene, EndTime const& end)
     if (Node const* const node = root.find_path("study.samples")) {
         std::uint64_t const count = read_count(*node, setting("study.samples"));
         if (count == 1) refuse(*node, {"the first and the last time are both stored", "use 0 or at least 2"});
+        if (count > 1 && end.seconds / static_cast<double>(count) < std::numeric_limits<double>::min()) {
+            refuse(*node, {fmt::format("no numbers tell the times of {} s apart", end.seconds), "use a longer study.duration"});
+        }
         return {node, count};
     }
     Node const* const node = root.find_path("study.samples_per_revolution");
@@ -128,32 +131,6 @@ void check_size(Sampling const& sampling, Scene const& scene) {
         refuse(*sampling.node,
                {fmt::format("the time series of {} members would hold {:.3g} numbers", scene.members, values),
                 fmt::format("ask for fewer samples, members or series, at most {:g} numbers", most_values)});
-    }
-}
-
-/// Settled contact asks an explicit method for some 0.5 million steps a second; a member that wants twenty times that is
-/// hopeless and should not hold a lane for minutes.
-std::uint64_t default_max_steps(RunLength const& length, double max_step) {
-    constexpr double start = 1e7, per_second = 1e7, largest = most_steps;
-    double const steps = start + per_second * length.longest + 2 * (length.longest / max_step + length.stops);
-    return static_cast<std::uint64_t>(std::min(steps, largest));
-}
-
-/// Fixed steps are known beforehand, but for what the rounding of the time adds to very many.
-void read_max_steps_of_fixed(Node const& root, IntegratorSettings& settings, RunLength const& length) {
-    IntegratorSettings longest = settings;
-    longest.end_time = length.longest;
-    double const steps = fixed_steps(longest) + length.stops, enough = 1000 + std::ceil(1.001 * steps);
-    if (!(enough <= static_cast<double>(most_steps))) {
-        refuse(*root.find_path("integrator.step"),
-               {fmt::format("that makes {:.3g} steps", steps), "use a larger one, or method \"auto\""});
-    }
-    Node const* const node = root.find_path("integrator.max_steps");
-    if (node == nullptr) {
-        settings.max_steps = static_cast<std::uint64_t>(enough);
-    } else if (static_cast<double>(settings.max_steps) < steps) {
-        refuse(*node, {fmt::format("the fixed steps are {:.0f}", steps),
-                       fmt::format("use a value >= {:.0f}, or a larger integrator.step", steps)});
     }
 }
 
@@ -219,11 +196,7 @@ void read_recording(Node const& root, Scene& scene) {
     RunLength const length = samples ? RunLength{end.seconds, end.seconds, 0} : run_length(scene);
     scene.integrator.end_time = end.seconds;
     check_drive_is_resolved(root, scene, length.longest);
-    if (has_fixed_step(scene.integrator.method)) {
-        read_max_steps_of_fixed(root, scene.integrator, length);
-    } else if (root.find_path("integrator.max_steps") == nullptr) {
-        scene.integrator.max_steps = default_max_steps(length, scene.integrator.max_step);
-    }
+    read_steps(root, scene, length);
     Sampling const sampling = samples ? read_sampling(root, scene, end) : Sampling{};
     scene.sample_times = uniform_times(end.seconds, sampling.count);
     if (!scene.sample_times.empty()) scene.series = info(scene.parts.mechanism).always;

@@ -1,4 +1,5 @@
 // study.table: one member a row, as measured or as drawn elsewhere.
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -9,6 +10,7 @@
 
 #include "host/base/bytes.hpp"
 #include "host/base/csv.hpp"
+#include "host/base/suggest.hpp"
 #include "host/config/reader.hpp"
 #include "host/config/scene_text.hpp"
 #include "host/config/units.hpp"
@@ -16,10 +18,13 @@
 namespace slideway {
 namespace {
 
+/// Of numbers for a key, or of texts that name the members.
 struct Column {
-    Key const* key;
+    Key const* key;  // nullptr: texts
     UnitFactor factor;
     std::string unit;  // of its numbers
+    Node header;
+    int text_line = 0, number_line = 0;  // where texts first had one
 };
 
 std::string read_bytes(Node const& node, std::string const& path) {
@@ -54,12 +59,27 @@ Node field_node(CsvReader const& table, std::string name, std::string text) {
     return node;
 }
 
-/// "joint.clearance [mm]": the key, and how its numbers become SI ones.
+[[noreturn]] void refuse_column(Node const& header) {
+    std::string_view const name = trimmed(std::string_view(header.text).substr(0, header.text.find('[')));
+    refuse(header, {"only numeric keys of the physics can be columns", key_advice(name)});
+}
+
+/// Whether a header may be that of texts: it has no unit, is like no key, and does not begin with a table of keys.
+bool may_name_texts(std::string_view header) {
+    if (header.empty() || header.find('[') != header.npos || !nearest_name(header, numeric_key_names()).empty()) return false;
+    std::string_view const table = header.substr(0, header.find('.'));
+    return table == header || std::ranges::none_of(numeric_keys(), [&](Key const& key) { return key.name.starts_with(table) && key.name[table.size()] == '.'; });
+}
+
+/// "joint.clearance [mm]": the key, and how its numbers become SI ones; or "part", above texts.
 Column read_column(Node const& node) {
     auto const bracket = node.text.find('[');
     std::string const name(trimmed(std::string_view(node.text).substr(0, bracket)));
-    Column column{find_key(name), UnitFactor(1), {}};
-    if (column.key == nullptr) refuse(node, {"only numeric keys of the physics can be columns", key_advice(name)});
+    Column column{find_key(name), UnitFactor(1), {}, node};
+    if (column.key == nullptr) {
+        if (!may_name_texts(node.text)) refuse_column(node);
+        return column;
+    }
     column.unit = column.key->unit;
     if (bracket == node.text.npos) return column;
     if (!node.text.ends_with(']')) {
@@ -72,39 +92,89 @@ Column read_column(Node const& node) {
     return column;
 }
 
-/// Adds a variation for each column of the header.
-std::vector<Column> read_header(CsvReader const& table, Node const& root, Scene& scene) {
-    std::vector<Column> columns;
-    for (std::string const& field : table.fields()) {
-        Node const node = field_node(table, fmt::format("column {}", columns.size() + 1), field);
-        Column const column = read_column(node);
-        check_varied(root, node, *column.key, scene, {"study.table has it for every member, so this has no effect", "change the table"});
-        require_part(scene.parts, *column.key);
-        scene.variations.push_back({column.key, {}, table.line(), columns.size()});
-        columns.push_back(column);
-    }
-    return columns;
-}
-
-void read_row(CsvReader const& table, std::vector<Column> const& columns, std::vector<double>& values) {
-    if (table.fields().size() != columns.size()) {
-        table.fail(fmt::format("the row has {} fields (the header has {} columns); write one number for each column",
-                               table.fields().size(), columns.size()));
-    }
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-        std::string_view text = table.fields()[i];
-        double value = 0;
-        if (!read_plain_number(text, value)) {
-            Column const& column = columns[i];
-            refuse(
-                field_node(table, std::string(column.key->name), std::string(text)),
-                {"not a number", column.unit == "1" ? "use a number"
-                                                    : fmt::format("use a number of {} without its unit", column.unit)});
+/// Reads the rows of a table into members, each checked as a scene's own values are.
+class MemberRows {
+public:
+    /// Reads the header, and adds a variation for each of its keys.
+    MemberRows(CsvReader& rows, Node const& root, Scene& scene, MemberTable& table) : rows_(rows), scene_(scene), table_(table) {
+        for (std::string const& field : rows.fields()) {
+            columns_.push_back(read_column(field_node(rows, fmt::format("column {}", columns_.size() + 1), field)));
+            Column const& column = columns_.back();
+            if (column.key == nullptr) {
+                table.labelled += fmt::format("{}{}", table.labelled.empty() ? "" : ", ", column.header.text);
+                continue;
+            }
+            check_varied(root, column.header, *column.key, scene, {"study.table has it for every member, so this has no effect", "change the table"});
+            require_part(scene.parts, *column.key);
+            scene.variations.push_back({column.key, {}, rows.line(), table.columns++});
         }
-        if (text.starts_with('+')) text.remove_prefix(1);
-        values.push_back(columns[i].factor(text, value));
     }
-}
+
+    void add_row() {
+        rows_.require_columns();
+        Inputs inputs = scene_.inputs;
+        std::string label;
+        for (std::size_t i = 0; i < columns_.size(); ++i) {
+            if (columns_[i].key != nullptr) columns_[i].key->set(inputs, add_number(i));
+            else add_text(i, label);
+        }
+        if (auto const found = find_defect(inputs, scene_.parts)) refuse_row(*found);
+        table_.lines.push_back(rows_.line());
+        if (!table_.labelled.empty()) table_.labels.push_back(std::move(label));
+    }
+
+    /// Columns without a key must hold texts: of numbers it is a key that was mistyped.
+    void check_texts() const {
+        for (Column const& column : columns_) {
+            if (column.number_line == 0) continue;
+            if (column.text_line == 0) refuse_column(column.header);
+            refuse(column.header, {fmt::format("no key of the physics, and below it stand a number, in line {}, and a text, in line {}",
+                                               column.number_line, column.text_line),
+                                   "give it texts alone, or remove it"});
+        }
+    }
+
+private:
+    double add_number(std::size_t place) {
+        Column const& column = columns_[place];
+        Node const node = field_node(rows_, fmt::format("{} (column {})", column.key->name, place + 1), rows_.fields()[place]);
+        CellNumber number;
+        if (auto const fault = rows_.read_number(place, number)) {
+            std::string const advice = column.unit == "1" ? "use a number" : fmt::format("use a number of {} without its unit", column.unit);
+            refuse(node, {fault->reason, fault->advice.empty() ? advice : fault->advice});
+        }
+        double const value = column.factor(number.text, number.value);
+        if (auto const problem = broken_rule(*column.key, value)) refuse(node, *problem);
+        table_.values.push_back(value);
+        return value;
+    }
+
+    void add_text(std::size_t place, std::string& label) {
+        std::string const& text = rows_.fields()[place];
+        Column& column = columns_[place];
+        if (rows_.is_missing(place)) return;
+        int& first = rows_.is_number(place) ? column.number_line : column.text_line;
+        if (first == 0) first = rows_.line();
+        label += fmt::format("{}{}", label.empty() ? "" : ", ", one_line(text));
+    }
+
+    /// Values that do not go together.  What is drawn beside the table is drawn for each member, and may yet fit.
+    void refuse_row(Defect const& found) const {
+        auto const is_drawn = [&](Key const* key) {
+            return key != nullptr && std::ranges::any_of(scene_.variations, [&](Variation const& one) {
+                       return one.column == Variation::no_column && one.key->overlaps(*key);
+                   });
+        };
+        if (is_drawn(found.key) || is_drawn(found.other)) return;
+        rows_.fail(fmt::format("{} is {} ({}); {}", found.key->name, with_unit(found.value, found.key->unit), found.problem.reason,
+                               found.problem.advice));
+    }
+
+    CsvReader& rows_;
+    Scene& scene_;
+    MemberTable& table_;
+    std::vector<Column> columns_;
+};
 
 }  // namespace
 
@@ -116,22 +186,23 @@ void read_member_table(Node const& node, Node const& root, Scene& scene) {
 
     auto table = std::make_shared<MemberTable>();
     table->path = std::filesystem::absolute(path).lexically_normal().string();
+    table->name = one_line(path.string());
     table->checksum = fnv1a(bytes);
     std::istringstream in(std::move(bytes));
-    CsvReader rows(in, one_line(path.string()));
+    CsvReader rows(in, table->name);
     if (!rows.next())
         rows.fail("the table is empty (it needs a header and a row); write keys like joint.clearance above");
-    std::vector<Column> const columns = read_header(rows, root, scene);
-    table->columns = columns.size();
-    while (rows.next()) read_row(rows, columns, table->values);
-    if (table->rows() == 0) rows.fail("the table has a header but no row (a row is a member); add one");
+    MemberRows members(rows, root, scene, *table);
+    while (rows.next()) members.add_row();
+    members.check_texts();
+    if (table->lines.empty()) rows.fail("the table has a header but no row (a row is a member); add one");
+    if (table->columns == 0) rows.fail("the table has no column of numbers (its header names no key); write keys like joint.clearance above");
 
-    std::uint64_t const members = table->rows();
-    Node const* const count = root.find_path("study.members");
-    if (count == nullptr) scene.members = members;
-    if (scene.members > members) {
-        refuse(*count, {fmt::format("study.table has {} rows", members),
-                        fmt::format("use a value <= {}, or leave it out", members)});
+    std::uint64_t const count = table->rows();
+    Node const* const asked = root.find_path("study.members");
+    if (asked == nullptr) scene.members = count;
+    if (scene.members > count) {
+        refuse(*asked, {fmt::format("study.table has {} rows", count), fmt::format("use a value <= {}, or leave it out", count)});
     }
     scene.design.table = std::move(table);
 }

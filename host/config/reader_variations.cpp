@@ -182,7 +182,7 @@ void check_varied(Node const& root, Node const& node, Key const& key, Scene cons
     for (Variation const& other : scene.variations) {
         if (!other.key->overlaps(key)) continue;
         bool const drawn = other.column == Variation::no_column;
-        refuse(node, {drawn ? fmt::format("study.vary.{} varies the same", other.key->name) : fmt::format("column {} has the same", other.column + 1),
+        refuse(node, {drawn ? fmt::format("study.vary.{} varies the same", other.key->name) : fmt::format("the column {} has the same", other.key->name),
                       "remove one of the two"});
     }
     for (GivenKey const& given : given_keys(root)) {

@@ -40,6 +40,11 @@ std::uint64_t member_count(Scene const& scene) {
     return scene.study == StudyKind::sweep ? scene.members * scene.chaos.values.size() : scene.members;
 }
 
+std::string label_of(Scene const& scene, std::uint64_t member) {
+    MemberTable const* const table = scene.design.table.get();
+    return table != nullptr && member < table->labels.size() ? table->labels[static_cast<std::size_t>(member)] : std::string();
+}
+
 Inputs member_inputs(Scene const& scene, std::uint64_t member) {
     Inputs inputs = scene.inputs;
     std::uint64_t start = member;

@@ -151,6 +151,9 @@ Inputs member_inputs(Scene const& scene, std::uint64_t member);
 /// The value that member draws for a variation, in SI units.
 double draw(Scene const& scene, Variation const& variation, std::uint64_t member);
 
+/// What columns of text of the scene's table call a member: "A-001, lot 7"; "" where there are none.
+std::string label_of(Scene const& scene, std::uint64_t member);
+
 /// The scene with every key written out in SI units, as TOML that reads back to the same scene.
 std::string resolved_toml(Scene const& scene);
 

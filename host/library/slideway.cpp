@@ -17,6 +17,7 @@
 #include "host/store/provenance.hpp"
 #include "host/store/result_merge.hpp"
 #include "host/store/result_seal.hpp"
+#include "host/study/admission.hpp"
 #include "host/study/backend_choice.hpp"
 #include "host/study/probe.hpp"
 #include "host/study/state_table.hpp"
@@ -235,6 +236,7 @@ std::uint64_t Ensemble::result_bytes() const { return memory_bytes(state_->scene
 Result Ensemble::run(RunOptions const& options) const {
     return told([&] {
         BackendRequest const request = request_of(options);
+        admit(state_->scene, options.any_start);
         MemoryRun run;
         run.backend = choose_backend(request, state_->scene, members()).backend;
         run.threads = request.threads;

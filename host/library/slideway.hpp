@@ -96,6 +96,8 @@ struct RunOptions {
     bool verify = false;
     bool progress = false;                    // tell on stderr how far the run is
     std::atomic<bool> const* stop = nullptr;  // read again and again during the run: true ends it
+    /// Take starts that no mechanism has, such as inside the way, which are an error without it.
+    bool any_start = false;
 };
 
 /// Numbers of rows by named columns: values[row * names.size() + column], SI.
@@ -130,13 +132,14 @@ public:
     Table probe(std::span<double const> states, std::span<double const> times = {}) const;
     /// The scene with all its defaults, in SI, as TOML.
     std::string resolved() const;
-    /// Keys that were given and have no effect, and starts inside the way, one line each.
+    /// Keys that were given and have no effect, numbers that are likely slips of a unit, and starts inside the way, one line each.
     std::vector<std::string> warnings() const;
 
     /// Bytes of the numbers of a result.
     std::uint64_t result_bytes() const;
 
-    /// Integrates all members, or those that end before `stop` says so.  Nothing is written to disk.  @throws Error
+    /// Integrates all members, or those that end before `stop` says so.  Nothing is written to disk.  @throws Error, also of
+    /// starts that no mechanism has, unless `any_start` takes them
     Result run(RunOptions const& options = {}) const;
 
     struct State;

@@ -33,6 +33,12 @@ struct MemberTable {
     std::uint64_t checksum = 0;  // FNV-1a of the file's bytes
     std::size_t columns = 0;
     std::vector<double> values;
+    // Of a file; of rows from elsewhere there is none of them.
+    std::string name;                 // for messages: "members.csv"
+    std::vector<int> lines;           // [rows], from 1
+    std::string labelled;             // headers of the columns of text: "part, lot"
+    std::vector<std::string> labels;  // [rows] "A-001, 7"; none where there is no column of text
+
     std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
 };
 

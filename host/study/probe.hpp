@@ -1,4 +1,4 @@
-// Probing: what the kernels say about single states, and whether members start where a mechanism can be.
+// Probing: what the kernels say about single states.
 #pragma once
 
 #include <cstdint>
@@ -27,16 +27,5 @@ std::vector<std::pair<std::string, double>> result_columns(Mechanism mechanism, 
 
 /// The table's parameters, t, the states, the result columns and the status; numbers with 17 digits.
 void write_probe_csv(std::ostream& out, StateTable const& table, std::vector<ProbeResult> const& results);
-
-/// Members may start inside the way by this share of their smaller clearance: contacts press in by less than a hundredth of it, and what starts
-/// deeper starts with energy that nothing has given it.
-inline constexpr double deepest_start = 0.1;
-
-/// Looks at no more members than this, evenly over all.
-inline constexpr std::uint64_t most_looked_at = 10'000;
-
-/// What is wrong with the starts, in words, or nothing: "3 of 10 members start inside the way, …".  Members that fail at once for another
-/// reason (a draw that breaks a rule, a pose that the rod does not reach) are not counted: their status says so.
-std::optional<std::string> impossible_starts(Scene const& scene, Isa isa);
 
 }  // namespace slideway

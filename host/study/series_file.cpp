@@ -18,26 +18,41 @@ namespace {
 struct Table {
     std::vector<std::string> names;  // empty: no header
     std::vector<std::vector<double>> columns;
+    std::vector<std::string> faults;  // of each column what its first cell without a number is, and where; "" of numbers throughout
+
+    std::string label(std::size_t column) const { return names.empty() ? fmt::format("column {}", column + 1) : names[column]; }
+    /// The numbers of a column that is asked for.  @throws SceneError where a cell has none
+    std::vector<double> const& numbers(std::size_t column) const {
+        if (!faults[column].empty()) throw SceneError(faults[column]);
+        return columns[column];
+    }
 };
 
 /// A header is a first row without a number.
 Table read_table(std::istream& in, std::string const& name) {
-    CsvReader rows(in, name, CsvReader::Separator::by_first_row);
+    CsvReader rows(in, name, CsvReader::Kind::series);
     Table table;
     if (!rows.next()) rows.fail("the table is empty");
     std::size_t const count = rows.fields().size();
     table.columns.resize(count);
-    double value = 0;
-    auto const is_number = [&](std::string_view field) { return read_plain_number(field, value); };
-    if (std::none_of(rows.fields().begin(), rows.fields().end(), is_number)) {
+    table.faults.resize(count);
+    bool has_number = false;
+    for (std::size_t i = 0; i < count; ++i) has_number = has_number || rows.is_number(i);
+    if (!has_number) {
         table.names = rows.fields();
         if (!rows.next()) rows.fail("the table has a header but no row");
     }
     do {
-        auto const& cells = rows.fields();
-        if (cells.size() != count) rows.fail(fmt::format("the row has {} cells, the first line {}", cells.size(), count));
+        rows.require_columns();
         // Columns of text may stand beside those that are asked for.
-        for (std::size_t i = 0; i < count; ++i) table.columns[i].push_back(is_number(cells[i]) ? value : std::nan(""));
+        for (std::size_t i = 0; i < count; ++i) {
+            CellNumber number;
+            auto const fault = rows.read_number(i, number);
+            table.columns[i].push_back(number.value);
+            if (!fault || !table.faults[i].empty()) continue;
+            table.faults[i] = fmt::format("{}: {} is \"{}\" ({}); {}", rows.where(), table.label(i), rows.fields()[i], fault->reason,
+                                          fault->advice.empty() ? "give another column, or numbers" : fault->advice);
+        }
     } while (rows.next());
     return table;
 }
@@ -164,17 +179,16 @@ StoredSeries read_result_series(ResultView const& file, std::string const& varia
 
 StoredSeries read_csv_series(std::istream& in, std::string const& name, std::string const& column,
                              std::optional<double> spacing) {
-    Table table = read_table(in, name);
+    Table const table = read_table(in, name);
     if (in.bad()) throw FileError(fmt::format("{}: cannot read", name));
     std::size_t const place = column_place(table, name, column);
     if (!spacing) {
         auto const time = time_column(table);
         if (!time) throw SceneError(fmt::format("{}: has no column time or t; give --dt SECONDS", name));
-        spacing = equal_spacing(table.columns[*time]);
+        spacing = equal_spacing(table.numbers(*time));
         if (!spacing) throw SceneError(fmt::format("{}: the times are not equally spaced; resample the series", name));
     }
-    std::string const label = table.names.empty() ? fmt::format("column {}", place + 1) : table.names[place];
-    return {label, "", std::move(table.columns[place]), *spacing};
+    return {table.label(place), "", table.numbers(place), *spacing};
 }
 
 }  // namespace slideway

@@ -104,10 +104,12 @@ std::vector<Column> read_header(Mechanism mechanism, CsvReader const& lines) {
     return columns;
 }
 
-double number(std::string_view text, Column const& column, CsvReader const& lines) {
-    double value = 0;
-    if (!read_plain_number(text, value)) lines.fail(fmt::format("column {}: '{}' is no number", column.name, text));
-    return value;
+double number(std::size_t place, Column const& column, CsvReader& lines) {
+    CellNumber number;
+    auto const fault = lines.read_number(place, number);
+    if (!fault) return number.value;
+    lines.fail(fmt::format("column {}: '{}' is {}; {}", column.name, lines.fields()[place], fault->reason,
+                           fault->advice.empty() ? "give a number in SI units" : fault->advice));
 }
 
 Law law(std::string_view text, CsvReader const& lines) {
@@ -139,11 +141,9 @@ std::optional<std::string> add(StateTable& table, Inputs const& given, Parts con
     return {};
 }
 
-void add_row(StateTable& table, std::vector<Column> const& columns, Scene const& scene, CsvReader const& lines) {
+void add_row(StateTable& table, std::vector<Column> const& columns, Scene const& scene, CsvReader& lines) {
     std::vector<std::string> const& cells = lines.fields();
-    if (cells.size() != columns.size()) {
-        lines.fail(fmt::format("the row has {} columns, the header {}", cells.size(), columns.size()));
-    }
+    lines.require_columns();
     Inputs inputs = scene.inputs;
     Parts parts = scene.parts;
     StateNumbers state{};
@@ -161,16 +161,16 @@ void add_row(StateTable& table, std::vector<Column> const& columns, Scene const&
             case Column::Kind::ignored:
                 break;
             case Column::Kind::time:
-                time = number(cells[i], column, lines);
+                time = number(i, column, lines);
                 break;
             case Column::Kind::state:
-                state[column.state] = number(cells[i], column, lines);
+                state[column.state] = number(i, column, lines);
                 break;
             case Column::Kind::law:
                 texts.emplace_back(cells[i]);
                 break;
             case Column::Kind::key: {
-                double const value = number(cells[i], column, lines);
+                double const value = number(i, column, lines);
                 if (!counts_for(*column.key, parts)) {
                     lines.fail(fmt::format("column {}: contact.law \"{}\" does not know it; remove it", column.name,
                                            info(parts.law).name));
@@ -181,7 +181,6 @@ void add_row(StateTable& table, std::vector<Column> const& columns, Scene const&
             }
         }
     }
-    if (!std::isfinite(time)) lines.fail("column t: is not a finite number");
     if (!info(parts.mechanism).spatial && !(std::abs(state[1]) < std::numbers::pi / 2)) {
         lines.fail(
             fmt::format("column rod_angle: {} rad (the rod is to point along the way); use a value within a "

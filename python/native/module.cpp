@@ -127,11 +127,11 @@ nb::dict arrays_of(Result const& result) {
 }
 
 /// @param is_main_thread whose Ctrl-C ends the run
-Result run(Ensemble const& ensemble, int threads, std::string const& isa, bool verify, bool progress, bool is_main_thread) {
+Result run(Ensemble const& ensemble, int threads, std::string const& isa, bool verify, bool progress, bool any_start, bool is_main_thread) {
     InterruptScope const scope(is_main_thread);
     Result result = [&] {
         nb::gil_scoped_release const released;
-        return ensemble.run({threads, isa, verify, progress, is_main_thread ? &interrupted : nullptr});
+        return ensemble.run({threads, isa, verify, progress, is_main_thread ? &interrupted : nullptr, any_start});
     }();
     // One that came too late to end the run is Python's to raise.
     if (is_main_thread && interrupted && result.is_complete()) PyErr_SetInterrupt();

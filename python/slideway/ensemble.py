@@ -108,7 +108,7 @@ class Ensemble:
 
     @property
     def warnings(self) -> list[str]:
-        """Keys of the scene that have no effect, and starts inside the way, one line each."""
+        """Keys of the scene that have no effect, numbers that are likely slips of a unit, and starts inside the way, one line each."""
         return [self._file.said(line) for line in self._native.warnings]
 
     def run(
@@ -116,6 +116,7 @@ class Ensemble:
         inputs: Mapping[str, ArrayLike] | ArrayLike | None = None,
         *,
         progress: bool = False,
+        any_start: bool = False,
         set: Mapping[str, Any] | None = None,  # noqa: A002
         **overrides: Any,
     ) -> xr.Dataset:
@@ -125,6 +126,7 @@ class Ensemble:
             inputs: values of members instead of those that the scene draws, in SI units: dotted keys with an array [members] each, or
                 an array [members, keys] whose columns are those of `inputs`.
             progress: tell on stderr how far the run is.
+            any_start: take starts that no mechanism has, such as inside the way.
             set: dotted keys and their values, for this run alone.
             **overrides: the same as `set`, with two underscores for the dot.
 
@@ -132,7 +134,7 @@ class Ensemble:
             What :func:`slideway.open` gives of the program's result file of the same scene: the same variables with the same bits.
 
         Raises:
-            SceneError: an override or an input cannot be used.
+            SceneError: an override or an input cannot be used, or members start where no mechanism can be.
             KeyboardInterrupt: Ctrl-C; its `__cause__` is a StoppedEarly, whose `dataset` holds the members that had ended.
         """
         native = self._native
@@ -143,7 +145,7 @@ class Ensemble:
         is_main = threading.current_thread() is threading.main_thread()
         # OpenMP's threads do not survive a fork.
         threads = self._threads if os.getpid() == _process else 1
-        result = self._told(native.run, threads, self._isa, self._verify, progress, is_main)
+        result = self._told(native.run, threads, self._isa, self._verify, progress, bool(any_start), is_main)
         dataset = self._dataset(result)
         if not result.is_complete:
             line = f"stopped early (signal): {dataset.attrs['completeness']}"

@@ -41,6 +41,7 @@ def run(
     max_hours: float | None = None,
     max_failures: int | str | None = None,
     members: int | tuple[int, int] | None = None,
+    any_start: bool = False,
     **overrides: Any,
 ) -> xr.Dataset:
     """Run a scene and open its result.
@@ -64,6 +65,7 @@ def run(
         max_hours: stop after this time and keep what is finished.
         max_failures: members that may fail, a number or a share such as "5%" (the program's default: "1%").
         members: run this member alone, or these: (first, last).
+        any_start: take starts that no mechanism has, such as inside the way.
         **overrides: the same as `set`, with two underscores for the dot: ``study__members=64``.
 
     Returns:
@@ -84,14 +86,14 @@ def run(
     ('member', 'axis')
     """
     if output is None and not (program or os.environ.get("SLIDEWAY_PROGRAM") or backend or resume or max_hours or members is not None):
-        computed = _in_memory(scene, threads, isa, progress, _all_overrides(set, overrides, None), max_failures)
+        computed = _in_memory(scene, threads, isa, progress, any_start, _all_overrides(set, overrides, None), max_failures)
         if computed is not None:
             return computed
     found = find_program(program)
     options = _options(threads, backend, isa, max_hours, max_failures, members)
     for key, value in _all_overrides(set, overrides, found).items():
         options += ["--set", f"{key}={to_value(value, key)}"]
-    options += ["--resume"] * bool(resume) + ["--force"] * bool(force) + ["--quiet"] * (not progress)
+    options += ["--resume"] * bool(resume) + ["--force"] * bool(force) + ["--any-start"] * bool(any_start) + ["--quiet"] * (not progress)
     with scene_file(scene) as file:
         result = temporary_path(_stem(file.path) + ".nc") if output is None else arguments.path(output, "output")
         try:
@@ -125,6 +127,7 @@ def _in_memory(
     threads: int | None,
     isa: str | None,
     progress: bool,
+    any_start: bool,
     overrides: Mapping[str, Any],
     max_failures: int | str | None,
 ) -> xr.Dataset | None:
@@ -137,7 +140,7 @@ def _in_memory(
         return None
     for warning in ensemble.warnings:
         print(f"warning: {warning}", file=sys.stderr, flush=True)
-    computed = ensemble.run(progress=bool(progress))
+    computed = ensemble.run(progress=bool(progress), any_start=any_start)
     failed, all_members = failed_and_all(computed)
     share = limit.endswith("%")
     if failed > float(limit.rstrip("%")) * (all_members / 100 if share else 1):

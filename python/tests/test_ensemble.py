@@ -142,6 +142,16 @@ def test_a_member_with_unusable_inputs_fails_alone() -> None:
     assert np.isfinite(result.peak_normal_force.values[0])
 
 
+def test_starts_inside_the_way_are_refused_unless_they_are_taken() -> None:
+    deep = {"initial.y": [1e-5, 3e-4], "joint.clearance": 1e-4}
+    with pytest.raises(slideway.SceneError, match="1 of 2 members start inside the way, deeper than a tenth of the clearance: member 1 by 0.2 mm"):
+        slideway.Ensemble(small).run(inputs=deep, study__duration="1 us")
+    assert slideway.Ensemble(small).run(inputs=deep, any_start=True, study__duration="1 us").sizes["member"] == 2
+    with pytest.raises(slideway.SceneError, match="start inside the way"):
+        slideway.run(small, initial__z=3e-4, study__duration="1 us", progress=False)
+    assert slideway.run(small, initial__z=3e-4, study__duration="1 us", progress=False, any_start=True).sizes["member"] == 6
+
+
 def test_errors_name_keys_of_a_dictionary_and_lines_of_a_file(tmp_path: Path) -> None:
     with pytest.raises(slideway.SceneError, match=r"^study.members is 0"):
         slideway.Ensemble({**small, "study": {**small["study"], "members": 0}})

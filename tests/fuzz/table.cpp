@@ -17,9 +17,9 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-Rows rows_of(std::string const& text, CsvReader::Separator separator) {
+Rows rows_of(std::string const& text, CsvReader::Kind kind) {
     std::istringstream in(text);
-    CsvReader reader(in, "t.csv", separator);
+    CsvReader reader(in, "t.csv", kind);
     Rows rows;
     while (reader.next()) rows.push_back(reader.fields());
     return rows;
@@ -32,16 +32,16 @@ std::string quoted(std::string const& field) {
 }
 
 /// What was read reads the same when it is written with quotes.
-void read_rows(std::string const& text, CsvReader::Separator separator) {
+void read_rows(std::string const& text, CsvReader::Kind kind) {
     Rows rows;
-    if (!accepted([&] { rows = rows_of(text, separator); })) return;
+    if (!accepted([&] { rows = rows_of(text, kind); })) return;
     std::string again;
     for (auto const& row : rows) {
         require(!row.empty(), "a row has fields");
         for (std::size_t i = 0; i < row.size(); ++i) again += (i == 0 ? "" : ",") + quoted(row[i]);
         again += '\n';
     }
-    require(rows_of(again, CsvReader::Separator::comma) == rows, "quoted fields read the same", again);
+    require(rows_of(again, CsvReader::Kind::table) == rows, "quoted fields read the same", again);
 }
 
 void read_members(std::string const& text) {
@@ -95,7 +95,7 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
     using namespace slideway;
     std::string_view text = fuzz::text_of(data, size);
     unsigned const choice = fuzz::take_choice(text, 5);
-    if (choice < 2) fuzz::read_rows(std::string(text), choice == 0 ? CsvReader::Separator::comma : CsvReader::Separator::by_first_row);
+    if (choice < 2) fuzz::read_rows(std::string(text), choice == 0 ? CsvReader::Kind::table : CsvReader::Kind::series);
     if (choice == 2) fuzz::read_members(std::string(text));
     if (choice == 3) fuzz::read_states(std::string(text));
     if (choice == 4) fuzz::read_series(text);

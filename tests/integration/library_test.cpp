@@ -39,6 +39,19 @@ TEST(Library, EnsemblesInThreadsOfTheirOwnGiveWhatTheyGiveAlone) {
     }
 }
 
+TEST(Library, RefusesWhatTheProgramRefuses) {
+    auto const drop = [](char const* z) { return ensemble_of("slider_crank_0.1mm.toml", {"initial.z", "study.revolutions"}, {z, "1e-6"}); };
+    EXPECT_TRUE(drop("0.1 mm").run().is_complete());
+    try {
+        drop("0.3 mm").run();
+        ADD_FAILURE();
+    } catch (Error const& error) {
+        EXPECT_EQ(error.code(), 2);
+        EXPECT_NE(std::string(error.what()).find(" starts inside the way, deeper than a tenth of the clearance: member 0 by 0.2"), std::string::npos) << error.what();
+    }
+    EXPECT_TRUE(drop("0.3 mm").run({.any_start = true}).is_complete());
+}
+
 TEST(Library, AnErrorInOneThreadLeavesTheOthersAlone) {
     Ensemble const good = ensemble_of("ensemble_starts.toml", {"study.members", "study.duration"}, {"48", "10 ms"});
     std::string const alone = hash_of(good, 1);

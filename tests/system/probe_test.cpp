@@ -93,9 +93,9 @@ TEST_F(Probe, OfASceneShowsItsStart) {
 TEST_F(Probe, NamesTheCellThatIsWrong) {
     std::string const header = "t,y,z,vy,vz,roll,yaw,pitch,wx,wy,wz\n";
     write("cell.csv", header + "0,0,0,0,0,0,0,0,0,0,abc\n");
-    expect_refusal(2, "cell.csv:2: column wz: 'abc' is no number", {"probe", "s.toml", "--csv", "cell.csv"});
+    expect_refusal(2, "cell.csv:2: column wz: 'abc' is not a number", {"probe", "s.toml", "--csv", "cell.csv"});
     write("ragged.csv", header + "0,0\n");
-    expect_refusal(2, "ragged.csv:2: the row has 2 columns", {"probe", "s.toml", "--csv", "ragged.csv"});
+    expect_refusal(2, "ragged.csv:2: the row has 2 fields between commas (the header has 11 columns)", {"probe", "s.toml", "--csv", "ragged.csv"});
     write("empty.csv", "");
     expect_refusal(2, "empty.csv:1: the table is empty", {"probe", "s.toml", "--csv", "empty.csv"});
     expect_refusal(4, "cannot read", {"probe", "s.toml", "--csv", "."});

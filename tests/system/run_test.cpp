@@ -127,7 +127,7 @@ TEST_F(Run, ReplaysOneMemberBitForBit) {
 TEST_F(Run, CountsAndReplaysMembersWithUnusableInputs) {
     // About one in six of these clearances is negative.  A small one takes ten thousands of steps a millisecond.
     std::vector<std::string> const vary{"--set", R"(study.vary."joint.clearance"={dist="norm",mean=1e-4,sd=1e-4})", "--set",
-                                        R"(study.duration="1 ms")"};
+                                        R"(study.duration="1 ms")", "--any-start"};
     auto const with = [&](std::vector<std::string> options) {
         options.insert(options.end(), vary.begin(), vary.end());
         return run_scene(options);
@@ -169,7 +169,7 @@ TEST_F(Run, PrintsTheCommandThatRepeatsAPoisonedMember) {
     // A few members start where the rod does not reach, others so deep in the way that they spend their steps.
     std::vector<std::string> const poison{"--set", R"(study.vary."initial.y"={dist="norm",mean="0 mm",sd="70 mm"})",
                                           "--set", "integrator.max_steps=2000"};
-    std::vector<std::string> options{"--max-failures", "100%"};
+    std::vector<std::string> options{"--any-start", "--max-failures", "100%"};
     options.insert(options.end(), poison.begin(), poison.end());
     Outcome const outcome = run_scene(options);
     ASSERT_EQ(outcome.code, 0) << outcome.err;

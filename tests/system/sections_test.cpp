@@ -74,7 +74,7 @@ TEST_F(SectionsByPhase, OfAFailedMemberAreKept) {
 TEST_F(SectionsByPhase, OfUnusableMembersAreNone) {
     // About one in six of these clearances is negative.
     std::string const vary = R"(study.vary."joint.clearance"={dist="norm",mean=1e-4,sd=1e-4})";
-    Outcome const outcome = run_scene(by_phase, {"--max-failures", "100%", "--set", "study.members=40", "--set",
+    Outcome const outcome = run_scene(by_phase, {"--any-start", "--max-failures", "100%", "--set", "study.members=40", "--set",
                                                  "study.revolutions=1", "--set", vary, "-o", "r.nc"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     ResultReader const file = results();

@@ -6,12 +6,14 @@ namespace {
 
 class Starts : public SmallRun {};
 
-TEST_F(Starts, InsideTheWayAreRefusedByCheck) {
+TEST_F(Starts, InsideTheWayAreRefusedByCheckAndRun) {
     EXPECT_EQ(run({"check", "s.toml"}).code, 0);
     // A clearance of 0.1 mm: the sliders that vary in y by 0.09 mm each way start free.
     for (char const* const start : {"initial.roll=-1", "initial.z=-0.3 mm", "initial.z=0.111 mm", "initial.pitch=0.1"}) {
-        expect_refusal(2, "inside the way", {"check", "s.toml", "--set", start});
-        EXPECT_EQ(run({"check", "s.toml", "--force", "--set", start, "study.duration=1 us"}).code, 0) << start;
+        for (char const* const command : {"check", "run"}) {
+            expect_refusal(2, "inside the way, deeper than a tenth of the clearance: member ", {command, "s.toml", "--set", start});
+        }
+        EXPECT_EQ(run({"check", "s.toml", "--any-start", "--set", start, "study.duration=1 us"}).code, 0) << start;
     }
     // A contact that is pressed in is no mistake.
     EXPECT_EQ(run({"check", "s.toml", "--set", "initial.z=-0.10001 mm"}).code, 0);
@@ -29,12 +31,34 @@ TEST_F(Starts, OfAFewMembersAreCounted) {
     // Deeper than 0.01 mm are 45 % of them.
     EXPECT_GT(of, 6);
     EXPECT_LT(of, 28);
-    // A run warns, and shows what becomes of them.
     words = some;
     words.insert(words.end(), {"-o", "o.nc", "--set", "study.duration=1 us"});
+    EXPECT_EQ(run_scene(words).err, refused.err) << "one gate";
+    EXPECT_FALSE(std::filesystem::exists(path("o.nc.shards")));
+    // A run that takes them warns, and shows what becomes of them.
+    words.emplace_back("--any-start");
     Outcome const outcome = run_scene(words);
     EXPECT_EQ(outcome.code, 0);
     EXPECT_NE(outcome.err.find("warning: " + std::to_string(of) + " of 37 members start inside the way"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Starts, OfRowsAreRefusedAtTheirLine) {
+    write("table.toml", "schema = 1\n[study]\nduration = \"1 us\"\ndesign = \"table\"\ntable = \"rows.csv\"\n");
+    write("rows.csv", "part,initial.z [mm]\nA-001,0.05\nA-002,0.1\nA-003,0.3\n");
+    for (char const* const command : {"check", "run"}) {
+        expect_refusal(2, "rows.csv:4: its member starts inside the way, deeper than a tenth of the clearance: by 0.2 mm", {command, "table.toml"});
+    }
+    write("rows.csv", "part,initial.z [mm]\nA-001,0.05\nA-002,nan\n");
+    for (char const* const command : {"check", "run"}) expect_refusal(2, "rows.csv:3: initial.z (column 2) is \"nan\"", {command, "table.toml"});
+    // The rod does not reach a slider that is 10 m above the crank.
+    write("rows.csv", "initial.y\n0\n10\n");
+    for (char const* const command : {"check", "run"}) {
+        expect_refusal(2, "rows.csv:3: its mechanism cannot be evaluated at the start (geometry); change the row", {command, "table.toml"});
+    }
+}
+
+TEST_F(Starts, ThatNoMemberHasAreRefused) {
+    for (char const* const command : {"check", "run"}) expect_refusal(2, "s.toml: no member can be evaluated at the start (geometry)", {command, "s.toml", "--set", "initial.z=10"});
 }
 
 }  // namespace

@@ -160,7 +160,7 @@ TEST_F(Stats, RefusesWithOneLine) {
     expect_refusal(2, "FILE", {"stats"});
     expect_refusal(2, "short.csv: column 1: the series has 3 samples", {"stats", "short.csv", "--dt", "1"});
     expect_refusal(2, "constant.csv: column 1: the series is constant", {"stats", "constant.csv", "--dt", "1"});
-    expect_refusal(2, "broken.csv: column 1: 1 of the 200 samples", {"stats", "broken.csv", "--dt", "1"});
+    expect_refusal(2, "broken.csv:51: column 1 is \"nan\" (a missing value)", {"stats", "broken.csv", "--dt", "1"});
     expect_refusal(2, "uneven.csv: the times are not equally spaced", {"stats", "uneven.csv"});
     expect_refusal(2, "give --dt SECONDS", {"stats", "bare.csv"});
     expect_refusal(2, "lorenz.csv: there is no column 'y'", {"stats", "lorenz.csv", "--column", "y"});

@@ -111,5 +111,18 @@ TEST_F(TableRun, IsNotMergedWithAnotherTableInPlaceOfTheCopy) {
     EXPECT_EQ(run({"merge", "a/s.nc.shards", "-o", "m.nc"}).code, 0);
 }
 
+TEST_F(TableRun, NamesMembersThatFailedByTheirLabel) {
+    write("a/rows.csv", "part;initial.y [mm];lot\nA-001;0,01;north\nA-002;0,02;\n");
+    Outcome outcome = run_in("a", {"--set", "integrator.max_steps=3"});
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_NE(outcome.out.find("  member 0 (A-001, north): max_steps at t = "), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("  member 1 (A-002): max_steps at t = "), std::string::npos) << outcome.out;
+    outcome = run_in("a", {"--set", "integrator.max_steps=3", "--json", "--force"});
+    EXPECT_NE(outcome.out.find("\"label\": \"A-001, north\""), std::string::npos) << outcome.out;
+    // Of members that finish nothing is to be said.
+    outcome = run_in("a", {"--json", "--force"});
+    EXPECT_NE(outcome.out.find("\"failed\": []"), std::string::npos) << outcome.out;
+}
+
 }  // namespace
 }  // namespace slideway::testing::table_test

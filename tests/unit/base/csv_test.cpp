@@ -25,7 +25,6 @@ std::vector<Fields> rows_of(std::string const& text) {
 
 TEST(Csv, RowsHaveFieldsBetweenCommas) {
     EXPECT_EQ(rows_of("a,b\n1, 2 ,\t3\r\n"), (std::vector<Fields>{{"1", "a", "b"}, {"2", "1", "2", "3"}}));
-    EXPECT_EQ(rows_of(",\na,"), (std::vector<Fields>{{"1", "", ""}, {"2", "a", ""}}));
     EXPECT_TRUE(rows_of("").empty());
 }
 
@@ -35,8 +34,90 @@ TEST(Csv, QuotedFieldsHoldCommasAndQuotes) {
 }
 
 TEST(Csv, EmptyLinesCommentsAndAByteOrderMarkAreNoRows) {
-    EXPECT_EQ(rows_of("\xEF\xBB\xBF# a\n\n  \n x\n \t# b, c\r\ny # z"),
-              (std::vector<Fields>{{"4", "x"}, {"6", "y # z"}}));
+    EXPECT_EQ(rows_of("\xEF\xBB\xBF# a\n\n \t# b, c\r\n x\n\n  \ny # z"), (std::vector<Fields>{{"4", "x"}, {"7", "y # z"}}));
+}
+
+TEST(Csv, BelowTheHeaderANumberSignBeginsARow) {
+    EXPECT_EQ(rows_of("# a\nx,y\n#N/A,1\n# b\n"), (std::vector<Fields>{{"2", "x", "y"}, {"3", "#N/A", "1"}, {"4", "# b"}}));
+}
+
+TEST(Csv, TheFirstRowSaysWhatSeparates) {
+    Fields const abc{"1", "a", "b", "c"};
+    for (char const* const row : {"a,b,c", "a;b;c", "a\tb\tc", " a ; b;c ", "a,\tb,\t\tc", "\"a\";\"b\";c"}) EXPECT_EQ(rows_of(row), std::vector<Fields>{abc}) << row;
+    EXPECT_EQ(rows_of("x;y\n1,5;2,5"), (std::vector<Fields>{{"1", "x", "y"}, {"2", "1,5", "2,5"}}));
+    EXPECT_EQ(rows_of("x\ty\n1,5\t2;5\n\t\"a\tb\""), (std::vector<Fields>{{"1", "x", "y"}, {"2", "1,5", "2;5"}, {"3", "", "a\tb"}}));
+    EXPECT_EQ(rows_of("\"x;y\"\n1,2"), (std::vector<Fields>{{"1", "x;y"}, {"2", "1", "2"}})) << "a semicolon in quotes separates nothing";
+    EXPECT_EQ(rows_of("name, first;x\na;b"), (std::vector<Fields>{{"1", "name, first", "x"}, {"2", "a", "b"}}));
+}
+
+TEST(Csv, ASeriesMayHaveBlanksAndDecimalCommasWithoutAHeader) {
+    auto const first_row = [](std::string const& text) {
+        std::istringstream in(text);
+        CsvReader reader(in, "a.csv", CsvReader::Kind::series);
+        EXPECT_TRUE(reader.next());
+        return reader.fields();
+    };
+    EXPECT_EQ(first_row("  1   2 "), (Fields{"1", "2"}));
+    EXPECT_EQ(first_row("0,5\t1,5"), (Fields{"0,5", "1,5"}));
+    EXPECT_EQ(first_row("0,5;1,5"), (Fields{"0,5", "1,5"}));
+    EXPECT_EQ(first_row("0,5"), (Fields{"0", "5"}));
+}
+
+TEST(Csv, SeparatorsBehindTheLastColumnAreNone) {
+    EXPECT_EQ(rows_of("a,b,,\n1,2,,\n3,4\n5,6,,,,\n"), (std::vector<Fields>{{"1", "a", "b"}, {"2", "1", "2"}, {"3", "3", "4"}, {"4", "5", "6"}}));
+    EXPECT_EQ(rows_of("a;b;\n1;;\n;;x"), (std::vector<Fields>{{"1", "a", "b"}, {"2", "1", ""}, {"3", "", "", "x"}}));
+    EXPECT_EQ(rows_of(",\na,"), (std::vector<Fields>{{"1", ""}, {"2", "a"}}));
+}
+
+/// What is wrong with the cells of a table of one column, in the order of its rows; "" for a number.
+Fields faults_in(std::string const& text) {
+    std::istringstream in(text);
+    CsvReader reader(in, "a.csv");
+    Fields faults;
+    EXPECT_TRUE(reader.next());
+    while (reader.next()) {
+        CellNumber number;
+        auto const fault = reader.read_number(0, number);
+        faults.push_back(fault ? fault->reason : "");
+    }
+    return faults;
+}
+
+TEST(Csv, CellsWithoutANumberSayWhy) {
+    for (char const* const cell : {"\"\"", "NA", "n/a", "NaN", "null", "NULL", "-", "None"}) {
+        EXPECT_EQ(faults_in(std::string("x\n") + cell), Fields{"a missing value"}) << cell;
+    }
+    for (char const* const cell : {"#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!", "#NV"}) {
+        EXPECT_EQ(faults_in(std::string("x\n") + cell), Fields{"an error of the spreadsheet"}) << cell;
+    }
+    EXPECT_EQ(faults_in("x\n# a comment"), Fields{"a comment below the header"});
+    EXPECT_EQ(faults_in("x\ninf\n-1e999\n1e3\n1 mm\n--1"), (Fields{"not a finite number", "not a finite number", "", "not a number", "not a number"}));
+}
+
+TEST(Csv, OneFileHasOneDecimalMark) {
+    EXPECT_EQ(faults_in("x;y\n1,5;\n2;\n+3,25e-1;\n"), (Fields{"", "", ""}));
+    EXPECT_EQ(faults_in("x;y\n1.5;\n2,5;\n3.5;\n"), (Fields{"", "a decimal comma, after a decimal point in line 2", ""}));
+    EXPECT_EQ(faults_in("x\ty\n1,5\t\n2.5\t\n"), (Fields{"", "a decimal point, after a decimal comma in line 2"}));
+    EXPECT_EQ(faults_in("x;y\n1.234,5;\n1,2,3;\n"), (Fields{"not a number", "not a number"})) << "digits in groups";
+    EXPECT_EQ(faults_in("x,y\n\"1,5\",\n"), Fields{"not a number"}) << "commas separate";
+    std::istringstream in("x;y\n+0,1;\n");
+    CsvReader reader(in, "a.csv");
+    CellNumber number;
+    EXPECT_TRUE(reader.next() && reader.next() && !reader.read_number(0, number));
+    EXPECT_EQ(number.value, 0.1);
+    EXPECT_EQ(number.text, "0.1");
+}
+
+TEST(Csv, ARowOfOtherLengthNamesItsSeparator) {
+    std::istringstream in("x;y\n1;2;3\n");
+    CsvReader reader(in, "a.csv");
+    ASSERT_TRUE(reader.next() && reader.next());
+    try {
+        reader.require_columns();
+        ADD_FAILURE();
+    } catch (SceneError const& error) {
+        EXPECT_STREQ(error.what(), "a.csv:2: the row has 3 fields between semicolons (the header has 2 columns); write one for each column");
+    }
 }
 
 TEST(Csv, BrokenQuotesAreRefusedAtTheirLine) {

@@ -137,7 +137,7 @@ TEST(SceneToleranceErrors, HeadersOfTables) {
     EXPECT_EQ(error_of_table("initial.y [mm\n1\n"),
               "a.csv:1: column 1 is \"initial.y [mm\" (its unit has no end); write \"initial.y [m]\"");
     EXPECT_EQ(error_of_table("joint.clearance,joint.clearance_z\n1,1\n"),
-              "a.csv:1: column 2 is \"joint.clearance_z\" (column 1 has the same); remove one of the two");
+              "a.csv:1: column 2 is \"joint.clearance_z\" (the column joint.clearance has the same); remove one of the two");
     EXPECT_EQ(error_of_table("initial.y\n1\n", "[study.vary]\n\"initial.y\" = {dist=\"unif\", low=0, high=1}"),
               "a.csv:1: column 1 is \"initial.y\" (study.vary.initial.y varies the same); remove one of the two");
     EXPECT_EQ(error_of_table("friction.static\n0.2\n"),
@@ -149,13 +149,13 @@ TEST(SceneToleranceErrors, HeadersOfTables) {
 
 TEST(SceneToleranceErrors, RowsOfTables) {
     EXPECT_EQ(error_of_table("initial.y,initial.z\n1,2\n3\n"),
-              "a.csv:3: the row has 1 fields (the header has 2 columns); write one number for each column");
-    EXPECT_EQ(error_of_table("initial.y [mm],initial.z\n1,2\n# b\n3 mm,4\n"),
-              "a.csv:4: initial.y is \"3 mm\" (not a number); use a number of mm without its unit");
+              "a.csv:3: the row has 1 fields between commas (the header has 2 columns); write one for each column");
+    EXPECT_EQ(error_of_table("initial.y [mm],initial.z\n1,2\n\n3 mm,4\n"),
+              "a.csv:4: initial.y (column 1) is \"3 mm\" (not a number); use a number of mm without its unit");
     EXPECT_EQ(error_of_table("initial.y,initial.z\n1,\n"),
-              "a.csv:2: initial.z is \"\" (not a number); use a number of m without its unit");
+              "a.csv:2: initial.z (column 2) is \"\" (a missing value); give a number, or remove the row");
     EXPECT_EQ(error_of_table("friction.static\nlots\n", "[friction]\n"),
-              "a.csv:2: friction.static is \"lots\" (not a number); use a number");
+              "a.csv:2: friction.static (column 1) is \"lots\" (not a number); use a number");
     EXPECT_EQ(error_of_table("initial.y\n\"1\n"),
               "a.csv:2: a quoted field does not end (a quote is open); write \" behind it");
     EXPECT_EQ(error_of_table("initial.y\n\"1\"2\n"),

@@ -55,12 +55,29 @@ TEST(SeriesFile, ReadsTheUsualWaysToWriteATable) {
 TEST(SeriesFile, RefusesWhatIsNoSeries) {
     expect_refusal("", "", "a.csv:1: the table is empty");
     expect_refusal("t,y\n", "", "a.csv:1: the table has a header but no row");
-    expect_refusal("t,y\n0,1\n1\n", "", "a.csv:3: the row has 1 cells, the first line 2");
+    expect_refusal("t,y\n0,1\n1\n", "", "a.csv:3: the row has 1 fields between commas (the header has 2 columns)");
     expect_refusal("t,y\n0,1\n1,2\n", "w", "there is no column 'w'; give one of t, y, or a number from 1 to 2");
     expect_refusal("t,y\n0,1\n1,2\n", "3", "there is no column '3'");
     expect_refusal("x,y\n0,1\n1,2\n", "", "has no column time or t; give --dt SECONDS");
     expect_refusal("t,y\n0,1\n1,2\n3,3\n", "", "not equally spaced");
     expect_refusal("t,y\n0,1\n0,2\n0,3\n", "", "not equally spaced");
+}
+
+TEST(SeriesFile, ReadsSpreadsheetsOfOtherCountries) {
+    for (char const* const text : {"t;y\n0;1,5\n0,5;2,25\n", "t\ty\n0\t1,5\n0,5\t2,25\n", "t;y;\n0;1,5;\n0,5;2,25;\n", "t;part;y\n0;A-1;1,5\n0,5;;2,25\n"}) {
+        StoredSeries const series = read(text);
+        EXPECT_EQ(series.values, (Values{1.5, 2.25})) << text;
+        EXPECT_EQ(series.spacing, 0.5) << text;
+    }
+    EXPECT_EQ(read("0,5;1,5\n1,0;2,5\n", "", 1.0).values, (Values{1.5, 2.5})) << "no header";
+}
+
+TEST(SeriesFile, CellsWithoutANumberAreRefusedInTheColumnAskedFor) {
+    std::string const table = "t,y,z\n0,1,4\n0.5,#DIV/0!,5\n1,,6\n";
+    EXPECT_EQ(read(table, "z").values, (Values{4, 5, 6}));
+    expect_refusal(table, "y", "a.csv:3: y is \"#DIV/0!\" (an error of the spreadsheet); correct its formula, or remove the row");
+    expect_refusal("t y\n0 4\n1 NaN\n", "2", "a.csv:3: y is \"NaN\" (a missing value)");
+    expect_refusal("t,y\n0,1\n#N/A,2\n1,3\n", "y", "a.csv:3: t is \"#N/A\"");
 }
 
 TEST(SeriesFile, TimesMayBeRounded) {

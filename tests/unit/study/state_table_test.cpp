@@ -1,6 +1,7 @@
 #include "host/study/state_table.hpp"
 
 #include <cmath>
+#include <algorithm>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -127,16 +128,27 @@ TEST(StateTable, PicksThePartsThatARowNeeds) {
     EXPECT_TRUE(parts("friction.static", "0").friction);
 }
 
+TEST(StateTable, ReadsSpreadsheetsOfOtherCountries) {
+    std::string header(states);
+    std::ranges::replace(header, ',', ';');
+    StateTable const table = read(header + ";part\n0,5;1e-5;-2,5e-5;0;0;0;0;0;0;0;0;A-001\n");
+    EXPECT_EQ(table.times[0], 0.5);
+    EXPECT_EQ(table.inputs[0].y, 1e-5);
+    EXPECT_EQ(table.inputs[0].z, -2.5e-5);
+    EXPECT_EQ(error_of(header + "\n#N/A;0;0;0;0;0;0;0;0;0;0\n"),
+              "states.csv:2: column t: '#N/A' is an error of the spreadsheet; correct its formula, or remove the row");
+}
+
 TEST(StateTable, SaysWhereItCannotBeUsed) {
     std::string const header = std::string(states) + "\n";
     EXPECT_EQ(error_of(""), "states.csv:1: the table is empty");
     EXPECT_EQ(error_of(header), "states.csv:1: the table has a header but no row");
     EXPECT_EQ(error_of("t,y,z,vy,vz,roll,yaw,pitch,wx,wy\n").substr(0, 35), "states.csv:1: column wz: is missing");
     EXPECT_EQ(error_of(header + "0,0,0,0,0,0,0,0,0,0,0\n0,0,0,0,x1,0,0,0,0,0,0\n"),
-              "states.csv:3: column vz: 'x1' is no number");
-    EXPECT_EQ(error_of(header + "0,0,0,0,,0,0,0,0,0,0\n"), "states.csv:2: column vz: '' is no number");
-    EXPECT_EQ(error_of(header + "0,0,0,0,1.5e,0,0,0,0,0,0\n"), "states.csv:2: column vz: '1.5e' is no number");
-    EXPECT_EQ(error_of(header + "0,0,0\n"), "states.csv:2: the row has 3 columns, the header 11");
+              "states.csv:3: column vz: 'x1' is not a number; give a number in SI units");
+    EXPECT_EQ(error_of(header + "0,0,0,0,,0,0,0,0,0,0\n"), "states.csv:2: column vz: '' is a missing value; give a number, or remove the row");
+    EXPECT_EQ(error_of(header + "0,0,0,0,1.5e,0,0,0,0,0,0\n"), "states.csv:2: column vz: '1.5e' is not a number; give a number in SI units");
+    EXPECT_EQ(error_of(header + "0,0,0\n"), "states.csv:2: the row has 3 fields between commas (the header has 11 columns); write one for each column");
     EXPECT_EQ(
         error_of(with_column("joint.clearence", "1")),
         "states.csv:1: column joint.clearence: no numeric key of a scene has this name; did you mean joint.clearance?");

@@ -1,0 +1,108 @@
+// What numbers usually are: who writes others mostly means another unit.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "host/config/keys.hpp"
+#include "kernels/members/complete_inputs.hpp"
+
+namespace slideway {
+namespace {
+
+/// By the first row whose name a key's begins with, and whose unit is the key's; no row: any number is usual.
+struct UsualRow {
+    std::string_view name, unit;
+    double low, high;
+};
+constexpr UsualRow usual_rows[] = {
+    {"joint.clearance", "m", 1e-8, 1e-2},
+    {"contact.edge_radius", "m", 1e-7, 1},
+    {"contact.apex_radius", "m", 1e-7, 1},
+    {"way.offset", "m", 0, 0.1},
+    {"mechanism.", "m", 1e-4, 10},
+    {"joint.", "m", 1e-4, 10},
+    {"mechanism.start_angle", "rad", 0, 10},
+    {"initial.", "rad", 0, 0.5},
+    {"way.", "rad", 0, 0.5},
+    {"mechanism.carriage_speed", "m/s", 1e-6, 1000},
+    {"initial.", "m/s", 0, 1000},
+    {"friction.", "m/s", 1e-8, 10},
+    {"", "rad/s", 0, 1e4},
+    {"", "m/s2", 0, 1000},
+    {"mechanism.reversal_time", "s", 1e-5, 1000},
+    {"", "kg", 1e-6, 1e5},
+    {"", "kg m2", 0, 1e6},
+    {"", "kg/m3", 10, 3e4},
+    {"", "Pa", 1e5, 1e13},
+    {"contact.point_stiffness", "1", 1e2, 1e16},
+    {"contact.eta", "1", 0, 10},
+    {"contact.chi_", "s/m", 0, 1e4},
+    {"contact.", "N/m", 10, 1e13},
+    {"contact.", "N/m3", 1e6, 1e18},
+    {"contact.", "N s/m", 0, 1e8},
+    {"friction.", "1", 0, 3},
+};
+
+UsualRow const* usual_row(Key const& key) {
+    auto const found = std::ranges::find_if(usual_rows, [&](UsualRow const& row) { return key.name.starts_with(row.name) && key.unit == row.unit; });
+    return found == std::end(usual_rows) ? nullptr : found;
+}
+
+/// Units in which people think, where scenes have SI.
+struct Slip {
+    std::string_view si, meant;
+    double factor;
+};
+constexpr Slip slips[] = {
+    {"m", "mm", 1e-3},   {"m", "um", 1e-6},      {"rad", "deg", 0.017453292519943295},      {"m/s", "mm/s", 1e-3}, {"rad/s", "rpm", 0.10471975511965977},
+    {"m/s2", "mm/s2", 1e-3}, {"s", "ms", 1e-3}, {"kg", "g", 1e-3},  {"kg/m3", "g/cm3", 1e3}, {"Pa", "GPa", 1e9}, {"Pa", "MPa", 1e6}, {"N/m", "N/mm", 1e3},
+};
+
+/// "; did you mean \"1 mm\"?", if the number is usual in another unit.
+std::string proposal(Key const& key, double value) {
+    for (Slip const& slip : slips) {
+        if (slip.si != key.unit || !usual_range(key).contains(std::abs(value) * slip.factor)) continue;
+        return fmt::format("; did you mean \"{} {}\"?", value, slip.meant);
+    }
+    return "; is its unit right?";
+}
+
+}  // namespace
+
+Range usual_range(Key const& key) {
+    UsualRow const* const row = usual_row(key);
+    return row == nullptr ? Range{} : Range{row->low, row->high};
+}
+
+std::optional<std::string> unusual(Key const& key, double value) {
+    UsualRow const* const row = usual_row(key);
+    if (row == nullptr || usual_range(key).contains(std::abs(value))) return {};
+    std::string const unit = key.unit == "1" ? "" : fmt::format(" {}", key.unit);
+    std::string const usually = row->low > 0                         ? fmt::format("{:g} to {:g}{}", row->low, row->high, unit)
+                                : std::isfinite(range_of(key.rule).low) ? fmt::format("up to {:g}{}", row->high, unit)
+                                                                     : fmt::format("within ±{:g}{}", row->high, unit);
+    return fmt::format("is {} (usually {}){}", with_unit(value, key.unit), usually, proposal(key, value));
+}
+
+std::optional<UnusualPair> unusual_pair(Inputs const& inputs, Parts const& parts) {
+    Inputs const in = complete_inputs(inputs);
+    bool const spatial = info(parts.mechanism).spatial;
+    double const smallest = spatial ? std::min(in.way_width, in.way_depth) : std::min(in.slider_height, in.slider_length);
+    static Key const* const clearances[] = {find_key("joint.clearance_y"), find_key("joint.clearance_z")};
+    for (Key const* const one : clearances) {
+        Key const& key = *one;
+        double const clearance = key.get(in);
+        if (!counts_for(key, parts) || !(clearance > smallest / 10)) continue;
+        return UnusualPair{&key, fmt::format("is {} (usually less than a tenth of the {}, {:.4g} m); is its unit right?", with_unit(clearance, key.unit),
+                                             spatial ? "way" : "slider", smallest / 10)};
+    }
+    constexpr double fastest = 1000;  // [m/s]
+    static Key const& turning = *find_key("mechanism.crank_speed");
+    double const speed = std::abs(in.crank_speed) * in.crank_length;
+    if (!counts_for(turning, parts) || !(speed > fastest)) return {};
+    return UnusualPair{&turning, fmt::format("is {} (the crank pin then moves at {:.4g} m/s, usually up to {} m/s); is its unit right?",
+                                             with_unit(in.crank_speed, turning.unit), speed, fastest)};
+}
+
+}  // namespace slideway
