@@ -14,7 +14,7 @@ stop() {
     echo "fuzz.sh: $1"
     exit 1
 }
-all=(scene table shards statistics result units words)
+all=(scene table shards statistics result units words library ranks states)
 targets=() seconds=60 runs=
 while (($# > 0)); do
     case $1 in

@@ -1,7 +1,6 @@
 #include <exception>
 #include <filesystem>
 #include <span>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,6 +9,7 @@
 #include "host/commands/commands.hpp"
 #include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
+#include "host/run/rank_messages.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/prediction.hpp"
 
@@ -178,10 +178,10 @@ int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& 
     return code;
 }
 
-/// What rank 0 tells the others before they begin: "avx2 48 0-15,40-63"; empty if there is nothing to do.
+/// What rank 0 tells the others before they begin; empty if there is nothing to do.
 std::string invitation(StudyRun const& run, Backend const& backend) {
     if (run.is_complete()) return {};
-    return fmt::format("{} {} {}", backend.isa(), run.work().before, run.work().todo.text());
+    return to_text(Invitation{backend.isa(), run.work().before, run.work().todo});
 }
 
 /// Machines may differ, and bits may not.  @param leader instruction set of rank 0
@@ -207,14 +207,11 @@ int await_end(Ranks& ranks) {
 int help(RunArguments const& arguments, Ranks& ranks, StopRequest const& stop) {
     std::string const invited = ranks.broadcast({});
     if (invited.empty()) return await_end(ranks);
-    std::istringstream words(invited);
-    std::string leader, todo;
-    StudyWork work;
-    words >> leader >> work.before >> todo;
-    work.todo = MemberSet::parse(todo).value();
+    Invitation const invitation = read_invitation(invited);
+    StudyWork const work{invitation.todo, invitation.before};
     Scene const scene = load_scene(arguments.scene);
     StudyOptions options = study_options(arguments, scene);
-    options.backend = backend_beside(leader, chosen_backend(arguments, scene, options, ranks).backend);
+    options.backend = backend_beside(invitation.isa, chosen_backend(arguments, scene, options, ranks).backend);
     options.progress = Progress::Style::none;
     run_work(scene, options, work, ranks, stop);
     return await_end(ranks);

@@ -27,8 +27,6 @@ private:
 /// MPI's own message.
 class MpiCalls {
 public:
-    static constexpr std::size_t message_limit = 0x7fffffff;  // bytes
-
     /// @throws SceneError if MPI allows calls by its main thread only.
     MpiCalls();
     ~MpiCalls();

@@ -12,17 +12,13 @@
 
 #include "host/base/error.hpp"
 #include "host/run/mpi_calls.hpp"
+#include "host/run/rank_messages.hpp"
 
 namespace slideway {
 namespace {
 
 using namespace std::chrono_literals;
 
-enum class Ask : std::uint64_t { places, abandon, end };  // `end` is followed by as many bytes as it says it `finished`
-struct Question {
-    std::uint64_t wanted = 0, finished = 0;
-    Ask ask = Ask::places;
-};
 struct Answer {
     std::uint64_t first = 0, count = 0, left = 0;
 };
@@ -36,7 +32,7 @@ struct Tags {
 };
 
 void require_message(std::size_t bytes, char const* what) {
-    if (bytes <= MpiCalls::message_limit) return;
+    if (bytes <= message_limit) return;
     throw std::length_error(fmt::format("{} of {} bytes between ranks (2 GiB is the most)", what, bytes));
 }
 
@@ -86,6 +82,7 @@ private:
     Ask answer(int rank) {
         Question question;
         calls_.receive(rank, tags_.question, &question, sizeof question, soon);
+        require_sound(question);
         if (question.ask == Ask::end) {
             std::string& bytes = given_[static_cast<std::size_t>(rank)];
             bytes.resize(question.finished);

@@ -130,10 +130,20 @@ bool needs_part(Key const& key, double value) {
     return value != 0 || !(key.name.starts_with("way.") || key.name.starts_with("contact.chi_"));
 }
 
+/// Puts a state in the place of the start.  @return why it is none, if it is so
+std::optional<std::string> take_state(MechanismInfo const& mechanism, StateNumbers const& state, Inputs& inputs) {
+    // Beyond it the start would be another, with the same height of the slider.
+    if (double const rod_angle = state[1]; !mechanism.spatial && !(std::abs(rod_angle) < std::numbers::pi / 2))
+        return fmt::format("rod_angle is {} rad (the rod is to point along the way); use a value within a right angle of 0", rod_angle);
+    set_start(mechanism, state, inputs);
+    return {};
+}
+
 /// @return why the inputs cannot be used, if it is so; then there is no such row
 std::optional<std::string> add(StateTable& table, Inputs const& given, Parts const& parts, double time, std::vector<std::string> texts = {}) {
     Inputs const inputs = complete_inputs(given);
     if (auto why = defect(inputs, parts)) return why;
+    if (!std::isfinite(time)) return fmt::format("t is {} s; use a finite number", time);
     table.inputs.push_back(inputs);
     table.parts.push_back(parts);
     table.times.push_back(time);
@@ -181,13 +191,7 @@ void add_row(StateTable& table, std::vector<Column> const& columns, Scene const&
             }
         }
     }
-    if (!info(parts.mechanism).spatial && !(std::abs(state[1]) < std::numbers::pi / 2)) {
-        lines.fail(
-            fmt::format("column rod_angle: {} rad (the rod is to point along the way); use a value within a "
-                        "right angle of 0",
-                        state[1]));
-    }
-    set_start(info(parts.mechanism), state, inputs);
+    if (auto const why = take_state(info(parts.mechanism), state, inputs)) lines.fail(*why);
     if (auto const why = add(table, inputs, parts, time, std::move(texts))) lines.fail(*why);
 }
 
@@ -222,9 +226,9 @@ StateTable state_table(Scene const& scene, std::span<double const> states, std::
         StateNumbers state{};
         std::copy_n(states.begin() + static_cast<std::ptrdiff_t>(row * width), width, state.begin());
         Inputs inputs = scene.inputs;
-        set_start(mechanism, state, inputs);
-        if (auto const why = add(table, inputs, scene.parts, times.empty() ? 0 : times[row]))
-            throw SceneError(fmt::format("{}: state {}: {}", scene.path, row, *why));
+        auto why = take_state(mechanism, state, inputs);
+        if (!why) why = add(table, inputs, scene.parts, times.empty() ? 0 : times[row]);
+        if (why) throw SceneError(fmt::format("{}: state {}: {}", scene.path, row, *why));
     }
     return table;
 }

@@ -64,10 +64,6 @@ struct StudyWork {
 EnsembleTotals run_work(Scene const& scene, StudyOptions const& options, StudyWork const& work, Ranks& ranks,
                         StopRequest const& stop);
 
-/// An error as bytes for another rank, and there again: of the same kind, with the same line.
-std::string to_bytes(std::exception_ptr const& error);
-[[noreturn]] void throw_again(std::string const& bytes);
-
 /// A run as rank 0 leads it.
 class StudyRun {
 public:

@@ -1,11 +1,9 @@
 // Members of a study, through host/run, into shards; at every rank.
-#include <cstring>
-#include <new>
 #include <optional>
-#include <stdexcept>
 #include <unordered_map>
 
 #include "host/config/descriptors.hpp"
+#include "host/run/rank_messages.hpp"
 #include "host/store/shard_image.hpp"
 #include "host/store/shard_writer.hpp"
 #include "host/study/continued_sweep.hpp"
@@ -15,17 +13,6 @@
 
 namespace slideway {
 namespace {
-
-static_assert(std::is_trivially_copyable_v<EnsembleTotals>, "ranks send it as bytes");
-
-// What the bytes of a rank begin with: how it ended, a failure by what it was.
-constexpr char succeeded = '+', of_scene = 's', of_file = 'f', of_device = 'd', of_memory = 'm', unknown = '-';
-
-std::string to_bytes(EnsembleTotals const& totals) {
-    std::string bytes(1 + sizeof totals, succeeded);
-    std::memcpy(bytes.data() + 1, &totals, sizeof totals);
-    return bytes;
-}
 
 /// The ends of those of the members that earlier runs have finished.
 MemberEnds recalled_ends(std::string const& path, Mechanism mechanism, MemberSet const& wanted) {
@@ -103,55 +90,7 @@ ProgressTask progress_task(Scene const& scene, StudyOptions const& options, Stud
     return task;
 }
 
-/// @throws what a rank says of its failure
-EnsembleTotals sum_of(std::vector<std::string> const& ranks) {
-    EnsembleTotals totals;
-    double longest = 0;
-    for (std::string const& bytes : ranks) {
-        if (bytes[0] != succeeded) throw_again(bytes);
-        EnsembleTotals of_rank;
-        std::memcpy(&of_rank, bytes.data() + 1, sizeof of_rank);
-        longest = std::max(longest, of_rank.seconds);
-        totals += of_rank;
-    }
-    totals.seconds = longest;
-    return totals;
-}
-
 }  // namespace
-
-std::string to_bytes(std::exception_ptr const& error) {
-    auto const as = [](char kind, std::exception const& found) { return kind + std::string(found.what()); };
-    try {
-        std::rethrow_exception(error);
-    } catch (SceneError const& found) {
-        return as(of_scene, found);
-    } catch (FileError const& found) {
-        return as(of_file, found);
-    } catch (DeviceError const& found) {
-        return as(of_device, found);
-    } catch (std::bad_alloc const& found) {
-        return as(of_memory, found);
-    } catch (std::exception const& found) {
-        return as(unknown, found);
-    }
-}
-
-void throw_again(std::string const& bytes) {
-    std::string const line = bytes.substr(1);
-    switch (bytes[0]) {
-        case of_scene:
-            throw SceneError(line);
-        case of_file:
-            throw FileError(line);
-        case of_device:
-            throw DeviceError(line);
-        case of_memory:
-            throw std::bad_alloc();
-        default:
-            throw std::runtime_error(line);
-    }
-}
 
 EnsembleTotals run_work(Scene const& scene, StudyOptions const& options, StudyWork const& work, Ranks& ranks,
                         StopRequest const& stop) {

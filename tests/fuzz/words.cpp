@@ -1,28 +1,14 @@
 // The words of a command line, one a line, up to the arguments of a command; nothing runs.
 #include <algorithm>
-#include <array>
-#include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "host/commands/commands.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
-// A program with one instruction set and without kernels, which would take minutes to compile here: the command line asks for their names alone.
 namespace slideway {
-namespace {
-constexpr std::array isas = {Isa::scalar, Isa::avx512};
-}
-std::string_view name_of(Isa isa) { return isa == Isa::scalar ? "scalar" : "avx512"; }
-bool is_built(Isa isa) { return isa == Isa::scalar; }
-bool is_supported(Isa isa) { return is_built(isa); }
-Isa best_isa() { return Isa::scalar; }
-std::span<Isa const> all_isas() { return isas; }
-std::span<Isa const> built_isas() { return std::span(isas).first(1); }
-std::shared_ptr<Backend const> cpu_backend(Isa) { return nullptr; }
 int default_threads() { return 1; }
-}  // namespace slideway
+}
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
     using namespace slideway;

@@ -63,25 +63,5 @@ TEST(RunPart, OfNoArrayIsTheWhole) {
     EXPECT_EQ(part(3, 8).name(), "3-of-8");
 }
 
-/// The exit code at rank 0 is that of the error, whichever rank had it.
-TEST(ErrorsOfRanks, AreOfTheirKindAtRankZero) {
-    auto const again = [](auto const& error) { throw_again(to_bytes(std::make_exception_ptr(error))); };
-    auto const expect_same = [&](auto const& error) {
-        try {
-            again(error);
-            ADD_FAILURE();
-        } catch (std::decay_t<decltype(error)> const& found) {
-            EXPECT_EQ(typeid(found), typeid(error));
-            EXPECT_STREQ(found.what(), error.what());
-        }
-    };
-    expect_same(SceneError("s.toml:3: joint.clearance is 0"));
-    expect_same(FileError("o.nc: disk full"));
-    expect_same(DeviceError("cuda: the card is gone"));
-    expect_same(std::bad_alloc());
-    expect_same(std::runtime_error("no idea"));
-    EXPECT_THROW(again(NoDevice("cuda: none")), DeviceError);
-}
-
 }  // namespace
 }  // namespace slideway::run_part_test

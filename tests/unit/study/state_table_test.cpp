@@ -199,7 +199,7 @@ TEST(StateTable, OfThePlanarMechanismHasItsAngles) {
     EXPECT_NEAR(back[1], rod, 1e-15);
     EXPECT_NEAR(back[4], -3, 1e-14);
     EXPECT_EQ(error_of(std::string(planar_states) + "\n0,0,1.6,0,0,0,0\n", planar),
-              "states.csv:2: column rod_angle: 1.6 rad (the rod is to point along the way); use a value within a right "
+              "states.csv:2: rod_angle is 1.6 rad (the rod is to point along the way); use a value within a right "
               "angle of 0");
 }
 
@@ -270,6 +270,23 @@ TEST(StateTable, OfADrivenPlanarMechanismHasTheCrankWhereItSays) {
     ASSERT_EQ(results.size(), 2u);
     for (int i = 0; i < 6; ++i) EXPECT_EQ(results[0].derivative[i], results[1].derivative[i]) << i;
     EXPECT_NE(results[0].derivative[4], 0);
+}
+
+TEST(StateTable, GivenAsNumbersObeysTheRulesOfATable) {
+    auto const error_of_numbers = [](Scene const& scene, std::vector<double> const& numbers, std::vector<double> const& times) -> std::string {
+        try {
+            state_table(scene, numbers, times);
+        } catch (SceneError const& error) {
+            return error.what();
+        }
+        return "";
+    };
+    Scene const spatial = scene_of(Mechanism::slider_crank), planar = scene_of(Mechanism::planar_slider_crank);
+    std::vector<double> const still(10, 0.0), rod_across = {0, 1.6, 0, 0, 0, 0};
+    EXPECT_EQ(error_of_numbers(spatial, still, {0.5}), "");
+    EXPECT_TRUE(error_of_numbers(spatial, still, {std::nan("")}).ends_with(": state 0: t is nan s; use a finite number"));
+    EXPECT_TRUE(error_of_numbers(spatial, still, {HUGE_VAL}).ends_with(": state 0: t is inf s; use a finite number"));
+    EXPECT_NE(error_of_numbers(planar, rod_across, {}).find("state 0: rod_angle is 1.6 rad"), std::string::npos);
 }
 
 TEST(StateTable, OfRigidContactsIsRefused) {
