@@ -4,12 +4,12 @@ include(${CMAKE_CURRENT_LIST_DIR}/isa_choice.cmake)
 
 # `scalar` is one member per Real: the reference that all others meet bit for bit.  On x86-64 it needs AVX2 and FMA; `scalar_libm` takes its
 # place on machines without, where the C library multiplies and adds with one rounding.
-set(SLIDEWAY_ISAS all CACHE STRING
-    "Instruction sets of the kernels: all, native (scalar and the widest of this machine; builds sooner), or a list of names")
+set(SLIDEWAY_ISAS ${default_isas} CACHE STRING
+    "Instruction sets of the kernels: all, widest (of this machine; builds soonest), native (scalar and the widest), or a list of names")
 set(machine_features)
-if(SLIDEWAY_ISAS STREQUAL "native")
+if(SLIDEWAY_ISAS MATCHES "^(native|widest)$")
     if(CMAKE_CROSSCOMPILING)
-        message(FATAL_ERROR "SLIDEWAY_ISAS=native is of the machine that builds; name the instruction sets of ${CMAKE_SYSTEM_PROCESSOR}")
+        message(FATAL_ERROR "SLIDEWAY_ISAS=${SLIDEWAY_ISAS} is of the machine that builds; name the instruction sets of ${CMAKE_SYSTEM_PROCESSOR}")
     endif()
     file(STRINGS /proc/cpuinfo machine_features REGEX "^flags" LIMIT_COUNT 1)
 endif()

@@ -42,21 +42,25 @@ function(slideway_native_isas processor features out_var)
 endfunction()
 
 # slideway_chosen_isas(<choice> <processor> <features> <out_var>): of SLIDEWAY_ISAS, in the order of the known ones.
-# choice: all, native, or a list of names; scalar is among them whether named or not, for all others are held against it.
+# choice: all, native, widest (the widest of native alone), or a list of names; scalar is among these whether named or not, for all others are held
+# against it.
 function(slideway_chosen_isas choice processor features out_var)
     slideway_known_isas(${processor} known)
     if(choice STREQUAL "all")
         set(chosen ${known})
     elseif(choice STREQUAL "native")
         slideway_native_isas(${processor} "${features}" chosen)
+    elseif(choice STREQUAL "widest")
+        slideway_native_isas(${processor} "${features}" chosen)
+        list(GET chosen -1 chosen)
     else()
         set(chosen scalar ${choice})
     endif()
     foreach(isa IN LISTS chosen)
         if(NOT isa IN_LIST known)
             list(JOIN known ", " names)
-            message(FATAL_ERROR "SLIDEWAY_ISAS: there is no instruction set '${isa}' for ${processor}; give all, native, or a "
-                "list of: ${names}")
+            message(FATAL_ERROR "SLIDEWAY_ISAS: there is no instruction set '${isa}' for ${processor}; give all, native, widest, "
+                "or a list of: ${names}")
         endif()
     endforeach()
     set(isas)

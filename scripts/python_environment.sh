@@ -37,7 +37,7 @@ fi
 if [[ ${1:-} != --without-package ]]; then
     build=${1:-build/release}
     # Of a build whose module nobody made yet there is none to find.
-    package=$({ find python/slideway python/native pyproject.toml "$build/bin/slideway" "$build"/python/_native*.so -type f -not -name '*.pyc' -print0 2>/dev/null || true; } |
+    package=$({ find python/slideway python/native pyproject.toml "$build"/bin/slideway "$build"/bin/kernels/*.so "$build"/python/_native*.so -type f -not -name '*.pyc' -print0 2>/dev/null || true; } |
         sort -z | xargs -0 sha256sum | sha256sum)
     if [[ $(cat "$stamp.package" 2>/dev/null) != "$package" ]]; then
         # Only then: another script may be at work in it.

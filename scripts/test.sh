@@ -130,7 +130,7 @@ if [[ $without_avx512 == true ]]; then
     # to have one hash on each of them; the parity of single functions is left to --isas scalar,avx2.
     SECONDS=0
     cmake --preset release --log-level=WARNING "${options[@]}" "-DSLIDEWAY_ISAS=scalar;avx2" || stop "the configuration failed"
-    cmake --build "$build" --parallel "$jobs" --target slideway system_tests costs ||
+    cmake --build "$build" --parallel "$jobs" --target slideway slideway_kernel_modules system_tests costs ||
         stop "the build without AVX-512 failed"
     echo "build without AVX-512: $SECONDS s"
     run_tests --tests-regex '^(Costs|InstructionSets|VerifiedRun|Verdicts|RanksOfAJob)'

@@ -89,8 +89,9 @@ Isa compiled_isa(Isa isa);
 std::string flags_of(Isa isa);  // compiler flags the unit was built with
 
 /// @param isa built.  Every combination of parts exists for every instruction set, but for dampings that a law does not have.
-/// @throws std::invalid_argument for one of these
-KernelInstance find_instance(Isa isa, Parts const& parts);
+/// @param shadows members with shadows are to run: of rigid contacts these are other kernels than those that run others
+/// @throws std::invalid_argument for what there is not; DeviceError where kernels are a module that cannot be had (kernel_modules.hpp)
+KernelInstance find_instance(Isa isa, Parts const& parts, bool shadows = false);
 
 /// @throws DeviceError if the instruction set is not supported
 std::shared_ptr<Backend const> cpu_backend(Isa isa);

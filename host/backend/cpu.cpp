@@ -5,30 +5,22 @@
 
 #include "host/backend/backend.hpp"
 #include "host/backend/built_isas.hpp"
-#include "kernels/rigid/list.hpp"
+#include "host/backend/kernel_modules.hpp"
+#include "kernels/rigid/rigid_info.hpp"
 
 namespace slideway {
 
 // Each instruction set has kernels of every mechanism.
 #define SLIDEWAY_DECLARED(name, Type, Base) extern MechanismKernels const name##_kernels;
 #define SLIDEWAY_ADDRESS(name, Type, Base) &name##_kernels,
-#define SLIDEWAY_RIGID_DECLARED(name, ...) extern MechanismKernels const name##_rigid;
-#define SLIDEWAY_RIGID_ADDRESS(name, ...) if (mechanism == Mechanism::name) return &name##_rigid;
 #define SLIDEWAY_KERNELS_OF(isa)                                                                        \
     namespace isa {                                                                                     \
     SLIDEWAY_MECHANISMS(SLIDEWAY_DECLARED)                                                              \
     constexpr MechanismKernels const* kernels[] = {SLIDEWAY_MECHANISMS(SLIDEWAY_ADDRESS)};              \
-    SLIDEWAY_RIGID(SLIDEWAY_RIGID_DECLARED)                                                             \
-    MechanismKernels const* rigid_kernels(Mechanism mechanism) {                                        \
-        SLIDEWAY_RIGID(SLIDEWAY_RIGID_ADDRESS)                                                          \
-        return nullptr;                                                                                 \
-    }                                                                                                   \
     }
 SLIDEWAY_FOR_EACH_ISA(SLIDEWAY_KERNELS_OF)
 #undef SLIDEWAY_DECLARED
 #undef SLIDEWAY_ADDRESS
-#undef SLIDEWAY_RIGID_DECLARED
-#undef SLIDEWAY_RIGID_ADDRESS
 #undef SLIDEWAY_KERNELS_OF
 
 namespace {
@@ -45,11 +37,10 @@ constexpr std::array known_isas = {Isa::scalar, Isa::scalar_libm, Isa::avx2, Isa
 struct BuiltIsa {
     Isa isa;
     char const* flags;
-    MechanismKernels const* const* kernels;              // [mechanism]
-    MechanismKernels const* (*rigid)(Mechanism);  // nullptr of a mechanism that has none
+    MechanismKernels const* const* kernels;  // [mechanism]
 };
 
-#define SLIDEWAY_BUILT_ISA(isa) BuiltIsa{Isa::isa, SLIDEWAY_FLAGS_##isa, isa::kernels, &isa::rigid_kernels},
+#define SLIDEWAY_BUILT_ISA(isa) BuiltIsa{Isa::isa, SLIDEWAY_FLAGS_##isa, isa::kernels},
 constexpr BuiltIsa built_table[] = {SLIDEWAY_FOR_EACH_ISA(SLIDEWAY_BUILT_ISA)};
 #undef SLIDEWAY_BUILT_ISA
 
@@ -97,12 +88,26 @@ std::span<Isa const> built_isas() {
     return isas;
 }
 
-KernelInstance find_instance(Isa isa, Parts const& parts) {
+namespace {
+
+/// Of rigid contacts every mechanism is a module, and its members with shadows are another: nothing else takes as long to compile.
+MechanismKernels const& rigid_kernels(Isa isa, Mechanism mechanism, bool shadows) {
+    std::string name;
+#define SLIDEWAY_MODULE(of, ...) if (mechanism == Mechanism::of) name = #of;
+    SLIDEWAY_RIGID(SLIDEWAY_MODULE)
+#undef SLIDEWAY_MODULE
+    if (name.empty()) throw std::invalid_argument("find_instance: the mechanism of these parts has no rigid contacts");
+    return module_kernels("rigid_" + name + (shadows ? "_shadowed_" : "_") + std::string(name_of(isa)));
+}
+
+}  // namespace
+
+KernelInstance find_instance(Isa isa, Parts const& parts, bool shadows) {
     BuiltIsa const& built = built_table[place_of(compiled_isa(isa))];
-    auto const* const kernels = parts.rigid ? built.rigid(parts.mechanism) : built.kernels[static_cast<int>(parts.mechanism)];
-    if (kernels == nullptr) throw std::invalid_argument("find_instance: the mechanism of these parts has no rigid contacts");
-    if (!kernels->has(parts)) throw std::invalid_argument("find_instance: the law of these parts has no such damping");
-    return {kernels, parts};
+    KernelInstance const instance{parts.rigid ? &rigid_kernels(built.isa, parts.mechanism, shadows) : built.kernels[static_cast<int>(parts.mechanism)],
+                                  parts};
+    if (!instance.kernels->has(parts)) throw std::invalid_argument("find_instance: the law of these parts has no such damping");
+    return instance;
 }
 
 namespace {
@@ -137,7 +142,7 @@ public:
     }
 
     BlockKernel kernel(Parts const& parts, bool shadows) const override {
-        return [instance = find_instance(isa_, parts), shadows](Block& block) { shadows ? instance.run_shadowed(block) : instance.run(block); };
+        return [instance = find_instance(isa_, parts, shadows), shadows](Block& block) { shadows ? instance.run_shadowed(block) : instance.run(block); };
     }
 
     double peak() const override { return 0; }

@@ -11,27 +11,23 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 using Model = SLIDEWAY_MECHANISM;
 
-#if SLIDEWAY_SHADOWED
-void SLIDEWAY_RUN_SHADOWED(Block& block, Parts const& parts) {
-    integrate<Shadowed<Model>, IsaReal>(block, Shadowed<Model>{Model(parts)});
-}
-#else
-#if defined(SLIDEWAY_RUN_SHADOWED)
-extern void SLIDEWAY_RUN_SHADOWED(Block& block, Parts const& parts);
-#define SLIDEWAY_SHADOWED_OR_NONE &SLIDEWAY_RUN_SHADOWED
-#else
-#define SLIDEWAY_SHADOWED_OR_NONE nullptr
-#endif
-
 namespace {
 
 bool has(Parts const& parts) { return parts.rigid; }
+#if SLIDEWAY_SHADOWED
+void run_shadowed(Block& block, Parts const& parts) { integrate<Shadowed<Model>, IsaReal>(block, Shadowed<Model>{Model(parts)}); }
+#else
 void run(Block& block, Parts const& parts) { integrate<Model, IsaReal>(block, Model(parts)); }
 void probe_states(ProbeTable const& states, Parts const& parts) { probe<Model, IsaReal>(states, Model(parts)); }
 
+#endif
+
 }  // namespace
 
-extern constinit MechanismKernels const SLIDEWAY_TABLE = {&has, &run, SLIDEWAY_SHADOWED_OR_NONE, &probe_states};
+#if SLIDEWAY_SHADOWED
+extern constinit MechanismKernels const SLIDEWAY_TABLE = {.has = &has, .run_shadowed = &run_shadowed};
+#else
+extern constinit MechanismKernels const SLIDEWAY_TABLE = {.has = &has, .run = &run, .probe = &probe_states};
 #endif
 
 }  // namespace slideway::inline SLIDEWAY_ISA

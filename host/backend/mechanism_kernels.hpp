@@ -8,7 +8,7 @@ namespace slideway {
 struct MechanismKernels {
     bool (*has)(Parts const&) = nullptr;  // the law of the parts has their damping
     void (*run)(Block&, Parts const&) = nullptr;
-    void (*run_shadowed)(Block&, Parts const&) = nullptr;  // members with shadows; none of a mechanism that has no exponents
+    void (*run_shadowed)(Block&, Parts const&) = nullptr;  // members with shadows; none of a mechanism that has no exponents.  Of rigid contacts they have a table of their own, which has nothing else
     void (*probe)(ProbeTable const&, Parts const&) = nullptr;
 };
 

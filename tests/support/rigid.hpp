@@ -70,7 +70,7 @@ inline ShadowResult run_shadowed(Isa isa, ShadowOptions const& options, std::vec
     block.records = r.records.data();
     block.final_states = r.states.data();
     block.growth_values = r.growth.data();
-    find_instance(isa, options.parts).run_shadowed(block);
+    find_instance(isa, options.parts, true).run_shadowed(block);
     return r;
 }
 

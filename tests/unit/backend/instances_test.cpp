@@ -39,7 +39,8 @@ TEST(Instances, OfRigidContactsHaveShadowsWhereThereAreExponents) {
         if (!may_be_rigid(mechanism)) continue;
         Parts const parts{.damping = Damping::restitution, .mechanism = mechanism, .rigid = true};
         for (Isa const isa : testing::supported_isas()) {
-            EXPECT_EQ(find_instance(isa, parts).kernels->run_shadowed != nullptr, mechanisms()[i].has_exponents);
+            EXPECT_NE(find_instance(isa, parts).kernels->run, nullptr);
+            if (mechanisms()[i].has_exponents) EXPECT_NE(find_instance(isa, parts, true).kernels->run_shadowed, nullptr);
         }
     }
 }

@@ -1,0 +1,14 @@
+// Kernels that are modules: found, opened and, where the program lies in the folder it was built in, compiled when they are first asked for.
+#pragma once
+
+#include <string>
+
+#include "host/backend/mechanism_kernels.hpp"
+
+namespace slideway {
+
+/// The kernels of a module, by the name of its file without `slideway_` and `.so`: `rigid_slider_crank_avx512`.  Opened once; from several threads.
+/// @throws DeviceError if there is none of the program's own sources
+MechanismKernels const& module_kernels(std::string const& name);
+
+}  // namespace slideway
