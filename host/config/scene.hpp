@@ -151,6 +151,14 @@ Inputs member_inputs(Scene const& scene, std::uint64_t member);
 /// The value that member draws for a variation, in SI units.
 double draw(Scene const& scene, Variation const& variation, std::uint64_t member);
 
+/// A number of the scene that is not given and follows from others; members whose sizes vary have their own.
+struct DerivedNumber {
+    Key const* key;
+    double value;       // SI; NaN of what only a kernel knows
+    std::string words;  // of the last parts of keys
+};
+std::vector<DerivedNumber> derived_numbers(Scene const& scene);
+
 /// The scene with every key written out in SI units, as TOML that reads back to the same scene.
 std::string resolved_toml(Scene const& scene);
 

@@ -130,7 +130,7 @@ bool needs_part(Key const& key, double value) {
 
 /// @return why the inputs cannot be used, if it is so; then there is no such row
 std::optional<std::string> add(StateTable& table, Inputs const& given, Parts const& parts, double time, std::vector<std::string> texts = {}) {
-    Inputs const inputs = complete_inputs(given);
+    Inputs const inputs = complete_inputs(given, info(parts.mechanism));
     if (auto why = defect(inputs, parts)) return why;
     table.inputs.push_back(inputs);
     table.parts.push_back(parts);
