@@ -13,7 +13,7 @@ template <class Laws> struct Conditions {
     bool friction = false;
     bool misaligned_way = false;
     bool switches = false;   // LawInfo::switches
-    bool remembers = false;  // impact speeds: Damping::restitution
+    bool remembers = false;  // impact speeds: of a damping by restitution
     bool free_crank = false;
     bool holds_contacts = false;  // steps of the block take their contacts as given (ContactMemory)
     bool in_impacts = false;      // and go by the clocks of impacts
@@ -24,8 +24,16 @@ template <class Laws> struct Conditions {
           friction(parts.friction),
           misaligned_way(parts.misaligned_way),
           switches(law_switches),
-          remembers(parts.damping == Damping::restitution),
+          remembers(remembers_of(parts)),
           free_crank(parts.free_crank) {}
+
+    /// A law that is known with its damping says it itself: without the speeds of its impacts, one by restitution would return what it likes.
+    static constexpr bool remembers_of(Parts const& parts) {
+        if constexpr (requires { Laws::remembers; }) {
+            if (Laws::remembers) return true;
+        }
+        return parts.damping == Damping::restitution;
+    }
 
     /// Whether there are switches that steps may end at.
     SLIDEWAY_FN bool can_locate_modes() const { return switches && !remembers; }

@@ -54,15 +54,17 @@ struct Parts {
     row(start_angle, "mechanism.start_angle", 0, "rad", any, crank, "crank angle at the start")  /* θ0 */ \
     row(gravity, "mechanism.gravity", 9.81, "m/s2", any, slider, "gravity")  /* g */ \
     row(inclination, "mechanism.inclination", 0, "rad", right_angle, slider, "inclination of the way")  /* β */ \
-    row(crank_mass, "mechanism.crank_mass", follows, "kg", positive, links, "mass of the crank")  /* m_c: steel, 5 × 2.5 mm × crank_length */ \
-    row(rod_mass, "mechanism.rod_mass", follows, "kg", positive, links, "mass of the rod")  /* m_r: steel, 14.2 × 7.1 mm × rod_length */ \
+    row(crank_mass, "mechanism.crank_mass", follows, "kg", positive, links, "mass of the crank")  /* m_c: ρ A_c r */ \
+    row(rod_mass, "mechanism.rod_mass", follows, "kg", positive, links, "mass of the rod")  /* m_r: ρ A_r L */ \
     row(rod_mass_center, "mechanism.rod_mass_center", 0.5, "1", unit_interval, rod_centre, "centre of mass of the rod as a fraction of its length from the crank pin")  /* f_r */ \
     row(rod_inertia, "mechanism.rod_inertia", follows, "kg m2", not_negative, links, "transverse inertia of the rod about its centre of mass")  /* J: m_r L²/12 */ \
-    row(slider_mass, "mechanism.slider_mass", follows, "kg", positive, slider, "mass of the slider")  /* M: steel, 40 × 20 × 30 mm */ \
-    row(slider_inertia_x, "mechanism.slider_inertia_x", follows, "kg m2", positive, spatial, "inertia of the slider about X")  /* I: that block with mass M */ \
+    row(slider_mass, "mechanism.slider_mass", follows, "kg", positive, slider, "mass of the slider")  /* M: ρ L_k w_a w_b; planar ρ L_k 2b d */ \
+    row(slider_inertia_x, "mechanism.slider_inertia_x", follows, "kg m2", positive, spatial, "inertia of the slider about X")  /* I: of that solid with mass M */ \
     row(slider_inertia_y, "mechanism.slider_inertia_y", follows, "kg m2", positive, spatial, "inertia of the slider about Y") \
     row(slider_inertia_z, "mechanism.slider_inertia_z", follows, "kg m2", positive, slider, "inertia of the slider about Z") \
     row(crank_inertia, "mechanism.crank_inertia", follows, "kg m2", not_negative, planar, "inertia of the crank about its centre of mass")  /* J1: m_c r²/12 */ \
+    row(crank_section, "mechanism.crank_section", 0.005 * 0.0025, "m2", positive, links, "area of the crank's section, from which its mass follows")  /* A_c: 5 × 2.5 mm */ \
+    row(rod_section, "mechanism.rod_section", 0.0142 * 0.0071, "m2", positive, links, "area of the rod's section, from which its mass follows")  /* A_r: 14.2 × 7.1 mm */ \
     row(carriage_speed, "mechanism.carriage_speed", 0.06, "m/s", positive, carriage, "speed of the carriage")  /* v */ \
     row(stroke, "mechanism.stroke", 0.15, "m", positive, carriage, "distance that the carriage travels at constant speed") \
     row(reversal_time, "mechanism.reversal_time", 0.02, "s", positive, carriage, "time in which the carriage reverses its direction")  /* t_r */ \
@@ -75,6 +77,10 @@ struct Parts {
     row(clearance_y, "joint.clearance_y", 1e-4, "m", gap, slider, "clearance per side along Y")  /* c_a */ \
     row(clearance_z, "joint.clearance_z", 1e-4, "m", gap, spatial, "clearance per side along Z")  /* c_b */ \
     row(slider_height, "joint.slider_height", 0.02, "m", positive, planar, "height of the planar slider")  /* 2b */ \
+    row(slider_depth, "joint.slider_depth", 0.03, "m", positive, planar, "depth of the planar slider along Z, from which its mass follows")  /* d */ \
+    row(wall, "joint.wall", 0, "m", not_negative, spatial, "thickness of the walls of a hollow slider, from which its mass follows; 0: a solid block of the way's section")  /* t */ \
+    /* [material] */ \
+    row(density, "material.density", 7800, "kg/m3", positive, slider, "density of all bodies, from which masses follow")  /* ρ */ \
     /* [way] */ \
     row(way_offset_y, "way.offset_y", 0, "m", any, spatial, "offset of the way along Y")  /* u_l */ \
     row(way_offset_z, "way.offset_z", 0, "m", any, spatial, "offset of the way along Z") \

@@ -14,7 +14,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 ///    `Watch<Real>` (what finds their events), which hold Reals only, and `Observer<Real>` (quantities on the way), also
 ///    `Accelerations<Real>` where those may be asked for;
 ///  - `derivative<Full>(t, state, parameters, memory, rates, report)`, which fills the report if Full and returns `Faults`;
-///  - `series`: how many columns a sample may have, the state first, or where `state_of_series(series)` says;
+///  - `series`: how many columns a sample may have: the state, and if there are more, those where `state_of_series(series)` says;
 ///  - `has_contacts`: the report then has a `contact`, the model `switches()` and `watching(locate_modes, neighbours)`, and the watch
 ///    `begin`, `earliest`, `update` and `keep` (kernels/steppers/contact_watch.hpp), `touch_scale(parameters)` being its length;
 ///  - `has_impacts`: contacts then are rigid, `located(parameters, end)` is the length of the watch instead, and `settle(…)` says what follows

@@ -1,9 +1,9 @@
 // The kernels as a library: mechanisms, contact laws, and what integrates blocks of members of them.  For units that slideway_add_kernels()
 // compiles, or for one member at a time with -DSLIDEWAY_NO_SIMD.
 //
-//     using Laws = OneLaw<Conservative, PointDamping>;
+//     using Laws = OneLaw<ConservativeLaw, PointDamping>;
 //     using Model = MechanismModel<SliderCrank, SliderBase, Laws>;
-//     integrate<Model, IsaReal>(block, Model{Conditions<Laws>{{}, Conservative::info.switches, Parts{}}});
+//     integrate<Model, IsaReal>(block, Model{Conditions<Laws>{{}, ConservativeLaw::info.switches, Parts{}}});
 //
 // Functions outside of a unit's namespace are static (kernels/members), so that no program takes a unit's copy, of wider instructions, for its own.
 // kernels/block.hpp says what a block is, kernels/inputs.hpp what a member is; complete_inputs() fills in masses and inertias.

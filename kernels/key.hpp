@@ -58,6 +58,7 @@ struct Key {
     std::string_view meaning;        // "crank length"
     double preset;                   // the value that it has when nobody gives one; NaN: it follows from others
     double Inputs::*twin = nullptr;  // a second input that the key sets too: joint.clearance, contact.young_modulus
+    std::string_view derivation = {};  // of a law's own number without a preset: what the law takes for it
 
     constexpr double get(Inputs const& inputs) const;
     constexpr void set(Inputs& inputs, double value) const;

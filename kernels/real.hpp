@@ -2,6 +2,9 @@
 // `Real`, which is `double` (one member, on the host or inside a CUDA thread) or `xsimd::batch<double, Arch>` (one
 // member per lane).  Every operation here gives the same bits for both, on every machine.
 //
+// Numbers are initialised in parentheses, Real(0.5) or Real const half(0.5): with braces a pack takes a list of its lanes, of which one number is the
+// first (Repository.NumbersOfKernelsAreNotInitialisedInBraces looks for it).
+//
 // All kernel code lives in `slideway::SLIDEWAY_ISA`, an inline namespace named by the unit that compiles it.  Units
 // built for different instruction sets so never share an inline function: the linker cannot hand AVX-512 code to a
 // machine without it.

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -134,6 +136,18 @@ void print_resolved(std::string_view text) {
     fmt::print("\n");
 }
 
+/// What the scene does not give, with its values: "slider_mass 187.2 kg, slider_inertia_x 2.03 kg m2".
+void print_derived(Scene const& scene) {
+    std::vector<std::string> texts;
+    for (DerivedNumber const& one : derived_numbers(scene)) {
+        std::string_view const name = one.key->name.substr(one.key->name.find('.') + 1);
+        texts.push_back(std::isnan(one.value) ? std::string(name)
+                                              : fmt::format("{} {:.4g}{}{}", name, one.value, one.key->unit == "1" ? "" : " ",
+                                                            one.key->unit == "1" ? "" : one.key->unit));
+    }
+    if (!texts.empty()) print_field("derived", fmt::format("{}", fmt::join(texts, ", ")));
+}
+
 /// How members are spread over what varies, and what they are to meet.
 void print_design(Scene const& scene) {
     if (!scene.variations.empty()) print_field("design", design_text(scene));
@@ -168,6 +182,7 @@ int execute(CheckArguments const& arguments) {
 
     print_text(2, "# {} is a valid scene.  Resolved, in SI units:\n", in_one_line(scene.path));
     print_resolved(resolved_toml(scene));
+    print_derived(scene);
     print_parts(scene);
     print_field("kernels", fmt::format("{}, {}, blocks of at most {}", backend_text(*choice.backend),
                                        counted(static_cast<std::uint64_t>(choice.backend->workers(threads)), "thread"),

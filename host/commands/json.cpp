@@ -233,6 +233,10 @@ std::string check_json(Scene const& scene, Prediction const& prediction, std::op
     Json json = object("check");
     json["scene"] = scene.path;
     json["resolved"] = resolved_toml(scene);
+    json["derived"] = Json::array();
+    for (DerivedNumber const& one : derived_numbers(scene)) {
+        json["derived"].push_back({{"name", one.key->name}, {"value", number(one.value)}, {"unit", one.key->unit}, {"from", one.words}});
+    }
     json["warnings"] = scene.warnings;
     json["members"] = member_count(scene);
     json["backend"] = backend.name();

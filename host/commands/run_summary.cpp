@@ -59,9 +59,14 @@ std::string_view advice_on(Method method) {
             return "use a smaller integrator.step, or method = \"auto\"";
         case Method::ros34pw2:
             return "it is for lasting contact alone; use method = \"auto\" where there are impacts";
-        default:
-            return "use smaller rtol and atol";
+        case Method::automatic:
+        case Method::dopri5:
+        case Method::dop853:
+        case Method::bs32:
+        case Method::verner65:
+            break;
     }
+    return "use smaller rtol and atol";
 }
 
 /// What became of members whose method left its stable range, and the way out (docs/stability.md).

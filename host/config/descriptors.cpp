@@ -5,6 +5,7 @@
 
 #include "kernels/all_laws.hpp"
 #include "kernels/all_mechanisms.hpp"
+#include "kernels/members/start.hpp"
 
 namespace slideway {
 namespace {
@@ -30,7 +31,9 @@ SLIDEWAY_LAWS(SLIDEWAY_CHECK)
 #define SLIDEWAY_CHECK(row, Type, Base)                                                                             \
     static_assert(std::string_view(Type::info.name) == #row, "the info of mechanism " #row " bears another name"); \
     static_assert(Type::info.states == Type::size && Type::size <= most_states,                                     \
-                  "the state of mechanism " #row " has another size");
+                  "the state of mechanism " #row " has another size");                                                \
+    static_assert(has_start_inputs(Type::info),                                                                     \
+                  "a component of the state of mechanism " #row " starts from no input: it lacks a row in start_inputs (kernels/members/start.hpp)");
 SLIDEWAY_MECHANISMS(SLIDEWAY_CHECK)
 #undef SLIDEWAY_CHECK
 

@@ -26,9 +26,13 @@ std::pair<double, double> ends_of(Distribution const& d) {
         case Distribution::Kind::weibull:
             return {d.low + d.scale * std::pow(rare, 1 / d.shape),
                     d.low + d.scale * std::pow(-std::log(rare), 1 / d.shape)};
-        default:
-            return {d.low, d.high};
+        case Distribution::Kind::uniform:
+        case Distribution::Kind::triangular:
+        case Distribution::Kind::truncated_normal:
+        case Distribution::Kind::values:
+            break;
     }
+    return {d.low, d.high};
 }
 
 /// Magnitudes that members may have of a key; the least is 0 where the limits include it.

@@ -42,7 +42,7 @@ KeyReference reference_of(Setting const& row) {
 KeyReference reference_of(Key const& of) {
     KeyReference key{.name = of.name, .unit = of.unit, .meaning = of.meaning, .type = Type::number, .range = range_of(of.rule), .usual = usual_range(of), .choices = {},
                      .preset = {}, .mechanisms = {}, .laws = {}, .studies = {}, .methods = {}};
-    key.preset = of.member == &Inputs::restitution ? "" : std::isnan(of.preset) ? "follows from others" : fmt::format("{:.10g}", of.preset);
+    key.preset = of.member == &Inputs::restitution ? "" : std::isnan(of.preset) ? "derived: " + derivations_of(of) : fmt::format("{:.10g}", of.preset);
     key.mechanisms = owners(mechanism_names(), [&](std::size_t i) { return counts_for(of, static_cast<Mechanism>(i)); });
     key.laws = owners(contact_law_names(), [&](std::size_t i) {
         Parts parts;
@@ -126,7 +126,7 @@ std::vector<KeyReference> key_references(Settings rows) {
     std::vector<KeyReference> all;
     for (Setting const& row : rows) all.push_back(reference_of(row));
     for (Key const& key : numeric_keys()) all.push_back(reference_of(key));
-    static constexpr std::string_view tables[] = {"", "mechanism", "joint", "way", "contact", "friction", "initial", "integrator", "study"};
+    static constexpr std::string_view tables[] = {"", "mechanism", "joint", "material", "way", "contact", "friction", "initial", "integrator", "study"};
     std::ranges::stable_sort(all, {}, [](KeyReference const& key) { return std::ranges::find(tables, key.table()) - tables; });
     return all;
 }

@@ -1,6 +1,7 @@
 #include "host/config/keys.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 
@@ -17,6 +18,28 @@ constexpr Key double_keys[] = {
     {"contact.young_modulus", &Inputs::slider_young_modulus, "Pa", Rule::positive, KeyGroup::elastic,
      "modulus of both bodies", 2.07e11, &Inputs::way_young_modulus},
 };
+
+/// What counts for masses and inertias alone.
+constexpr double Inputs::*sources_of_masses[] = {&Inputs::density, &Inputs::crank_section, &Inputs::rod_section, &Inputs::wall,
+                                                 &Inputs::slider_depth};
+
+/// Sections that no size of a scene says, where it does not give them (Qian et al. 2020, Table 6).
+constexpr struct {
+    std::string_view name, size;
+} paper_sections[] = {{"mechanism.crank_section", "5 x 2.5 mm"}, {"mechanism.rod_section", "14.2 x 7.1 mm"}};
+
+/// "density" of "material.density"
+constexpr std::string_view last_part_of(std::string_view name) { return name.substr(name.find('.') + 1); }
+
+/// Whether words contain a name as a whole.
+bool have_name(std::string_view words, std::string_view name) {
+    auto const is_of_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+    for (auto at = words.find(name); at != words.npos; at = words.find(name, at + 1)) {
+        auto const end = at + name.size();
+        if ((at == 0 || !is_of_name(words[at - 1])) && (end == words.size() || !is_of_name(words[end]))) return true;
+    }
+    return false;
+}
 
 /// Of `Rule`: what numbers it allows, and what is said of the others.
 constexpr struct {
@@ -81,6 +104,32 @@ Key const* find_key(std::string_view dotted_name) {
     return found == numeric_keys().end() ? nullptr : &*found;
 }
 
+std::string derivation_of(Key const& key, Parts const& parts, Inputs const& inputs) {
+    DerivedInput const* const rule = derivation_of(key.member, solid_of(info(parts.mechanism), inputs));
+    std::string words(rule != nullptr ? rule->words : key.derivation);
+    for (auto const& [name, size] : paper_sections) {
+        Key const& section = *find_key(name);
+        if (have_name(words, last_part_of(name)) && section.get(inputs) == section.preset) words += fmt::format(" ({}, the paper's)", size);
+    }
+    return words;
+}
+
+std::string derivations_of(Key const& key) {
+    std::string text(key.derivation);
+    for (DerivedInput const& rule : derived_inputs) {
+        if (rule.member == key.member) text += fmt::format("{}{}", text.empty() ? "" : ", or ", rule.words);
+    }
+    return text;
+}
+
+bool is_idle_source(Key const& key, Parts const& parts, Inputs const& inputs) {
+    if (std::ranges::find(sources_of_masses, key.member) == std::end(sources_of_masses)) return false;
+    return std::ranges::none_of(derived_inputs, [&](DerivedInput const& rule) {
+        auto const derived = std::ranges::find(keys(), rule.member, &Key::member);
+        return have_name(rule.words, last_part_of(key.name)) && counts_for(*derived, parts) && std::isnan(derived->get(inputs));
+    });
+}
+
 void require_part(Parts& parts, Key const& key) {
     if (key.name.starts_with("way.")) parts.misaligned_way = true;
     if (key.name.starts_with("friction.")) parts.friction = true;
@@ -107,7 +156,7 @@ std::optional<Problem> broken_rule(Key const& key, double value) {
 }
 
 std::optional<Defect> find_defect(Inputs const& inputs, Parts const& parts) {
-    Inputs const in = complete_inputs(inputs);
+    Inputs const in = complete_inputs(inputs, info(parts.mechanism));
     for (Key const& key : keys()) {
         if (!counts_for(key, parts)) continue;
         // A number of the law that it takes from others.

@@ -29,6 +29,15 @@ std::vector<std::string_view> numeric_key_names();
 /// One of them; nullptr when there is none.
 Key const* find_key(std::string_view dotted_name);
 
+/// How a number follows that a scene does not give, in words of the last parts of keys; empty of one that follows from none.  Where a rod's or
+/// a crank's section is as it is when nobody gives it, with that of the paper.
+/// @param inputs of the scene: they say which solid the slider is
+std::string derivation_of(Key const& key, Parts const& parts, Inputs const& inputs);
+/// All ways in which it may follow, with any mechanism: one, or several that "or" joins.
+std::string derivations_of(Key const& key);
+/// Whether a key counts for nothing but what follows from it (material.density, joint.wall …), and a scene gives all of that.
+bool is_idle_source(Key const& key, Parts const& parts, Inputs const& inputs);
+
 /// What contact.restitution replaces.
 inline constexpr std::string_view rates_of_damping[] = {"contact.eta", "contact.chi_line", "contact.chi_surface"};
 

@@ -26,6 +26,8 @@ std::vector<GivenKey> given_keys(Node const& root);
 void read_physics(Node const& root, Scene& scene);
 /// Refuses rigid contacts whose restitution nothing says.
 void check_restitution(Node const& root, Scene const& scene);
+/// Warns of keys from which masses would follow, where all of those are given.
+void warn_of_idle_sources(Node const& root, Scene& scene);
 /// [study.vary]; adds the kernel parts that the varied keys need.
 void read_variations(Node const& root, Scene& scene);
 /// An entry of [study.vary].

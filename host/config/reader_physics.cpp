@@ -188,6 +188,16 @@ void check_restitution(Node const& root, Scene const& scene) {
     refuse(*root.find_path("contact.law"), {"rigid contacts need contact.restitution", "give it, above 0 and at most 1"});
 }
 
+void warn_of_idle_sources(Node const& root, Scene& scene) {
+    auto const warn = [&](Key const& key) {
+        if (!is_idle_source(key, scene.parts, scene.inputs)) return;
+        scene.warnings.push_back(fmt::format("{} has no effect, for all masses and inertias that would follow from it are given", key.name));
+    };
+    for (auto const& [key, node] : given_keys(root)) warn(*key);
+    for (Variation const& variation : scene.variations) warn(*variation.key);
+    if (scene.chaos.parameter != nullptr) warn(*scene.chaos.parameter);
+}
+
 void read_integrator(Node const& root, Scene& scene) {
     IntegratorSettings& settings = scene.integrator;
     read_bound(root, "integrator", scene);

@@ -99,9 +99,12 @@ std::string_view section_unit(SectionSurface const& section, Mechanism mechanism
             Key const* const key = find_key(fmt::format("initial.{}", state.name));
             return key != nullptr ? key->unit : state.unit;
         }
-        default:
-            return "m";
+        case SectionSurface::On::gap_y:
+        case SectionSurface::On::gap_z:
+        case SectionSurface::On::impacts:
+            break;
     }
+    return "m";
 }
 
 void read_section(Node const& root, Scene& scene) {

@@ -16,31 +16,36 @@
 namespace slideway {
 namespace {
 
-bool is_written(Key const& key, Parts const& parts) {
+bool is_written(Key const& key, Scene const& scene) {
+    Parts const& parts = scene.parts;
     if (!counts_for(key, parts)) return false;
+    if (is_idle_source(key, parts, scene.inputs) && key.get(scene.inputs) == key.preset) return false;
     bool const restitution = parts.damping == Damping::restitution;
     if (key.name.starts_with("way.")) return parts.misaligned_way;
     if (key.name == "contact.restitution") return restitution;
     return !restitution || std::ranges::count(rates_of_damping, key.name) == 0;
 }
 
-/// Keys of one table; what follows from other keys is a comment, so that it still follows when they vary.
+/// Of what is derived from other keys: "# slider_mass = 0.1872  # kg, derived: density x slider_length x way_width x way_depth".  A comment, so that
+/// it is derived anew where they vary.
+std::string derived_line(std::string_view name, Key const& key, Scene const& scene, double value) {
+    std::string const words = derivation_of(key, scene.parts, scene.inputs);
+    if (std::isnan(value)) return fmt::format("# {}  # derived: {}\n", name, words);
+    std::string const unit = unit_comment(key.unit);
+    return fmt::format("# {} = {}{}derived: {}\n", name, toml_number(value), unit.empty() ? "  # " : unit + ", ", words);
+}
+
+/// Keys of one table.
 std::string physics_table(Scene const& scene, Inputs const& complete, std::string_view table, std::string_view first) {
-    std::string text = fmt::format("\n[{}]\n{}", table, first);
+    std::string text(first);
     for (Key const& key : keys()) {
         auto const dot = key.name.find('.');
-        if (key.name.substr(0, dot) != table || !is_written(key, scene.parts)) continue;
+        if (key.name.substr(0, dot) != table || !is_written(key, scene)) continue;
         std::string_view const name = key.name.substr(dot + 1);
-        if (std::isnan(key.get(complete))) {
-            text += fmt::format("# {} follows from other keys\n", name);
-        } else if (std::isnan(key.get(scene.inputs))) {
-            std::string const unit = unit_comment(key.unit);
-            text += fmt::format("# {} = {}{}follows from other keys\n", name, toml_number(key.get(complete)), unit.empty() ? "  # " : unit + ", ");
-        } else {
-            text += number_line(name, key.get(scene.inputs), key.unit);
-        }
+        bool const given = !std::isnan(key.get(scene.inputs));
+        text += given ? number_line(name, key.get(scene.inputs), key.unit) : derived_line(name, key, scene, key.get(complete));
     }
-    return text;
+    return text.empty() ? text : fmt::format("\n[{}]\n{}", table, text);
 }
 
 std::string quantities_text(Scene const& scene) {
@@ -219,7 +224,7 @@ std::string study_table(Scene const& scene) {
 }  // namespace
 
 std::string resolved_toml(Scene const& scene) {
-    Inputs const complete = complete_inputs(scene.inputs);
+    Inputs const complete = complete_inputs(scene.inputs, info(scene.parts.mechanism));
     std::string text = fmt::format("schema = 1\ntitle = {}\n", toml_string(scene.title));
     MechanismInfo const& mechanism = info(scene.parts.mechanism);
     std::string kind = fmt::format("kind = \"{}\"\n", mechanism.name);
@@ -227,7 +232,7 @@ std::string resolved_toml(Scene const& scene) {
         kind += fmt::format("crank = \"{}\"\n", scene.parts.free_crank ? "free" : "driven");
     }
     text += physics_table(scene, complete, "mechanism", kind);
-    text += physics_table(scene, complete, "joint", "");
+    text += physics_table(scene, complete, "joint", "") + physics_table(scene, complete, "material", "");
     if (scene.parts.misaligned_way) text += physics_table(scene, complete, "way", "");
     text += physics_table(scene, complete, "contact",
                           mechanism.spatial || scene.parts.rigid

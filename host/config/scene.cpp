@@ -1,5 +1,6 @@
 #include "host/config/scene.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "kernels/members/complete_inputs.hpp"
@@ -45,6 +46,16 @@ std::string label_of(Scene const& scene, std::uint64_t member) {
     return table != nullptr && member < table->labels.size() ? table->labels[static_cast<std::size_t>(member)] : std::string();
 }
 
+std::vector<DerivedNumber> derived_numbers(Scene const& scene) {
+    Inputs const complete = complete_inputs(scene.inputs, info(scene.parts.mechanism));
+    std::vector<DerivedNumber> numbers;
+    for (Key const& key : keys()) {
+        if (!counts_for(key, scene.parts) || !std::isnan(key.get(scene.inputs))) continue;
+        numbers.push_back({&key, key.get(complete), derivation_of(key, scene.parts, scene.inputs)});
+    }
+    return numbers;
+}
+
 Inputs member_inputs(Scene const& scene, std::uint64_t member) {
     Inputs inputs = scene.inputs;
     std::uint64_t start = member;
@@ -54,7 +65,7 @@ Inputs member_inputs(Scene const& scene, std::uint64_t member) {
     }
     auto const values = draw_values(scene, start);
     for (std::size_t i = 0; i < values.size(); ++i) scene.variations[i].key->set(inputs, values[i]);
-    return complete_inputs(inputs);
+    return complete_inputs(inputs, info(scene.parts.mechanism));
 }
 
 }  // namespace slideway

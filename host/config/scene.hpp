@@ -154,6 +154,14 @@ double draw(Scene const& scene, Variation const& variation, std::uint64_t member
 /// What columns of text of the scene's table call a member: "A-001, lot 7"; "" where there are none.
 std::string label_of(Scene const& scene, std::uint64_t member);
 
+/// A number of the scene that is not given and follows from others; members whose sizes vary have their own.
+struct DerivedNumber {
+    Key const* key;
+    double value;       // SI; NaN of what only a kernel knows
+    std::string words;  // of the last parts of keys
+};
+std::vector<DerivedNumber> derived_numbers(Scene const& scene);
+
 /// The scene with every key written out in SI units, as TOML that reads back to the same scene.
 std::string resolved_toml(Scene const& scene);
 

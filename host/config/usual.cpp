@@ -17,6 +17,7 @@ struct UsualRow {
 };
 constexpr UsualRow usual_rows[] = {
     {"joint.clearance", "m", 1e-8, 1e-2},
+    {"joint.wall", "m", 0, 1},
     {"contact.edge_radius", "m", 1e-7, 1},
     {"contact.apex_radius", "m", 1e-7, 1},
     {"way.offset", "m", 0, 0.1},
@@ -31,6 +32,7 @@ constexpr UsualRow usual_rows[] = {
     {"", "rad/s", 0, 1e4},
     {"", "m/s2", 0, 1000},
     {"mechanism.reversal_time", "s", 1e-5, 1000},
+    {"", "m2", 1e-8, 1},
     {"", "kg", 1e-6, 1e5},
     {"", "kg m2", 0, 1e6},
     {"", "kg/m3", 10, 3e4},
@@ -56,7 +58,7 @@ struct Slip {
 };
 constexpr Slip slips[] = {
     {"m", "mm", 1e-3},   {"m", "um", 1e-6},      {"rad", "deg", 0.017453292519943295},      {"m/s", "mm/s", 1e-3}, {"rad/s", "rpm", 0.10471975511965977},
-    {"m/s2", "mm/s2", 1e-3}, {"s", "ms", 1e-3}, {"kg", "g", 1e-3},  {"kg/m3", "g/cm3", 1e3}, {"Pa", "GPa", 1e9}, {"Pa", "MPa", 1e6}, {"N/m", "N/mm", 1e3},
+    {"m/s2", "mm/s2", 1e-3}, {"m2", "mm2", 1e-6}, {"s", "ms", 1e-3}, {"kg", "g", 1e-3},  {"kg/m3", "g/cm3", 1e3}, {"Pa", "GPa", 1e9}, {"Pa", "MPa", 1e6}, {"N/m", "N/mm", 1e3},
 };
 
 /// "; did you mean \"1 mm\"?", if the number is usual in another unit.

@@ -80,9 +80,13 @@ double by_tails(Distribution const& d, Tails const& p) {
             return weibull(d, p);
         case Distribution::Kind::values:
             return listed(d, p.below);
-        default:
-            return d.mean;
+        case Distribution::Kind::constant:
+        case Distribution::Kind::uniform:
+        case Distribution::Kind::normal:
+        case Distribution::Kind::lognormal:
+            break;
     }
+    return d.mean;
 }
 
 using D = Distribution;

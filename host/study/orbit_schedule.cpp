@@ -86,9 +86,11 @@ CrossingPlan::On crossings_of(Scene const& scene) {
             return closes ? CrossingPlan::On::impacts_z : CrossingPlan::On::gap_z;
         case On::impacts:
             return CrossingPlan::On::impacts;
-        default:
-            return CrossingPlan::On::state;
+        case On::phase:
+        case On::state:
+            break;
     }
+    return CrossingPlan::On::state;
 }
 
 /// Crossings from the end of the transient on.

@@ -80,8 +80,9 @@ StepRange steps_of_member(Scene const& scene) {
     // Impacts have no duration; how many there are nobody knows.
     constexpr double rigid_steps = 20;
     if (scene.parts.rigid) return {least, rigid_steps * least};
-    return {least, least + end * stiffest_rate(info(scene.parts.mechanism), info(scene.parts.law), complete_inputs(scene.inputs)) *
-                               contact_steps(scene.integrator)};
+    MechanismInfo const& mechanism = info(scene.parts.mechanism);
+    double const rate = stiffest_rate(mechanism, info(scene.parts.law), complete_inputs(scene.inputs, mechanism));
+    return {least, least + end * rate * contact_steps(scene.integrator)};
 }
 
 /// How many shards members become at most: their blocks, of the dearest members that are foreseen.

@@ -141,7 +141,7 @@ std::optional<std::string> take_state(MechanismInfo const& mechanism, StateNumbe
 
 /// @return why the inputs cannot be used, if it is so; then there is no such row
 std::optional<std::string> add(StateTable& table, Inputs const& given, Parts const& parts, double time, std::vector<std::string> texts = {}) {
-    Inputs const inputs = complete_inputs(given);
+    Inputs const inputs = complete_inputs(given, info(parts.mechanism));
     if (auto why = defect(inputs, parts)) return why;
     if (!std::isfinite(time)) return fmt::format("t is {} s; use a finite number", time);
     table.inputs.push_back(inputs);

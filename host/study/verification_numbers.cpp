@@ -24,7 +24,7 @@ constexpr double of_rounding = 1e-9; // of what a fall through the clearance com
 
 /// What a number with this unit is on the scale of the joint: of a fall through its clearance.
 double natural_scale(std::string const& unit, Scene const& scene) {
-    Inputs const in = complete_inputs(scene.inputs);
+    Inputs const in = complete_inputs(scene.inputs, info(scene.parts.mechanism));
     double const clearance = std::max(in.clearance_y, in.clearance_z), energy = fall_energy(scene);
     if (unit == "s") return orbit_schedule(scene).end;
     if (unit == "J") return energy;
@@ -164,7 +164,7 @@ void follow_others(std::vector<CheckedNumber>& numbers, Comparison const& c) {
 }  // namespace
 
 double fall_energy(Scene const& scene) {
-    Inputs const in = complete_inputs(scene.inputs);
+    Inputs const in = complete_inputs(scene.inputs, info(scene.parts.mechanism));
     double const clearance = std::max(in.clearance_y, in.clearance_z),
                  speed = clearance * std::max(1.0, std::abs(in.crank_speed));
     return in.slider_mass * (std::abs(in.gravity) * clearance + speed * speed);

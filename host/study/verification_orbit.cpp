@@ -69,7 +69,7 @@ Orbit orbit_of(Scene const& scene, FreshRun const& run) {
 /// On which scale components of the state tell that orbits part: the clearance, and what tilts the slider by it; of speeds nothing, for at an impact
 /// they differ whenever its time does.
 std::vector<double> parting_scales(Scene const& scene) {
-    Inputs const in = complete_inputs(member_inputs(scene, 0));
+    Inputs const in = member_inputs(scene, 0);
     MechanismInfo const& has = info(scene.parts.mechanism);
     double const clearance = std::min(in.clearance_y, has.spatial ? in.clearance_z : in.clearance_y);
     double const tilt = clearance / (has.spatial ? 0.5 * in.slider_length : std::max(in.slider_length, in.rod_length));

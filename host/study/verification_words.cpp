@@ -192,10 +192,11 @@ std::string summarise(Verification const& v, Scene const& scene, VerificationReq
         case Resolution::undecided:
             return "undecided: " + again + lines_of(v, Verdict::undecided) + lines_of(v, Verdict::bounded) + rest +
                    cut + reach_of(v, request) + tail;
-        default:
-            return "error bounded, not resolved: " + again + lines_of(v, Verdict::bounded) + rest + cut +
-                   reach_of(v, request) + tail;
+        case Resolution::bounded:
+        case Resolution::not_checked:
+            break;
     }
+    return "error bounded, not resolved: " + again + lines_of(v, Verdict::bounded) + rest + cut + reach_of(v, request) + tail;
 }
 
 }  // namespace

@@ -10,7 +10,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// No mode but that an apex touches or not; without damping and friction it keeps energy.  Source: docs/model.md 4.
 struct KelvinVoigt {
     static constexpr Key keys[] = {
-        {"contact.apex_stiffness", &Inputs::law_a, "N/m", Rule::positive, KeyGroup::law, "stiffness of an apex", follows},
+        {"contact.apex_stiffness", &Inputs::law_a, "N/m", Rule::positive, KeyGroup::law, "stiffness of an apex", follows, nullptr,
+         "E_s A / (4 l) of its face"},
         {"contact.apex_damping", &Inputs::law_b, "N s/m", Rule::not_negative, KeyGroup::law, "damping of an apex", 0}};
     static constexpr double face_stiffness(Inputs const& in, double surface) {
         return in.law_a == in.law_a ? 4 * in.law_a : surface;

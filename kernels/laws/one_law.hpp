@@ -16,6 +16,8 @@ template <class Real> struct FaceNormals {
 /// A law and its damping, known when the equations are compiled: every call names its function.  Functions of their own: the joint calls
 /// them for four faces, and the code would multiply.
 template <class Law, class Damping> struct OneLaw {
+    static constexpr bool remembers = Damping::remembers;
+
     template <class Real>
     SLIDEWAY_NOINLINE static FaceNormals<Real> normals(FaceMotion<Real> const& m, FaceContact<Real> const& face,
                                                        ContactParameters<Real> const& contact) {

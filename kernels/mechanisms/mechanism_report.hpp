@@ -48,9 +48,24 @@ template <class Real> struct MechanismReport {
                 return top;
             case Series::acceleration_front:
                 return front;
-            default:
-                return Real(not_a_number);
+            case Series::y:
+            case Series::z:
+            case Series::vy:
+            case Series::vz:
+            case Series::roll:
+            case Series::yaw:
+            case Series::pitch:
+            case Series::wx:
+            case Series::wy:
+            case Series::wz:
+            case Series::rod_angular_velocity:
+            case Series::crank_angle:
+            case Series::crank_angular_velocity:
+            case Series::rod_angle:
+            case Series::count:
+                break;
         }
+        return Real(not_a_number);
     }
 
 protected:

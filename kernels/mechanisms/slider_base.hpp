@@ -18,6 +18,9 @@ struct SliderBase {
     template <class Real> using Report = SliderReport<Real>;
     template <class Real> using Linearisation = SliderLinearisation<Real>;
 
+    /// Which component of the state an entry of `series_table` is; -1 if none.
+    SLIDEWAY_HD static constexpr int state_of_series(int series) { return series < size ? series : -1; }
+
     /// Sizes against which integrator.atol is meant: c, c·ω, 2c/L_k, 2c/L_k·ω.
     template <class Real> SLIDEWAY_FN static void scales(SliderParameters<Real> const& p, Real* scale) {
         scale[0] = p.length_scale_y;
@@ -52,6 +55,8 @@ struct SliderBase {
 struct FreeSliderBase : SliderBase {
     static constexpr int size = 12;
     template <class Real> using Linearisation = FreeSliderLinearisation<Real>;
+
+    SLIDEWAY_HD static constexpr int state_of_series(int series) { return series < size ? series : -1; }
 
     template <class Real> SLIDEWAY_FN static void scales(SliderParameters<Real> const& p, Real* scale) {
         SliderBase::scales(p, scale);

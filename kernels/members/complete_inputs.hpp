@@ -1,36 +1,116 @@
-// The inputs of a member with what follows from others.
+// The inputs of a member with what follows from others: each rule once, with its words.
 #pragma once
 
 #include <cmath>
+#include <string_view>
 
 #include "kernels/inputs.hpp"
+#include "kernels/mechanisms/mechanism_info.hpp"
 
 namespace slideway {
 
+/// The solid that a slider is taken for where its mass or inertia is not given.
+enum class SliderSolid {
+    block,   // slider_length × way_width × way_depth, as if the hole were filled (Qian et al. 2020, Table 6)
+    hollow,  // four walls of a thickness t around the way's section: the clearance counts as none
+    planar,  // slider_length × slider_height × slider_depth
+};
+
+static inline SliderSolid solid_of(MechanismInfo const& mechanism, Inputs const& in) {
+    if (!mechanism.spatial) return SliderSolid::planar;
+    return in.wall > 0 ? SliderSolid::hollow : SliderSolid::block;
+}
+
+/// How an input that was not given follows from others.
+struct DerivedInput {
+    double Inputs::*member;
+    std::string_view words;          // of the last parts of keys
+    double (*value)(Inputs const&);  // in SI, from inputs that are given or stand above it in the table
+    bool of_one_solid = false;       // it holds for `solid` alone
+    SliderSolid solid = SliderSolid::block;
+};
+
+// Area of a hollow slider's section [m²], and twelve times the mean squares of Y and Z over it [m²]: those of the outer rectangle less those
+// of the hole.
+namespace hollow_section {
+static inline double area(Inputs const& in) { return 2 * in.wall * (in.way_width + in.way_depth + 2 * in.wall); }
+static inline double square_y(Inputs const& in) {
+    double const y = in.way_width, z = in.way_depth, outer_y = y + 2 * in.wall, outer_z = z + 2 * in.wall;
+    return (outer_y * outer_y * outer_y * outer_z - y * y * y * z) / area(in);
+}
+static inline double square_z(Inputs const& in) {
+    double const y = in.way_width, z = in.way_depth, outer_y = y + 2 * in.wall, outer_z = z + 2 * in.wall;
+    return (outer_z * outer_z * outer_z * outer_y - z * z * z * y) / area(in);
+}
+}  // namespace hollow_section
+
+/// All that follows (model.md 2), in the order in which it is filled in: masses before inertias.  Rods and cranks are slender: J = m l²/12.
+/// The order of the factors is part of the bits.
+static constexpr DerivedInput derived_inputs[] = {
+    {&Inputs::crank_mass, "density x crank_section x crank_length",
+     [](Inputs const& in) { return in.density * in.crank_section * in.crank_length; }},
+    {&Inputs::rod_mass, "density x rod_section x rod_length",
+     [](Inputs const& in) { return in.density * in.rod_section * in.rod_length; }},
+    {&Inputs::rod_inertia, "rod_mass x rod_length^2 / 12",
+     [](Inputs const& in) { return in.rod_mass * in.rod_length * in.rod_length / 12; }},
+    {&Inputs::crank_inertia, "crank_mass x crank_length^2 / 12",
+     [](Inputs const& in) { return in.crank_mass * in.crank_length * in.crank_length / 12; }},
+
+    {&Inputs::slider_mass, "density x slider_length x way_width x way_depth",
+     [](Inputs const& in) { return in.density * in.slider_length * in.way_width * in.way_depth; }, true, SliderSolid::block},
+    {&Inputs::slider_mass, "density x slider_length x 2 wall x (way_width + way_depth + 2 wall)",
+     [](Inputs const& in) { return in.density * in.slider_length * hollow_section::area(in); }, true, SliderSolid::hollow},
+    {&Inputs::slider_mass, "density x slider_length x slider_height x slider_depth",
+     [](Inputs const& in) { return in.density * in.slider_length * in.slider_height * in.slider_depth; }, true, SliderSolid::planar},
+
+    {&Inputs::slider_inertia_x, "slider_mass x (way_width^2 + way_depth^2) / 12",
+     [](Inputs const& in) { return in.slider_mass * (in.way_width * in.way_width + in.way_depth * in.way_depth) / 12; }, true,
+     SliderSolid::block},
+    {&Inputs::slider_inertia_y, "slider_mass x (slider_length^2 + way_depth^2) / 12",
+     [](Inputs const& in) { return in.slider_mass * (in.slider_length * in.slider_length + in.way_depth * in.way_depth) / 12; }, true,
+     SliderSolid::block},
+    {&Inputs::slider_inertia_z, "slider_mass x (slider_length^2 + way_width^2) / 12",
+     [](Inputs const& in) { return in.slider_mass * (in.slider_length * in.slider_length + in.way_width * in.way_width) / 12; }, true,
+     SliderSolid::block},
+    {&Inputs::slider_inertia_x, "of slider_mass in walls of thickness wall around way_width x way_depth",
+     [](Inputs const& in) { return in.slider_mass * (hollow_section::square_y(in) + hollow_section::square_z(in)) / 12; }, true,
+     SliderSolid::hollow},
+    {&Inputs::slider_inertia_y, "of slider_mass in walls of thickness wall around way_width x way_depth",
+     [](Inputs const& in) { return in.slider_mass * (in.slider_length * in.slider_length + hollow_section::square_z(in)) / 12; }, true,
+     SliderSolid::hollow},
+    {&Inputs::slider_inertia_z, "of slider_mass in walls of thickness wall around way_width x way_depth",
+     [](Inputs const& in) { return in.slider_mass * (in.slider_length * in.slider_length + hollow_section::square_y(in)) / 12; }, true,
+     SliderSolid::hollow},
+    {&Inputs::slider_inertia_z, "slider_mass x (slider_length^2 + slider_height^2) / 12",
+     [](Inputs const& in) { return in.slider_mass * (in.slider_length * in.slider_length + in.slider_height * in.slider_height) / 12; }, true,
+     SliderSolid::planar},
+
+    {&Inputs::thickness_y, "way_width", [](Inputs const& in) { return in.way_width; }},
+    {&Inputs::thickness_z, "way_depth", [](Inputs const& in) { return in.way_depth; }},
+    {&Inputs::point_stiffness, "4/3 E* sqrt(apex_radius)",
+     [](Inputs const& in) {
+         double const nu1 = in.slider_poisson_ratio, nu2 = in.way_poisson_ratio;
+         double const reduced = 1 / ((1 - nu1 * nu1) / in.slider_young_modulus + (1 - nu2 * nu2) / in.way_young_modulus);
+         return 4.0 / 3.0 * reduced * std::sqrt(in.apex_radius);
+     }},
+};
+
+/// The rule by which an input follows with a slider of this solid; nullptr where there is none.
+static inline DerivedInput const* derivation_of(double Inputs::*member, SliderSolid solid) {
+    for (DerivedInput const& rule : derived_inputs) {
+        if (rule.member == member && (!rule.of_one_solid || rule.solid == solid)) return &rule;
+    }
+    return nullptr;
+}
+
 /// Fills what was left to follow from other inputs (masses, inertias, thicknesses, point stiffness; model.md 2): what is `follows`, not a number.
-static inline Inputs complete_inputs(Inputs given) {
-    // The paper's bodies (Tables 6 and 7): sections and block in steel.
-    constexpr double steel_density = 7800;                        // [kg/m³]
-    constexpr double crank_section = 0.005 * 0.0025;              // [m²]
-    constexpr double rod_section = 0.0142 * 0.0071;               // [m²]
-    constexpr double block_x = 0.04, block_y = 0.02, block_z = 0.03;  // [m]
-    Inputs& in = given;
-    auto const fill = [](double& input, double value) {
-        if (std::isnan(input)) input = value;
-    };
-    fill(in.crank_mass, steel_density * crank_section * in.crank_length);
-    fill(in.rod_mass, steel_density * rod_section * in.rod_length);
-    fill(in.rod_inertia, in.rod_mass * in.rod_length * in.rod_length / 12);
-    fill(in.crank_inertia, in.crank_mass * in.crank_length * in.crank_length / 12);
-    fill(in.slider_mass, steel_density * block_x * block_y * block_z);
-    fill(in.slider_inertia_x, in.slider_mass * (block_y * block_y + block_z * block_z) / 12);
-    fill(in.slider_inertia_y, in.slider_mass * (block_x * block_x + block_z * block_z) / 12);
-    fill(in.slider_inertia_z, in.slider_mass * (block_x * block_x + block_y * block_y) / 12);
-    fill(in.thickness_y, in.way_width);
-    fill(in.thickness_z, in.way_depth);
-    double const nu1 = in.slider_poisson_ratio, nu2 = in.way_poisson_ratio;
-    double const reduced = 1 / ((1 - nu1 * nu1) / in.slider_young_modulus + (1 - nu2 * nu2) / in.way_young_modulus);
-    fill(in.point_stiffness, 4.0 / 3.0 * reduced * std::sqrt(in.apex_radius));
+/// @param mechanism says which solid its slider is
+static inline Inputs complete_inputs(Inputs given, MechanismInfo const& mechanism = spatial_slider_info()) {
+    SliderSolid const solid = solid_of(mechanism, given);
+    for (DerivedInput const& rule : derived_inputs) {
+        if (rule.of_one_solid && rule.solid != solid) continue;
+        if (std::isnan(given.*rule.member)) given.*rule.member = rule.value(given);
+    }
     return given;
 }
 

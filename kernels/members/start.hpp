@@ -10,17 +10,40 @@ namespace slideway {
 
 using StateNumbers = std::array<double, most_states>;  // the first `states` of the mechanism count
 
-/// The inputs of a slider that is free in space, in the order of its state.
-inline constexpr double Inputs::*slider_inputs[most_states] = {
-    &Inputs::y,     &Inputs::z,  &Inputs::vy, &Inputs::vz, &Inputs::roll, &Inputs::yaw,
-    &Inputs::pitch, &Inputs::wx, &Inputs::wy, &Inputs::wz, &Inputs::x,    &Inputs::vx};
+/// The input with which a component of a spatial mechanism's state starts.
+struct StartInput {
+    Series component;
+    double Inputs::*input;
+};
+inline constexpr StartInput start_inputs[] = {
+    {Series::y, &Inputs::y},         {Series::z, &Inputs::z},     {Series::vy, &Inputs::vy}, {Series::vz, &Inputs::vz},
+    {Series::roll, &Inputs::roll},   {Series::yaw, &Inputs::yaw}, {Series::pitch, &Inputs::pitch},
+    {Series::wx, &Inputs::wx},       {Series::wy, &Inputs::wy},   {Series::wz, &Inputs::wz}, {Series::x, &Inputs::x},
+    {Series::vx, &Inputs::vx},       {Series::crank_angle, &Inputs::start_angle},
+    {Series::crank_angular_velocity, &Inputs::crank_speed}};
+
+/// nullptr of a component that has none.
+constexpr double Inputs::*start_input(Series component) {
+    for (StartInput const& row : start_inputs) {
+        if (row.component == component) return row.input;
+    }
+    return nullptr;
+}
+
+/// Whether `start_of` and `set_start` know all of a mechanism's state.
+constexpr bool has_start_inputs(MechanismInfo const& mechanism) {
+    for (int i = 0; mechanism.spatial && i < mechanism.states; ++i) {
+        if (start_input(mechanism.state[i]) == nullptr) return false;
+    }
+    return true;
+}
 
 /// The state in which a member starts.  Of a planar mechanism the rod's angle θ2 and its rate follow from the slider's:
-/// y = r sin θ1 + L sin θ2.  @param in complete
+/// y = r sin θ1 + L sin θ2.  @param mechanism `has_start_inputs`  @param in complete
 static inline StateNumbers start_of(MechanismInfo const& mechanism, Inputs const& in) {
     if (mechanism.spatial) {
         StateNumbers state{};
-        for (int i = 0; i < mechanism.states; ++i) state[i] = in.*slider_inputs[i];
+        for (int i = 0; i < mechanism.states; ++i) state[i] = in.*start_input(mechanism.state[i]);
         return state;
     }
     double const sine = (in.y - in.crank_length * std::sin(in.start_angle)) / in.rod_length;
@@ -32,7 +55,7 @@ static inline StateNumbers start_of(MechanismInfo const& mechanism, Inputs const
 /// Makes a member start in a state.  The planar rod is to point along the way: |θ2| < π/2.
 static inline void set_start(MechanismInfo const& mechanism, StateNumbers const& state, Inputs& in) {
     if (mechanism.spatial) {
-        for (int i = 0; i < mechanism.states; ++i) in.*slider_inputs[i] = state[i];
+        for (int i = 0; i < mechanism.states; ++i) in.*start_input(mechanism.state[i]) = state[i];
         return;
     }
     double const crank = state[0], rod = state[1];

@@ -26,9 +26,24 @@ template <class Laws> struct ConditionsOfBlock {
     }
 };
 
+/// Whether a base finds the components of a mechanism's state among the series, where the mechanism's info says that they are.
+template <class Base> constexpr bool finds_state(MechanismInfo const& info) {
+    if constexpr (requires { Base::state_of_series(0); }) {
+        for (int i = 0; i < info.states; ++i) {
+            if (Base::state_of_series(static_cast<int>(info.state[i])) != i) return false;
+        }
+        return info.states == Base::size;
+    }
+    return false;
+}
+
+#define SLIDEWAY_STATE_NOT_FOUND \
+    "the base's state_of_series(series) does not say of each component of the mechanism's info.state where it is in the base's state"
+
 /// A mechanism as the lanes integrate it, whose equations are known when the lanes are compiled: every call names its function.
 /// @tparam Base of the mechanism's row in mechanisms/list.hpp  @tparam Laws OneLaw or AnyLaw
 template <class Mechanism, class Base, class Laws> struct MechanismModel : Mechanism, LanesOf<Base>, ConditionsOfBlock<Laws> {
+    static_assert(finds_state<Base>(Mechanism::info), SLIDEWAY_STATE_NOT_FOUND);
     template <class Real> using Parameters = typename Mechanism::template Parameters<Real>;
     template <class Real> using Memory = typename LanesOf<Base>::template Memory<Real>;
     template <class Real> using Report = typename Mechanism::template Report<Real>;

@@ -26,7 +26,7 @@ template <class Real, class Base> struct MechanismFunctions {
     Real (*approach_speed)(Real, Real const*, Real, Real const*, Parameters const&, bool) = nullptr;
 
     template <class Mechanism> static constexpr MechanismFunctions of() {
-        static_assert(Mechanism::size == Base::size);
+        static_assert(finds_state<Base>(Mechanism::info), SLIDEWAY_STATE_NOT_FOUND);
         using Laws = LawFunctions<Real>;
         MechanismFunctions functions;
         functions.parameters = &Mechanism::parameters;

@@ -7,10 +7,14 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// Which component of a model's state a series is, from 0; -1 if none.
 template <class Model> SLIDEWAY_HD constexpr int state_of_series(int series) {
-    if constexpr (requires { Model::state_of_series(series); }) {
+    constexpr bool says = requires { Model::state_of_series(series); };
+    static_assert(says || Model::series == Model::size,
+                  "a model whose samples hold more than its state says where its state is: it lacks state_of_series(series), which a mechanism has of "
+                  "its base (kernels/mechanisms/slider_base.hpp)");
+    if constexpr (says) {
         return Model::state_of_series(series);
     } else {
-        return series < Model::size ? series : -1;
+        return series;
     }
 }
 

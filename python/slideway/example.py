@@ -16,7 +16,7 @@ rod_length = 0.1422  # m
 crank_speed = 3.141592653589793  # rad/s
 start_angle = 0.0  # rad
 gravity = 9.81  # m/s2
-# slider_mass = 0.1872  # kg, follows from other keys
+# slider_mass = 0.1872  # kg, derived: density x slider_length x way_width x way_depth
 
 [joint]
 clearance_y = 0.0001  # m

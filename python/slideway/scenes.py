@@ -17,8 +17,8 @@ if sys.version_info >= (3, 11):
 else:
     import tomli as tomllib
 
-# A key whose value is computed where the scene does not give it stands in the resolved scene as a comment.
-_derived = re.compile(r"^# (\w+ = .*follows from other keys)$", re.MULTILINE)
+# A key whose value is derived from others stands in the resolved scene as a comment; in older results in other words.
+_derived = re.compile(r"^# (\w+ = \S+  # (?:[^#\n]*, )?(?:derived: .*|follows from other keys))$", re.MULTILINE)
 
 
 @one_line
@@ -27,7 +27,7 @@ def scene(result: xr.Dataset, member: int | None = None, derived: bool = False) 
 
     Args:
         member: with the values that this member drew, where keys vary.
-        derived: also what follows from other keys, such as masses from sizes; without it the scene can be run again.
+        derived: also what is derived from other keys, such as masses from sizes; without it the scene can be run again.
 
     Raises:
         SlidewayError: the Dataset carries no scene, or has no such member.

@@ -33,6 +33,13 @@ def test_derived_keys_are_there_when_asked_for(result_of: Result) -> None:
     assert mechanism["slider_mass"] == pytest.approx(7800 * 0.04 * 0.02 * 0.03)
 
 
+@pytest.mark.parametrize("words", ["derived: density x slider_length x way_width x way_depth", "follows from other keys"])
+def test_derived_keys_of_older_results_are_there_too(words: str) -> None:
+    result = xr.Dataset(attrs={"scene": f"[mechanism]\n# slider_mass = 0.1872  # kg, {words}\n# apex_stiffness  # derived: E_s A\n"})
+    assert slideway.scene(result, derived=True)["mechanism"] == {"slider_mass": 0.1872}
+    assert slideway.scene(result)["mechanism"] == {}
+
+
 def test_members_have_what_they_drew(result_of: Result) -> None:
     result = result_of("ensemble")
     for member in (0, 5):

@@ -125,6 +125,7 @@ angles in yaw and pitch:
 {space_table(space)}
 
 Losses and forces are medians over the members. A member counts as wedged if it loses more than five times the median in impacts, or fails.
+Masses are those of the plane, and so are the losses: there, with rigid contacts, {1e3 * quantile(rigid[2].impacts, 0.5):.2f} mJ in impacts and {1e3 * quantile(rigid[2].friction, 0.5):.1f} mJ to friction.
 As long as the slider has room, misalignment costs nothing. Once the way is turned by as much as the clearance allows, some crossheads do not
 fit. Medians do not show this; a limit on parallelism prevents it.
 

@@ -37,6 +37,11 @@ TEST(Closeness, TellsDistributionsApart) {
     EXPECT_EQ(testing::kolmogorov_distance({1, 2, 3, 4}, {1, 2, 3, 4}), 0);
     EXPECT_EQ(testing::kolmogorov_distance({1, 2, 3, 4}, {3, 4, 5, 6}), 0.5);
     EXPECT_EQ(testing::kolmogorov_distance({1, 1, 1}, {2, 2}), 1);
+    // Ties count whole: the distributions are compared behind all draws of a value.
+    EXPECT_EQ(testing::kolmogorov_distance({1, 1, 1, 1}, {1, 1}), 0);
+    EXPECT_EQ(testing::kolmogorov_distance({2, 1, 2, 1}, {1, 2}), 0);
+    EXPECT_DOUBLE_EQ(testing::kolmogorov_distance({1, 1, 2}, {1, 2, 2}), 1 / 3.0);
+    EXPECT_DOUBLE_EQ(testing::kolmogorov_distance({1, 2, 2}, {1, 1, 2}), 1 / 3.0);
     EXPECT_LT(testing::smirnov_probability(0.2, 200, 200), 1e-3);
     EXPECT_GT(testing::smirnov_probability(0.15, 200, 200), 1e-3);
 }

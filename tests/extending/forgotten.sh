@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # forgotten.sh CXX CMAKE ROOT WORK SOURCE LIST ROW [HEADER]: what the compiler says of a source when kernels/LIST/list.hpp has a further row.
-# With HEADER the file that the row names is there, and includes the one of that name.  Flags of the compiler: $FLAGS.
+# With HEADER the file that the row names is there: one of tests/extending/traps, or one that includes the header of that name in kernels/LIST.  Flags of the compiler: $FLAGS.
 set -euo pipefail
 cxx=$1 cmake=$2 root=$3 work=$4 source=$5 list=$6 row=$7 header=${8-}
 rm -rf "$work"
@@ -10,7 +10,9 @@ for folder in laws mechanisms rigid; do cp "$root/kernels/$folder/list.hpp" "tre
 cp "$root/cmake/kernel_lists.cmake" tree/cmake
 # The last row has no backslash behind it.
 if [ "$row" ]; then sed -i "\$s/\$/ \\\\\\n    row($row)/" "tree/kernels/$list/list.hpp"; fi
-if [ "$header" ]; then
+if [[ $header == traps/* ]]; then
+    cp "$root/tests/extending/$header.hpp" "tree/kernels/$list/${row%%,*}.hpp"
+elif [ "$header" ]; then
     printf '#pragma once\n#include "kernels/%s/%s.hpp"\n' "$list" "$header" > "tree/kernels/$list/${row%%,*}.hpp"
 fi
 printf 'cmake_minimum_required(VERSION 3.25)\nproject(rows LANGUAGES NONE)\ninclude(cmake/kernel_lists.cmake)\n' > tree/CMakeLists.txt

@@ -89,14 +89,14 @@ Inputs completed(Inputs in) {
     auto const follow = [](double& value, double from_others) {
         if (std::isnan(value)) value = from_others;
     };
-    double const density = 7800;
-    follow(in.crank_mass, density * 5e-3 * 2.5e-3 * in.crank_length);
-    follow(in.rod_mass, density * 14.2e-3 * 7.1e-3 * in.rod_length);
+    follow(in.crank_mass, in.crank_section * in.crank_length * in.density);
+    follow(in.rod_mass, in.rod_section * in.rod_length * in.density);
     follow(in.rod_inertia, in.rod_mass * in.rod_length * in.rod_length / 12);
-    follow(in.slider_mass, density * 0.04 * 0.02 * 0.03);
-    follow(in.slider_inertia_x, in.slider_mass * (0.02 * 0.02 + 0.03 * 0.03) / 12);
-    follow(in.slider_inertia_y, in.slider_mass * (0.04 * 0.04 + 0.03 * 0.03) / 12);
-    follow(in.slider_inertia_z, in.slider_mass * (0.04 * 0.04 + 0.02 * 0.02) / 12);
+    double const x = in.slider_length, y = in.way_width, z = in.way_depth;
+    follow(in.slider_mass, x * y * z * in.density);
+    follow(in.slider_inertia_x, in.slider_mass * (y * y + z * z) / 12);
+    follow(in.slider_inertia_y, in.slider_mass * (x * x + z * z) / 12);
+    follow(in.slider_inertia_z, in.slider_mass * (x * x + y * y) / 12);
     follow(in.crank_inertia, in.crank_mass * in.crank_length * in.crank_length / 12);
     follow(in.point_stiffness, static_cast<double>(point_stiffness(in)));
     follow(in.thickness_y, in.way_width);

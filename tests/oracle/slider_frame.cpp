@@ -97,7 +97,8 @@ void SliderFrame::add_drive(Vector6 const& slider_force, Matrix6 const& slider_i
             along = direction.head<3>().dot(pin_acceleration) - (place_.velocity - pin_velocity).squaredNorm();
             break;
         }
-        default:
+        case Mechanism::free_slider:
+        case Mechanism::planar_slider_crank:
             break;
     }
     mobility_ = inverse;

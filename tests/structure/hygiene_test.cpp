@@ -147,6 +147,27 @@ TEST(Repository, TestsThatMayNotShareAUnitAreFound) {
     EXPECT_EQ(wrong("tests/unit/taken_test.cpp", "namespace taken_test {\nnamespace {\n}\n}\n"), "another file has its namespace");
 }
 
+/// A pack takes a list of its lanes in braces: Real x{0.5} sets the first of them, and whatever stands in memory behind that number the others.
+Pattern braced_number() { return Pattern(R"(\b(?:(?:Isa)?Real|Batch<\w+>)(?: const)?(?: \w+)?\{[^}])"); }
+
+TEST(Repository, NumbersOfKernelsAreNotInitialisedInBraces) {
+    Pattern const braced = braced_number();
+    for (SourceFile const& file : files_below({"kernels", "tests", "bench", "examples"})) {
+        if (!has_ending(file.path, {".hpp", ".cpp", ".cu"})) continue;
+        EXPECT_EQ(braced.match_in(code_only(file.text)), std::nullopt) << file.path << ": write it in parentheses (kernels/real.hpp)";
+    }
+}
+
+TEST(Repository, BracedNumbersAreFound) {
+    Pattern const braced = braced_number();
+    for (char const* const code : {"Real x{0.5};", "Real const half{0.5};", "return Real{1};", "IsaReal y{a};", "Batch<Arch> z{0.0};"}) {
+        EXPECT_TRUE(braced.match_in(code)) << code;
+    }
+    for (char const* const code : {"Real x(0.5);", "Real const half(0.5);", "Real zero{};", "struct OfReal {int i;", "-> Real { return a; }", "Quad<Real> q{a, b};"}) {
+        EXPECT_FALSE(braced.match_in(code)) << code;
+    }
+}
+
 /// Names that a source declares in namespaces without a name: of functions, types and constants, but not of aliases.
 std::set<std::string> private_names(std::string const& text) {
     static Pattern const declared(R"(^(?:(?:struct|class|enum class|enum) (\w+)|(?!using |[ }])(?:[\w:<>,&*\[\]. ]*[ &*>])(\w+)(?: = |\(|\[|\{|;)))");

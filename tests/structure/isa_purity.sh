@@ -15,7 +15,7 @@ declare -A wider=([scalar]='' [scalar_libm]='' [avx2]='xsimd::avx512' [avx512]='
 # May be merged: data, not instructions.
 #   DW.ref.…                      pointer to the exception personality routine, made by the compiler
 #   slideway::quantity_table …    constant tables of the plain-data headers, the same bytes in every unit
-allowed='^(DW\.ref\.__gxx_personality_v0|slideway::(quantity_table|series_table|status_names|mode_class_names|slider_inputs))$'
+allowed='^(DW\.ref\.__gxx_personality_v0|slideway::(quantity_table|series_table|status_names|mode_class_names|start_inputs))$'
 
 list=$1
 objects=0

@@ -113,6 +113,26 @@ TEST_F(JsonOutput, OfACheckHasASceneThatRuns) {
     EXPECT_EQ(hash_of("r.nc"), hash_of("o.nc"));
 }
 
+TEST_F(JsonOutput, OfACheckNamesWhatIsDerivedAndFromWhat) {
+    // Ten times the paper's size: a thousand times its 0.1872 kg.
+    write("large.toml", "schema = 1\n[mechanism]\ncrank_length = 0.5\nrod_length = 1.422\nrod_mass = 100\n[joint]\nslider_length = 0.4\nway_width = 0.2\n"
+                        "way_depth = 0.3\n[contact]\nlaw = \"conservative\"\n[study]\nduration = \"1 ms\"\n");
+    Json const json = of({"check", "large.toml"});
+    auto const of_name = [&](std::string const& name) {
+        auto const found = std::ranges::find_if(json["derived"], [&](Json const& one) { return one["name"] == name; });
+        return found == json["derived"].end() ? Json() : *found;
+    };
+    Json const mass = of_name("mechanism.slider_mass");
+    EXPECT_NEAR(mass["value"].get<double>(), 187.2, 1e-12);
+    EXPECT_EQ(mass["unit"], "kg");
+    EXPECT_EQ(mass["from"], "density x slider_length x way_width x way_depth");
+    EXPECT_TRUE(of_name("mechanism.rod_mass").is_null()) << "it is given";
+    EXPECT_NEAR(of_name("mechanism.rod_inertia")["value"].get<double>(), 100 * 1.422 * 1.422 / 12, 1e-12);
+    std::string const text = run({"check", "large.toml"}).out;
+    EXPECT_NE(text.find("\nderived "), std::string::npos) << text;
+    EXPECT_NE(text.find("slider_mass 187.2 kg"), std::string::npos) << text;
+}
+
 TEST_F(JsonOutput, OfAProbeAreItsTable) {
     Json const json = of({"probe", "s.toml"});
     EXPECT_EQ(run({"probe", "s.toml", "-o", "p.csv"}).code, 0);

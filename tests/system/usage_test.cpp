@@ -129,7 +129,8 @@ TEST_F(Usage, ListShowsWhatEachMechanismHas) {
              "  crank_angle                    rad      angle of the crank (planar_slider_crank)\n",
              "  mechanism.stroke               m        distance that the carriage travels at constant speed: > 0; default 0.15 (carriage)\n",
              "  mechanism.gravity              m/s2     gravity; default 9.81\n",
-             "  mechanism.slider_mass          kg       mass of the slider: > 0; default follows from others\n",
+             "  mechanism.slider_mass          kg       mass of the slider: > 0; default derived: density x slider_length x way_width x way_depth, or "
+             "density x slider_length x 2 wall x (way_width + way_depth + 2 wall), or density x slider_length x slider_height x slider_depth\n",
              "  mechanism.crank_length         m        crank length: > 0; default 0.05 (slider_crank, scotch_yoke, "
              "planar_slider_crank)\n",
              "  contact.eta                    1        damping ratio of point contacts: ≥ 0; default 0.01 (law paper, conservative)\n",

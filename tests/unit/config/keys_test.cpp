@@ -92,7 +92,7 @@ TEST(Keys, WhatFollowsFollowsWhatIsGiven) {
     EXPECT_NEAR(in.rod_mass, 2 * 0.1118255112, 1e-15);
     EXPECT_NEAR(in.rod_inertia, 8 * 0.000188433814157784, 1e-14);
     EXPECT_EQ(in.slider_mass, 0.3744);
-    EXPECT_NEAR(in.slider_inertia_x, 2 * 2.028e-5, 1e-18);  // the block's sections stay 40 × 20 × 30 mm
+    EXPECT_NEAR(in.slider_inertia_x, 0.3744 * (0.05 * 0.05 + 0.03 * 0.03) / 12, 1e-18);
     EXPECT_EQ(in.thickness_y, 0.05);
     EXPECT_EQ(in.thickness_z, 0.007);
 }

@@ -211,7 +211,7 @@ TEST(SceneLaws, ResolveToThemselves) {
         }
     }
     std::string const resolved = resolved_toml(scene_of(with_law("kelvin_voigt")));
-    EXPECT_TRUE(contains(resolved, "\n# apex_stiffness follows from other keys\napex_damping = 0.0  # N s/m\n")) << resolved;
+    EXPECT_TRUE(contains(resolved, "\n# apex_stiffness  # derived: E_s A / (4 l) of its face\napex_damping = 0.0  # N s/m\n")) << resolved;
     EXPECT_FALSE(contains(resolved, "eta = "));
     EXPECT_FALSE(contains(resolved, "edge_radius"));
 }

@@ -270,7 +270,7 @@ TEST(ResolvedScene, NumbersAreInSiUnits) {
     EXPECT_TRUE(contains(text, "clearance_y = 0.0001  # m\n"));
     EXPECT_TRUE(contains(text, "crank_speed = 3.141592653589793  # rad/s\n"));
     EXPECT_TRUE(contains(text, "method = \"auto\"\n"));
-    EXPECT_TRUE(contains(text, "# slider_mass = 0.1872  # kg, follows from other keys\n")) << text;
+    EXPECT_TRUE(contains(text, "# slider_mass = 0.1872  # kg, derived: density x slider_length x way_width x way_depth\n")) << text;
 }
 
 TEST(ResolvedScene, WhatFollowsStillFollowsWhenItsSourceVaries) {

@@ -109,7 +109,9 @@ TEST(RandomStates, VaryEveryParameter) {
     auto const place_of = [&where](double const& member) {
         return static_cast<std::size_t>(&member - reinterpret_cast<double const*>(&where));
     };
-    std::set<std::size_t> other = {place_of(where.slider_height),                  // of the planar block alone
+    std::set<std::size_t> other = {place_of(where.slider_height), place_of(where.slider_depth),  // of the planar block alone
+                                   // Cases have masses and inertias.
+                                   place_of(where.crank_section), place_of(where.rod_section), place_of(where.wall), place_of(where.density),
                                    place_of(where.law_c), place_of(where.law_d)};  // no law has as many
     // The start of a run: a case carries its own state.
     for (double const* start : {&where.y, &where.z, &where.vy, &where.vz, &where.roll, &where.yaw, &where.pitch,

@@ -163,7 +163,7 @@ TEST(Sampling, MembersAreComplete) {
                                           "\"joint.way_width\" = { dist = \"const\", value = \"50 mm\" }\n");
     Inputs const in = member_inputs(scene, 0);
     EXPECT_EQ(in.slider_mass, 0.3744);
-    EXPECT_NEAR(in.slider_inertia_x, 2 * 2.028e-5, 1e-18);  // follows the drawn mass
+    EXPECT_NEAR(in.slider_inertia_x, 0.3744 * (0.05 * 0.05 + 0.03 * 0.03) / 12, 1e-18);  // of what was drawn
     EXPECT_EQ(in.thickness_y, 0.05);
     EXPECT_EQ(defect(in), std::nullopt);
 }

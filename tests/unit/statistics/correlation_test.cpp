@@ -68,6 +68,17 @@ TEST(RankCorrelation, WithAConstantIsNan) {
     EXPECT_TRUE(std::isnan(rank_correlation(midranks(constant), midranks(x)).interval.low));
 }
 
+TEST(ProductMoment, IsThatOfTheDifferencesOfNumbersWhoseMeanRounds) {
+    // k, l beside 2^53, where numbers are 2 apart and their sums round by up to 16.  Of k and l themselves: Σ kl = 14, Σ k = 11, Σ l = 12,
+    // Σ k² = 29, Σ l² = 46, so (14 - 22)/√((29 - 121/6)(46 - 24)).
+    double const k[] = {2, 4, 1, 2, 0, 2}, l[] = {1, 2, 2, 1, 6, 0};
+    std::vector<double> x, y;
+    for (std::size_t i = 0; i < 6; ++i) x.push_back(0x1p53 + 2 * k[i]), y.push_back(0x1p53 + 2 * l[i]);
+    EXPECT_NEAR(product_moment(x, y), -8 / std::sqrt((29 - 121 / 6.0) * 22), 1e-14);
+    // 0 0 0 1 and as many against itself without the offset: the same line.
+    EXPECT_NEAR(product_moment(std::vector<double>{0x1p53, 0x1p53, 0x1p53, 0x1p53 + 2}, std::vector<double>{0, 0, 0, 1}), 1, 1e-14);
+}
+
 TEST(StandardisedRegression, FindsALinearFunction) {
     // An orthogonal design: x1 of variance 1, x2 of variance 4 (over n), y = 3 x1 - 2 x2 + 5.
     std::vector<double> const x1{1, 1, -1, -1, 1, 1, -1, -1}, x2{2, -2, 2, -2, 2, -2, 2, -2};
