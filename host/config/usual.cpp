@@ -88,7 +88,7 @@ std::optional<std::string> unusual(Key const& key, double value) {
 }
 
 std::optional<UnusualPair> unusual_pair(Inputs const& inputs, Parts const& parts) {
-    Inputs const in = complete_inputs(inputs);
+    Inputs const in = complete_inputs(inputs, info(parts.mechanism));
     bool const spatial = info(parts.mechanism).spatial;
     double const smallest = spatial ? std::min(in.way_width, in.way_depth) : std::min(in.slider_height, in.slider_length);
     static Key const* const clearances[] = {find_key("joint.clearance_y"), find_key("joint.clearance_z")};
