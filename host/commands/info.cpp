@@ -28,8 +28,8 @@ std::optional<ToleranceReport> report_of(ResultReader const& results) {
 void print_members(ResultReader const& results, MemberRange const& range) {
     fmt::print("\n{:>10}  {:<16} {:>14} {:>12} {:>12}\n", "member", "status", "end time [s]", "steps", "rejected");
     for (MemberRow const& member : member_rows(results, range)) {
-        fmt::print("{:>10}  {:<16} {:>14.8g} {:>12} {:>12}\n", member.number, name_of(member.status), member.time, member.steps_accepted,
-                   member.steps_rejected);
+        fmt::print("{:>10}  {:<16} {:>14.8g} {:>12} {:>12}{}\n", member.number, name_of(member.status), member.time, member.steps_accepted,
+                   member.steps_rejected, member.label.empty() ? "" : "  " + one_line(member.label));
     }
 }
 

@@ -49,6 +49,7 @@ Json of_members(ResultReader const& results, MemberRange const& range) {
                         {"end_time", number(member.time)},
                         {"steps_accepted", member.steps_accepted},
                         {"steps_rejected", member.steps_rejected}});
+        if (!member.label.empty()) list.back()["label"] = member.label;
     }
     return list;
 }

@@ -120,7 +120,9 @@ public:
         }
         if (auto const found = find_defect(inputs, scene_.parts)) refuse_row(*found);
         table_.lines.push_back(rows_.line());
-        if (!table_.labelled.empty()) table_.labels.push_back(std::move(label));
+        if (table_.labelled.empty()) return;
+        table_.label_width = std::max(table_.label_width, label.size());
+        table_.labels.push_back(std::move(label));
     }
 
     /// Columns without a key must hold texts: of numbers it is a key that was mistyped.

@@ -38,6 +38,7 @@ struct MemberTable {
     std::vector<int> lines;           // [rows], from 1
     std::string labelled;             // headers of the columns of text: "part, lot"
     std::vector<std::string> labels;  // [rows] "A-001, 7"; none where there is no column of text
+    std::size_t label_width = 0;      // bytes of the longest
 
     std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
 };

@@ -12,14 +12,6 @@ namespace {
 
 constexpr std::size_t label_length = 8;  // of LabelAxes: "surface" and room for one more letter
 
-/// Texts along the first of two dimensions, their letters along the second.
-int define_texts(DataFile& file, std::string const& name, std::array<int, 2> const& dimensions, std::string const& long_name) {
-    int const variable = file.add_variable(name, DataFile::Type::text, dimensions);
-    file.put(variable, "long_name", long_name);
-    file.put(variable, "_Encoding", "utf-8");  // readers then give strings, not bytes
-    return variable;
-}
-
 void write_texts(DataFile& file, int variable, std::vector<std::string> const& texts, std::size_t width) {
     std::vector<char> letters(texts.size() * width, '\0');
     for (std::size_t i = 0; i < texts.size(); ++i) texts[i].copy(letters.data() + i * width, width);
@@ -27,6 +19,13 @@ void write_texts(DataFile& file, int variable, std::vector<std::string> const& t
 }
 
 }  // namespace
+
+int define_texts(DataFile& file, std::string const& name, std::array<int, 2> const& dimensions, std::string const& long_name) {
+    int const variable = file.add_variable(name, DataFile::Type::text, dimensions);
+    file.put(variable, "long_name", long_name);
+    file.put(variable, "_Encoding", "utf-8");  // readers then give strings, not bytes
+    return variable;
+}
 
 void GroupWriter::labels(std::string const& name, std::string const& long_name, std::vector<std::string> const& labels) {
     file_.add_dimension(name, labels.size());

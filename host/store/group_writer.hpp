@@ -1,6 +1,7 @@
 // Small arrays into a netCDF file, defined and written in one go, and dimensions with a label for each entry.
 #pragma once
 
+#include <array>
 #include <map>
 #include <ranges>
 #include <span>
@@ -48,6 +49,9 @@ private:
     std::unique_ptr<DataFile> group_;
     DataFile& file_;
 };
+
+/// A variable of texts along the first of two dimensions, their letters along the second.
+int define_texts(DataFile& file, std::string const& name, std::array<int, 2> const& dimensions, std::string const& long_name);
 
 /// Defines the dimensions of the quantity table (apex, mode_class, axis, direction, channel) as they are asked for, each with its labels in
 /// `<name>_name`.

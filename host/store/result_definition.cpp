@@ -67,6 +67,7 @@ private:
     int add(Type type, std::span<int const> dimensions, std::string const& name, std::string const& unit, std::string const& long_name);
     int member_variable(std::string const& name, std::string const& unit, std::string const& long_name);
     void write_coordinates();
+    void write_labels(std::vector<std::uint64_t> const& members, std::size_t first);
 
     DataFile& file_;
     ResultLayout const& layout_;
@@ -92,6 +93,10 @@ int ResultDefiner::member_variable(std::string const& name, std::string const& u
 void ResultDefiner::define_coordinates() {
     member_dimension_ = file_.add_dimension("member", static_cast<std::size_t>(layout_.members.count()));
     ids_.member = add(Type::int32, std::array{member_dimension_}, "member", "1", "number of the member in the scene's ensemble");
+    if (std::size_t const width = layout_.label_width(); width > 0) {
+        int const letters = file_.add_dimension("member_label_length", width);
+        ids_.label = define_texts(file_, "member_label", {member_dimension_, letters}, fmt::format("{} of study.table", layout_.labelled->labelled));
+    }
     if (layout_.sample_times.empty()) return;
     sample_dimension_ = file_.add_dimension("sample", layout_.sample_times.size());
     ids_.time = add(Type::float64, std::array{sample_dimension_}, "time", "s", "time since the start of the run");
@@ -174,6 +179,15 @@ void ResultDefiner::define_sections() {
     }
 }
 
+/// @param first place of the first of the members
+void ResultDefiner::write_labels(std::vector<std::uint64_t> const& members, std::size_t first) {
+    std::size_t const width = layout_.label_width();
+    std::vector<char> letters(members.size() * width, '\0');
+    for (std::size_t i = 0; i < members.size(); ++i) layout_.labelled->labels[static_cast<std::size_t>(members[i])].copy(letters.data() + i * width, width);
+    std::size_t const start[2] = {first, 0}, count[2] = {members.size(), width};
+    file_.write(ids_.label, start, count, letters.data());
+}
+
 void ResultDefiner::write_coordinates() {
     constexpr std::uint64_t at_once = 1 << 18;
     for (std::uint64_t first = 0; first < layout_.members.count(); first += at_once) {
@@ -183,6 +197,7 @@ void ResultDefiner::write_coordinates() {
         std::size_t const start[1] = {static_cast<std::size_t>(first)}, count[1] = {members.size()};
         file_.write(ids_.member, start, count, numbers.data());
         file_.write(ids_.status, start, count, not_run.data());
+        if (ids_.label >= 0) write_labels(members, static_cast<std::size_t>(first));
         for (int const variable : {ids_.section_count, ids_.section_crossings}) {
             if (variable >= 0) file_.write(variable, start, count, none.data());
         }

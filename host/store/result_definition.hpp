@@ -15,7 +15,7 @@ struct ResultVariables {
         int id;
         int first_column, columns;
     };
-    int member = -1, status = -1, time = -1;
+    int member = -1, status = -1, time = -1, label = -1;
     int end_time = -1;
     std::vector<int> work;  // of the work_table
     std::vector<int> final_states, parameters, series;

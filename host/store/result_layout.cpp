@@ -63,7 +63,7 @@ std::uint64_t payload_bytes(ResultLayout const& layout) {
     for (StudyAxis const& axis : layout.study.axes) coordinates += axis.values.size();
     constexpr std::uint64_t member_and_status = 5;
     return layout.members.count() * (member_and_status + counts * sizeof(std::int32_t) + columns * sizeof(double)) +
-           coordinates * sizeof(double);
+           coordinates * sizeof(double) + layout.members.count() * layout.label_width();
 }
 
 std::uint64_t header_bytes(ResultLayout const& layout, Provenance const& provenance) {

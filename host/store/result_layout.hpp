@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -104,7 +105,10 @@ struct ResultLayout {
     bool crossings = false;          // of a surface, not of a crank angle
     std::string sweep;               // name of the parameter column that a sweep goes by; "": no sweep
     StudyTable study;                // what the study concludes of each member
+    std::shared_ptr<MemberTable const> labelled;  // the table whose columns of text name the members; none: nothing does
 
+    /// Bytes of the longest label; 0 without labels.
+    std::size_t label_width() const { return labelled == nullptr ? 0 : labelled->label_width; }
     std::size_t states() const { return static_cast<std::size_t>(info(mechanism).states); }
 };
 

@@ -124,6 +124,18 @@ std::vector<double> ResultView::values(std::string const& variable, std::size_t 
     throw FileError(fmt::format("{}: is damaged ({} has {} values in place of {}); run the study again", file_->path(), variable, found.size(), count));
 }
 
+std::vector<std::string> ResultView::texts(std::string const& name) const {
+    DataFile::Variable const& variable = find(name);
+    if (variable.type != DataFile::Type::text || variable.shape.size() != 2) throw FileError(fmt::format("{}: variable {} holds no texts", path(), name));
+    std::vector<char> const letters = file_->read<char>(variable);
+    std::vector<std::string> texts;
+    for (std::size_t row = 0; row < variable.shape[0]; ++row) {
+        std::string_view const padded(letters.data() + row * variable.shape[1], variable.shape[1]);
+        texts.emplace_back(padded.substr(0, padded.find('\0')));
+    }
+    return texts;
+}
+
 std::vector<double> ResultView::column(std::string const& variable, std::size_t index) const {
     DataFile::Variable const& found = find(variable);
     std::size_t const rank = found.shape.size();

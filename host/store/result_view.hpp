@@ -34,6 +34,8 @@ public:
     std::vector<double> values(std::string const& variable) const;
     /// The same of so many.  @throws FileError also if there are not: the file was edited.
     std::vector<double> values(std::string const& variable, std::size_t count) const;
+    /// The texts of a variable of them, one for each entry of its first dimension.  @throws FileError if there is no such variable
+    std::vector<std::string> texts(std::string const& variable) const;
     /// Of a float64 variable of one dimension, or of two, its column: the values along the first dimension.
     /// @throws FileError if there is no such variable or column.
     std::vector<double> column(std::string const& variable, std::size_t index) const;

@@ -62,6 +62,7 @@ ResultLayout result_layout(Scene const& scene, MemberSet const& members) {
     layout.sections = schedule.section_rows();
     layout.crossings = schedule.crossings.room > 0;
     layout.study = ExponentTable(scene).layout();
+    if (scene.design.table != nullptr && !scene.design.table->labels.empty()) layout.labelled = scene.design.table;
     return layout;
 }
 

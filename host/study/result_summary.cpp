@@ -81,6 +81,9 @@ std::vector<MemberRow> member_rows(ResultView const& results, MemberRange const&
     auto const of_members = [&](char const* name) { return results.values(name, numbers.size()); };
     auto const statuses = of_members("status"), times = of_members("end_time"), accepted = of_members("steps_accepted"),
                rejected = of_members("steps_rejected");
+    std::vector<std::string> labels;
+    if (results.has("member_label")) labels = results.texts("member_label");
+    labels.resize(numbers.size());
     std::vector<MemberRow> ends;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         std::uint64_t const member = count_of(numbers[i]);
@@ -88,7 +91,7 @@ std::vector<MemberRow> member_rows(ResultView const& results, MemberRange const&
         Status const status = status_of(statuses[i]);
         bool const ran = status != Status::not_run;
         auto const steps = [&](std::vector<double> const& of) { return ran ? count_of(of[i]) : 0; };
-        ends.push_back({member, status, ran ? times[i] : NAN, steps(accepted), steps(rejected)});
+        ends.push_back({member, status, ran ? times[i] : NAN, steps(accepted), steps(rejected), labels[i]});
     }
     if (ends.empty() && !numbers.empty()) {
         throw SceneError(fmt::format("{}: has none of the members {} to {}; it has {:.0f} to {:.0f}", results.path(), range.first, range.end() - 1,

@@ -39,6 +39,7 @@ struct MemberRow {
     Status status;
     double time;  // [s]; NaN of one that has not run
     std::uint64_t steps_accepted, steps_rejected;
+    std::string label;  // that its table gives it
 };
 /// Of the members whose numbers lie in the range, in the order of the file.  @throws SceneError where there are none, or the file keeps no members
 std::vector<MemberRow> member_rows(ResultView const& results, MemberRange const& range);

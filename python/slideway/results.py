@@ -230,6 +230,8 @@ def labelled(dataset: xr.Dataset) -> xr.Dataset:
         if stem != name and dataset[name].dims == (stem,):
             labels = np.asarray(dataset[name].values).astype(str)
             dataset = dataset.drop_vars(name).assign_coords({stem: (stem, labels, dataset[name].attrs)})
+    if "member_label" in dataset:
+        dataset = dataset.set_coords("member_label")
     if "time" in dataset and dataset["time"].dims == ("sample",):
         dataset = dataset.set_coords("time").set_xindex("time")
     if "section_count" in dataset and "member" in dataset.coords:

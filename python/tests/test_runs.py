@@ -136,6 +136,16 @@ def test_table_of_a_dictionary_lies_in_the_working_folder(tmp_path: Path, monkey
     np.testing.assert_allclose(result.initial_z.values, [1e-5, 2e-5])
 
 
+def test_labels_of_a_table_are_a_coordinate(tmp_path: Path) -> None:
+    (tmp_path / "parts.csv").write_text("part;initial.z [mm]\nA-001;0,01\nB-2;0,02\n")
+    study = {"kind": "ensemble", "design": "table", "table": str(tmp_path / "parts.csv"), "duration": "1 ms"}
+    in_memory = slideway.run({"schema": 1, "study": study}, progress=False)
+    in_a_file = slideway.run({"schema": 1, "study": study}, tmp_path / "a.nc", progress=False)
+    for result in (in_memory, in_a_file):
+        assert result.coords["member_label"].values.tolist() == ["A-001", "B-2"]
+        np.testing.assert_allclose(result.initial_z.values, [1e-5, 2e-5])
+
+
 def test_progress_is_passed_on(capfd: pytest.CaptureFixture[str]) -> None:
     slideway.run(short)
     assert "backend cpu" in capfd.readouterr().err

@@ -119,9 +119,28 @@ TEST_F(TableRun, NamesMembersThatFailedByTheirLabel) {
     EXPECT_NE(outcome.out.find("  member 1 (A-002): max_steps at t = "), std::string::npos) << outcome.out;
     outcome = run_in("a", {"--set", "integrator.max_steps=3", "--json", "--force"});
     EXPECT_NE(outcome.out.find("\"label\": \"A-001, north\""), std::string::npos) << outcome.out;
+    EXPECT_EQ(ResultReader(path("a/s.nc").string()).texts("member_label"), (std::vector<std::string>{"A-001, north", "A-002"}));
+    EXPECT_NE(run({"info", "a/s.nc", "--members", "0..0"}).out.find("  A-001, north\n"), std::string::npos);
     // Of members that finish nothing is to be said.
     outcome = run_in("a", {"--json", "--force"});
     EXPECT_NE(outcome.out.find("\"failed\": []"), std::string::npos) << outcome.out;
+}
+
+TEST_F(TableRun, KeepsLabelsThroughShardsAndMerges) {
+    std::string rows = "initial.y [mm];part\n";
+    std::vector<std::string> labels;
+    for (int m = 0; m < 16; ++m) {
+        labels.push_back(fmt::format("Wälzlager {}", std::string(static_cast<std::size_t>(m % 5), 'x')));
+        rows += fmt::format("0,0{};{}\n", m % 7, labels.back());
+    }
+    for (std::string& label : labels) label.erase(label.find_last_not_of(' ') + 1);
+    write("a/rows.csv", rows);
+    std::string const hash = whole_hash();
+    leave_shards();
+    ASSERT_EQ(run_in("a", {"--resume", "--shard", "1/1"}).code, 0);
+    ASSERT_EQ(run({"merge", "a/s.nc.shards", "-o", "m.nc"}).code, 0);
+    EXPECT_EQ(hash_of("m.nc"), hash);
+    EXPECT_EQ(ResultReader(path("m.nc").string()).texts("member_label"), labels);
 }
 
 }  // namespace
