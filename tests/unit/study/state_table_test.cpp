@@ -203,6 +203,26 @@ TEST(StateTable, OfThePlanarMechanismHasItsAngles) {
               "angle of 0");
 }
 
+TEST(StartOfAMember, TakesEachComponentFromItsOwnInput) {
+    MechanismInfo turning = spatial_slider_info();
+    turning.states = 12;
+    turning.state[10] = Series::crank_angle, turning.state[11] = Series::crank_angular_velocity;
+    ASSERT_TRUE(has_start_inputs(turning));
+    Inputs in;
+    in.x = 7, in.vx = 8, in.start_angle = 0.3, in.crank_speed = 20, in.wz = 5;
+    StateNumbers const start = start_of(turning, in);
+    EXPECT_EQ(start[9], 5);
+    EXPECT_EQ(start[10], 0.3);
+    EXPECT_EQ(start[11], 20);
+    Inputs back;
+    set_start(turning, start, back);
+    EXPECT_EQ(back.start_angle, 0.3);
+    EXPECT_EQ(back.crank_speed, 20);
+    EXPECT_EQ(back.x, 0) << "it is no component";
+    turning.state[11] = Series::rod_angle;
+    EXPECT_FALSE(has_start_inputs(turning));
+}
+
 TEST(StateTable, HasNoColumnsThatDoNotCountForTheMechanism) {
     std::string const row = "0.1,0,0,0,0,0,0,0\n";
     Scene const planar = scene_of(Mechanism::planar_slider_crank);
