@@ -12,7 +12,16 @@ step() {
     echo "== $*"
     if "$@"; then results+=("passed: $*"); else results+=("FAILED: $*"); fi
 }
+# Slow tests of the Python package, and what they need besides.
+slow_python() {
+    local environment
+    environment=$(bash scripts/python_environment.sh build/release)
+    sed -n 's/^slow = \[\(.*\)\]$/\1/p' pyproject.toml | tr -d '",' | tr ' ' '\n' >build/python_slow.txt
+    "$environment/bin/python" -m pip --disable-pip-version-check --quiet install -r build/python_slow.txt
+    bash scripts/python_tests.sh build/release/bin/slideway -m slow tests
+}
 step bash scripts/test.sh --all-isas
+step slow_python
 step ctest --test-dir build/release --label-regex '^slow$' --output-on-failure
 step bash scripts/kills.sh 1000 build/release/bin/slideway
 step bash scripts/sanitize.sh

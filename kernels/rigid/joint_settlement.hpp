@@ -62,7 +62,7 @@ public:
             near[i] = held[i] | (event & (number_of(contact.penetration, i) > Real(-4.0) * located_));
         }
         count_events(event, t, memory);
-        auto const endless = memory.quick >= Real(most_quick_events), at_once = endless | (memory.at_once >= Real(most_with_restitution));
+        Mask<Real> const endless = memory.quick >= Real(most_quick_events), at_once = endless | (memory.at_once >= Real(most_with_restitution));
         Real restitution[pair_count];
         for (int i = 0; i < pair_count; ++i) restitution[i] = select(held[i] | at_once, zero, restitution_);
         JointImpact<Guide, Real> impact(pairs_, velocity, near, friction_ != nullptr ? &friction_->kinetic_coefficient : nullptr, least_speed);

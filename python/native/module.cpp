@@ -174,7 +174,8 @@ NB_MODULE(_native, module) {
         .def("group_attributes",
              [](Result const& result, std::string const& name) { return attributes_of(result.data().file.inner(name), DataFile::global); })
         .def("payload_hash", &Result::payload_hash)
-        .def("write", &Result::write, nb::arg("path"), nb::arg("replace"));
+        // Another thread may wait for the files, and this one for it.
+        .def("write", &Result::write, nb::arg("path"), nb::arg("replace"), nb::call_guard<nb::gil_scoped_release>());
 
     nb::class_<Ensemble>(module, "Ensemble")
         .def_static("read", &Ensemble::read)

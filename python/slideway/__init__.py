@@ -19,6 +19,7 @@ from .example import example
 from .exponent_signs import exponent_signs
 from .keys import Key, Keys, keys
 from .members import finished, statuses
+from .parts import merge, run_part
 from .resolution import Resolution, resolution
 from .results import groups, open  # noqa: A004 (slideway.open is the name that users expect)
 from .runs import info, run
@@ -51,11 +52,13 @@ __all__ = [
     "groups",
     "info",
     "keys",
+    "merge",
     "open",
     "plot",
     "report",
     "resolution",
     "run",
+    "run_part",
     "scene",
     "sections",
     "stats",

@@ -5,12 +5,15 @@ from __future__ import annotations
 import functools
 import os
 from collections.abc import Callable, Sequence
-from typing import Any, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 import numpy as np
 import xarray as xr
 
 from .errors import SlidewayError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -41,8 +44,47 @@ def shown(value: object, longest: int = _longest) -> str:
     >>> shown("a" * 100)[-5:]
     'aa...'
     """
-    text = " ".join(repr(value).split())
+    return shortened(" ".join(repr(value).split()), longest)
+
+
+def shortened(text: str, longest: int) -> str:
+    """Text of at most so many characters.
+
+    >>> shortened("y, z, vy, vz", 8)
+    'y, z,...'
+    """
     return text if len(text) <= longest else text[: longest - 3] + "..."
+
+
+def numbers(value: Any, name: str) -> NDArray[np.float64]:
+    """Real numbers, each of which is there: what is imaginary or masked is refused, for numpy would leave it out without a word.
+
+    >>> numbers([1, 2.5], "inputs")
+    array([1. , 2.5])
+    >>> numbers(np.array([1 + 2j]), "states")
+    Traceback (most recent call last):
+    slideway.errors.SlidewayError: states is array([1.+2.j]), which is complex; give real numbers in SI units
+    >>> numbers(np.ma.masked_equal([1.0, 0.0], 0.0), "inputs")
+    Traceback (most recent call last):
+    slideway.errors.SlidewayError: inputs has masked entries; fill them (.filled(value)), or leave these members out
+    """
+    if _is_masked(value):
+        raise SlidewayError(f"{name} has masked entries; fill them (.filled(value)), or leave these members out")
+    try:
+        found = np.asarray(value)
+        if found.dtype.kind == "c":
+            raise SlidewayError(f"{name} is {shown(value)}, which is complex; give real numbers in SI units")
+        if found.dtype.kind in "mM":
+            raise SlidewayError(f"{name} is {shown(value)}, which are dates or durations; give numbers in SI units")
+        return found.astype(np.float64, copy=False)
+    except (TypeError, ValueError):
+        raise SlidewayError(f"{name} is {shown(value)}; give numbers in SI units") from None
+
+
+def _is_masked(value: Any) -> bool:
+    if isinstance(value, (list, tuple)):
+        return any(_is_masked(part) for part in value)
+    return isinstance(value, np.ma.MaskedArray) and bool(np.any(np.ma.getmaskarray(value)))
 
 
 def dataset(result: object) -> xr.Dataset:

@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from .arguments import one_line, shown
+from .arguments import numbers, one_line, shown
 from .errors import SlidewayError
 from .intervals import student_t
 
@@ -45,7 +45,7 @@ class ControlVariate:
 
 def _column(values: _Values, name: str) -> _Column:
     """Members and their values without those that are NaN."""
-    found = np.asarray(values, dtype=np.float64)
+    found = numbers(values, name)
     if found.ndim != 1:
         raise SlidewayError(f"{name} is {shown(values)}, of {found.ndim} dimensions; give one value of each member")
     labels = values["member"].values if isinstance(values, xr.DataArray) and "member" in values.coords else np.arange(found.size)

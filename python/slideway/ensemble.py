@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import threading
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,7 +14,7 @@ import xarray as xr
 from . import arguments
 from .errors import FileError, RunError, SceneError, SlidewayError, StoppedEarly
 from .results import StrPath, in_memory, labelled
-from .scene_files import SceneFile, scene_text
+from .scene_files import scene_text
 from .toml_writer import to_value
 
 if TYPE_CHECKING:
@@ -34,8 +35,14 @@ def is_available() -> bool:
     return _native is not None
 
 
+def _no_module() -> str:
+    return f"this package has no module for runs in memory ({_missing}); install it with pip install . in the source tree"
+
+
 class Ensemble:
     """A scene in memory, with its kernels and threads, for those who run it many times: optimisation, calibration, notebooks.
+
+    Several threads may use one at once. It pickles: its copy in another process reads the scene anew, and has the same members.
 
     Args:
         scene: path of a TOML file, or the scene as nested dictionaries.
@@ -74,13 +81,29 @@ class Ensemble:
         **overrides: Any,
     ) -> None:
         if _native is None:
-            raise SlidewayError(f"this package has no module for runs in memory ({_missing}); install it with pip install . in the source tree")
+            raise SlidewayError(_no_module())
         self._threads = 0 if threads is None else arguments.whole(threads, "threads", 1)
         self._isa = arguments.text(isa, "isa")
         self._verify = bool(verify)
         self._file = scene_text(scene)
-        self._native = self._told(_native.Ensemble.parse, self._file.text, self._file.path, _settings(set, overrides))
+        self._settings = _settings(set, overrides)
+        self._read()
+
+    def _read(self) -> None:
+        self._native = self._told(_native.Ensemble.parse, self._file.text, self._file.path, self._settings)
         self._forms: dict[int, xr.Dataset] = {}
+
+    def __getstate__(self) -> dict[str, Any]:
+        # Another process may have another folder, beside which it would look for the scene's table.
+        file = self._file if self._file.keys else replace(self._file, path=os.path.abspath(self._file.path))
+        kept = {name: value for name, value in self.__dict__.items() if name not in ("_native", "_forms")}
+        return {**kept, "_file": file}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        if _native is None:
+            raise SlidewayError(_no_module())
+        self.__dict__.update(state)
+        self._read()
 
     def __len__(self) -> int:
         """How many members a run has."""
@@ -182,25 +205,25 @@ class Ensemble:
         if isinstance(states, Mapping):
             if unknown := [name for name in states if name not in names]:
                 raise SlidewayError(f"{arguments.shown(unknown[0])} is no state of this mechanism; it has {', '.join(names)}")
-            columns = np.broadcast_arrays(*(_numbers(states.get(name, 0.0), name) for name in names))
+            columns = np.broadcast_arrays(*(arguments.numbers(states.get(name, 0.0), name) for name in names))
             rows = np.stack([column.ravel() for column in columns], axis=1)
         else:
-            rows = _numbers(states, "states")
+            rows = arguments.numbers(states, "states")
             if rows.ndim != 2 or rows.shape[1] != len(names):
                 raise SlidewayError(f"states has the shape {rows.shape}; give one column for each of {', '.join(names)}")
-        when = np.zeros(0) if times is None else np.broadcast_to(_numbers(times, "times"), rows.shape[:1])
+        when = np.zeros(0) if times is None else np.broadcast_to(arguments.numbers(times, "times"), rows.shape[:1])
         columns_, values = self._told(self._native.probe, np.ascontiguousarray(rows), np.ascontiguousarray(when))
         return {name: values[:, i].copy() for i, name in enumerate(columns_)}
 
     def _rows(self, inputs: Mapping[str, ArrayLike] | ArrayLike) -> tuple[list[str], NDArray[np.float64]]:
         if isinstance(inputs, Mapping):
             names: Sequence[str] = [arguments.text(name, "a key of inputs") for name in inputs]
-            columns = np.broadcast_arrays(*(np.atleast_1d(_numbers(column, name)) for name, column in inputs.items())) if names else [np.zeros(0)]
+            columns = np.broadcast_arrays(*(np.atleast_1d(arguments.numbers(column, name)) for name, column in inputs.items())) if names else [np.zeros(0)]
             if any(column.ndim != 1 for column in columns):
                 raise SlidewayError("inputs: give one number for each member of a key, an array [members]")
             values = np.stack(columns, axis=1)
         else:
-            names, values = self.inputs, _numbers(inputs, "inputs")
+            names, values = self.inputs, arguments.numbers(inputs, "inputs")
             if values.ndim != 2 or values.shape[1] != len(names) or not names:
                 raise SlidewayError(f"inputs has the shape {values.shape}; give an array [members, {len(names)}] of {', '.join(names) or 'what varies'}")
         return list(names), np.ascontiguousarray(values)
@@ -255,13 +278,6 @@ def _refilled(known: xr.Dataset, arrays: Mapping[str, NDArray[Any]]) -> xr.Datas
         values = arrays.get(str(name))
         variables[name] = variable.copy(deep=False) if values is None else xr.Variable(variable.dims, values, variable.attrs, fastpath=True)
     return known._replace(variables=variables)
-
-
-def _numbers(values: Any, name: str) -> NDArray[np.float64]:
-    try:
-        return np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise SlidewayError(f"{name} is {arguments.shown(values)}; give numbers in SI units") from None
 
 
 def _settings(given: Mapping[str, Any] | None, words: Mapping[str, Any]) -> list[tuple[str, str]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -20,6 +20,16 @@ class SlidewayError(Exception):
 
     def __init__(self, line: str = "") -> None:
         super().__init__(" ".join(line.splitlines()))  # names of files and keys may hold line breaks
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Exceptions go to other processes by the arguments that they were made of, which differ in number here.
+        return _restored, (type(self), self.args, self.__dict__)
+
+
+def _restored(kind: type[SlidewayError], arguments: tuple[Any, ...], attributes: dict[str, Any]) -> SlidewayError:
+    error = kind.__new__(kind, *arguments)
+    error.__dict__.update(attributes)
+    return error
 
 
 class RunError(SlidewayError):

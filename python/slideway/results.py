@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import os
 import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Union
 
 import numpy as np
 import xarray as xr
 
+from . import netcdf, sizes
 from .arguments import dataset, one_line, text
 from .arguments import path as path_text
 from .errors import FileError, RunError, SceneError, SlidewayError
@@ -22,11 +26,18 @@ _checked: dict[str, tuple[int, ...]] = {}  # files that the program found intact
 
 
 @one_line
-def open(path: StrPath, group: str | None = None, *, check: bool = True) -> xr.Dataset:  # noqa: A001
-    """Open a result file of slideway, or one of its groups.
+def open(  # noqa: A001
+    path: StrPath,
+    group: str | None = None,
+    *,
+    check: bool = True,
+    variables: Sequence[str] | None = None,
+    members: tuple[int, int] | None = None,
+) -> xr.Dataset:
+    """Open a result file of slideway, or one of its groups. Any thread may call this.
 
-    Numbers are read from the file when they are used; ``.load()`` reads all of them, ``.close()`` (or ``with``) closes the file.
-    Every variable has ``units`` and ``long_name``. Dimensions have labels wherever the file has some: ``member`` their numbers in
+    Up to 256 MB of numbers are read at once. More are read from the file when they are used; ``.load()`` reads all of them. The file
+    does not stay open, and may not be replaced in between. Every variable has ``units`` and ``long_name``. Dimensions have labels wherever the file has some: ``member`` their numbers in
     the scene's ensemble, ``apex``, ``mode_class``, ``axis`` and the like their names, and samples are also found by ``time``.
     Sections of all members lie one after the other; ``section_member`` says whose they are (see :func:`slideway.sections`).
 
@@ -37,10 +48,13 @@ def open(path: StrPath, group: str | None = None, *, check: bool = True) -> xr.D
         path: the result, OUT.nc of ``slideway run -o OUT.nc``.
         group: a group of the file, as :func:`slideway.groups` lists them: "statistics", "yield", "sensitivity", "verification".
         check: False opens the file as it is. Some damaged files end Python when they are opened.
+        variables: names of those that are wanted, without their labels; left out: all.
+        members: the first and the last that are wanted, by their numbers; left out: all. Groups speak of all in any case.
 
     Raises:
         FileError: the file is not what was written; the text says which part is damaged.
-        SlidewayError: the file is missing, damaged or no result of slideway, or has no such group.
+        SlidewayError: the file is missing, damaged or no result of slideway, has no such group, or is so large (hundreds of millions of
+            members) that `variables` or `members` should be given; the text says how large.
 
     >>> result = slideway.open(example_file)
     >>> result.peak_normal_force.units
@@ -49,24 +63,40 @@ def open(path: StrPath, group: str | None = None, *, check: bool = True) -> xr.D
     0.01
     """
     name = path_text(path, "path")
+    if group is None and variables is None and members is None and os.path.isfile(name):
+        sizes.require_choice_before_check(name)
     known = _check(name, check)
     if group is not None and text(group, "group") not in known:
         there = ", ".join(known) or "no groups"
         raise SlidewayError(f'{name}: has no group "{group}", but {there}; see slideway.groups(path)')
-    raw = None
     try:
-        raw = _opened(name, group)
-        opened = labelled(raw)
-        if group is not None:
-            # A group shares the file's dimensions, whose labels lie outside it.
-            with labelled(_opened(name, None)) as whole:
-                shared = {d: whole[d].load() for d in opened.dims if d in whole.indexes and d not in opened.coords}
-            opened = opened.assign_coords(shared)
+        opened = _whole(name, variables, members) if group is None else _group(name, group, variables)
+    except SlidewayError:
+        raise
     except (ArithmeticError, AttributeError, LookupError, OSError, RuntimeError, TypeError, ValueError) as error:
-        if raw is not None:
-            raw.close()
         raise SlidewayError(f"{name}: is damaged ({' '.join(str(error).split())}); copy it again, or run its scene again") from error
-    return _from(name, raw, opened)
+    return _from(name, opened)
+
+
+def _whole(name: str, variables: Sequence[str] | None, members: Any) -> xr.Dataset:
+    with netcdf.opened(name) as file:
+        if variables is None and members is None:
+            sizes.require_choice(name, sizes.size_of(file))
+        wanted = None if variables is None else sizes.with_labels(file, variables)
+        read = netcdf.read(file, name, None, wanted, None if members is None else sizes.rows_of(file, members))
+    return labelled(netcdf.decoded(*read))
+
+
+def _group(name: str, group: str, variables: Sequence[str] | None) -> xr.Dataset:
+    """A group shares the file's dimensions, whose labels lie outside it."""
+    with netcdf.opened(name) as file:
+        place = netcdf.place_of(file, group)
+        wanted = None if variables is None else sizes.with_labels(place, variables)
+        read = netcdf.read(file, name, group, wanted)
+        dimensions = {dimension for variable in read[0].values() for dimension in variable.dims}
+        shared = netcdf.read(file, name, None, frozenset(f"{d}{end}" for d in dimensions for end in ("", "_name")))
+    opened, whole = labelled(netcdf.decoded(*read)), labelled(netcdf.decoded(*shared))
+    return opened.assign_coords({d: whole[d] for d in opened.dims if d in whole.indexes and d not in opened.coords})
 
 
 @one_line
@@ -106,21 +136,17 @@ def holds_all(result: xr.Dataset) -> bool:
     >>> holds_all(result), holds_all(result.sel(member=[0, 1]))
     (True, False)
     """
-    import netCDF4
-
-    with netCDF4.Dataset(path_of(result)) as file:
+    with netcdf.opened(path_of(result)) as file:
         stored = len(file.dimensions["member"]) if "member" in file.dimensions else 0
     return int(result["member"].size if "member" in result.coords else 0) == stored
 
 
-def _from(name: str, raw: xr.Dataset, labelled: xr.Dataset) -> xr.Dataset:
-    """Says of a Dataset and its variables which file they are from, and lets it close the file."""
-    opened = labelled.copy() if labelled is raw else labelled  # what closes the file must not hold the Dataset itself
+def _from(name: str, opened: xr.Dataset) -> xr.Dataset:
+    """Says of a Dataset and its variables which file they are from."""
     source = name if isinstance(name, TemporaryPath) else os.path.abspath(name)
     opened.encoding["source"] = source
     for variable in opened.variables.values():
         variable.encoding["source"] = source
-    opened.set_close(raw.close)
     return opened
 
 
@@ -130,17 +156,33 @@ class InMemory:
     def __init__(self, result: Any, stem: str) -> None:
         self._result, self._stem = result, stem
         self._path: TemporaryPath | None = None
+        self._owner = os.getpid()
 
     def path(self) -> str:
-        """The file, which is gone when nothing from its Dataset is used any more."""
-        if self._path is None:
-            path = temporary_path(self._stem + ".nc")
-            self._result.write(str(path), False)
-            self._path = path
-        return self._path
+        """The file, which is gone when nothing from its Dataset is used any more. A forked process makes one of its own."""
+        with netcdf.exclusive():
+            if self._path is None or self._owner != os.getpid():
+                path = temporary_path(self._stem + ".nc")
+                self._result.write(str(path), False)
+                self._path, self._owner = path, os.getpid()
+            return self._path
 
     def __deepcopy__(self, memo: dict[int, object]) -> InMemory:
         return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """To another process goes what would be in the file."""
+        return InMemory, (_Content(Path(self.path()).read_bytes()), self._stem)
+
+
+@dataclass(frozen=True)
+class _Content:
+    """A result of another process."""
+
+    content: bytes
+
+    def write(self, path: str, replace: bool) -> None:
+        Path(path).write_bytes(self.content)
 
 
 def in_memory(computed: xr.Dataset, result: Any, stem: str) -> xr.Dataset:
@@ -155,27 +197,23 @@ def in_memory(computed: xr.Dataset, result: Any, stem: str) -> xr.Dataset:
 def open_temporary(path: TemporaryPath) -> xr.Dataset:
     """A temporary result, whose folder is removed when it is closed, or when nothing uses it any more."""
     opened = open(path, check=False)  # the program has just written it, and read it again
-    # What removes the folder must not hold the Dataset itself, which would then live until the next collection.
-    closing = opened.copy()
-    closing.encoding = dict(opened.encoding)
-
-    def end() -> None:
-        opened.close()
-        path.remove()
-
-    closing.set_close(end)
-    return closing
+    opened.set_close(_Removal(path))
+    return opened
 
 
-def _opened(name: str, group: str | None) -> xr.Dataset:
-    # Times are numbers of seconds: xarray would make dates or durations of some units.
-    return xr.open_dataset(name, engine="netcdf4", group=group, decode_times=False, decode_timedelta=False)
+@dataclass(frozen=True)
+class _Removal:
+    """Removes a temporary result; a copy in another process has the path as plain text, and owns nothing."""
+
+    path: str
+
+    def __call__(self) -> None:
+        if isinstance(self.path, TemporaryPath):
+            self.path.remove()
 
 
 def _check(name: str, whole: bool) -> list[str]:
     """The groups of a file; raises where there is no result of slideway, or, if the `whole` file counts, one that is damaged."""
-    import netCDF4
-
     if not os.path.exists(name):
         raise SlidewayError(f"{name}: there is no such file; check the path")
     if os.path.isdir(name):
@@ -186,7 +224,7 @@ def _check(name: str, whole: bool) -> list[str]:
     if whole:
         _require_intact(name)
     try:
-        with netCDF4.Dataset(name) as file:
+        with netcdf.opened(name) as file:
             source, version, groups_there = getattr(file, "source", ""), getattr(file, "format_version", 1), list(file.groups)
     except (OSError, RuntimeError, ValueError, AttributeError) as error:
         why = getattr(error, "strerror", None) or error
@@ -200,10 +238,10 @@ def _check(name: str, whole: bool) -> list[str]:
 
 def _require_intact(name: str) -> None:
     """Has the program look at a file, once as long as it does not change."""
-    state = os.stat(name)
-    now = (state.st_dev, state.st_ino, state.st_size, state.st_mtime_ns, state.st_ctime_ns)
+    now = netcdf.state_of(name)
     if _checked.get(os.path.abspath(name)) == now:
         return
+    sizes.say_before_check(name, 5)  # the caller of open or groups
     try:
         call(find_program(), ["info", "--check", "--", os.path.abspath(name)])
     except FileError as error:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import xarray as xr
@@ -89,21 +89,39 @@ def run(
         computed = _in_memory(scene, threads, isa, progress, any_start, _all_overrides(set, overrides, None), max_failures)
         if computed is not None:
             return computed
-    found = find_program(program)
     options = _options(threads, backend, isa, max_hours, max_failures, members)
-    for key, value in _all_overrides(set, overrides, found).items():
-        options += ["--set", f"{key}={to_value(value, key)}"]
-    options += ["--resume"] * bool(resume) + ["--force"] * bool(force) + ["--any-start"] * bool(any_start) + ["--quiet"] * (not progress)
+    options += ["--resume"] * bool(resume) + ["--force"] * bool(force) + ["--any-start"] * bool(any_start)
+    result = run_command(scene, None if output is None else arguments.path(output, "output"), program, options, bool(progress), set, overrides)
+    return open_temporary(result) if isinstance(result, TemporaryPath) else open_result(result, check=False)
+
+
+def run_command(
+    scene: StrPath | Mapping[str, Any],
+    output: str | None,
+    program: StrPath | None,
+    options: Sequence[str],
+    progress: bool,
+    given: Mapping[str, Any] | None,
+    words: Mapping[str, Any],
+) -> str:
+    """Calls ``slideway run``, and returns the name of its result; without `output` it is a temporary one.
+
+    Raises:
+        RunError: it failed.
+    """
+    found = find_program(program)
+    settings = [word for key, value in _all_overrides(given, words, found).items() for word in ("--set", f"{key}={to_value(value, key)}")]
     with scene_file(scene) as file:
-        result = temporary_path(_stem(file.path) + ".nc") if output is None else arguments.path(output, "output")
+        result = temporary_path(_stem(file.path) + ".nc") if output is None else output
+        line_of_command = [found, "run", file.path, "-o", result, *options, *settings, *["--quiet"] * (not progress)]
         try:
-            code, line = follow([found, "run", file.path, "-o", result, *options], bool(progress), file.said)
+            code, line = follow(line_of_command, progress, file.said)
         except Interrupted as stopped:
             # Code 0: the run was at its end already.
             raise KeyboardInterrupt from error_of(stopped.code, stopped.line, result, found) if stopped.code != 0 else None
     if code != 0:
         raise error_of(code, line, result, found)
-    return open_temporary(result) if isinstance(result, TemporaryPath) else open_result(result, check=False)
+    return result
 
 
 def info(result: StrPath | xr.Dataset, program: StrPath | None = None) -> str:

@@ -328,7 +328,7 @@ def test_threads_beyond_the_runtime_are_refused(threads: int) -> None:
 
 
 def test_a_forked_process_runs_too() -> None:
-    ensemble = slideway.Ensemble(small, threads=2)
+    ensemble = slideway.Ensemble(small, threads=2, study__members=1024, study__duration="1 ms")  # fewer would take one thread
     before = ensemble.run()
     child = os.fork()
     if child == 0:
