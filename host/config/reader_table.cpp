@@ -1,14 +1,14 @@
 // study.table: one member a row, as measured or as drawn elsewhere.
-#include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include <fmt/format.h>
 
 #include "host/base/bytes.hpp"
 #include "host/base/csv.hpp"
+#include "host/base/open_file.hpp"
+#include "host/base/shown.hpp"
 #include "host/config/reader.hpp"
 #include "host/config/scene_text.hpp"
 #include "host/config/units.hpp"
@@ -26,21 +26,12 @@ std::string read_bytes(Node const& node, std::string const& path) {
     constexpr std::size_t largest = std::size_t{1} << 28;  // keeps devices from filling the memory
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) refuse(node, {"it is a directory", "name a file in it"});
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    std::string bytes;
-    std::string part(std::size_t{1} << 16, '\0');
-    while (file && bytes.size() <= largest) {
-        file.read(part.data(), static_cast<std::streamsize>(part.size()));
-        bytes.append(part, 0, static_cast<std::size_t>(file.gcount()));
+    InputText input = read_input(path, largest);
+    if (input.text.size() > largest) refuse(node, {"it is larger than 256 MiB", "name a table, which is text"});
+    if (input.error != 0) {
+        refuse(node, {fmt::format("{} cannot be read: {}", shown_briefly(path), std::strerror(input.error)), "check the path, from the scene's folder on"});
     }
-    if (bytes.size() > largest) refuse(node, {"it is larger than 256 MiB", "name a table, which is text"});
-    if (!file.eof()) {
-        refuse(node, {fmt::format("{} cannot be read: {}", one_line(path),
-                                  errno != 0 ? std::strerror(errno) : "it does not open"),
-                      "check the path, from the scene's folder on"});
-    }
-    return bytes;
+    return std::move(input.text);
 }
 
 /// A field of the table for messages: `members.csv:3: name is "text" (…); …`.
@@ -118,7 +109,7 @@ void read_member_table(Node const& node, Node const& root, Scene& scene) {
     table->path = std::filesystem::absolute(path).lexically_normal().string();
     table->checksum = fnv1a(bytes);
     std::istringstream in(std::move(bytes));
-    CsvReader rows(in, one_line(path.string()));
+    CsvReader rows(in, shown_briefly(path.string()));
     if (!rows.next())
         rows.fail("the table is empty (it needs a header and a row); write keys like joint.clearance above");
     std::vector<Column> const columns = read_header(rows, root, scene);

@@ -14,7 +14,9 @@
 #include <netcdf_mem.h>
 
 #include "host/base/error.hpp"
+#include "host/base/memory_room.hpp"
 #include "host/base/numbers.hpp"
+#include "host/base/open_file.hpp"
 
 namespace slideway {
 
@@ -31,6 +33,9 @@ constexpr struct {
 } type_table[] = {{NC_BYTE, 1}, {NC_INT, 4}, {NC_DOUBLE, 8}, {NC_CHAR, 1}};
 
 [[noreturn]] void fail(std::string const& path, std::string_view action, int code) {
+    // HDF5 has one reason for all that goes wrong within it.
+    constexpr std::uint64_t scarce = 16 << 20;
+    require_memory(scarce);
     bool const reads = action.starts_with("read") || action == "open";
     throw FileError(fmt::format("{}: cannot {}: {}{}", path, action, nc_strerror(code),
                                 reads && code <= NC_EHDFERR && code >= NC4_LAST_ERROR ? "; the file is damaged, or its disk fails" : ""));
@@ -87,6 +92,7 @@ NetcdfFile NetcdfFile::create(std::string const& path) {
 }
 
 NetcdfFile NetcdfFile::open(std::string const& path) {
+    require_file(path);
     return {path, number_of(path, "open", [&](int* id) {
                 int const code = nc_open(path.c_str(), NC_NOWRITE, id);
                 if (code == NC_ENOTNC) throw FileError(path + ": is no netCDF file; give a result of slideway run");
