@@ -52,6 +52,7 @@ void print_info(InfoArguments const& arguments, ResultReader const& results, Sea
         print_field("metadata", "not covered by a hash in format 1");
     else
         print_hash("metadata", seal.metadata, seal.metadata_found, seal.metadata_match(), "attributes");
+    if (!seal.foreign.empty()) print_field("not covered", seal.foreign + ": slideway did not write this");
     print_out("\ndimensions\n");
     for (auto const& dimension : results.dimensions()) print_out("  {:<16} {}\n", dimension.name, dimension.length);
     if (!seal.intact()) return;

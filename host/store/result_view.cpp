@@ -149,13 +149,13 @@ SealCheck check_result(std::string const& path) {
     std::istringstream words(look_apart(path, [](ResultReader const& results) {
         SealCheck seal = results.check();
         // What stands in the place of a hash may be anything.
-        for (std::string* const stored : {&seal.payload, &seal.metadata}) std::replace(stored->begin(), stored->end(), '\n', '?');
-        return fmt::format("{}\n{}\n{}\n{}\n{}\n", seal.version, seal.payload, seal.metadata, seal.payload_found, seal.metadata_found);
+        for (std::string* const stored : {&seal.payload, &seal.metadata, &seal.foreign}) std::replace(stored->begin(), stored->end(), '\n', '?');
+        return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n", seal.version, seal.payload, seal.metadata, seal.payload_found, seal.metadata_found, seal.foreign);
     }));
     SealCheck seal;
     words >> seal.version;
     words.ignore();
-    for (std::string* const hash : {&seal.payload, &seal.metadata, &seal.payload_found, &seal.metadata_found}) std::getline(words, *hash);
+    for (std::string* const hash : {&seal.payload, &seal.metadata, &seal.payload_found, &seal.metadata_found, &seal.foreign}) std::getline(words, *hash);
     return seal;
 }
 
