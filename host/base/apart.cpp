@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <fstream>
 #include <string_view>
 
 #include <fcntl.h>
@@ -17,6 +16,8 @@
 #include <fmt/format.h>
 
 #include "host/base/error.hpp"
+#include "host/base/memory_room.hpp"
+#include "host/base/stop_signals.hpp"
 
 namespace slideway {
 namespace {
@@ -30,15 +31,10 @@ void limit(decltype(RLIMIT_CPU) what, std::uint64_t amount) {
     setrlimit(what, &now);
 }
 
-std::uint64_t mapped_bytes() {
-    std::uint64_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-}
-
-/// Neither a core nor what the C library says as it aborts; Ctrl-C and the parent's end are its end, too.
+/// Neither a core nor what the C library says as it aborts.  A signal to the whole job is its parent's to obey, whose end is its end: else a
+/// stopped check would look like a damaged file.  A limit of the processor's time is its own.
 void be_quiet(ApartLimits const& limits) {
-    for (int const signal : {SIGINT, SIGTERM, SIGXCPU}) std::signal(signal, SIG_DFL);
+    for (StopSignal const& one : stop_signals) std::signal(one.number, one.number == SIGXCPU ? SIG_DFL : SIG_IGN);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     prctl(PR_SET_DUMPABLE, 0);
     limit(RLIMIT_CORE, 0);

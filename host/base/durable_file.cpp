@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <istream>
 #include <system_error>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "host/base/error.hpp"
+#include "host/base/open_file.hpp"
 
 namespace slideway {
 namespace {
@@ -22,28 +22,6 @@ namespace {
 [[noreturn]] void fail(std::string const& path, char const* action, int reason) {
     throw FileError(fmt::format("{}: cannot {}: {}", path, action, std::strerror(reason)));
 }
-
-/// An open file that is closed whatever happens.
-class Descriptor {
-public:
-    Descriptor(std::string const& path, int flags) : path_(path), file_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
-        if (file_ < 0) fail(path_, (flags & O_CREAT) != 0 ? "create" : "open", errno);
-    }
-    ~Descriptor() {
-        if (file_ >= 0) ::close(file_);
-    }
-    Descriptor(Descriptor const&) = delete;
-    Descriptor& operator=(Descriptor const&) = delete;
-    int get() const { return file_; }
-    /// Network file systems tell only here that something was not written.
-    void close() {
-        if (::close(std::exchange(file_, -1)) != 0) fail(path_, "write", errno);
-    }
-
-private:
-    std::string const& path_;
-    int file_;
-};
 
 void write_all(int file, std::span<std::byte const> bytes, std::string const& path) {
     while (!bytes.empty()) {
@@ -71,13 +49,13 @@ int put_in_place(std::string const& from, std::string const& to, Existing existi
 }
 
 void sync_folder_for(std::string const& folder, std::string const& path) {
-    Descriptor const file(folder, O_RDONLY | O_DIRECTORY);
+    OpenFile const file(folder, O_RDONLY | O_DIRECTORY);
     // Some file systems cannot, and need not.
     if (::fsync(file.get()) != 0 && errno != EINVAL) fail(path, "write to the disk", errno);
 }
 
 void write_file(std::string const& path, int flags, std::span<std::byte const> bytes) {
-    Descriptor file(path, O_WRONLY | O_CREAT | flags);
+    OpenFile file(path, O_WRONLY | O_CREAT | flags);
     try {
         write_all(file.get(), bytes, path);
         sync(file.get(), path);
@@ -118,7 +96,7 @@ void write_durably(std::string const& path, std::string_view text) {
 
 void rename_durably(std::string const& from, std::string const& to, Existing existing) {
     {
-        Descriptor file(from, O_RDONLY);
+        OpenFile file(from, O_RDONLY);
         sync(file.get(), from);
     }
     if (int const reason = put_in_place(from, to, existing); reason != 0) {
@@ -148,20 +126,16 @@ std::string in_folder(std::string const& folder, std::string_view name) {
 }
 
 void require_readable(std::string const& path) {
-    Descriptor const file(path, O_RDONLY);
+    OpenFile const file(path, O_RDONLY);
     char byte;
     if (::read(file.get(), &byte, 1) < 0) fail(path, "read", errno);
 }
 
-void require_readable(std::istream& in, std::string const& path) {
-    if (!in || (in.peek() == std::istream::traits_type::eof() && in.bad())) fail(path, "read", errno);
-}
-
 std::vector<std::byte> read_bytes(std::string const& path) {
-    Descriptor const file(path, O_RDONLY);
+    OpenFile const file(path, O_RDONLY);
     std::error_code ignored;
     auto const size = std::filesystem::file_size(path, ignored);
-    // One more than there is: the end then shows without growing.  Pipes and the like have no size.
+    // One more than there is: the end then shows without growing.
     constexpr std::size_t least = 1u << 16;
     std::vector<std::byte> bytes(ignored ? least : static_cast<std::size_t>(size) + 1);
     std::size_t used = 0;
@@ -182,17 +156,12 @@ std::string read_text(std::string const& path) {
     return {reinterpret_cast<char const*>(bytes.data()), bytes.size()};
 }
 
-LineFile::LineFile(std::string path)
-    : path_(std::move(path)), file_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666)) {
-    if (file_ < 0) fail(path_, "create", errno);
-}
-
-LineFile::~LineFile() { ::close(file_); }
+LineFile::LineFile(std::string path) : file_(std::move(path), O_WRONLY | O_CREAT | O_EXCL | O_APPEND) {}
 
 void LineFile::append(std::string line) {
     line += '\n';
-    write_all(file_, std::as_bytes(std::span(line)), path_);
-    sync(file_, path_);
+    write_all(file_.get(), std::as_bytes(std::span(line)), file_.path());
+    sync(file_.get(), file_.path());
 }
 
 }  // namespace slideway

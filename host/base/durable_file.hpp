@@ -2,11 +2,12 @@
 #pragma once
 
 #include <cstddef>
-#include <iosfwd>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "host/base/open_file.hpp"
 
 namespace slideway {
 
@@ -50,10 +51,8 @@ bool is_there(std::string const& path);
 
 /// @throws FileError with the reason where a file cannot be opened, or its first byte not be read.
 void require_readable(std::string const& path);
-/// The same of a stream that was just opened: a folder opens, and only fails to read.
-void require_readable(std::istream& in, std::string const& path);
 
-/// @throws FileError if it cannot be read.
+/// @throws FileError if it cannot be read, or is no file.
 std::vector<std::byte> read_bytes(std::string const& path);
 std::string read_text(std::string const& path);
 
@@ -62,15 +61,11 @@ class LineFile {
 public:
     /// @throws FileError, also if there is such a file already.
     explicit LineFile(std::string path);
-    ~LineFile();
-    LineFile(LineFile const&) = delete;
-    LineFile& operator=(LineFile const&) = delete;
     /// @param line without its end.  @throws FileError; the file may then end with a part of the line
     void append(std::string line);
 
 private:
-    std::string const path_;
-    int const file_;
+    OpenFile file_;
 };
 
 }  // namespace slideway

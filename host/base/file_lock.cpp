@@ -1,12 +1,14 @@
 #include "host/base/file_lock.hpp"
 
 #include <cerrno>
-#include <cstring>
-#include <utility>
+#include <fstream>
+#include <sstream>
+#include <string>
 
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -35,31 +37,50 @@ bool is_named(int file, std::string const& path) {
 
 int operation_of(FileLock::Kind kind) { return kind == FileLock::Kind::alone ? LOCK_EX : LOCK_SH; }
 
-}  // namespace
+bool is_held_elsewhere(int file, int operation) { return flock_uninterrupted(file, operation) != 0 && errno == EWOULDBLOCK; }
 
-FileLock::FileLock(std::string path, Kind kind, Wait wait, std::string const& rival) : path_(std::move(path)) {
+/// Of a lock that the system lists with its process (proc(5), /proc/locks); on another machine, and on file systems that number their
+/// files otherwise, nobody can tell.
+std::string holder_of(int file) {
+    struct stat found {};
+    if (fstat(file, &found) != 0) return "another process";
+    std::string const place = fmt::format("{:02x}:{:02x}:{}", major(found.st_dev), minor(found.st_dev), found.st_ino);
+    std::ifstream locks("/proc/locks");
+    for (std::string line; std::getline(locks, line);) {
+        std::istringstream words(line);
+        std::string number, kind, is_advisory, mode, process, where;
+        words >> number >> kind >> is_advisory >> mode >> process >> where;
+        if (kind == "FLOCK" && where == place) return "process " + process;
+    }
+    return "another process";
+}
+
+FileError busy(int file, Rival const& rival) {
+    return FileError(fmt::format("{}: is being written by {}{}; {}", rival.what, holder_of(file), rival.detail, rival.advice));
+}
+
+OpenFile locked(std::string const& path, FileLock::Kind kind, FileLock::Wait wait, Rival const& rival) {
     for (;;) {
-        file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-        if (file_ < 0) throw FileError(fmt::format("{}: cannot create: {}", path_, std::strerror(errno)));
-        bool const held = flock_uninterrupted(file_, operation_of(kind) | (wait == Wait::no ? LOCK_NB : 0)) != 0 &&
-                          errno == EWOULDBLOCK;
-        if (held) {
-            close(std::exchange(file_, -1));
-            throw FileError(rival);
-        }
-        if (is_named(file_, path_)) return;
-        close(std::exchange(file_, -1));
+        OpenFile file(path, O_RDWR | O_CREAT);
+        if (is_held_elsewhere(file.get(), operation_of(kind) | (wait == FileLock::Wait::no ? LOCK_NB : 0))) throw busy(file.get(), rival);
+        if (is_named(file.get(), path)) return file;
     }
 }
 
-FileLock::~FileLock() {
-    if (file_ >= 0) close(file_);
+}  // namespace
+
+FileLock::FileLock(std::string path, Kind kind, Wait wait, Rival const& rival) : file_(locked(path, kind, wait, rival)) {}
+
+void FileLock::change(Kind kind, Rival const& rival) {
+    if (is_held_elsewhere(file_.get(), operation_of(kind) | LOCK_NB)) throw busy(file_.get(), rival);
 }
 
-void FileLock::change(Kind kind, std::string const& rival) {
-    if (flock_uninterrupted(file_, operation_of(kind) | LOCK_NB) != 0 && errno == EWOULDBLOCK) throw FileError(rival);
+void FileLock::require_free(std::string const& path, Rival const& rival) {
+    if (!is_there(path)) return;
+    OpenFile const file(path, O_RDONLY);
+    if (is_held_elsewhere(file.get(), LOCK_EX | LOCK_NB)) throw busy(file.get(), rival);
 }
 
-void FileLock::remove() { remove_file(path_); }
+void FileLock::remove() { remove_file(file_.path()); }
 
 }  // namespace slideway

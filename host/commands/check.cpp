@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host/base/shown.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
@@ -130,10 +131,10 @@ void print_resolved(std::string_view text) {
     while (!text.empty()) {
         auto const end = std::min(text.find('\n'), text.size());
         std::string_view const line = text.substr(0, end);
-        fmt::print("{}\n", wrapped(line, 4, line.find(" = [") == line.npos ? 0 : line_width(), 0));
+        print_out("{}\n", wrapped(line, 4, line.find(" = [") == line.npos ? 0 : line_width(), 0));
         text.remove_prefix(std::min(end + 1, text.size()));
     }
-    fmt::print("\n");
+    print_out("\n");
 }
 
 /// What the scene does not give, with its values: "slider_mass 187.2 kg, slider_inertia_x 2.03 kg m2".
@@ -171,16 +172,17 @@ int execute(CheckArguments const& arguments) {
     Prediction const prediction = predict(scene, *choice.backend, threads);
 
     if (arguments.resolved) {
-        fmt::print("{}", resolved_toml(scene));
+        print_out("{}", resolved_toml(scene));
         return exit_code::done;
     }
+    require_memory(prediction.memory() + memory_of_work(threads));
     std::optional<Trial> const trial = try_members(scene, *choice.backend, threads);
     if (arguments.json) {
-        fmt::print("{}", check_json(scene, prediction, trial, *choice.backend));
+        print_out("{}", check_json(scene, prediction, trial, *choice.backend));
         return exit_code::done;
     }
 
-    print_text(2, "# {} is a valid scene.  Resolved, in SI units:\n", in_one_line(scene.path));
+    print_text(2, "# {} is a valid scene.  Resolved, in SI units:\n", shown(scene.path));
     print_resolved(resolved_toml(scene));
     print_derived(scene);
     print_parts(scene);

@@ -12,6 +12,7 @@
 #include <variant>
 
 #include "host/backend/backend.hpp"
+#include "host/base/memory_room.hpp"
 #include "host/chaos/divergence.hpp"
 #include "host/config/scene.hpp"
 #include "host/study/backend_choice.hpp"
@@ -42,6 +43,11 @@ inline constexpr ExitCode exit_codes[] = {
     {exit_code::file_trouble, "a file could not be read or written, memory was short, or a card failed"},
     {exit_code::stopped_early, "stopped early, by a signal or --max-hours; what is finished can be resumed"},
 };
+
+inline constexpr char const* out_of_memory = "slideway: out of memory; ask for fewer members or samples, or allow the process more (ulimit -v)";
+
+/// [B] that a command takes which computes with so many threads, beside what its members do; one thread writes, another tells of progress.
+inline std::uint64_t memory_of_work(int threads) { return (std::uint64_t{64} << 20) + bytes_of_threads(threads + 2); }
 
 /// What a failure says in one line, and the program's exit code.
 struct Complaint {
@@ -77,7 +83,7 @@ inline constexpr std::string_view backend_words[] = {"auto", "cpu", "cuda"};
 /// Of --backend and --isa.
 BackendRequest parse_backend(std::string_view backend, std::string_view isa);
 
-/// 'a b' for a shell; words without special characters stay as they are.
+/// 'a b' for a shell; words without special characters stay as they are, and what a terminal would obey becomes $'\302\233'.
 std::string shell_quoted(std::string_view word);
 
 struct SceneArguments {

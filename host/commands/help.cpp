@@ -160,7 +160,7 @@ std::string help_text(std::vector<CommandDescription> const& commands, std::size
 // ---- slideway.1, in the man macros that both groff and mandoc know ----
 
 int execute(TextOnly const& only) {
-    fmt::print("{}", only.text);
+    print_out("{}", only.text);
     return exit_code::done;
 }
 

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
+#include "host/base/shown.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
-#include "host/config/scene_text.hpp"
 #include "host/store/result_view.hpp"
 #include "host/study/result_summary.hpp"
 #include "host/study/study_run.hpp"
@@ -26,16 +26,16 @@ std::optional<ToleranceReport> report_of(ResultReader const& results) {
 }
 
 void print_members(ResultReader const& results, MemberRange const& range) {
-    fmt::print("\n{:>10}  {:<16} {:>14} {:>12} {:>12}\n", "member", "status", "end time [s]", "steps", "rejected");
+    print_out("\n{:>10}  {:<16} {:>14} {:>12} {:>12}\n", "member", "status", "end time [s]", "steps", "rejected");
     for (MemberRow const& member : member_rows(results, range)) {
-        fmt::print("{:>10}  {:<16} {:>14.8g} {:>12} {:>12}{}\n", member.number, name_of(member.status), member.time, member.steps_accepted,
-                   member.steps_rejected, member.label.empty() ? "" : "  " + one_line(member.label));
+        print_out("{:>10}  {:<16} {:>14.8g} {:>12} {:>12}{}\n", member.number, name_of(member.status), member.time, member.steps_accepted,
+                   member.steps_rejected, member.label.empty() ? "" : "  " + shown_briefly(member.label));
     }
 }
 
 void print_hash(char const* label, std::string const& stored, std::string const& found, bool match, char const* of_what) {
     print_field(label, match ? fmt::format("{}: matches the {}", found, of_what)
-                             : fmt::format("DOES NOT MATCH: the file says {}, its {} give {}", one_line(stored), of_what, found));
+                             : fmt::format("DOES NOT MATCH: the file says {}, its {} give {}", shown_briefly(stored), of_what, found));
 }
 
 /// Of a damaged file what it says of itself; of what its numbers come to nothing.
@@ -44,7 +44,7 @@ void print_info(InfoArguments const& arguments, ResultReader const& results, Sea
     print_field("file", arguments.path);
     for (char const* const name : {"title", "created", "version", "commit", "compiler", "flags", "machine", "backend",
                                    "isa", "threads", "seed", "completeness"}) {
-        print_field(name, one_line(results.attribute(name), longest));
+        print_field(name, shown(results.attribute(name), longest));
     }
     print_field("format", fmt::format("{}", seal.version));
     print_hash("payload", seal.payload, seal.payload_found, seal.data_match(), "data");
@@ -52,10 +52,11 @@ void print_info(InfoArguments const& arguments, ResultReader const& results, Sea
         print_field("metadata", "not covered by a hash in format 1");
     else
         print_hash("metadata", seal.metadata, seal.metadata_found, seal.metadata_match(), "attributes");
-    fmt::print("\ndimensions\n");
-    for (auto const& dimension : results.dimensions()) fmt::print("  {:<16} {}\n", dimension.name, dimension.length);
+    if (!seal.foreign.empty()) print_field("not covered", seal.foreign + ": slideway did not write this");
+    print_out("\ndimensions\n");
+    for (auto const& dimension : results.dimensions()) print_out("  {:<16} {}\n", dimension.name, dimension.length);
     if (!seal.intact()) return;
-    fmt::print("\nstatus\n");
+    print_out("\nstatus\n");
     print_statuses(count_statuses(results));
     if (auto const report = report_of(results))
         print_tolerance(*report);
@@ -65,7 +66,7 @@ void print_info(InfoArguments const& arguments, ResultReader const& results, Sea
     print_sections(results);
     if (auto const summary = verification_summary(results)) print_text(0, "\n{}", *summary);
     if (arguments.members) print_members(results, *arguments.members);
-    if (arguments.scene) fmt::print("\nscene\n{}\n", results.attribute("scene"));
+    if (arguments.scene) print_out("\nscene\n{}\n", results.attribute("scene"));
 }
 
 }  // namespace
@@ -76,7 +77,7 @@ int execute(InfoArguments const& arguments) {
         ResultReader const results(arguments.path);
         if (seal.intact() && arguments.members) member_rows(results, *arguments.members);  // or there are none to show
         if (arguments.json) {
-            fmt::print("{}", result_json("info", results, seal, seal.intact() ? report_of(results) : std::nullopt, nullptr, 0, arguments.members));
+            print_out("{}", result_json("info", results, seal, seal.intact() ? report_of(results) : std::nullopt, nullptr, 0, arguments.members));
         } else {
             print_info(arguments, results, seal);
         }

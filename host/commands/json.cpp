@@ -192,6 +192,7 @@ std::string result_json(char const* command, ResultReader const& results, SealCh
     json["payload_matches"] = seal.data_match();
     json["metadata_hash"] = seal.metadata.empty() ? Json(nullptr) : Json(seal.metadata);
     json["metadata_matches"] = seal.metadata.empty() && seal.version == 1 ? Json(nullptr) : Json(seal.metadata_match());
+    json["not_covered"] = seal.foreign;
     json["intact"] = seal.intact();
     Json& dimensions = json["dimensions"] = Json::object();
     for (auto const& dimension : results.dimensions()) dimensions[dimension.name] = dimension.length;

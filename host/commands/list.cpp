@@ -32,7 +32,7 @@ template <class Has> std::string owners_text(Has has) {
 
 /// Their states, and what else comes with every time series.
 void print_mechanisms() {
-    fmt::print("mechanisms (mechanism.kind), with the numbers of their state\n");
+    print_out("mechanisms (mechanism.kind), with the numbers of their state\n");
     for (MechanismInfo const& mechanism : mechanisms()) {
         std::vector<std::string_view> states, beside;
         Selection left = mechanism.always;
@@ -129,27 +129,27 @@ int execute(ListArguments const& arguments) {
         return exit_code::done;
     }
     if (arguments.json || arguments.schema || arguments.markdown) {
-        fmt::print("{}", arguments.json ? keys_json() : arguments.schema ? scene_schema() : keys_markdown());
+        print_out("{}", arguments.json ? keys_json() : arguments.schema ? scene_schema() : keys_markdown());
         return exit_code::done;
     }
     print_mechanisms();
     print_text(2, "\ncontact laws (contact.law){}", owners_text([](MechanismInfo const& one) { return one.spatial; }));
     print_laws();
-    fmt::print("\ndamping\n");
+    print_out("\ndamping\n");
     for (int i = 0; i < damping_count; ++i) print_row("  {:<30} {}", damping_names[i], damping_meanings[i]);
-    fmt::print("\nintegrators (integrator.method)\n");
+    print_out("\nintegrators (integrator.method)\n");
     for (MethodInfo const& method : method_table) print_row("  {:<30} {}", method.name, method.description);
-    fmt::print("\nstudies (study.kind)\n");
+    print_out("\nstudies (study.kind)\n");
     for (std::size_t i = 0; i < std::size(study_kind_names); ++i) print_row("  {:<30} {}", study_kind_names[i], study_meanings[i]);
-    fmt::print("\ndistributions (dist in study.vary); arguments in [] may be left out\n");
+    print_out("\ndistributions (dist in study.vary); arguments in [] may be left out\n");
     for (DistributionForm const& form : distribution_forms()) {
         print_row("  {:<10} {:<19} {}", form.name, listed_arguments(form), form.meaning);
     }
-    fmt::print("\ndesigns (study.design): how members are spread over what varies\n");
+    print_out("\ndesigns (study.design): how members are spread over what varies\n");
     for (std::size_t i = 0; i < std::size(design_names); ++i) {
         print_row("  {:<30} {}", design_names[i], design_meanings[i]);
     }
-    fmt::print("\nquantities (study.quantities): one value, or one row of values, per member\n");
+    print_out("\nquantities (study.quantities): one value, or one row of values, per member\n");
     for (QuantityInfo const& quantity : quantity_table) {
         Selection const bit = Selection{1} << (&quantity - quantity_table);
         print_row("  {:<30} {:<8} {}{}{}", quantity.name, quantity.unit, quantity.long_name,
@@ -162,12 +162,12 @@ int execute(ListArguments const& arguments) {
         print_row("  {:<30} {:<8} {}{}", series.name, series.unit, series.long_name,
                    owners_text([bit](MechanismInfo const& one) { return (one.series & bit) != 0; }));
     }
-    fmt::print("\nkeys of a scene, with their unit, domain and default\n");
+    print_out("\nkeys of a scene, with their unit, domain and default\n");
     print_keys();
-    fmt::print("\nbackends (--backend)\n");
+    print_out("\nbackends (--backend)\n");
     print_row("  {:<30} this machine's processor, with one of its instruction sets", "cpu");
     print_row("  {:<30} {}", "cuda", card_text());
-    fmt::print("\ninstruction sets (--isa)\n");
+    print_out("\ninstruction sets (--isa)\n");
     for (Isa const isa : all_isas()) {
         print_row("  {:<30} {}, {}", name_of(isa), counted(static_cast<std::uint64_t>(lanes_of(isa)), "lane"), state_of(isa));
     }

@@ -5,10 +5,13 @@
 
 #include "host/base/durable_file.hpp"
 #include "host/base/error.hpp"
+#include "host/base/memory_room.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
+#include "host/store/finished_result.hpp"
 #include "host/store/result_merge.hpp"
+#include "host/store/shard_claim.hpp"
 #include "host/store/result_view.hpp"
 #include "host/study/study_run.hpp"
 
@@ -45,6 +48,21 @@ void mend(ShardFolder const& folder) {
     }
 }
 
+/// @return members without results; nothing if a signal came
+std::optional<std::uint64_t> merged_unless_stopped(MergeArguments const& arguments, Scene const& scene, ShardFolder const& folder,
+                                                   std::vector<Shard> const& shards, OutputTarget const& target,
+                                                   std::optional<ToleranceReport>& report, StopRequest const& stop) {
+    ReportSettings settings;
+    settings.pause = pause_of(stop);
+    auto const backend = cpu_backend(best_isa());
+    auto const check = resolution_check(scene, *backend, default_threads(), stop, Progress::style_for(stderr, arguments.json));
+    try {
+        return merge_study(scene, folder, shards, shard_origin(folder, shards, scene), target, report, settings, check);
+    } catch (MergeStopped const&) {
+        return {};
+    }
+}
+
 }  // namespace
 
 int execute(MergeArguments const& arguments) {
@@ -56,30 +74,36 @@ int execute(MergeArguments const& arguments) {
     }
     std::string const scene_path = (std::filesystem::path(arguments.folder) / shard_names::identity).string();
     Scene scene = scene_of(folder);
+    require_memory(memory_of_work(default_threads()));
     OutputTarget const target(arguments.output, {inputs_of(scene), arguments.force, is_result_file});
     require_outside(target, arguments.folder);
     require_room_beside(target.path());
-    std::optional<ToleranceReport> report;
+    ShardClaim::require_nobody(shard_folder_of(arguments.output), arguments.output);
     std::vector<Shard> const shards = intact_shards(folder);
     mend(folder);
     scene.verify = asked_check(folder, shards, scene);
-    StopRequest const nobody;
-    auto const backend = cpu_backend(best_isa());
-    auto const check = resolution_check(scene, *backend, default_threads(), nobody, Progress::style_for(stderr, arguments.json));
-    std::uint64_t const left = merge_study(scene, folder, shards, shard_origin(folder, shards, scene), target, report, {}, check);
+    std::optional<ToleranceReport> report;
+    StopRequest stop;
+    SignalScope const signals(stop);
+    auto const merged = merged_unless_stopped(arguments, scene, folder, shards, target, report, stop);
+    if (!merged) {
+        tell("slideway: stopped early (signal): {} was not made, and {} is as it was: merge again\n", arguments.output, arguments.folder);
+        return exit_code::stopped_early;
+    }
+    std::uint64_t const left = *merged;
 
     RunArguments replay;
     replay.scene.path = scene_path;
     ResultReader const results(arguments.output);
     if (arguments.json) {
-        fmt::print("{}", result_json("merge", results, results.seal(), report, nullptr, left, {}, &scene));
+        print_out("{}", result_json("merge", results, results.seal(), report, nullptr, left, {}, &scene));
         return left == 0 ? exit_code::done : exit_code::stopped_early;
     }
     print_field("scene", scene_text(scene, scene_path));
     print_results(replay, scene, results, report);
-    fmt::print("\n");
-    print_field("results", fmt::format("{}{}; {} is no longer needed", arguments.output,
-                                       target.replaces() ? " (replaced a former file)" : "", arguments.folder));
+    print_out("\n");
+    print_field("results", fmt::format("{}{}; {}", arguments.output, target.replaces() ? " (replaced a former file)" : "",
+                                       words_on_need(folder, arguments.output)));
     if (left == 0) return exit_code::done;
     tell("slideway: {} of {} members have not run; run them and merge again\n", left,
                folder.identity().members.count());

@@ -11,6 +11,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/numbers.hpp"
+#include "host/base/shown.hpp"
 
 namespace slideway::cli {
 
@@ -131,9 +132,25 @@ BackendRequest parse_backend(std::string_view backend, std::string_view isa) {
     return request;
 }
 
+namespace {
+
+/// As bash, zsh and ksh read it, and POSIX since 2024.
+std::string octal_quoted(std::string_view word) {
+    std::string quoted = "$'";
+    for (char const c : word) {
+        auto const byte = static_cast<unsigned char>(c);
+        bool const as_it_is = byte >= 0x20 && byte < 0x7f && c != '\'' && c != '\\';
+        quoted += as_it_is ? std::string(1, c) : fmt::format("\\{:03o}", byte);
+    }
+    return quoted + "'";
+}
+
+}  // namespace
+
 std::string shell_quoted(std::string_view word) {
     constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
     if (!word.empty() && word.find_first_not_of(plain) == word.npos) return std::string(word);
+    if (!is_plain(word)) return octal_quoted(word);
     std::string quoted = "'";
     for (char const c : word) {
         quoted += c == '\'' ? "'\\''" : std::string(1, c);

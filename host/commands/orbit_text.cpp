@@ -60,12 +60,12 @@ void print_sweep_columns(ResultReader const& results) {
     constexpr std::size_t most = 60;
     std::string const parameter = results.attribute("sweep_parameter");
     std::size_t const every = (columns.size() + most - 1) / most;
-    fmt::print("\nLargest exponent [1/s] per column, ± the 95 % interval of the mean, and its sign{}:\n  {:>16}  {:>10}  {:>22}\n",
+    print_out("\nLargest exponent [1/s] per column, ± the 95 % interval of the mean, and its sign{}:\n  {:>16}  {:>10}  {:>22}\n",
                every > 1 ? fmt::format(", every {}th column", every) : "",
                fmt::format("{} [{}]", parameter, results.unit(parameter)), "finished", "exponent");
     for (std::size_t i = 0; i < columns.size(); i += every) {
         SweepColumn const& c = columns[i];
-        fmt::print("  {:>16.6g}  {:>10}  {:>22}  {}\n", c.value, fmt::format("{} of {}", c.finished, c.members), text(c.exponent.mean),
+        print_out("  {:>16.6g}  {:>10}  {:>22}  {}\n", c.value, fmt::format("{} of {}", c.finished, c.members), text(c.exponent.mean),
                    c.finished > 0 ? words_of(c.exponent.sign) : "");
     }
 }
@@ -76,7 +76,7 @@ void print_exponents(ResultReader const& results) {
     auto const exponents = summarise_exponents(results);
     if (exponents.empty()) return;
     if (exponents.front().values.count == 0) {
-        fmt::print("\nThere are no exponents: no member finished, or there was nothing to record.\n");
+        print_out("\nThere are no exponents: no member finished, or there was nothing to record.\n");
         return;
     }
     if (!results.attribute("sweep_parameter").empty()) {
@@ -114,7 +114,7 @@ void print_exponents(ResultReader const& results) {
 void print_sections(ResultReader const& results) {
     auto const sections = summarise_sections(results);
     if (!sections) return;
-    fmt::print("\n");
+    print_out("\n");
     print_field("sections", fmt::format("{} of all members", sections->sections));
     if (sections->beyond > 0) {
         tell("warning: {} more crossings are not stored: raise study.max_crossings\n", sections->beyond);

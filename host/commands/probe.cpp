@@ -1,12 +1,11 @@
 #include "host/study/probe.hpp"
 
-#include <fstream>
-#include <iostream>
 #include <optional>
 #include <sstream>
 
 #include <fmt/format.h>
 
+#include "host/base/open_file.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
@@ -19,9 +18,7 @@ namespace slideway::cli {
 namespace {
 
 StateTable load_table(std::string const& path, Scene const& scene) {
-    std::ifstream in(path);
-    require_readable(in, path);
-    return read_state_table(in, path, scene);
+    return read_state_table(*input_stream(path), path, scene);
 }
 
 OutputTarget table_target(ProbeArguments const& arguments, Scene const& scene) {
@@ -46,20 +43,20 @@ void print_contacts(MechanismInfo const& mechanism, ProbeResult const& result) {
     // A terminal may have room for half of them.
     std::size_t const per_line = line_width() == 0 || line_width() >= label_width + places * cell_width ? places : 4;
     for (std::size_t first = 0; first < places; first += per_line) {
-        fmt::print("\n  {:<18}", mechanism.spatial ? "apex" : "corner");
-        for (std::size_t i = first; i < first + per_line; ++i) fmt::print(" {:>11}", fmt::format("{}{}", mechanism.spatial ? "P" : "C", i + 1));
-        fmt::print("\n");
+        print_out("\n  {:<18}", mechanism.spatial ? "apex" : "corner");
+        for (std::size_t i = first; i < first + per_line; ++i) print_out(" {:>11}", fmt::format("{}{}", mechanism.spatial ? "P" : "C", i + 1));
+        print_out("\n");
         auto const print_row = [&](std::string_view label, double const(&values)[8]) {
-            fmt::print("  {:<18}", label);
-            for (std::size_t i = first; i < first + per_line; ++i) fmt::print(" {:>11.4g}", values[i]);
-            fmt::print("\n");
+            print_out("  {:<18}", label);
+            for (std::size_t i = first; i < first + per_line; ++i) print_out(" {:>11.4g}", values[i]);
+            print_out("\n");
         };
         print_row("penetration Y [m]", result.penetration_y);
         if (mechanism.spatial) print_row("penetration Z [m]", result.penetration_z);
         print_row("force Y [N]", result.normal_force_y);
         if (mechanism.spatial) print_row("force Z [N]", result.normal_force_z);
     }
-    fmt::print("\n");
+    print_out("\n");
 }
 
 void print_listing(Scene const& scene, StateTable const& table, ProbeResult const& result, Isa isa) {
@@ -72,7 +69,7 @@ void print_listing(Scene const& scene, StateTable const& table, ProbeResult cons
         SeriesInfo const& entry = state_info(has, i);
         rows.push_back({entry.name, entry.unit, cell(state[static_cast<std::size_t>(i)], 16), cell(result.derivative[i], 16)});
     }
-    fmt::print("\n");
+    print_out("\n");
     print_table([&](int) { return rows; }, 3, 2, 8);
     print_contacts(has, result);
     print_field("mode", fmt::format("{} surfaces, {} lines, {} points", result.surfaces, result.lines, result.points));
@@ -97,11 +94,11 @@ int execute(ProbeArguments const& arguments) {
     std::vector<ProbeResult> const results = slideway::probe(table, isa);
     if (target) target->write(probed_text(table, results));
     if (arguments.json)
-        fmt::print("{}", probe_json(scene, table, results));
+        print_out("{}", probe_json(scene, table, results));
     else if (target)
         return exit_code::done;
     else if (!arguments.table.empty())
-        write_probe_csv(std::cout, table, results);
+        print_out("{}", probed_text(table, results));
     else
         print_listing(scene, table, results[0], isa);
     return exit_code::done;

@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <istream>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "host/base/error.hpp"
+#include "host/base/open_file.hpp"
 #include "host/commands/commands.hpp"
 #include "host/store/output_target.hpp"
 #include "host/store/result_view.hpp"
@@ -62,9 +63,8 @@ bool has_package(std::string const& python) {
 /// As the Python package marks its pages.
 bool is_page(std::string const& path) {
     constexpr std::size_t head = 1024;
-    std::ifstream in(path, std::ios::binary);
     std::string text(head, '\0');
-    in.read(text.data(), head);
+    file_stream(path)->read(text.data(), head);
     return text.find("<meta name=\"generator\" content=\"slideway\">") != text.npos;
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "host/base/bytes.hpp"
+#include "host/base/memory_room.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
@@ -112,7 +113,7 @@ int end_unmerged(StudyOptions const& options) {
 /// Where members are left, or wait for those of other parts.
 int end_with_shards(RunArguments const& arguments, StudyOptions const& options, EnsembleTotals const& totals, std::uint64_t left) {
     std::string const folder = shard_folder_of(options.output);
-    if (arguments.json) fmt::print("{}", stopped_json(folder, left));
+    if (arguments.json) print_out("{}", stopped_json(folder, left));
     if (left == 0) {
         if (says_text(arguments)) print_field("results", fmt::format("part {} is done, in {}; slideway merge makes one file of all parts",
                                            options.part.name(), folder));
@@ -131,10 +132,10 @@ int conclude(RunArguments const& arguments, Scene const& scene, StudyOptions con
     bool const tells = arguments.json || !arguments.quiet;
     if (tells && !report && asks_for_report(scene)) report = tolerance_report(results, scene, {options.threads});
     if (arguments.json) {
-        fmt::print("{}", result_json("run", results, results.seal(), report, totals, 0, {}, &scene));
+        print_out("{}", result_json("run", results, results.seal(), report, totals, 0, {}, &scene));
     } else if (!arguments.quiet) {
         print_results(arguments, scene, results, report);
-        fmt::print("\n");
+        print_out("\n");
         print_field("results", fmt::format("{}{}", options.output, replaced ? " (replaced a former file)" : ""));
     }
     if (!says_text(arguments)) warn_of_results(results);
@@ -145,9 +146,33 @@ int conclude(RunArguments const& arguments, Scene const& scene, StudyOptions con
     return exit_code::too_many_failures;
 }
 
-std::string kept(std::exception const& error, StudyOptions const& options) {
-    return fmt::format("{}; what is finished is kept in {}: add --resume to go on", error.what(),
-                       shard_folder_of(options.output));
+std::string kept(std::string_view failure, StudyOptions const& options) {
+    return fmt::format("{}; what is finished is kept in {}: add --resume to go on", failure, shard_folder_of(options.output));
+}
+
+/// What is thrown at the moment, with what becomes of the members that are finished.
+[[noreturn]] void throw_kept(StudyOptions const& options) {
+    try {
+        throw;
+    } catch (SceneError const&) {
+        throw;
+    } catch (DeviceError const& error) {
+        throw DeviceError(kept(error.what(), options));
+    } catch (...) {
+        Complaint const complaint = complaint_of(std::current_exception());
+        if (complaint.code != exit_code::file_trouble) throw;
+        throw FileError(kept(complaint.line, options));
+    }
+}
+
+/// Before a word is said of a result that is whole: whatever stops the words then, no shards lie beside it.
+void remove_shards(StudyOptions const& options, StudyRun& run) {
+    try {
+        if (auto const strangers = run.remove_shards(); !strangers.empty())
+            tell("warning: {}: stays, for it holds what is not of this run: {}\n", shard_folder_of(options.output), fmt::join(strangers, ", "));
+    } catch (FileError const& error) {
+        throw FileError(fmt::format("{}; {} is complete, and run --resume removes the rest", error.what(), options.output));
+    }
 }
 
 /// Rank 0.
@@ -167,15 +192,11 @@ int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& 
         if (left > 0 || options.part.of_array) return end_with_shards(arguments, options, totals, left);
         done = totals;
         if (!run.merge(stop, report)) return end_unmerged(options);
-    } catch (FileError const& error) {
-        throw FileError(kept(error, options));
-    } catch (DeviceError const& error) {
-        throw DeviceError(kept(error, options));
+    } catch (...) {
+        throw_kept(options);
     }
-    int const code = conclude(arguments, scene, options, run.target().replaces(), std::move(report), &done);
-    if (auto const kept = run.remove_shards(); !kept.empty())
-        tell("warning: {}: stays, for it holds what is not of this run: {}\n", shard_folder_of(options.output), fmt::join(kept, ", "));
-    return code;
+    remove_shards(options, run);
+    return conclude(arguments, scene, options, run.target().replaces(), std::move(report), &done);
 }
 
 /// What rank 0 tells the others before they begin; empty if there is nothing to do.
@@ -233,6 +254,7 @@ int execute(RunArguments const& arguments) {
         options.backend = choice.backend;
         // Of a card that lacks the memory this is the last word: nothing is on the disk yet.
         Prediction const prediction = predict(scene, *options.backend, options.threads, options.block_members);
+        require_memory(prediction.memory() + memory_of_work(options.threads));
         StudyRun study(scene, options);
         warn_of_losses(options, study);
         if (arguments.shows_progress() && !study.is_complete()) announce(scene, options, choice.reason, prediction, study);

@@ -102,13 +102,13 @@ void print_failures(RunArguments const& arguments, Scene const& scene, Statuses 
     if (count_failed(ended) == 0) return;
     constexpr std::size_t listed = 5;
     auto const failed = failed_members(results, listed);
-    fmt::print("\n{}{}:\n", counted(count_failed(ended), "failed member"),
+    print_out("\n{}{}:\n", counted(count_failed(ended), "failed member"),
                count_failed(ended) > listed ? fmt::format(", the first {}", listed) : "");
     for (FailedMember const& member : failed) {
         auto const why = defect(member_inputs(scene, member.member), scene.parts);
         std::string const label = label_of(scene, member.member);
         print_text(4, "  member {}{}: {}{}", member.member, label.empty() ? "" : fmt::format(" ({})", label), name_of(member.status), why ? ": " + *why : fmt::format(" at t = {:.6g} s", member.time));
-        fmt::print("    {}\n", replay_command(arguments, scene, results.attribute("isa"), member.member));
+        print_out("    {}\n", replay_command(arguments, scene, results.attribute("isa"), member.member));
     }
 }
 
@@ -206,7 +206,7 @@ void print_results(RunArguments const& arguments, Scene const& scene, ResultRead
         print_quantities(quantities);
     bool const has_values = std::ranges::any_of(quantities, [](QuantitySummary const& one) { return one.values.count > 0; });
     if (has_values && std::isfinite(drive_period(scene.parts, scene.inputs))) {
-        fmt::print("  (over the whole run, its transient included)\n");
+        print_out("  (over the whole run, its transient included)\n");
     }
     print_exponents(results);
     print_sections(results);

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <sstream>
 
 #include <fmt/format.h>
 
 #include "host/base/error.hpp"
+#include "host/base/open_file.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
@@ -24,8 +24,8 @@ struct Rows : std::vector<std::pair<std::string, std::string>> {
 };
 
 StoredSeries read_series(StatsArguments const& arguments) {
-    std::ifstream in(arguments.path, std::ios::binary);
-    if (is_netcdf(in, arguments.path)) {
+    auto const in = input_stream(arguments.path);
+    if (is_netcdf(*in, arguments.path)) {
         if (arguments.column) throw SceneError("--column is for tables; use --variable for a result file");
         if (arguments.spacing) throw SceneError("--dt is for tables; a result file has its own times");
         require_intact(arguments.path);
@@ -33,7 +33,7 @@ StoredSeries read_series(StatsArguments const& arguments) {
     }
     if (arguments.variable) throw SceneError("--variable is for result files; use --column for a table");
     if (arguments.member) throw SceneError("--member is for result files; use --column for a table");
-    return read_csv_series(in, arguments.path, arguments.column.value_or(""), arguments.spacing);
+    return read_csv_series(*in, arguments.path, arguments.column.value_or(""), arguments.spacing);
 }
 
 /// Without the transient, and not longer than asked for.
@@ -155,7 +155,7 @@ int execute(StatsArguments const& arguments) {
 
     Rows const rows = rows_of(arguments, series.name, a);
     if (arguments.json) {
-        fmt::print("{}", stats_json(arguments, series.name, a, rows));
+        print_out("{}", stats_json(arguments, series.name, a, rows));
         return exit_code::done;
     }
     for (auto const& [label, text] : rows) print_field(label, text, 16);

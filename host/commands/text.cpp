@@ -1,9 +1,12 @@
 #include "host/commands/text.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <new>
 #include <numeric>
+#include <ranges>
 #include <system_error>
 
 #include <sys/ioctl.h>
@@ -11,7 +14,7 @@
 
 #include <fmt/format.h>
 
-#include "host/config/scene_text.hpp"
+#include "host/base/shown.hpp"
 #include "host/study/admission.hpp"
 
 namespace slideway::cli {
@@ -26,11 +29,11 @@ Complaint complaint_of(std::exception_ptr const& error) {
     } catch (DeviceError const& known) {
         return {exit_code::file_trouble, known.what()};
     } catch (std::bad_alloc const&) {
-        return {exit_code::file_trouble, "slideway: not enough memory; ask for fewer members or samples"};
+        return {exit_code::file_trouble, std::string(out_of_memory)};
     } catch (std::system_error const& known) {
         return {exit_code::file_trouble, fmt::format("slideway: {}", known.what())};
     } catch (std::exception const& unknown) {
-        return {exit_code::internal_error, fmt::format("slideway: internal error: {}", unknown.what())};
+        return {exit_code::internal_error, fmt::format("slideway: internal error: {}", shown(unknown.what()))};
     } catch (...) {
         return {exit_code::internal_error, "slideway: internal error"};
     }
@@ -44,7 +47,34 @@ Scene load_scene(SceneArguments const& arguments) {
     }
 }
 
-void tell_text(std::string const& text) noexcept { std::fwrite(text.data(), 1, text.size(), stderr); }
+namespace {
+int first_failure = 0;  // errno of stdout's
+
+void note_failure(bool failed) {
+    if (failed && first_failure == 0) first_failure = errno != 0 ? errno : EIO;
+}
+}  // namespace
+
+void write_out(std::string_view text) {
+    std::string const line = shown_lines(text);
+    errno = 0;
+    note_failure(std::fwrite(line.data(), 1, line.size(), stdout) != line.size());
+}
+
+int output_failure() {
+    errno = 0;
+    note_failure(std::fflush(stdout) != 0);
+    return first_failure;
+}
+
+void tell_text(std::string_view text) noexcept {
+    if (text.ends_with('\n')) text.remove_suffix(1);
+    try {
+        std::string const line = shown(text) + '\n';
+        std::fwrite(line.data(), 1, line.size(), stderr);
+    } catch (std::bad_alloc const&) {  // nothing can be said without memory
+    }
+}
 
 Scene admitted_scene(SceneArguments const& arguments, bool any_start) {
     Scene scene = load_scene(arguments);
@@ -86,7 +116,7 @@ std::string shards_text(Scene const& scene, Prediction const& prediction) {
 std::string counted(std::uint64_t count, std::string_view noun) { return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s"); }
 
 std::string scene_text(Scene const& scene, std::string const& path) {
-    return scene.title.empty() ? path : fmt::format("{} ({})", one_line(scene.title, 200), path);
+    return scene.title.empty() ? path : fmt::format("{} ({})", shown(scene.title, 200), path);
 }
 
 std::size_t line_width() {
@@ -111,7 +141,7 @@ void print_columns(TextRows const& rows, std::vector<std::size_t> const& widths,
         std::size_t length = 2, end = first;
         for (std::size_t i = 0; i < left; ++i) length += widths[i] + gap;
         for (; end < widths.size() && (end == first || terminal == 0 || length + widths[end] <= terminal); ++end) length += widths[end] + gap;
-        if (first > left) fmt::print("\n");
+        if (first > left) print_out("\n");
         for (auto const& row : rows) {
             if (first > left && row.size() <= first) continue;  // it has nothing in these columns
             std::string line = " ";
@@ -120,7 +150,7 @@ void print_columns(TextRows const& rows, std::vector<std::size_t> const& widths,
                 std::string const pad(widths[i] - columns_of(row[i]), ' ');
                 line += std::string(i == 0 ? 1 : gap, ' ') + (i < left ? row[i] + pad : pad + row[i]);
             }
-            fmt::print("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
+            print_out("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
         }
         first = end;
     } while (first < widths.size());
@@ -147,14 +177,14 @@ std::string wrapped(std::string_view text, std::size_t indent, std::size_t width
 }
 
 void print_field(std::string_view label, std::string_view text, std::size_t label_width) {
-    fmt::print("{:<{}} {}\n", label, label_width, wrapped(text, label_width + 1, line_width()));
+    print_out("{:<{}} {}\n", label, label_width, wrapped(shown(text), label_width + 1, line_width()));
 }
 
 void print_lines(std::size_t indent, std::string_view text) {
     std::size_t const width = line_width();
     for (std::size_t at = 0; at <= text.size();) {
         auto const end = std::min(text.find('\n', at), text.size());
-        fmt::print("{}\n", wrapped(text.substr(at, end - at), indent, width, 0));
+        print_out("{}\n", wrapped(text.substr(at, end - at), indent, width, 0));
         at = end + 1;
     }
 }
@@ -165,7 +195,8 @@ void print_table(std::function<TextRows(int)> const& make_rows, int digits, std:
     constexpr int least_digits = 3;
     std::size_t const terminal = line_width();
     for (std::size_t gap = 2;;) {
-        TextRows const rows = make_rows(digits);
+        TextRows rows = make_rows(digits);
+        for (std::string& text : rows | std::views::join) text = shown(text);
         std::vector<std::size_t> widths;
         for (auto const& row : rows) {
             widths.resize(std::max(widths.size(), row.size()), terminal > 0 ? 0 : least);
@@ -179,7 +210,7 @@ void print_table(std::function<TextRows(int)> const& make_rows, int digits, std:
 }
 
 void print_statuses(std::vector<StatusCount> const& statuses) {
-    for (StatusCount const& count : statuses) fmt::print("  {:<16} {}\n", name_of(count.status), count.members);
+    for (StatusCount const& count : statuses) print_out("  {:<16} {}\n", name_of(count.status), count.members);
 }
 
 void print_quantities(std::vector<QuantitySummary> const& quantities) {
@@ -187,11 +218,11 @@ void print_quantities(std::vector<QuantitySummary> const& quantities) {
     // Rows of NaN alone would say the same in a harder way.
     auto const has_values = [](QuantitySummary const& quantity) { return quantity.values.count > 0; };
     if (std::ranges::none_of(quantities, has_values)) {
-        fmt::print("\nNo member finished: there are no statistics.\n");
+        print_out("\nNo member finished: there are no statistics.\n");
         return;
     }
     bool const single = std::none_of(quantities.begin(), quantities.end(), [](QuantitySummary const& one) { return one.values.count > 1; });
-    fmt::print("\nOver the member{} that finished:\n", single ? "" : "s");
+    print_out("\nOver the member{} that finished:\n", single ? "" : "s");
     // One member has a value, and no distribution.
     auto const rows = [&](int digits) {
         TextRows table{single ? std::vector<std::string>{"quantity", "unit", "value"}

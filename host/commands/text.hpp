@@ -26,8 +26,17 @@ Scene load_scene(SceneArguments const& arguments);
 /// The same of a scene whose members are to run: refused where they cannot (host/study/admission); its warnings go to stderr.
 Scene admitted_scene(SceneArguments const& arguments, bool any_start);
 
-/// To stderr.  Where that cannot be written, nobody is there to read it, and the command goes on: never an exception.
-void tell_text(std::string const& text) noexcept;
+/// To stdout, as `shown_lines`: what files, titles and paths hold never moves a cursor.  A stream that fails ends no command, whose work is
+/// worth more than its words; `output_failure` tells of it when all is done.
+void write_out(std::string_view text);
+template <class... Values> void print_out(fmt::format_string<Values...> format, Values&&... values) {
+    write_out(fmt::format(format, std::forward<Values>(values)...));
+}
+/// Writes what is still to be written to stdout.  @return errno of the first failure since the start; 0: none
+int output_failure();
+
+/// A line to stderr, as `shown`.  Where that cannot be written, nobody is there to read it, and the command goes on: never an exception.
+void tell_text(std::string_view text) noexcept;
 template <class... Values> void tell(fmt::format_string<Values...> format, Values&&... values) {
     tell_text(fmt::format(format, std::forward<Values>(values)...));
 }
@@ -70,7 +79,7 @@ void warn_of_results(ResultReader const& results);
 /// "1 member", "3 members".
 std::string counted(std::uint64_t count, std::string_view noun);
 
-/// "Title (scene.toml)", without control characters, which a terminal would obey.
+/// "Title (scene.toml)"
 std::string scene_text(Scene const& scene, std::string const& path);
 
 /// Where lines of help end that go to no terminal.
@@ -81,7 +90,7 @@ std::size_t line_width();
 /// @param first column at which the text begins; npos: at `indent`
 std::string wrapped(std::string_view text, std::size_t indent, std::size_t width, std::size_t first = std::string_view::npos);
 
-/// Writes "label      text", labels in a column; on one line, but for a terminal.
+/// Writes "label      text", labels in a column; the text `shown`, on one line, but for a terminal.
 void print_field(std::string_view label, std::string_view text, std::size_t label_width = 12);
 
 /// Writes lines as they are, but for a terminal: there a long one goes on `indent` blanks from the left.

@@ -22,7 +22,7 @@ std::string interval_text(Interval const& interval) {
     return fmt::format(" [{}, {}]", share(interval.low), share(interval.high));
 }
 
-void print_wrapped(std::string_view text) { fmt::print("{}\n", wrapped(text, 0, longest_line())); }
+void print_wrapped(std::string_view text) { print_out("{}\n", wrapped(text, 0, longest_line())); }
 
 std::size_t name_width(ToleranceReport const& report) {
     std::size_t width = std::string_view("quantity").size();
@@ -31,7 +31,7 @@ std::size_t name_width(ToleranceReport const& report) {
 }
 
 void print_moments(ToleranceReport const& report) {
-    fmt::print("\nMean with its {:.0f} % interval, spread and ends:\n", 100 * confidence_level);
+    print_out("\nMean with its {:.0f} % interval, spread and ends:\n", 100 * confidence_level);
     auto const rows = [&](int digits) {
         TextRows table{{"quantity", "unit", "n", "mean", "low", "high", "sd", "min", "max"}};
         for (ColumnStatistics const& entry : report.columns) {
@@ -45,7 +45,7 @@ void print_moments(ToleranceReport const& report) {
 }
 
 void print_quantiles(ToleranceReport const& report) {
-    fmt::print("\nQuantiles (their intervals are in the file):\n");
+    print_out("\nQuantiles (their intervals are in the file):\n");
     auto const rows = [&](int digits) {
         TextRows table{{"quantity"}};
         for (double const p : reported_quantiles) table[0].push_back(fmt::format("{:.4g} %", 100 * p));
@@ -66,7 +66,7 @@ std::string limit_text(Limit const& limit, std::string const& unit) {
 
 void print_yields(ToleranceReport const& report) {
     if (!report.all_met) return;
-    fmt::print("\nYield, of {} that ran, with its {:.0f} % interval:\n", counted(report.all_met->trials, "member"), 100 * confidence_level);
+    print_out("\nYield, of {} that ran, with its {:.0f} % interval:\n", counted(report.all_met->trials, "member"), 100 * confidence_level);
     auto const percent = [](double value) { return share(100 * value); };
     TextRows table{{"quantity", "limit", "met", "yield [%]", "low", "high"}};
     auto const add = [&](std::string const& limit, std::string const& range, Proportion const& met) {
@@ -84,12 +84,12 @@ void print_ranked(std::string const& name, std::size_t width, std::vector<std::s
     std::size_t const indent = line.size();
     for (std::string const& cell : cells) {
         if (line.size() > indent && line.size() + 2 + cell.size() > longest_line()) {
-            fmt::print("{}\n", line);
+            print_out("{}\n", line);
             line = std::string(indent, ' ');
         }
         line += std::string("  ") + cell;
     }
-    fmt::print("{}\n", line);
+    print_out("{}\n", line);
 }
 
 /// Nothing tells inputs apart for an output that varies by no more than its error.
@@ -130,7 +130,7 @@ void print_indices(ToleranceReport const& report) {
 void print_correlations(ToleranceReport const& report) {
     if (report.correlations.empty()) return;
     std::size_t const width = name_width(report);
-    fmt::print(
+    print_out(
         "\nRank correlations, the strongest first\n  {:<{}}  R² of the linear regression; correlation [interval]\n",
         "quantity", width);
     for (ColumnCorrelations const& entry : report.correlations) {
@@ -150,14 +150,14 @@ void print_correlations(ToleranceReport const& report) {
 }  // namespace
 
 void print_tolerance(ToleranceReport const& report) {
-    fmt::print("\nTolerances, design {}; members by how they ended:\n", name_of(report.design));
+    print_out("\nTolerances, design {}; members by how they ended:\n", name_of(report.design));
     print_statuses(report.statuses);
     print_wrapped(report.policy);
     print_wrapped("Intervals: " + report.intervals + ".");
     if (!report.quantile_error.empty()) print_wrapped("Quantiles are sketched: " + report.quantile_error + ".");
     auto const has_values = [](ColumnStatistics const& entry) { return entry.summary.count > 0; };
     if (std::none_of(report.columns.begin(), report.columns.end(), has_values)) {
-        fmt::print("\nThere are no distributions: no member finished, or no quantity is stored.\n");
+        print_out("\nThere are no distributions: no member finished, or no quantity is stored.\n");
     } else {
         print_moments(report);
         print_quantiles(report);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "host/base/numbers.hpp"
+#include "host/base/shown.hpp"
 #include "host/config/scene_text.hpp"
 #include "host/config/settings.hpp"
 
@@ -112,7 +113,7 @@ Node parse_text(std::string const& text, std::string const& path) {
     } catch (toml::parse_error const& error) {
         throw SceneError(fmt::format("{}:{}: not TOML ({}); correct the line", path,
                                      std::max(1, static_cast<int>(error.source().begin.line)),
-                                     one_line(unshielded(error.description()))));
+                                     shown_briefly(unshielded(error.description()))));
     }
 }
 
@@ -142,7 +143,7 @@ std::optional<Node> parse_pair(std::string const& key, std::string const& value,
 
 Node parse_override(std::string const& key, std::string const& value, int order) {
     constexpr std::size_t longest_option = 4096;
-    Origin const origin{{}, fmt::format("--set {}={}", one_line(key), one_line(value)), order, {}};
+    Origin const origin{{}, fmt::format("--set {}={}", shown_briefly(key), shown_briefly(value)), order, {}};
     if (key.find_first_of("\r\n=#") == std::string::npos && key.size() <= longest_option) {
         if (auto node = value.size() <= longest_option ? parse_pair(key, value, origin) : std::nullopt) return *node;
         auto const number = plain_number(value);
@@ -216,7 +217,7 @@ Node read_document(std::string const& text, std::string const& path, Overrides c
 }
 
 void refuse_that(Node const& node, std::string_view fault, Problem const& problem) {
-    throw SceneError(fmt::format("{}: {} {} ({}); {}", node.where, one_line(node.name), fault, problem.reason, problem.advice));
+    throw SceneError(fmt::format("{}: {} {} ({}); {}", node.where, shown_briefly(node.name), fault, problem.reason, problem.advice));
 }
 
 void refuse(Node const& node, std::string_view shown, Problem const& problem) { refuse_that(node, fmt::format("is {}", shown), problem); }
@@ -232,7 +233,7 @@ std::string shown_value(Node const& node) {
         case Node::Type::real:
             return fmt::format("{}", node.real);
         case Node::Type::text:
-            return fmt::format("\"{}\"", one_line(node.text));
+            return fmt::format("\"{}\"", shown_briefly(node.text));
         case Node::Type::array:
             return "a list";
         case Node::Type::table:

@@ -3,7 +3,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -11,6 +10,8 @@
 #include "host/base/bytes.hpp"
 #include "host/base/csv.hpp"
 #include "host/base/suggest.hpp"
+#include "host/base/open_file.hpp"
+#include "host/base/shown.hpp"
 #include "host/config/reader.hpp"
 #include "host/config/scene_text.hpp"
 #include "host/config/units.hpp"
@@ -31,21 +32,12 @@ std::string read_bytes(Node const& node, std::string const& path) {
     constexpr std::size_t largest = std::size_t{1} << 28;  // keeps devices from filling the memory
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) refuse(node, {"it is a directory", "name a file in it"});
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    std::string bytes;
-    std::string part(std::size_t{1} << 16, '\0');
-    while (file && bytes.size() <= largest) {
-        file.read(part.data(), static_cast<std::streamsize>(part.size()));
-        bytes.append(part, 0, static_cast<std::size_t>(file.gcount()));
+    InputText input = read_input(path, largest);
+    if (input.text.size() > largest) refuse(node, {"it is larger than 256 MiB", "name a table, which is text"});
+    if (input.error != 0) {
+        refuse(node, {fmt::format("{} cannot be read: {}", shown_briefly(path), std::strerror(input.error)), "check the path, from the scene's folder on"});
     }
-    if (bytes.size() > largest) refuse(node, {"it is larger than 256 MiB", "name a table, which is text"});
-    if (!file.eof()) {
-        refuse(node, {fmt::format("{} cannot be read: {}", one_line(path),
-                                  errno != 0 ? std::strerror(errno) : "it does not open"),
-                      "check the path, from the scene's folder on"});
-    }
-    return bytes;
+    return std::move(input.text);
 }
 
 /// A field of the table for messages: `members.csv:3: name is "text" (…); …`.
@@ -157,7 +149,7 @@ private:
         if (rows_.is_missing(place)) return;
         int& first = rows_.is_number(place) ? column.number_line : column.text_line;
         if (first == 0) first = rows_.line();
-        label += fmt::format("{}{}", label.empty() ? "" : ", ", one_line(text));
+        label += fmt::format("{}{}", label.empty() ? "" : ", ", shown_briefly(text));
     }
 
     /// Values that do not go together.  What is drawn beside the table is drawn for each member, and may yet fit.
@@ -188,7 +180,7 @@ void read_member_table(Node const& node, Node const& root, Scene& scene) {
 
     auto table = std::make_shared<MemberTable>();
     table->path = std::filesystem::absolute(path).lexically_normal().string();
-    table->name = one_line(path.string());
+    table->name = shown_briefly(path.string());
     table->checksum = fnv1a(bytes);
     std::istringstream in(std::move(bytes));
     CsvReader rows(in, table->name);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host/base/shown.hpp"
 #include "host/base/suggest.hpp"
 #include "host/config/scene_text.hpp"
 #include "host/config/units.hpp"
@@ -18,7 +19,7 @@ std::string number_advice(std::string_view unit) {
 
 /// The number as the user wrote it, with the unit that it is in.
 std::string shown_number(Node const& node, std::string_view unit) {
-    if (node.type == Node::Type::text) return one_line(node.text);
+    if (node.type == Node::Type::text) return shown_briefly(node.text);
     return unit == "1" ? shown_value(node) : fmt::format("{} {}", shown_value(node), unit);
 }
 
@@ -39,7 +40,7 @@ double read_number(Node const& node, std::string_view unit) {
     case Node::Type::text: {
         auto const converted = to_si(node.text, unit);
         if (auto const* problem = std::get_if<Problem>(&converted)) {
-            refuse(node, {one_line(problem->reason), problem->advice});
+            refuse(node, {shown_briefly(problem->reason), problem->advice});
         }
         value = std::get<double>(converted);
         break;

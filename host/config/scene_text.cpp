@@ -1,15 +1,16 @@
 #include "host/config/scene_text.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "host/base/error.hpp"
+#include "host/base/open_file.hpp"
+#include "host/base/utf8.hpp"
 
 namespace slideway {
 namespace {
@@ -19,30 +20,6 @@ constexpr std::size_t longest_line = 4096;     // bounds how deep "a.a.a.a…" n
 
 [[noreturn]] void refuse_file(std::string const& path, std::string_view reason, std::string_view advice) {
     throw SceneError(fmt::format("{}: the scene cannot be read ({}); {}", path, reason, advice));
-}
-
-/// Length of the UTF-8 character that begins at `at`, or 0 if none does.
-std::size_t character_length(std::string_view text, std::size_t at) {
-    auto const byte = static_cast<unsigned char>(text[at]);
-    if (byte < 0x80) return 1;
-    std::size_t const length = byte >= 0xf0 ? 4 : byte >= 0xe0 ? 3 : 2;
-    if (byte < 0xc2 || byte > 0xf4 || at + length > text.size()) return 0;
-    for (std::size_t k = 1; k < length; ++k) {
-        if ((static_cast<unsigned char>(text[at + k]) & 0xc0u) != 0x80u) return 0;
-    }
-    auto const second = static_cast<unsigned char>(text[at + 1]);
-    bool const overlong = (byte == 0xe0 && second < 0xa0) || (byte == 0xf0 && second < 0x90);
-    bool const no_character = (byte == 0xed && second >= 0xa0) || (byte == 0xf4 && second >= 0x90);  // surrogates; end
-    return overlong || no_character ? 0 : length;
-}
-
-/// The code point of a whole UTF-8 character.
-std::uint32_t code_point(std::string_view character) {
-    auto const first = static_cast<unsigned char>(character[0]);
-    if (character.size() == 1) return first;
-    std::uint32_t code = first & (0xffu >> (character.size() + 1));
-    for (char const byte : character.substr(1)) code = code << 6 | (static_cast<unsigned char>(byte) & 0x3fu);
-    return code;
 }
 
 std::string four_bytes(std::uint32_t code) {
@@ -63,17 +40,10 @@ constexpr std::uint32_t safe_plane = 0xf0000;
 std::string read_scene_text(std::string const& path) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) refuse_file(path, "it is a directory", "name a scene file in it");
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
-        refuse_file(path, errno != 0 ? std::strerror(errno) : "it does not open", "check the path and its permissions");
-    }
-    std::string text(largest_file + 1, '\0');
-    file.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(file.gcount()));
-    if (file.bad()) refuse_file(path, "reading failed", "check the file");
-    if (text.size() > largest_file) refuse_file(path, "it is larger than 1 MiB", "name a scene file, which is text");
-    return text;
+    InputText input = read_input(path, largest_file);
+    if (input.error != 0) refuse_file(path, std::strerror(input.error), "check the path and its permissions");
+    if (input.text.size() > largest_file) refuse_file(path, "it is larger than 1 MiB", "name a scene file, which is text");
+    return std::move(input.text);
 }
 
 void check_scene_text(std::string_view text, std::string const& path) {
@@ -124,26 +94,6 @@ std::string unshielded(std::string_view text) {
         result += length == 4 && moved >= 0x80 && moved < 0x10000 ? two_or_three_bytes(moved) : std::string(character);
     }
     return result;
-}
-
-std::string one_line(std::string_view text, std::size_t longest) {
-    std::string line;
-    for (std::size_t at = 0; at < text.size();) {
-        if (line.size() > longest) return line + "...";
-        auto const byte = static_cast<unsigned char>(text[at]);
-        std::size_t const length = character_length(text, at);
-        // U+0080 to U+009F are control characters too, U+0085 a new line.
-        bool const control = byte < 0x20 || byte == 0x7f ||
-                             (byte == 0xc2 && length == 2 && static_cast<unsigned char>(text[at + 1]) < 0xa0);
-        if (length > 0 && !control) {
-            line += text.substr(at, length);
-            at += length;
-        } else {
-            line += fmt::format("\\x{:02x}", byte);
-            at += 1;
-        }
-    }
-    return line;
 }
 
 std::string toml_number(double value) {

@@ -20,9 +20,6 @@ std::string shielded(std::string_view text);
 /// The inverse; characters that were private ones from U+F0080 on before `shielded` do not come back.
 std::string unshielded(std::string_view text);
 
-/// Control characters and broken UTF-8 as \xNN, at most about `longest` bytes.
-std::string one_line(std::string_view text, std::size_t longest = 80);
-
 /// The shortest text that TOML reads back to the same double.
 std::string toml_number(double value);
 /// "  # m"; "" for a plain number

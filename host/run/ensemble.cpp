@@ -5,6 +5,7 @@
 #include <chrono>
 #include <exception>
 #include <mutex>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -116,19 +117,29 @@ private:
     std::atomic<bool> has_failed_ = false;  // as failure_, for those who do not hold the mutex
 };
 
+/// Members of a block that others may be at work on.  What is not seen yet is seen the next time: a status is one byte.
+#if defined(__GNUC__)
+__attribute__((no_sanitize("thread")))
+#endif
+std::uint64_t ended_so_far(std::span<MemberRecord const> records) {
+    static_assert(sizeof(Status) == 1);
+    std::uint64_t ended = 0;
+    for (std::size_t i = 0; i < records.size(); ++i) ended += records.data()[i].status != Status::not_run;
+    return ended;
+}
+
 /// One thread of a team.
 class Worker {
 public:
-    Worker(Team& team, Progress* progress, double weight) : team_(team), progress_(progress) {
-        if (progress != nullptr) covered_ = &progress->worker(weight);
-    }
+    Worker(Team& team, Progress* progress, double weight) : team_(team), told_(progress != nullptr ? progress->worker(weight) : unheard_) {}
 
     /// Runs a block that says how far it is, and also ends when another has failed: members of it that have ended by then are kept.
     void run(BlockKernel const& kernel, Block& block) {
-        Watch const watch{block.stop, block.stop_context, this};
+        Watch const watch{block.stop, block.stop_context, this, {block.records, block.members}};
         block.stop = [](void const* context, double covered) {
-            auto const& [stop, of_stop, worker] = *static_cast<Watch const*>(context);
+            auto const& [stop, of_stop, worker, records] = *static_cast<Watch const*>(context);
             worker->cover(worker->ended_ + covered);
+            worker->look(records);
             return worker->team_.has_failed() || (stop != nullptr && stop(of_stop, covered));
         };
         block.stop_context = &watch;
@@ -138,9 +149,10 @@ public:
     bool emit(BlockBuffers const& buffers) {
         std::uint64_t ended = 0;
         bool const goes_on = team_.emit(buffers, ended);
-        ended_ += static_cast<double>(ended);
+        whole_ += ended;
+        ended_ = static_cast<double>(whole_);
         cover(ended_);
-        if (progress_ != nullptr) progress_->add(ended);
+        told_.ended.store(whole_, std::memory_order_relaxed);
         return goes_on;
     }
 
@@ -149,17 +161,28 @@ private:
         decltype(Block::stop) stop;
         void const* context;
         Worker* worker;
+        std::span<MemberRecord const> records;
     };
 
     /// What members covered that were given up stays covered.
     void cover(double members) {
-        if (members > covered_->load(std::memory_order_relaxed)) covered_->store(members, std::memory_order_relaxed);
+        if (members > told_.covered.load(std::memory_order_relaxed)) told_.covered.store(members, std::memory_order_relaxed);
+    }
+
+    /// Now and then: who asks, looks four times a second.
+    void look(std::span<MemberRecord const> records) {
+        constexpr auto often = std::chrono::milliseconds(100);
+        auto const now = std::chrono::steady_clock::now();
+        if (now < next_look_.load(std::memory_order_relaxed)) return;
+        next_look_.store(now + often, std::memory_order_relaxed);
+        told_.ended.store(whole_ + ended_so_far(records), std::memory_order_relaxed);
     }
 
     Team& team_;
-    Progress* const progress_;
-    Progress::Covered unheard_ = 0, *covered_ = &unheard_;
-    double ended_ = 0;  // members of the blocks before
+    Progress::Worker unheard_, &told_;
+    std::uint64_t whole_ = 0;  // members of the blocks before
+    double ended_ = 0;         // the same, as a number
+    std::atomic<std::chrono::steady_clock::time_point> next_look_{};  // of all who share a block
 };
 
 /// What a run has beside its plan.

@@ -50,22 +50,30 @@ Progress::~Progress() {
     }
 }
 
-Progress::Covered& Progress::worker(double weight) {
+Progress::Worker& Progress::worker(double weight) {
     std::lock_guard const lock(workers_mutex_);
     Worker& worker = workers_.emplace_back();
     worker.weight = weight;
-    return worker.covered;
+    return worker;
 }
 
 void Progress::add_distant(std::uint64_t members) {
-    add(members);
     std::lock_guard const lock(workers_mutex_);
-    distant_ += static_cast<double>(members);
+    distant_ += members;
+}
+
+std::uint64_t Progress::ended() {
+    std::lock_guard const lock(workers_mutex_);
+    std::uint64_t ended = task_.before + distant_;
+    for (Worker const& worker : workers_) ended += worker.ended.load(std::memory_order_relaxed);
+    // A block that is given up and cut is begun again.
+    told_ended_ = std::clamp(ended, told_ended_, std::max(task_.members, told_ended_));
+    return told_ended_;
 }
 
 double Progress::share() {
     std::lock_guard const lock(workers_mutex_);
-    double done = static_cast<double>(task_.before) + distant_;
+    double done = static_cast<double>(task_.before + distant_);
     for (Worker const& worker : workers_) done += worker.weight * worker.covered.load(std::memory_order_relaxed);
     share_ = std::clamp(work_ > 0 ? done / work_ : 1, share_, 1.0);
     return share_;
@@ -77,7 +85,7 @@ std::string Progress::look() {
     double const share = this->share(), done = share * work_ - static_cast<double>(task_.before);
     time_left_.note(elapsed.count(), done);
     double const left = time_left_.seconds((1 - share) * work_ + task_.after);
-    return progress_line(task_, task_.before + ended_.load(std::memory_order_relaxed), share, done / elapsed.count(), left);
+    return progress_line(task_, ended(), share, done / elapsed.count(), left);
 }
 
 void Progress::print(std::string const& line) {

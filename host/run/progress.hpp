@@ -71,22 +71,22 @@ public:
     Progress(Progress const&) = delete;
     Progress& operator=(Progress const&) = delete;
 
-    /// How many members' work a worker has done, and shares of members under way.  It alone writes, and never less than before.
-    using Covered = std::atomic<double>;
+    /// What a worker has done, who alone writes it.
+    struct alignas(64) Worker {
+        std::atomic<double> covered = 0;       // members' work, and shares of members under way; never less than before
+        std::atomic<std::uint64_t> ended = 0;  // members, also of a block that it has not finished
+        double weight = 1;
+    };
     /// A worker's own, for as long as this lives.  @param weight of each of its members  From any thread, as what follows.
-    Covered& worker(double weight = 1);
-    /// Members that have ended.
-    void add(std::uint64_t members) noexcept { ended_.fetch_add(members, std::memory_order_relaxed); }
-    /// The same of members that none of these workers had.
+    Worker& worker(double weight = 1);
+    /// Members that have ended, and none of these workers had.
     void add_distant(std::uint64_t members);
     /// [0, 1], never less than before.
     double share();
+    /// Members that have ended, of the task, never less than before.
+    std::uint64_t ended();
 
 private:
-    struct alignas(64) Worker {
-        Covered covered = 0;
-        double weight = 1;
-    };
     void report();
     std::string look();
     void print(std::string const& line);
@@ -98,10 +98,10 @@ private:
     std::FILE* const out_;
     StopRequest const& stop_;
     std::chrono::steady_clock::time_point const start_ = std::chrono::steady_clock::now();
-    std::atomic<std::uint64_t> ended_ = 0;
-    std::mutex workers_mutex_;
+    std::mutex workers_mutex_;  // guards the four below
     std::deque<Worker> workers_;
-    double distant_ = 0, share_ = 0;
+    std::uint64_t distant_ = 0, told_ended_ = 0;
+    double share_ = 0;
     TimeLeft time_left_;
     std::mutex mutex_;
     std::condition_variable changed_;

@@ -1,5 +1,8 @@
 #include "host/run/stop.hpp"
 
+#include <cstddef>
+#include <iterator>
+
 namespace slideway {
 namespace {
 
@@ -26,17 +29,20 @@ StopReason StopRequest::reason() const noexcept {
 
 SignalScope::SignalScope(StopRequest& stop) {
     target.store(&stop);
-    struct sigaction action = {};
-    action.sa_handler = on_signal;
-    sigemptyset(&action.sa_mask);
-    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
-    sigaction(SIGINT, &action, &old_interrupt_);
-    sigaction(SIGTERM, &action, &old_terminate_);
+    for (std::size_t i = 0; i < std::size(stop_signals); ++i) {
+        auto const [number, repeats] = stop_signals[i];
+        sigaction(number, nullptr, &former_[i]);
+        if (former_[i].sa_handler == SIG_IGN) continue;
+        struct sigaction action = {};
+        action.sa_handler = on_signal;
+        sigemptyset(&action.sa_mask);
+        action.sa_flags = static_cast<int>((repeats ? 0u : SA_RESETHAND) | SA_RESTART);
+        sigaction(number, &action, nullptr);
+    }
 }
 
 SignalScope::~SignalScope() {
-    sigaction(SIGINT, &old_interrupt_, nullptr);
-    sigaction(SIGTERM, &old_terminate_, nullptr);
+    for (std::size_t i = 0; i < std::size(stop_signals); ++i) sigaction(stop_signals[i].number, &former_[i], nullptr);
     target.store(nullptr);
 }
 

@@ -4,6 +4,9 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <iterator>
+
+#include "host/base/stop_signals.hpp"
 
 namespace slideway {
 
@@ -28,8 +31,8 @@ private:
     static_assert(std::atomic<bool>::is_always_lock_free);
 };
 
-/// While it lives, the first SIGINT or SIGTERM becomes a request; a second one ends the process as usual.
-/// At most one at a time.
+/// While it lives, each of `stop_signals` becomes a request, but for those that are ignored already; a second one ends the process as usual,
+/// where its senders do not repeat it.  At most one at a time.
 class SignalScope {
 public:
     explicit SignalScope(StopRequest& stop);
@@ -38,7 +41,7 @@ public:
     SignalScope& operator=(SignalScope const&) = delete;
 
 private:
-    struct sigaction old_interrupt_, old_terminate_;
+    struct sigaction former_[std::size(stop_signals)];
 };
 
 /// Wall time [s].

@@ -14,7 +14,9 @@
 #include <netcdf_mem.h>
 
 #include "host/base/error.hpp"
+#include "host/base/memory_room.hpp"
 #include "host/base/numbers.hpp"
+#include "host/base/open_file.hpp"
 
 namespace slideway {
 
@@ -25,12 +27,15 @@ constexpr int closed = -1;
 constexpr char const* of_header = "read the header";
 
 /// netCDF's number of each type and the bytes of a value, in the order of NetcdfFile::Type.
-constexpr struct {
+constexpr struct StoredType {
     nc_type number;
     std::size_t bytes;
 } type_table[] = {{NC_BYTE, 1}, {NC_INT, 4}, {NC_DOUBLE, 8}, {NC_CHAR, 1}};
 
 [[noreturn]] void fail(std::string const& path, std::string_view action, int code) {
+    // HDF5 has one reason for all that goes wrong within it.
+    constexpr std::uint64_t scarce = 16 << 20;
+    require_memory(scarce);
     bool const reads = action.starts_with("read") || action == "open";
     throw FileError(fmt::format("{}: cannot {}: {}{}", path, action, nc_strerror(code),
                                 reads && code <= NC_EHDFERR && code >= NC4_LAST_ERROR ? "; the file is damaged, or its disk fails" : ""));
@@ -82,16 +87,19 @@ template <class Call> int NetcdfFile::number_by(std::string_view action, Call ca
     return number;
 }
 
+bool NetcdfFile::stores(int type) { return std::ranges::count(type_table, type, &StoredType::number) > 0; }
+
 NetcdfFile NetcdfFile::create(std::string const& path) {
     return {path, number_of(path, "create", [&](int* id) { return nc_create(path.c_str(), NC_NOCLOBBER | NC_NETCDF4, id); }), Kind::written};
 }
 
 NetcdfFile NetcdfFile::open(std::string const& path) {
+    require_file(path);
     return {path, number_of(path, "open", [&](int* id) {
                 int const code = nc_open(path.c_str(), NC_NOWRITE, id);
                 if (code == NC_ENOTNC) throw FileError(path + ": is no netCDF file; give a result of slideway run");
                 return code;
-            })};
+            }), Kind::read};
 }
 
 NetcdfFile NetcdfFile::create_in_memory(std::string const& name) {
@@ -231,8 +239,8 @@ std::vector<NetcdfFile::Variable> NetcdfFile::variables() const {
         nc_type number = NC_NAT;
         int rank = 0, dimensions[NC_MAX_VAR_DIMS];
         std::string name = name_by([&](char* text) { return nc_inq_var(id_, i, text, &number, &rank, dimensions, nullptr); });
-        auto const type = std::ranges::find(type_table, number, [](auto const& row) { return row.number; });
-        if (type == std::end(type_table)) continue;  // not a type that slideway writes
+        auto const type = std::ranges::find(type_table, number, &StoredType::number);
+        if (type == std::end(type_table)) continue;  // `uncovered` tells of it
         Variable& variable = variables.emplace_back(Variable{i, std::move(name), static_cast<Type>(type - std::begin(type_table)), {}});
         for (int d = 0; d < rank; ++d) require(nc_inq_dimlen(id_, dimensions[d], &variable.shape.emplace_back()), of_header);
     }
@@ -245,71 +253,6 @@ std::vector<std::string> NetcdfFile::dimension_names(Variable const& variable) c
     std::vector<std::string> names;
     for (std::size_t d = 0; d < variable.shape.size(); ++d) names.push_back(name_by([&](char* name) { return nc_inq_dimname(id_, dimensions[d], name); }));
     return names;
-}
-
-std::vector<std::string> NetcdfFile::attribute_names(int variable) const {
-    int const count = number_by(of_header, [&](int* attributes) { return nc_inq_varnatts(id_, variable, attributes); });
-    std::vector<std::string> names;
-    names.reserve(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) names.push_back(name_by([&](char* name) { return nc_inq_attname(id_, variable, i, name); }));
-    std::ranges::sort(names);
-    return names;
-}
-
-/// Its texts, of an attribute of strings.
-std::vector<std::string> NetcdfFile::strings(int variable, std::string const& name, std::size_t count) const {
-    std::vector<char*> strings(count, nullptr);
-    require(nc_get_att_string(id_, variable, name.c_str(), strings.data()), "read attribute " + name);
-    std::vector<std::string> texts;
-    texts.reserve(count);
-    for (char const* const one : strings) texts.emplace_back(one != nullptr ? one : "");
-    nc_free_string(count, strings.data());
-    return texts;
-}
-
-std::vector<std::byte> NetcdfFile::attribute_bytes(int variable, std::string const& name) const {
-    std::size_t count = 0, width = 0;
-    nc_type type = NC_NAT;
-    require(nc_inq_att(id_, variable, name.c_str(), &type, &count), "read attribute " + name);
-    std::uint64_t const head[2] = {static_cast<std::uint64_t>(type), count};
-    auto const head_bytes = std::as_bytes(std::span(head));
-    std::vector<std::byte> bytes(head_bytes.begin(), head_bytes.end());
-    if (type == NC_STRING) {
-        for (std::string const& one : strings(variable, name, count)) {
-            auto const of_one = std::as_bytes(std::span(one.c_str(), one.size() + 1));
-            bytes.insert(bytes.end(), of_one.begin(), of_one.end());
-        }
-        return bytes;
-    }
-    require(nc_inq_type(id_, type, nullptr, &width), "read attribute " + name);
-    bytes.resize(sizeof head + count * width);
-    if (count * width > 0) require(nc_get_att(id_, variable, name.c_str(), bytes.data() + sizeof head), "read attribute " + name);
-    return bytes;
-}
-
-/// One that cannot be read is not taken for none.
-bool NetcdfFile::has_attribute(int variable, std::string const& name, int& type, std::size_t& length) const {
-    int const code = nc_inq_att(id_, variable, name.c_str(), &type, &length);
-    if (code != NC_ENOTATT) require(code, "read attribute " + name);
-    return code == NC_NOERR;
-}
-
-std::string NetcdfFile::text(int variable, std::string const& name) const {
-    std::size_t length = 0;
-    nc_type type = NC_NAT;
-    if (!has_attribute(variable, name, type, length)) return {};
-    if (type == NC_STRING && length == 1) return strings(variable, name, 1).front();
-    if (type != NC_CHAR) return {};
-    std::string value(length, '\0');
-    require(nc_get_att_text(id_, variable, name.c_str(), value.data()), "read attribute " + name);
-    return value;
-}
-
-bool NetcdfFile::number(int variable, std::string const& name, double& value) const {
-    std::size_t length = 0;
-    nc_type type = NC_NAT;
-    if (!has_attribute(variable, name, type, length) || type == NC_CHAR || length != 1) return false;
-    return nc_get_att_double(id_, variable, name.c_str(), &value) == NC_NOERR;
 }
 
 }  // namespace slideway

@@ -54,8 +54,14 @@ public:
     std::string text(int variable, std::string const& name) const override;
     bool number(int variable, std::string const& name, double& value) const override;
 
+    /// Of the types that netCDF numbers, those of `Type`.
+    static bool stores(int type);
+    /// Not in memory.
+    bool is_on_disk() const { return kind_ == Kind::written || kind_ == Kind::read; }
+
 private:
-    enum class Kind { other, written, group };  // written: to a path; group: of a file that another closes
+    friend class UncoveredContent;
+    enum class Kind { other, written, read, group };  // written, read: at a path; group: of a file that another closes
     NetcdfFile(std::string path, int id, Kind kind = Kind::other) : path_(std::move(path)), id_(id), kind_(kind) {}
     int close_with_reason(bool& hdf5_failed) noexcept;
     void require(int code, std::string_view action) const;

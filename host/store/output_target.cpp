@@ -2,13 +2,14 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
+#include <istream>
 #include <system_error>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "host/base/error.hpp"
+#include "host/base/open_file.hpp"
 #include "host/store/shard_folder.hpp"
 
 namespace slideway {
@@ -69,7 +70,7 @@ OutputTarget::OutputTarget(std::string const& path, OutputRules const& rules) : 
     require_readable(path_);
     if (rules.is_ours(path_)) return;
     throw FileError(fmt::format("{}: is there already, and is no file of slideway, or a damaged one: --force does not replace it; give another name with -o, "
-                                "or remove it",
+                                "or move it away",
                                 name_));
 }
 
@@ -86,9 +87,8 @@ void OutputTarget::write(std::string_view text) const {
 }
 
 bool begins_with(std::string const& path, std::function<bool(std::string_view line)> const& condition) {
-    std::ifstream in(path, std::ios::binary);
     std::string line;
-    return std::getline(in, line) && condition(line);
+    return std::getline(*file_stream(path), line) && condition(line);
 }
 
 }  // namespace slideway

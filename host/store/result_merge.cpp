@@ -127,8 +127,7 @@ std::string lock_file_of(std::string const& path) { return path + ".part.lock"; 
 
 /// The right to write the file: HDF5's own locks may be switched off, and it takes them only once the file is emptied.
 FileLock lock_on(std::string const& path) {
-    return {lock_file_of(path), FileLock::Kind::alone, FileLock::Wait::no,
-            path + ": another process is writing it; wait for its end or give another name with -o"};
+    return {lock_file_of(path), FileLock::Kind::alone, FileLock::Wait::no, {path}};
 }
 
 void write_part(std::string const& part, std::string const& completeness,
@@ -174,7 +173,7 @@ void write_merged(DataFile& file, std::vector<MergedShard> const& shards, Result
 void require_room_beside(std::string const& path) {
     std::error_code ignored;
     auto const is_in_the_way = [](std::string const& name) {
-        return FileError(name + ": is in the way, and no merge left it; remove it, or give another name with -o");
+        return FileError(name + ": is in the way, and no merge left it; move it away, or give another name with -o");
     };
     std::string const part = path + ".part", lock_file = lock_file_of(path);
     bool const left = is_there(lock_file);

@@ -6,11 +6,13 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/base/bytes.hpp"
 #include "host/base/error.hpp"
 #include "host/base/numbers.hpp"
 #include "host/store/provenance.hpp"
+#include "host/store/uncovered.hpp"
 
 namespace slideway {
 
@@ -134,11 +136,12 @@ int format_of(DataFile const& file) {
 
 SealCheck check_seal(NetcdfFile const& file) {
     return {format_of(file), file.text(DataFile::global, payload_name), file.text(DataFile::global, metadata_name), payload_hash(file),
-            metadata_hash(file)};
+            metadata_hash(file), fmt::format("{}", fmt::join(uncovered(file), ", "))};
 }
 
 std::string SealCheck::damage() const {
     if (intact()) return {};
+    if (data_match() && metadata_match()) return fmt::format("holds what slideway did not write, and no hash covers ({})", foreign);
     if (metadata_match()) return "the data do not match their hash";
     return data_match() ? "the attributes, names or group verification do not match their hash"
                         : "neither the data nor the attributes match their hashes";

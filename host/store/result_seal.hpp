@@ -33,9 +33,10 @@ struct SealCheck {
     int version = format_version;
     std::string payload, metadata;                // as stored; without `metadata` format 1
     std::string payload_found, metadata_found;    // of what is there
+    std::string foreign = {};                     // what neither hash covers and slideway does not write, in words; "" where there is nothing
     bool data_match() const { return payload == payload_found; }
     bool metadata_match() const { return version == 1 ? metadata.empty() : metadata == metadata_found; }
-    bool intact() const { return data_match() && metadata_match(); }
+    bool intact() const { return data_match() && metadata_match() && foreign.empty(); }
     /// Which part is damaged, in words: "the data do not match their hash"; "" of an intact file.
     std::string damage() const;
 };

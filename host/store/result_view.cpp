@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <new>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -14,6 +15,8 @@
 
 #include "host/base/apart.hpp"
 #include "host/base/error.hpp"
+#include "host/base/memory_room.hpp"
+#include "host/base/open_file.hpp"
 #include "host/run/ranks.hpp"
 
 namespace slideway {
@@ -47,12 +50,7 @@ ApartLimits limits_of(std::string const& path) {
 
 /// What somebody looks for in a file; its words come back.
 std::string look_apart(std::string const& path, std::function<std::string(ResultReader const&)> const& look) {
-    std::error_code ignored;
-    auto const kind = std::filesystem::status(path, ignored).type();
-    using Type = std::filesystem::file_type;
-    if (kind == Type::fifo || kind == Type::socket || kind == Type::character || kind == Type::block) {
-        throw FileError(path + ": is a device or a pipe; give the name of a result file");
-    }
+    require_file(path);
     // A process that has begun MPI may not be forked (its network's memory is registered): the ranks of a job look for themselves.
     auto const launch = find_launch([](char const* name) -> char const* { return std::getenv(name); });
     if (launch && launch->count != 1) return look(ResultReader(path));
@@ -63,11 +61,17 @@ std::string look_apart(std::string const& path, std::function<std::string(Result
             return fmt::format("{}{}", error_mark, error.what());
         }
     };
-    ApartOutcome const outcome = run_apart(work, limits_of(path));
+    // With less an intact file looks damaged.
+    constexpr std::uint64_t least_memory = 48 << 20;
+    require_memory(least_memory);
+    ApartLimits const limits = limits_of(path);
+    bool const is_short = memory_room() < limits.bytes;
+    ApartOutcome const outcome = run_apart(work, limits);
     if (outcome.answer) {
         if (outcome.answer->starts_with(error_mark)) throw FileError(outcome.answer->substr(error_mark.size()));
         return *outcome.answer;
     }
+    if (is_short && outcome.signal != SIGXCPU) throw std::bad_alloc();
     std::string const how = outcome.signal == SIGXCPU  ? "does not come to an end with it"
                             : outcome.signal == 0 ? "runs out of memory"
                                                   : fmt::format("crashes on it ({})", strsignal(outcome.signal));
@@ -157,13 +161,13 @@ SealCheck check_result(std::string const& path) {
     std::istringstream words(look_apart(path, [](ResultReader const& results) {
         SealCheck seal = results.check();
         // What stands in the place of a hash may be anything.
-        for (std::string* const stored : {&seal.payload, &seal.metadata}) std::replace(stored->begin(), stored->end(), '\n', '?');
-        return fmt::format("{}\n{}\n{}\n{}\n{}\n", seal.version, seal.payload, seal.metadata, seal.payload_found, seal.metadata_found);
+        for (std::string* const stored : {&seal.payload, &seal.metadata, &seal.foreign}) std::replace(stored->begin(), stored->end(), '\n', '?');
+        return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n", seal.version, seal.payload, seal.metadata, seal.payload_found, seal.metadata_found, seal.foreign);
     }));
     SealCheck seal;
     words >> seal.version;
     words.ignore();
-    for (std::string* const hash : {&seal.payload, &seal.metadata, &seal.payload_found, &seal.metadata_found}) std::getline(words, *hash);
+    for (std::string* const hash : {&seal.payload, &seal.metadata, &seal.payload_found, &seal.metadata_found, &seal.foreign}) std::getline(words, *hash);
     return seal;
 }
 

@@ -76,7 +76,7 @@ inline Status status_of(double stored) { return static_cast<Status>(int8_of(stor
 
 /// Opens a result, reads all of it and computes both hashes, before this process opens it.
 /// @throws FileError with one line: it is missing, no finished result of slideway, of a newer format, or so damaged that it cannot be read;
-/// hashes that do not match are told by what is returned
+/// hashes that do not match are told by what is returned; std::bad_alloc where this process has too little memory to tell
 SealCheck check_result(std::string const& path);
 
 /// @throws FileError also if a hash does not match; the line says which part is damaged

@@ -28,11 +28,6 @@ std::string lock_of(std::string const& folder, std::string_view suffix = {}) {
     return in_folder(folder, fmt::format("{}{}", shard_names::lock, suffix));
 }
 
-/// What a second run hears.
-std::string of_rival(std::string const& folder) {
-    return fmt::format("{}: another run is writing here; wait for its end or give another name with -o", folder);
-}
-
 /// "-of-8" of a part "3-of-8" or of its lock.
 std::string_view division_of(std::string_view name) {
     auto const at = name.rfind(division_mark);
@@ -92,16 +87,16 @@ ShardClaim::ShardClaim(std::string folder, Wanted const& wanted) : folder_(std::
     // Parts begin one after another: the first writes the identity.
     auto const begins = make_and_lock(folder_);
     bool const is_whole = wanted.part.empty();
-    whole_.emplace(lock_of(folder_), is_whole ? Kind::alone : Kind::shared, Wait::no, of_rival(folder_));
+    whole_.emplace(lock_of(folder_), is_whole ? Kind::alone : Kind::shared, Wait::no, Rival{folder_});
     if (!is_whole) {
-        part_.emplace(lock_of(folder_, "-" + wanted.part), Kind::alone, Wait::no, of_rival(folder_));
+        part_.emplace(lock_of(folder_, "-" + wanted.part), Kind::alone, Wait::no, Rival{folder_});
         require_one_division(wanted.part);
     }
     begin(wanted);
 }
 
 ShardClaim::ShardClaim(std::string folder) : folder_(std::move(folder)) {
-    whole_.emplace(lock_of(folder_), Kind::alone, Wait::no, of_rival(folder_));
+    whole_.emplace(lock_of(folder_), Kind::alone, Wait::no, Rival{folder_});
 }
 
 /// Parts of another division have members in common with this one.
@@ -110,11 +105,8 @@ void ShardClaim::require_one_division(std::string const& part) const {
         if (kind_of(name) != ShardFile::lock || division_of(name).empty()) continue;
         if (division_of(name) == division_of(part)) continue;
         std::string const other = name.substr(shard_names::lock.size() + 1);
-        FileLock const probe(
-            in_folder(folder_, name), Kind::shared, Wait::no,
-            fmt::format("{}: part {} of another division is at work here, this is part {}; wait for its "
-                        "end or divide the run alike",
-                        folder_, other, part));
+        std::string const detail = fmt::format(", part {} of another division than part {}", other, part);
+        FileLock const probe(in_folder(folder_, name), Kind::shared, Wait::no, Rival{folder_, detail, "wait for its end or divide the run alike"});
     }
 }
 
@@ -127,13 +119,13 @@ void ShardClaim::begin(Wanted const& wanted) {
         changed = wanted.identity.difference(folder.identity());
         if (!changed.empty() && !found.empty()) {
             throw SceneError(
-                fmt::format("{}: {}holds {} of another run ({}); give another name with -o, or remove the folder",
+                fmt::format("{}: {}holds {} of another run ({}); give another name with -o, or move the folder away",
                             folder_, wanted.resume ? "cannot resume: it " : "", count_text(found.count()), changed));
         }
         done_ = found.common(wanted.mine);
         if (!done_.empty() && !wanted.resume) {
             throw SceneError(
-                fmt::format("{}: holds {} of this run; add --resume to go on with it, or remove the folder", folder_,
+                fmt::format("{}: holds {} of this run; add --resume to go on with it, or move the folder away", folder_,
                             count_text(done_.count())));
         }
         if (changed.empty()) {
@@ -147,7 +139,7 @@ void ShardClaim::begin(Wanted const& wanted) {
     } else if (!is_finished(folder_) && holds(folder_, ShardFile::content)) {
         throw SceneError(
             fmt::format("{}: holds shards but no {}, which says what they belong to; give another name with -o, or "
-                        "remove the folder",
+                        "move the folder away",
                         folder_, shard_names::identity));
     }
     take_over(wanted);
@@ -187,8 +179,8 @@ void ShardClaim::put_aside(std::vector<DamagedShard> const& damaged, MemberSet c
 void ShardClaim::require_alone(Wanted const& wanted) {
     if (wanted.part.empty()) return;
     // Nobody can begin meanwhile.
-    whole_->change(Kind::alone, of_rival(folder_));
-    whole_->change(Kind::shared, of_rival(folder_));
+    whole_->change(Kind::alone, {folder_});
+    whole_->change(Kind::shared, {folder_});
 }
 
 /// Shards go that a manifest lists, and others that a process was killed before it could list, or after it had removed the manifest.
@@ -235,5 +227,13 @@ void ShardClaim::remove_remains(std::string const& folder) {
     // Another process may have begun anew meanwhile.
     if (is_remains(folder)) claim.remove_folder();
 }
+
+void ShardClaim::remove_merged(std::string const& folder) {
+    ShardClaim claim(folder);
+    claim.has_table_ = !ShardFolder(folder).identity().table.empty();
+    claim.remove_folder();
+}
+
+void ShardClaim::require_nobody(std::string const& folder, std::string const& result) { FileLock::require_free(lock_of(folder), {result}); }
 
 }  // namespace slideway

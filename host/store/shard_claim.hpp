@@ -46,6 +46,10 @@ public:
     std::vector<std::string> remove_folder();
     /// Ends what a process that was killed in `remove_folder` began.  @throws FileError, also if another process works there
     static void remove_remains(std::string const& folder);
+    /// Removes the shards of a result that stands, which a process left that was killed between both.  @throws as `remove_remains`
+    static void remove_merged(std::string const& folder);
+    /// That no process works in the folder of the shards of a result.  @throws FileError, which says that one writes `result`
+    static void require_nobody(std::string const& folder, std::string const& result);
 
 private:
     /// Of a folder without identity, to clear it.

@@ -137,8 +137,8 @@ std::optional<double> equal_spacing(std::vector<double> const& times) {
 
 bool is_netcdf(std::istream& in, std::string const& path) {
     char first[4] = {};
-    require_readable(in, path);
     in.read(first, sizeof first);
+    if (in.bad()) throw FileError(path + ": cannot be read");
     std::string_view const bytes(first, static_cast<std::size_t>(in.gcount()));
     in.clear();
     // A pipe cannot be opened again, nor rewound; what is in its buffer can be put back.

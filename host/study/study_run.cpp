@@ -8,6 +8,7 @@
 #include "host/base/bytes.hpp"
 #include "host/base/durable_file.hpp"
 #include "host/config/document.hpp"
+#include "host/store/finished_result.hpp"
 #include "host/store/result_merge.hpp"
 #include "host/store/result_view.hpp"
 #include "host/store/statistics_merge.hpp"
@@ -27,24 +28,17 @@ bool is_result_of(std::string const& path, RunIdentity const& identity) {
                         path));
     }
     ResultReader const result(path);
-    RunIdentity found;
-    found.program =
-        BuildInfo{result.attribute("version"), result.attribute("commit"), result.attribute("compiler")}.text();
-    found.arithmetic = arithmetic_of(result.attribute("isa"));
-    found.scene = portable_scene(result.attribute("scene"));
-    if (result.stores_members()) {
-        std::vector<std::uint64_t> members;
-        for (double const member : result.values("member")) members.push_back(count_of(member));
-        found.members = MemberSet::of(members);
-    } else {
-        found.members = MemberSet::parse(result.attribute("members")).value_or(MemberSet());
-    }
-    if (std::string const changed = identity.difference(found); !changed.empty()) {
+    if (std::string const changed = difference(result, identity); !changed.empty()) {
         throw SceneError(
             fmt::format("{}: cannot resume: it is the result of another run ({}); give another name with -o, or --force instead of --resume to replace it",
                         path, changed));
     }
     return result.attribute("completeness") == "complete";
+}
+
+/// Who was killed between a result and its shards' end left both: to replace the one is to replace the other.
+void remove_shards_of_finished(std::string const& result, std::string const& folder) {
+    if (ShardFolder::exists(folder) && why_not_finished(result, ShardFolder(folder).identity()).empty()) ShardClaim::remove_merged(folder);
 }
 
 /// The table of members, so that the folder of shards is all that a merge needs.
@@ -130,6 +124,7 @@ StudyRun::StudyRun(Scene const& scene, StudyOptions const& options)
             return;
         }
     }
+    if (options.force && !options.resume && !options.part.of_array && target_.replaces()) remove_shards_of_finished(target_.path(), folder);
     claim_ = std::make_unique<ShardClaim>(
         folder, ShardClaim::Wanted{identity, mine_, options.part.name(), options.resume, table_copy_of(scene)});
     work_ = {mine_.without(claim_->done()), claim_->done().count()};
@@ -157,20 +152,22 @@ std::uint64_t StudyRun::left() const {
     return mine_.without(members_of(folder.listed())).count();
 }
 
-bool StudyRun::merge(StopRequest const& stop, std::optional<ToleranceReport>& report) {
-    struct Interrupted {};
-    auto const pause = [&stop] {
-        if (stop.reason() == StopReason::signal) throw Interrupted();
+std::function<void()> pause_of(StopRequest const& stop) {
+    return [&stop] {
+        if (stop.reason() == StopReason::signal) throw MergeStopped();
     };
+}
+
+bool StudyRun::merge(StopRequest const& stop, std::optional<ToleranceReport>& report) {
     ShardFolder const folder(shard_folder_of(options_.output));
     try {
         ReportSettings settings;
         settings.threads = options_.threads;
-        settings.pause = pause;
+        settings.pause = pause_of(stop);
         auto const check = resolution_check(scene_, *options_.backend, options_.threads, stop, options_.progress);
         merge_study(scene_, folder, folder.listed(), provenance(scene_, *options_.backend, options_.threads),
                     target_, report, settings, check);
-    } catch (Interrupted const&) {
+    } catch (MergeStopped const&) {
         return false;
     }
     return true;

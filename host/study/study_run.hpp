@@ -106,6 +106,11 @@ bool asks_for_report(Scene const& scene);
 /// What a study concludes from its members, into the file that has these: the report of a scene that `asks_for_report`.
 void conclude_study(Scene const& scene, DataFile& file, std::optional<ToleranceReport>& report, ReportSettings const& settings);
 
+/// What ends a merge once a signal came: it leaves no file, and the shards as they were.
+struct MergeStopped {};
+/// The `pause` of a merge that throws it.  What it refers to must outlive it.
+std::function<void()> pause_of(StopRequest const& stop);
+
 /// A result file of the shards in a folder; members without one have status not_run.  The shards stay.
 /// @param report where that of a scene that `asks_for_report` goes  @param verify checks a complete result before it is closed
 /// @return how many members have none.  @throws FileError

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 from .errors import SlidewayError
+from .escapes import escaped
 
 FILE_TROUBLE = 4  # the exit code that the program itself has for it
 
@@ -22,14 +23,14 @@ def main(arguments: list[str] | None = None) -> int:
     given = parser.parse_args(arguments)
     out = given.output or str(Path(given.FILE).with_suffix(".html"))
     if Path(out).exists() and not given.force:
-        print(f"{out}: is there already; add --force to replace it, or give another name with -o", file=sys.stderr)
+        print(escaped(f"{out}: is there already; add --force to replace it, or give another name with -o"), file=sys.stderr)
         return FILE_TROUBLE
     try:
         from .report import write
 
-        print(f"report       {write(given.FILE, out)}")
+        print(escaped(f"report       {write(given.FILE, out)}"))
     except SlidewayError as error:
-        print(error, file=sys.stderr)
+        print(escaped(str(error)), file=sys.stderr)
         return FILE_TROUBLE
     except ModuleNotFoundError as error:
         print(

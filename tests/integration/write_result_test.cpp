@@ -49,7 +49,7 @@ TEST_F(WrittenResult, IsRefusedToASecondWriterEvenWithoutTheLocksOfHdf5) {
             pid_t const child = fork();
             if (child == 0) {
                 std::string const line = refusal();
-                _exit(line == path() + ": another process is writing it; wait for its end or give another name with -o"
+                _exit(line == path() + ": is being written by process " + std::to_string(getppid()) + "; wait for its end or give another name with -o"
                           ? 7
                           : 8);
             }

@@ -31,6 +31,21 @@ TEST_F(ProgressLines, OfOneMemberTellHowFarItIs) {
     EXPECT_LT(std::stod(line[1]), 100);
 }
 
+/// One of them takes a minute, all others milliseconds: all threads work on one block, which ends with the last member.
+TEST_F(ProgressLines, CountMembersThatEndedBesideOneThatGoesOn) {
+    write("table.csv", "initial.y [mm],mechanism.crank_speed [rad/s]\n0.01,300\n0,0.001\n0,0.001\n0,0.001\n0,0.001\n0,0.001\n");
+    write("s.toml", "schema = 1\n[study]\nkind = \"tolerance\"\ndesign = \"table\"\ntable = \"table.csv\"\nduration = 100\n"
+                    "quantities = [\"mean_normal_force\"]\n");
+    for (char const* const threads : {"1", "2"}) {
+        std::filesystem::remove(path("err"));
+        pid_t const child = start({"run", "s.toml", "-o", "s.nc", "--threads", threads});
+        EXPECT_TRUE(comes_true([&] { return file_text(path("err")).find(" 5 of 6 members ") != std::string::npos; }));
+        kill(child, SIGTERM);
+        EXPECT_EQ(wait(child).code, 5);
+        std::filesystem::remove_all(path("s.nc.shards"));
+    }
+}
+
 TEST_F(ProgressLines, TellHowFarTheCheckIs) {
     // The member takes seconds; running it again, by two methods at a hundredth of the tolerance, some fourteen times as long.
     std::string const err = said_until("checking:", {"study.duration=10", "--verify"});

@@ -54,7 +54,7 @@ TEST_F(StoppedRun, LeavesTheFolderOfARunThatIsAtWorkAlone) {
             "cd '" + path("").string() + "' && '" SLIDEWAY_BINARY "' run s.toml -o s.nc " + options + " >rival 2>&1";
         EXPECT_EQ(WEXITSTATUS(std::system(rival.c_str())), 4);
         EXPECT_EQ(file_text(path("rival")),
-                  "s.nc.shards: another run is writing here; wait for its end or give another name with -o\n");
+                  "s.nc.shards: is being written by process " + std::to_string(child) + "; wait for its end or give another name with -o\n");
     }
     kill(child, SIGTERM);
     EXPECT_EQ(wait(child).code, 5);

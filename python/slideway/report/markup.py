@@ -8,6 +8,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from slideway.escapes import escaped
+
 
 @dataclass(frozen=True)
 class Section:
@@ -26,7 +28,7 @@ def tag(name: str, *children: str, **attributes: object) -> str:
     '<p class="a" data-x="1">&lt;b&gt;</p>'
     """
     written = "".join(
-        f' {key.rstrip("_").replace("_", "-")}="{html.escape(str(value))}"' if value is not True else f" {key}"
+        f' {key.rstrip("_").replace("_", "-")}="{html.escape(escaped(str(value)))}"' if value is not True else f" {key}"
         for key, value in attributes.items()
         if value is not False and value is not None
     )
@@ -34,8 +36,8 @@ def tag(name: str, *children: str, **attributes: object) -> str:
 
 
 def words(text: object) -> str:
-    """Text as HTML."""
-    return html.escape(str(text))
+    """Text as HTML, whatever a title or a name holds."""
+    return html.escape(escaped(str(text)))
 
 
 def table(head_words: Sequence[str], body: Iterable[Sequence[object]], caption: str, numeric: int = 1) -> str:

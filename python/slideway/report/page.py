@@ -77,7 +77,7 @@ def write(result: StrPath | xr.Dataset, out: StrPath) -> Path:
     if os.path.exists(path) and not os.path.isfile(path):
         raise SlidewayError(f"{path}: is a folder, a device or a pipe; give the name of a file")
     if not _may_replace(place):
-        raise SlidewayError(f"{path}: is there already, and is no page of slideway; give another name, or remove it")
+        raise SlidewayError(f"{path}: is there already, and is no page of slideway; give another name, or move it away")
     if isinstance(result, xr.Dataset):
         text = html_of(result)
     else:

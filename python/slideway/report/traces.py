@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from slideway.escapes import escaped
 from slideway.palette import class_colours
 
 MOST_POINTS = 5000  # of a trace
@@ -63,7 +64,7 @@ def colour_of(name: str) -> str:
 
 def text(words: object) -> str:
     """Text of a file for plotly.js, which reads some HTML in labels."""
-    return html.escape(str(words))
+    return html.escape(escaped(str(words)))
 
 
 def thinned(values: NDArray[Any], most: int = MOST_POINTS) -> NDArray[np.int64]:

@@ -214,6 +214,15 @@ def test_text_of_a_file_is_no_code(result_of: Results, tmp_path: object) -> None
     assert not any(tag == "img" for tag, _ in read.tags)
 
 
+def test_text_of_a_file_neither_moves_a_cursor_nor_turns_around(result_of: Results) -> None:
+    with result_of("ensemble") as result:
+        made = result.copy()
+    made.attrs |= {"title": "a \x9b2J \u202e txet \x1b[2J"}
+    text = report.page.html_of(made)
+    assert not re.search("[\x1b\x80-\x9f\u202a-\u202e\u2066-\u2069]", text.split("<script")[0])
+    assert "a \\u009b2J \\u202e txet \\u001b[2J" in Reader(text).text
+
+
 def test_resolution_is_what_the_program_says(page_of: Pages) -> None:
     page = page_of("ensemble")
     assert "resolution" in page.read.ids

@@ -112,17 +112,6 @@ TEST_F(DurableFile, ThatIsMissingCannotBeRead) {
     EXPECT_NO_THROW(sync_folder(folder()));
 }
 
-TEST_F(DurableFile, ThatIsAPipeIsReadToItsEnd) {
-    // It has no size to go by.
-    std::string const pipe = path("pipe");
-    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-    std::string text(1'000'003, 'a');
-    for (std::size_t i = 0; i < text.size(); i += 7) text[i] = static_cast<char>('b' + i % 20);
-    std::thread writer([&] { testing::put(pipe, text); });
-    EXPECT_TRUE(read_text(pipe) == text);
-    writer.join();
-}
-
 TEST_F(DurableFile, IsThereOrNotOrThatCannotBeTold) {
     EXPECT_FALSE(is_there(path("none")));
     EXPECT_FALSE(is_there(path("none/of/them")));

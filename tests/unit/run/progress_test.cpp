@@ -49,7 +49,7 @@ TEST(Progress, SharesWhatWorkersCovered) {
     StopRequest const stop;
     Progress progress({10, 2}, Progress::Style::none, stderr, stop);
     EXPECT_DOUBLE_EQ(progress.share(), 0.2);
-    auto &one = progress.worker(), &other = progress.worker();
+    auto &one = progress.worker().covered, &other = progress.worker().covered;
     one = 1.5;
     other = 0.25;
     EXPECT_DOUBLE_EQ(progress.share(), 0.375);
@@ -57,10 +57,27 @@ TEST(Progress, SharesWhatWorkersCovered) {
     EXPECT_DOUBLE_EQ(progress.share(), 0.675);
 }
 
+TEST(Progress, CountsMembersThatEndedOfBlocksUnderWay) {
+    StopRequest const stop;
+    Progress progress({12, 1}, Progress::Style::none, stderr, stop);
+    EXPECT_EQ(progress.ended(), 1u);
+    auto &one = progress.worker().ended, &other = progress.worker().ended;
+    one = 5;
+    other = 3;
+    EXPECT_EQ(progress.ended(), 9u);
+    progress.add_distant(2);
+    EXPECT_EQ(progress.ended(), 11u);
+    // A block that is given up begins again.
+    one = 0;
+    EXPECT_EQ(progress.ended(), 11u);
+    one = 7;
+    EXPECT_EQ(progress.ended(), 12u) << "never more than there are";
+}
+
 TEST(Progress, NeverGoesBackNorBeyondTheEnd) {
     StopRequest const stop;
     Progress progress({4}, Progress::Style::none, stderr, stop);
-    auto& covered = progress.worker();
+    auto& covered = progress.worker().covered;
     covered = 3;
     EXPECT_EQ(progress.share(), 0.75);
     covered = 1;
@@ -74,9 +91,9 @@ TEST(Progress, WeighsMembersOfParts) {
     ProgressTask task{6};
     task.work = 6 * 4 + 6 * 10;
     Progress progress(task, Progress::Style::none, stderr, stop);
-    progress.worker(4) = 6;
+    progress.worker(4).covered = 6;
     EXPECT_DOUBLE_EQ(progress.share(), 24. / 84);
-    progress.worker(10) = 3;
+    progress.worker(10).covered = 3;
     EXPECT_DOUBLE_EQ(progress.share(), 54. / 84);
 }
 

@@ -21,12 +21,39 @@ TEST(StopRequest, EndsAtItsTimeLimit) {
     EXPECT_EQ(never.reason(), StopReason::none);
 }
 
+// By their names, not by the program's own list.
+constexpr int signals_of_schedulers[] = {SIGINT, SIGTERM, SIGQUIT, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU, SIGALRM};
+
 TEST(SignalScope, TurnsTheFirstSignalIntoARequest) {
-    for (int const signal : {SIGINT, SIGTERM}) {
+    for (int const signal : signals_of_schedulers) {
         StopRequest stop;
         SignalScope const scope(stop);
         std::raise(signal);
-        EXPECT_EQ(stop.reason(), StopReason::signal);
+        EXPECT_EQ(stop.reason(), StopReason::signal) << signal;
+    }
+}
+
+/// The kernel sends XCPU every second, and a terminal that closes HUP twice.
+TEST(SignalScope, BearsSignalsThatTheirSendersRepeat) {
+    for (int const signal : {SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU, SIGALRM}) {
+        StopRequest stop;
+        SignalScope const scope(stop);
+        std::raise(signal);
+        std::raise(signal);
+        EXPECT_EQ(stop.reason(), StopReason::signal) << signal;
+    }
+}
+
+TEST(SignalScope, LeavesIgnoredWhatIsIgnored) {
+    for (int const signal : signals_of_schedulers) {
+        auto* const before = std::signal(signal, SIG_IGN);
+        {
+            StopRequest stop;
+            SignalScope const scope(stop);
+            std::raise(signal);
+            EXPECT_EQ(stop.reason(), StopReason::none) << signal;
+        }
+        EXPECT_EQ(std::signal(signal, before), SIG_IGN) << signal;
     }
 }
 
@@ -44,14 +71,17 @@ TEST(SignalScopeDeathTest, LetsASecondSignalEndTheProcess) {
 
 TEST(SignalScope, GivesTheFormerHandlerBack) {
     static volatile std::sig_atomic_t seen = 0;
-    auto* const before = std::signal(SIGTERM, [](int) { seen = 1; });
-    {
-        StopRequest stop;
-        SignalScope const scope(stop);
+    for (int const signal : signals_of_schedulers) {
+        seen = 0;
+        auto* const before = std::signal(signal, [](int) { seen = 1; });
+        {
+            StopRequest stop;
+            SignalScope const scope(stop);
+        }
+        std::raise(signal);
+        std::signal(signal, before);
+        EXPECT_EQ(seen, 1) << signal;
     }
-    std::raise(SIGTERM);
-    std::signal(SIGTERM, before);
-    EXPECT_EQ(seen, 1);
 }
 
 }  // namespace

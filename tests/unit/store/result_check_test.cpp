@@ -74,6 +74,7 @@ TEST_F(Sealed, IsIntactAndOfTheSecondFormat) {
     SealCheck const found = check_result(path());
     EXPECT_EQ(found.version, 2);
     EXPECT_TRUE(found.intact());
+    EXPECT_EQ(found.foreign, "");
     EXPECT_EQ(found.damage(), "");
     EXPECT_EQ(found.payload.size(), 16u);
     EXPECT_EQ(found.metadata.size(), 16u);
@@ -112,6 +113,57 @@ TEST_F(Sealed, TellsChangesOfWhatIsNoNumber) {
         EXPECT_TRUE(found.data_match()) << change.what;
         EXPECT_EQ(refusal(), path() + ": the attributes, names or group verification do not match their hash; the file is damaged or was edited, "
                                       "see slideway info") << change.what;
+    }
+}
+
+/// Whatever is added is told, of whatever type; what no hash covers by its name.
+TEST_F(Sealed, TellsWhatSlidewayDidNotWrite) {
+    struct Addition {
+        std::function<void(int)> make;
+        std::string named;  // "" where a hash tells of it
+    };
+    auto const variable = [](nc_type type) {
+        return [type](int f) {
+            int id = -1;
+            int const dimension = 0;
+            put(nc_def_var(f, "extra", type, 1, &dimension, &id));
+        };
+    };
+    auto const in_group = [](nc_type type) {
+        return [type](int f) {
+            int id = -1;
+            put(nc_def_var(group_of(f), "extra", type, 0, nullptr, &id));
+        };
+    };
+    auto const user_type = [](int f) {
+        nc_type type = 0;
+        put(nc_def_opaque(f, 3, "mine", &type));
+        put(nc_put_att(f, NC_GLOBAL, "note", type, 1, "abc"));
+    };
+    std::vector<Addition> additions{
+        {variable(NC_FLOAT), "variable extra of type float"},     {variable(NC_INT64), "variable extra of type int64"},
+        {variable(NC_STRING), "variable extra of type string"},   {variable(NC_SHORT), "variable extra of type short"},
+        {variable(NC_UINT), "variable extra of type uint"},       {variable(NC_UBYTE), "variable extra of type ubyte"},
+        {in_group(NC_FLOAT), "variable verification/extra of type float"},
+        {[](int f) { nc_type type = 0; put(nc_def_compound(f, 8, "mine", &type)); put(nc_insert_compound(f, type, "x", 0, NC_DOUBLE)); }, "type mine"},
+        {[](int f) { nc_type type = 0; put(nc_def_enum(f, NC_BYTE, "mine", &type)); put(nc_insert_enum(f, type, "x", "")); }, "type mine"},
+        {user_type, "type mine, attribute note"},
+        {variable(NC_DOUBLE), ""},
+        {variable(NC_INT), ""},
+        {variable(NC_CHAR), ""},
+        {[](int f) { int group = 0; put(nc_def_grp(f, "extra", &group)); }, ""},
+        {[](int f) { int dimension = 0; put(nc_def_dim(f, "extra", 3, &dimension)); }, ""},
+        {[](int f) { int dimension = 0; put(nc_def_dim(f, "extra", NC_UNLIMITED, &dimension)); }, ""},
+        {[](int f) { float const x = 1; put(nc_put_att_float(f, 0, "extra", NC_FLOAT, 1, &x)); }, ""},
+    };
+    std::string const whole = testing::bytes_of(path());
+    for (std::size_t i = 0; i < additions.size(); ++i) {
+        testing::put(path(), whole);
+        edit(additions[i].make);
+        SealCheck const found = check_result(path());
+        EXPECT_FALSE(found.intact()) << i;
+        EXPECT_EQ(found.foreign, additions[i].named) << i;
+        EXPECT_NE(refusal(), "") << i;
     }
 }
 

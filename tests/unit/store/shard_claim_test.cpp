@@ -87,7 +87,7 @@ TEST_F(Claim, DoesNotThrowAwayFinishedMembersUnasked) {
         put(3, 2);
     }
     EXPECT_EQ(refused_scene(whole_run()),
-              shards_ + ": holds 2 finished members of this run; add --resume to go on with it, or remove the folder");
+              shards_ + ": holds 2 finished members of this run; add --resume to go on with it, or move the folder away");
     EXPECT_EQ(members_of(ShardFolder(shards_).listed()), MemberSet({3, 2}));
 }
 
@@ -136,7 +136,7 @@ TEST_F(Claim, IsRefusedWhereNothingSaysWhatShardsBelongTo) {
         EXPECT_EQ(refused_scene(whole_run(resume)),
                   shards_ +
                       ": holds shards but no run.toml, which says what they belong to; give another name with "
-                      "-o, or remove the folder");
+                      "-o, or move the folder away");
     }
     EXPECT_TRUE(fs::exists(file("members-0000000003.nc")));
     EXPECT_TRUE(fs::exists(file("manifest-000001.txt")));
@@ -173,7 +173,7 @@ TEST_F(Claim, KeepsOthersOut) {
     for (auto const& wanted :
          {whole_run(), whole_run(true), part(1), part(1, true), whole_run(false, identity_of("1"))}) {
         EXPECT_EQ(refused_file(wanted),
-                  shards_ + ": another run is writing here; wait for its end or give another name with -o");
+                  fmt::format("{}: is being written by process {}; wait for its end or give another name with -o", shards_, getpid()));
     }
     EXPECT_EQ(members_of(ShardFolder(shards_).listed()), MemberSet({0, 1}));
 }
