@@ -143,7 +143,7 @@ TEST_F(Stats, OfADamagedResultAreRefused) {
     expect_refusal(4, "do not match their hash", {"stats", "s.nc", "--member", "0"});
 }
 
-TEST_F(Stats, OfWhatHasNoLinesEnd) { expect_refusal(2, "/dev/zero:1: the line is longer", {"stats", "/dev/zero"}); }
+TEST_F(Stats, OfWhatHasNoLinesEnd) { expect_refusal(4, "/dev/zero: is larger than 256 MiB; give the name of a file", {"stats", "/dev/zero"}); }
 
 TEST_F(Stats, RefusesWithOneLine) {
     write("short.csv", "1\n2\n3\n");
