@@ -60,6 +60,7 @@ check_module() {
 [[ ${1:-asan} != asan ]] || check asan '-*Kernel*:*Parity*' unit_tests integration_tests
 # What several threads of this program share.
 if [[ ${1:-tsan} == tsan ]]; then
+    bash scripts/setup.sh python || stop "the set-up failed"
     python=$(bash scripts/python_environment.sh --without-package)/bin/python || stop "no Python environment (see above)"
     options=(-DSLIDEWAY_PYTHON=ON "-DPython_EXECUTABLE=$python")
     check tsan 'MemberQueue*:*Ensemble*:*Shard*:*Progress*:*Stop*:*Rank*:*SharedRun*:Units.*' unit_tests integration_tests

@@ -59,16 +59,19 @@ Settings take_settings(std::string_view& text) {
     return settings;
 }
 
-void read_result(Result const& result, std::uint64_t members) {
+/// @param first of the columns that are read: each is looked for among all
+void read_result(Result const& result, std::uint64_t members, std::size_t first) {
     require(!result.payload_hash().empty(), "a result has a hash");
-    for (std::string const& name : result.names()) {
-        Column const column = result.column(name);
+    std::vector<std::string> const names = result.names();
+    constexpr std::size_t apart = 16;
+    for (std::size_t at = first % apart; at < names.size(); at += apart) {
+        Column const column = result.column(names[at]);
         if (column.type == Column::Type::text)
             made([&] { column.texts(); });
         else
-            require(column.values().size() == column.size(), "a column has its values", name);
-        if (name == "status") require(column.size() == members, "a member a status");
+            require(column.values().size() == column.size(), "a column has its values", names[at]);
     }
+    require(result.column("status").size() == members, "a member a status");
     require(!made([&] { static_cast<void>(result.column("no such column")); }), "what is not there is refused");
 }
 
@@ -82,7 +85,8 @@ void run(Ensemble const& ensemble, std::string_view& text) {
     std::atomic<bool> const stop = take_choice(text, 8) == 0;
     options.stop = &stop;
     std::optional<Result> result;
-    if (made([&] { result = ensemble.run(options); })) read_result(*result, ensemble.members());
+    if (made([&] { result = ensemble.run(options); })) read_result(*result, ensemble.members(), take_choice(text, 16));
+    text = {};  // one of an input is enough
 }
 
 /// Replaces the ensemble where the call makes another.
