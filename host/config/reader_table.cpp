@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/base/bytes.hpp"
 #include "host/base/csv.hpp"
@@ -135,12 +136,31 @@ private:
         CellNumber number;
         if (auto const fault = rows_.read_number(place, number)) {
             std::string const advice = column.unit == "1" ? "use a number" : fmt::format("use a number of {} without its unit", column.unit);
-            refuse(node, {fault->reason, fault->advice.empty() ? advice : fault->advice});
+            refuse(node, {fault->reason, (fault->advice.empty() ? advice : fault->advice) + further_faults()});
         }
         double const value = column.factor(number.text, number.value);
         if (auto const problem = broken_rule(*column.key, value)) refuse(node, *problem);
         table_.values.push_back(value);
         return value;
+    }
+
+    /// "; lines 4, 7 have such cells too": who corrects one wants to know of all.
+    std::string further_faults() {
+        constexpr std::size_t listed = 5;
+        std::vector<int> lines;
+        CellNumber number;
+        while (lines.size() <= listed && rows_.next()) {
+            for (std::size_t i = 0; i < std::min(columns_.size(), rows_.fields().size()); ++i) {
+                if (columns_[i].key == nullptr || !rows_.read_number(i, number)) continue;
+                lines.push_back(rows_.line());
+                break;
+            }
+        }
+        if (lines.empty()) return {};
+        bool const more = lines.size() > listed;
+        if (more) lines.pop_back();
+        return fmt::format("; {} {}{} {} such cells too", lines.size() == 1 && !more ? "line" : "lines", fmt::join(lines, ", "), more ? " and others" : "",
+                           lines.size() == 1 && !more ? "has" : "have");
     }
 
     void add_text(std::size_t place, std::string& label) {

@@ -72,7 +72,9 @@ TEST(MemberTable, TakesNoKeyThatIsMistypedForALabel) {
 TEST(MemberTable, RefusesCellsWithoutANumber) {
     std::string const header = "initial.vx [m/s],joint.clearance [mm]\n1,1\n";
     EXPECT_EQ(error_of_table(header + "#N/A,1\n#DIV/0!,1\n3,1\n"),
-              "a.csv:3: initial.vx (column 1) is \"#N/A\" (an error of the spreadsheet); correct its formula, or remove the row");
+              "a.csv:3: initial.vx (column 1) is \"#N/A\" (an error of the spreadsheet); correct its formula, or remove the row; line 4 has such cells too");
+    EXPECT_TRUE(error_of_table(header + "1,\n1,1\nNA,1\nx,1\n").ends_with("; lines 5, 6 have such cells too"));
+    EXPECT_TRUE(error_of_table(header + ",\n,\n,\n,\n,\n,\n,\n").ends_with("; lines 4, 5, 6, 7, 8 and others have such cells too"));
     EXPECT_EQ(error_of_table(header + "2,#DIV/0!\n"),
               "a.csv:3: joint.clearance (column 2) is \"#DIV/0!\" (an error of the spreadsheet); correct its formula, or remove the row");
     EXPECT_EQ(error_of_table(header + "2,NaN\n"),
