@@ -126,12 +126,26 @@ std::string design_text(Scene const& scene) {
     return name;
 }
 
+/// A comment of the scene in lines that are comments too.
+void print_comment(std::string_view words) {
+    std::size_t const width = line_width();
+    std::string const lines = wrapped(words, 4, width > 2 ? width - 2 : 0, 0);
+    for (std::size_t at = 0, end = 0; end < lines.size(); at = end + 1) {
+        end = std::min(lines.find('\n', at), lines.size());
+        print_out("# {}\n", std::string_view(lines).substr(at, end - at));
+    }
+}
+
 /// Lists may take several lines in TOML, other values not.
 void print_resolved(std::string_view text) {
     while (!text.empty()) {
         auto const end = std::min(text.find('\n'), text.size());
         std::string_view const line = text.substr(0, end);
-        print_out("{}\n", wrapped(line, 4, line.find(" = [") == line.npos ? 0 : line_width(), 0));
+        if (line.starts_with("# ")) {
+            print_comment(line.substr(2));
+        } else {
+            print_out("{}\n", wrapped(line, 4, line.find(" = [") == line.npos ? 0 : line_width(), 0));
+        }
         text.remove_prefix(std::min(end + 1, text.size()));
     }
     print_out("\n");
