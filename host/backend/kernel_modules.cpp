@@ -10,11 +10,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <istream>
 #include <map>
 #include <mutex>
 #include <system_error>
@@ -27,6 +26,7 @@
 #include "host/backend/kernel_module.hpp"
 #include "host/backend/kernel_sources.hpp"
 #include "host/base/file_lock.hpp"
+#include "host/base/open_file.hpp"
 
 extern "C" char** environ;
 
@@ -34,6 +34,8 @@ namespace slideway {
 namespace {
 
 namespace fs = std::filesystem;
+
+void (*told)(std::string const& line) = nullptr;
 
 std::string target_of(std::string const& name) { return "slideway_" + name; }
 
@@ -101,7 +103,8 @@ bool run_quietly(std::vector<std::string> words, fs::path const& log) {
 
 /// Whether a file is as long as its ELF header says: dlopen maps what is missing all the same, and whoever touches it ends.
 bool is_whole(fs::path const& path) {
-    std::ifstream file(path, std::ios::binary);
+    auto const stream = file_stream(path.string());
+    std::istream& file = *stream;
     ElfW(Ehdr) header{};
     file.read(reinterpret_cast<char*>(&header), sizeof header);
     if (!file || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 || header.e_phentsize != sizeof(ElfW(Phdr))) return false;
@@ -157,7 +160,7 @@ MechanismKernels const& find(std::string const& name) {
     FileLock const alone((build / "kernels.lock").string(), FileLock::Kind::alone, FileLock::Wait::yes);
     // Another process may have made it meanwhile.
     if (auto const* const kernels = found(name, why)) return *kernels;
-    fmt::print(stderr, "slideway: compiles the kernels {}, once: some half a minute\n", name);
+    if (told != nullptr) told(fmt::format("slideway: compiles the kernels {}, once: some half a minute", name));
     if (!run_quietly({"cmake", "--build", build.string(), "--target", target_of(name)}, log))
         throw DeviceError(fmt::format("kernels {}: they could not be compiled ({} says why); try {}", name, log.string(), by_hand));
     std::error_code none;
@@ -167,6 +170,8 @@ MechanismKernels const& find(std::string const& name) {
 }
 
 }  // namespace
+
+void on_compiling(void (*tell)(std::string const& line)) { told = tell; }
 
 MechanismKernels const& module_kernels(std::string const& name) {
     static std::mutex one_at_a_time;

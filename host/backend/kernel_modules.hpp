@@ -11,4 +11,7 @@ namespace slideway {
 /// @throws DeviceError if there is none of the program's own sources
 MechanismKernels const& module_kernels(std::string const& name);
 
+/// What is to hear of it, in a line, before kernels are compiled; nobody, unless this is called.
+void on_compiling(void (*tell)(std::string const& line));
+
 }  // namespace slideway

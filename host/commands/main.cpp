@@ -4,11 +4,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <string>
 #include <string_view>
 
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "host/backend/kernel_modules.hpp"
 #include "host/base/memory_room.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/text.hpp"
@@ -67,6 +69,7 @@ int main(int argc, char** argv) {
     // A full quota then is an error of the write, not the end of the process.
     std::signal(SIGXFSZ, SIG_IGN);
     PipeSignal const pipe;
+    on_compiling([](std::string const& line) { tell("{}\n", line); });
     try {
         constexpr std::uint64_t least_memory = 16 << 20;
         require_memory(least_memory);
