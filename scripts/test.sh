@@ -126,8 +126,8 @@ run_tests() {
 
 run_tests --label-exclude '^slow$'
 if [[ $without_avx512 == true ]]; then
-    # In the same folder: kernels of AVX2 are compiled, and the program that chooses among instruction sets is linked anew.  Every scene has
-    # to have one hash on each of them; the parity of single functions is left to --isas scalar,avx2.
+    # In the same folder: kernels of AVX2 are compiled, and the program that chooses among instruction sets is linked anew.  A study
+    # of each mechanism with each of its laws has to have one hash on all of them; parity of single functions is left to --isas scalar,avx2.
     SECONDS=0
     cmake --preset release --log-level=WARNING "${options[@]}" "-DSLIDEWAY_ISAS=scalar;avx2" || stop "the configuration failed"
     cmake --build "$build" --parallel "$jobs" --target slideway slideway_kernel_modules system_tests costs ||

@@ -25,6 +25,7 @@
 #include "host/backend/backend.hpp"
 #include "host/backend/kernel_module.hpp"
 #include "host/backend/kernel_sources.hpp"
+#include "host/base/error.hpp"
 #include "host/base/file_lock.hpp"
 #include "host/base/open_file.hpp"
 
@@ -70,18 +71,26 @@ std::vector<fs::path> module_folders() {
     return folders;
 }
 
+/// Whether a folder is of a build of slideway, by ninja: programs that link the library have builds of their own.
+bool is_own_build(fs::path const& folder) {
+    if (!is_file((folder / "CMakeCache.txt").string()) || !is_file((folder / "build.ninja").string())) return false;
+    auto const cache = file_stream((folder / "CMakeCache.txt").string());
+    for (std::string line; std::getline(*cache, line);) {
+        if (line == "CMAKE_PROJECT_NAME:STATIC=slideway") return true;
+    }
+    return false;
+}
+
 /// The folder of the build that the program lies in, if it lies in one.
 fs::path build_folder() {
-    std::error_code none;
     for (fs::path const& own : own_folders()) {
-        fs::path const build = own.parent_path();
-        if (fs::is_regular_file(build / "CMakeCache.txt", none) && fs::is_regular_file(build / "build.ninja", none)) return build;
+        if (is_own_build(own.parent_path())) return own.parent_path();
     }
     return {};
 }
 
-/// Runs a program to its end, its output in a file.  @return whether its exit code is 0
-bool run_quietly(std::vector<std::string> words, fs::path const& log) {
+/// Runs a program to its end, its output in a file, out of reach of a terminal's Ctrl-C, which is the run's.  @return errno where it does not start
+int run_quietly(std::vector<std::string> words, fs::path const& log) {
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
@@ -90,15 +99,17 @@ bool run_quietly(std::vector<std::string> words, fs::path const& log) {
     posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&files, 1, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     posix_spawn_file_actions_adddup2(&files, 1, 2);
+    posix_spawnattr_t apart{};
+    posix_spawnattr_init(&apart);
+    posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETPGROUP);
     pid_t child = 0;
-    int const error = posix_spawnp(&child, arguments.front(), &files, nullptr, arguments.data(), environ);
+    int const error = posix_spawnp(&child, arguments.front(), &files, &apart, arguments.data(), environ);
+    posix_spawnattr_destroy(&apart);
     posix_spawn_file_actions_destroy(&files);
-    if (error != 0) return false;
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0) {
-        if (errno != EINTR) return false;
-    }
-    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    if (error != 0) return error;
+    // How it ended shows by what is there then; where nobody wants to hear of children the wait ends with ECHILD when it has.
+    while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {}
+    return 0;
 }
 
 /// Whether a file is as long as its ELF header says: dlopen maps what is missing all the same, and whoever touches it ends.
@@ -122,10 +133,10 @@ bool is_whole(fs::path const& path) {
 
 /// Opened and of the program's own sources; else nullptr, and why.
 MechanismKernels const* opened(fs::path const& path, std::string& why) {
-    void* const library = is_whole(path) ? dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL) : nullptr;
+    bool const whole = is_whole(path);
+    void* const library = whole ? dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL) : nullptr;
     if (library == nullptr) {
-        char const* const error = dlerror();
-        why = fmt::format("{} cannot be opened ({})", path.string(), error != nullptr ? error : "it is damaged, or no shared object");
+        why = fmt::format("{} cannot be opened ({})", path.string(), whole ? dlerror() : "it is damaged, or no shared object");
         return nullptr;
     }
     auto* const entry = reinterpret_cast<KernelModuleEntry*>(dlsym(library, kernel_module_entry));
@@ -138,10 +149,9 @@ MechanismKernels const* opened(fs::path const& path, std::string& why) {
 }
 
 MechanismKernels const* found(std::string const& name, std::string& why) {
-    std::error_code none;
     for (fs::path const& folder : module_folders()) {
         fs::path const path = folder / (target_of(name) + ".so");
-        if (!fs::is_regular_file(path, none)) continue;
+        if (!is_file(path.string())) continue;
         return opened(path, why);
     }
     why = fmt::format("there is no {}.so", target_of(name));
@@ -155,18 +165,25 @@ MechanismKernels const& find(std::string const& name) {
     if (auto const* const kernels = found(name, why)) return *kernels;
     fs::path const build = build_folder();
     if (build.empty()) throw DeviceError(fmt::format("kernels {}: {}; install slideway as a whole", name, why));
-    std::string const by_hand = fmt::format("cmake --build {} --target {}", build.string(), target_of(name));
-    fs::path const log = build / (target_of(name) + ".log");
-    FileLock const alone((build / "kernels.lock").string(), FileLock::Kind::alone, FileLock::Wait::yes);
-    // Another process may have made it meanwhile.
-    if (auto const* const kernels = found(name, why)) return *kernels;
-    if (told != nullptr) told(fmt::format("slideway: compiles the kernels {}, once: some half a minute", name));
-    if (!run_quietly({"cmake", "--build", build.string(), "--target", target_of(name)}, log))
-        throw DeviceError(fmt::format("kernels {}: they could not be compiled ({} says why); try {}", name, log.string(), by_hand));
-    std::error_code none;
-    fs::remove(log, none);
-    if (auto const* const kernels = found(name, why)) return *kernels;
-    throw DeviceError(fmt::format("kernels {}: {}; build all, cmake --build {}", name, why, build.string()));
+    std::string const target = target_of(name), by_hand = fmt::format("cmake --build {} --target {}", build.string(), target);
+    auto const fail = [&](std::string const& reason) -> DeviceError { return DeviceError(fmt::format("kernels {}: {}; try {}", name, reason, by_hand)); };
+    try {
+        FileLock const alone((build / "kernels.lock").string(), FileLock::Kind::alone, FileLock::Wait::yes);
+        // Another process may have made it meanwhile.
+        if (auto const* const kernels = found(name, why)) return *kernels;
+        if (told != nullptr) told(fmt::format("slideway: compiles the kernels {}, once: some half a minute", name));
+        fs::path const log = build / (target + ".log");
+        if (int const error = run_quietly({"cmake", "--build", build.string(), "--target", target}, log); error != 0)
+            throw fail(fmt::format("they are not compiled yet, and cmake does not start ({})", std::strerror(error)));
+        if (auto const* const kernels = found(name, why)) {
+            std::error_code none;
+            fs::remove(log, none);
+            return *kernels;
+        }
+        throw fail(fmt::format("they could not be compiled: {} ({} has the compiler's words)", why, log.string()));
+    } catch (FileError const& error) {
+        throw fail(fmt::format("they are not compiled yet, and {}", error.what()));
+    }
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ void FileLock::change(Kind kind, Rival const& rival) {
 
 void FileLock::require_free(std::string const& path, Rival const& rival) {
     if (!is_there(path)) return;
-    OpenFile const file(path, O_RDONLY);
+    OpenFile const file(path, O_RDWR);  // as locks over a network ask for
     if (is_held_elsewhere(file.get(), LOCK_EX | LOCK_NB)) throw busy(file.get(), rival);
 }
 

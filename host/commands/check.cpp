@@ -189,8 +189,9 @@ int execute(CheckArguments const& arguments) {
         print_out("{}", resolved_toml(scene));
         return exit_code::done;
     }
-    require_memory(prediction.memory() + memory_of_work(threads));
-    std::optional<Trial> const trial = try_members(scene, *choice.backend, threads);
+    bool const has_room = prediction.memory() + memory_of_work(threads) <= memory_room();
+    if (!has_room) tell("warning: {}: a run takes more memory than this process may (ulimit -v)\n", scene.path);
+    std::optional<Trial> const trial = has_room ? try_members(scene, *choice.backend, threads) : std::nullopt;
     if (arguments.json) {
         print_out("{}", check_json(scene, prediction, trial, *choice.backend));
         return exit_code::done;

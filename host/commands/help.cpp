@@ -91,6 +91,7 @@ constexpr Row files[] = {
 };
 constexpr Row variables[] = {
     {"SLIDEWAY_PYTHON", "interpreter of Python that has the package slideway, for `slideway report`; else python3"},
+    {"SLIDEWAY_MODULES", "folders of modules with kernels, colons between them; else where the program was built or installed"},
     {"SLIDEWAY_CUDA_MODULE", "file of the module with the kernels for cards; else where the program was built or installed"},
     {"SOURCE_DATE_EPOCH", "seconds since 1970 that results give as the time of their creation"},
 };

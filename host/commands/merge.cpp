@@ -13,6 +13,7 @@
 #include "host/store/result_merge.hpp"
 #include "host/store/shard_claim.hpp"
 #include "host/store/result_view.hpp"
+#include "host/study/admission.hpp"
 #include "host/study/study_run.hpp"
 
 namespace slideway::cli {
@@ -94,6 +95,7 @@ int execute(MergeArguments const& arguments) {
 
     RunArguments replay;
     replay.scene.path = scene_path;
+    replay.any_start = impossible_starts(scene, best_isa()).has_value();
     ResultReader const results(arguments.output);
     if (arguments.json) {
         print_out("{}", result_json("merge", results, results.seal(), report, nullptr, left, {}, &scene));

@@ -64,7 +64,9 @@ std::string read_title(Node const& root) {
     auto const goes_on = [](char byte) { return (static_cast<unsigned char>(byte) & 0xc0u) == 0x80u; };
     auto const characters = title.size() - static_cast<std::size_t>(std::ranges::count_if(title, goes_on));
     if (characters > most_characters || toml_string(title).size() > longest_line) {
-        refuse(*node, {characters > most_characters ? fmt::format("{} characters", characters) : std::string("too many control characters"), fmt::format("use at most {} characters, and put notes into comments", most_characters)});
+        std::string const reason = characters > most_characters ? fmt::format("{} characters", characters)
+                                                                : fmt::format("more than {} bytes as a line of a scene", longest_line);
+        refuse(*node, {reason, fmt::format("use at most {} characters, and put notes into comments", most_characters)});
     }
     return title;
 }

@@ -190,7 +190,7 @@ void check_restitution(Node const& root, Scene const& scene) {
 
 void warn_of_idle_sources(Node const& root, Scene& scene) {
     auto const warn = [&](Key const& key) {
-        if (!is_idle_source(key, scene.parts, scene.inputs)) return;
+        if (!is_idle_source(key, scene.parts, given_or_varied(scene))) return;
         scene.warnings.push_back(fmt::format("{} has no effect, for all masses and inertias that would follow from it are given", key.name));
     };
     for (auto const& [key, node] : given_keys(root)) warn(*key);

@@ -195,8 +195,8 @@ void read_recording(Node const& root, Scene& scene) {
     EndTime const end = samples ? read_end_time(root, scene) : EndTime{run_length(scene).seconds, NAN};
     RunLength const length = samples ? RunLength{end.seconds, end.seconds, 0} : run_length(scene);
     scene.integrator.end_time = end.seconds;
-    check_drive_is_resolved(root, scene, length.longest);
     read_steps(root, scene, length);
+    check_drive_is_resolved(root, scene, length.longest);
     Sampling const sampling = samples ? read_sampling(root, scene, end) : Sampling{};
     scene.sample_times = uniform_times(end.seconds, sampling.count);
     if (!scene.sample_times.empty()) scene.series = info(scene.parts.mechanism).always;

@@ -144,12 +144,21 @@ private:
         return value;
     }
 
+    /// A row that cannot be read has a message of its own, the next time.
+    bool has_further_row() {
+        try {
+            return rows_.next();
+        } catch (SceneError const&) {
+            return false;
+        }
+    }
+
     /// "; lines 4, 7 have such cells too": who corrects one wants to know of all.
     std::string further_faults() {
         constexpr std::size_t listed = 5;
         std::vector<int> lines;
         CellNumber number;
-        while (lines.size() <= listed && rows_.next()) {
+        while (lines.size() <= listed && has_further_row()) {
             for (std::size_t i = 0; i < std::min(columns_.size(), rows_.fields().size()); ++i) {
                 if (columns_[i].key == nullptr || !rows_.read_number(i, number)) continue;
                 lines.push_back(rows_.line());

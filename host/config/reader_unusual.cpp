@@ -23,9 +23,12 @@ std::vector<double> numbers_of(Distribution const& d) {
             return {d.low + d.scale};
         case Distribution::Kind::values:
             return d.list;
-        default:
+        case Distribution::Kind::constant:
+        case Distribution::Kind::normal:
+        case Distribution::Kind::lognormal:
             return {d.mean};
     }
+    return {};
 }
 
 /// Takes one warning for each key, whatever says more of it.

@@ -19,7 +19,7 @@ namespace {
 bool is_written(Key const& key, Scene const& scene) {
     Parts const& parts = scene.parts;
     if (!counts_for(key, parts)) return false;
-    if (is_idle_source(key, parts, scene.inputs) && key.get(scene.inputs) == key.preset) return false;
+    if (is_idle_source(key, parts, given_or_varied(scene)) && key.get(scene.inputs) == key.preset) return false;
     bool const restitution = parts.damping == Damping::restitution;
     if (key.name.starts_with("way.")) return parts.misaligned_way;
     if (key.name == "contact.restitution") return restitution;

@@ -46,11 +46,18 @@ std::string label_of(Scene const& scene, std::uint64_t member) {
     return table != nullptr && member < table->labels.size() ? table->labels[static_cast<std::size_t>(member)] : std::string();
 }
 
+Inputs given_or_varied(Scene const& scene) {
+    Inputs inputs = scene.inputs;
+    for (Variation const& variation : scene.variations) variation.key->set(inputs, 1);
+    if (scene.chaos.parameter != nullptr) scene.chaos.parameter->set(inputs, 1);
+    return inputs;
+}
+
 std::vector<DerivedNumber> derived_numbers(Scene const& scene) {
-    Inputs const complete = complete_inputs(scene.inputs, info(scene.parts.mechanism));
+    Inputs const complete = complete_inputs(scene.inputs, info(scene.parts.mechanism)), given = given_or_varied(scene);
     std::vector<DerivedNumber> numbers;
     for (Key const& key : keys()) {
-        if (!counts_for(key, scene.parts) || !std::isnan(key.get(scene.inputs))) continue;
+        if (!counts_for(key, scene.parts) || !std::isnan(key.get(given))) continue;
         numbers.push_back({&key, key.get(complete), derivation_of(key, scene.parts, scene.inputs)});
     }
     return numbers;

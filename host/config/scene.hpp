@@ -161,6 +161,8 @@ struct DerivedNumber {
     std::string words;  // of the last parts of keys
 };
 std::vector<DerivedNumber> derived_numbers(Scene const& scene);
+/// The scene's numbers, those that members vary in among the given ones, as 1.
+Inputs given_or_varied(Scene const& scene);
 
 /// The scene with every key written out in SI units, as TOML that reads back to the same scene.
 std::string resolved_toml(Scene const& scene);

@@ -275,6 +275,7 @@ private:
         if constexpr (Model::events > 0) {
             search_.run(pack_, stepper_, attempt_, accepted);
             t_end = select(search_.ended(), fma(attempt_.step, search_.fraction(), c.t), t_end);
+            c.fine_time = select(search_.ended(), Real(0.0), c.fine_time);
             landed = landed & !search_.ended();
         }
         if constexpr (Model::has_crossings && !Model::has_shadows) {

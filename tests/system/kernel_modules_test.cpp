@@ -23,6 +23,7 @@ schema = 1
 kind = "free_slider"
 [contact]
 law = "rigid"
+restitution = 0.5
 [study]
 members = 5
 duration = "20 ms"
@@ -102,7 +103,11 @@ TEST_F(KernelModules, OfOtherSourcesDamagedOrForeignAreRefused) {
 
 /// In the folder of a build: here of one whose compiler is `cp`.
 TEST_F(KernelModules, AreCompiledWhereTheProgramLiesInItsBuild) {
-    write("tree/CMakeCache.txt", "CMAKE_GENERATOR:INTERNAL=Ninja\n");
+    // In a folder of somebody else's build nothing is compiled.
+    write("tree/CMakeCache.txt", "CMAKE_PROJECT_NAME:STATIC=other\nCMAKE_GENERATOR:INTERNAL=Ninja\n");
+    write("tree/build.ninja", "");
+    expect_refused("install slideway as a whole");
+    write("tree/CMakeCache.txt", "CMAKE_PROJECT_NAME:STATIC=slideway\nCMAKE_GENERATOR:INTERNAL=Ninja\n");
     write("tree/build.ninja", fmt::format("rule copy\n  command = mkdir -p bin/kernels && cp $in $out\nbuild bin/kernels/{0}.so: copy {1}\nbuild {0}: phony bin/kernels/{0}.so\n",
                                           name(), own().string()));
     expect_result_of_all();
