@@ -107,7 +107,7 @@ TEST_F(KernelModules, AreCompiledWhereTheProgramLiesInItsBuild) {
     write("tree/CMakeCache.txt", "CMAKE_PROJECT_NAME:STATIC=other\nCMAKE_GENERATOR:INTERNAL=Ninja\n");
     write("tree/build.ninja", "");
     expect_refused("install slideway as a whole");
-    write("tree/CMakeCache.txt", "CMAKE_PROJECT_NAME:STATIC=slideway\nCMAKE_GENERATOR:INTERNAL=Ninja\n");
+    write("tree/CMakeCache.txt", "CMAKE_PROJECT_NAME:STATIC=slideway\nCMAKE_GENERATOR:INTERNAL=Ninja\nCMAKE_MAKE_PROGRAM:FILEPATH=ninja\n");
     write("tree/build.ninja", fmt::format("rule copy\n  command = mkdir -p bin/kernels && cp $in $out\nbuild bin/kernels/{0}.so: copy {1}\nbuild {0}: phony bin/kernels/{0}.so\n",
                                           name(), own().string()));
     expect_result_of_all();
