@@ -59,8 +59,8 @@ def merge(output: StrPath, *, force: bool = False) -> xr.Dataset:
     """Make one result of the parts that have run, and open it. Its numbers and its payload hash are those of an undivided run.
 
     Args:
-        output: as of :func:`slideway.run_part`. The shards stay. What looks whether anybody needs them any more is the program: the line
-            "results" of ``slideway merge OUTPUT.shards -o OUTPUT --force`` says it.
+        output: as of :func:`slideway.run_part`. The shards stay. What looks whether they are still needed is the program: the last line that
+            ``slideway merge OUTPUT.shards -o COPY.nc`` prints says it.
         force: replace a result of slideway that is there already. It is replaced by one of all members, or left as it is.
 
     Raises:

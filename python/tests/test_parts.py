@@ -60,7 +60,8 @@ def test_merge_that_a_signal_ends_leaves_what_is_there(former: bytes, tmp_path: 
     if not force:
         output.unlink()
     stopped = tmp_path / "stopped"
-    stopped.write_text('#!/bin/sh\necho "slideway: stopped early (signal): $4 was not made, and $2 is as it was: merge again" >&2\nexit 5\n', encoding="utf-8")
+    line = "slideway: stopped early (signal): $4 was not made, and $2 is as it was: merge again"
+    stopped.write_text(f'#!/bin/sh\necho "{line}" >&2\nexit 5\n', encoding="utf-8")
     stopped.chmod(0o755)
     monkeypatch.setenv("SLIDEWAY_PROGRAM", str(stopped))
     with pytest.raises(slideway.StoppedEarly) as caught:
