@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <new>
 #include <numeric>
-#include <ranges>
 #include <system_error>
 
 #include <sys/ioctl.h>
@@ -15,7 +14,6 @@
 #include <fmt/format.h>
 
 #include "host/base/shown.hpp"
-#include "host/study/admission.hpp"
 
 namespace slideway::cli {
 
@@ -74,14 +72,6 @@ void tell_text(std::string_view text) noexcept {
         std::fwrite(line.data(), 1, line.size(), stderr);
     } catch (std::bad_alloc const&) {  // nothing can be said without memory
     }
-}
-
-Scene admitted_scene(SceneArguments const& arguments, bool any_start) {
-    Scene scene = load_scene(arguments);
-    auto const starts = admit(scene, any_start);
-    for (std::string const& warning : scene.warnings) tell("warning: {}\n", warning);
-    if (starts) tell("warning: {}\n", *starts);
-    return scene;
 }
 
 void warn_of_mending(std::string const& file) {
@@ -196,7 +186,9 @@ void print_table(std::function<TextRows(int)> const& make_rows, int digits, std:
     std::size_t const terminal = line_width();
     for (std::size_t gap = 2;;) {
         TextRows rows = make_rows(digits);
-        for (std::string& text : rows | std::views::join) text = shown(text);
+        for (auto& row : rows) {
+            for (std::string& text : row) text = shown(text);
+        }
         std::vector<std::size_t> widths;
         for (auto const& row : rows) {
             widths.resize(std::max(widths.size(), row.size()), terminal > 0 ? 0 : least);

@@ -133,7 +133,8 @@ public:
     /// The scene with all its defaults, in SI, as TOML.
     std::string resolved() const;
     /// Keys that were given and have no effect, numbers that are likely slips of a unit, and starts inside the way, one line each.
-    std::vector<std::string> warnings() const;
+    /// @param of_starts false: without the starts, which are evaluated for that, and of which `run` throws unless it takes them
+    std::vector<std::string> warnings(bool of_starts = true) const;
 
     /// Bytes of the numbers of a result.
     std::uint64_t result_bytes() const;

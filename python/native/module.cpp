@@ -188,7 +188,7 @@ NB_MODULE(_native, module) {
         .def_prop_ro("members", &Ensemble::members)
         .def_prop_ro("result_bytes", &Ensemble::result_bytes)
         .def_prop_ro("resolved", &Ensemble::resolved)
-        .def_prop_ro("warnings", &Ensemble::warnings)
+        .def("warnings", &Ensemble::warnings)
         .def_prop_ro("state_names", &Ensemble::state_names)
         .def("draws", [](Ensemble const& ensemble) { return to_python(ensemble.draws()); })
         .def("probe",

@@ -132,7 +132,11 @@ class Ensemble:
     @property
     def warnings(self) -> list[str]:
         """Keys of the scene that have no effect, numbers that are likely slips of a unit, and starts inside the way, one line each."""
-        return [self._file.said(line) for line in self._native.warnings]
+        return self.warnings_before_run(of_starts=True)
+
+    def warnings_before_run(self, *, of_starts: bool) -> list[str]:
+        """The same, without starts unless they are to be taken: a run that does not take them raises what is said of them."""
+        return [self._file.said(line) for line in self._told(self._native.warnings, of_starts)]
 
     def run(
         self,

@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import threading
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -27,15 +27,30 @@ largest_at_once = 1 << 28  # bytes of numbers that are read when a file is opene
 _small_column = 1 << 20  # bytes: read at once in any case
 
 _ours = threading.RLock()
-# While a process forks no other thread is inside the libraries, or the child would have them as they were in the middle of a call.
-os.register_at_fork(before=_ours.acquire, after_in_parent=_ours.release, after_in_child=_ours._at_fork_reinit)  # type: ignore[attr-defined]
+_inside = False  # whether the thread that has our lock has xarray's too
 
 
 @contextmanager
 def exclusive() -> Iterator[None]:
     """The only thread of this process inside netCDF and HDF5; xarray's readers of other files wait too."""
-    with _ours, NETCDF4_PYTHON_LOCK:
-        yield
+    global _inside
+    # In this order everywhere, or two threads could wait for each other.
+    with _ours:
+        if _inside:  # xarray's lock can be had once only, and a handler of a signal may fork here
+            yield
+            return
+        with NETCDF4_PYTHON_LOCK:
+            _inside = True
+            try:
+                yield
+            finally:
+                _inside = False
+
+
+# While a process forks no other thread is inside the libraries: the child would have them as they were in the middle of a call, and with locks
+# that no thread of its own ever releases.
+_fork = ExitStack()
+os.register_at_fork(before=lambda: _fork.enter_context(exclusive()), after_in_parent=_fork.close, after_in_child=_fork.close)
 
 
 @contextmanager

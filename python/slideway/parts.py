@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+import shutil
+import tempfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any
 
 import xarray as xr
 
 from . import arguments
-from .errors import SlidewayError, StoppedEarly
-from .program import call, find_program
+from .errors import FileError, RunError, SlidewayError
+from .program import call, error_of, find_program
 from .results import StrPath
 from .results import open as open_result
 from .runs import run_command
@@ -23,6 +26,7 @@ def run_part(
     parts: int,
     *,
     threads: int = 1,
+    any_start: bool = False,
     set: Mapping[str, Any] | None = None,  # noqa: A002 (named as the program's --set)
     **overrides: Any,
 ) -> None:
@@ -34,6 +38,7 @@ def run_part(
         part: the number of this part, from 1 on.
         parts: how many there are. Parts are consecutive members.
         threads: of this part; the cores over the number of parts that run at once.
+        any_start: take starts that no mechanism has, such as inside the way.
         set: dotted keys and their values, in place of those of the scene.
         **overrides: the same as `set`, with two underscores for the dot: ``study__members=64``.
 
@@ -46,6 +51,7 @@ def run_part(
     """
     count = arguments.whole(parts, "parts", 1)
     options = ["--shard", f"{arguments.whole(part, 'part', 1, count)}/{count}", "--threads", str(arguments.whole(threads, "threads", 1))]
+    options += ["--any-start"] * bool(any_start)
     run_command(scene, arguments.path(output, "output"), None, options, False, set, overrides)
 
 
@@ -53,12 +59,15 @@ def merge(output: StrPath, *, force: bool = False) -> xr.Dataset:
     """Make one result of the parts that have run, and open it. Its numbers and its payload hash are those of an undivided run.
 
     Args:
-        output: as of :func:`slideway.run_part`. The shards stay; remove the folder when they are no longer needed.
-        force: replace a result of slideway that is there already.
+        output: as of :func:`slideway.run_part`. The shards stay. What looks whether they are still needed is the program: the last line that
+            ``slideway merge OUTPUT.shards -o COPY.nc`` prints says it.
+        force: replace a result of slideway that is there already. It is replaced by one of all members, or left as it is.
 
     Raises:
         SlidewayError: there are no shards of that name.
-        StoppedEarly: some members have not run; `dataset` of the error holds those that have, and there is no `output`.
+        FileError: there is an `output`, and it may not be replaced, or the file cannot be written.
+        StoppedEarly: some members have not run, or a signal came; `dataset` of the error holds those that have run, and `output` is as
+            it was.
 
     >>> import tempfile
     >>> scene = {"schema": 1, "study": {"kind": "ensemble", "members": 4, "duration": "1 ms", "quantities": ["peak_tilt"]}}
@@ -72,9 +81,51 @@ def merge(output: StrPath, *, force: bool = False) -> xr.Dataset:
     if not os.path.isdir(name + ".shards"):
         raise SlidewayError(f"{name}.shards: there is no such folder; run the parts of this output first")
     found = find_program()
-    try:
-        call(found, ["merge", name + ".shards", "-o", name, *(["--force"] if force else [])])
-    except StoppedEarly as error:
-        os.remove(name)  # which would be in the way of the other parts
-        raise StoppedEarly(error.code, f"{name}: some members have not run; run the other parts, and merge again", name, found) from error
+    with _beside(name) as made:
+        try:
+            call(found, ["merge", name + ".shards", "-o", made, *(["--force"] if force else [])])
+        except RunError as error:
+            raise error_of(error.code, error.line.replace(made, name), name, found) from None
     return open_result(name, check=False)
+
+
+@contextmanager
+def _beside(output: str) -> Iterator[str]:
+    """A name for a file that takes the place of `output` when the block ends without an error, in a folder of its own.
+
+    The program finds there what it would find beside `output`, and says the same of it: the file, and the folder of shards, in which others may
+    be at work.
+    """
+    place = os.path.realpath(output)
+    if os.path.lexists(place) and not os.path.isfile(place):
+        raise FileError(4, f"{output}: is no file; give another name")
+    replaces = os.path.exists(place)
+    try:
+        with tempfile.TemporaryDirectory(prefix=".slideway_", dir=os.path.dirname(place), ignore_cleanup_errors=True) as folder:
+            made = os.path.join(folder, os.path.basename(place))
+            os.symlink(os.path.realpath(output + ".shards"), made + ".shards")
+            if replaces:
+                _link(place, made)
+            yield made
+            if not replaces and os.path.lexists(place):
+                raise FileError(4, f"{output}: came there meanwhile; give force=True to replace it, or another name")
+            _put(made, place)
+    except OSError as error:
+        raise FileError(4, f"{output}: cannot be written: {error.strerror}") from error
+
+
+def _link(file: str, other: str) -> None:
+    try:
+        os.link(file, other)
+    except OSError:  # not everywhere, nor of a file of somebody else
+        shutil.copyfile(file, other)
+
+
+def _put(made: str, place: str) -> None:
+    """In its place on the disk, too, when this returns: the shards may be gone soon after."""
+    os.replace(made, place)
+    folder = os.open(os.path.dirname(place), os.O_RDONLY)
+    try:
+        os.fsync(folder)
+    finally:
+        os.close(folder)

@@ -156,7 +156,7 @@ def _in_memory(
     ensemble = Ensemble(scene, threads=threads, isa=isa or "auto", verify=True, set=overrides)
     if ensemble.result_bytes > _largest_in_memory:
         return None
-    for warning in ensemble.warnings:
+    for warning in ensemble.warnings_before_run(of_starts=any_start):
         print(f"warning: {warning}", file=sys.stderr, flush=True)
     computed = ensemble.run(progress=bool(progress), any_start=any_start)
     failed, all_members = failed_and_all(computed)

@@ -152,6 +152,16 @@ def test_starts_inside_the_way_are_refused_unless_they_are_taken() -> None:
     assert slideway.run(small, initial__z=3e-4, study__duration="1 us", progress=False, any_start=True).sizes["member"] == 6
 
 
+def test_starts_inside_the_way_are_said_once(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("SLIDEWAY_PROGRAM", raising=False)
+    with pytest.raises(slideway.SceneError, match="inside the way"):
+        slideway.run(small, initial__z=3e-4, study__duration="1 us", progress=False, study__levels=3)
+    refused = capfd.readouterr().err
+    assert refused.startswith("warning: study.levels has no effect") and "inside the way" not in refused
+    slideway.run(small, initial__z=3e-4, study__duration="1 us", progress=False, any_start=True)
+    assert capfd.readouterr().err.count("inside the way") == 1
+
+
 def test_errors_name_keys_of_a_dictionary_and_lines_of_a_file(tmp_path: Path) -> None:
     with pytest.raises(slideway.SceneError, match=r"^study.members is 0"):
         slideway.Ensemble({**small, "study": {**small["study"], "members": 0}})

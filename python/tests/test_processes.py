@@ -77,21 +77,6 @@ def test_errors_go_to_other_processes(tmp_path: Path) -> None:
         assert type(other) is kind and str(other) == str(caught.value) and getattr(other, "code", 0) == getattr(caught.value, "code", 0)
 
 
-def test_parts_make_the_result_of_the_whole(tmp_path: Path) -> None:
-    whole = slideway.run(small, tmp_path / "whole.nc", progress=False)
-    output = tmp_path / "parts.nc"
-    with pytest.raises(slideway.SlidewayError, match="run the parts of this output first"):
-        slideway.merge(output)
-    slideway.run_part(small, output, 2, 2)
-    with pytest.raises(slideway.StoppedEarly, match="some members have not run") as caught:
-        slideway.merge(output)
-    assert slideway.statuses(caught.value.dataset).values.tolist() == ["not_run"] * 3 + ["finished"] * 3
-    slideway.run_part(small, output, 1, 2)
-    assert slideway.merge(output).attrs["payload_hash"] == whole.attrs["payload_hash"]
-    with pytest.raises(slideway.SlidewayError, match="part is 3; give a whole number from 1 to 2"):
-        slideway.run_part(small, output, 3, 2)
-
-
 def spread(way: str) -> str:
     done = subprocess.run([sys.executable, str(example), way, "2"], capture_output=True, text=True, check=False, timeout=120)
     assert done.returncode == 0, done.stderr

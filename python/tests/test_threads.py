@@ -122,6 +122,31 @@ ended.set()
 """, stored, 2, 12)  # fmt: skip
 
 
+def test_a_process_that_is_forked_while_another_thread_has_xarrays_lock_opens_results(stored: str) -> None:
+    survive("""
+from xarray.backends.netCDF4_ import NETCDF4_PYTHON_LOCK
+inside = threading.Event()
+def reads():
+    with NETCDF4_PYTHON_LOCK:  # as xarray does while it reads another file
+        inside.set()
+        time.sleep(0.5)
+reader = threading.Thread(target=reads)
+reader.start()
+inside.wait()
+child = os.fork()
+if child == 0:
+    os._exit(0 if opens(0) else 1)
+assert os.waitpid(child, 0)[1] == 0
+reader.join()
+with slideway.netcdf.exclusive():  # a handler of a signal may fork there
+    child = os.fork()
+    if child == 0:
+        with slideway.netcdf.exclusive():
+            os._exit(0)
+assert os.waitpid(child, 0)[1] == 0 and opens(0)
+""", stored, 1, 1, seconds=20)  # fmt: skip
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("way", ["fork", "spawn", "forkserver"])
 def test_a_thousand_calls_in_processes(stored: str, way: str, tmp_path: Path) -> None:

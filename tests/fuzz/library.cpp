@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ constexpr std::array keys = {"joint.clearance", "study.members", "initial.y", "c
                              "study.samples", "study.duration", "", "a.b"};
 constexpr std::array values = {"0.2 mm", "3", "-1", "nan", "\"conservative\"", "\"rigid\"", "[\"y\"]", "[]", "\"0.5 ms\"", "true", "{", ""};
 constexpr std::uint64_t most_members = 64;  // else an execution takes a second
+int results_read = 0;
 
 /// Whether the call was made; what it cannot do is said in one line, by the one exception that the interface has.
 template <class Call> bool made(Call const& call) {
@@ -61,6 +63,7 @@ Settings take_settings(std::string_view& text) {
 
 /// @param first of the columns that are read: each is looked for among all
 void read_result(Result const& result, std::uint64_t members, std::size_t first) {
+    ++results_read;
     require(!result.payload_hash().empty(), "a result has a hash");
     std::vector<std::string> const names = result.names();
     constexpr std::size_t apart = 16;
@@ -84,6 +87,7 @@ void run(Ensemble const& ensemble, std::string_view& text) {
     options.verify = take_choice(text, 8) == 0;
     std::atomic<bool> const stop = take_choice(text, 8) == 0;
     options.stop = &stop;
+    options.any_start = take_choice(text, 2) == 0;
     std::optional<Result> result;
     if (made([&] { result = ensemble.run(options); })) read_result(*result, ensemble.members(), take_choice(text, 16));
     text = {};  // one of an input is enough
@@ -141,5 +145,15 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
     }();
     std::optional<Ensemble> ensemble = ensembles[fuzz::take_choice(text, static_cast<unsigned>(ensembles.size()))];
     for (int calls = 0; calls < 6 && !text.empty(); ++calls) fuzz::call(ensemble, text);
+    return 0;
+}
+
+/// A target whose runs are all refused would look at no result, and find nothing.
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+    using namespace slideway;
+    std::ifstream file(SLIDEWAY_CORPUS "/library/run", std::ios::binary);
+    std::string const input(std::istreambuf_iterator<char>(file), {});
+    LLVMFuzzerTestOneInput(reinterpret_cast<std::uint8_t const*>(input.data()), input.size());
+    fuzz::require(fuzz::results_read == 1, "the corpus' input `run` has a result");
     return 0;
 }

@@ -20,9 +20,8 @@ Scene const& scene_of(unsigned choice) {
         for (char const* const text :
              {"schema = 1\n", "schema = 1\n[friction]\n", "schema = 1\n[contact]\nlaw = \"conservative\"\n", "schema = 1\n[mechanism]\nkind = \"carriage\"\n",
               "schema = 1\n[mechanism]\nkind = \"scotch_yoke\"\n", "schema = 1\n[mechanism]\nkind = \"free_slider\"\n",
-              "schema = 1\n[mechanism]\nkind = \"planar_slider_crank\"\n[contact]\nlaw = \"kelvin_voigt\"\n"})
-            accepted([&] { all.push_back(parse_scene(text, "s.toml")); });
-        require(all.size() > 3, "the scenes can be read");
+              "schema = 1\n[mechanism]\nkind = \"planar_slider_crank\"\n"})
+            require(accepted([&] { all.push_back(parse_scene(text, "s.toml")); }), "the scenes can be read", text);
         return all;
     }();
     return scenes[choice % scenes.size()];

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -11,14 +12,16 @@
 namespace slideway::structure::safe_exits_test {
 namespace {
 
-/// "path: line" of each line of host/ in which a pattern is found, but for lines that hold one of `allowed`; comments are left aside.
-std::vector<std::string> lines_with(Pattern const& pattern, std::set<std::string> const& files, std::vector<std::string> const& allowed = {}) {
+/// "path: line" of each line below a folder in which a pattern is found, but for lines that hold one of `allowed`; comments of C++ are left aside,
+/// those of Python are what its users read.
+std::vector<std::string> lines_with(Pattern const& pattern, std::set<std::string> const& files, std::vector<std::string> const& allowed = {},
+                                    std::string_view folder = "host") {
     std::vector<std::string> found;
-    for (SourceFile const& file : files_below({"host"})) {
-        if (!has_ending(file.path, {".cpp", ".hpp"}) || files.contains(file.path)) continue;
+    for (SourceFile const& file : files_below({folder})) {
+        if (!has_ending(file.path, {".cpp", ".hpp", ".py"}) || files.contains(file.path)) continue;
         auto const lines = lines_of(file.text);
         for (std::string const& whole : lines) {
-            std::string const line = whole.substr(0, whole.find("//"));
+            std::string const line = has_ending(file.path, {".py"}) ? whole : whole.substr(0, whole.find("//"));
             auto const is_in = [&](std::string const& part) { return line.find(part) != line.npos; };
             if (pattern.match_in(line) && std::ranges::none_of(allowed, is_in)) found.push_back(file.path + ": " + line);
         }
@@ -29,10 +32,13 @@ std::vector<std::string> lines_with(Pattern const& pattern, std::set<std::string
 using Lines = std::vector<std::string>;
 
 TEST(SafeExits, WordsThatLetAUserRemoveFilesAreInOnePlace) {
-    Pattern const words(R"("[^"]*(no longer needed|no more needed|(may|can|could) (now )?be (removed|deleted)|remove the (folder|file)|delete)[^"]*")");
+    std::string const of_need = "(no longer needed|no more needed|(may|can|could) (now )?be (removed|deleted)|remove the (folder|file)|delete)";
+    Pattern const words("\"[^\"]*" + of_need + "[^\"]*\""), anywhere(of_need);
     EXPECT_TRUE(words.match_in(R"(print("{}; {} is no longer needed");)"));
     EXPECT_TRUE(words.match_in(R"("give another name with -o, or remove the folder")"));
     EXPECT_EQ(lines_with(words, {"host/store/finished_result.cpp"}, {": cannot remove the folder: "}), Lines{});
+    EXPECT_TRUE(anywhere.match_in("    The shards stay; remove the folder when they are no longer needed."));
+    EXPECT_EQ(lines_with(anywhere, {}, {}, "python/slideway"), Lines{});
 }
 
 TEST(SafeExits, FilesAreOpenedByOneHelper) {
