@@ -143,7 +143,7 @@ TEST(Titles, HaveAThousandCharacters) {
     // Each of them is six bytes of the resolved scene, whose lines have a longest length.
     std::string controls;
     for (int i = 0; i < 680; ++i) controls += "\\u0001";
-    EXPECT_TRUE(contains(error_of("schema = 1\n", {{"title", "\"" + controls + "\""}}), "(too many control characters)"));
+    EXPECT_TRUE(contains(error_of("schema = 1\n", {{"title", "\"" + controls + "\""}}), "(more than 4000 bytes as a line of a scene)"));
 }
 
 }  // namespace
