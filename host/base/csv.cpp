@@ -97,7 +97,7 @@ bool CsvReader::next() {
         if (number_ == 1 && text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);  // byte order mark
         std::string_view const row = trimmed(text_);
         bool const is_first = separator_ == '\0';
-        if (row.empty() || (is_first && row.front() == '#')) continue;
+        if (row.empty() || (is_first && (row.front() == '#' || row.starts_with("\"#")))) continue;
         if (is_first) separator_ = separator_of(row, kind_ == Kind::series ? ' ' : ',');
         split();
         // Spreadsheets write separators as far as any row of theirs goes.

@@ -90,6 +90,8 @@ InputText read_input(std::string const& path, std::size_t most) {
         if (got < 0) input.error = errno;
         if (got > 0) input.text.append(part, static_cast<std::size_t>(got));
     }
+    struct stat found {};
+    if (input.text.empty() && input.error == 0 && fstat(file, &found) == 0 && S_ISFIFO(found.st_mode)) input.error = EPIPE;
     ::close(file);
     return input;
 }

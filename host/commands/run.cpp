@@ -242,9 +242,10 @@ int help(RunArguments const& arguments, Ranks& ranks, StopRequest const& stop) {
 
 int execute(RunArguments const& arguments) {
     std::unique_ptr<Ranks> const ranks = Ranks::join();
-    StopRequest stop;
+    // Until the process ends: a signal that comes when all is done must not kill it.
+    static StopRequest stop;
+    static SignalScope const signals(stop);
     if (arguments.max_hours) stop.stop_after(std::chrono::duration<double, std::ratio<3600>>(*arguments.max_hours));
-    SignalScope const signals(stop);
     bool invited = ranks->rank() > 0;
     try {
         if (ranks->rank() > 0) return help(arguments, *ranks, stop);

@@ -80,7 +80,7 @@ std::optional<Problem> broken_rule(Key const& key, double value);
 Range usual_range(Key const& key);
 
 /// What is unusual about a number, in words ("is 1 m (usually 1e-08 to 0.01 m); did you mean \"1 mm\"?"), or nothing.
-std::optional<std::string> unusual(Key const& key, double value);
+std::optional<std::string> unusual(Key const& key, double value, bool has_unit = false);
 
 /// The same of numbers that are usual each and not together: a clearance that is large beside the way, a fast crank pin.  The key is the
 /// one to blame.

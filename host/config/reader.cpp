@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host/base/shown.hpp"
 #include "host/base/suggest.hpp"
 #include "host/config/key_reference.hpp"
 #include "host/config/scene_text.hpp"
@@ -63,7 +64,7 @@ std::string read_title(Node const& root) {
     std::string const& title = read_text_value(*node);
     auto const goes_on = [](char byte) { return (static_cast<unsigned char>(byte) & 0xc0u) == 0x80u; };
     auto const characters = title.size() - static_cast<std::size_t>(std::ranges::count_if(title, goes_on));
-    if (characters > most_characters || toml_string(title).size() > longest_line) {
+    if (characters > most_characters || shown(toml_string(title)).size() > longest_line) {
         std::string const reason = characters > most_characters ? fmt::format("{} characters", characters)
                                                                 : fmt::format("more than {} bytes as a line of a scene", longest_line);
         refuse(*node, {reason, fmt::format("use at most {} characters, and put notes into comments", most_characters)});

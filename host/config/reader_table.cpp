@@ -27,6 +27,7 @@ struct Column {
     std::string unit;  // of its numbers
     Node header;
     int text_line = 0, number_line = 0;  // where texts first had one
+    bool has_missing = false;            // in words, such as NA
 };
 
 std::string read_bytes(Node const& node, std::string const& path) {
@@ -85,6 +86,19 @@ Column read_column(Node const& node) {
     return column;
 }
 
+/// "1 mm", "10 %", "0,1": who writes them means a quantity, not a name.
+bool is_number_with_unit(std::string_view text) {
+    std::size_t digits = text.find_first_not_of("+-");
+    if (digits == text.npos || digits > 1 || text[digits] < '0' || text[digits] > '9') return false;
+    std::size_t const end = text.find_first_not_of("0123456789.,eE+-", digits);
+    std::string_view const number = trimmed(text.substr(0, end));
+    std::string point(number);
+    std::ranges::replace(point, ',', '.');
+    double value = 0;
+    if (!read_plain_number(point, value)) return false;
+    return end == text.npos || text[end] == '%' || (text[end] == ' ' && (text.substr(end).find_first_not_of(' ') != text.npos));
+}
+
 /// Reads the rows of a table into members, each checked as a scene's own values are.
 class MemberRows {
 public:
@@ -121,8 +135,10 @@ public:
     /// Columns without a key must hold texts: of numbers it is a key that was mistyped.
     void check_texts() const {
         for (Column const& column : columns_) {
+            if (column.key != nullptr) continue;
+            // Of numbers, or of missing ones, it is a key that was mistyped.
+            if (column.text_line == 0 && (column.number_line != 0 || column.has_missing)) refuse_column(column.header);
             if (column.number_line == 0) continue;
-            if (column.text_line == 0) refuse_column(column.header);
             refuse(column.header, {fmt::format("no key of the physics, and below it stand a number, in line {}, and a text, in line {}",
                                                column.number_line, column.text_line),
                                    "give it texts alone, or remove it"});
@@ -175,8 +191,11 @@ private:
     void add_text(std::size_t place, std::string& label) {
         std::string const& text = rows_.fields()[place];
         Column& column = columns_[place];
-        if (rows_.is_missing(place)) return;
-        int& first = rows_.is_number(place) ? column.number_line : column.text_line;
+        if (rows_.is_missing(place)) {
+            column.has_missing = column.has_missing || !text.empty();
+            return;
+        }
+        int& first = rows_.is_number(place) || is_number_with_unit(text) ? column.number_line : column.text_line;
         if (first == 0) first = rows_.line();
         label += fmt::format("{}{}", label.empty() ? "" : ", ", shown_briefly(text));
     }

@@ -36,9 +36,9 @@ class Warnings {
 public:
     Warnings(Node const& root, Scene& scene) : root_(root), scene_(scene) {}
 
-    /// @param where the number stands  @param name of it  @return whether it is unusual
-    bool check(std::string const& where, std::string_view name, Key const& key, double value) {
-        auto const words = unusual(key, value);
+    /// @param where the number stands  @param name of it  @param has_unit it was written with its unit  @return whether it is unusual
+    bool check(std::string const& where, std::string_view name, Key const& key, double value, bool has_unit = false) {
+        auto const words = unusual(key, value, has_unit);
         if (words) warn(where, name, key, *words);
         return words.has_value();
     }
@@ -76,7 +76,7 @@ void check_given(Node const& root, Scene const& scene, Warnings& warnings) {
         auto const replaced = [&](GivenKey const& later) { return later.key->overlaps(*one->key); };
         auto const varied = [&](Variation const& variation) { return variation.key->overlaps(*one->key); };
         if (!counts_for(*one->key, scene.parts) || std::any_of(one + 1, given.end(), replaced) || std::ranges::any_of(scene.variations, varied)) continue;
-        warnings.check(one->node->where, one->node->name, *one->key, one->key->get(scene.inputs));
+        warnings.check(one->node->where, one->node->name, *one->key, one->key->get(scene.inputs), one->node->type == Node::Type::text);
     }
 }
 

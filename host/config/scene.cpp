@@ -55,10 +55,17 @@ Inputs given_or_varied(Scene const& scene) {
 
 std::vector<DerivedNumber> derived_numbers(Scene const& scene) {
     Inputs const complete = complete_inputs(scene.inputs, info(scene.parts.mechanism)), given = given_or_varied(scene);
+    Inputs other = scene.inputs;
+    for (Variation const& variation : scene.variations) variation.key->set(other, 1.5 * variation.key->get(other));
+    Inputs const others = complete_inputs(other, info(scene.parts.mechanism));
     std::vector<DerivedNumber> numbers;
     for (Key const& key : keys()) {
         if (!counts_for(key, scene.parts) || !std::isnan(key.get(given))) continue;
-        numbers.push_back({&key, key.get(complete), derivation_of(key, scene.parts, scene.inputs)});
+        std::string words = derivation_of(key, scene.parts, scene.inputs);
+        // What follows from what members vary in is not what any of them has.
+        if (auto const note = words.find(" ("); key.get(others) != key.get(complete) && !std::isnan(key.get(complete)))
+            words = words.substr(0, note) + "; members have their own";
+        numbers.push_back({&key, key.get(complete), std::move(words)});
     }
     return numbers;
 }

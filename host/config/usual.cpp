@@ -77,14 +77,15 @@ Range usual_range(Key const& key) {
     return row == nullptr ? Range{} : Range{row->low, row->high};
 }
 
-std::optional<std::string> unusual(Key const& key, double value) {
+std::optional<std::string> unusual(Key const& key, double value, bool has_unit) {
     UsualRow const* const row = usual_row(key);
-    if (row == nullptr || usual_range(key).contains(std::abs(value))) return {};
+    // Who writes degrees means them; an angle may have any turns.
+    if (row == nullptr || usual_range(key).contains(std::abs(value)) || (has_unit && key.unit == "rad")) return {};
     std::string const unit = key.unit == "1" ? "" : fmt::format(" {}", key.unit);
     std::string const usually = row->low > 0                         ? fmt::format("{:g} to {:g}{}", row->low, row->high, unit)
                                 : std::isfinite(range_of(key.rule).low) ? fmt::format("up to {:g}{}", row->high, unit)
                                                                      : fmt::format("within ±{:g}{}", row->high, unit);
-    return fmt::format("is {} (usually {}){}", with_unit(value, key.unit), usually, proposal(key, value));
+    return fmt::format("is {} (usually {}){}", with_unit(value, key.unit), usually, has_unit ? "; is it meant?" : proposal(key, value));
 }
 
 std::optional<UnusualPair> unusual_pair(Inputs const& inputs, Parts const& parts) {

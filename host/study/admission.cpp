@@ -78,6 +78,19 @@ std::optional<std::string> broken_draws(Scene const& scene, std::vector<Start> c
     return fmt::format("{} {}: member {} {}", which, deep, worst.member, depth_text(worst));
 }
 
+/// Draws that break a rule fail alone; who checks a scene wants to know how many will.
+std::optional<std::string> invalid_draws(Scene const& scene) {
+    std::uint64_t const all = member_count(scene), looked = std::min(all, most_looked_at);
+    std::uint64_t invalid = 0, first = 0;
+    std::string why;
+    for (std::uint64_t const member : spread_over(all, looked)) {
+        auto const found = defect(member_inputs(scene, member), scene.parts);
+        if (found && invalid++ == 0) first = member, why = *found;
+    }
+    if (invalid == 0) return {};
+    return fmt::format("{}: {} of {} members{} draw what cannot be and will fail: member {}, {}", scene.path, invalid, looked, looked < all ? " that were looked at" : "", first, why);
+}
+
 }  // namespace
 
 std::optional<std::string> impossible_starts(Scene const& scene, Isa isa) {
@@ -90,7 +103,7 @@ std::optional<std::string> impossible_starts(Scene const& scene, Isa isa) {
 
 std::optional<std::string> admit(Scene const& scene, bool any_start) {
     auto const wrong = impossible_starts(scene, best_isa());
-    if (!wrong) return {};
+    if (!wrong) return invalid_draws(scene);
     if (any_start) return wrong;
     bool const has_place = scene.design.table != nullptr && !scene.design.table->lines.empty();
     throw SceneError(fmt::format("{}{}; change {}, or add --any-start", has_place ? "" : scene.path + ": ", *wrong,

@@ -22,7 +22,7 @@ inline constexpr std::uint64_t most_looked_at = 10'000;
 std::optional<std::string> impossible_starts(Scene const& scene, Isa isa);
 
 /// @param any_start whether starts that no mechanism has are taken all the same
-/// @return what is wrong with those that are taken, for a warning  @throws SceneError
+/// @return what is wrong with those that are taken, or with draws that will fail alone, for a warning  @throws SceneError
 std::optional<std::string> admit(Scene const& scene, bool any_start);
 
 }  // namespace slideway

@@ -62,11 +62,19 @@ TEST(MemberTable, TakesNoKeyThatIsMistypedForALabel) {
     // Numbers are no labels.
     EXPECT_EQ(error_of_table("serial,initial.vx\n17,1\n18,2\n"),
               "a.csv:1: column 1 is \"serial\" (only numeric keys of the physics can be columns); use a dotted key like \"joint.clearance\"");
-    EXPECT_EQ(error_of_table("gap,initial.vx\n0.1,1\n0.2,1\n\"0,3\",1\n"),
+    EXPECT_EQ(error_of_table("gap,initial.vx\n0.1,1\n0.2,1\nwide,1\n"),
               "a.csv:1: column 1 is \"gap\" (no key of the physics, and below it stand a number, in line 2, and a text, in line 4); "
               "give it texts alone, or remove it");
+    // Nor are numbers in a spreadsheet's dress, or what is empty.
+    for (std::string const cells : {"\"0,1\",1\n\"0,2\",2\n", "10%,1\n20 %,2\n", "1 mm,1\n2 mm,2\n", "NA,1\n-,2\n"})
+        EXPECT_TRUE(contains(error_of_table("mu,initial.vx\n" + cells), "column 1 is \"mu\" (only numeric keys")) << cells;
+    for (std::string const label : {"2024-05-01", "17-B", "3rd", "lot 4"}) EXPECT_EQ(error_of_table("part,initial.vx\n" + label + ",1\n"), "") << label;
     EXPECT_EQ(error_of_table("part\nA-001\n"),
               "a.csv:2: the table has no column of numbers (its header names no key); write keys like joint.clearance above");
+}
+
+TEST(MemberTable, HasCommentsThatASpreadsheetPutIntoQuotes) {
+    EXPECT_EQ(error_of_table("\"# measured, by hand\",,\njoint.clearance [mm],initial.vx,\n0.1,1,\n"), "");
 }
 
 TEST(MemberTable, RefusesCellsWithoutANumber) {

@@ -28,6 +28,9 @@ TEST(UnusualNumbers, AreNamedWithWhatIsUsual) {
               Warnings{"scene.toml:5: initial.vx is -3000 m/s (usually within ±1000 m/s); did you mean \"-3000 mm/s\"?"});
     EXPECT_EQ(warnings_of("[friction]\nkinetic = 4"), Warnings{"scene.toml:3: friction.kinetic is 4 (usually up to 3); is its unit right?"});
     EXPECT_EQ(warnings_of("[mechanism]\ncrank_length = 50\nrod_length = 142.2").size(), 2u);
+    EXPECT_EQ(warnings_of("", {{"mechanism.start_angle", "\"720 deg\""}}), Warnings{});
+    EXPECT_EQ(warnings_of("", {{"mechanism.crank_speed", "\"200000 rpm\""}}),
+              Warnings{"--set mechanism.crank_speed=\"200000 rpm\": mechanism.crank_speed is 20943.951023931953 rad/s (usually within ±10000 rad/s); is it meant?"});
     EXPECT_EQ(warnings_of("", {{"mechanism.start_angle", "90"}}),
               Warnings{"--set mechanism.start_angle=90: mechanism.start_angle is 90 rad (usually within ±10 rad); did you mean \"90 deg\"?"});
 }
