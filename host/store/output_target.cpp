@@ -68,9 +68,7 @@ OutputTarget::OutputTarget(std::string const& path, OutputRules const& rules) : 
     if (!rules.force) throw FileError(fmt::format("{}: is there already; {}", name_, rules.instead));
     // What cannot be read is somebody's for all that can be told.
     require_readable(path_);
-    std::error_code none;
-    bool const is_empty = fs::is_regular_file(path_, none) && fs::file_size(path_, none) == 0 && !none;
-    if (is_empty || rules.is_ours(path_)) return;
+    if (rules.is_ours(path_)) return;
     throw FileError(fmt::format("{}: is there already, and is no file of slideway, or a damaged one: --force does not replace it; give another name with -o, "
                                 "or move it away",
                                 name_));
