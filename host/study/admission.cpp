@@ -27,20 +27,32 @@ struct Start {
     bool is_nowhere() const { return at.status != Status::finished; }
 };
 
-/// Of members that draw what can be used.
-std::vector<Start> starts_of(Scene const& scene, Isa isa, std::uint64_t looked) {
-    std::vector<Start> starts;
+/// The members that are looked at.
+struct Look {
+    std::uint64_t members = 0;
+    std::vector<Start> starts;  // of those that draw what can be used
+    std::uint64_t invalid = 0, first_invalid = 0;
+    std::string why_invalid;
+};
+
+Look look_at(Scene const& scene, Isa isa) {
+    Look look;
+    look.members = std::min(member_count(scene), most_looked_at);
+    std::vector<Start>& starts = look.starts;
     std::vector<Inputs> inputs;
     bool const spatial = info(scene.parts.mechanism).spatial;
-    for (std::uint64_t const member : spread_over(member_count(scene), looked)) {
+    for (std::uint64_t const member : spread_over(member_count(scene), look.members)) {
         Inputs const drawn = member_inputs(scene, member);
-        if (defect(drawn, scene.parts)) continue;
+        if (auto const found = defect(drawn, scene.parts)) {
+            if (look.invalid++ == 0) look.first_invalid = member, look.why_invalid = *found;
+            continue;
+        }
         starts.push_back({member, spatial ? std::min(drawn.clearance_y, drawn.clearance_z) : drawn.clearance_y, {}});
         inputs.push_back(drawn);
     }
     std::vector<ProbeResult> const results = probe(isa, scene.parts, inputs, std::vector<double>(inputs.size(), 0.0));
     for (std::size_t i = 0; i < starts.size(); ++i) starts[i].at = results[i];
-    return starts;
+    return look;
 }
 
 std::string depth_text(Start const& start) {
@@ -78,34 +90,30 @@ std::optional<std::string> broken_draws(Scene const& scene, std::vector<Start> c
     return fmt::format("{} {}: member {} {}", which, deep, worst.member, depth_text(worst));
 }
 
+bool is_of_a_file(Scene const& scene) { return scene.design.table != nullptr && !scene.design.table->lines.empty(); }
+
+std::optional<std::string> impossible_starts(Scene const& scene, Look const& look) {
+    // Members whose inputs come from a program fail alone, as draws do.
+    return is_of_a_file(scene) ? broken_row(scene, look.starts) : broken_draws(scene, look.starts, look.members);
+}
+
 /// Draws that break a rule fail alone; who checks a scene wants to know how many will.
-std::optional<std::string> invalid_draws(Scene const& scene) {
-    std::uint64_t const all = member_count(scene), looked = std::min(all, most_looked_at);
-    std::uint64_t invalid = 0, first = 0;
-    std::string why;
-    for (std::uint64_t const member : spread_over(all, looked)) {
-        auto const found = defect(member_inputs(scene, member), scene.parts);
-        if (found && invalid++ == 0) first = member, why = *found;
-    }
-    if (invalid == 0) return {};
-    return fmt::format("{}: {} of {} members{} draw what cannot be and will fail: member {}, {}", scene.path, invalid, looked, looked < all ? " that were looked at" : "", first, why);
+std::optional<std::string> invalid_draws(Scene const& scene, Look const& look) {
+    if (look.invalid == 0) return {};
+    return fmt::format("{}: {} of {} members{} draw what cannot be and will fail: member {}, {}", scene.path, look.invalid, look.members,
+                       look.members < member_count(scene) ? " that were looked at" : "", look.first_invalid, look.why_invalid);
 }
 
 }  // namespace
 
-std::optional<std::string> impossible_starts(Scene const& scene, Isa isa) {
-    std::uint64_t const looked = std::min(member_count(scene), most_looked_at);
-    std::vector<Start> const starts = starts_of(scene, isa, looked);
-    // Members whose inputs come from a program fail alone, as draws do.
-    bool const of_file = scene.design.table != nullptr && !scene.design.table->lines.empty();
-    return of_file ? broken_row(scene, starts) : broken_draws(scene, starts, looked);
-}
+std::optional<std::string> impossible_starts(Scene const& scene, Isa isa) { return impossible_starts(scene, look_at(scene, isa)); }
 
 std::optional<std::string> admit(Scene const& scene, bool any_start) {
-    auto const wrong = impossible_starts(scene, best_isa());
-    if (!wrong) return invalid_draws(scene);
+    Look const look = look_at(scene, best_isa());
+    auto const wrong = impossible_starts(scene, look);
+    if (!wrong) return invalid_draws(scene, look);
     if (any_start) return wrong;
-    bool const has_place = scene.design.table != nullptr && !scene.design.table->lines.empty();
+    bool const has_place = is_of_a_file(scene);
     throw SceneError(fmt::format("{}{}; change {}, or add --any-start", has_place ? "" : scene.path + ": ", *wrong,
                                  has_place ? "the row" : "[initial] or [joint]"));
 }

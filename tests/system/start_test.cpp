@@ -42,6 +42,20 @@ TEST_F(Starts, OfAFewMembersAreCounted) {
     EXPECT_NE(outcome.err.find("warning: " + std::to_string(of) + " of 37 members start inside the way"), std::string::npos) << outcome.err;
 }
 
+/// Clearances below zero: 46 % of this distribution.  They fail alone, and check says how many will.
+TEST_F(Starts, OfDrawsThatCannotBeAreCounted) {
+    Outcome const outcome = run({"check", "s.toml", "--set", "study.vary.\"joint.clearance\"={dist=\"norm\", mean=1e-4, sd=1e-3}", "--set",
+                                 "study.vary.\"initial.y\"={dist=\"unif\", low=0, high=1e-9}"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    auto const at = outcome.err.find("s.toml: ");
+    int of = 0, all = 0;
+    ASSERT_NE(at, std::string::npos) << outcome.err;
+    ASSERT_EQ(std::sscanf(outcome.err.c_str() + at, "s.toml: %d of %d members draw what cannot be", &of, &all), 2) << outcome.err;
+    EXPECT_EQ(all, 37);
+    EXPECT_GT(of, 8);
+    EXPECT_LT(of, 29);
+}
+
 TEST_F(Starts, OfRowsAreRefusedAtTheirLine) {
     write("table.toml", "schema = 1\n[study]\nduration = \"1 us\"\ndesign = \"table\"\ntable = \"rows.csv\"\n");
     write("rows.csv", "part,initial.z [mm]\nA-001,0.05\nA-002,0.1\nA-003,0.3\n");
