@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "bench/spread.hpp"
+#include "kernels/laws/list.hpp"
 #include "tests/support/ensemble.hpp"
 
 namespace slideway {

@@ -7,6 +7,7 @@
 #include "kernels/all_laws.hpp"
 #include "kernels/integrate.hpp"
 #include "kernels/lane_copy.hpp"
+#include "kernels/laws/list.hpp"
 #include "kernels/laws/one_law.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"
 #include "kernels/models/mechanism_model.hpp"

@@ -35,6 +35,9 @@ install(EXPORT slideway-targets NAMESPACE slideway:: DESTINATION ${package_dir})
 install(FILES host/library/slideway.hpp kernels/kernels.hpp kernels/dispatch.hpp DESTINATION ${headers_dir})
 install(DIRECTORY kernels DESTINATION ${headers_dir} FILES_MATCHING PATTERN "*.hpp")
 install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/kernels DESTINATION ${headers_dir} FILES_MATCHING PATTERN "*.hpp")
+# What slideway compile compiles a law or mechanism of one's own with.
+get_property(border GLOBAL PROPERTY SLIDEWAY_BORDER_SOURCES)
+install(FILES ${border} DESTINATION ${headers_dir}/host/backend)
 configure_package_config_file(cmake/slideway-config.cmake.in ${PROJECT_BINARY_DIR}/slideway-config.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/slideway-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/slideway-config.cmake ${PROJECT_BINARY_DIR}/slideway-config-version.cmake cmake/isa_choice.cmake

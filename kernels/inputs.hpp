@@ -6,27 +6,17 @@
 #include <limits>
 
 #include "kernels/key.hpp"
-#include "kernels/laws/list.hpp"
-#include "kernels/mechanisms/list.hpp"
 
 namespace slideway {
 
 /// Marks an input that was not given and follows from others (members/complete_inputs.hpp fills it).
 inline constexpr double follows = std::numeric_limits<double>::quiet_NaN();
 
-/// What moves the slider (docs/model.md 6, 7): the rows of mechanisms/list.hpp.
-enum class Mechanism {
-#define SLIDEWAY_NAME(name, Type, Base) name,
-    SLIDEWAY_MECHANISMS(SLIDEWAY_NAME)
-#undef SLIDEWAY_NAME
-};
+/// What moves the slider (docs/model.md 6, 7): a row of mechanisms/list.hpp, or one that a module brought, which have places behind those.
+enum class Mechanism : int;
 
-/// How contacts push (docs/model.md 4), where they are not rigid: the rows of laws/list.hpp.
-enum class Law {
-#define SLIDEWAY_NAME(name, Type) name,
-    SLIDEWAY_LAWS(SLIDEWAY_NAME)
-#undef SLIDEWAY_NAME
-};
+/// How contacts push (docs/model.md 4), where they are not rigid: a row of laws/list.hpp, or one that a module brought.
+enum class Law : int;
 
 /// point: C of point contacts alone (χ = 0), or what the law has of its own.  rate: C and χ.  restitution: replaces both.
 enum class Damping { point, rate, restitution };
@@ -34,11 +24,11 @@ inline constexpr int damping_count = 3;
 
 /// What a scene has, the same for all of its members.
 struct Parts {
-    Law law = Law::paper;  // of the spatial mechanisms
+    Law law{};  // of the spatial mechanisms
     Damping damping = Damping::point;
     bool friction = false;        // absent [friction]: no friction code runs
     bool misaligned_way = false;  // only with a [way] table does the code for its pose run
-    Mechanism mechanism = Mechanism::slider_crank;
+    Mechanism mechanism{};
     bool free_crank = false;  // of planar_slider_crank: no drive holds the crank's speed
     bool rigid = false;       // contacts have no law: kernels/rigid
     friend bool operator==(Parts const&, Parts const&) = default;
@@ -126,6 +116,8 @@ struct Inputs {
 #undef SLIDEWAY_MEMBER
     // What a contact law has of its own, under the keys that its LawInfo names; 0 where a law has fewer.
     double law_a = 0, law_b = 0, law_c = 0, law_d = 0;
+    // The same of a mechanism, under the keys that its MechanismInfo names.
+    double mechanism_a = 0, mechanism_b = 0, mechanism_c = 0, mechanism_d = 0, mechanism_e = 0, mechanism_f = 0, mechanism_g = 0, mechanism_h = 0;
 };
 
 constexpr double Key::get(Inputs const& inputs) const { return inputs.*member; }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes what is handed out, in build/package: a wheel that needs nothing of the machine but Python and glibc (auditwheel puts netCDF, HDF5 and
-# UDUNITS inside), and a Debian package (CPack) with the program, man page, completions, scenes, the C++ library and its CMake package.
+# UDUNITS inside), and a Debian package (CPack) with the program, man page, completions, scenes, the C++ library and its CMake package; and the description of a container with the latter.
 # Neither has code for GPUs, or needs MPI.  Usage: scripts/package.sh [options of cmake]; some minutes.  scripts/package_check.sh tries both.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -36,6 +36,15 @@ PATH=$PWD/$environment/bin:$PATH "$environment/bin/auditwheel" repair --strip -w
 cmake -S . -B "$tree" -USKBUILD -UCMAKE_INSTALL_PREFIX --log-level=ERROR || stop "the configuration failed (see above)"
 (cd "$tree" && cpack -G DEB -B .. --config CPackConfig.cmake >cpack.log) || { cat "$tree/cpack.log"; stop "cpack failed"; }
 rm -rf "$work/raw" "$work/_CPack_Packages"
+
+# A container with the Debian package: podman build -t slideway build/package, then podman run -v "$PWD:/data" slideway run scene.toml
+cat >"$work/Containerfile" <<'END'
+FROM debian:12-slim
+COPY slideway*.deb /tmp/
+RUN apt-get update && apt-get install -y --no-install-recommends /tmp/slideway*.deb && rm -rf /var/lib/apt/lists/* /tmp/slideway*.deb
+WORKDIR /data
+ENTRYPOINT ["slideway"]
+END
 
 for file in "$work"/*.whl "$work"/*.deb; do
     bytes=$(stat -c %s "$file")

@@ -53,6 +53,9 @@ echo "Debian package: installed, ran, payload $of_deb"
 dpkg -x "$deb" "$bare/installed"
 bash tests/examples/run.sh cmake "$root" "$bare/installed/usr" "$bare/examples" || stop "the examples do not build against the Debian package (see above)"
 
+# Its headers are all that a law of one's own is compiled with.
+"$bare/installed/usr/bin/slideway" compile tests/extending/hunt_crossley.hpp -o "$bare/modules" >/dev/null || stop "the Debian package compiles no law (see above)"
+
 new_root python ca-certificates,python3-minimal,python3-venv
 for file in /etc/pip.conf "$HOME/.config/pip/pip.conf" "$HOME/.pip/pip.conf"; do
     [[ ! -f $file ]] || cp "$file" "$bare/python/etc/pip.conf"

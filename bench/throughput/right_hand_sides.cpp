@@ -9,6 +9,7 @@
 
 #include "bench/rhs_kernel.hpp"
 #include "bench/throughput/throughput.hpp"
+#include "kernels/laws/list.hpp"
 #include "tests/models/by_isa.hpp"
 #include "tests/oracle/golden_table.hpp"
 #include "tests/support/ensemble.hpp"

@@ -6,6 +6,8 @@
 #include "bench/spread.hpp"
 #include "bench/work_precision/bouncing_solution.hpp"
 #include "bench/work_precision/problem.hpp"
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "tests/support/ensemble.hpp"
 
 namespace slideway::bench {

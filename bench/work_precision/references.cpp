@@ -11,6 +11,7 @@
 #include "bench/work_precision/bouncing_solution.hpp"
 #include "bench/work_precision/error_norm.hpp"
 #include "host/backend/backend.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/support/starting_in.hpp"
 

@@ -10,9 +10,11 @@
 #include "bench/work_precision/method.hpp"
 #include "kernels/laws/conservative.hpp"
 #include "kernels/laws/kelvin_voigt.hpp"
+#include "kernels/laws/list.hpp"
 #include "kernels/laws/one_law.hpp"
 #include "kernels/laws/paper.hpp"
 #include "kernels/mechanisms/free_slider.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {

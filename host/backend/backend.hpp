@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "host/backend/mechanism_kernels.hpp"
+#include "host/backend/kernel_tables.hpp"
 #include "kernels/block.hpp"
 
 namespace slideway {
@@ -82,6 +82,7 @@ bool processor_has(Isa isa);  // this machine's has the instructions that kernel
 bool is_built(Isa isa);       // this program has kernels for it
 bool is_supported(Isa isa);   // and they run on this machine
 Isa best_isa();               // the widest that is supported
+Isa best_isa(Parts const& parts);  // and, of modules, has their kernels
 std::span<Isa const> all_isas();
 std::span<Isa const> built_isas();
 /// scalar_libm for scalar where this machine needs it, otherwise the same.

@@ -6,19 +6,28 @@
 #include "host/backend/backend.hpp"
 #include "host/backend/built_isas.hpp"
 #include "host/backend/kernel_modules.hpp"
-#include "kernels/rigid/rigid_info.hpp"
+#include "host/backend/own_modules.hpp"
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
+#include "kernels/rigid/list.hpp"
 
 namespace slideway {
 
-// Each instruction set has kernels of every mechanism.
+// Each instruction set has kernels of every law and mechanism of the tree.
+#define SLIDEWAY_LAW_DECLARED(name, Type) extern LawKernels const name##_law_kernels;
+#define SLIDEWAY_LAW_ADDRESS(name, Type) &name##_law_kernels,
 #define SLIDEWAY_DECLARED(name, Type, Base) extern MechanismKernels const name##_kernels;
 #define SLIDEWAY_ADDRESS(name, Type, Base) &name##_kernels,
 #define SLIDEWAY_KERNELS_OF(isa)                                                                        \
     namespace isa {                                                                                     \
+    SLIDEWAY_LAWS(SLIDEWAY_LAW_DECLARED)                                                                \
     SLIDEWAY_MECHANISMS(SLIDEWAY_DECLARED)                                                              \
+    constexpr LawKernels const* laws[] = {SLIDEWAY_LAWS(SLIDEWAY_LAW_ADDRESS)};                         \
     constexpr MechanismKernels const* kernels[] = {SLIDEWAY_MECHANISMS(SLIDEWAY_ADDRESS)};              \
     }
 SLIDEWAY_FOR_EACH_ISA(SLIDEWAY_KERNELS_OF)
+#undef SLIDEWAY_LAW_DECLARED
+#undef SLIDEWAY_LAW_ADDRESS
 #undef SLIDEWAY_DECLARED
 #undef SLIDEWAY_ADDRESS
 #undef SLIDEWAY_KERNELS_OF
@@ -37,10 +46,11 @@ constexpr std::array known_isas = {Isa::scalar, Isa::scalar_libm, Isa::avx2, Isa
 struct BuiltIsa {
     Isa isa;
     char const* flags;
-    MechanismKernels const* const* kernels;  // [mechanism]
+    std::span<LawKernels const* const> laws;           // by Law
+    std::span<MechanismKernels const* const> kernels;  // by Mechanism
 };
 
-#define SLIDEWAY_BUILT_ISA(isa) BuiltIsa{Isa::isa, SLIDEWAY_FLAGS_##isa, isa::kernels},
+#define SLIDEWAY_BUILT_ISA(isa) BuiltIsa{Isa::isa, SLIDEWAY_FLAGS_##isa, isa::laws, isa::kernels},
 constexpr BuiltIsa built_table[] = {SLIDEWAY_FOR_EACH_ISA(SLIDEWAY_BUILT_ISA)};
 #undef SLIDEWAY_BUILT_ISA
 
@@ -77,6 +87,19 @@ Isa best_isa() {
     return best;
 }
 
+Isa best_isa(Parts const& parts) {
+    auto const law = static_cast<std::size_t>(parts.law), mechanism = static_cast<std::size_t>(parts.mechanism);
+    auto const laws = built_table[0].laws.size(), mechanisms = built_table[0].kernels.size();
+    Isa best = Isa::scalar;
+    bool found = false;
+    for (Isa const isa : built_isas()) {
+        bool const has = is_supported(isa) && (law < laws || has_own_kernels(ModuleKind::law, law - laws, compiled_isa(isa))) &&
+                         (mechanism < mechanisms || has_own_kernels(ModuleKind::mechanism, mechanism - mechanisms, compiled_isa(isa)));
+        if (has && (!found || lanes_of(isa) > lanes_of(best))) best = isa, found = true;
+    }
+    return found ? best : best_isa();
+}
+
 std::span<Isa const> all_isas() { return known_isas; }
 
 std::span<Isa const> built_isas() {
@@ -104,9 +127,12 @@ MechanismKernels const& rigid_kernels(Isa isa, Mechanism mechanism, bool shadows
 
 KernelInstance find_instance(Isa isa, Parts const& parts, bool shadows) {
     BuiltIsa const& built = built_table[place_of(compiled_isa(isa))];
-    KernelInstance const instance{parts.rigid ? &rigid_kernels(built.isa, parts.mechanism, shadows) : built.kernels[static_cast<int>(parts.mechanism)],
-                                  parts};
-    if (!instance.kernels->has(parts)) throw std::invalid_argument("find_instance: the law of these parts has no such damping");
+    if (parts.rigid) return {&rigid_kernels(built.isa, parts.mechanism, shadows), nullptr, parts};
+    auto const law_place = static_cast<std::size_t>(parts.law), place = static_cast<std::size_t>(parts.mechanism);
+    KernelInstance const instance{
+        place < built.kernels.size() ? built.kernels[place] : own_kernels(ModuleKind::mechanism, place - built.kernels.size(), built.isa).mechanism,
+        law_place < built.laws.size() ? built.laws[law_place] : own_kernels(ModuleKind::law, law_place - built.laws.size(), built.isa).law, parts};
+    if (!instance.law->with[static_cast<int>(parts.damping)]) throw std::invalid_argument("find_instance: the law of these parts has no such damping");
     return instance;
 }
 

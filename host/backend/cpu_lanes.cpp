@@ -5,13 +5,26 @@
 #include "kernels/mechanisms/probe.hpp"
 #include "kernels/models/planar_lanes.hpp"
 #include "kernels/models/shadowed.hpp"
+#ifdef SLIDEWAY_HEADER
+#include SLIDEWAY_HEADER  // a mechanism of one's own, whose base it may bring
+#endif
+#ifndef SLIDEWAY_BASE
+#define SLIDEWAY_BASE SliderBase
+#endif
 
 namespace slideway::inline SLIDEWAY_ISA {
 
 #if SLIDEWAY_SHADOWED
+#ifdef SLIDEWAY_MECHANISM
+constexpr bool has_exponents = SLIDEWAY_MECHANISM::info.has_exponents;
+#else
+constexpr bool has_exponents = true;
+#endif
 template <class Base> void run_shadowed_lanes(Block& block, IsaTable<Base> const& table) {
-    using Table = Shadowed<IsaTable<Base>>;
-    integrate<Table, IsaReal>(block, Table{table});
+    if constexpr (has_exponents) {
+        using Table = Shadowed<IsaTable<Base>>;
+        integrate<Table, IsaReal>(block, Table{table});
+    }
 }
 template void run_shadowed_lanes(Block&, IsaTable<SLIDEWAY_BASE> const&);
 #else

@@ -1,10 +1,34 @@
-// A contact law: compiled once per instruction set with its own flags and names (CMakeLists.txt here), and knows no other law.
-#include "host/backend/cpu_laws.hpp"
+// A contact law: compiled once per instruction set with its own flags and names (CMakeLists.txt here), and knows no other law.  The header of a
+// law of one's own says itself which law it has: `#define SLIDEWAY_LAW HuntCrossley`.
+#include "host/backend/kernel_tables.hpp"
+#include "kernels/isa_real.hpp"
 #include "kernels/laws/law_table.hpp"
 #include SLIDEWAY_HEADER
 
 namespace slideway::inline SLIDEWAY_ISA {
+namespace {
 
-extern constinit LawTable<IsaReal> const SLIDEWAY_TABLE = LawTable<IsaReal>::of<SLIDEWAY_LAW>();
+template <class Law> concept HasInfo = requires { LawInfo{Law::info}; };
+
+template <class Law> struct Compiled {
+    static constexpr LawTable<IsaReal> table = LawTable<IsaReal>::template of<Law>();
+    static constexpr LawKernels kernels{&Law::info, {Law::info.has(Damping::point), Law::info.has(Damping::rate), Law::info.has(Damping::restitution)}, &table};
+};
+
+/// What its info lacks is one line of the compiler's, and nothing follows from it.
+template <class Law> consteval LawKernels kernels_of() {
+    static_assert(HasInfo<Law>, "the law has no `static constexpr LawInfo info` (kernels/laws/law_info.hpp)");
+    if constexpr (HasInfo<Law>) {
+        static_assert(!Law::info.name.empty() && !Law::info.words.empty(), "the law's info says no name, or no words");
+        static_assert(!Law::info.needs_restitution || has_group(Law::info.groups, KeyGroup::restitution), "a law that needs a restitution has it in its groups");
+        static_assert(Law::info.keys.size() <= 4, "a law has at most four numbers of its own, law_a to law_d");
+        return Compiled<Law>::kernels;
+    }
+    return {};
+}
+
+}  // namespace
+
+extern constinit LawKernels const SLIDEWAY_TABLE = kernels_of<SLIDEWAY_LAW>();
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -1,6 +1,6 @@
 // A mechanism with rigid contacts: equations, impacts and lanes in one unit, compiled once per instruction set (CMakeLists.txt here); and its
 // lanes of members with shadows in another.
-#include "host/backend/mechanism_kernels.hpp"
+#include "host/backend/kernel_tables.hpp"
 #include "kernels/integrate.hpp"
 #include "kernels/isa_real.hpp"
 #include "kernels/mechanisms/probe.hpp"
@@ -13,21 +13,20 @@ using Model = SLIDEWAY_MECHANISM;
 
 namespace {
 
-bool has(Parts const& parts) { return parts.rigid; }
 #if SLIDEWAY_SHADOWED
-void run_shadowed(Block& block, Parts const& parts) { integrate<Shadowed<Model>, IsaReal>(block, Shadowed<Model>{Model(parts)}); }
+void run_shadowed(Block& block, Parts const& parts, LawKernels const*) { integrate<Shadowed<Model>, IsaReal>(block, Shadowed<Model>{Model(parts)}); }
 #else
-void run(Block& block, Parts const& parts) { integrate<Model, IsaReal>(block, Model(parts)); }
-void probe_states(ProbeTable const& states, Parts const& parts) { probe<Model, IsaReal>(states, Model(parts)); }
+void run(Block& block, Parts const& parts, LawKernels const*) { integrate<Model, IsaReal>(block, Model(parts)); }
+void probe_states(ProbeTable const& states, Parts const& parts, LawKernels const*) { probe<Model, IsaReal>(states, Model(parts)); }
 
 #endif
 
 }  // namespace
 
 #if SLIDEWAY_SHADOWED
-extern constinit MechanismKernels const SLIDEWAY_TABLE = {.has = &has, .run_shadowed = &run_shadowed};
+extern constinit MechanismKernels const SLIDEWAY_TABLE = {.run_shadowed = &run_shadowed};
 #else
-extern constinit MechanismKernels const SLIDEWAY_TABLE = {.has = &has, .run = &run, .probe = &probe_states};
+extern constinit MechanismKernels const SLIDEWAY_TABLE = {.run = &run, .probe = &probe_states};
 #endif
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -9,6 +9,7 @@
 
 #include "host/backend/commit.hpp"
 #include "host/backend/cuda_module.hpp"
+#include "host/backend/module_files.hpp"
 
 namespace slideway {
 namespace {
@@ -35,10 +36,9 @@ fs::path module_path() {
 
 /// Opened as often as asked for, which costs nothing after the first time, and never closed.
 CudaModule const& opened(fs::path const& path) {
-    void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-    if (library == nullptr) {
-        throw DeviceError(fmt::format("cuda: {} cannot be opened: {}; use --backend cpu", path.string(), dlerror()));
-    }
+    std::string why;
+    void* const library = open_library(path, why);
+    if (library == nullptr) throw DeviceError(fmt::format("cuda: {}; use --backend cpu", why));
     auto* const entry = reinterpret_cast<CudaModuleEntry*>(dlsym(library, cuda_module_entry));
     CudaModule const* const module = entry == nullptr ? nullptr : entry();
     if (module == nullptr) {

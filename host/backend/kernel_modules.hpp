@@ -1,9 +1,9 @@
-// Kernels that are modules: found, opened and, where the program lies in the folder it was built in, compiled when they are first asked for.
+// Kernels of the tree that are modules: found, opened and, where the program lies in the folder it was built in, compiled when they are first asked for.
 #pragma once
 
 #include <string>
 
-#include "host/backend/mechanism_kernels.hpp"
+#include "host/backend/kernel_tables.hpp"
 
 namespace slideway {
 

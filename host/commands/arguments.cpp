@@ -201,6 +201,24 @@ void add_report(Options& options, ReportArguments& report) {
                  "pip install . in the source tree installs it.");
 }
 
+void add_compile(Options& options, CompileArguments& compile) {
+    options.positional("HEADER", compile.header, "Header with a contact law or a mechanism (docs/extending.md)")->required();
+    options.text("-o,--output", "DIR", compile.folder, "Folder of the modules, which a scene names in [modules] search (default: one that every scene finds)");
+    options.value("--isa", "ISA,...", compile.isas, "Instruction sets (default: all of this program that this machine has)", [](std::string_view, std::string_view word) {
+        std::vector<Isa> isas;
+        while (!word.empty()) {
+            auto const end = std::min(word.find(','), word.size());
+            Isa const isa = parse_isa(word.substr(0, end));
+            if (std::ranges::find(isas, isa) == isas.end()) isas.push_back(isa);
+            word.remove_prefix(std::min(end + 1, word.size()));
+        }
+        return isas;
+    });
+    options.threads(compile.threads);
+    options.json(compile.json);
+    options.note("Compilers run as CXX names them, else the one that compiled slideway, else g++.  What scenes then know by name runs as the tree's own laws and mechanisms do.");
+}
+
 void add_list(Options& options, ListArguments& list) {
     CLI::Option* const keys = options.flag("--keys", list.keys, "The keys of a scene alone");
     CLI::Option* const json = options.flag("--json", list.json, "The keys of a scene as JSON");
@@ -256,6 +274,9 @@ std::vector<CommandRow> const& command_rows() {
          {{"slideway merge result.nc.shards -o result.nc", "Whatever is finished, to one result file."}}},
         {"report", "Write an HTML page of a result file (uses the Python package)", add<ReportArguments, add_report>,
          {{"slideway report result.nc -o result.html", "A page for a browser."}}},
+        {"compile", "Compile a law or mechanism of one's own for scenes", add<CompileArguments, add_compile>,
+         {{"slideway compile hunt_crossley.hpp", "Scenes then know contact.law = \"hunt_crossley\"."},
+          {"slideway compile own.hpp -o modules", "Into a folder, which scenes name: [modules] search = [\"modules\"]."}}},
         {"list", "List mechanisms, laws, quantities and keys", add<ListArguments, add_list>,
          {{"slideway list", "All that a scene may ask for, with units, domains and defaults."},
           {"slideway list --schema >scene.schema.json", "For completion and hover in editors of TOML."}}},

@@ -39,7 +39,7 @@ void print_parts(Scene const& scene) {
     std::vector<std::string> in{fmt::format("{} mechanism", mechanism.name)}, out;
     auto const sort = [&](bool is_in, std::string name) { (is_in ? in : out).push_back(std::move(name)); };
     if (mechanism.spatial) {
-        for (LawInfo const& law : laws()) sort(&law == &contact_info(scene.parts), fmt::format("{} law", law.name));
+        for (LawInfo const& law : laws()) sort(law.name == contact_info(scene.parts).name, fmt::format("{} law", law.name));
         if (may_be_rigid(scene.parts.mechanism)) sort(scene.parts.rigid, "rigid contact");
     } else {
         sort(true, scene.parts.free_crank ? "free crank" : "driven crank");

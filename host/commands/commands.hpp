@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "host/backend/backend.hpp"
 #include "host/base/memory_room.hpp"
@@ -161,6 +162,15 @@ struct ReportArguments {
 /// Becomes the Python package, which writes the page; returns only by an exception.
 int execute(ReportArguments const& arguments);
 
+struct CompileArguments {
+    std::string header;
+    std::string folder;       // empty: the user's own
+    std::vector<Isa> isas;    // none: all of this program that this machine runs
+    int threads = default_threads();
+    bool json = false;
+};
+int execute(CompileArguments const& arguments);
+
 struct ListArguments {
     bool keys = false, json = false, schema = false, markdown = false;  // one of them, or the first two: of the keys of a scene
 };
@@ -173,7 +183,7 @@ struct TextOnly {
 int execute(TextOnly const& only);
 
 using Arguments = std::variant<RunArguments, CheckArguments, ProbeArguments, InfoArguments, StatsArguments,
-                               MergeArguments, ReportArguments, ListArguments, TextOnly>;
+                               MergeArguments, ReportArguments, CompileArguments, ListArguments, TextOnly>;
 
 /// @throws SceneError with one line for a command line that cannot be used.
 Arguments parse_arguments(int argc, char const* const* argv);

@@ -91,7 +91,9 @@ constexpr Row files[] = {
 };
 constexpr Row variables[] = {
     {"SLIDEWAY_PYTHON", "interpreter of Python that has the package slideway, for `slideway report`; else python3"},
-    {"SLIDEWAY_MODULES", "folders of modules with kernels, colons between them; else where the program was built or installed"},
+    {"SLIDEWAY_MODULES", "folders of modules, colons between them, before those of slideway compile and of the program"},
+    {"CXX", "compiler of slideway compile, with its first options; else the one that compiled slideway, else g++"},
+    {"XDG_CACHE_HOME", "folder below which slideway compile puts modules; else ~/.cache"},
     {"SLIDEWAY_CUDA_MODULE", "file of the module with the kernels for cards; else where the program was built or installed"},
     {"SOURCE_DATE_EPOCH", "seconds since 1970 that results give as the time of their creation"},
 };

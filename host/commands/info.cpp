@@ -43,7 +43,7 @@ void print_info(InfoArguments const& arguments, ResultReader const& results, Sea
     constexpr std::size_t longest = 500;  // flags of a compiler are many
     print_field("file", arguments.path);
     for (char const* const name : {"title", "created", "version", "commit", "compiler", "flags", "machine", "backend",
-                                   "isa", "threads", "seed", "completeness"}) {
+                                   "isa", "modules", "threads", "seed", "completeness"}) {
         print_field(name, shown(results.attribute(name), longest));
     }
     print_field("format", fmt::format("{}", seal.version));

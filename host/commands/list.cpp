@@ -30,10 +30,33 @@ template <class Has> std::string owners_text(Has has) {
     return names.size() == mechanisms().size() ? std::string() : fmt::format(" ({})", fmt::join(names, ", "));
 }
 
+/// Where one of a module comes from.
+std::string module_text(OwnModule const* module) {
+    return module == nullptr ? std::string() : fmt::format(" (module in {}, source {}, {})", module->folder.string(), module->source, module->described->compiler);
+}
+
+/// Opens what the folders of modules have; what cannot be used is told, and left.
+void open_modules() {
+    for (ModuleKind const kind : {ModuleKind::law, ModuleKind::mechanism}) {
+        for (std::string const& name : own_module_names(kind, {})) {
+            try {
+                if (kind == ModuleKind::law) {
+                    find_law(name);
+                } else {
+                    find_mechanism(name);
+                }
+            } catch (DeviceError const& error) {
+                tell("slideway: {}\n", error.what());
+            }
+        }
+    }
+}
+
 /// Their states, and what else comes with every time series.
 void print_mechanisms() {
     print_out("mechanisms (mechanism.kind), with the numbers of their state\n");
-    for (MechanismInfo const& mechanism : mechanisms()) {
+    auto const all = mechanisms();
+    for (MechanismInfo const& mechanism : all) {
         std::vector<std::string_view> states, beside;
         Selection left = mechanism.always;
         for (int i = 0; i < mechanism.states; ++i) {
@@ -43,7 +66,7 @@ void print_mechanisms() {
         for (int s = 0; s < series_count; ++s) {
             if (selects(left, static_cast<Series>(s))) beside.emplace_back(series_table[s].name);
         }
-        print_row("  {:<30} {}", mechanism.name, mechanism.meaning);
+        print_row("  {:<30} {}{}", mechanism.name, mechanism.meaning, module_text(module_of(static_cast<Mechanism>(&mechanism - all.data()))));
         print_row("  {:<30} {}{}", "", fmt::join(states, ", "), beside.empty() ? "" : fmt::format("; series have {} too", fmt::join(beside, ", ")));
     }
 }
@@ -76,8 +99,9 @@ static_assert(std::size(study_meanings) == std::size(study_kind_names));
 
 /// Their words, and below these their dampings and what they have of their own.
 void print_laws() {
-    for (LawInfo const& law : laws()) {
-        print_row("  {:<30} {}", law.name, law.words);
+    auto const all = laws();
+    for (LawInfo const& law : all) {
+        print_row("  {:<30} {}{}", law.name, law.words, module_text(module_of(static_cast<Law>(&law - all.data()))));
         std::vector<std::string_view> dampings;
         for (int i = 0; i < damping_count; ++i) {
             auto const damping = static_cast<Damping>(i);
@@ -124,6 +148,8 @@ std::string state_of(Isa isa) {
 }  // namespace
 
 int execute(ListArguments const& arguments) {
+    // The page is of what everybody has.
+    if (!arguments.markdown) open_modules();
     if (arguments.keys && !arguments.json) {
         print_keys();
         return exit_code::done;

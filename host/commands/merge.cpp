@@ -55,7 +55,7 @@ std::optional<std::uint64_t> merged_unless_stopped(MergeArguments const& argumen
                                                    std::optional<ToleranceReport>& report, StopRequest const& stop) {
     ReportSettings settings;
     settings.pause = pause_of(stop);
-    auto const backend = cpu_backend(best_isa());
+    auto const backend = cpu_backend(best_isa(scene.parts));
     auto const check = resolution_check(scene, *backend, default_threads(), stop, Progress::style_for(stderr, arguments.json));
     try {
         return merge_study(scene, folder, shards, shard_origin(folder, shards, scene), target, report, settings, check);
@@ -101,7 +101,7 @@ int execute(MergeArguments const& arguments) {
         return left == 0 ? exit_code::done : exit_code::stopped_early;
     }
     // Of the commands that repeat failed members; starts are looked at for them alone.
-    replay.any_start = !failed_members(results, 1).empty() && impossible_starts(scene, best_isa());
+    replay.any_start = !failed_members(results, 1).empty() && impossible_starts(scene, best_isa(scene.parts));
     print_field("scene", scene_text(scene, scene_path));
     print_results(replay, scene, results, report);
     print_out("\n");

@@ -86,8 +86,9 @@ void print_listing(Scene const& scene, StateTable const& table, ProbeResult cons
 }  // namespace
 
 int execute(ProbeArguments const& arguments) {
-    Isa const isa = parse_isa(arguments.scene.isa);
+    Isa const asked = parse_isa(arguments.scene.isa);
     Scene const scene = load_scene(arguments.scene);
+    Isa const isa = arguments.scene.isa == "auto" ? best_isa(scene.parts) : asked;
     std::optional<OutputTarget> const target =
         arguments.output.empty() ? std::nullopt : std::optional(table_target(arguments, scene));
     StateTable const table = arguments.table.empty() ? start_state(scene) : load_table(arguments.table, scene);

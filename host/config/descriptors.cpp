@@ -1,11 +1,17 @@
 // Compiled under a name of its own (CMakeLists.txt here): it shares no code with the kernels.
 #include "host/config/descriptors.hpp"
 
+#include <algorithm>
 #include <iterator>
 
 #include "kernels/all_laws.hpp"
 #include "kernels/all_mechanisms.hpp"
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "kernels/members/start.hpp"
+#include "kernels/rigid/list.hpp"
 
 namespace slideway {
 namespace {
@@ -37,33 +43,99 @@ SLIDEWAY_LAWS(SLIDEWAY_CHECK)
 SLIDEWAY_MECHANISMS(SLIDEWAY_CHECK)
 #undef SLIDEWAY_CHECK
 
+/// Those of the tree, and behind them those of modules.
+template <class Info, std::size_t tree> std::vector<Info> with_modules(Info const (&infos)[tree], ModuleKind kind, Info const& (*info_of)(KernelModule const&)) {
+    std::vector<Info> all(std::begin(infos), std::end(infos));
+    for (std::size_t i = 0; i < own_module_count(kind); ++i) all.push_back(info_of(*own_module(kind, i).described));
+    return all;
+}
+
+MechanismInfo const& mechanism_info(KernelModule const& module) { return *module.mechanism->info; }
+LawInfo const& law_info(KernelModule const& module) { return *module.law->info; }
+
+template <class Infos> std::vector<std::string_view> names_of(Infos const& infos) {
+    std::vector<std::string_view> names;
+    for (auto const& info : infos) names.emplace_back(info.name);
+    return names;
+}
+
+/// The place of a name among those of the tree, or behind them that of its module.
+template <class Choice, class Info, std::size_t tree>
+std::optional<Choice> find(Info const (&infos)[tree], ModuleKind kind, std::string_view name, std::span<std::string const> search) {
+    auto const found = std::ranges::find_if(infos, [&](Info const& info) { return info.name == name; });
+    if (found != std::end(infos)) return static_cast<Choice>(found - std::begin(infos));
+    auto const place = find_own_module(kind, name, search, &objection_to);
+    return place ? std::optional(static_cast<Choice>(tree + *place)) : std::nullopt;
+}
+
+template <class Info, std::size_t tree> OwnModule const* module_behind(Info const (&)[tree], ModuleKind kind, int place) {
+    return place < static_cast<int>(tree) ? nullptr : &own_module(kind, static_cast<std::size_t>(place) - tree);
+}
+
 }  // namespace
 
-std::span<MechanismInfo const> mechanisms() { return mechanism_infos; }
-std::span<LawInfo const> laws() { return law_infos; }
+int known_count() { return static_cast<int>(own_module_count(ModuleKind::law) + own_module_count(ModuleKind::mechanism)); }
+
+std::span<MechanismInfo const> mechanisms() {
+    static OfAllKnown<std::vector<MechanismInfo>> all([] { return with_modules(mechanism_infos, ModuleKind::mechanism, &mechanism_info); });
+    return all();
+}
+std::span<LawInfo const> laws() {
+    static OfAllKnown<std::vector<LawInfo>> all([] { return with_modules(law_infos, ModuleKind::law, &law_info); });
+    return all();
+}
 
 std::span<std::string_view const> mechanism_names() {
-#define SLIDEWAY_NAME(name, Type, Base) #name,
-    static constexpr std::string_view names[] = {SLIDEWAY_MECHANISMS(SLIDEWAY_NAME)};
-#undef SLIDEWAY_NAME
-    return names;
+    static OfAllKnown<std::vector<std::string_view>> names([] { return names_of(mechanisms()); });
+    return names();
 }
 std::span<std::string_view const> law_names() {
-#define SLIDEWAY_NAME(name, Type) #name,
-    static constexpr std::string_view names[] = {SLIDEWAY_LAWS(SLIDEWAY_NAME)};
-#undef SLIDEWAY_NAME
-    return names;
+    static OfAllKnown<std::vector<std::string_view>> names([] { return names_of(laws()); });
+    return names();
 }
 
-MechanismInfo const& info(Mechanism mechanism) { return mechanism_infos[static_cast<int>(mechanism)]; }
-LawInfo const& info(Law law) { return law_infos[static_cast<int>(law)]; }
+std::optional<Law> find_law(std::string_view name, std::span<std::string const> search) { return find<Law>(law_infos, ModuleKind::law, name, search); }
+std::optional<Mechanism> find_mechanism(std::string_view name, std::span<std::string const> search) {
+    return find<Mechanism>(mechanism_infos, ModuleKind::mechanism, name, search);
+}
+OwnModule const* module_of(Law law) { return module_behind(law_infos, ModuleKind::law, static_cast<int>(law)); }
+OwnModule const* module_of(Mechanism mechanism) { return module_behind(mechanism_infos, ModuleKind::mechanism, static_cast<int>(mechanism)); }
+
+std::string modules_text(Parts const& parts) {
+    std::string text;
+    auto const add = [&](char const* kind, OwnModule const* own) {
+        if (own != nullptr) text += std::string(text.empty() ? "" : "; ") + kind + own->name + ": source " + own->source + ", " + own->described->compiler;
+    };
+    if (!parts.rigid) add("law ", module_of(parts.law));
+    add("mechanism ", module_of(parts.mechanism));
+    return text;
+}
+
+// Of a module's own memory, which stays.
+MechanismInfo const& info(Mechanism mechanism) {
+    OwnModule const* const own = module_of(mechanism);
+    return own == nullptr ? mechanism_infos[static_cast<int>(mechanism)] : mechanism_info(*own->described);
+}
+LawInfo const& info(Law law) {
+    OwnModule const* const own = module_of(law);
+    return own == nullptr ? law_infos[static_cast<int>(law)] : law_info(*own->described);
+}
 LawInfo const& contact_info(Parts const& parts) { return parts.rigid ? rigid_contact : info(parts.law); }
 
 std::span<std::string_view const> contact_law_names() {
-#define SLIDEWAY_NAME(name, Type) #name,
-    static constexpr std::string_view names[] = {SLIDEWAY_LAWS(SLIDEWAY_NAME) rigid_contact.name};
-#undef SLIDEWAY_NAME
-    return names;
+    static OfAllKnown<std::vector<std::string_view>> names([] {
+        std::vector<std::string_view> all(law_names().begin(), law_names().end());
+        all.push_back(rigid_contact.name);
+        return all;
+    });
+    return names();
+}
+
+bool may_be_rigid(Mechanism mechanism) {
+#define SLIDEWAY_IS(name, ...) if (mechanism == Mechanism::name) return true;
+    SLIDEWAY_RIGID(SLIDEWAY_IS)
+#undef SLIDEWAY_IS
+    return false;
 }
 
 bool has_contact_law(Mechanism mechanism) { return info(mechanism).spatial || may_be_rigid(mechanism); }

@@ -1,16 +1,41 @@
-// What the mechanisms and contact laws of the kernels say of themselves: each in its own header, here in the order of their lists.
+// What mechanisms and contact laws say of themselves: those of the tree each in its own header, here in the order of their lists; behind them what
+// modules have brought (host/backend/own_modules.hpp).
 #pragma once
 
+#include <map>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "host/backend/own_modules.hpp"
 #include "kernels/laws/law_info.hpp"
 #include "kernels/mechanisms/mechanism_info.hpp"
 #include "kernels/rigid/rigid_info.hpp"
 
 namespace slideway {
+
+/// How many laws and mechanisms are known; more when a scene names another one of a module.
+int known_count();
+
+/// What is made of all that is known.  It is made again when more is; the earlier ones stay, for who still has them.
+template <class Made> class OfAllKnown {
+public:
+    explicit OfAllKnown(Made (*make)()) : make_(make) {}
+    Made const& operator()() {
+        std::lock_guard const lock(access_);
+        int const known = known_count();
+        auto const at = made_.find(known);
+        return at != made_.end() ? at->second : made_.emplace(known, make_()).first->second;
+    }
+
+private:
+    Made (*make_)();
+    std::mutex access_;
+    std::map<int, Made> made_;
+};
 
 std::span<MechanismInfo const> mechanisms();
 std::span<LawInfo const> laws();
@@ -18,6 +43,17 @@ std::span<LawInfo const> laws();
 /// What a scene calls them.
 std::span<std::string_view const> mechanism_names();
 std::span<std::string_view const> law_names();
+
+/// One by its name: of the tree, or of a module in one of `module_folders(search)`, which is opened then.  @throws DeviceError for a module that cannot be used
+std::optional<Law> find_law(std::string_view name, std::span<std::string const> search = {});
+std::optional<Mechanism> find_mechanism(std::string_view name, std::span<std::string const> search = {});
+/// Why a module of one's own cannot be named in scenes: its name is of the tree, or its keys are not its own.  "" of one that can.
+std::string objection_to(ModuleKind kind, KernelModule const& module);
+/// The module that it is of; nullptr of the tree's.
+OwnModule const* module_of(Law law);
+OwnModule const* module_of(Mechanism mechanism);
+/// "law hunt_crossley: source 1f0a…, g++ 12.2.0; mechanism …" of a scene's modules; "" where all is the tree's.
+std::string modules_text(Parts const& parts);
 
 MechanismInfo const& info(Mechanism mechanism);
 LawInfo const& info(Law law);
@@ -27,6 +63,8 @@ LawInfo const& contact_info(Parts const& parts);
 std::span<std::string_view const> contact_law_names();
 /// Whether contact.law means anything to a mechanism.
 bool has_contact_law(Mechanism mechanism);
+/// Whether a mechanism has kernels for rigid contacts.
+bool may_be_rigid(Mechanism mechanism);
 
 /// Whether the contact law makes energy where its modes switch (model.md 8); a mechanism whose corners are points has none.
 bool makes_energy(Parts const& parts);

@@ -28,7 +28,7 @@ KeyReference reference_of(Setting const& row) {
     KeyReference key{.name = row.name, .unit = row.unit, .meaning = row.meaning, .type = row.type, .range = row.range, .usual = {}, .choices = {},
                      .preset = preset_text(row), .mechanisms = {}, .laws = {}, .studies = {}, .methods = {}};
     if (row.type == Type::count) key.range = {static_cast<double>(row.least), static_cast<double>(row.most)};
-    key.choices.assign(row.choices.begin(), row.choices.end());
+    key.choices.assign(row.all_choices().begin(), row.all_choices().end());
     key.studies = owners(study_kind_names, [&](std::size_t i) { return (row.studies & set_of(static_cast<StudyKind>(i))) != 0; });
     key.methods = owners(setting("integrator.method").choices, [&](std::size_t i) { return (row.methods & set_of(static_cast<Method>(i))) != 0; });
     bool const of_free_cranks = row.name == "mechanism.crank", of_laws = row.name == "contact.law";
@@ -44,7 +44,7 @@ KeyReference reference_of(Key const& of) {
                      .preset = {}, .mechanisms = {}, .laws = {}, .studies = {}, .methods = {}};
     key.preset = of.member == &Inputs::restitution ? "" : std::isnan(of.preset) ? "derived: " + derivations_of(of) : fmt::format("{:.10g}", of.preset);
     key.mechanisms = owners(mechanism_names(), [&](std::size_t i) { return counts_for(of, static_cast<Mechanism>(i)); });
-    key.laws = owners(contact_law_names(), [&](std::size_t i) {
+    key.laws = of.group == KeyGroup::mechanism ? std::vector<std::string_view>() : owners(contact_law_names(), [&](std::size_t i) {
         Parts parts;
         parts.rigid = i == law_names().size();
         if (!parts.rigid) parts.law = static_cast<Law>(i);
@@ -126,14 +126,14 @@ std::vector<KeyReference> key_references(Settings rows) {
     std::vector<KeyReference> all;
     for (Setting const& row : rows) all.push_back(reference_of(row));
     for (Key const& key : numeric_keys()) all.push_back(reference_of(key));
-    static constexpr std::string_view tables[] = {"", "mechanism", "joint", "material", "way", "contact", "friction", "initial", "integrator", "study"};
+    static constexpr std::string_view tables[] = {"", "modules", "mechanism", "joint", "material", "way", "contact", "friction", "initial", "integrator", "study"};
     std::ranges::stable_sort(all, {}, [](KeyReference const& key) { return std::ranges::find(tables, key.table()) - tables; });
     return all;
 }
 
 std::vector<KeyReference> const& known_keys() {
-    static std::vector<KeyReference> const all = key_references(settings());
-    return all;
+    static OfAllKnown<std::vector<KeyReference>> all([] { return key_references(settings()); });
+    return all();
 }
 
 std::string described(KeyReference const& key) {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "host/config/settings.hpp"
 #include "kernels/members/complete_inputs.hpp"
 
 namespace slideway {
@@ -59,21 +60,104 @@ constexpr struct {
 
 }  // namespace
 
-std::span<Key const> numeric_keys() {
-    static std::vector<Key> const all = [] {
-        std::vector<Key> keys;
-        for (Key const& key : input_keys) {
-            keys.push_back(key);
-            if (key.member != &Inputs::restitution) continue;  // the last of contacts
-            for (LawInfo const& law : laws()) keys.insert(keys.end(), law.keys.begin(), law.keys.end());
+namespace {
+
+std::vector<Key const*> every_key() {
+    std::vector<Key const*> keys;
+    auto const add = [&](std::span<Key const> more) {
+        for (Key const& key : more) {
+            // Of several that have it, it is the same key (objection_to), but for the default of a former version.
+            auto const at = std::ranges::find(keys, key.name, &Key::name);
+            if (at == keys.end()) {
+                keys.push_back(&key);
+            } else {
+                *at = &key;
+            }
         }
-        keys.insert(keys.end(), std::begin(double_keys), std::end(double_keys));
-        return keys;
-    }();
-    return all;
+    };
+    for (Key const& key : input_keys) {
+        if (key.member == &Inputs::slider_length) {  // behind the last of mechanisms
+            for (MechanismInfo const& mechanism : mechanisms()) add(mechanism.own_keys);
+        }
+        keys.push_back(&key);
+        if (key.member != &Inputs::restitution) continue;  // the last of contacts
+        for (LawInfo const& law : laws()) add(law.keys);
+    }
+    for (Key const& key : double_keys) keys.push_back(&key);
+    return keys;
 }
-std::span<Key const> keys() { return numeric_keys().first(numeric_keys().size() - std::size(double_keys)); }
-std::span<Key const> twin_keys() { return numeric_keys().last(std::size(double_keys)); }
+
+std::span<Key const* const> every_known_key() {
+    static OfAllKnown<std::vector<Key const*>> all(&every_key);
+    return all();
+}
+
+}  // namespace
+
+KeyRange numeric_keys() { return KeyRange(every_known_key(), {}); }
+KeyRange keys() { return KeyRange(every_known_key().first(every_known_key().size() - std::size(double_keys)), {}); }
+KeyRange twin_keys() { return KeyRange(every_known_key().last(std::size(double_keys)), {}); }
+
+namespace {
+
+/// Whether a unit is "1", or made of units of SI without prefixes (but kg), as "N s/m" is: values are taken as they are.
+bool is_si(std::string_view unit) {
+    constexpr std::string_view known[] = {"m", "kg", "s", "rad", "N", "J", "W", "Pa", "Hz", "K", "A", "V"};
+    constexpr std::string_view between = " /.*^-0123456789";
+    bool any = unit == "1";
+    for (auto at = unit.find_first_not_of(between); at != unit.npos; at = unit.find_first_not_of(between, at)) {
+        auto const end = std::min(unit.find_first_of(between, at), unit.size());
+        if (std::ranges::find(known, unit.substr(at, end - at)) == std::end(known)) return false;
+        any = true, at = end;
+    }
+    return any;
+}
+
+/// Whether the law or mechanism of this name that is known has a key.
+bool has_key(ModuleKind kind, std::string_view name, std::string_view key) {
+    auto const in = [&](std::span<Key const> own) { return std::ranges::find(own, key, &Key::name) != own.end(); };
+    if (kind == ModuleKind::law) return std::ranges::any_of(laws(), [&](LawInfo const& law) { return law.name == name && in(law.keys); });
+    return std::ranges::any_of(mechanisms(), [&](MechanismInfo const& one) { return one.name == name && in(one.own_keys); });
+}
+
+}  // namespace
+
+std::string objection_to(ModuleKind kind, KernelModule const& module) {
+    bool const is_law = kind == ModuleKind::law;
+    std::string_view const name = is_law ? module.law->info->name : module.mechanism->info->name;
+    auto const names = is_law ? law_names() : mechanism_names();
+    auto const taken = std::ranges::find(names, name);
+    bool const of_the_tree = taken != names.end() && (is_law ? module_of(static_cast<Law>(taken - names.begin())) == nullptr
+                                                              : module_of(static_cast<Mechanism>(taken - names.begin())) == nullptr);
+    if (!is_module_name(name)) return fmt::format("its info has the name \"{}\"; use at most 60 small letters, digits and '_', a letter first", name);
+    if (!is_law && module.mechanism->info->on_cards) return "its info says on_cards, but modules have no kernels for cards; leave it out";
+    if (of_the_tree || name == rigid_contact.name) return fmt::format("slideway has a {} {} of its own; give it another name", name_of(kind), name);
+    constexpr double Inputs::*of_laws[] = {&Inputs::law_a, &Inputs::law_b, &Inputs::law_c, &Inputs::law_d};
+    constexpr double Inputs::*of_mechanisms[] = {&Inputs::mechanism_a, &Inputs::mechanism_b, &Inputs::mechanism_c, &Inputs::mechanism_d,
+                                                 &Inputs::mechanism_e, &Inputs::mechanism_f, &Inputs::mechanism_g, &Inputs::mechanism_h};
+    std::span<double Inputs::*const> const places = is_law ? std::span<double Inputs::*const>(of_laws) : of_mechanisms;
+    auto const own = is_law ? module.law->info->keys : module.mechanism->info->own_keys;
+    std::string_view const table = is_law ? "contact." : "mechanism.";
+    for (Key const& key : own) {
+        if (!key.name.starts_with(table) || !is_module_name(last_part_of(key.name)))
+            return fmt::format("its key \"{}\" is no \"{}\" with a name of small letters, digits and '_'", key.name, table);
+        if (key.group != (is_law ? KeyGroup::law : KeyGroup::mechanism) || std::ranges::find(places, key.member) == places.end() || key.twin != nullptr)
+            return fmt::format("its key {} is of another group, or on another input, than those of a {} of one's own", key.name, name_of(kind));
+        if (std::ranges::count(own, key.name, &Key::name) > 1 || std::ranges::count(own, key.member, &Key::member) > 1)
+            return fmt::format("its key {} stands twice, or another one is on the same input", key.name);
+        if (std::ranges::find(settings(), key.name, &Setting::name) != settings().end()) return fmt::format("scenes have a key {} already; give it another name", key.name);
+        if (std::isnan(key.preset) && (key.derivation.empty() || !is_law)) return fmt::format("its key {} has no default; give it a number", key.name);
+        if (!is_si(key.unit)) return fmt::format("its key {} has the unit \"{}\", which is none of SI without a prefix", key.name, key.unit);
+        Key const* const known = find_key(key.name);
+        if (known == nullptr) continue;
+        bool const same = known->member == key.member && known->unit == key.unit && known->rule == key.rule && known->group == key.group;
+        // Of one name the newest counts.
+        bool const of_others = known->preset != key.preset && !(std::isnan(known->preset) && std::isnan(key.preset)) && !has_key(kind, name, key.name);
+        if (!same || of_others)
+            return fmt::format("a key {} is known already with another unit, rule, default or input; give it another name (or, where it is an earlier version's, start anew)", key.name);
+    }
+    return {};
+}
 
 std::vector<std::string_view> numeric_key_names() {
     std::vector<std::string_view> names;
@@ -83,6 +167,7 @@ std::vector<std::string_view> numeric_key_names() {
 
 bool counts_for(Key const& key, Mechanism mechanism) {
     MechanismInfo const& of = info(mechanism);
+    if (key.group == KeyGroup::mechanism) return std::ranges::find(of.own_keys, key.name, &Key::name) != of.own_keys.end();
     bool const of_contacts = key.group == KeyGroup::law || has_group(contact_groups, key.group);
     return has_group(of.keys, key.group) || (of.spatial && of_contacts);
 }
@@ -100,8 +185,9 @@ bool counts_for(Key const& key, Parts const& parts) {
 }
 
 Key const* find_key(std::string_view dotted_name) {
-    auto const found = std::ranges::find(numeric_keys(), dotted_name, &Key::name);
-    return found == numeric_keys().end() ? nullptr : &*found;
+    auto const all = numeric_keys();
+    auto const found = std::ranges::find(all, dotted_name, &Key::name);
+    return found == all.end() ? nullptr : &*found;
 }
 
 std::string derivation_of(Key const& key, Parts const& parts, Inputs const& inputs) {
@@ -125,7 +211,7 @@ std::string derivations_of(Key const& key) {
 bool is_idle_source(Key const& key, Parts const& parts, Inputs const& inputs) {
     if (std::ranges::find(sources_of_masses, key.member) == std::end(sources_of_masses)) return false;
     return std::ranges::none_of(derived_inputs, [&](DerivedInput const& rule) {
-        auto const derived = std::ranges::find(keys(), rule.member, &Key::member);
+        auto const derived = std::ranges::find(input_keys, rule.member, &Key::member);
         return have_name(rule.words, last_part_of(key.name)) && counts_for(*derived, parts) && std::isnan(derived->get(inputs));
     });
 }
@@ -140,6 +226,11 @@ void require_part(Parts& parts, Key const& key) {
 Inputs with_presets(Inputs inputs, Law law) {
     for (Key const& key : info(law).keys) key.set(inputs, key.preset);
     return inputs;
+}
+
+Inputs with_presets(Inputs inputs, Parts const& parts) {
+    for (Key const& key : info(parts.mechanism).own_keys) key.set(inputs, key.preset);
+    return with_presets(inputs, parts.law);
 }
 
 std::string with_unit(double value, std::string_view unit) {
@@ -159,8 +250,9 @@ std::optional<Defect> find_defect(Inputs const& inputs, Parts const& parts) {
     Inputs const in = complete_inputs(inputs, info(parts.mechanism));
     for (Key const& key : keys()) {
         if (!counts_for(key, parts)) continue;
-        // A number of the law that it takes from others.
-        if (key.group == KeyGroup::law && std::isnan(key.preset) && std::isnan(key.get(in))) continue;
+        // A number of a law or mechanism that it takes from others.
+        bool const own = key.group == KeyGroup::law || key.group == KeyGroup::mechanism;
+        if (own && std::isnan(key.preset) && std::isnan(key.get(in))) continue;
         if (auto problem = broken_rule(key, key.get(in))) return Defect{&key, nullptr, key.get(in), *problem};
     }
     auto const clash = [&](std::string_view name, std::string_view other, std::string reason, std::string advice) {

@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,12 +20,18 @@ bool counts_for(Key const& key, Mechanism mechanism);
 /// The same with the scene's law.
 bool counts_for(Key const& key, Parts const& parts);
 
-/// One key per input, in the order of `Inputs`, and what the laws have of their own.
-std::span<Key const> keys();
+/// Keys as they stand where they are defined, which is for good.
+struct KeyBehind {
+    Key const& operator()(Key const* key) const { return *key; }
+};
+using KeyRange = std::ranges::transform_view<std::span<Key const* const>, KeyBehind>;
+
+/// One key per input, in the order of `Inputs`, and what laws and mechanisms have of their own, those of modules too.
+KeyRange keys();
 /// The keys that set two inputs at once: joint.clearance, contact.young_modulus.
-std::span<Key const> twin_keys();
+KeyRange twin_keys();
 /// These behind those.
-std::span<Key const> numeric_keys();
+KeyRange numeric_keys();
 std::vector<std::string_view> numeric_key_names();
 /// One of them; nullptr when there is none.
 Key const* find_key(std::string_view dotted_name);
@@ -46,8 +53,9 @@ inline constexpr std::string_view rates_of_damping[] = {"contact.eta", "contact.
 /// @param key that counts for the parts
 void require_part(Parts& parts, Key const& key);
 
-/// The inputs with what a law has of its own as it is when nobody gives it.
+/// The inputs with what a law, or a mechanism too, has of its own as it is when nobody gives it.
 Inputs with_presets(Inputs inputs, Law law);
+Inputs with_presets(Inputs inputs, Parts const& parts);
 
 /// Why a set of inputs cannot be used, in words ("joint.clearance_y is 0 m (the joint needs a gap); use a value > 0"),
 /// or nothing.  Checks every key's rule and those between keys of the mechanism (slip_speed > stick_speed …).

@@ -166,10 +166,11 @@ Scene read_scene(std::string const& path, Overrides const& overrides) {
 
 Scene parse_scene(std::string const& text, std::string const& name, Overrides const& overrides) {
     Node const root = read_document(text, name, overrides);
-    check_known(root);
-    check_schema(root);
     Scene scene;
     scene.path = name;
+    read_modules(root, scene);
+    check_known(root);
+    check_schema(root);
     scene.title = read_title(root);
     read_physics(root, scene);
     check_inputs(root, scene);

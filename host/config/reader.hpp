@@ -22,9 +22,11 @@ struct GivenKey {
 /// In the order in which they take effect: those of the file, then the options.
 std::vector<GivenKey> given_keys(Node const& root);
 
-/// Numeric keys, law, damping, friction and way pose; everything of Scene::inputs and Scene::parts but [study.vary].
+/// [modules], and which mechanism and law a scene names: modules that they are of are opened, and their keys are known from here on.
+void read_modules(Node const& root, Scene& scene);
+/// Numeric keys, damping, friction and way pose; everything of Scene::inputs and Scene::parts but [study.vary].
 void read_physics(Node const& root, Scene& scene);
-/// Refuses rigid contacts whose restitution nothing says.
+/// Refuses contacts that need a restitution where nothing says it.
 void check_restitution(Node const& root, Scene const& scene);
 /// Warns of keys from which masses would follow, where all of those are given.
 void warn_of_idle_sources(Node const& root, Scene& scene);

@@ -40,9 +40,12 @@ bool read_rigid(Node const& root, Mechanism mechanism) {
                   fmt::format("use another law, or mechanism.kind = {}", fmt::join(may, " or "))});
 }
 
+/// Whether contact.restitution has to say how much contacts take.
+bool needs_restitution(Parts const& parts) { return parts.rigid || (info(parts.mechanism).spatial && info(parts.law).needs_restitution); }
+
 /// Which mechanism, and that nothing is given that does not count for it.
 void read_mechanism(Node const& root, Parts& parts) {
-    read_given(root, "mechanism.kind", parts.mechanism);
+    if (Node const* const kind = root.find_path("mechanism.kind")) read_text_value(*kind);
     parts.rigid = read_rigid(root, parts.mechanism);
     for (auto const& [key, node] : given_keys(root)) {
         if (!counts_for(*key, parts.mechanism)) refuse_meaningless(node->where, node->name, parts.mechanism);
@@ -149,8 +152,8 @@ std::vector<GivenKey> given_keys(Node const& root) {
 void read_physics(Node const& root, Scene& scene) {
     read_mechanism(root, scene.parts);
     Node const* const law = root.find_path("contact.law");
-    if (!scene.parts.rigid) read_given(root, "contact.law", scene.parts.law);
-    scene.inputs = with_presets(scene.inputs, scene.parts.law);
+    if (law != nullptr) read_text_value(*law);
+    scene.inputs = with_presets(scene.inputs, scene.parts);
     auto const given = given_keys(root);
     bool restitution = false;
     for (auto const& [key, node] : given) {
@@ -170,7 +173,7 @@ void read_physics(Node const& root, Scene& scene) {
         Node const* const node = restitution ? root.find_path(name) : nullptr;
         if (node != nullptr) refuse(*node, {"contact.restitution replaces it", "remove one of the two"});
     }
-    if (restitution || scene.parts.rigid) {
+    if (restitution || needs_restitution(scene.parts)) {
         scene.parts.damping = Damping::restitution;
     } else if (scene.inputs.chi_line != 0 || scene.inputs.chi_surface != 0) {
         scene.parts.damping = Damping::rate;
@@ -184,8 +187,9 @@ void check_restitution(Node const& root, Scene const& scene) {
     constexpr std::string_view name = "contact.restitution";
     bool const varied = std::ranges::any_of(scene.variations, [&](Variation const& one) { return one.key->name == name; }) ||
                         (scene.chaos.parameter != nullptr && scene.chaos.parameter->name == name);
-    if (!scene.parts.rigid || varied || root.find_path(name) != nullptr) return;
-    refuse(*root.find_path("contact.law"), {"rigid contacts need contact.restitution", "give it, above 0 and at most 1"});
+    if (!needs_restitution(scene.parts) || varied || root.find_path(name) != nullptr) return;
+    std::string const what = scene.parts.rigid ? std::string("rigid contacts need") : fmt::format("{} needs", info(scene.parts.law).name);
+    refuse(*root.find_path("contact.law"), {what + " contact.restitution", "give it, above 0 and at most 1"});
 }
 
 void warn_of_idle_sources(Node const& root, Scene& scene) {

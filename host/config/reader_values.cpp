@@ -78,7 +78,7 @@ std::uint64_t read_count(Node const& node, Setting const& setting) {
     return read_count(node, setting.what, setting.least, setting.most);
 }
 
-std::size_t read_choice(Node const& node, Setting const& setting) { return read_choice(node, setting.what, setting.choices); }
+std::size_t read_choice(Node const& node, Setting const& setting) { return read_choice(node, setting.what, setting.all_choices()); }
 
 std::uint64_t read_count(Node const& node, std::string_view meaning, std::uint64_t low, std::uint64_t high) {
     Problem const problem{fmt::format("the {} must be an integer from {} to {}", meaning, low, high),

@@ -48,6 +48,9 @@ std::string physics_table(Scene const& scene, Inputs const& complete, std::strin
     return text.empty() ? text : fmt::format("\n[{}]\n{}", table, text);
 }
 
+/// Of a module the hash of its source: another one is another scene.
+std::string source_comment(OwnModule const* module) { return module == nullptr ? std::string() : fmt::format("  # source {}", module->source); }
+
 std::string quantities_text(Scene const& scene) {
     std::string text;
     auto const add = [&](std::string_view name) { text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name); };
@@ -227,7 +230,12 @@ std::string resolved_toml(Scene const& scene) {
     Inputs const complete = complete_inputs(scene.inputs, info(scene.parts.mechanism));
     std::string text = fmt::format("schema = 1\ntitle = {}\n", toml_string(scene.title));
     MechanismInfo const& mechanism = info(scene.parts.mechanism);
-    std::string kind = fmt::format("kind = \"{}\"\n", mechanism.name);
+    if (!scene.modules.empty()) {
+        std::string folders;
+        for (std::string const& folder : scene.modules) folders += fmt::format("{}{}", folders.empty() ? "" : ", ", toml_string(folder));
+        text += fmt::format("\n[modules]\nsearch = [{}]\n", folders);
+    }
+    std::string kind = fmt::format("kind = \"{}\"{}\n", mechanism.name, source_comment(module_of(scene.parts.mechanism)));
     if (mechanism.free_crank) {
         kind += fmt::format("crank = \"{}\"\n", scene.parts.free_crank ? "free" : "driven");
     }
@@ -236,7 +244,7 @@ std::string resolved_toml(Scene const& scene) {
     if (scene.parts.misaligned_way) text += physics_table(scene, complete, "way", "");
     text += physics_table(scene, complete, "contact",
                           mechanism.spatial || scene.parts.rigid
-                              ? fmt::format("law = \"{}\"\n", contact_info(scene.parts).name)
+                              ? fmt::format("law = \"{}\"{}\n", contact_info(scene.parts).name, scene.parts.rigid ? "" : source_comment(module_of(scene.parts.law)))
                               : std::string());
     text += physics_table(scene, complete, "friction", fmt::format("enabled = {}\n", scene.parts.friction));
     text += physics_table(scene, complete, "initial", "");

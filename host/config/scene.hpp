@@ -100,6 +100,7 @@ struct ChaosSettings {
 struct Scene {
     std::string path;  // as the user gave it
     std::string title;
+    std::vector<std::string> modules;  // folders of [modules] search, from the root
     Inputs inputs;  // as given; entries that follow others are NaN
     Parts parts;
     IntegratorSettings integrator;  // end_time and max_step resolved

@@ -47,6 +47,7 @@ struct Setting {
     Range range = {};                                                                      // of a number
     std::uint64_t least = 0, most = std::numeric_limits<std::int64_t>::max();              // of a count
     std::span<std::string_view const> choices = {};                                        // of a choice
+    std::span<std::string_view const> (*known)() = nullptr;                                // of one that modules add to, in the place of choices
     std::array<std::string_view, 4> rivals = {};                                           // say the same in other words: given later, one replaces them
     MethodSet methods = method_sets::all;                                                  // that read it
     bool of_faces = false;                                                                 // a mechanism whose corners are points does not
@@ -57,6 +58,7 @@ struct Setting {
 
     constexpr std::string_view table() const { return name.substr(0, name.find('.')); }
     constexpr std::string_view key() const { return name.substr(name.find('.') + 1); }
+    std::span<std::string_view const> all_choices() const { return known != nullptr ? known() : choices; }
     bool is_bound() const { return number != nullptr || count != nullptr || truth != nullptr; }
 };
 

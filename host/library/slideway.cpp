@@ -206,7 +206,7 @@ std::vector<std::string> Ensemble::state_names() const {
 Table Ensemble::probe(std::span<double const> states, std::span<double const> times) const {
     return told([&] {
         StateTable const table = state_table(state_->scene, states, times);
-        std::vector<ProbeResult> const results = slideway::probe(table, best_isa());
+        std::vector<ProbeResult> const results = slideway::probe(table, best_isa(state_->scene.parts));
         Table columns;
         for (ProbeResult const& result : results) {
             auto const row = result_columns(table.mechanism, result);
@@ -227,7 +227,7 @@ std::vector<std::string> Ensemble::warnings(bool of_starts) const {
     return told([&] {
         std::vector<std::string> warnings = state_->scene.warnings;
         if (!of_starts) return warnings;
-        if (auto wrong = impossible_starts(state_->scene, best_isa())) warnings.push_back(*std::move(wrong));
+        if (auto wrong = impossible_starts(state_->scene, best_isa(state_->scene.parts))) warnings.push_back(*std::move(wrong));
         return warnings;
     });
 }

@@ -151,7 +151,7 @@ private:
     std::shared_ptr<State const> state_;
 };
 
-/// "0.2.0"
+/// "0.3.0"
 SLIDEWAY_API std::string version();
 
 }  // namespace slideway

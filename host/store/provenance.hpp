@@ -35,6 +35,7 @@ struct Provenance {
     std::string mechanism;      // what it is, in words
     std::string law;            // the same of the contact law; empty of a mechanism that has no choice of them
     bool law_switches = false;  // LawInfo::switches
+    std::string modules;        // which of them are modules, their sources and compilers; empty of the tree's
     std::uint64_t seed = 0;
     Maker maker;
 };

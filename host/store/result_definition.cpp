@@ -31,6 +31,7 @@ void put_provenance(DataFile& file, Provenance const& provenance) {
     attribute("seed", fmt::format("{}", provenance.seed));  // CF-1.8 has no 64-bit integers
     attribute("created", creation_time());
     attribute("scene", provenance.scene);
+    if (!provenance.modules.empty()) attribute("modules", provenance.modules);
     // For readers that know no mechanism or law by its name.
     attribute("mechanism_meaning", provenance.mechanism);
     if (provenance.law.empty()) return;

@@ -95,7 +95,7 @@ std::string variable_name(std::string_view key);
 
 struct ResultLayout {
     MemberSet members;
-    Mechanism mechanism = Mechanism::slider_crank;  // whose states are stored
+    Mechanism mechanism{};  // whose states are stored
     std::vector<double> sample_times;               // empty: no time series
     Selection quantities = 0;
     Selection series = 0;

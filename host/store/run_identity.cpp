@@ -24,6 +24,7 @@ constexpr std::string_view checksum_mark = "# checksum: ", program_mark = "# pro
                            members_mark = "# members: ", table_mark = "# table: ";
 constexpr std::string_view fused = "fused", contracted = "contracted";
 constexpr char const* table_key = "study.table";
+constexpr char const* search_key = "modules.search";
 
 /// Where a text has a value.
 struct Place {
@@ -58,13 +59,29 @@ std::optional<Place> find(std::string const& scene, std::string const& key) {
     return found == places.end() ? std::nullopt : std::optional(found->second);
 }
 
+/// The scene but for where modules lie: of those the sources count.
+std::string without_search(std::string scene) {
+    constexpr std::string_view table = "\n[modules]\nsearch = ";  // as the resolved scene has it
+    auto const begin = scene.find(table);
+    if (begin != scene.npos) scene.erase(begin, scene.find('\n', begin + table.size()) + 1 - begin);
+    return scene;
+}
+
+/// "  # source 1f0a…" behind the name of a law or mechanism of a module; "" of the tree's.
+std::string source_behind(std::string const& scene, Place const& place) {
+    std::string const line = scene.substr(place.end, scene.find('\n', place.end) - place.end);
+    return line.starts_with("  # source ") ? line : std::string();
+}
+
 /// What is compared: of study.table not where it lies.
 std::map<std::string, std::string> values_of(std::string const& scene) {
     std::map<std::string, std::string> values;
     for (auto const& [key, place] : places_in(scene)) {
+        if (key == search_key) continue;
         std::string& value = values[key] = place.in(scene);
         std::erase(value, '\n');
         if (key == table_key) value = content_of_table(scene);
+        if (key == "contact.law" || key == "mechanism.kind") value += source_behind(scene, place);
     }
     return values;
 }
@@ -83,7 +100,7 @@ std::string RunIdentity::difference(RunIdentity const& earlier) const {
         return fmt::format("the arithmetic was {}, is {}", named_arithmetic(earlier.arithmetic),
                            named_arithmetic(arithmetic));
     }
-    if (scene != earlier.scene) {
+    if (without_search(scene) != without_search(earlier.scene)) {
         auto const before = values_of(earlier.scene), now = values_of(scene);
         constexpr std::size_t longest = 60;
         auto const shown = [](std::string_view value) {

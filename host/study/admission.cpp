@@ -109,7 +109,7 @@ std::optional<std::string> invalid_draws(Scene const& scene, Look const& look) {
 std::optional<std::string> impossible_starts(Scene const& scene, Isa isa) { return impossible_starts(scene, look_at(scene, isa)); }
 
 std::optional<std::string> admit(Scene const& scene, bool any_start) {
-    Look const look = look_at(scene, best_isa());
+    Look const look = look_at(scene, best_isa(scene.parts));
     auto const wrong = impossible_starts(scene, look);
     if (!wrong) return invalid_draws(scene, look);
     if (any_start) return wrong;

@@ -40,13 +40,14 @@ BackendChoice choose_backend(BackendRequest const& request, Scene const& scene, 
     MechanismInfo const& mechanism = info(scene.parts.mechanism);
     char const* const lack = !mechanism.on_cards   ? "the kernels for cards are of slider_crank alone"
                              : scene.parts.rigid ? "the kernels for cards have no rigid contacts"
+                             : module_of(scene.parts.law) != nullptr ? "the kernels for cards have no laws of modules"
                                                  : nullptr;
     if (request.kind == Kind::cuda) {
         if (lack == nullptr) return {cuda_backend(request.share), ""};
         throw SceneError(fmt::format("{}: {} is \"{}\" ({}); use --backend cpu", scene.path, mechanism.on_cards ? "contact.law" : "mechanism.kind",
                                      mechanism.on_cards ? contact_info(scene.parts).name : mechanism.name, lack));
     }
-    Isa const isa = request.isa.value_or(best_isa());
+    Isa const isa = request.isa.value_or(best_isa(scene.parts));
     auto const cpu = cpu_backend(isa);
     if (request.kind == Kind::cpu) return {cpu, ""};
     if (request.isa) return {cpu, "as --isa says"};

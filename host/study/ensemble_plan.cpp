@@ -95,6 +95,7 @@ Provenance provenance_of(Scene const& scene) {
     result.seed = scene.seed;
     result.mechanism = mechanism.meaning;
     if (mechanism.spatial || scene.parts.rigid) result.law = law.words, result.law_switches = law.switches;
+    result.modules = modules_text(scene.parts);
     return result;
 }
 

@@ -60,7 +60,7 @@ std::vector<EndContacts> end_contacts(Scene const& scene, std::vector<Inputs> in
         times[i] = time_of_start(info(mechanism), times[i]);
     }
     std::vector<EndContacts> contacts;
-    for (ProbeResult const& r : probe(best_isa(), scene.parts, inputs, times)) {
+    for (ProbeResult const& r : probe(best_isa(scene.parts), scene.parts, inputs, times)) {
         bool const known = r.status == Status::finished;
         contacts.push_back({known ? r.surfaces : nan, known ? r.lines : nan, known ? r.points : nan});
     }

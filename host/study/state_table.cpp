@@ -112,17 +112,19 @@ double number(std::size_t place, Column const& column, CsvReader& lines) {
                            fault->advice.empty() ? "give a number in SI units" : fault->advice));
 }
 
-Law law(std::string_view text, CsvReader const& lines) {
-    auto const known = law_names();
-    auto const found = std::ranges::find(known, text);
-    if (found != known.end()) return static_cast<Law>(found - known.begin());
-    lines.fail(fmt::format("column contact.law: '{}' is no law; use one of {}", text, fmt::join(known, ", ")));
+Law law(std::string_view text, Scene const& scene, CsvReader const& lines) {
+    try {
+        if (auto const found = find_law(text, scene.modules)) return *found;
+    } catch (DeviceError const& error) {
+        lines.fail(fmt::format("column contact.law: {}", error.what()));
+    }
+    lines.fail(fmt::format("column contact.law: '{}' is no law; use one of {}", text, fmt::join(law_names(), ", ")));
 }
 
 /// The scene is of another law: what that one has of its own is none of this one's, and its damping may be none.
 void choose_law(Parts& parts, Inputs& inputs) {
     inputs = with_presets(inputs, parts.law);
-    if (!info(parts.law).has(parts.damping)) parts.damping = Damping::point;
+    if (!info(parts.law).has(parts.damping)) parts.damping = info(parts.law).needs_restitution ? Damping::restitution : Damping::point;
 }
 
 /// A part with its parameter at zero does what the code without it does.
@@ -162,7 +164,7 @@ void add_row(StateTable& table, std::vector<Column> const& columns, Scene const&
     // The keys that count are those of the row's law, wherever its column stands.
     for (std::size_t i = 0; i < cells.size(); ++i) {
         if (columns[i].kind != Column::Kind::law) continue;
-        parts.law = law(cells[i], lines);
+        parts.law = law(cells[i], scene, lines);
         if (parts.law != scene.parts.law) choose_law(parts, inputs);
     }
     for (std::size_t i = 0; i < cells.size(); ++i) {

@@ -12,6 +12,7 @@ template <class Real> struct DampingParameters {
     Real chi_line;           // χ of line contacts [s/m]
     Real chi_surface;        // χ of surface contacts [s/m]
     Real restitution_slope;  // a(e), see restitution.hpp
+    Real restitution;        // e, for laws with a slope of their own
 };
 
 /// Force of a point contact [N] with its derivatives by δ [N/m] and δ' [N s/m].  A contact whose force is clamped at zero has none.

@@ -12,20 +12,24 @@ namespace slideway {
 struct LawInfo {
     std::string_view name;   // contact.law
     std::string_view words;  // one line: what it does
-    bool switches;           // between modes, where its potential jumps: it makes energy, and steps may end there
+    /// Between modes, where its potential jumps: it makes energy, and steps may end there.  Within a step its contacts then are held as they were at the
+    /// step's beginning: `touching` may be true of an apex whose depth is no more above zero.
+    bool switches;
     KeyGroups groups;        // of the keys of contacts, those that count for it
     bool of_touching_alone = false;  // forces are on the apices that touch, and depend on no depth of another
+    bool needs_restitution = false;  // contact.restitution must be given: it has no other damping
     std::span<Key const> keys = {};  // its own, on Inputs::law_a … law_d
     /// Stiffness of a face [N/m] of which all apices are in contact, for predictions.  @param surface that of its surface, E_s A/l; none: it is that
     double (*face_stiffness)(Inputs const&, double surface) = nullptr;
 
     /// Which kinds of damping it has: χ of surfaces, a coefficient of restitution; `point` stands for what it has without these, η of points, its own or none.
+    /// With `restitution` members remember the speed of each touch.
     constexpr bool has(Damping damping) const {
         switch (damping) {
             case Damping::point:
-                return true;
+                return !needs_restitution;
             case Damping::rate:
-                return has_group(groups, KeyGroup::surfaces);
+                return has_group(groups, KeyGroup::surfaces) && !needs_restitution;
             case Damping::restitution:
                 return has_group(groups, KeyGroup::restitution);
         }

@@ -13,7 +13,9 @@ template <class Real> struct LawTable {
 
     template <class Law> static constexpr LawTable of() {
         LawTable table;
-        table.with[static_cast<int>(Damping::point)] = LawFunctions<Real>::template of<Law, PointDamping>();
+        if constexpr (Law::info.has(Damping::point)) {
+            table.with[static_cast<int>(Damping::point)] = LawFunctions<Real>::template of<Law, PointDamping>();
+        }
         if constexpr (Law::info.has(Damping::rate)) {
             table.with[static_cast<int>(Damping::rate)] = LawFunctions<Real>::template of<Law, RateDamping>();
         }

@@ -44,7 +44,7 @@ template <class Law, class Damping> struct OneLaw {
 /// so sees what each call needs of the registers; behind a pointer it must save half of them (docs/performance.md).  All threads of a
 /// grid choose alike.
 template <class... Laws> struct AnyLaw {
-    Law law = Law::paper;
+    Law law{};
     Damping damping = Damping::point;
 
     // One place to call the laws from, and a result that every path sets: otherwise the assembler keeps it in memory.

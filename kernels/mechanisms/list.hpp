@@ -3,9 +3,21 @@
 // share their lanes.  CMake reads the rows too: a mechanism, and a base, is a unit of kernels per instruction set.
 #pragma once
 
+#include "kernels/inputs.hpp"
+
 #define SLIDEWAY_MECHANISMS(row)                 \
     row(slider_crank, SliderCrank, SliderBase)   \
     row(carriage, Carriage, SliderBase)          \
     row(scotch_yoke, ScotchYoke, SliderBase)     \
     row(free_slider, FreeSlider, FreeSliderBase) \
     row(planar_slider_crank, PlanarSliderCrank, PlanarBase)
+
+namespace slideway {
+
+enum class Mechanism : int {
+#define SLIDEWAY_NAME(name, Type, Base) name,
+    SLIDEWAY_MECHANISMS(SLIDEWAY_NAME)
+#undef SLIDEWAY_NAME
+};
+
+}  // namespace slideway

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <span>
 #include <string_view>
 
 #include "kernels/inputs.hpp"
@@ -34,6 +35,7 @@ struct MechanismInfo {
     bool free_crank = false;    // mechanism.crank = "free" is possible: no drive holds its speed then, or prescribes anything
     bool has_exponents = true;  // members may have neighbours beside them
     bool on_cards = false;      // there are kernels for cards
+    std::span<Key const> own_keys = {};  // of numbers of its own, on Inputs::mechanism_a … mechanism_h
 };
 
 namespace selections {

@@ -54,7 +54,7 @@ SLIDEWAY_FN PlanarParameters<double> planar_parameters(Inputs const& in) {
     p.half_height = 0.5 * in.slider_height;
     p.clearance = in.clearance_y;
     p.point = point_contact(in);
-    p.damping = {0, 0, restitution_slope(in.restitution)};
+    p.damping = {0, 0, restitution_slope(in.restitution), in.restitution};
     p.friction = friction_parameters(in);
     p.rate_scale = max(::fabs(in.crank_speed), 1.0);
     p.restitution = in.restitution;

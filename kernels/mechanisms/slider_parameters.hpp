@@ -108,7 +108,7 @@ SLIDEWAY_FN SliderParameters<double> slider_parameters(Inputs const& in) {
     double const series = 2 * e1 * e2 / (e1 + e2);                             // E_s
     auto& c = p.joint.contact;
     c.point = point_contact(in);
-    c.damping = {in.chi_line, in.chi_surface, restitution_slope(in.restitution)};
+    c.damping = {in.chi_line, in.chi_surface, restitution_slope(in.restitution), in.restitution};
     c.along = detail::line_contact(reduced, in.edge_radius, in.slider_length);
     c.across_y_face = detail::line_contact(reduced, in.edge_radius, in.way_depth);
     c.across_z_face = detail::line_contact(reduced, in.edge_radius, in.way_width);

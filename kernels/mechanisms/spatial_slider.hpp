@@ -23,13 +23,15 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
     using Guide = Guide_;
     using typename Guide_::Base;
+    /// SliderParameters, or what the guide's base adds to them.
+    template <class Real> using Numbers = typename Guide_::Base::template Parameters<Real>;
 
     /// Time derivative of the state.
     /// @param t time [s]; @param s the state, `size` values; @param rates their derivatives, NaN where a fault is set, and behind them the
     /// δ' [m/s] of the pair whose depth the memory has from a clock, if it has.
     /// @param report filled if Full; the derivative has the same bits without.
     template <bool Full, class Real, class Laws>
-    SLIDEWAY_NOINLINE static Faults<Real> derivative(Real t, Real const* s, SliderParameters<Real> const& p,
+    SLIDEWAY_NOINLINE static Faults<Real> derivative(Real t, Real const* s, Numbers<Real> const& p,
                                                      ContactMemory<Real> const& memory, Conditions<Laws> const& block,
                                                      Real* rates, SliderReport<Real>* report) {
         auto faults = Faults<Real>::none();
@@ -55,7 +57,7 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
 
     /// Linearises it about one state; the same arguments as the derivative.  NaN where that has a fault.
     template <class Real, class Laws>
-    SLIDEWAY_NOINLINE static void linearise(Real t, Real const* s, SliderParameters<Real> const& p,
+    SLIDEWAY_NOINLINE static void linearise(Real t, Real const* s, Numbers<Real> const& p,
                                             ContactMemory<Real> const& memory, Conditions<Laws> const& block,
                                             SliderLinearisation<Real>& out) {
         typename Guide::template Constraint<Real> const guide(t, s, p);
@@ -86,7 +88,7 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
 
     /// Which apices touch, as a number: members of one pattern have the same work to do.
     template <class Real>
-    SLIDEWAY_NOINLINE static Real contact_pattern(Real t, Real const* s, SliderParameters<Real> const& p, bool misaligned) {
+    SLIDEWAY_NOINLINE static Real contact_pattern(Real t, Real const* s, Numbers<Real> const& p, bool misaligned) {
         return slideway::contact_pattern(pose(t, s, p, misaligned), p.joint.geometry);
     }
 
@@ -94,7 +96,7 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
     /// none does.
     template <class Real>
     SLIDEWAY_NOINLINE static Real approach_speed(Real t, Real const* s, Real step, Real const* end,
-                                                 SliderParameters<Real> const& p, bool misaligned) {
+                                                 Numbers<Real> const& p, bool misaligned) {
         Real const way =
             longest_approach(pose(t, s, p, misaligned), pose(t + step, end, p, misaligned), p.joint.geometry);
         return way / (step * max(p.length_scale_y, p.length_scale_z) * p.rate_scale);
@@ -102,7 +104,7 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
 
     /// Gap of an apex to the face on its side: its penetration negated [m].
     template <class Real, class Laws>
-    SLIDEWAY_NOINLINE static Real gap(Real t, Real const* s, SliderParameters<Real> const& p,
+    SLIDEWAY_NOINLINE static Real gap(Real t, Real const* s, Numbers<Real> const& p,
                                       Conditions<Laws> const& block, Apex apex) {
         return negated(penetration(pose(t, s, p, block.misaligned_way), p.joint.geometry, apex));
     }
@@ -110,7 +112,7 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
 private:
     /// Where the slider is in its joint; without its motion.
     template <class Real>
-    SLIDEWAY_FN static JointMotion<Real> pose(Real t, Real const* s, SliderParameters<Real> const& p, bool misaligned) {
+    SLIDEWAY_FN static JointMotion<Real> pose(Real t, Real const* s, Numbers<Real> const& p, bool misaligned) {
         Real const zero(0.0);
         Vec3<Real> const still{zero, zero, zero};
         return joint_motion(misaligned, axes(attitude(s[4], s[5], s[6])), Vec3<Real>{Guide::along(t, s, p), s[0], s[1]},

@@ -3,7 +3,6 @@
 
 #include "kernels/laws/law_info.hpp"
 #include "kernels/mechanisms/mechanism_info.hpp"
-#include "kernels/rigid/list.hpp"
 
 namespace slideway {
 
@@ -23,14 +22,5 @@ inline constexpr Selection without_rigid_contact =
 inline constexpr Selection series_without_time_stepping =
     selections::of({Series::normal_force, Series::crank_torque, Series::surfaces, Series::lines, Series::points, Series::ax, Series::ay, Series::az,
                     Series::acceleration_top, Series::acceleration_front});
-
-/// Whether a mechanism has kernels for them.
-constexpr bool may_be_rigid(Mechanism mechanism) {
-    bool answer = false;
-#define SLIDEWAY_NAME(name, ...) answer = answer || mechanism == Mechanism::name;
-    SLIDEWAY_RIGID(SLIDEWAY_NAME)
-#undef SLIDEWAY_NAME
-    return answer;
-}
 
 }  // namespace slideway

@@ -19,6 +19,7 @@ from .example import example
 from .exponent_signs import exponent_signs
 from .keys import Key, Keys, keys
 from .members import finished, statuses
+from .modules import Module, compile  # noqa: A004 (as the program's command)
 from .parts import merge, run_part
 from .resolution import Resolution, resolution
 from .results import groups, open  # noqa: A004 (slideway.open is the name that users expect)
@@ -36,6 +37,7 @@ __all__ = [
     "FileError",
     "Key",
     "Keys",
+    "Module",
     "Resolution",
     "ResultAccessor",
     "RunError",
@@ -45,6 +47,7 @@ __all__ = [
     "StoppedEarly",
     "TooManyFailures",
     "__version__",
+    "compile",
     "control_variate",
     "example",
     "exponent_signs",

@@ -38,7 +38,10 @@ class RunError(SlidewayError):
     Attributes:
         code: its exit code; negative: the signal that ended it.
         line: the last line that it wrote to stderr, which says why.
+        stderr: all that a command wrote there which is soon done: of :func:`slideway.compile` the compiler's words.
     """
+
+    stderr: str = ""
 
     def __init__(self, code: int, line: str) -> None:
         super().__init__(line)

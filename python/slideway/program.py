@@ -68,7 +68,9 @@ def call(program: StrPath | None, arguments: Sequence[str], good: Sequence[int] 
     found = find_program(program)
     done = _started(subprocess.run, [found, *arguments], capture_output=True, text=True, encoding="utf-8", check=False)
     if done.returncode not in good:
-        raise error_of(done.returncode, _last_line(done.stderr.splitlines()), "", found)
+        error = error_of(done.returncode, _last_line(done.stderr.splitlines()), "", found)
+        error.stderr = done.stderr
+        raise error
     return str(done.stdout)
 
 

@@ -73,12 +73,13 @@ def shell(program: str, tmp_path: Path) -> Path:
     short.write_text(SHORT.format(python=sys.executable, program=str(Path(program).resolve())), encoding="utf-8")
     short.chmod(0o755)
     (tmp_path / "scenes").symlink_to(root / "scenes")
+    (tmp_path / "hunt_crossley.hpp").symlink_to(root / "tests/extending/hunt_crossley.hpp")
     return tmp_path
 
 
 def run(line: str, folder: Path) -> subprocess.CompletedProcess[str]:
     path = f"{folder / 'bin'}{os.pathsep}{os.environ['PATH']}"
-    return subprocess.run(["bash", "-c", f"set -o pipefail; {line}"], cwd=folder, env={**os.environ, "PATH": path, "SLIDEWAY_PYTHON": sys.executable},
+    return subprocess.run(["bash", "-c", f"set -o pipefail; {line}"], cwd=folder, env={**os.environ, "PATH": path, "SLIDEWAY_PYTHON": sys.executable, "XDG_CACHE_HOME": str(folder / "cache")},
                           capture_output=True, text=True, check=False)  # fmt: skip
 
 

@@ -9,6 +9,7 @@
 #include <valgrind/callgrind.h>
 
 #include "bench/spread.hpp"
+#include "kernels/laws/list.hpp"
 #include "tests/support/ensemble.hpp"
 
 namespace slideway {

@@ -1,4 +1,5 @@
 // A card leaves what the processor leaves, bit for bit.
+#include "kernels/laws/list.hpp"
 #include "tests/cuda/card.hpp"
 
 namespace slideway::card_bits_test {

@@ -4,6 +4,7 @@
 #include <thread>
 #include <vector>
 
+#include "kernels/laws/list.hpp"
 #include "tests/cuda/card.hpp"
 
 namespace slideway::card_blocks_test {

@@ -1,4 +1,5 @@
 // A card whose kernels contract a·b + c: close to the processor before trajectories part, and of its distributions after.
+#include "kernels/laws/list.hpp"
 #include "tests/cuda/card.hpp"
 #include "tests/cuda/closeness.hpp"
 

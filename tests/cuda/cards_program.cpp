@@ -12,6 +12,7 @@
 
 #include "host/backend/backend.hpp"
 #include "host/backend/block_image.hpp"
+#include "kernels/laws/list.hpp"
 #include "tests/support/varied_blocks.hpp"
 
 namespace slideway {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "kernels/laws/list.hpp"
 #include "tests/support/varied_blocks.hpp"
 
 namespace slideway::testing {

@@ -1,4 +1,5 @@
 // The comparisons of tests/cuda/closeness.hpp, on runs of the processor and on known distributions.
+#include "kernels/laws/list.hpp"
 #include "tests/cuda/closeness.hpp"
 
 namespace slideway::closeness_test {

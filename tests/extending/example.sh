@@ -1,25 +1,28 @@
 #!/usr/bin/env bash
-# example.sh CXX ROOT WORK NAME: what docs/extending.md shows of an example is the file here; built outside the tree by the commands of
+# example.sh CXX ROOT WORK PROGRAM NAME: what docs/extending.md shows of an example is the file here; built outside the tree by the commands of
 # the page, it prints what the page says.
 set -euo pipefail
-cxx=$1 root=$2 work=$3/$4 name=$4
+cxx=$1 root=$2 work=$3/$5 program=$4 name=$5
 page=$root/docs/extending.md
 
 # The fenced block of the page that is named "<language> <name>".
 block() { awk -v fence='```'"$1" '/^```/ { on = !on && $0 == fence; next } on' "$page"; }
 
 rm -rf "$work"
-mkdir -p "$work"
+mkdir -p "$work/bin"
 cd "$work"
-for file in "cpp $name.cpp" "diff $name.patch"; do
+for file in "cpp $name.cpp" "cpp $name.hpp" "diff $name.patch"; do
     path=$root/tests/extending/${file#* }
     [ -e "$path" ] || continue
     diff -u "$path" <(block "$file") || { echo "docs/extending.md shows another ${file#* } than tests/extending has"; exit 1; }
     cp "$path" .
 done
+cp -n "$root"/tests/extending/*.hpp .
+for scene in $(sed -n 's/^```toml \(.*\.toml\)$/\1/p' "$page"); do block "toml $scene" > "$scene"; done
 block "sh $name" > commands
 [ -s commands ] || { echo "docs/extending.md says no commands for $name"; exit 1; }
 g++() { "$cxx" "$@"; }
-export SLIDEWAY=$root
+slideway() { "$program" "$@"; }
+export SLIDEWAY=$root XDG_CACHE_HOME=$work/cache
 . ./commands | tee printed
 diff -u <(block "text $name") printed || { echo "docs/extending.md shows other output"; exit 1; }

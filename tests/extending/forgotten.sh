@@ -9,7 +9,8 @@ cd "$work"
 for folder in laws mechanisms rigid; do cp "$root/kernels/$folder/list.hpp" "tree/kernels/$folder"; done
 cp "$root/cmake/kernel_lists.cmake" tree/cmake
 # The last row has no backslash behind it.
-if [ "$row" ]; then sed -i "\$s/\$/ \\\\\\n    row($row)/" "tree/kernels/$list/list.hpp"; fi
+last=$(grep -n '^ *row(' "tree/kernels/$list/list.hpp" | tail -1 | cut -d: -f1)
+if [ "$row" ]; then sed -i "${last}s/\$/ \\\\\\n    row($row)/" "tree/kernels/$list/list.hpp"; fi
 if [[ $header == traps/* ]]; then
     cp "$root/tests/extending/$header.hpp" "tree/kernels/$list/${row%%,*}.hpp"
 elif [ "$header" ]; then

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "host/backend/backend.hpp"
+#include "host/backend/own_modules.hpp"
 #include "kernels/members/start.hpp"
 
 namespace slideway {
@@ -14,7 +15,7 @@ namespace {
 
 constexpr std::array isas = {Isa::scalar, Isa::avx512};
 
-void probe_states(ProbeTable const& table, Parts const&) {
+void probe_states(ProbeTable const& table, Parts const&, LawKernels const*) {
     for (std::size_t row = 0; row < table.rows; ++row) {
         ProbeResult result{};
         result.energy = table.times[row];
@@ -26,14 +27,14 @@ void probe_states(ProbeTable const& table, Parts const&) {
     }
 }
 
-void end_members(Block& block, Parts const&) {
+void end_members(Block& block, Parts const&, LawKernels const*) {
     for (std::size_t member = 0; member < block.members; ++member) {
         block.records[member].status = Status::finished;
         block.records[member].time = block.settings.end_time;
     }
 }
 
-constexpr MechanismKernels kernels = {[](Parts const&) { return true; }, &end_members, &end_members, &probe_states};
+constexpr MechanismKernels kernels = {nullptr, &end_members, &end_members, &probe_states};
 
 class EndingBackend final : public Backend {
 public:
@@ -63,7 +64,13 @@ std::span<Isa const> all_isas() { return isas; }
 std::span<Isa const> built_isas() { return std::span(isas).first(1); }
 Isa compiled_isa(Isa isa) { return isa; }
 std::string flags_of(Isa) { return {}; }
-KernelInstance find_instance(Isa, Parts const& parts, bool) { return {&kernels, parts}; }
+KernelInstance find_instance(Isa, Parts const& parts, bool) { return {&kernels, nullptr, parts}; }
+
+std::optional<std::size_t> find_own_module(ModuleKind, std::string_view, std::span<std::string const>, std::string (*)(ModuleKind, KernelModule const&)) { return std::nullopt; }
+std::size_t own_module_count(ModuleKind) { return 0; }
+OwnModule const& own_module(ModuleKind, std::size_t) { throw DeviceError("there are no modules"); }
+std::vector<std::string> own_module_names(ModuleKind, std::span<std::string const>) { return {}; }
+bool is_module_name(std::string_view) { return false; }
 
 std::shared_ptr<Backend const> cpu_backend(Isa isa) {
     if (!is_built(isa)) throw DeviceError("this program has no kernels for " + std::string(name_of(isa)));

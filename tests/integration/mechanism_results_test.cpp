@@ -9,6 +9,7 @@
 
 #include "host/run/ensemble.hpp"
 #include "host/store/result_view.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "tests/support/output_fixture.hpp"
 
 namespace slideway::mechanism_results_test {

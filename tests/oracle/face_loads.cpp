@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/laws/list.hpp"
 #include "laws.hpp"
 
 namespace oracle::detail {

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "kernels/laws/list.hpp"
 #include "names.hpp"
 
 namespace golden {

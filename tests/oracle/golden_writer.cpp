@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "golden_table.hpp"
+#include "kernels/laws/list.hpp"
 #include "names.hpp"
 #include "random_inputs.hpp"
 

@@ -6,6 +6,7 @@
 
 #include "linear_solve.hpp"
 #include "poses.hpp"
+#include "kernels/mechanisms/list.hpp"
 
 namespace oracle::detail {
 

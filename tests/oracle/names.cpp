@@ -2,6 +2,9 @@
 
 #include <stdexcept>
 
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
+
 namespace oracle {
 namespace {
 

@@ -11,6 +11,7 @@
 #include "mechanism.hpp"
 #include "pairs.hpp"
 #include "poses.hpp"
+#include "kernels/mechanisms/list.hpp"
 
 namespace oracle {
 namespace {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "kernels/mechanisms/list.hpp"
 #include "oracle.hpp"
 #include "planar.hpp"
 #include "random_inputs.hpp"

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "oracle.hpp"
+#include "kernels/laws/list.hpp"
 
 namespace oracle::detail {
 

@@ -8,6 +8,7 @@
 
 #include "linear_solve.hpp"
 #include "random_inputs.hpp"
+#include "kernels/mechanisms/list.hpp"
 
 namespace oracle {
 namespace {

@@ -3,6 +3,7 @@
 // are the same with every standard library.
 #pragma once
 
+#include "kernels/mechanisms/list.hpp"
 #include "oracle.hpp"
 
 #include <cstdint>

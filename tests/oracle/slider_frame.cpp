@@ -5,6 +5,7 @@
 #include "mechanism.hpp"
 #include "pairs.hpp"
 #include "poses.hpp"
+#include "kernels/mechanisms/list.hpp"
 
 namespace oracle::detail {
 

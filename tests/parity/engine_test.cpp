@@ -6,6 +6,8 @@
 #include <cstring>
 #include <ostream>
 
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "tests/support/ensemble.hpp"
 #include "tests/support/varied_blocks.hpp"
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/config/keys.hpp"
+#include "kernels/laws/list.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"
 #include "kernels/models/every_law.hpp"
 #include "kernels/models/mechanism_model.hpp"

@@ -1,18 +1,18 @@
 // Compiled once per instruction set.
 #include "tests/parity/linearisation_table.hpp"
 
-#include "host/backend/cpu_laws.hpp"
-#include "kernels/isa_real.hpp"
 #include "kernels/conditions.hpp"
+#include "kernels/isa_real.hpp"
 #include "kernels/lane_copy.hpp"
+#include "kernels/laws/law_table.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-void linearise_table(Parts const& parts, LinearisationRow const* rows, std::size_t count, double* result) {
+void linearise_table(Parts const& parts, LawKernels const& kernels, LinearisationRow const* rows, std::size_t count, double* result) {
     using Real = IsaReal;
     constexpr int width = lanes<Real>;
-    auto const& law = law_table(parts.law);  // as it ships
+    auto const& law = *static_cast<LawTable<Real> const*>(kernels.table);  // as it ships
     Conditions<LawFunctions<Real>> const block(law.with[static_cast<int>(parts.damping)], law.switches, parts);
     SliderParameters<Real> p;
     ContactMemory<Real> memory;

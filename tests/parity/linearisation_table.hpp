@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "kernels/inputs.hpp"
+#include "host/backend/kernel_tables.hpp"
 
 namespace slideway {
 
@@ -17,7 +17,7 @@ struct LinearisationRow {
 inline constexpr int linearisation_values = 25 + 25 + 1 + 1 + 10 + 1;
 
 /// result[row · linearisation_values + i]; rows is a multiple of 8.  Each instruction set's namespace has one,
-/// `linearise_table`, for parts of any law.
-using TableLineariser = void(Parts const& parts, LinearisationRow const* rows, std::size_t count, double* result);
+/// `linearise_table`, for parts and their law.
+using TableLineariser = void(Parts const& parts, LawKernels const& law, LinearisationRow const* rows, std::size_t count, double* result);
 
 }  // namespace slideway

@@ -45,7 +45,7 @@ std::vector<Parts> laws() {
 
 std::vector<double> linearised(Isa isa, Parts const& parts, std::vector<LinearisationRow> const& table) {
     std::vector<double> result(table.size() * linearisation_values);
-    linearise_table_by_isa(isa)(parts, table.data(), table.size(), result.data());
+    linearise_table_by_isa(isa)(parts, *find_instance(isa, parts).law, table.data(), table.size(), result.data());
     return result;
 }
 

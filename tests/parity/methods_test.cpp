@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "kernels/laws/list.hpp"
 #include "tests/models/models.hpp"
 #include "tests/support/ensemble.hpp"
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/backend/backend.hpp"
+#include "kernels/laws/list.hpp"
 #include "tests/oracle/golden_table.hpp"
 #include "tests/support/ensemble.hpp"
 #include "tests/support/starting_in.hpp"

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "kernels/mechanisms/list.hpp"
 #include "tests/oracle/planar_runs.hpp"
 #include "tests/support/rigid_joint.hpp"
 

@@ -3,6 +3,7 @@
 // one probes a table.
 #include "all_kernels.hpp"
 #include "kernels/all_mechanisms.hpp"
+#include "kernels/mechanisms/list.hpp"
 
 namespace slideway {
 

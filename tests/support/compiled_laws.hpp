@@ -4,6 +4,7 @@
 #include "kernels/all_laws.hpp"
 #include "kernels/conditions.hpp"
 #include "kernels/laws/law_table.hpp"
+#include "kernels/laws/list.hpp"
 
 namespace slideway::testing {
 inline namespace SLIDEWAY_ISA {

@@ -9,6 +9,7 @@
 #include "host/backend/backend.hpp"
 #include "host/config/keys.hpp"
 #include "kernels/block.hpp"
+#include "kernels/laws/list.hpp"
 #include "kernels/members/complete_inputs.hpp"
 
 namespace slideway::testing {

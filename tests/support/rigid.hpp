@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "kernels/mechanisms/list.hpp"
 #include "tests/support/ensemble.hpp"
 
 namespace slideway::testing {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "kernels/mechanisms/list.hpp"
 #include "tests/support/rigid.hpp"
 
 namespace slideway::testing {

@@ -116,7 +116,7 @@ TEST_F(Damage, ANewerFormatIsRefusedByAllReaders) {
     make_result();
     int const next = 3;
     edit("s.nc", [&](int file) { return nc_put_att_int(file, NC_GLOBAL, "format_version", NC_INT, 1, &next); });
-    for (auto const& command : readers("s.nc")) expect_refusal(4, "s.nc: is of format 3, and slideway 0.2.0 reads formats 1 to 2; ", command);
+    for (auto const& command : readers("s.nc")) expect_refusal(4, "s.nc: is of format 3, and slideway 0.3.0 reads formats 1 to 2; ", command);
 }
 
 // The numbers are those that the file holds, as netCDF alone reads them.

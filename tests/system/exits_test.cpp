@@ -91,7 +91,8 @@ protected:
 
     /// What merge says of the folder fits what it made.
     void expect_honest_merge() const {
-        if (shards().count() == 0) return;
+        // Whose result is in place have been renamed to go.
+        if (shards().count() == 0 || fs::exists(path("w/o.nc.shards/finished.toml"))) return;
         Outcome const merged = run({"merge", "w/o.nc.shards", "-o", "merged.nc", "--force"});
         bool const complete = shards().count() == all_members;
         EXPECT_EQ(merged.code, complete ? 0 : 5) << merged.err;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "host/backend/backend.hpp"
+#include "host/backend/kernel_sources.hpp"
 #include "tests/system/results.hpp"
 
 namespace slideway::testing::kernel_modules_test {
@@ -85,15 +86,15 @@ TEST_F(KernelModules, LieBesideTheProgramWhereItIsInstalledOrWhereOneSays) {
 
 TEST_F(KernelModules, OfOtherSourcesDamagedOrForeignAreRefused) {
     std::string const whole = bytes(own());
-    auto const at = whole.find(", GNU") != whole.npos ? whole.find(", GNU") : whole.find(", Clang");
+    auto const at = whole.find(SLIDEWAY_KERNEL_SOURCES);
     ASSERT_NE(at, whole.npos);
     std::string other = whole;
-    other[at - 1] = other[at - 1] == '0' ? '1' : '0';  // the last digit of its hash
+    other[at] = other[at] == '0' ? '1' : '0';
     fs::create_directories(path("tree/bin/kernels"));
     Dl_info mathematics{};
     ASSERT_NE(dladdr(reinterpret_cast<void const*>(&lgamma_r), &mathematics), 0);
     fs::path const file = path("tree/bin/kernels") / own().filename();
-    for (auto const& [text, part] : {std::pair{other, "is of other sources"}, std::pair{whole.substr(0, whole.size() / 2), "cannot be opened"},
+    for (auto const& [text, part] : {std::pair{other, "is of another version of slideway's kernels"}, std::pair{whole.substr(0, whole.size() / 2), "cannot be opened"},
                                      std::pair{std::string(), "cannot be opened"}, std::pair{std::string("no module\n"), "cannot be opened"},
                                      std::pair{bytes(tested_program), "cannot be opened"}, std::pair{bytes(mathematics.dli_fname), "is no module"}}) {
         std::ofstream(file, std::ios::binary | std::ios::trunc) << text;

@@ -1,6 +1,7 @@
 // Sections as a user asks for them: at a crank angle, and where a state or a gap crosses a level.
 #include <algorithm>
 
+#include "kernels/laws/list.hpp"
 #include "tests/system/orbits.hpp"
 
 #include "tests/oracle/oracle.hpp"

@@ -9,6 +9,8 @@
 
 #include "host/chaos/power_spectrum.hpp"
 #include "host/config/scene.hpp"
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "kernels/members/complete_inputs.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/support/ensemble.hpp"

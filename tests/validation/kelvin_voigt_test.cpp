@@ -5,6 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "kernels/members/complete_inputs.hpp"
 #include "tests/support/ensemble.hpp"
 

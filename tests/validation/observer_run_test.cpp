@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "kernels/members/complete_inputs.hpp"
 #include "tests/support/ensemble.hpp"
 

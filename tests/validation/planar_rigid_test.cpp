@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "kernels/mechanisms/list.hpp"
 #include "tests/oracle/planar_runs.hpp"
 
 namespace planar_rigid_test {

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "tests/oracle/planar_runs.hpp"
 #include "tests/support/ensemble.hpp"
 

@@ -8,6 +8,7 @@
 
 #include "host/config/keys.hpp"
 #include "host/run/ensemble.hpp"
+#include "kernels/laws/list.hpp"
 #include "tests/support/ensemble.hpp"
 
 namespace slideway::poisoned_member_test {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "kernels/laws/list.hpp"
 #include "tests/support/ensemble.hpp"
 
 namespace slideway::refill_test {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "kernels/members/complete_inputs.hpp"
 #include "tests/support/ensemble.hpp"
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernels/mechanisms/list.hpp"
 #include "tests/support/rigid_joint.hpp"
 
 namespace slideway::rigid_found_test {

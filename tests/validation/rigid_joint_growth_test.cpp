@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "kernels/mechanisms/list.hpp"
 #include "tests/oracle/rigid_slider.hpp"
 #include "tests/support/rigid_growth.hpp"
 #include "tests/support/rigid_joint.hpp"

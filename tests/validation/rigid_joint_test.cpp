@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "kernels/mechanisms/list.hpp"
 #include "tests/support/rigid_joint.hpp"
 
 namespace slideway::rigid_joint_test {

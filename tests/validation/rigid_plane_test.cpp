@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "kernels/mechanisms/list.hpp"
 #include "tests/support/rigid_growth.hpp"
 #include "tests/support/rigid_joint.hpp"
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "kernels/mechanisms/list.hpp"
 #include "tests/oracle/rigid_slider.hpp"
 #include "tests/support/rigid_joint.hpp"
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "host/config/scene.hpp"
+#include "kernels/laws/list.hpp"
 #include "kernels/members/complete_inputs.hpp"
 #include "tests/support/ensemble.hpp"
 

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "kernels/laws/list.hpp"
 #include "kernels/members/complete_inputs.hpp"
 #include "tests/support/ensemble.hpp"
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "kernels/mechanisms/list.hpp"
 #include "tests/oracle/moreau_jean.hpp"
 #include "tests/oracle/planar_runs.hpp"
 #include "tests/support/rigid_joint.hpp"

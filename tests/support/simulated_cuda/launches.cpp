@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "kernels/grid_task.hpp"
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "tests/support/simulated_cuda/simulation.hpp"
 
 namespace slideway::simulated_cuda {

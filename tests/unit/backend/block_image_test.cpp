@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "kernels/laws/list.hpp"
 #include "tests/support/varied_blocks.hpp"
 
 namespace slideway::block_image_test {

@@ -10,6 +10,7 @@
 #include <numeric>
 #include <thread>
 
+#include "kernels/laws/list.hpp"
 #include "tests/support/grid_cranks/grid_cranks.hpp"
 #include "tests/support/varied_blocks.hpp"
 

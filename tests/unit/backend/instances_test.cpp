@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kernels/mechanisms/list.hpp"
 #include "kernels/rigid/rigid_info.hpp"
 #include "tests/support/varied_blocks.hpp"
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "kernels/mechanisms/list.hpp"
 #include "tests/support/scene_fixture.hpp"
 
 namespace slideway::drive_period_test {

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "kernels/members/complete_inputs.hpp"
 #include "tests/support/scene_fixture.hpp"
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "kernels/laws/list.hpp"
 #include "kernels/members/complete_inputs.hpp"
 #include "tests/support/scene_fixture.hpp"
 #include "tests/support/scene_tables.hpp"

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "tests/support/scene_fixture.hpp"
 
 namespace slideway::reader_test {

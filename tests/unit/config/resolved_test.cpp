@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kernels/mechanisms/list.hpp"
 #include "tests/support/scene_fixture.hpp"
 #include "tests/support/scene_tables.hpp"
 

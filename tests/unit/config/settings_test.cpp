@@ -19,7 +19,7 @@ TEST(SceneSettings, AreListedOnceAndSayWhatTheyAre) {
         EXPECT_FALSE(row.meaning.empty()) << row.name;
         EXPECT_NE(row.studies, 0u) << row.name;
         EXPECT_NE(row.methods, 0u) << row.name;
-        EXPECT_EQ(row.type == Type::choice, !row.choices.empty()) << row.name;
+        EXPECT_EQ(row.type == Type::choice, !row.all_choices().empty()) << row.name;
         EXPECT_LE(row.least, row.most) << row.name;
         EXPECT_EQ(row.number != nullptr, row.is_bound() && row.type == Type::number) << row.name;
         EXPECT_EQ(row.count != nullptr, row.is_bound() && row.type == Type::count) << row.name;

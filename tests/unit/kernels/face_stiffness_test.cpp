@@ -9,6 +9,7 @@
 
 #include "kernels/all_laws.hpp"
 #include "kernels/laws/friction.hpp"
+#include "kernels/laws/list.hpp"
 #include "kernels/mechanisms/slider_parameters.hpp"
 #include "tests/oracle/oracle.hpp"
 

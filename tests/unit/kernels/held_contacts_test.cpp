@@ -8,6 +8,8 @@
 #include <string>
 
 #include "kernels/joint/held_face.hpp"
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"
 #include "tests/oracle/names.hpp"
 #include "tests/oracle/oracle.hpp"

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <initializer_list>
 
+#include "kernels/mechanisms/list.hpp"
 #include "kernels/members/complete_inputs.hpp"
 #include "kernels/rigid/free_slider.hpp"
 #include "kernels/rigid/planar_slider_crank.hpp"

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "kernels/steppers/contact_clock.hpp"
 #include "tests/support/ensemble.hpp"
 

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <string>
 
+#include "kernels/mechanisms/list.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"
 #include "tests/oracle/golden_table.hpp"
 #include "tests/oracle/names.hpp"

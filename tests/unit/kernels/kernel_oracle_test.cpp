@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "host/backend/backend.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "tests/oracle/names.hpp"
 #include "tests/oracle/random_states.hpp"
 #include "tests/unit/kernels/oracle_comparison.hpp"

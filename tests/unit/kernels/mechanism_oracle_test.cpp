@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/backend/backend.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "tests/oracle/names.hpp"
 #include "tests/oracle/planar.hpp"
 #include "tests/oracle/random_states.hpp"

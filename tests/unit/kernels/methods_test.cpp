@@ -1,4 +1,5 @@
 // The methods by name, and which of them `auto` is.
+#include "kernels/laws/list.hpp"
 #include "kernels/methods.hpp"
 
 #include <gtest/gtest.h>

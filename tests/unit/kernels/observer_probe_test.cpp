@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/backend/backend.hpp"
+#include "kernels/laws/list.hpp"
 #include "tests/oracle/oracle.hpp"
 
 namespace slideway::observer_probe_test {

@@ -13,6 +13,8 @@
 
 #include "host/backend/backend.hpp"
 #include "kernels/block.hpp"
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "tests/oracle/names.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/random_states.hpp"

@@ -10,6 +10,7 @@
 
 #include "kernels/mechanisms/carriage.hpp"
 #include "kernels/mechanisms/free_slider.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "kernels/mechanisms/planar_slider_crank.hpp"
 #include "kernels/mechanisms/scotch_yoke.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"

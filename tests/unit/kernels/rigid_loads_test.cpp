@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "kernels/mechanisms/list.hpp"
 #include "kernels/members/complete_inputs.hpp"
 #include "kernels/rigid/free_slider.hpp"
 

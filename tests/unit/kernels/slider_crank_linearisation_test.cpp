@@ -9,6 +9,7 @@
 #include <random>
 #include <string>
 
+#include "kernels/laws/list.hpp"
 #include "kernels/mechanisms/slider_crank.hpp"
 #include "tests/oracle/linear_solve.hpp"
 #include "tests/oracle/random_states.hpp"

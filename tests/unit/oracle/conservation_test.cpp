@@ -10,6 +10,8 @@
 #include <tuple>
 #include <utility>
 
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "tests/oracle/names.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/pairs.hpp"

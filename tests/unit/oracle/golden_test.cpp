@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "kernels/laws/list.hpp"
 #include "tests/oracle/golden_table.hpp"
 #include "tests/oracle/oracle.hpp"
 

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "tests/oracle/names.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/random_states.hpp"

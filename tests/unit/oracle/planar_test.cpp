@@ -11,6 +11,7 @@
 #include <set>
 #include <vector>
 
+#include "kernels/mechanisms/list.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/planar.hpp"
 #include "tests/oracle/planar_runs.hpp"

@@ -10,6 +10,8 @@
 #include <tuple>
 #include <vector>
 
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "tests/oracle/names.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/random_states.hpp"
@@ -117,6 +119,10 @@ TEST(RandomStates, VaryEveryParameter) {
     for (double const* start : {&where.y, &where.z, &where.vy, &where.vz, &where.roll, &where.yaw, &where.pitch,
                                 &where.wx, &where.wy, &where.wz, &where.x, &where.vx})
         other.insert(place_of(*start));
+    // No mechanism of the tree has numbers of its own.
+    for (double const* own : {&where.mechanism_a, &where.mechanism_b, &where.mechanism_c, &where.mechanism_d, &where.mechanism_e, &where.mechanism_f,
+                              &where.mechanism_g, &where.mechanism_h})
+        other.insert(place_of(*own));
     auto const counts = values_of_inputs();
     for (std::size_t i = 0; i < counts.size(); ++i)
         EXPECT_TRUE(other.contains(i) || counts[i] > 50) << "number " << i << " of Inputs";

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/spatial_runs.hpp"
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "tests/oracle/names.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/random_states.hpp"

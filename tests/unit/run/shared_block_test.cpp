@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kernels/laws/list.hpp"
 #include "tests/support/varied_blocks.hpp"
 
 namespace slideway::shared_block_test {

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "host/config/descriptors.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "tests/support/scene_fixture.hpp"
 
 namespace slideway::orbit_schedule_test {

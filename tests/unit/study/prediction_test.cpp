@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "host/study/ensemble_plan.hpp"
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "kernels/members/complete_inputs.hpp"
 #include "kernels/members/stiffest_rate.hpp"
 #include "tests/support/scene_fixture.hpp"

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "host/study/probe.hpp"
+#include "kernels/laws/list.hpp"
+#include "kernels/mechanisms/list.hpp"
 #include "kernels/members/start.hpp"
 
 namespace slideway::state_table_test {

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "kernels/mechanisms/list.hpp"
 #include "tests/support/rigid_joint.hpp"
 
 namespace slideway::rigid_fuzz_test {

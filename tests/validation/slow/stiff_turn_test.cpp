@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "kernels/laws/list.hpp"
 #include "tests/support/ensemble.hpp"
 
 namespace slideway::stiff_turn_test {

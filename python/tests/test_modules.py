@@ -1,0 +1,85 @@
+"""slideway.compile(): a law of one's own, in scenes of the program and of Python's process."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import slideway
+
+SPRING = """
+#include "kernels/laws/kelvin_voigt.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+struct Spring : KelvinVoigt {
+    static constexpr Key keys[] = {
+        {"contact.spring", &Inputs::law_a, "N/m", Rule::positive, KeyGroup::law, "stiffness of an apex", 2e7}};
+    static constexpr LawInfo info{.name = "spring", .words = "a spring at each apex", .switches = false, .groups = KelvinVoigt::info.groups, .keys = keys};
+};
+}
+#define SLIDEWAY_LAW Spring
+"""
+
+SCENE = {
+    "schema": 1,
+    "contact": {"law": "spring"},
+    "study": {"members": 3, "duration": "5 ms", "samples": 5, "quantities": ["peak_normal_force"]},
+}
+
+
+@pytest.fixture
+def modules(tmp_path, monkeypatch):
+    monkeypatch.setenv("SLIDEWAY_MODULES", str(tmp_path))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    return tmp_path
+
+
+def peaks(**settings):
+    return slideway.Ensemble(SCENE, set=settings).run().peak_normal_force.values
+
+
+def test_a_law_is_compiled_changed_and_compared(modules, program):
+    (module,) = slideway.compile(SPRING, modules)
+    assert (module.kind, module.name, module.was_there) == ("law", "spring", False)
+    assert all(str(modules) in file for file in module.files)
+    soft = peaks()
+    by_program = slideway.run(SCENE, modules / "a.nc", program=program, progress=False)
+    np.testing.assert_array_equal(by_program.peak_normal_force, soft)
+    np.testing.assert_array_equal(slideway.Ensemble({**SCENE, "contact": {"law": "kelvin_voigt", "apex_stiffness": 2e7}}).run().peak_normal_force, soft)
+    assert slideway.compile(SPRING, modules)[0].was_there
+    # The former version stays what it was for who has a scene of it.
+    before = slideway.Ensemble(SCENE)
+    (changed,) = slideway.compile(SPRING.replace("2e7", "4e7"), modules)
+    assert changed.source != module.source
+    stiff = peaks()
+    assert (stiff > 1.2 * soft).all()
+    np.testing.assert_array_equal(before.run().peak_normal_force, soft)
+    np.testing.assert_array_equal(peaks(**{"contact.spring": 2e7}), soft)
+    assert module.source in before.resolved
+    assert changed.source in slideway.Ensemble(SCENE).resolved
+
+
+def test_a_key_that_became_another_one_is_refused_in_the_same_process(modules):
+    slideway.compile(SPRING.replace("spring", "spring_of_units"), modules)
+    scene = {**SCENE, "contact": {"law": "spring_of_units"}}
+    slideway.Ensemble(scene)
+    slideway.compile(SPRING.replace("spring", "spring_of_units").replace('"N/m"', '"1"'), modules)
+    with pytest.raises(slideway.SlidewayError, match="start anew"):
+        slideway.Ensemble(scene)
+
+
+def test_what_the_compiler_says_is_there(modules):
+    with pytest.raises(slideway.SceneError, match="does not compile it") as caught:
+        slideway.compile(SPRING.replace("2e7", "2e7 +"), modules)
+    assert "own.hpp:7" in caught.value.stderr
+    with pytest.raises(slideway.SceneError, match="offers nothing"):
+        slideway.compile("#pragma once\n", modules)
+    assert not list(modules.glob("*.so"))
+
+
+def test_the_package_brings_the_headers_that_it_compiles_with(modules):
+    packaged = Path(slideway.__file__).parent / "bin" / "slideway"
+    if not packaged.exists():
+        pytest.skip("the package is not installed from a wheel")
+    (module,) = slideway.compile(Path(__file__).resolve().parents[2] / "tests/extending/hunt_crossley.hpp", modules, program=packaged)
+    result = slideway.run({**SCENE, "contact": {"law": "hunt_crossley"}}, modules / "a.nc", program=packaged, progress=False)
+    assert module.source in result.attrs["scene"]

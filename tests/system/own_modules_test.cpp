@@ -1,0 +1,273 @@
+// Laws and mechanisms of one's own: compiled by the program, named in scenes, part of a run's identity; and what is refused.
+#include <dlfcn.h>
+
+#include <csignal>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "host/backend/backend.hpp"
+#include "host/backend/kernel_sources.hpp"
+#include "tests/system/results.hpp"
+
+namespace slideway::testing::own_modules_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A law of the tree under another name, with its keys.
+constexpr char const* twin = R"(
+    #include "kernels/laws/kelvin_voigt.hpp"
+    namespace slideway::inline SLIDEWAY_ISA {
+    struct Twin : KelvinVoigt {
+        static constexpr LawInfo info = [] {
+            auto info = KelvinVoigt::info;
+            info.name = "twin";
+            return info;
+        }();
+    };
+    }
+    #define SLIDEWAY_LAW Twin
+)";
+
+constexpr char const* scene = R"(
+schema = 1
+[modules]
+search = ["own"]
+[contact]
+law = "twin"
+apex_damping = 300
+[study]
+members = 24
+duration = "20 ms"
+samples = 3
+quantities = ["contact_onsets", "damping_loss"]
+verify = 0
+[study.vary]
+"contact.apex_stiffness" = { dist = "unif", low = 1e7, high = 3e7 }
+)";
+
+class OwnModules : public ProgramWithResults {
+protected:
+    OwnModules() {
+        setenv("XDG_CACHE_HOME", path("cache").c_str(), 1);
+        write("s.toml", scene);
+    }
+    ~OwnModules() override { unsetenv("XDG_CACHE_HOME"); }
+
+    static std::string best() { return std::string(name_of(best_isa())); }
+    std::string file(std::string const& isa) const { return fmt::format("own/slideway_law_twin_{}.so", isa); }
+
+    void compile(std::string const& text, std::string const& name = "twin.hpp", std::vector<std::string> options = {"-o", "own"}) const {
+        write(name, text);
+        options.insert(options.begin(), {"compile", name});
+        Outcome const outcome = run(options);
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        EXPECT_EQ(outcome.err, "");
+    }
+    /// Refused with one line behind what the compiler says.
+    Outcome refused(std::string const& text, std::string const& part) const {
+        write("bad.hpp", text);
+        Outcome outcome = run({"compile", "bad.hpp", "-o", "bad", "--isa", best()});
+        EXPECT_EQ(outcome.code, 2) << outcome.err;
+        EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+        EXPECT_EQ(outcome.out, "");
+        EXPECT_TRUE(!fs::exists(path("bad")) || fs::is_empty(path("bad"))) << "nothing is left";
+        return outcome;
+    }
+    Outcome run_scene(std::vector<std::string> options, std::string const& output = "s.nc") const {
+        options.insert(options.begin(), {"run", "s.toml", "--no-progress", "--quiet", "-o", output});
+        return run(options);
+    }
+    std::string text_of(std::string const& name) const {
+        std::ifstream in(path(name), std::ios::binary);
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
+};
+
+TEST_F(OwnModules, HaveTheBitsOfTheSameLawInTheTree) {
+    compile(twin);
+    for (Isa const isa : built_isas()) {
+        if (!is_supported(isa) || isa == Isa::scalar_libm) continue;
+        SCOPED_TRACE(name_of(isa));
+        std::vector<std::string> const on{"--force", "--isa", std::string(name_of(isa))};
+        ASSERT_EQ(run_scene(on, "own.nc").code, 0);
+        auto in_tree = on;
+        in_tree.insert(in_tree.end(), {"--set", "contact.law=kelvin_voigt"});
+        ASSERT_EQ(run_scene(in_tree, "tree.nc").code, 0);
+        EXPECT_EQ(hash_of("own.nc"), hash_of("tree.nc"));
+        EXPECT_GT(results("own.nc").values("damping_loss").front(), 0) << "its numbers have an effect";
+    }
+}
+
+TEST_F(OwnModules, ArePartOfARunsIdentityByTheirSource) {
+    compile(twin);
+    ASSERT_EQ(run_scene({}, "whole.nc").code, 0);
+    ASSERT_EQ(run_scene({"--shard", "1/2"}).code, 0);
+    // Not the same source, though it does the same.
+    compile(std::string(twin) + "// changed\n");
+    for (std::vector<std::string> const options : {std::vector<std::string>{"--shard", "2/2"}, {"--resume"}}) {
+        Outcome const other = run_scene(options);
+        EXPECT_EQ(other.code, 2) << other.err;
+        EXPECT_NE(other.err.find("contact.law was \"twin\"  # source "), std::string::npos) << other.err;
+    }
+    compile(twin);
+    // Where it lies does not matter, nor which way leads there.
+    fs::rename(path("own"), path("moved"));
+    setenv("SLIDEWAY_MODULES", path("moved").c_str(), 1);
+    ASSERT_EQ(run_scene({"--shard", "2/2", "--set", "modules.search=[]"}).code, 0);
+    unsetenv("SLIDEWAY_MODULES");
+    Outcome const lost = run({"merge", "s.nc.shards", "-o", "s.nc"});
+    EXPECT_EQ(lost.code, 2) << lost.err;
+    EXPECT_NE(lost.err.find("there is no such contact law"), std::string::npos) << lost.err;
+    setenv("SLIDEWAY_MODULES", path("moved").c_str(), 1);
+    EXPECT_EQ(run({"merge", "s.nc.shards", "-o", "s.nc"}).code, 0);
+    unsetenv("SLIDEWAY_MODULES");
+    EXPECT_EQ(hash_of("s.nc"), hash_of("whole.nc"));
+    // A result is told of and checked without them.
+    Outcome const told = run({"info", "s.nc"});
+    EXPECT_EQ(told.code, 0) << told.err;
+    EXPECT_EQ(run({"info", "s.nc", "--check"}).code, 0);
+    EXPECT_NE(told.out.find("law twin: source "), std::string::npos) << told.out;
+}
+
+TEST_F(OwnModules, IncludeFilesThatAreOfTheirSourceToo) {
+    write("part.hpp", "#pragma once\n");
+    std::string const text = "#include \"part.hpp\"\n" + std::string(twin);
+    auto const source = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"compile", "including.hpp"});
+        Outcome const outcome = run(options);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return outcome.out.substr(0, outcome.out.find('\n'));
+    };
+    write("including.hpp", text);
+    std::string const before = source({"-o", "own"});
+    EXPECT_EQ(source({"-o", "other", "--isa", best()}), before);
+    write("part.hpp", "#pragma once\n// changed\n");
+    EXPECT_NE(source({"-o", "own", "--isa", best()}), before);
+    // Of the former source nothing is left under its name.
+    for (Isa const isa : built_isas()) EXPECT_EQ(fs::exists(path(file(std::string(name_of(isa))))), isa == best_isa()) << name_of(isa);
+    write("part.hpp", "#pragma once\n#ifdef __AVX512F__\n#include <cmath>\n#include \"more.hpp\"\n#endif\n");
+    write("more.hpp", "#pragma once\n");
+    if (is_built(Isa::avx512) && is_supported(Isa::avx512) && is_built(Isa::scalar))
+        expect_refusal(2, "another source for", {"compile", "including.hpp", "-o", "own"});
+}
+
+TEST_F(OwnModules, ThatASignalEndsLeaveNothing) {
+    fs::create_directories(path("tmp"));
+    setenv("TMPDIR", path("tmp").c_str(), 1);
+    write("twin.hpp", twin);
+    pid_t const child = start({"compile", "twin.hpp", "-o", "own"});
+    EXPECT_TRUE(comes_true([&] { return !fs::is_empty(path("tmp")); }));
+    kill(child, SIGINT);
+    Outcome const ended = wait(child);
+    unsetenv("TMPDIR");
+    EXPECT_TRUE(ended.code == 0 || ended.code == 5) << ended.code << ended.err;
+    EXPECT_TRUE(fs::is_empty(path("tmp")));
+}
+
+/// As the keys of the tree's laws are.
+TEST_F(OwnModules, HaveKeysThatHaveNoEffectWithAnotherLaw) {
+    std::string text(twin);
+    for (std::string const part : {"auto info = KelvinVoigt::info;", "struct Twin : KelvinVoigt {"}) ASSERT_NE(text.find(part), text.npos);
+    text.replace(text.find("auto info = KelvinVoigt::info;"), 30, "auto info = KelvinVoigt::info; info.keys = own;");
+    text.insert(text.find("struct Twin : KelvinVoigt {") + 27, R"(static constexpr Key own[] = {{"contact.twin_stiffness", &Inputs::law_a, "N/m", Rule::positive, KeyGroup::law, "stiffness", 1e7}};)");
+    compile(text);
+    write("s.toml", "schema = 1\n[modules]\nsearch = [\"own\"]\n[contact]\nlaw = \"twin\"\ntwin_stiffness = 2e7\n[study]\nduration = \"5 ms\"\n");
+    EXPECT_EQ(run_scene({}).code, 0);
+    Outcome const other = run_scene({"--force", "--set", "contact.law=conservative"});
+    EXPECT_EQ(other.code, 0) << other.err;
+    EXPECT_NE(other.err.find("contact.twin_stiffness has no effect"), std::string::npos) << other.err;
+}
+
+TEST_F(OwnModules, OfOneFolderAreFoundByEveryScene) {
+    compile(twin, "twin.hpp", {});
+    ASSERT_EQ(run_scene({"--set", "modules.search=[]"}).code, 0);
+    Outcome const list = run({"list"});
+    EXPECT_NE(list.out.find(fmt::format("(module in {}", path("cache/slideway/modules").string())), std::string::npos) << list.out;
+    EXPECT_NE(run({"check", "s.toml", "--resolved"}).out.find("law = \"twin\"  # source "), std::string::npos);
+    EXPECT_EQ(run({"list", "--markdown"}).out.find("twin"), std::string::npos);
+    // Nothing is compiled twice.
+    EXPECT_NE(run({"compile", "twin.hpp"}).out.find("was there already"), std::string::npos);
+}
+
+TEST_F(OwnModules, ThatCannotBeUsedAreOneLine) {
+    compile(twin);
+    std::string const whole = text_of(file(best()));
+    std::string other = whole;
+    auto const at = whole.find(SLIDEWAY_KERNEL_BORDER);
+    ASSERT_NE(at, whole.npos);
+    other[at] = other[at] == '0' ? '1' : '0';
+    Dl_info mathematics{};
+    ASSERT_NE(dladdr(reinterpret_cast<void const*>(&lgamma_r), &mathematics), 0);
+    std::ifstream foreign(mathematics.dli_fname, std::ios::binary);
+    std::string const of_others{std::istreambuf_iterator<char>(foreign), {}};
+    for (auto const& [text, part] : {std::pair{other, "of another version of slideway's kernels"}, std::pair{whole.substr(0, whole.size() / 2), "cannot be opened"},
+                                     std::pair{of_others, "is no module of slideway"}, std::pair{std::string("no module\n"), "cannot be opened"}}) {
+        fs::remove_all(path("own"));
+        fs::create_directories(path("own"));
+        write(file(best()), text);
+        expect_refusal(2, part, {"run", "s.toml", "-o", "s.nc"});
+    }
+    // Of instructions that this program does not have.
+    fs::remove(path(file(best())));
+    write("own/slideway_law_twin_neon.so", whole);
+    if (!is_built(Isa::neon)) expect_refusal(2, "compiled for neon alone", {"run", "s.toml", "-o", "s.nc"});
+    fs::remove_all(path("own"));
+    expect_refusal(2, "there is no such contact law", {"run", "s.toml", "-o", "s.nc"});
+    expect_refusal(2, "there is no such contact law); did you mean \"paper\"?", {"run", "s.toml", "-o", "s.nc", "--set", "contact.law=papre"});
+    EXPECT_FALSE(fs::exists(path("s.nc")) || fs::exists(path("s.nc.shards")));
+}
+
+TEST_F(OwnModules, WithoutKernelsOfAnInstructionSetAreOneLine) {
+    if (built_isas().size() < 2) GTEST_SKIP() << "this build has one instruction set";
+    write("twin.hpp", twin);
+    ASSERT_EQ(run({"compile", "twin.hpp", "-o", "own", "--isa", best()}).code, 0);
+    for (Isa const isa : built_isas()) {
+        if (isa != best_isa() && is_supported(isa))
+            expect_refusal(4, fmt::format("slideway compile --isa {}", name_of(isa)), {"run", "s.toml", "-o", "s.nc", "--no-progress", "--quiet", "--isa", std::string(name_of(isa))});
+    }
+    // What there is is used.
+    fs::remove_all(path("own"));
+    ASSERT_EQ(run({"compile", "twin.hpp", "-o", "own", "--isa", "scalar"}).code, 0);
+    for (std::string const isa : {"auto", "scalar"}) EXPECT_EQ(run_scene({"--force", "--isa", isa}).code, 0) << isa;
+}
+
+TEST_F(OwnModules, AreRefusedWithTheCompilersWordsOrOneLine) {
+    std::string const text(twin);
+    auto const with = [&](std::string const& from, std::string const& to) {
+        auto const at = text.find(from);
+        EXPECT_NE(at, text.npos);
+        return text.substr(0, at) + to + text.substr(at + from.size());
+    };
+    EXPECT_EQ(std::ranges::count(refused("#pragma once\n", "offers nothing").err, '\n'), 1);
+    EXPECT_EQ(std::ranges::count(refused(with("\"twin\"", "\"paper\""), "slideway has a law paper of its own").err, '\n'), 1);
+    EXPECT_EQ(std::ranges::count(refused(with("\"twin\"", "\"Twin law\""), "small letters").err, '\n'), 1);
+    refused(with("KelvinVoigt::info", "Missing::info"), "bad.hpp:6:");  // the line at fault
+    refused("#include \"not_there.hpp\"\n", "not_there.hpp");
+    refused("struct Law {};\n#define SLIDEWAY_LAW Law\n", "static assertion failed: the law has no `static constexpr LawInfo info`");
+    refused("struct Mechanism {};\n#define SLIDEWAY_MECHANISM Mechanism\n", "static assertion failed: the mechanism has no `static constexpr MechanismInfo info`");
+    refused("#include \"kernels/mechanisms/mechanism_info.hpp\"\nstruct Nameless { static constexpr slideway::MechanismInfo info{}; };\n#define SLIDEWAY_MECHANISM Nameless\n", "static assertion failed: the mechanism's info says no name");
+    std::string const keyed = with("auto info = KelvinVoigt::info;", "auto info = KelvinVoigt::info; info.keys = own;");
+    auto const with_key = [&](std::string const& key) {
+        auto const at = keyed.find("struct Twin : KelvinVoigt {");
+        return keyed.substr(0, at) + "struct Twin : KelvinVoigt { static constexpr Key own[] = {{" + key + "}};" + keyed.substr(at + 27);
+    };
+    refused(with_key(R"("contact.k", &Inputs::law_a, "N/m", Rule::positive, KeyGroup::law, "stiffness", follows)"), "contact.k has no default");
+    refused(with_key(R"("contact.k", &Inputs::law_a, "furlong/m", Rule::positive, KeyGroup::law, "stiffness", 1)"), "is none of SI");
+    refused(with_key(R"("contact.eta", &Inputs::law_a, "1", Rule::positive, KeyGroup::law, "stiffness", 1)"), "known already");
+    refused(with_key(R"("contact.law", &Inputs::law_a, "1", Rule::positive, KeyGroup::law, "stiffness", 1)"), "scenes have a key contact.law already");
+    refused(with_key(R"("contact.apex_stiffness", &Inputs::law_a, "N/m", Rule::positive, KeyGroup::law, "stiffness", 5)"), "known already");
+    expect_refusal(2, "there is no such file", {"compile", "nowhere.hpp"});
+    setenv("CXX", "/no/compiler", 1);
+    write("twin.hpp", twin);
+    expect_refusal(4, "/no/compiler does not start", {"compile", "twin.hpp", "-o", "own"});
+    unsetenv("CXX");
+}
+
+}  // namespace
+}  // namespace slideway::testing::own_modules_test
