@@ -157,6 +157,60 @@ TEST_F(OwnModules, IncludeFilesThatAreOfTheirSourceToo) {
         expect_refusal(2, "another source for", {"compile", "including.hpp", "-o", "own"});
 }
 
+/// Crank angle and speed are states that a motor moves: its energy is balanced, its neighbours have exponents, its parts are merged.
+TEST_F(OwnModules, OfAMechanismWithStatesOfItsOwnAreStudiedAsAnyOther) {
+    ASSERT_EQ(run({"compile", SLIDEWAY_SOURCE "/tests/extending/motor_yoke.hpp", "-o", "own", "--isa", best()}).code, 0);
+    write("s.toml", R"(
+schema = 1
+[modules]
+search = ["own"]
+[mechanism]
+kind = "motor_yoke"
+crank_speed = "20 rad/s"
+[contact]
+law = "paper"
+[friction]
+[integrator]
+rtol = 1e-10
+[study]
+members = 16
+duration = "30 ms"
+samples = 4
+quantities = ["energy_residual", "crank_work", "friction_loss", "damping_loss", "energy_change", "contact_onsets"]
+verify = 0
+[study.vary]
+"mechanism.stall_torque" = { dist = "unif", low = 0.4, high = 0.6 }
+)");
+    // Where switches of the published law make no energy: springs.
+    std::vector<std::string> const springs{"--set", "contact.law=kelvin_voigt"};
+    ASSERT_EQ(run_scene(springs, "whole.nc").code, 0);
+    auto const file = results("whole.nc");
+    auto const residual = file.values("energy_residual"), work = file.values("crank_work"), torque = file.values("mechanism_stall_torque");
+    auto const speed = file.values("final_crank_angular_velocity");
+    for (std::size_t i = 0; i < residual.size(); ++i) {
+        EXPECT_LT(std::abs(residual[i]), 1e-9) << i;
+        EXPECT_GT(work[i], 0.1) << i;
+        EXPECT_GT(speed[i], 20 + 20 * (torque[i] - 0.3)) << "the motor turns it";
+    }
+    for (char const* const part : {"1/2", "2/2"}) {
+        auto options = springs;
+        options.insert(options.end(), {"--shard", part});
+        ASSERT_EQ(run_scene(options).code, 0);
+    }
+    ASSERT_EQ(run({"merge", "s.nc.shards", "-o", "s.nc"}).code, 0);
+    EXPECT_EQ(hash_of("s.nc"), hash_of("whole.nc"));
+    // The published law rattles: neighbours part, in y and z and in the angle of the crank.
+    std::string orbits = text_of("s.toml");
+    orbits.erase(orbits.find("samples = 4"), orbits.find("verify = 0") - orbits.find("samples = 4"));
+    write("orbits.toml", orbits);
+    Outcome const chaos = run({"run", "orbits.toml", "-o", "chaos.nc", "--no-progress", "--set", "study.kind=lyapunov", "study.Ttr=0.1 s", "study.duration=0.2 s",
+                               "study.dt=1 ms", "study.members=8", "integrator.rtol=1e-6"});
+    EXPECT_EQ(chaos.code, 0) << chaos.err;
+    EXPECT_NE(chaos.out.find("largest: 8 members above zero"), std::string::npos) << chaos.out;
+    Outcome const probed = run({"probe", "s.toml"});
+    EXPECT_EQ(probed.code, 0) << probed.err;
+}
+
 TEST_F(OwnModules, ThatASignalEndsLeaveNothing) {
     fs::create_directories(path("tmp"));
     setenv("TMPDIR", path("tmp").c_str(), 1);
