@@ -156,7 +156,20 @@ std::string keys_json(std::vector<KeyReference> const& keys) {
         one["meaning"] = key.meaning;
         list.push_back(std::move(one));
     }
-    return Json{{"schema_version", 1}, {"keys", std::move(list)}}.dump(2) + "\n";
+    // Which laws and mechanisms there are, and of modules where they come from.
+    auto const known = [](auto const& infos, auto const& words, auto module_at) {
+        Json all = Json::array();
+        for (std::size_t i = 0; i < infos.size(); ++i) {
+            Json one{{"name", infos[i].name}, {"meaning", words(infos[i])}};
+            if (OwnModule const* const own = module_at(i))
+                one["module"] = {{"folder", own->folder.string()}, {"source", own->source}, {"compiler", own->described->compiler}};
+            all.push_back(std::move(one));
+        }
+        return all;
+    };
+    Json of_laws = known(laws(), [](LawInfo const& one) { return one.words; }, [](std::size_t i) { return module_of(static_cast<Law>(i)); });
+    Json of_mechanisms = known(mechanisms(), [](MechanismInfo const& one) { return one.meaning; }, [](std::size_t i) { return module_of(static_cast<Mechanism>(i)); });
+    return Json{{"schema_version", 1}, {"keys", std::move(list)}, {"laws", std::move(of_laws)}, {"mechanisms", std::move(of_mechanisms)}}.dump(2) + "\n";
 }
 
 std::string scene_schema(std::vector<KeyReference> const& keys) {

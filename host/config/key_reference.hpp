@@ -43,7 +43,7 @@ std::string owners_text(KeyReference const& key);
 /// "clearance per side: > 0; default 0.0001 (law paper)"
 std::string described(KeyReference const& key);
 
-/// One object per key: name, type, unit, minimum or exclusive_minimum, maximum, choices, default, mechanisms, laws, studies, methods, meaning.
+/// What `slideway list --json` prints: laws and mechanisms by name, with folder, source and compiler of those of modules; one object per key: name, type, unit, minimum or exclusive_minimum, maximum, choices, default, mechanisms, laws, studies, methods, meaning.
 std::string keys_json(std::vector<KeyReference> const& keys = known_keys());
 /// JSON Schema (draft 7) of scenes, for editors of TOML.
 std::string scene_schema(std::vector<KeyReference> const& keys = known_keys());

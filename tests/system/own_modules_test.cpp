@@ -243,6 +243,7 @@ TEST_F(OwnModules, OfOneFolderAreFoundByEveryScene) {
     ASSERT_EQ(run_scene({"--set", "modules.search=[]"}).code, 0);
     Outcome const list = run({"list"});
     EXPECT_NE(list.out.find(fmt::format("(module in {}", path("cache/slideway/modules").string())), std::string::npos) << list.out;
+    EXPECT_NE(run({"list", "--json"}).out.find("\"name\": \"twin\""), std::string::npos);
     EXPECT_NE(run({"check", "s.toml", "--resolved"}).out.find("law = \"twin\"  # source "), std::string::npos);
     EXPECT_EQ(run({"list", "--markdown"}).out.find("twin"), std::string::npos);
     // Nothing is compiled twice.
