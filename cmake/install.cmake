@@ -30,18 +30,21 @@ set_target_properties(slideway_shared PROPERTIES EXPORT_NAME slideway)
 target_include_directories(slideway_shared INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_compile_features(slideway_shared INTERFACE cxx_std_20)
 
-install(TARGETS slideway_shared slideway_kernels EXPORT slideway-targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS slideway_shared EXPORT slideway-targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT slideway-targets NAMESPACE slideway:: DESTINATION ${package_dir})
-install(FILES host/library/slideway.hpp kernels/kernels.hpp kernels/dispatch.hpp DESTINATION ${headers_dir})
-install(DIRECTORY kernels DESTINATION ${headers_dir} FILES_MATCHING PATTERN "*.hpp")
-install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/kernels DESTINATION ${headers_dir} FILES_MATCHING PATTERN "*.hpp")
+install(FILES host/library/slideway.hpp DESTINATION ${headers_dir})
+# The kernels' headers need no build: cmake -S . -B build, cmake --install build --component headers.
+install(TARGETS slideway_kernels EXPORT slideway-headers-targets)
+install(EXPORT slideway-headers-targets NAMESPACE slideway:: DESTINATION ${package_dir} COMPONENT headers)
+install(FILES kernels/kernels.hpp kernels/dispatch.hpp DESTINATION ${headers_dir} COMPONENT headers)
+install(DIRECTORY kernels ${PROJECT_BINARY_DIR}/generated/kernels DESTINATION ${headers_dir} COMPONENT headers FILES_MATCHING PATTERN "*.hpp")
 # What slideway compile compiles a law or mechanism of one's own with.
 get_property(border GLOBAL PROPERTY SLIDEWAY_BORDER_SOURCES)
 install(FILES ${border} DESTINATION ${headers_dir}/host/backend)
 configure_package_config_file(cmake/slideway-config.cmake.in ${PROJECT_BINARY_DIR}/slideway-config.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/slideway-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/slideway-config.cmake ${PROJECT_BINARY_DIR}/slideway-config-version.cmake cmake/isa_choice.cmake
-    cmake/isa_flags.cmake cmake/kernel_units.cmake DESTINATION ${package_dir})
+    cmake/isa_flags.cmake cmake/kernel_units.cmake DESTINATION ${package_dir} COMPONENT headers)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "the slideway project")

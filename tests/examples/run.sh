@@ -11,6 +11,17 @@ else
     ln -s "$build" "$work/prefix"
 fi
 program=$work/prefix/bin/slideway
+if [[ -f $build/CMakeCache.txt ]]; then
+    # The headers alone, of a configuration of which nothing is built.
+    "$cmake" -S "$root" -B "$work/unbuilt" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSLIDEWAY_TESTS=OFF -DSLIDEWAY_BENCH=OFF >"$work/unbuilt.log"
+    "$cmake" --install "$work/unbuilt" --prefix "$work/headers" --component headers >>"$work/unbuilt.log"
+    mkdir "$work/alone"
+    printf 'cmake_minimum_required(VERSION 3.25)\nproject(alone LANGUAGES CXX)\nfind_package(slideway REQUIRED)\nadd_library(alone alone.cpp)\ntarget_link_libraries(alone PRIVATE slideway::kernels)\n' \
+        >"$work/alone/CMakeLists.txt"
+    printf '#define SLIDEWAY_NO_SIMD\n#include <slideway/kernels.hpp>\nint main_law() { return static_cast<int>(slideway::Law::foundation); }\n' >"$work/alone/alone.cpp"
+    "$cmake" -S "$work/alone" -B "$work/alone/build" -G Ninja -DCMAKE_PREFIX_PATH="$work/headers" >"$work/alone.log"
+    "$cmake" --build "$work/alone/build" >>"$work/alone.log" || { cat "$work/alone.log"; exit 1; }
+fi
 
 # What is built here runs for milliseconds: it is optimised as little as may be, whatever its targets ask for.
 printf '#!/bin/sh\nexec "$@" -O1\n' >"$work/compile"
