@@ -337,7 +337,7 @@ std::vector<CompiledModule> compile_modules(CompileRequest const& request) {
     std::vector<Task> tasks;
     for (ModuleKind const kind : {ModuleKind::law, ModuleKind::mechanism}) {
         if (!(kind == ModuleKind::law ? offer.law : offer.mechanism)) continue;
-        CompiledModule& one = all.emplace_back(kind, "", offer.source, std::vector<std::string>{}, true);
+        CompiledModule& one = all.emplace_back(CompiledModule{kind, "", offer.source, {}, true});
         for (Isa const isa : isas) {
             if (auto const name = present(folder, kind, isa, offer.source)) {
                 one.name = *name;

@@ -94,9 +94,9 @@ std::span<Key const* const> every_known_key() {
 
 }  // namespace
 
-KeyRange numeric_keys() { return KeyRange(every_known_key(), {}); }
-KeyRange keys() { return KeyRange(every_known_key().first(every_known_key().size() - std::size(double_keys)), {}); }
-KeyRange twin_keys() { return KeyRange(every_known_key().last(std::size(double_keys)), {}); }
+KeyRange numeric_keys() { return KeyRange(every_known_key()); }
+KeyRange keys() { return KeyRange(every_known_key().first(every_known_key().size() - std::size(double_keys))); }
+KeyRange twin_keys() { return KeyRange(every_known_key().last(std::size(double_keys))); }
 
 namespace {
 

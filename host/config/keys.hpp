@@ -2,9 +2,9 @@
 // scene and the variables of result files all go by it.
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <optional>
-#include <ranges>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,10 +21,36 @@ bool counts_for(Key const& key, Mechanism mechanism);
 bool counts_for(Key const& key, Parts const& parts);
 
 /// Keys as they stand where they are defined, which is for good.
-struct KeyBehind {
-    Key const& operator()(Key const* key) const { return *key; }
+class KeyRange {
+public:
+    class Iterator {
+    public:
+        using difference_type = std::ptrdiff_t;
+        using value_type = Key;
+        Iterator() = default;
+        explicit Iterator(Key const* const* at) : at_(at) {}
+        Key const& operator*() const { return **at_; }
+        Key const* operator->() const { return *at_; }
+        Iterator& operator++() {
+            ++at_;
+            return *this;
+        }
+        Iterator operator++(int) { return Iterator(at_++); }
+        friend bool operator==(Iterator, Iterator) = default;
+
+    private:
+        Key const* const* at_ = nullptr;
+    };
+
+    explicit KeyRange(std::span<Key const* const> keys) : keys_(keys) {}
+    Iterator begin() const { return Iterator(keys_.data()); }
+    Iterator end() const { return Iterator(keys_.data() + keys_.size()); }
+    std::size_t size() const { return keys_.size(); }
+    Key const& operator[](std::size_t i) const { return *keys_[i]; }
+
+private:
+    std::span<Key const* const> keys_;
 };
-using KeyRange = std::ranges::transform_view<std::span<Key const* const>, KeyBehind>;
 
 /// One key per input, in the order of `Inputs`, and what laws and mechanisms have of their own, those of modules too.
 KeyRange keys();
