@@ -61,7 +61,7 @@ def report(root: Path) -> bytes:
     browser = shutil.which("chromium") or shutil.which("google-chrome")
     if browser is None:
         raise slideway.SlidewayError("no chromium to show the page; install it (Debian: chromium)")
-    result = run(root, "scenes/tolerance_0.1mm.toml", "conservative", study__base=128, study__verify=16)
+    result = run(root, "scenes/tolerance_0.1mm.toml", "conservative", study__base=128, study__verify=64)
     with tempfile.TemporaryDirectory() as folder:
         page, shot = Path(folder) / "page.html", Path(folder) / "page.png"
         slideway.report.write(result, page)
