@@ -60,6 +60,7 @@ bool processor_has(Isa isa) { return is_built(isa); }
 bool is_built(Isa isa) { return isa == Isa::scalar; }
 bool is_supported(Isa isa) { return is_built(isa); }
 Isa best_isa() { return Isa::scalar; }
+Isa best_isa(Parts const&) { return Isa::scalar; }
 std::span<Isa const> all_isas() { return isas; }
 std::span<Isa const> built_isas() { return std::span(isas).first(1); }
 Isa compiled_isa(Isa isa) { return isa; }
