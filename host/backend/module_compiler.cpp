@@ -255,14 +255,14 @@ Task task_of(Toolchain const& tools, ModuleKind kind, Isa isa, Offer const& offe
     return task;
 }
 
-/// All units of all tasks, so many at once, then their modules.
+/// The tables of all tasks, so many at once, then their other units, which take longer and are not begun where a table is refused, then their modules.
 void compile_all(Toolchain const& tools, std::vector<Task> const& tasks, int threads, std::string const& header, fs::path const& work) {
-    std::vector<Words const*> units, links;
+    std::vector<Words const*> tables, lanes, links;
     for (Task const& task : tasks) {
-        for (Words const& unit : task.units) units.push_back(&unit);
+        for (Words const& unit : task.units) (&unit == &task.units.front() ? tables : lanes).push_back(&unit);
         links.push_back(&task.link);
     }
-    for (auto const* const commands : {&units, &links}) {
+    for (auto const* const commands : {&tables, &lanes, &links}) {
         std::atomic<std::size_t> next = 0;
         std::vector<std::exception_ptr> failures(commands->size());
         auto const work_off = [&] {
