@@ -11,6 +11,7 @@
 #include <iterator>
 #include <istream>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <system_error>
 #include <thread>
@@ -65,6 +66,7 @@ private:
 struct Toolchain {
     std::vector<fs::path> includes;
     Words compiler;
+    Words options;  // that CXX gives it
 };
 
 /// Where headers of the system and of compilers lie, which are no part of a source.
@@ -86,6 +88,7 @@ std::string cached(fs::path const& build, std::string_view variable) {
 Toolchain toolchain(fs::path const& work) {
     Toolchain tools;
     if (char const* const named = std::getenv("CXX"); named != nullptr) tools.compiler = words_of(named);
+    if (!tools.compiler.empty()) tools.options.assign(tools.compiler.begin() + 1, tools.compiler.end());
     if (fs::path const build = build_folder(); !build.empty()) {
         try {
             // Sources may have changed since.  ninja wants its folder for itself.
@@ -179,10 +182,7 @@ std::string hash_of(Toolchain const& tools, std::vector<fs::path> const& parts) 
         });
         if (!of_border && !is_of_system(whole.string())) hash.add(text_of(whole)), hash.add(std::uint64_t{0});
     }
-    if (char const* const named = std::getenv("CXX"); named != nullptr) {
-        Words const words = words_of(named);
-        for (std::size_t i = 1; i < words.size(); ++i) hash.add(words[i]), hash.add(std::uint64_t{0});
-    }
+    for (std::string const& option : tools.options) hash.add(option), hash.add(std::uint64_t{0});
     return fmt::format("{:016x}", hash.value());
 }
 
@@ -206,7 +206,7 @@ Offer offer_of(Toolchain const& tools, Isa isa, std::string const& header, fs::p
 /// As all of them see it.
 Offer offer_of(Toolchain const& tools, std::vector<Isa> const& isas, std::string const& header, fs::path const& file, fs::path const& work) {
     Offer const offer = offer_of(tools, isas.front(), header, file, work);
-    for (Isa const isa : isas) {
+    for (Isa const isa : std::span(isas).subspan(1)) {
         if (offer_of(tools, isa, header, file, work) != offer)
             throw SceneError(fmt::format("{}: it is another source for {} than for {}; let it include the same files for all instruction sets", header, name_of(isa), name_of(isas.front())));
     }
@@ -327,8 +327,7 @@ std::vector<CompiledModule> compile_modules(CompileRequest const& request) {
     if (file.string().find_first_of("\"\\\n") != std::string::npos) throw SceneError(fmt::format("{}: a path with quotes or a backslash cannot be compiled", request.header));
     fs::path const folder = request.folder.empty() ? user_module_folder() : fs::absolute(request.folder, none);
     if (folder.empty()) throw SceneError("neither HOME nor XDG_CACHE_HOME says where modules go; give a folder with -o");
-    std::vector<Isa> isas = request.isas;
-    if (isas.empty()) std::ranges::copy_if(built_isas(), std::back_inserter(isas), processor_has);
+    std::vector<Isa> const isas = request.isas.empty() ? isas_here() : request.isas;
     WorkFolder const work;
     Toolchain const tools = toolchain(work.path());
     Offer const offer = offer_of(tools, isas, request.header, file, work.path());
@@ -359,7 +358,7 @@ std::vector<CompiledModule> compile_modules(CompileRequest const& request) {
         KernelModule const* const module = open_own_module(task.made, why);
         if (module == nullptr) throw DeviceError(why);
         if (std::string const objection = request.objection(task.kind, *module); !objection.empty()) throw SceneError(fmt::format("{}: {}", request.header, objection));
-        names.emplace_back(task.kind == ModuleKind::law ? module->law->info->name : module->mechanism->info->name);
+        names.emplace_back(name_of(task.kind, *module));
     }
     fs::create_directories(folder, none);
     for (std::size_t i = 0; i < tasks.size(); ++i) {

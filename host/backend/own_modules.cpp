@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <deque>
 #include <map>
 #include <mutex>
@@ -24,6 +25,7 @@ namespace fs = std::filesystem;
 struct Opened {
     std::mutex access;
     std::array<std::deque<OwnModule>, 2> modules;
+    std::array<std::atomic<std::size_t>, 2> counts;  // of them, for who does not wait
     std::map<std::pair<OwnModule const*, Isa>, KernelModule const*> kernels;
 };
 Opened& opened() {
@@ -33,13 +35,8 @@ Opened& opened() {
 
 std::deque<OwnModule>& of_kind(ModuleKind kind) { return opened().modules[static_cast<std::size_t>(kind)]; }
 
-std::string_view name_in(ModuleKind kind, KernelModule const& module) {
-    if (kind == ModuleKind::law) return module.law != nullptr ? module.law->info->name : std::string_view();
-    bool const has_name = module.mechanism != nullptr && module.mechanism->info != nullptr && module.mechanism->info->name != nullptr;
-    return has_name ? module.mechanism->info->name : std::string_view();
-}
+}  // namespace
 
-/// The instruction sets that this program has kernels of and this machine runs, the widest first.
 std::vector<Isa> isas_here() {
     std::vector<Isa> isas;
     for (Isa const isa : built_isas()) {
@@ -49,13 +46,15 @@ std::vector<Isa> isas_here() {
     return isas;
 }
 
+namespace {
+
 constexpr char const* compile_again = "compile it again with slideway compile";
 
 KernelModule const& open_own(ModuleKind kind, std::string_view name, fs::path const& path) {
     std::string why;
     KernelModule const* const module = open_own_module(path, why);
     if (module == nullptr) throw DeviceError(fmt::format("{} {}: {}; {}", name_of(kind), name, why, compile_again));
-    if (name_in(kind, *module) != name) throw DeviceError(fmt::format("{} {}: {} is a module of something else; {}", name_of(kind), name, path.string(), compile_again));
+    if (name_of(kind, *module) != name) throw DeviceError(fmt::format("{} {}: {} is a module of something else; {}", name_of(kind), name, path.string(), compile_again));
     return *module;
 }
 
@@ -104,7 +103,7 @@ std::optional<std::size_t> find_own_module(ModuleKind kind, std::string_view nam
             std::error_code none;
             known.push_back({std::string(name), fs::absolute(folder, none), module.source, &module});
             opened().kernels[{&known.back(), isa}] = &module;
-            return known.size() - 1;
+            return opened().counts[static_cast<std::size_t>(kind)]++;
         }
         if (auto const isas = isas_in(folder, kind, name); !isas.empty()) {
             throw DeviceError(fmt::format("{} {}: in {} it is compiled for {} alone, which this program or this machine does not have; {}", name_of(kind), name,
@@ -115,8 +114,7 @@ std::optional<std::size_t> find_own_module(ModuleKind kind, std::string_view nam
 }
 
 std::size_t own_module_count(ModuleKind kind) {
-    std::lock_guard const lock(opened().access);
-    return of_kind(kind).size();
+    return opened().counts[static_cast<std::size_t>(kind)];
 }
 
 OwnModule const& own_module(ModuleKind kind, std::size_t place) {

@@ -17,6 +17,16 @@ namespace slideway {
 enum class ModuleKind { law, mechanism };
 constexpr std::string_view name_of(ModuleKind kind) { return kind == ModuleKind::law ? "law" : "mechanism"; }
 
+/// What a module calls its law or mechanism; "" of one that has none.
+inline std::string_view name_of(ModuleKind kind, KernelModule const& module) {
+    if (kind == ModuleKind::law) return module.law != nullptr ? module.law->info->name : std::string_view();
+    bool const has_name = module.mechanism != nullptr && module.mechanism->info != nullptr && module.mechanism->info->name != nullptr;
+    return has_name ? module.mechanism->info->name : std::string_view();
+}
+
+/// The instruction sets that this program has kernels of and this machine runs, the widest first.
+std::vector<Isa> isas_here();
+
 /// One that is open, for good.
 struct OwnModule {
     std::string name;

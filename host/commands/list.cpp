@@ -35,23 +35,6 @@ std::string module_text(OwnModule const* module) {
     return module == nullptr ? std::string() : fmt::format(" (module in {}, source {}, {})", module->folder.string(), module->source, module->described->compiler);
 }
 
-/// Opens what the folders of modules have; what cannot be used is told, and left.
-void open_modules() {
-    for (ModuleKind const kind : {ModuleKind::law, ModuleKind::mechanism}) {
-        for (std::string const& name : own_module_names(kind, {})) {
-            try {
-                if (kind == ModuleKind::law) {
-                    find_law(name);
-                } else {
-                    find_mechanism(name);
-                }
-            } catch (DeviceError const& error) {
-                tell("slideway: {}\n", error.what());
-            }
-        }
-    }
-}
-
 /// Their states, and what else comes with every time series.
 void print_mechanisms() {
     print_out("mechanisms (mechanism.kind), with the numbers of their state\n");
@@ -149,7 +132,9 @@ std::string state_of(Isa isa) {
 
 int execute(ListArguments const& arguments) {
     // The page is of what everybody has.
-    if (!arguments.markdown) open_modules();
+    if (!arguments.markdown) {
+        for (ModuleKind const kind : {ModuleKind::law, ModuleKind::mechanism}) open_modules(kind, {}, [](std::string const& why) { tell("slideway: {}\n", why); });
+    }
     if (arguments.keys && !arguments.json) {
         print_keys();
         return exit_code::done;

@@ -74,7 +74,7 @@ template <class Info, std::size_t tree> OwnModule const* module_behind(Info cons
 
 }  // namespace
 
-int known_count() { return static_cast<int>(own_module_count(ModuleKind::law) + own_module_count(ModuleKind::mechanism)); }
+std::size_t known_count() { return own_module_count(ModuleKind::law) + own_module_count(ModuleKind::mechanism); }
 
 std::span<MechanismInfo const> mechanisms() {
     static OfAllKnown<std::vector<MechanismInfo>> all([] { return with_modules(mechanism_infos, ModuleKind::mechanism, &mechanism_info); });
@@ -101,6 +101,20 @@ std::optional<Mechanism> find_mechanism(std::string_view name, std::span<std::st
 OwnModule const* module_of(Law law) { return module_behind(law_infos, ModuleKind::law, static_cast<int>(law)); }
 OwnModule const* module_of(Mechanism mechanism) { return module_behind(mechanism_infos, ModuleKind::mechanism, static_cast<int>(mechanism)); }
 
+void open_modules(ModuleKind kind, std::span<std::string const> search, std::function<void(std::string const& why)> const& refused) {
+    for (std::string const& name : own_module_names(kind, search)) {
+        try {
+            if (kind == ModuleKind::law) {
+                find_law(name, search);
+            } else {
+                find_mechanism(name, search);
+            }
+        } catch (DeviceError const& error) {
+            refused(error.what());
+        }
+    }
+}
+
 std::string modules_text(Parts const& parts) {
     std::string text;
     auto const add = [&](char const* kind, OwnModule const* own) {
@@ -111,15 +125,8 @@ std::string modules_text(Parts const& parts) {
     return text;
 }
 
-// Of a module's own memory, which stays.
-MechanismInfo const& info(Mechanism mechanism) {
-    OwnModule const* const own = module_of(mechanism);
-    return own == nullptr ? mechanism_infos[static_cast<int>(mechanism)] : mechanism_info(*own->described);
-}
-LawInfo const& info(Law law) {
-    OwnModule const* const own = module_of(law);
-    return own == nullptr ? law_infos[static_cast<int>(law)] : law_info(*own->described);
-}
+MechanismInfo const& info(Mechanism mechanism) { return mechanisms()[static_cast<std::size_t>(mechanism)]; }
+LawInfo const& info(Law law) { return laws()[static_cast<std::size_t>(law)]; }
 LawInfo const& contact_info(Parts const& parts) { return parts.rigid ? rigid_contact : info(parts.law); }
 
 std::span<std::string_view const> contact_law_names() {

@@ -2,7 +2,10 @@
 // modules have brought (host/backend/own_modules.hpp).
 #pragma once
 
-#include <map>
+#include <atomic>
+#include <cstddef>
+#include <deque>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -18,23 +21,30 @@
 namespace slideway {
 
 /// How many laws and mechanisms are known; more when a scene names another one of a module.
-int known_count();
+std::size_t known_count();
 
 /// What is made of all that is known.  It is made again when more is; the earlier ones stay, for who still has them.
 template <class Made> class OfAllKnown {
 public:
     explicit OfAllKnown(Made (*make)()) : make_(make) {}
     Made const& operator()() {
+        std::size_t const known = known_count();
+        // Members are looked at by many threads, which wait for nobody.
+        if (Entry const* const newest = newest_.load(std::memory_order_acquire); newest != nullptr && newest->known >= known) return newest->made;
         std::lock_guard const lock(access_);
-        int const known = known_count();
-        auto const at = made_.find(known);
-        return at != made_.end() ? at->second : made_.emplace(known, make_()).first->second;
+        if (entries_.empty() || entries_.back().known < known) newest_.store(&entries_.emplace_back(Entry{known, make_()}), std::memory_order_release);
+        return entries_.back().made;
     }
 
 private:
+    struct Entry {
+        std::size_t known;
+        Made made;
+    };
     Made (*make_)();
     std::mutex access_;
-    std::map<int, Made> made_;
+    std::deque<Entry> entries_;
+    std::atomic<Entry const*> newest_ = nullptr;
 };
 
 std::span<MechanismInfo const> mechanisms();
@@ -49,6 +59,8 @@ std::optional<Law> find_law(std::string_view name, std::span<std::string const> 
 std::optional<Mechanism> find_mechanism(std::string_view name, std::span<std::string const> search = {});
 /// Why a module of one's own cannot be named in scenes: its name is of the tree, or its keys are not its own.  "" of one that can.
 std::string objection_to(ModuleKind kind, KernelModule const& module);
+/// Opens all that `module_folders(search)` have of a kind.  @param refused hears of those that cannot be used
+void open_modules(ModuleKind kind, std::span<std::string const> search, std::function<void(std::string const& why)> const& refused);
 /// The module that it is of; nullptr of the tree's.
 OwnModule const* module_of(Law law);
 OwnModule const* module_of(Mechanism mechanism);

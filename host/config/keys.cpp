@@ -124,7 +124,7 @@ bool has_key(ModuleKind kind, std::string_view name, std::string_view key) {
 
 std::string objection_to(ModuleKind kind, KernelModule const& module) {
     bool const is_law = kind == ModuleKind::law;
-    std::string_view const name = is_law ? module.law->info->name : module.mechanism->info->name;
+    std::string_view const name = name_of(kind, module);
     auto const names = is_law ? law_names() : mechanism_names();
     auto const taken = std::ranges::find(names, name);
     bool const of_the_tree = taken != names.end() && (is_law ? module_of(static_cast<Law>(taken - names.begin())) == nullptr

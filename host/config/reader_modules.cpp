@@ -39,16 +39,7 @@ void open_for_keys(Node const& root, std::string_view table, ModuleKind kind, Sc
         return find_key(node.name) != nullptr || std::ranges::find(settings(), node.name, &Setting::name) != settings().end();
     };
     if (std::ranges::all_of(given->children, is_known)) return;
-    for (std::string const& name : own_module_names(kind, scene.modules)) {
-        try {
-            if (kind == ModuleKind::law) {
-                find_law(name, scene.modules);
-            } else {
-                find_mechanism(name, scene.modules);
-            }
-        } catch (DeviceError const&) {  // the key stays unknown
-        }
-    }
+    open_modules(kind, scene.modules, [](std::string const&) {});  // of one that is refused the key stays unknown
 }
 
 }  // namespace

@@ -24,7 +24,6 @@ constexpr std::string_view checksum_mark = "# checksum: ", program_mark = "# pro
                            members_mark = "# members: ", table_mark = "# table: ";
 constexpr std::string_view fused = "fused", contracted = "contracted";
 constexpr char const* table_key = "study.table";
-constexpr char const* search_key = "modules.search";
 
 /// Where a text has a value.
 struct Place {
@@ -77,7 +76,6 @@ std::string source_behind(std::string const& scene, Place const& place) {
 std::map<std::string, std::string> values_of(std::string const& scene) {
     std::map<std::string, std::string> values;
     for (auto const& [key, place] : places_in(scene)) {
-        if (key == search_key) continue;
         std::string& value = values[key] = place.in(scene);
         std::erase(value, '\n');
         if (key == table_key) value = content_of_table(scene);
@@ -100,8 +98,8 @@ std::string RunIdentity::difference(RunIdentity const& earlier) const {
         return fmt::format("the arithmetic was {}, is {}", named_arithmetic(earlier.arithmetic),
                            named_arithmetic(arithmetic));
     }
-    if (without_search(scene) != without_search(earlier.scene)) {
-        auto const before = values_of(earlier.scene), now = values_of(scene);
+    if (std::string const here = without_search(scene), former = without_search(earlier.scene); here != former) {
+        auto const before = values_of(former), now = values_of(here);
         constexpr std::size_t longest = 60;
         auto const shown = [](std::string_view value) {
             return std::string(value.substr(0, longest)) + (value.size() <= longest ? "" : "...");
