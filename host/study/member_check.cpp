@@ -42,7 +42,6 @@ std::vector<double> shared_bounds(std::vector<double> const& work) {
 
 MemberCheck::MemberCheck(Verification& v, Scene const& scene, Backend const& backend, VerificationRequest const& request)
     : v_(v), scene_(scene), backend_(backend), request_(request), methods_(check_methods(scene)) {
-    for (CheckMethod const& method : methods_) of_exponents_.push_back(method.of_exponents);
     given_up_.resize(methods_.size());
     left_over_.resize(methods_.size());
     v_.cut.resize(methods_.size());
@@ -216,7 +215,7 @@ MemberNumbers MemberCheck::run_again(Scene const& scene, std::vector<std::uint64
 }
 
 void MemberCheck::compare() {
-    v_.numbers = check_numbers({v_.study, v_.groups, v_.pairs, v_.again, of_exponents_, draws_, all_}, scene_);
+    v_.numbers = check_numbers({v_.study, v_.groups, v_.pairs, v_.again, methods_, draws_, all_}, scene_);
 }
 
 bool MemberCheck::is_decided() const {

@@ -66,7 +66,7 @@ private:
     Backend const& backend_;
     VerificationRequest const& request_;
     std::vector<CheckMethod> methods_;
-    std::vector<char> of_exponents_, draws_;
+    std::vector<char> draws_;  // [rows]
     std::vector<char> given_up_;                       // [methods] that cut most of their members short
     std::vector<std::vector<std::size_t>> left_over_;  // [methods] rows that another one has cut short
     ToleranceMembers const* stored_ = nullptr;

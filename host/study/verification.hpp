@@ -25,6 +25,7 @@ struct CheckMethod {
     double cost;        // what a member takes, roughly, in units of what it took in the study
     double work_of_a_step = 14;  // right-hand sides at most, on average: nine stages, and what ends of steps at events take
     bool of_exponents = false;   // the study's own orbits once more, with neighbours farther off: of exponents alone
+    double error_per_difference = 1;  // of the study, as far as it errs in the same way with other steps
     bool audits_energy = false;  // under a law that keeps energy
 };
 
@@ -76,7 +77,7 @@ struct Comparison {
     std::vector<MemberGroup> const& groups;
     std::vector<CheckPair> const& pairs;
     std::vector<std::vector<double>> const& again;  // [columns][pairs]
-    std::vector<char> const& of_exponents;          // [methods]
+    std::vector<CheckMethod> const& methods;
     std::vector<char> const& draws;                 // [rows] those that the study's means and intervals are of
     std::uint64_t members;  // of the study, where `study` has some of them alone; else as many as it has
 };

@@ -90,11 +90,11 @@ std::vector<double> differences(Comparison const& c, CheckedNumber const& n, std
     bool const is_exponent = c.study.columns[n.column].kind == Kind::exponent;
     for (std::size_t i = 0; i < c.pairs.size(); ++i) {
         CheckPair const& pair = c.pairs[i];
-        bool const counts = method < 0 ? !c.of_exponents[pair.method] : pair.method == static_cast<std::size_t>(method);
-        if (!pair.finished || !c.groups[n.group].has[pair.row] || !counts ||
-            (c.of_exponents[pair.method] && !is_exponent))
-            continue;
-        double const difference = c.again[n.column][i] - c.study.columns[n.column].values[pair.row];
+        CheckMethod const& by = c.methods[pair.method];
+        bool const counts = method < 0 ? !by.of_exponents : pair.method == static_cast<std::size_t>(method);
+        if (!pair.finished || !c.groups[n.group].has[pair.row] || !counts || (by.of_exponents && !is_exponent)) continue;
+        double const difference =
+            by.error_per_difference * (c.again[n.column][i] - c.study.columns[n.column].values[pair.row]);
         if (!std::isnan(difference)) found.push_back(difference);
     }
     return found;
@@ -109,12 +109,12 @@ void bound_error(CheckedNumber& n, Comparison const& c, std::vector<double>& p) 
     n.error = error_bound(differences(c, n), members, n.unseen, grain);
     p.push_back(n.error.p);
     double largest = std::abs(n.error.difference);
-    for (std::size_t method = 0; method < c.of_exponents.size(); ++method) {
+    for (std::size_t method = 0; method < c.methods.size(); ++method) {
         ErrorBound const of_method =
             error_bound(differences(c, n, static_cast<std::ptrdiff_t>(method)), members, n.unseen, grain);
         p.push_back(of_method.pairs >= least_members ? of_method.p : nan);
         // Offsets that collapse into rounding tell nothing but that they collapse.
-        bool const collapse = c.of_exponents[method] && n.value < 0 && n.value + of_method.difference < 0;
+        bool const collapse = c.methods[method].of_exponents && n.value < 0 && n.value + of_method.difference < 0;
         if (collapse) p.back() = nan;
         if (collapse || of_method.pairs < 2 || !(std::abs(of_method.difference) > largest)) continue;
         largest = std::abs(of_method.difference);
@@ -193,7 +193,7 @@ std::vector<CheckedNumber> check_numbers(Comparison const& c, Scene const& scene
         }
     }
     std::vector<double> const adjusted = holm_adjusted(p);
-    std::size_t const tests = 1 + c.of_exponents.size();
+    std::size_t const tests = 1 + c.methods.size();
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         CheckedNumber& n = numbers[i];
         for (std::size_t test = 0; test < tests; ++test) n.p = std::fmin(n.p, adjusted[i * tests + test]);

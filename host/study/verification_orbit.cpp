@@ -134,13 +134,13 @@ void judge(CheckedNumber& n, std::vector<double> const& differences, std::size_t
 }
 
 /// Each number by what the checks that are of it say.
-void judge_numbers(Verification& v, std::vector<char> const& of_exponents) {
+void judge_numbers(Verification& v, std::vector<CheckMethod> const& methods) {
     for (CheckedNumber& n : v.numbers) {
         auto const& column = v.study.columns[n.column];
         std::vector<double> differences;
         std::size_t checks = 0;
         for (CheckPair const& pair : v.pairs) {
-            if (of_exponents[pair.method] && column.kind != MemberNumbers::Kind::exponent) continue;
+            if (methods[pair.method].of_exponents && column.kind != MemberNumbers::Kind::exponent) continue;
             ++checks;
             double const difference = v.again[n.column][pair.method] - column.values[0];
             if (!std::isnan(difference)) differences.push_back(difference);
@@ -180,7 +180,6 @@ Verification verify_orbit(Scene const& scene, Backend const& backend, Verificati
     Orbit const own = orbit_of(bare, run);
     v.orbit = OrbitCheck{end, infinity, own.section_count(), own.section_count()};
     v.again.resize(v.study.columns.size());
-    std::vector<char> of_exponents;
     double spent = 2 * v.study.total_work();
     for (CheckMethod const& method : methods) {
         if (stopped()) break;
@@ -188,7 +187,6 @@ Verification verify_orbit(Scene const& scene, Backend const& backend, Verificati
         MemberNumbers const numbers = fresh_numbers(method.scene, {0}, run);
         std::size_t const index = v.methods.size();
         v.methods.push_back(method.words);
-        of_exponents.push_back(method.of_exponents);
         v.cut.push_back(numbers.finished[0] ? 0 : 1);
         v.pairs.push_back({0, index, numbers.finished[0] != 0});
         for (std::size_t column = 0; column < numbers.columns.size(); ++column)
@@ -206,8 +204,8 @@ Verification verify_orbit(Scene const& scene, Backend const& backend, Verificati
         return v;
     }
     v.share = spent / v.study.total_work();
-    v.numbers = check_numbers({v.study, v.groups, v.pairs, v.again, of_exponents, {1}, 1}, scene);
-    judge_numbers(v, of_exponents);
+    v.numbers = check_numbers({v.study, v.groups, v.pairs, v.again, methods, {1}, 1}, scene);
+    judge_numbers(v, methods);
     conclude(v, scene, request);
     return v;
 }

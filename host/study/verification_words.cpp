@@ -26,8 +26,11 @@ std::string who_ran(Verification const& v) {
         if (method < 2 || v.orbit) ran += count;
         if (count > 0) by.push_back(fmt::format("{} by {}", count, v.methods[method]));
     }
-    return fmt::format("{} member{} again, {} ({:.2g} % of the study's work)", ran, ran == 1 ? "" : "s",
-                       fmt::join(by, ", "), 100 * v.share);
+    std::string const again = ran == 0   ? "no member again to its end"
+                              : ran == 1 ? "1 member again"
+                                         : fmt::format("{} members again", ran);
+    by.insert(by.begin(), again);
+    return fmt::format("{} ({:.2g} % of the study's work)", fmt::join(by, ", "), 100 * v.share);
 }
 
 /// Members that no method brought to their end, by number; and how many one left to the other.

@@ -37,6 +37,7 @@ struct MadeUp {
     std::vector<std::size_t> cut = {};  // of them
     std::vector<MemberGroup> groups = {};
     double other = 0;  // what the second method adds
+    std::vector<CheckMethod> methods = std::vector<CheckMethod>(2);
 
     CheckedNumber checked(std::size_t group = 0) const {
         MemberNumbers study;
@@ -51,8 +52,8 @@ struct MadeUp {
             pairs.push_back({i, i % 2, finished});
             values[0].push_back(finished ? again[i] + (i % 2) * other : nan);
         }
-        std::vector<char> const of_exponents{0, 0}, is_draw(own.size(), 1);
-        return check_numbers({study, all, pairs, values, of_exponents, is_draw, own.size()}, scene())[group];
+        std::vector<char> const is_draw(own.size(), 1);
+        return check_numbers({study, all, pairs, values, methods, is_draw, own.size()}, scene())[group];
     }
 };
 
@@ -70,6 +71,19 @@ TEST(Verdict, IsResolvedWhereTheErrorIsBelowTheStudysOwnInterval) {
     EXPECT_NEAR(same.half_width, 1.966 * 10 / 20, 0.1);
     EXPECT_EQ(same.margin, same.half_width);
     EXPECT_EQ(MadeUp({own, first(own, 40, 0.5)}).checked().verdict, Verdict::resolved);
+}
+
+/// Members err by 1, with a quarter of the step by a quarter of that.
+TEST(Verdict, TakesAFixedStepToErrByFirstOrder) {
+    Scene stepped = scene();
+    EXPECT_EQ(check_methods(stepped).front().error_per_difference, 1);
+    stepped.integrator.method = Method::rk4;
+    stepped.integrator.fixed_step = 1e-5;
+    auto const own = draws(100, 10, 1);
+    MadeUp study{own, first(own, 40, -0.75)};
+    study.other = -0.25;  // by small tolerances
+    study.methods = check_methods(stepped);
+    EXPECT_NEAR(study.checked().error.difference, -1, 1e-9);
 }
 
 TEST(Verdict, IsNotResolvedWhereADifferenceIsBeyondChanceAndAboveTheMargin) {
@@ -112,12 +126,15 @@ TEST(Verdict, NamesMembersThatWereCutShort) {
     v.groups = {{"", {1, 1, 1, 1}}};
     v.pairs = {{0, 0, true}, {1, 1, true}, {2, 0, false}};
     v.again = {{1, 2, nan}};
-    v.numbers = check_numbers({v.study, v.groups, v.pairs, v.again, {0, 0}, {1, 1, 1, 1}, 4}, scene());
+    v.numbers = check_numbers({v.study, v.groups, v.pairs, v.again, std::vector<CheckMethod>(2), {1, 1, 1, 1}, 4}, scene());
     conclude(v, scene(), {});
     EXPECT_EQ(v.resolution, Resolution::undecided);
     EXPECT_TRUE(v.summary.starts_with("undecided: 2 members again")) << v.summary;
     EXPECT_TRUE(contains(v.summary, "cut short: member 102")) << v.summary;
     EXPECT_TRUE(contains(v.summary, "verner65 at rtol 1e-08 did not bring 3 of them to their end")) << v.summary;
+    for (CheckPair& pair : v.pairs) pair.finished = false;
+    conclude(v, scene(), {});
+    EXPECT_TRUE(v.summary.starts_with("undecided: no member again to its end")) << v.summary;
 }
 
 TEST(Verdict, IsNotResolvedByFewPairsThatSeeNothing) {
