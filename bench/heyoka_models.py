@@ -1,4 +1,4 @@
-"""What the programs with heyoka share: members read from files, callbacks, and the small models of tests/models in batches of 8.
+"""What the programs with heyoka share: members read from files, callbacks, and the small models of tests/models in batches.
 
 A touch or a parting is a terminal event whose callback sets a parameter.  heyoka's callbacks are Python objects; these are compiled from
 heyoka_callback.c.  `relu` and `select` would need the events too: a step that passes a kink goes on with the series from before it, and an
@@ -18,7 +18,7 @@ import tempfile
 import heyoka as hy
 import numpy as np
 
-lanes = 8
+lanes = hy.recommended_simd_size()  # of this processor: 4 with AVX2, 8 with AVX-512
 options = {"fast_math": True}  # up to a tenth faster; 512-bit vectors on request change nothing
 
 

@@ -1,4 +1,4 @@
-"""heyoka (Taylor series compiled by LLVM, batches of 8) beside slideway, both on one core and in turn.
+"""heyoka (Taylor series compiled by LLVM, batches as wide as the processor) beside slideway, both on one core and in turn.
 
 Usage: heyoka_peer.py WORK_PRECISION [-o OUTPUT], with the program bench/work_precision of a release build; needs heyoka and numpy from
 PyPI and a C compiler.  Writes OUTPUT.md and OUTPUT.csv, whose columns are those of work_precision.csv.  Members, times, errors and what
@@ -20,7 +20,7 @@ from dataclasses import dataclass
 
 import heyoka as hy
 import numpy as np
-from heyoka_models import Bouncing, Lorenz, Members, Valves
+from heyoka_models import Bouncing, Lorenz, Members, Valves, lanes
 from heyoka_slider_models import FreeSlider, Springs
 
 recorded_events = 2048 + 64  # of a valve in work_precision: its transient's and those that are compared
@@ -111,7 +111,7 @@ def provenance(program: pathlib.Path) -> list[str]:
     with tempfile.TemporaryDirectory() as folder:
         lines = our_table(program, "bouncing", "dop853", folder)
     said = [line[2:] for line in lines if line.startswith("# ") and not line.startswith(("# peers", "# slideway scalar"))]
-    return [*said, f"heyoka {hy.__version__} from PyPI, batch of 8, fast_math, callbacks compiled by cc -O2"]
+    return [*said, f"heyoka {hy.__version__} from PyPI, batch of {lanes}, fast_math, callbacks compiled by cc -O2"]
 
 
 def measured(program: pathlib.Path, problem: Problem, rounds: int) -> list[Row]:
@@ -131,7 +131,7 @@ def measured(program: pathlib.Path, problem: Problem, rounds: int) -> list[Row]:
                     solver = model(members, tolerance)
                     solver.run()
                     errors = members.errors(solver.found)
-                    row = Row(method, "batch of 8", tolerance, float(np.median(errors)), float(np.quantile(errors, 0.95)), [])
+                    row = Row(method, f"batch of {lanes}", tolerance, float(np.median(errors)), float(np.quantile(errors, 0.95)), [])
                     theirs[key] = row, solver
                 row, solver = theirs[key]
                 row.seconds.append(processor_time(solver.run) / len(members))
@@ -187,7 +187,7 @@ def valve_section(program: pathlib.Path, rounds: int) -> str:
             rates[tolerance].append(valve.run() / (time.process_time() - start))
     for tolerance, valve in valves.items():
         error = np.abs(valve.last_lifts() - best).max()
-        text += f"| heyoka, batch of 8 | {tolerance:.0e} | {error:.0e} | {np.median(rates[tolerance]):.3g} |\n"
+        text += f"| heyoka, batch of {lanes} | {tolerance:.0e} | {error:.0e} | {np.median(rates[tolerance]):.3g} |\n"
     for (method, code, tolerance, error), found in ours.items():
         text += f"| {method}, {code} | {tolerance} | {float(error):.0e} | {np.median(found):.3g} |\n"
     return text

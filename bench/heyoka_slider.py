@@ -21,7 +21,7 @@ import heyoka as hy
 import numpy as np
 import slideway
 
-lanes = 8
+lanes = hy.recommended_simd_size()  # of this processor
 rounds = 7
 members = 512
 flight_end, bounce_end = 0.02, 0.05  # s
@@ -127,7 +127,7 @@ def flight(start: Start) -> list[Row]:
                 batch.propagate_until(flight_end)
                 ends[at : at + lanes] = batch.state.T
 
-        rows.append(median_rows("heyoka, batch of 8", tolerance, 1e6 * best_of(work) / members, error(ends)))
+        rows.append(median_rows(f"heyoka, batch of {lanes}", tolerance, 1e6 * best_of(work) / members, error(ends)))
     for method in ("dop853", "dopri5"):
         for tolerance in tolerances:
             microseconds, result = ours(flight_scene(), inputs, method, tolerance)

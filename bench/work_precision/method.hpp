@@ -13,25 +13,29 @@
 
 namespace slideway::bench {
 
-using Clock = std::chrono::steady_clock;  // for limits and progress
+/// Time that this thread has spent computing: other work on the machine counts neither in what is reported nor against a budget.
+struct Clock {
+    using duration = std::chrono::nanoseconds;
+    using rep = duration::rep;
+    using period = duration::period;
+    using time_point = std::chrono::time_point<Clock>;
+    static constexpr bool is_steady = true;
 
-inline double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// Time that this thread has spent computing: what is reported, for other work on the machine does not count in it.
-class ThreadTimer {
-public:
-    double seconds() const { return now() - start_; }
-
-private:
-    static double now() {
+    static time_point now() {
         timespec t;
         clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-        return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+        return time_point(std::chrono::seconds(t.tv_sec) + duration(t.tv_nsec));
     }
-    double start_ = now();
+    /// The time at which a budget [s] that begins now is spent.
+    static time_point after(double seconds) {
+        return now() + std::chrono::duration_cast<duration>(std::chrono::duration<double>(seconds));
+    }
 };
+
+/// @tparam C a clock  @return [s]
+template <class C> double seconds_between(std::chrono::time_point<C> start, std::chrono::time_point<C> end) {
+    return std::chrono::duration<double>(end - start).count();
+}
 
 /// Integrals of the energy audit from 0 to the end time [J], and what they leave of the change of energy.
 struct Audit {
@@ -56,7 +60,7 @@ struct Task {
     Problem const& problem;
     double tolerance = 0;
     std::size_t members = 0;  // the leading ones of the problem
-    double budget = 1e9;      // [s]
+    double budget = 1e9;      // [s] of this thread
 };
 
 struct Method {
@@ -67,7 +71,7 @@ struct Method {
     std::function<Outcome(Task const&)> solve;
 };
 
-/// slideway's methods, each on one member at a time and on the widest packs of this machine.
+/// slideway's methods, each on the widest packs of this machine, on those of most others, and on one member at a time.
 std::vector<Method> our_methods();
 /// What users would take instead, one trajectory at a time on the same right-hand side.
 std::vector<Method> peer_methods();

@@ -112,14 +112,12 @@ template <class Ensemble> Outcome run_block(Isa isa, Choice const& choice, Ensem
     settings.max_step = problem.max_step;
     if (problem.measure == Measure::energy) work.block.quantities = audit_quantities();
     if (problem.measure == Measure::extrema) work.block.quantities = 1;
-    auto const deadline =
-        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(task.budget));
+    auto const start = Clock::now(), deadline = Clock::after(task.budget);
     work.block.stop = past_deadline;
     work.block.stop_context = &deadline;
-    ThreadTimer const timer;
     run_members(isa, ensemble, work);
     Outcome outcome;
-    outcome.seconds_per_member = timer.seconds() / static_cast<double>(task.members);
+    outcome.seconds_per_member = seconds_between(start, Clock::now()) / static_cast<double>(task.members);
     // A block that was cut off says nothing: its members in work at the end are lost, and the members that ended are the
     // easy ones.
     for (auto const& record : work.records) {
@@ -143,13 +141,21 @@ bool serves(Choice const& choice, Problem const& problem) {
     return !choice.locate_modes || info(sliders->parts.law).switches;
 }
 
+std::vector<Isa> compared_isas() {
+    std::vector<Isa> isas{best_isa()};
+    for (Isa const isa : {Isa::avx2, Isa::scalar}) {
+        if (isa != isas.front() && is_supported(isa) && compiled_isa(isa) == isa) isas.push_back(isa);
+    }
+    return isas;
+}
+
 }  // namespace
 
 std::vector<Method> our_methods() {
     std::vector<Method> methods;
     for (auto const& choice : choices) {
         auto const name = fmt::format("slideway {}{}", name_of(choice.method), choice.locate_modes ? ", located" : "");
-        for (Isa const isa : {best_isa(), Isa::scalar}) {
+        for (Isa const isa : compared_isas()) {
             methods.push_back({name, std::string(name_of(isa)), true,
                                [=](Problem const& problem) { return serves(choice, problem); },
                                [=](Task const& task) {

@@ -22,13 +22,9 @@ Outcome run_members(Library const& library, std::vector<Member> const& ensemble,
     bool const audited = problem.measure == bench::Measure::energy;
     typename Library::template Solver<System> solver(library);
     Outcome outcome;
-    bench::ThreadTimer const timer;
     auto const start = Clock::now();
     auto last_end = start;
-    auto const after = [&](double seconds) {
-        return start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-    };
-    Limits const limits{problem.end_time, problem.max_step, task.tolerance, audited, after(task.budget)};
+    Limits const limits{problem.end_time, problem.max_step, task.tolerance, audited, Clock::after(task.budget)};
     for (auto const& member : members) {
         System const system(member);
         auto const end = solver.run(system, limits);
@@ -48,10 +44,9 @@ Outcome run_members(Library const& library, std::vector<Member> const& ensemble,
         outcome.members.push_back(std::move(result));
         last_end = Clock::now();
     }
-    // The part of the time that went into members that came to their end.
-    double const part = std::chrono::duration<double>(last_end - start).count() / bench::seconds_since(start);
+    // Of members that came to their end.
     outcome.seconds_per_member =
-        part * timer.seconds() / static_cast<double>(std::max<std::size_t>(outcome.members.size(), 1));
+        bench::seconds_between(start, last_end) / static_cast<double>(std::max<std::size_t>(outcome.members.size(), 1));
     return outcome;
 }
 

@@ -21,11 +21,22 @@ double scattered(std::size_t i, double irrational) {
     return 2 * (x - std::floor(x)) - 1;
 }
 
-/// Scattered starts with ±20 % in what the tolerances of manufacture and operation leave open.
-std::vector<Inputs> spread_members(std::size_t count, double clearance, double crank_speed, double chi) {
-    auto members = testing::scattered_starts(count, clearance, crank_speed);
+struct Scene {
+    Parts parts;
+    double clearance, crank_speed, chi;
+};
+
+/// Scattered starts with ±20 % in what the tolerances of manufacture and operation leave open; of a misaligned way the pose
+/// scatters too, by as much as scenes/tolerance_0.1mm.toml has it.
+std::vector<Inputs> spread_members(std::size_t count, Scene const& scene) {
+    auto members = testing::scattered_starts(count, scene.clearance, scene.crank_speed);
     for (std::size_t i = 0; i < count; ++i) {
-        spread_inputs(members[i], chi, [&](double irrational) { return 1 + 0.2 * scattered(i, irrational); });
+        Inputs& in = members[i];
+        spread_inputs(in, scene.chi, [&](double irrational) { return 1 + 0.2 * scattered(i, irrational); });
+        if (!scene.parts.misaligned_way) continue;
+        in.way_roll = 5e-4 * scattered(i, 0.2360679774997898);
+        in.way_yaw = 1.5e-4 * scattered(i, 0.6457513110645907);
+        in.way_pitch = 1.5e-4 * scattered(i, 0.3166247903553998);
     }
     return members;
 }
@@ -70,20 +81,19 @@ struct Crowd {
     std::size_t all, shared;
 };
 
-struct Scene {
-    Parts parts;
-    double clearance, crank_speed, chi;
-};
-
 constexpr Scene settling = {{Law::conservative, Damping::rate, true, false}, 1e-4, pi, 10};
 constexpr Scene rattling = {{Law::conservative, Damping::rate, true, false}, 5e-4, 47, 10};
 constexpr Scene switching = {{Law::paper, Damping::point, true, false}, 1e-4, pi, 0};
+constexpr Scene misaligned = {{Law::conservative, Damping::rate, true, true}, 1e-4, pi, 10};
+constexpr Scene undamped = {{Law::foundation, Damping::rate, true, false}, 1e-4, pi, 0};
+constexpr Scene creeping = {{Law::conservative, Damping::rate, true, false}, 1e-4, 0.01, 10};
+constexpr Scene at_rest = {{Law::conservative, Damping::rate, true, false}, 1e-4, 0, 10};
 
 /// States at a time at which chaos has not yet set in for most members.
 Problem short_horizon(std::string name, std::string title, Scene const& scene, double end, Crowd crowd,
                       std::vector<double> tolerances) {
     // One candidate in two to four flies at the end, and of those one in three may be chaotic already.
-    auto candidates = in_free_flight(spread_members(8 * crowd.all, scene.clearance, scene.crank_speed, scene.chi),
+    auto candidates = in_free_flight(spread_members(8 * crowd.all, scene),
                                      scene.parts, end, 2e-4);
     return {.name = std::move(name),
             .title = std::move(title),
@@ -102,7 +112,7 @@ Problem long_horizon(std::string name, std::string title, Scene const& scene, do
     return {.name = std::move(name),
             .title = std::move(title),
             .ensemble = SliderEnsemble{scene.parts,
-                                            spread_members(crowd.all, scene.clearance, scene.crank_speed, scene.chi)},
+                                            spread_members(crowd.all, scene)},
             .shared = crowd.shared,
             .members_wanted = crowd.all,
             .end_time = end,
@@ -250,6 +260,13 @@ std::vector<Problem> all_problems(bool quick) {
                      decades(3, coarse)),
         long_horizon("rattling_energy", "Rattling: energy residual after 50 ms", rattling, 0.05, crowd, 1e-3,
                      decades(3, medium)),
+        long_horizon("misaligned_energy", "On a misaligned way: energy residual after 0.1 s", misaligned, 0.1, many, 1e-3,
+                     decades(3, coarse)),
+        long_horizon("undamped_energy", "Undamped elastic bed: energy residual after 0.1 s", undamped, 0.1, many, 1e-3,
+                     decades(3, coarse)),
+        long_horizon("creep_energy", "Creeping at 0.01 rad/s: energy residual after 1 s", creeping, 1, many, 1e-2,
+                     decades(3, coarse)),
+        long_horizon("rest_energy", "At rest: energy residual after 1 s", at_rest, 1, many, 1e-2, decades(3, coarse)),
         long_horizon("turn_energy", "A crank turn: energy residual after 2 s", settling, 2, many, 1e-2,
                      decades(3, coarse)),
         flight(0.1, many, decades(3, fine + 3)),

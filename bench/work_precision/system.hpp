@@ -9,6 +9,7 @@
 
 #include "bench/work_precision/method.hpp"
 #include "kernels/laws/conservative.hpp"
+#include "kernels/laws/foundation.hpp"
 #include "kernels/laws/kelvin_voigt.hpp"
 #include "kernels/laws/list.hpp"
 #include "kernels/laws/one_law.hpp"
@@ -19,8 +20,8 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// One member of an ensemble of sliders, on a way that lies straight.
-template <class Mechanism, class Law, class Damping, bool friction> class SliderSystem {
+/// One member of an ensemble of sliders.
+template <class Mechanism, class Law, class Damping, bool friction, bool misaligned_way = false> class SliderSystem {
 public:
     using Model = Mechanism;
     static constexpr int size = Model::size;
@@ -67,7 +68,7 @@ private:
     }
 
     SliderParameters<double> p_;
-    Conditions<OneLaw<Law, Damping>> block_{{}, Law::info.switches, {.friction = friction}};
+    Conditions<OneLaw<Law, Damping>> block_{{}, Law::info.switches, {.friction = friction, .misaligned_way = misaligned_way}};
     ContactMemory<double> memory_;
     mutable SliderReport<double> report_;
 };
@@ -104,6 +105,12 @@ template <class Use> auto with_systems(bench::Ensemble const& ensemble, Use cons
             }
             if (e.parts == Parts{Law::conservative, Damping::rate, true}) {
                 return use.template operator()<SliderSystem<SliderCrank, ConservativeLaw, RateDamping, true>>(e.members);
+            }
+            if (e.parts == Parts{Law::conservative, Damping::rate, true, true}) {
+                return use.template operator()<SliderSystem<SliderCrank, ConservativeLaw, RateDamping, true, true>>(e.members);
+            }
+            if (e.parts == Parts{Law::foundation, Damping::rate, true}) {
+                return use.template operator()<SliderSystem<SliderCrank, Foundation, RateDamping, true>>(e.members);
             }
             if (e.parts == Parts{.law = Law::kelvin_voigt, .mechanism = Mechanism::free_slider}) {
                 return use.template operator()<SliderSystem<FreeSlider, KelvinVoigt, PointDamping, false>>(e.members);

@@ -7,9 +7,8 @@ namespace {
 Outcome solve(Task const& task) {
     auto const& ensemble = std::get<ValveEnsemble>(task.problem.ensemble);
     Outcome outcome;
-    auto const start = Clock::now();
-    ThreadTimer const timer;
-    for (std::size_t i = 0; i < task.members && seconds_since(start) < task.budget; ++i) {
+    auto const start = Clock::now(), deadline = Clock::after(task.budget);
+    for (std::size_t i = 0; i < task.members && Clock::now() < deadline; ++i) {
         auto const orbit = odeint_valve_orbit(ensemble.members[i].inflow, task.tolerance);
         MemberOutcome member;
         member.finished = orbit.events.size() == valve_recorded_events;
@@ -17,7 +16,7 @@ Outcome solve(Task const& task) {
         for (auto const& event : orbit.events) member.state.push_back(event.x);
         outcome.members.push_back(std::move(member));
     }
-    outcome.seconds_per_member = timer.seconds() / static_cast<double>(outcome.members.size());
+    outcome.seconds_per_member = seconds_between(start, Clock::now()) / static_cast<double>(outcome.members.size());
     return outcome;
 }
 
