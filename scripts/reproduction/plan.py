@@ -72,7 +72,7 @@ def plan(scale: Scale) -> list[Run]:
 
 
 def _verified(scale: Scale, law: str) -> dict[str, Any]:
-    """Members that run again. Of sliders that lie on their way an explicit method takes hundreds of times what the run does: not of those."""
+    """Members that run again, all of them. Of sliders that lie on their way an explicit method takes hundreds of times what the run does: not of those."""
     return {} if scale.verified is None or law != "paper" else {"study.verify": scale.verified}
 
 

@@ -66,7 +66,7 @@ FULL = Scale(
     series=8,
     series_revolutions=30,
     series_samples=200,
-    verified=6,
+    verified=64,
 )
 # Seconds in all: every run and every judgement is there, and no number means anything.
 TINY = Scale(
