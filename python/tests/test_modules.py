@@ -48,7 +48,7 @@ def test_a_law_is_compiled_changed_and_compared(modules, program):
     assert slideway.compile(SPRING, modules)[0].was_there
     # The former version stays what it was for who has a scene of it.
     before = slideway.Ensemble(SCENE)
-    (changed,) = slideway.compile(SPRING.replace("2e7", "4e7"), modules)
+    (changed,) = slideway.compile(SPRING.replace("2e7", "4e7"), modules, isa="scalar")  # which is compiled soonest
     assert changed.source != module.source
     stiff = peaks()
     assert (stiff > 1.2 * soft).all()
@@ -59,10 +59,10 @@ def test_a_law_is_compiled_changed_and_compared(modules, program):
 
 
 def test_a_key_that_became_another_one_is_refused_in_the_same_process(modules):
-    slideway.compile(SPRING.replace("spring", "spring_of_units"), modules)
+    slideway.compile(SPRING.replace("spring", "spring_of_units"), modules, isa="scalar")
     scene = {**SCENE, "contact": {"law": "spring_of_units"}}
     slideway.Ensemble(scene)
-    slideway.compile(SPRING.replace("spring", "spring_of_units").replace('"N/m"', '"1"'), modules)
+    slideway.compile(SPRING.replace("spring", "spring_of_units").replace('"N/m"', '"1"'), modules, isa="scalar")
     with pytest.raises(slideway.SlidewayError, match="start anew"):
         slideway.Ensemble(scene)
 
@@ -80,6 +80,6 @@ def test_the_package_brings_the_headers_that_it_compiles_with(modules):
     packaged = Path(slideway.__file__).parent / "bin" / "slideway"
     if not packaged.exists():
         pytest.skip("the package is not installed from a wheel")
-    (module,) = slideway.compile(Path(__file__).resolve().parents[2] / "tests/extending/hunt_crossley.hpp", modules, program=packaged)
+    (module,) = slideway.compile(Path(__file__).resolve().parents[2] / "tests/extending/hunt_crossley.hpp", modules, isa="scalar", program=packaged)
     result = slideway.run({**SCENE, "contact": {"law": "hunt_crossley"}}, modules / "a.nc", program=packaged, progress=False)
     assert module.source in result.attrs["scene"]

@@ -268,6 +268,7 @@ def forked(call: Callable[[], object], handler: bool) -> int:
         return child
     try:
         os.setsid()
+        signal.signal(signal.SIGHUP, signal.SIG_DFL)  # which nohup has ignored
         os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
         signal.signal(signal.SIGTERM, (lambda *_: sys.exit(1)) if handler else signal.SIG_DFL)
         call()
