@@ -110,14 +110,17 @@ struct Parts {
     row(vx, "initial.vx", 0, "m/s", any, along, "velocity along the way at the start")
 // clang-format on
 
+// Numbers of their own that a law and a mechanism may have, under the keys that their info names: law_a … law_p, mechanism_a … mechanism_p.
+#define SLIDEWAY_OWN_NUMBERS(row) row(a) row(b) row(c) row(d) row(e) row(f) row(g) row(h) row(i) row(j) row(k) row(l) row(m) row(n) row(o) row(p)
+
 struct Inputs {
 #define SLIDEWAY_MEMBER(member, key, preset, unit, rule, group, meaning) double member = preset;
     SLIDEWAY_INPUTS(SLIDEWAY_MEMBER)
 #undef SLIDEWAY_MEMBER
-    // What a contact law has of its own, under the keys that its LawInfo names; 0 where a law has fewer.
-    double law_a = 0, law_b = 0, law_c = 0, law_d = 0;
-    // The same of a mechanism, under the keys that its MechanismInfo names.
-    double mechanism_a = 0, mechanism_b = 0, mechanism_c = 0, mechanism_d = 0, mechanism_e = 0, mechanism_f = 0, mechanism_g = 0, mechanism_h = 0;
+    // 0 where there are fewer.
+#define SLIDEWAY_MEMBER(letter) double law_##letter = 0, mechanism_##letter = 0;
+    SLIDEWAY_OWN_NUMBERS(SLIDEWAY_MEMBER)
+#undef SLIDEWAY_MEMBER
 };
 
 constexpr double Key::get(Inputs const& inputs) const { return inputs.*member; }
@@ -132,5 +135,18 @@ inline constexpr Key input_keys[] = {
     SLIDEWAY_INPUTS(SLIDEWAY_KEY)
 #undef SLIDEWAY_KEY
 };
+
+/// Where a law and a mechanism may have their own.
+inline constexpr double Inputs::*law_inputs[] = {
+#define SLIDEWAY_PLACE(letter) &Inputs::law_##letter,
+    SLIDEWAY_OWN_NUMBERS(SLIDEWAY_PLACE)
+#undef SLIDEWAY_PLACE
+};
+inline constexpr double Inputs::*mechanism_inputs[] = {
+#define SLIDEWAY_PLACE(letter) &Inputs::mechanism_##letter,
+    SLIDEWAY_OWN_NUMBERS(SLIDEWAY_PLACE)
+#undef SLIDEWAY_PLACE
+};
+inline constexpr int most_own_numbers = sizeof(law_inputs) / sizeof(law_inputs[0]);
 
 }  // namespace slideway

@@ -14,28 +14,31 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-#if SLIDEWAY_SHADOWED
 #ifdef SLIDEWAY_MECHANISM
 constexpr bool has_exponents = SLIDEWAY_MECHANISM::info.has_exponents;
+using UnitSignals = SignalsOf<SLIDEWAY_MECHANISM>;
 #else
 constexpr bool has_exponents = true;
+using UnitSignals = NoSignals;
 #endif
-template <class Base> void run_shadowed_lanes(Block& block, IsaTable<Base> const& table) {
+
+#if SLIDEWAY_SHADOWED
+template <class Base, class Signals> void run_shadowed_lanes(Block& block, IsaTable<Base, Signals> const& table) {
     if constexpr (has_exponents) {
-        using Table = Shadowed<IsaTable<Base>>;
+        using Table = Shadowed<IsaTable<Base, Signals>>;
         integrate<Table, IsaReal>(block, Table{table});
     }
 }
-template void run_shadowed_lanes(Block&, IsaTable<SLIDEWAY_BASE> const&);
+template void run_shadowed_lanes(Block&, IsaTable<SLIDEWAY_BASE, UnitSignals> const&);
 #else
-template <class Base> void run_lanes(Block& block, IsaTable<Base> const& table) {
-    integrate<IsaTable<Base>, IsaReal>(block, table);
+template <class Base, class Signals> void run_lanes(Block& block, IsaTable<Base, Signals> const& table) {
+    integrate<IsaTable<Base, Signals>, IsaReal>(block, table);
 }
-template <class Base> void probe_states(ProbeTable const& states, IsaTable<Base> const& table) {
-    probe<IsaTable<Base>, IsaReal>(states, table);
+template <class Base, class Signals> void probe_states(ProbeTable const& states, IsaTable<Base, Signals> const& table) {
+    probe<IsaTable<Base, Signals>, IsaReal>(states, table);
 }
-template void run_lanes(Block&, IsaTable<SLIDEWAY_BASE> const&);
-template void probe_states(ProbeTable const&, IsaTable<SLIDEWAY_BASE> const&);
+template void run_lanes(Block&, IsaTable<SLIDEWAY_BASE, UnitSignals> const&);
+template void probe_states(ProbeTable const&, IsaTable<SLIDEWAY_BASE, UnitSignals> const&);
 #endif
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -8,10 +8,11 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-template <class Base> using IsaTable = MechanismTable<IsaReal, Base>;
+/// @tparam Signals of a mechanism that has its own, and so lanes of its own
+template <class Base, class Signals> using IsaTable = MechanismTable<IsaReal, Base, Signals>;
 
-template <class Base> void run_lanes(Block& block, IsaTable<Base> const& table);
-template <class Base> void run_shadowed_lanes(Block& block, IsaTable<Base> const& table);
-template <class Base> void probe_states(ProbeTable const& states, IsaTable<Base> const& table);
+template <class Base, class Signals> void run_lanes(Block& block, IsaTable<Base, Signals> const& table);
+template <class Base, class Signals> void run_shadowed_lanes(Block& block, IsaTable<Base, Signals> const& table);
+template <class Base, class Signals> void probe_states(ProbeTable const& states, IsaTable<Base, Signals> const& table);
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -21,7 +21,7 @@ template <class Law> consteval LawKernels kernels_of() {
     if constexpr (HasInfo<Law>) {
         static_assert(!Law::info.name.empty() && !Law::info.words.empty(), "the law's info says no name, or no words");
         static_assert(!Law::info.needs_restitution || has_group(Law::info.groups, KeyGroup::restitution), "a law that needs a restitution has it in its groups");
-        static_assert(Law::info.keys.size() <= 4, "a law has at most four numbers of its own, law_a to law_d");
+        static_assert(Law::info.keys.size() <= most_own_numbers, "a law has at most sixteen numbers of its own, law_a to law_p");
         return Compiled<Law>::kernels;
     }
     return {};

@@ -14,20 +14,27 @@ namespace {
 
 template <class Mechanism> concept HasInfo = requires { MechanismInfo{Mechanism::info}; };
 
+template <class Mechanism, class Base>
+concept TellsSignals = requires(IsaReal t, IsaReal const* state, typename Base::template Parameters<IsaReal> const& p,
+                                typename Base::template Report<IsaReal> const& report, IsaReal* values) {
+    Mechanism::put_signals(t, state, p, report, values);
+};
+
 template <class Mechanism, class Base> struct Compiled {
-    static constexpr auto functions = MechanismFunctions<IsaReal, Base>::template of<Mechanism>();
+    using Signals = SignalsOf<Mechanism>;
+    static constexpr auto functions = MechanismFunctions<IsaReal, Base, Signals>::template of<Mechanism>();
     static constexpr bool has_exponents = Mechanism::info.has_exponents;
 
     /// @param kernels of a law that has the damping
-    static IsaTable<Base> table_of(Parts const& parts, LawKernels const* kernels) {
+    static IsaTable<Base, Signals> table_of(Parts const& parts, LawKernels const* kernels) {
         auto const& law = *static_cast<LawTable<IsaReal> const*>(kernels->table);
         return {functions, {law.with[static_cast<int>(parts.damping)], law.switches, parts}};
     }
-    static void run(Block& block, Parts const& parts, LawKernels const* law) { run_lanes<Base>(block, table_of(parts, law)); }
+    static void run(Block& block, Parts const& parts, LawKernels const* law) { run_lanes<Base, Signals>(block, table_of(parts, law)); }
     static void run_shadowed(Block& block, Parts const& parts, LawKernels const* law) {
-        if constexpr (has_exponents) run_shadowed_lanes<Base>(block, table_of(parts, law));
+        if constexpr (has_exponents) run_shadowed_lanes<Base, Signals>(block, table_of(parts, law));
     }
-    static void probe(ProbeTable const& states, Parts const& parts, LawKernels const* law) { probe_states<Base>(states, table_of(parts, law)); }
+    static void probe(ProbeTable const& states, Parts const& parts, LawKernels const* law) { probe_states<Base, Signals>(states, table_of(parts, law)); }
 
     static constexpr MechanismKernels kernels{&Mechanism::info, &run, has_exponents ? &run_shadowed : nullptr, &probe};
 };
@@ -38,8 +45,14 @@ template <class Mechanism, class Base> consteval MechanismKernels kernels_of() {
     if constexpr (HasInfo<Mechanism>) {
         static_assert(Mechanism::info.name != nullptr && Mechanism::info.meaning != nullptr, "the mechanism's info says no name, or no meaning");
         static_assert(Mechanism::info.states <= most_states, "a mechanism has at most twelve states");
-        static_assert(Mechanism::info.own_keys.size() <= 8, "a mechanism has at most eight numbers of its own, mechanism_a to mechanism_h");
-        return Compiled<Mechanism, Base>::kernels;
+        static_assert(Mechanism::info.own_keys.size() <= most_own_numbers, "a mechanism has at most sixteen numbers of its own, mechanism_a to mechanism_p");
+        constexpr auto& info = Mechanism::info;
+        static_assert(info.signals.size() <= most_signals, "a mechanism has too many signals: a set of series has no bit for them");
+        static_assert(signal_quantity_count(info.signals) <= most_signal_quantities,
+                      "the signals have too many quantities; say which statistics each has: statistics_of(Statistic::maximum, …)");
+        constexpr bool tells = info.signals.empty() || TellsSignals<Mechanism, Base>;
+        static_assert(tells, "the mechanism's info has signals, and there is no put_signals(t, state, parameters, report, values) that tells them");
+        if constexpr (tells) return Compiled<Mechanism, Base>::kernels;
     }
     return {};
 }

@@ -7,6 +7,7 @@
 #include "host/commands/commands.hpp"
 #include "host/commands/json.hpp"
 #include "host/commands/text.hpp"
+#include "host/config/outputs.hpp"
 #include "host/run/ensemble.hpp"
 #include "host/study/continued_sweep.hpp"
 #include "host/study/orbit_schedule.hpp"
@@ -60,11 +61,10 @@ void print_parts(Scene const& scene) {
     print_field("parts out", out.empty() ? "none" : fmt::format("{}", fmt::join(out, "; ")));
 
     std::vector<std::string_view> asked, left;
-    for (int q = 0; q < quantity_count; ++q) {
-        if (!selects(mechanism.quantities, static_cast<Quantity>(q))) continue;
-        if (scene.parts.rigid && selects(without_rigid_contact, static_cast<Quantity>(q))) continue;
-        (selects(scene.quantities, static_cast<Quantity>(q)) ? asked : left).emplace_back(quantity_table[q].name);
-    }
+    Outputs const& outputs = outputs_of(scene.parts.mechanism);
+    Selection const known = outputs.has_quantities & ~(scene.parts.rigid ? without_rigid_contact : 0);
+    for (QuantityInfo const& quantity : selected(outputs.quantities, known & scene.quantities)) asked.emplace_back(quantity.name);
+    for (QuantityInfo const& quantity : selected(outputs.quantities, known & ~scene.quantities)) left.emplace_back(quantity.name);
     auto const listed = [](auto const& names) { return names.empty() ? "no quantity" : fmt::format("{}", fmt::join(names, ", ")); };
     print_field("asked for", listed(asked));
     print_field("left out", listed(left));

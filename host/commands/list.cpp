@@ -10,6 +10,7 @@
 #include "host/commands/text.hpp"
 #include "host/config/descriptors.hpp"
 #include "host/config/key_reference.hpp"
+#include "host/config/outputs.hpp"
 #include "host/config/settings.hpp"
 #include "host/sampling/distribution.hpp"
 
@@ -33,6 +34,15 @@ template <class Has> std::string owners_text(Has has) {
 /// Where one of a module comes from.
 std::string module_text(OwnModule const* module) {
     return module == nullptr ? std::string() : fmt::format(" (module in {}, source {}, {})", module->folder.string(), module->source, module->described->compiler);
+}
+
+/// Calls the function with what a mechanism has behind the table, and whose it is.
+template <class Entry, class Print> void for_each_own(std::vector<Entry> Outputs::*of, int in_table, Print const& print) {
+    auto const all = mechanisms();
+    for (std::size_t m = 0; m < all.size(); ++m) {
+        std::vector<Entry> const& entries = outputs_of(static_cast<Mechanism>(m)).*of;
+        for (auto i = static_cast<std::size_t>(in_table); i < entries.size(); ++i) print(entries[i], fmt::format(" ({})", all[m].name));
+    }
 }
 
 /// Their states, and what else comes with every time series.
@@ -128,6 +138,28 @@ std::string state_of(Isa isa) {
     return compiled_isa(isa) == Isa::scalar_libm ? state + "; the C library's fused multiply-add: slow" : state;
 }
 
+void print_outputs() {
+    print_out("\nquantities (study.quantities): one value, or one row of values, per member\n");
+    auto const print_quantity = [](QuantityInfo const& quantity, std::string const& owners) {
+        print_row("  {:<30} {:<8} {}{}{}", quantity.name, quantity.unit, quantity.long_name,
+                   quantity.dimension ? fmt::format(" (per {})", quantity.dimension) : "", owners);
+    };
+    auto const print_series = [](SeriesInfo const& series, std::string const& owners) {
+        print_row("  {:<30} {:<8} {}{}", series.name, series.unit, series.long_name, owners);
+    };
+    for (QuantityInfo const& quantity : quantity_table) {
+        Selection const bit = Selection{1} << (&quantity - quantity_table);
+        print_quantity(quantity, owners_text([bit](MechanismInfo const& one) { return (one.quantities & bit) != 0; }));
+    }
+    for_each_own(&Outputs::quantities, quantity_count, print_quantity);
+    print_text(2, "\nseries (study.quantities): values at the sample times; those above come with every time series");
+    for (SeriesInfo const& series : series_table) {
+        Selection const bit = Selection{1} << (&series - series_table);
+        print_series(series, owners_text([bit](MechanismInfo const& one) { return (one.series & bit) != 0; }));
+    }
+    for_each_own(&Outputs::series, series_count, print_series);
+}
+
 }  // namespace
 
 int execute(ListArguments const& arguments) {
@@ -160,19 +192,7 @@ int execute(ListArguments const& arguments) {
     for (std::size_t i = 0; i < std::size(design_names); ++i) {
         print_row("  {:<30} {}", design_names[i], design_meanings[i]);
     }
-    print_out("\nquantities (study.quantities): one value, or one row of values, per member\n");
-    for (QuantityInfo const& quantity : quantity_table) {
-        Selection const bit = Selection{1} << (&quantity - quantity_table);
-        print_row("  {:<30} {:<8} {}{}{}", quantity.name, quantity.unit, quantity.long_name,
-                   quantity.dimension ? fmt::format(" (per {})", quantity.dimension) : "",
-                   owners_text([bit](MechanismInfo const& one) { return (one.quantities & bit) != 0; }));
-    }
-    print_text(2, "\nseries (study.quantities): values at the sample times; those above come with every time series");
-    for (SeriesInfo const& series : series_table) {
-        Selection const bit = Selection{1} << (&series - series_table);
-        print_row("  {:<30} {:<8} {}{}", series.name, series.unit, series.long_name,
-                   owners_text([bit](MechanismInfo const& one) { return (one.series & bit) != 0; }));
-    }
+    print_outputs();
     print_out("\nkeys of a scene, with their unit, domain and default\n");
     print_keys();
     print_out("\nbackends (--backend)\n");

@@ -31,13 +31,14 @@ constexpr MechanismInfo mechanism_infos[] = {
 // Names stand twice, in the lists and in the headers.
 #define SLIDEWAY_CHECK(row, Type)                                                                  \
     static_assert(Type::info.name == #row, "the info of law " #row " bears another name"); \
-    static_assert(Type::info.keys.size() <= 4, "law " #row " has more than four numbers of its own");
+    static_assert(Type::info.keys.size() <= most_own_numbers, "law " #row " has more than sixteen numbers of its own");
 SLIDEWAY_LAWS(SLIDEWAY_CHECK)
 #undef SLIDEWAY_CHECK
 #define SLIDEWAY_CHECK(row, Type, Base)                                                                             \
     static_assert(std::string_view(Type::info.name) == #row, "the info of mechanism " #row " bears another name"); \
     static_assert(Type::info.states == Type::size && Type::size <= most_states,                                     \
                   "the state of mechanism " #row " has another size");                                                \
+    static_assert(Type::info.signals.empty(), "mechanism " #row " has signals, and the lanes of its base are of those that have none");              \
     static_assert(has_start_inputs(Type::info),                                                                     \
                   "a component of the state of mechanism " #row " starts from no input: it lacks a row in start_inputs (kernels/members/start.hpp)");
 SLIDEWAY_MECHANISMS(SLIDEWAY_CHECK)

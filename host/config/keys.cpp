@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "host/config/outputs.hpp"
 #include "host/config/settings.hpp"
+#include "host/config/units.hpp"
 #include "kernels/members/complete_inputs.hpp"
 
 namespace slideway {
@@ -100,19 +102,6 @@ KeyRange twin_keys() { return KeyRange(every_known_key().last(std::size(double_k
 
 namespace {
 
-/// Whether a unit is "1", or made of units of SI without prefixes (but kg), as "N s/m" is: values are taken as they are.
-bool is_si(std::string_view unit) {
-    constexpr std::string_view known[] = {"m", "kg", "s", "rad", "N", "J", "W", "Pa", "Hz", "K", "A", "V"};
-    constexpr std::string_view between = " /.*^-0123456789";
-    bool any = unit == "1";
-    for (auto at = unit.find_first_not_of(between); at != unit.npos; at = unit.find_first_not_of(between, at)) {
-        auto const end = std::min(unit.find_first_of(between, at), unit.size());
-        if (std::ranges::find(known, unit.substr(at, end - at)) == std::end(known)) return false;
-        any = true, at = end;
-    }
-    return any;
-}
-
 /// Whether the law or mechanism of this name that is known has a key.
 bool has_key(ModuleKind kind, std::string_view name, std::string_view key) {
     auto const in = [&](std::span<Key const> own) { return std::ranges::find(own, key, &Key::name) != own.end(); };
@@ -132,10 +121,7 @@ std::string objection_to(ModuleKind kind, KernelModule const& module) {
     if (!is_module_name(name)) return fmt::format("its info has the name \"{}\"; use at most 60 small letters, digits and '_', a letter first", name);
     if (!is_law && module.mechanism->info->on_cards) return "its info says on_cards, but modules have no kernels for cards; leave it out";
     if (of_the_tree || name == rigid_contact.name) return fmt::format("slideway has a {} {} of its own; give it another name", name_of(kind), name);
-    constexpr double Inputs::*of_laws[] = {&Inputs::law_a, &Inputs::law_b, &Inputs::law_c, &Inputs::law_d};
-    constexpr double Inputs::*of_mechanisms[] = {&Inputs::mechanism_a, &Inputs::mechanism_b, &Inputs::mechanism_c, &Inputs::mechanism_d,
-                                                 &Inputs::mechanism_e, &Inputs::mechanism_f, &Inputs::mechanism_g, &Inputs::mechanism_h};
-    std::span<double Inputs::*const> const places = is_law ? std::span<double Inputs::*const>(of_laws) : of_mechanisms;
+    std::span<double Inputs::*const> const places = is_law ? std::span(law_inputs) : std::span(mechanism_inputs);
     auto const own = is_law ? module.law->info->keys : module.mechanism->info->own_keys;
     std::string_view const table = is_law ? "contact." : "mechanism.";
     for (Key const& key : own) {
@@ -147,7 +133,7 @@ std::string objection_to(ModuleKind kind, KernelModule const& module) {
             return fmt::format("its key {} stands twice, or another one is on the same input", key.name);
         if (std::ranges::find(settings(), key.name, &Setting::name) != settings().end()) return fmt::format("scenes have a key {} already; give it another name", key.name);
         if (std::isnan(key.preset) && (key.derivation.empty() || !is_law)) return fmt::format("its key {} has no default; give it a number", key.name);
-        if (!is_si(key.unit)) return fmt::format("its key {} has the unit \"{}\", which is none of SI without a prefix", key.name, key.unit);
+        if (!is_plain_si(key.unit)) return fmt::format("its key {} has the unit \"{}\", which is none of SI without a prefix", key.name, key.unit);
         Key const* const known = find_key(key.name);
         if (known == nullptr) continue;
         bool const same = known->member == key.member && known->unit == key.unit && known->rule == key.rule && known->group == key.group;
@@ -156,7 +142,7 @@ std::string objection_to(ModuleKind kind, KernelModule const& module) {
         if (!same || of_others)
             return fmt::format("a key {} is known already with another unit, rule, default or input; give it another name (or, where it is an earlier version's, start anew)", key.name);
     }
-    return {};
+    return is_law ? std::string() : objection_to_signals(*module.mechanism->info);
 }
 
 std::vector<std::string_view> numeric_key_names() {

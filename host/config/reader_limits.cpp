@@ -4,13 +4,14 @@
 #include <fmt/ranges.h>
 
 #include "host/config/descriptors.hpp"
+#include "host/config/outputs.hpp"
 #include "host/config/reader.hpp"
 
 namespace slideway {
 namespace {
 
 struct LimitedQuantity {
-    Quantity quantity;
+    std::size_t place;  // among the outputs of the mechanism
     std::string label;
 };
 
@@ -24,18 +25,19 @@ LimitedQuantity read_name(Node const& node, Scene const& scene) {
     auto const bracket = name.find('[');
     std::string_view const quantity = name.substr(0, bracket);
     std::vector<std::string_view> names;
-    for (QuantityInfo const& info : quantity_table) names.emplace_back(info.name);
+    Outputs const& outputs = outputs_of(scene.parts.mechanism);
+    for (QuantityInfo const& info : outputs.quantities) names.emplace_back(info.name);
     auto const found = std::find(names.begin(), names.end(), quantity);
     if (found == names.end()) {
         auto const of_series = [&](SeriesInfo const& info) { return quantity == info.name; };
-        bool const series = std::any_of(std::begin(series_table), std::end(series_table), of_series);
+        bool const series = std::ranges::any_of(outputs.series, of_series);
         refuse_name(node, series ? "it is a time series" : "there is no such quantity",
                     series ? std::string("limit a quantity, see `slideway list`") : choice_advice(quantity, names));
     }
-    auto const limited = static_cast<Quantity>(found - names.begin());
-    if (!selects(info(scene.parts.mechanism).quantities, limited)) refuse_foreign_quantity(node, quantity, scene.parts.mechanism);
-    if (auto const why = why_unknown(limited, scene)) refuse_name(node, why->reason, why->advice);
-    QuantityInfo const& info = quantity_table[found - names.begin()];
+    auto const limited = static_cast<std::size_t>(found - names.begin());
+    if ((outputs.has_quantities >> limited & 1u) == 0) refuse_foreign_quantity(node, quantity, scene.parts.mechanism);
+    if (auto const why = why_unknown(static_cast<Quantity>(limited), scene)) refuse_name(node, why->reason, why->advice);
+    QuantityInfo const& info = outputs.quantities[limited];
     if (info.dimension == nullptr) {
         if (bracket != name.npos) refuse_name(node, "it is one number", fmt::format("write \"{}\"", quantity));
         return {limited, {}};
@@ -53,11 +55,10 @@ LimitedQuantity read_name(Node const& node, Scene const& scene) {
     return {limited, std::string(label)};
 }
 
-Limit read_limit(Node const& node, LimitedQuantity const& limited) {
+Limit read_limit(Node const& node, QuantityInfo const& info, LimitedQuantity const& limited) {
     constexpr std::string_view example = "{ min = 0, max = 1 }, or one of the two";
     if (!node.is_table()) refuse(node, {"not a limit", fmt::format("write for example {}", example)});
     check_arguments(node, "limit", {"min", "max"});
-    QuantityInfo const& info = quantity_table[static_cast<int>(limited.quantity)];
     Node const *const low = node.find("min"), *const high = node.find("max");
     if (low == nullptr && high == nullptr)
         refuse_that(node, "has neither min nor max", {"it would be met always", fmt::format("write for example {}", example)});
@@ -79,8 +80,8 @@ void read_limits(Node const& root, Scene& scene) {
     if (!table->is_table()) refuse(*table, {"it must be a table", "write [study.limits] and its quantities below"});
     for (Node const& node : table->children) {
         LimitedQuantity const limited = read_name(node, scene);
-        scene.limits.push_back(read_limit(node, limited));
-        scene.quantities |= selection_of(limited.quantity);
+        scene.limits.push_back(read_limit(node, outputs_of(scene.parts.mechanism).quantities[limited.place], limited));
+        scene.quantities |= Selection{1} << limited.place;
     }
 }
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host/config/outputs.hpp"
 #include "host/config/reader.hpp"
 #include "host/config/settings.hpp"
 
@@ -90,37 +91,35 @@ Sampling read_sampling(Node const& root, Scene const& scene, EndTime const& end)
     return {node, static_cast<std::size_t>(intervals) + 1};
 }
 
-std::vector<std::string_view> quantity_names() {
-    std::vector<std::string_view> names;
-    for (QuantityInfo const& info : quantity_table) names.emplace_back(info.name);
-    for (SeriesInfo const& info : series_table) names.emplace_back(info.name);
-    return names;
+void read_series(Node const& node, std::size_t place, Scene& scene) {
+    if (scene.sample_times.empty()) {
+        refuse(node, {"it is a time series and the study stores none",
+                      scene.study == StudyKind::ensemble ? "set study.samples_per_revolution or study.samples"
+                                                         : "remove it, or use kind = \"ensemble\""});
+    }
+    if (auto const why = why_unknown(static_cast<Series>(place), scene)) refuse(node, *why);
+    scene.series |= Selection{1} << place;
 }
 
 void read_quantities(Node const& list, Scene& scene) {
     if (list.type != Node::Type::array) {
         refuse(list, {"not a list of names", "write for example [\"mean_normal_force\", \"energy_residual\"]"});
     }
-    auto const names = quantity_names();
+    Outputs const& outputs = outputs_of(scene.parts.mechanism);
+    std::vector<std::string_view> names;
+    for (QuantityInfo const& quantity : outputs.quantities) names.emplace_back(quantity.name);
+    for (SeriesInfo const& series : outputs.series) names.emplace_back(series.name);
     for (Node const& node : list.children) {
         std::size_t const index = read_choice(node, "quantity", names);
-        MechanismInfo const& has = info(scene.parts.mechanism);
-        bool const known = index < std::size_t{quantity_count}
-                               ? selects(has.quantities, static_cast<Quantity>(index))
-                               : selects(has.series, static_cast<Series>(index - quantity_count));
-        if (!known) refuse_foreign_quantity(node, names[index], scene.parts.mechanism);
-        if (index < std::size_t{quantity_count}) {
-            if (auto const why = why_unknown(static_cast<Quantity>(index), scene)) refuse(node, *why);
-            scene.quantities |= Selection{1} << index;
+        bool const is_series = index >= outputs.quantities.size();
+        std::size_t const place = is_series ? index - outputs.quantities.size() : index;
+        if (((is_series ? outputs.has_series : outputs.has_quantities) >> place & 1u) == 0) refuse_foreign_quantity(node, names[index], scene.parts.mechanism);
+        if (is_series) {
+            read_series(node, place, scene);
             continue;
         }
-        if (scene.sample_times.empty()) {
-            refuse(node, {"it is a time series and the study stores none",
-                          scene.study == StudyKind::ensemble ? "set study.samples_per_revolution or study.samples"
-                                                             : "remove it, or use kind = \"ensemble\""});
-        }
-        if (auto const why = why_unknown(static_cast<Series>(index - quantity_count), scene)) refuse(node, *why);
-        scene.series |= Selection{1} << (index - quantity_count);
+        if (auto const why = why_unknown(static_cast<Quantity>(place), scene)) refuse(node, *why);
+        scene.quantities |= Selection{1} << place;
     }
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "host/config/descriptors.hpp"
+#include "host/config/outputs.hpp"
 #include "host/config/scene.hpp"
 #include "host/config/scene_text.hpp"
 #include "host/config/settings.hpp"
@@ -54,13 +55,9 @@ std::string source_comment(OwnModule const* module) { return module == nullptr ?
 std::string quantities_text(Scene const& scene) {
     std::string text;
     auto const add = [&](std::string_view name) { text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name); };
-    for (int i = 0; i < quantity_count; ++i) {
-        if (selects(scene.quantities, static_cast<Quantity>(i))) add(quantity_table[i].name);
-    }
-    Selection const asked = scene.series & ~info(scene.parts.mechanism).always;
-    for (int i = 0; i < series_count; ++i) {
-        if (selects(asked, static_cast<Series>(i))) add(series_table[i].name);
-    }
+    Outputs const& outputs = outputs_of(scene.parts.mechanism);
+    for (QuantityInfo const& quantity : selected(outputs.quantities, scene.quantities)) add(quantity.name);
+    for (SeriesInfo const& series : selected(outputs.series, scene.series & ~info(scene.parts.mechanism).always)) add(series.name);
     return text;
 }
 
@@ -162,8 +159,8 @@ std::string correlation_text(Scene const& scene) {
     return fmt::format("\n[study.correlation]\nkeys = [{}\n]\nmatrix = [{}\n]\n", keys, rows);
 }
 
-std::string_view unit_of(Limit const& limit) {
-    for (QuantityInfo const& info : quantity_table) {
+std::string_view unit_of(Limit const& limit, Mechanism mechanism) {
+    for (QuantityInfo const& info : outputs_of(mechanism).quantities) {
         if (limit.quantity == info.name) return info.unit;
     }
     return "1";
@@ -176,7 +173,7 @@ std::string limits_text(Scene const& scene) {
         text += fmt::format(
             "\"{}\" = {{ {}{}{} }}{}\n", limit.name(),
             low ? fmt::format("min = {}", toml_number(limit.low)) : std::string(), low && high ? ", " : "",
-            high ? fmt::format("max = {}", toml_number(limit.high)) : std::string(), unit_comment(unit_of(limit)));
+            high ? fmt::format("max = {}", toml_number(limit.high)) : std::string(), unit_comment(unit_of(limit, scene.parts.mechanism)));
     }
     return text.empty() ? text : "\n[study.limits]\n" + text;
 }

@@ -259,4 +259,16 @@ std::variant<double, Problem> to_si(std::string_view text, std::string_view unit
     return si;
 }
 
+bool is_plain_si(std::string_view unit) {
+    constexpr std::string_view known[] = {"m", "kg", "s", "rad", "N", "J", "W", "Pa", "Hz", "K", "A", "V"};
+    constexpr std::string_view between = " /.*^-0123456789";
+    bool any = unit == "1";
+    for (auto at = unit.find_first_not_of(between); at != unit.npos; at = unit.find_first_not_of(between, at)) {
+        auto const end = std::min(unit.find_first_of(between, at), unit.size());
+        if (std::ranges::find(known, unit.substr(at, end - at)) == std::end(known)) return false;
+        any = true, at = end;
+    }
+    return any;
+}
+
 }  // namespace slideway

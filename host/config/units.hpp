@@ -30,4 +30,7 @@ private:
 /// The factor from `given` ("mm") to the SI unit `unit`, or why there is none.  @throws FileError as `to_si`
 std::variant<UnitFactor, Problem> unit_factor(std::string_view given, std::string_view unit);
 
+/// Whether a unit is "1", or made of units of SI without prefixes (but kg), as "N s/m" is: values are taken as they are.
+bool is_plain_si(std::string_view unit);
+
 }  // namespace slideway

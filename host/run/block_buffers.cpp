@@ -42,7 +42,7 @@ std::size_t growth_width(BlockRequest const& request) { return request.stops.gro
 }  // namespace
 
 std::uint64_t block_bytes(BlockRequest const& request, std::size_t members) {
-    std::uint64_t const numbers = static_cast<std::uint64_t>(quantity_columns) + series_width(request) +
+    std::uint64_t const numbers = request.columns + series_width(request) +
                                   section_width(request) + growth_width(request) +
                                   request.states * (1 + shadow_count(request));
     std::uint64_t const per_member = 2 * sizeof(Inputs) + sizeof(char) + sizeof(std::uint32_t) + sizeof(MemberRecord) +
@@ -84,7 +84,7 @@ void BlockBuffers::run(BlockKernel const& kernel, BlockRequest const& request, M
     draw(request, source);
     records_.assign(members, MemberRecord{});
     final_states_.assign(members * request.states, nan);
-    quantities_.assign(members * static_cast<std::size_t>(quantity_columns), nan);
+    quantities_.assign(members * request.columns, nan);
     series_.assign(members * series_width(request), nan);
     sections_.assign(members * section_width(request), nan);
     growths_.assign(members * growth_width(request), nan);
@@ -125,7 +125,7 @@ void BlockBuffers::run(BlockKernel const& kernel, BlockRequest const& request, M
     std::size_t const usable = usable_.size();
     spread_rows(records_, is_usable_, usable, 1, 1, invalid);
     spread_rows(final_states_, is_usable_, usable, 1, request.states, nan);
-    spread_rows(quantities_, is_usable_, usable, 1, quantity_columns, nan);
+    spread_rows(quantities_, is_usable_, usable, 1, request.columns, nan);
     spread_rows(sections_, is_usable_, usable, 1, section_width(request), nan);
     spread_rows(growths_, is_usable_, usable, 1, growth_width(request), nan);
     spread_rows(series_, is_usable_, usable, static_cast<std::size_t>(std::popcount(block.series)), block.samples, nan);

@@ -17,13 +17,15 @@ struct BlockResult {
     std::span<Inputs const> inputs;          // [members], as drawn, also those that cannot be used
     std::span<MemberRecord const> records;   // [members]
     std::span<double const> final_states;    // [members][states()]; NaN for a member that was not integrated
-    std::span<double const> quantities;      // [members][quantity_columns]; NaN where not selected or not integrated
+    std::span<double const> quantities;      // [members][columns()]; NaN where not selected or not integrated
     std::span<double const> series;          // [selected series, in table order][members][samples]
     std::span<double const> sections;        // [members][sections][section_columns(states())]; NaN where not reached
     std::span<double const> growths;         // [members][growths][shadows], ln; NaN where not reached
 
     /// Numbers of a member's state.
     std::size_t states() const { return members.empty() ? 0 : final_states.size() / members.size(); }
+    /// Numbers of a member's row of all quantities.
+    std::size_t columns() const { return members.empty() ? 0 : quantities.size() / members.size(); }
 };
 
 /// Time and state of a section.
@@ -58,6 +60,7 @@ struct BlockRequest {
     ShadowPlan shadows;  // its directions are those of
     ShadowDirections directions;
     std::size_t states = state_size;  // numbers of a member's state
+    std::size_t columns = quantity_columns;  // of a member's row of all quantities
 };
 
 /// Bytes that a block of `members` needs.

@@ -18,10 +18,10 @@ bool is_before(FailedMember const& a, FailedMember const& b) { return a.member <
 }  // namespace
 
 BlockStatistics::BlockStatistics(StatisticsPlan const& plan)
-    : columns_(columns_of(plan.quantities).size()), met_(plan.limits.size()) {}
+    : columns_(columns_of(plan.mechanism, plan.quantities).size()), met_(plan.limits.size()) {}
 
 void BlockStatistics::add(BlockResult const& block, StatisticsPlan const& plan) {
-    std::vector<QuantityColumn> const columns = columns_of(plan.quantities);
+    std::vector<QuantityColumn> const columns = columns_of(plan.mechanism, plan.quantities);
     std::vector<std::size_t> limited;
     for (Limit const& limit : plan.limits) {
         QuantityColumn const* const column = column_of(columns, limit);
@@ -38,7 +38,7 @@ void BlockStatistics::add(BlockResult const& block, StatisticsPlan const& plan) 
             failed_.push_back({block.members[i], record.status, record.time});
             continue;
         }
-        auto const row = block.quantities.subspan(i * quantity_columns, quantity_columns);
+        auto const row = block.quantities.subspan(i * block.columns(), block.columns());
         for (std::size_t k = 0; k < columns.size(); ++k) columns_[k].add(row[columns[k].place]);
         bool all = !limited.empty();
         for (std::size_t k = 0; k < limited.size(); ++k) {

@@ -21,6 +21,7 @@ namespace slideway {
 struct StatisticsPlan {
     Selection quantities = 0;
     std::vector<Limit> limits;
+    Mechanism mechanism{};  // whose quantities they are
 };
 
 /// A member that ran and did not finish.

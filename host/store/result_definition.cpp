@@ -6,6 +6,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/base/error.hpp"
 #include "host/store/group_writer.hpp"
@@ -121,26 +122,22 @@ void ResultDefiner::define_members() {
 }
 
 void ResultDefiner::define_quantities() {
-    for (Quantity const q : selected_quantities(layout_.quantities)) {
-        QuantityInfo const& info = slideway::info(q);
-        int const first_column = quantity_column(q);
-        if (info.dimension == nullptr) {
-            ids_.quantities.push_back({member_variable(info.name, info.unit, info.long_name), first_column, 1});
+    for (OutputQuantity const& quantity : selected(outputs_of(layout_.mechanism).quantities, layout_.quantities)) {
+        if (quantity.dimension == nullptr) {
+            ids_.quantities.push_back({member_variable(quantity.name, quantity.unit, quantity.long_name), quantity.place, 1});
             continue;
         }
-        LabelAxes::Axis const& axis = labels_.axis(info.dimension);
-        int const variable = add(Type::float64, std::array{member_dimension_, axis.dimension}, info.name, info.unit, info.long_name);
+        LabelAxes::Axis const& axis = labels_.axis(quantity.dimension);
+        int const variable = add(Type::float64, std::array{member_dimension_, axis.dimension}, quantity.name, quantity.unit, quantity.long_name);
         file_.put(variable, "coordinates", axis.label_name);
-        ids_.quantities.push_back({variable, first_column, info.columns});
+        ids_.quantities.push_back({variable, quantity.place, static_cast<std::size_t>(quantity.columns)});
     }
 }
 
 void ResultDefiner::define_series() {
     if (layout_.sample_times.empty()) return;
-    for (int s = 0; s < series_count; ++s) {
-        if (!selects(layout_.series, static_cast<Series>(s))) continue;
-        SeriesInfo const& info = series_table[s];
-        ids_.series.push_back(add(Type::float64, std::array{member_dimension_, sample_dimension_}, info.name, info.unit, info.long_name));
+    for (SeriesInfo const& series : selected(outputs_of(layout_.mechanism).series, layout_.series)) {
+        ids_.series.push_back(add(Type::float64, std::array{member_dimension_, sample_dimension_}, series.name, series.unit, series.long_name));
         file_.put(ids_.series.back(), "coordinates", "time");
     }
 }
@@ -222,12 +219,19 @@ ResultVariables ResultDefiner::define() {
 
 }  // namespace
 
+void put_quantity_names(DataFile& file, ResultLayout const& layout) {
+    std::vector<char const*> names;
+    for (OutputQuantity const& quantity : selected(outputs_of(layout.mechanism).quantities, layout.quantities)) names.push_back(quantity.name);
+    if (!names.empty()) file.put(DataFile::global, "quantities", fmt::format("{}", fmt::join(names, " ")));
+}
+
 ResultVariables define_variables(DataFile& file, ResultLayout const& layout) {
     constexpr std::uint64_t largest = std::numeric_limits<int>::max();
     if (!layout.members.empty() && layout.members.ranges().back().end() > largest) {
         throw FileError(fmt::format("{}: cannot number members beyond {}", file.path(), largest));
     }
     if (!layout.sweep.empty()) file.put(DataFile::global, "sweep_parameter", layout.sweep);
+    put_quantity_names(file, layout);
     return ResultDefiner(file, layout).define();
 }
 

@@ -13,7 +13,7 @@ namespace slideway {
 struct ResultVariables {
     struct Quantity {
         int id;
-        int first_column, columns;
+        std::size_t first_column, columns;
     };
     int member = -1, status = -1, time = -1, label = -1;
     int end_time = -1;
@@ -31,6 +31,8 @@ ResultVariables define_result(DataFile& file, ResultLayout const& layout, Proven
 /// The same without where it comes from.
 ResultVariables define_variables(DataFile& file, ResultLayout const& layout);
 
+/// Attribute `quantities`: the names of those that a file is of, for readers that do not know the mechanism.  None without any.
+void put_quantity_names(DataFile& file, ResultLayout const& layout);
 /// Attributes that say where a result comes from.
 void put_provenance(DataFile& file, Provenance const& provenance);
 /// `flag_values` and `flag_meanings` of a variable that holds statuses.

@@ -7,34 +7,25 @@
 
 namespace slideway {
 
-std::vector<Quantity> selected_quantities(Selection selection) {
-    std::vector<Quantity> quantities;
-    for (int q = 0; q < quantity_count; ++q) {
-        if (selects(selection, static_cast<Quantity>(q))) quantities.push_back(static_cast<Quantity>(q));
+void add_columns(std::vector<QuantityColumn>& columns, OutputQuantity const& quantity) {
+    QuantityColumn column;
+    column.quantity = quantity.name;
+    column.place = quantity.place;
+    column.unit = quantity.unit;
+    column.long_name = quantity.long_name;
+    if (quantity.dimension == nullptr) return columns.push_back(column);
+    column.dimension = quantity.dimension;
+    for (std::string const& label : labels_of(column.dimension)) {
+        column.label = label;
+        columns.push_back(column);
+        ++column.index;
+        ++column.place;
     }
-    return quantities;
 }
 
-std::vector<QuantityColumn> columns_of(Selection quantities) {
+std::vector<QuantityColumn> columns_of(Mechanism mechanism, Selection quantities) {
     std::vector<QuantityColumn> columns;
-    for (Quantity const q : selected_quantities(quantities)) {
-        QuantityColumn column;
-        column.quantity = info(q).name;
-        column.place = static_cast<std::size_t>(quantity_column(q));
-        column.unit = info(q).unit;
-        column.long_name = info(q).long_name;
-        if (info(q).dimension == nullptr) {
-            columns.push_back(column);
-            continue;
-        }
-        column.dimension = info(q).dimension;
-        for (std::string const& label : labels_of(column.dimension)) {
-            column.label = label;
-            columns.push_back(column);
-            ++column.index;
-            ++column.place;
-        }
-    }
+    for (OutputQuantity const& quantity : selected(outputs_of(mechanism).quantities, quantities)) add_columns(columns, quantity);
     return columns;
 }
 
@@ -53,7 +44,7 @@ std::string variable_name(std::string_view key) {
 std::uint64_t payload_bytes(ResultLayout const& layout) {
     constexpr std::uint64_t end_time = 1;
     std::uint64_t columns = work_table.size() + end_time + layout.states() + layout.parameters.size();
-    columns += columns_of(layout.quantities).size();
+    columns += columns_of(layout.mechanism, layout.quantities).size();
     std::uint64_t const samples = layout.sample_times.size();
     if (samples > 0) columns += static_cast<std::uint64_t>(std::popcount(layout.series)) * samples;
     if (layout.sections > 0) columns += layout.sections * section_columns(layout.states());

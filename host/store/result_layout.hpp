@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/config/descriptors.hpp"
+#include "host/config/outputs.hpp"
 #include "host/run/member_set.hpp"
 #include "host/sampling/design.hpp"
 #include "host/store/provenance.hpp"
@@ -61,10 +62,6 @@ inline constexpr std::array<WorkCounter, 5> work_table{{
     {"stiff_steps", "accepted steps of the stiff method", &MemberRecord::stiff_steps},
 }};
 
-/// The quantities of a selection, in the order of their table.
-std::vector<Quantity> selected_quantities(Selection selection);
-inline QuantityInfo const& info(Quantity quantity) { return quantity_table[static_cast<int>(quantity)]; }
-
 /// One number per member: a quantity, or one of its columns.
 struct QuantityColumn {
     std::string quantity;   // name of the variable: "mode_time"
@@ -77,8 +74,10 @@ struct QuantityColumn {
     std::string name() const { return label.empty() ? quantity : quantity + "[" + label + "]"; }
 };
 
-/// A column for each number of the quantities, in the order of their table.
-std::vector<QuantityColumn> columns_of(Selection quantities);
+/// Adds one for each number of a quantity.
+void add_columns(std::vector<QuantityColumn>& columns, OutputQuantity const& quantity);
+/// A column for each number of the quantities, in the order of the mechanism's outputs.
+std::vector<QuantityColumn> columns_of(Mechanism mechanism, Selection quantities);
 /// The one that a limit is of; nullptr without it.
 QuantityColumn const* column_of(std::vector<QuantityColumn> const& columns, Limit const& limit);
 

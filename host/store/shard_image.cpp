@@ -80,8 +80,7 @@ private:
 
     void write_quantities() {
         for (ResultVariables::Quantity const& quantity : ids_.quantities) {
-            auto const first = static_cast<std::size_t>(quantity.first_column);
-            write_rows(quantity.id, block_.quantities.subspan(first), quantity_columns, static_cast<std::size_t>(quantity.columns));
+            write_rows(quantity.id, block_.quantities.subspan(quantity.first_column), block_.columns(), quantity.columns);
         }
     }
 

@@ -50,12 +50,13 @@ void write_merged(DataFile& file, BlockStatistics const& statistics, ResultMerge
     file.put(DataFile::global, "store", "statistics");
     file.put(DataFile::global, "members", members.text());
     LabelAxes axes(file);
-    std::vector<std::string_view> names;
-    for (Quantity const q : selected_quantities(merge.layout.quantities)) {
-        names.emplace_back(info(q).name);
-        if (info(q).dimension != nullptr) axes.axis(info(q).dimension);
+    std::vector<char const*> units;
+    for (OutputQuantity const& quantity : selected(outputs_of(merge.layout.mechanism).quantities, merge.layout.quantities)) {
+        units.push_back(quantity.unit);
+        if (quantity.dimension != nullptr) axes.axis(quantity.dimension);
     }
-    file.put(DataFile::global, "quantities", fmt::format("{}", fmt::join(names, " ")));
+    put_quantity_names(file, merge.layout);
+    file.put(DataFile::global, "quantity_units", fmt::format("{}", fmt::join(units, ", ")));
     axes.write();
     write_statuses(file, statistics, members.without(statistics.members()).count());
     write_failed(file, statistics);
@@ -87,11 +88,6 @@ BlockStatistics stored_statistics(ResultView const& results) {
     std::vector<std::byte> bytes;
     for (double const value : results.values("accumulators")) bytes.push_back(static_cast<std::byte>(int8_of(value)));
     return BlockStatistics::parse(bytes, results.path());
-}
-
-Selection stored_quantities(ResultView const& results) {
-    std::string const names = fmt::format(" {} ", results.attribute("quantities"));
-    return quantities_where([&](QuantityInfo const& quantity) { return names.find(fmt::format(" {} ", quantity.name)) != names.npos; });
 }
 
 std::uint64_t members_left(ResultView const& results) {

@@ -24,8 +24,6 @@ void write_merged(DataFile& file, BlockStatistics const& statistics, ResultMerge
 
 /// The statistics in such a file.  @throws FileError if it holds none.
 BlockStatistics stored_statistics(ResultView const& results);
-/// The quantities that its columns are of.
-Selection stored_quantities(ResultView const& results);
 /// Members of the run that such a file is without.  @throws FileError if it does not say.
 std::uint64_t members_left(ResultView const& results);
 

@@ -31,6 +31,7 @@ BlockRequest block_request(Scene const& scene) {
                          shadow_plan(scene),
                          {}};
     request.states = static_cast<std::size_t>(info(scene.parts.mechanism).states);
+    request.columns = outputs_of(scene.parts.mechanism).columns;
     request.directions = [seed = scene.seed, shadows = request.shadows.count, parts = scene.parts](
                              std::uint64_t member, double* out) { draw_directions(seed, member, shadows, parts, out); };
     return request;
@@ -66,7 +67,7 @@ ResultLayout result_layout(Scene const& scene, MemberSet const& members) {
     return layout;
 }
 
-StatisticsPlan statistics_plan(Scene const& scene) { return {scene.quantities, scene.limits}; }
+StatisticsPlan statistics_plan(Scene const& scene) { return {scene.quantities, scene.limits, scene.parts.mechanism}; }
 
 BlockDemand block_demand(Scene const& scene, Backend const& backend, int threads, std::size_t block_members) {
     return demand_of(scene, block_request(scene), backend.workers(threads), block_members);

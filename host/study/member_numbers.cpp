@@ -27,9 +27,9 @@ using EndContacts = std::array<double, std::size(contact_names)>;
 
 /// The energy residual of a law that keeps energy is the integration's own error: nothing to compare.
 std::vector<QuantityColumn> compared_columns(Scene const& scene) {
-    std::vector<QuantityColumn> columns = columns_of(scene.quantities);
+    std::vector<QuantityColumn> columns = columns_of(scene.parts.mechanism, scene.quantities);
     if (makes_energy(scene.parts)) return columns;
-    std::string_view const residual = info(Quantity::energy_residual).name;
+    std::string_view const residual = quantity_table[static_cast<int>(Quantity::energy_residual)].name;
     std::erase_if(columns, [&](QuantityColumn const& column) { return column.quantity == residual; });
     return columns;
 }
@@ -99,7 +99,7 @@ MemberNumbers stored_numbers(ToleranceMembers const& members, Scene const& scene
         (next++)->values = std::move(values);
     };
     for (QuantityColumn const& column : compared_columns(scene)) put(members.column(column.quantity, column.index));
-    std::vector<QuantityColumn> const stored = columns_of(scene.quantities);
+    std::vector<QuantityColumn> const stored = columns_of(scene.parts.mechanism, scene.quantities);
     for (Limit const& limit : scene.limits) {
         QuantityColumn const* const column = column_of(stored, limit);
         std::vector<double> values = column != nullptr ? members.column(column->quantity, column->index) : std::vector<double>(members.size(), nan);
@@ -146,7 +146,7 @@ public:
         if (selects(scene.quantities, Quantity::energy_residual)) numbers_.energy_residual.assign(members.size(), nan);
         for (std::size_t i = 0; i < members.size(); ++i) places_[members[i]] = i;
         for (QuantityColumn const& column : compared_columns(scene)) quantities_.push_back(column.place);
-        std::vector<QuantityColumn> const columns = columns_of(scene.quantities);
+        std::vector<QuantityColumn> const columns = columns_of(scene.parts.mechanism, scene.quantities);
         for (Limit const& limit : scene.limits) limited_.push_back(column_of(columns, limit)->place);
     }
 
@@ -160,7 +160,7 @@ public:
         for (std::size_t i = 0; i < block.members.size(); ++i) {
             std::size_t const place = places_.at(block.members[i]);
             MemberRecord const& record = block.records[i];
-            double const* const quantities = &block.quantities[i * quantity_columns];
+            double const* const quantities = &block.quantities[i * block.columns()];
             numbers_.work[place] = work_of(static_cast<double>(record.rhs_evaluations), static_cast<double>(record.jacobian_evaluations));
             numbers_.steps[place] = record.steps_accepted + record.steps_rejected;
             numbers_.finished[place] = record.status == Status::finished;

@@ -31,7 +31,7 @@ double contact_steps(IntegratorSettings const& settings) {
 /// Bytes of the statistics of so many members, in memory or in a file.
 std::uint64_t statistics_image_bytes(Scene const& scene, std::uint64_t members) {
     constexpr std::uint64_t octaves = 8, buckets = octaves * 512, bytes_per_bucket = 16, beside = 700;
-    std::uint64_t const columns = columns_of(scene.quantities).size();
+    std::uint64_t const columns = columns_of(scene.parts.mechanism, scene.quantities).size();
     constexpr std::uint64_t head = 4096;  // counts, failed members, who made it
     return head + columns * (beside + bytes_per_bucket * std::min(members, buckets));
 }
@@ -42,7 +42,7 @@ std::uint64_t summary_bytes(Scene const& scene) {
     // Those of all members and of one shard.
     if (!scene.stores_members()) return 2 * statistics_image_bytes(scene, member_count(scene));
     int widest = 0;
-    for (Quantity const q : selected_quantities(scene.quantities)) widest = std::max(widest, info(q).columns);
+    for (OutputQuantity const& quantity : selected(outputs_of(scene.parts.mechanism).quantities, scene.quantities)) widest = std::max(widest, quantity.columns);
     std::uint64_t const members = member_count(scene), word = sizeof(double);
     std::uint64_t const plain = members * word * (1 + (widest > 0 ? static_cast<std::uint64_t>(widest) + 2 : 0));
     std::uint64_t const sections = orbit_schedule(scene).section_rows() > 0 ? members * word : 0;
@@ -120,7 +120,7 @@ constexpr double beside_members = 0.1;  // [s]: a program that starts, shards, t
 std::uint64_t statistics_bytes(Scene const& scene, std::uint64_t members) {
     constexpr std::uint64_t bins_and_edges = 129 * sizeof(double), quantiles = 36 * sizeof(double);
     return statistics_image_bytes(scene, members) +
-           columns_of(scene.quantities).size() * (bins_and_edges + quantiles);
+           columns_of(scene.parts.mechanism, scene.quantities).size() * (bins_and_edges + quantiles);
 }
 
 std::uint64_t statistics_shard_bytes(Scene const& scene, std::uint64_t members) {
@@ -150,7 +150,7 @@ std::uint64_t result_bytes(Scene const& scene, MemberSet const& members, Backend
     // A report has some ten variables of each column, described at length.
     constexpr std::uint64_t of_report = 10'000, of_column = 8'000;
     std::uint64_t const report =
-        asks_for_report(scene) ? of_report + of_column * columns_of(scene.quantities).size() : 0;
+        asks_for_report(scene) ? of_report + of_column * columns_of(scene.parts.mechanism, scene.quantities).size() : 0;
     return payload_bytes(layout) + header_bytes(layout, provenance(scene, backend, threads)) + report;
 }
 

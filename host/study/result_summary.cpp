@@ -8,13 +8,14 @@
 #include "host/base/error.hpp"
 #include "host/store/result_layout.hpp"
 #include "host/store/statistics_merge.hpp"
+#include "host/store/stored_quantities.hpp"
 
 namespace slideway {
 namespace {
 
 /// Of a file without members: the median is sketched.
 std::vector<QuantitySummary> sketched_quantities(ResultView const& results) {
-    std::vector<QuantityColumn> const columns = columns_of(stored_quantities(results));
+    std::vector<QuantityColumn> const columns = stored_columns(results);
     BlockStatistics const statistics = stored_statistics(results);
     std::vector<QuantitySummary> summaries;
     for (std::size_t i = 0; i < std::min(columns.size(), statistics.columns().size()); ++i) {
@@ -36,20 +37,16 @@ std::vector<QuantitySummary> summarise_quantities(ResultView const& results) {
     if (!results.stores_members()) return sketched_quantities(results);
     std::vector<double> const statuses = results.values("status");
     std::vector<QuantitySummary> summaries;
-    for (QuantityInfo const& info : quantity_table) {
-        if (!results.has(info.name)) continue;
-        std::vector<double> const values = results.values(info.name);
-        auto const columns = static_cast<std::size_t>(info.columns);
-        if (values.size() != statuses.size() * columns) continue;  // written by another version
-        std::vector<std::string> const labels = info.dimension ? labels_of(info.dimension) : std::vector<std::string>{};
-        for (std::size_t column = 0; column < columns; ++column) {
-            std::vector<double> finished;
-            for (std::size_t i = 0; i < statuses.size(); ++i) {
-                if (status_of(statuses[i]) == Status::finished) finished.push_back(values[i * columns + column]);
-            }
-            std::string const label = labels.empty() ? info.name : fmt::format("{}[{}]", info.name, labels[column]);
-            summaries.push_back({label, results.unit(info.name), summarise(finished)});
+    std::vector<double> values;  // of the quantity that a column is of
+    for (QuantityColumn const& column : stored_columns(results)) {
+        if (column.index == 0) values = results.values(column.quantity);
+        std::size_t const width = std::max<std::size_t>(1, labels_of(column.dimension).size());
+        if (values.size() != statuses.size() * width) continue;  // written by another version
+        std::vector<double> finished;
+        for (std::size_t i = 0; i < statuses.size(); ++i) {
+            if (status_of(statuses[i]) == Status::finished) finished.push_back(values[i * width + column.index]);
         }
+        summaries.push_back({column.name(), column.unit, summarise(finished)});
     }
     return summaries;
 }

@@ -20,7 +20,7 @@ struct QuantitySummary {
     std::string unit;
     Summary values;
 };
-/// In the order of the quantity table.
+/// In the order of the file.
 std::vector<QuantitySummary> summarise_quantities(ResultView const& results);
 
 struct StatusCount {

@@ -7,6 +7,7 @@
 
 #include "host/base/error.hpp"
 #include "host/store/statistics_merge.hpp"
+#include "host/store/stored_quantities.hpp"
 #include "host/study/tolerance_members.hpp"
 
 namespace slideway {
@@ -50,15 +51,6 @@ Proportion yield_of(std::uint64_t met, std::uint64_t trials, bool random) {
 QuantityColumn const& limited_column(std::vector<QuantityColumn> const& columns, Limit const& limit, std::string const& path) {
     if (QuantityColumn const* const column = column_of(columns, limit)) return *column;
     throw FileError(fmt::format("{}: has no {}, which study.limits names; add it to study.quantities", path, limit.name()));
-}
-
-std::vector<QuantityColumn> stored_columns(ResultView const& results) {
-    std::vector<QuantityColumn> columns = columns_of(quantities_where([&](QuantityInfo const& quantity) { return results.has(quantity.name); }));
-    for (QuantityColumn& column : columns) {
-        column.unit = results.unit(column.quantity);
-        column.long_name = results.long_name(column.quantity);
-    }
-    return columns;
 }
 
 ColumnStatistics statistics_of(ToleranceMembers const& members, QuantityColumn const& column, bool random) {
@@ -116,7 +108,7 @@ ColumnStatistics statistics_of(ColumnAccumulator const& values, QuantityColumn c
 /// Of a result without members.
 ToleranceReport statistics_report(ResultView const& results, Scene const& scene) {
     BlockStatistics const statistics = stored_statistics(results);
-    std::vector<QuantityColumn> const columns = columns_of(scene.quantities);
+    std::vector<QuantityColumn> const columns = columns_of(scene.parts.mechanism, scene.quantities);
     if (columns.size() != statistics.columns().size() || scene.limits.size() != statistics.met().size()) {
         throw FileError(fmt::format("{}: its statistics are of {} columns and {} limits, and the scene has {} and {}; give the scene of this result",
                                     results.path(), statistics.columns().size(), statistics.met().size(), columns.size(), scene.limits.size()));

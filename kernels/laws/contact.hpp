@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/inputs.hpp"
 #include "kernels/laws/damping.hpp"
 #include "kernels/laws/face.hpp"
 #include "kernels/laws/line.hpp"
@@ -15,6 +16,13 @@ template <class Real> struct FaceContact {
     LineContact<Real> const& along;   // edges b–c and d–a
 };
 
+/// What a law has of its own: law_a … law_p of the inputs.
+template <class Real> struct LawNumbers {
+#define SLIDEWAY_MEMBER(letter) Real letter;
+    SLIDEWAY_OWN_NUMBERS(SLIDEWAY_MEMBER)
+#undef SLIDEWAY_MEMBER
+};
+
 template <class Real> struct ContactParameters {
     PointContact<Real> point;
     DampingParameters<Real> damping;
@@ -23,7 +31,7 @@ template <class Real> struct ContactParameters {
     LineContact<Real> across_z_face;  // edges of the Z faces along Y
     Real surface_stiffness_y;
     Real surface_stiffness_z;
-    Quad<Real> of_law;  // law_a … law_d of the inputs
+    LawNumbers<Real> of_law;
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -18,7 +18,7 @@ struct LawInfo {
     KeyGroups groups;        // of the keys of contacts, those that count for it
     bool of_touching_alone = false;  // forces are on the apices that touch, and depend on no depth of another
     bool needs_restitution = false;  // contact.restitution must be given: it has no other damping
-    std::span<Key const> keys = {};  // its own, on Inputs::law_a … law_d
+    std::span<Key const> keys = {};  // its own, on Inputs::law_a … law_p
     /// Stiffness of a face [N/m] of which all apices are in contact, for predictions.  @param surface that of its surface, E_s A/l; none: it is that
     double (*face_stiffness)(Inputs const&, double surface) = nullptr;
 

@@ -7,6 +7,7 @@
 
 #include "kernels/inputs.hpp"
 #include "kernels/observers/quantities.hpp"
+#include "kernels/observers/signals.hpp"
 
 namespace slideway {
 
@@ -35,7 +36,8 @@ struct MechanismInfo {
     bool free_crank = false;    // mechanism.crank = "free" is possible: no drive holds its speed then, or prescribes anything
     bool has_exponents = true;  // members may have neighbours beside them
     bool on_cards = false;      // there are kernels for cards
-    std::span<Key const> own_keys = {};  // of numbers of its own, on Inputs::mechanism_a … mechanism_h
+    std::span<Key const> own_keys = {};  // of numbers of its own, on Inputs::mechanism_a … mechanism_p
+    std::span<Signal const> signals = {};  // that its `put_signals(t, state, parameters, report, values)` tells, in their order
 };
 
 namespace selections {

@@ -114,7 +114,9 @@ SLIDEWAY_FN SliderParameters<double> slider_parameters(Inputs const& in) {
     c.across_z_face = detail::line_contact(reduced, in.edge_radius, in.way_width);
     c.surface_stiffness_y = series * in.slider_length * in.way_depth / in.thickness_y;
     c.surface_stiffness_z = series * in.slider_length * in.way_width / in.thickness_z;
-    c.of_law = {in.law_a, in.law_b, in.law_c, in.law_d};
+#define SLIDEWAY_NUMBER(letter) in.law_##letter,
+    c.of_law = {SLIDEWAY_OWN_NUMBERS(SLIDEWAY_NUMBER)};
+#undef SLIDEWAY_NUMBER
 
     p.joint.friction = friction_parameters(in);
 

@@ -40,20 +40,32 @@ template <class Base> constexpr bool finds_state(MechanismInfo const& info) {
 #define SLIDEWAY_STATE_NOT_FOUND \
     "the base's state_of_series(series) does not say of each component of the mechanism's info.state where it is in the base's state"
 
+/// The derivative of a mechanism, with all that the lanes' report tells if Full: also its signals, where a report is more than powers.
+template <class Mechanism, bool Full, class Real, class Laws, class Parameters, class Memory, class Report>
+SLIDEWAY_FN Faults<Real> derivative_of(Real t, Real const* state, Parameters const& p, Memory const& memory, Conditions<Laws> const& block,
+                                       Real* rates, Report* report) {
+    auto const faults = Mechanism::template derivative<Full, Real, Laws>(t, state, p, memory, block, rates, report);
+    if constexpr (Full && SignalsOf<Mechanism>::count > 0) {
+        if (!block.powers_alone) Mechanism::put_signals(t, state, p, *report, report->signal);
+    }
+    return faults;
+}
+
 /// A mechanism as the lanes integrate it, whose equations are known when the lanes are compiled: every call names its function.
 /// @tparam Base of the mechanism's row in mechanisms/list.hpp  @tparam Laws OneLaw or AnyLaw
-template <class Mechanism, class Base, class Laws> struct MechanismModel : Mechanism, LanesOf<Base>, ConditionsOfBlock<Laws> {
+template <class Mechanism, class Base, class Laws> struct MechanismModel : Mechanism, SignalLanes<Base, SignalsOf<Mechanism>>, ConditionsOfBlock<Laws> {
+    using Lanes = SignalLanes<Base, SignalsOf<Mechanism>>;
     static_assert(finds_state<Base>(Mechanism::info), SLIDEWAY_STATE_NOT_FOUND);
     template <class Real> using Parameters = typename Mechanism::template Parameters<Real>;
     template <class Real> using Memory = typename LanesOf<Base>::template Memory<Real>;
-    template <class Real> using Report = typename Mechanism::template Report<Real>;
+    template <class Real> using Report = typename Lanes::template Report<Real>;
 
     explicit constexpr MechanismModel(Conditions<Laws> const& conditions) : ConditionsOfBlock<Laws>{conditions} {}
 
     template <bool Full, class Real>
     SLIDEWAY_FN Faults<Real> derivative(Real t, Real const* state, Parameters<Real> const& p, Memory<Real> const& memory,
                                         Real* rates, Report<Real>* report) const {
-        return Mechanism::template derivative<Full>(t, state, p, memory, this->block, rates, report);
+        return derivative_of<Mechanism, Full>(t, state, p, memory, this->block, rates, report);
     }
     template <class Real, class Linearisation>
     SLIDEWAY_FN void linearise(Real t, Real const* state, Parameters<Real> const& p, Memory<Real> const& memory,

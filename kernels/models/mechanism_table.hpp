@@ -9,11 +9,12 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// The equations of a mechanism behind pointers.  A call costs what a call costs; the derivative is a function of its own in any case.
-template <class Real, class Base> struct MechanismFunctions {
+/// @tparam Signals OwnSignals, or NoSignals
+template <class Real, class Base, class Signals> struct MechanismFunctions {
     using Block = Conditions<LawFunctions<Real>>;
     using Parameters = typename Base::template Parameters<Real>;
     using Memory = typename LanesOf<Base>::template Memory<Real>;
-    using Report = typename Base::template Report<Real>;
+    using Report = typename SignalLanes<Base, Signals>::template Report<Real>;
     using Derivative = Faults<Real>(Real, Real const*, Parameters const&, Memory const&, Block const&, Real*, Report*);
 
     typename Base::template Parameters<double> (*parameters)(Inputs const&) = nullptr;
@@ -30,8 +31,13 @@ template <class Real, class Base> struct MechanismFunctions {
         using Laws = LawFunctions<Real>;
         MechanismFunctions functions;
         functions.parameters = &Mechanism::parameters;
-        functions.lean = &Mechanism::template derivative<false, Real, Laws>;
-        functions.full = &Mechanism::template derivative<true, Real, Laws>;
+        if constexpr (Signals::count == 0) {
+            functions.lean = &Mechanism::template derivative<false, Real, Laws>;
+            functions.full = &Mechanism::template derivative<true, Real, Laws>;
+        } else {
+            functions.lean = &derivative_of<Mechanism, false, Real, Laws, Parameters, Memory, Report>;
+            functions.full = &derivative_of<Mechanism, true, Real, Laws, Parameters, Memory, Report>;
+        }
         functions.gap = &Mechanism::template gap<Real, Laws>;
         if constexpr (LanesOf<Base>::has_linearisation) {
             functions.linearise = &Mechanism::template linearise<Real, Laws>;
@@ -42,12 +48,13 @@ template <class Real, class Base> struct MechanismFunctions {
     }
 };
 
-/// A mechanism whose equations are looked up: the lanes are compiled once for all mechanisms of a base.
-template <class Real, class Base> struct MechanismTable : Base, LanesOf<Base>, ConditionsOfBlock<LawFunctions<Real>> {
-    using Functions = MechanismFunctions<Real, Base>;
+/// A mechanism whose equations are looked up: the lanes are compiled once for all mechanisms of a base that have no signals of their own.
+template <class Real, class Base, class Signals = NoSignals>
+struct MechanismTable : Base, SignalLanes<Base, Signals>, ConditionsOfBlock<LawFunctions<Real>> {
+    using Functions = MechanismFunctions<Real, Base, Signals>;
     template <class Number> using Parameters = typename Base::template Parameters<Number>;
     template <class Number> using Memory = typename LanesOf<Base>::template Memory<Number>;
-    template <class Number> using Report = typename Base::template Report<Number>;
+    template <class Number> using Report = typename SignalLanes<Base, Signals>::template Report<Number>;
 
     Functions functions;
 

@@ -4,6 +4,7 @@
 #include "kernels/observers/acceleration_record.hpp"
 #include "kernels/observers/energy_audit.hpp"
 #include "kernels/observers/quantities.hpp"
+#include "kernels/observers/signal_observer.hpp"
 #include "kernels/observers/slider_observer.hpp"
 #include "kernels/steppers/contact_watch.hpp"
 
@@ -52,5 +53,15 @@ template <class Base> struct SpatialLanes : ContactLanes<Base> {
 
 template <> struct LanesOf<SliderBase> : SpatialLanes<SliderBase> {};
 template <> struct LanesOf<FreeSliderBase> : SpatialLanes<FreeSliderBase> {};
+
+/// What the lanes need of a mechanism that has signals of its own, or NoSignals.
+template <class Base, class Signals> struct SignalLanes : LanesOf<Base> {
+    static constexpr int series = LanesOf<Base>::series + Signals::count;
+    template <class Real> using Report = SignalReport<Real, typename Base::template Report<Real>, Signals::count>;
+    template <class Real> using Observer = SignalObserver<Real, typename LanesOf<Base>::template Observer<Real>, Signals>;
+};
+template <class Base> struct SignalLanes<Base, NoSignals> : LanesOf<Base> {
+    template <class Real> using Report = typename Base::template Report<Real>;
+};
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -5,9 +5,11 @@
 
 namespace slideway {
 
-/// What a quantity is of the value that `SliderObserver::value` gives it.
+/// What a quantity is of the value that `SliderObserver::value` gives it, or of a mechanism's own signal (signals.hpp).
 enum class Statistic {
     peak,              // largest magnitude at the accepted steps
+    maximum, minimum,  // at the accepted steps; of signals
+    at_end,            // the value there; of signals
     mean,              // over time
     root_mean_square,  // over time
     integral,          // over time
@@ -16,8 +18,9 @@ enum class Statistic {
     counted,           // by code of its own at the accepted steps
 };
 
-/// Who keeps a quantity: SliderObserver, or AccelerationRecord, which members that ask for none of its quantities do not carry along.
-enum class Keeper { mechanism, accelerations };
+/// Who keeps a quantity: SliderObserver; AccelerationRecord, which members that ask for none of its quantities do not carry along; or
+/// SignalObserver, of a mechanism's own signals.
+enum class Keeper { mechanism, accelerations, signals };
 
 // row(name, statistic, keeper, unit, columns, dimension, long name): one value (or `columns` values along `dimension`) per member at the
 // end of its run.
@@ -137,9 +140,9 @@ inline constexpr SeriesInfo series_table[] = {
 };
 inline constexpr int series_count = static_cast<int>(Series::count);
 
-/// A set of quantities or series: bit i for entry i of the table.
-using Selection = std::uint32_t;
-static_assert(quantity_count < 32 && series_count < 32, "a Selection has no bit for it");
+/// A set of quantities or series: bit i for entry i of the table, then those of the mechanism's own signals.
+using Selection = std::uint64_t;
+inline constexpr int selection_bits = 64;
 constexpr bool selects(Selection set, Quantity q) { return (set >> static_cast<int>(q)) & 1u; }
 constexpr Selection selection_of(Quantity q) { return Selection{1} << static_cast<int>(q); }
 constexpr Selection selection_of(Series s) { return Selection{1} << static_cast<int>(s); }

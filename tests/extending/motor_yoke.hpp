@@ -56,6 +56,10 @@ struct MotorAndYoke {
         {"mechanism.no_load_speed", &Inputs::mechanism_b, "rad/s", Rule::positive, KeyGroup::mechanism, "speed at which the motor has no torque", 100},
         {"mechanism.flywheel_inertia", &Inputs::mechanism_c, "kg m2", Rule::positive, KeyGroup::mechanism, "inertia of crank and flywheel", 1e-3},
     };
+    static constexpr Signal signals[] = {
+        {"motor_torque", "N m", "torque of the motor"},
+        {"motor_power", "W", "power of the motor", statistics_of(Statistic::maximum, Statistic::mean)},
+    };
     static constexpr MechanismInfo info = [] {
         auto info = spatial_slider_info();
         info.name = "motor_yoke";
@@ -67,8 +71,16 @@ struct MotorAndYoke {
         info.always |= selections::of({Series::crank_angle, Series::crank_angular_velocity});
         info.keys |= groups_of(KeyGroup::crank);
         info.own_keys = keys;
+        info.signals = signals;
         return info;
     }();
+
+    /// In the order of `signals`.
+    template <class Real, class Report>
+    SLIDEWAY_FN static void put_signals(Real, Real const* s, MotorParameters<Real> const& p, Report const&, Real* values) {
+        values[0] = fnma(p.torque_slope, s[11], p.stall_torque);
+        values[1] = values[0] * s[11];
+    }
 
     template <class Real> class At {
     public:

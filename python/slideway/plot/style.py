@@ -115,7 +115,7 @@ def variable(result: xr.Dataset, name: str) -> xr.DataArray:
         raise SlidewayError(f'this result has no {name}; use study.kind = "poincare" or "sweep"')
     if name.startswith("lyapunov"):
         raise SlidewayError(f'this result has no {name}; use study.kind = "lyapunov", or "sweep" with study.exponents = 1')
-    if "sample" not in result.dims and not name.startswith(("peak_", "mean_", "rms_")):
+    if "sample" not in result.dims and not name.startswith(("peak_", "max_", "min_", "mean_", "rms_", "final_")):
         raise SlidewayError(
             f'this result has no {name}; add study.samples_per_revolution = 200 for a time series, and "{name}" to '
             "study.quantities if it is no state"

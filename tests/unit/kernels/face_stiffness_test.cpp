@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <random>
 #include <string>
@@ -102,6 +103,14 @@ template <class Law, class Damping> void expect_derivatives(double exponent) {
             if (::testing::Test::HasFailure()) return;
         }
     }
+}
+
+TEST(FaceStiffness, OfALawHasSixteenNumbersOfItsOwn) {
+    Inputs in;
+    for (int i = 0; i < most_own_numbers; ++i) in.*law_inputs[i] = i + 1;
+    LawNumbers<double> const law = slider_parameters(oracle::completed(in)).joint.contact.of_law;
+    EXPECT_EQ((std::bit_cast<std::array<double, 16>>(law)), (std::array<double, 16>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16}));
+    EXPECT_EQ(law.p, in.law_p);
 }
 
 template <class Law> void expect_derivatives_of_law() {

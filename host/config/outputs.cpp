@@ -1,0 +1,84 @@
+#include "host/config/outputs.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "host/config/descriptors.hpp"
+#include "host/config/keys.hpp"
+#include "host/config/units.hpp"
+
+namespace slideway {
+namespace {
+
+/// What every result may have, beside keys, quantities and series.
+constexpr char const* of_results[] = {"member", "member_label", "sample", "status", "time", "end_time", "steps_accepted", "steps_rejected",
+                                      "rhs_evaluations", "jacobian_evaluations", "stiff_steps"};
+
+/// What results call a key that varies.
+std::string parameter_name(Key const& key) {
+    std::string name(key.name);
+    std::ranges::replace(name, '.', '_');
+    return name;
+}
+
+Outputs outputs_of(MechanismInfo const& mechanism) {
+    Outputs all;
+    auto const add = [&](QuantityInfo const& quantity) {
+        all.quantities.push_back({quantity, all.columns});
+        all.columns += static_cast<std::size_t>(quantity.columns);
+    };
+    std::ranges::for_each(quantity_table, add);
+    all.series.assign(std::begin(series_table), std::end(series_table));
+    all.has_quantities = mechanism.quantities;
+    all.has_series = mechanism.series;
+    auto const text = [&](std::string words) { return all.texts.emplace_back(std::move(words)).c_str(); };
+    for (Signal const& signal : mechanism.signals) {
+        all.has_series |= Selection{1} << all.series.size();
+        all.series.push_back({signal.name, signal.unit, signal.meaning});
+    }
+    for_each_signal_quantity(mechanism.signals, [&](SignalQuantity const& one) {
+        Signal const& signal = mechanism.signals[static_cast<std::size_t>(one.signal)];
+        SignalStatistic const& statistic = *std::ranges::find(signal_statistics, one.statistic, &SignalStatistic::statistic);
+        all.has_quantities |= Selection{1} << all.quantities.size();
+        add({text(std::string(statistic.prefix) + signal.name), one.statistic, Keeper::signals, signal.unit, 1, nullptr,
+             text(fmt::format("{}: {}", signal.meaning, statistic.words))});
+    });
+    return all;
+}
+
+}  // namespace
+
+Outputs const& outputs_of(Mechanism mechanism) {
+    static OfAllKnown<std::deque<Outputs>> all([] {
+        std::deque<Outputs> made;
+        for (MechanismInfo const& one : mechanisms()) made.push_back(outputs_of(one));
+        return made;
+    });
+    return all()[static_cast<std::size_t>(mechanism)];
+}
+
+std::string objection_to_signals(MechanismInfo const& mechanism) {
+    for (Signal const& signal : mechanism.signals) {
+        if (!is_module_name(signal.name) || std::string_view(signal.name).starts_with("final_"))
+            return fmt::format("its signal \"{}\" has no name of at most 60 small letters, digits and '_', a letter first, and no final_", signal.name);
+        if (!is_plain_si(signal.unit)) return fmt::format("its signal {} has the unit \"{}\", which is none of SI without a prefix", signal.name, signal.unit);
+    }
+    std::vector<std::string> names(std::begin(of_results), std::end(of_results));
+    for (Key const& key : mechanism.own_keys) names.push_back(parameter_name(key));
+    for (Key const& key : keys()) names.push_back(parameter_name(key));
+    Outputs const all = outputs_of(mechanism);
+    auto const take = [&](std::string_view name) {
+        bool const is_free = std::ranges::count(names, name) == 0;
+        names.emplace_back(name);
+        return is_free ? std::string() : fmt::format("results have a {} already, which is of a signal too; give the signal another name", name);
+    };
+    std::string why;
+    for (QuantityInfo const& quantity : all.quantities) why += why.empty() ? take(quantity.name) : "";
+    for (SeriesInfo const& series : all.series) why += why.empty() ? take(series.name) : "";
+    return why;
+}
+
+}  // namespace slideway
