@@ -115,8 +115,8 @@ TEST(RandomStates, VaryEveryParameter) {
                                    // Cases have masses and inertias.
                                    place_of(where.crank_section), place_of(where.rod_section), place_of(where.wall), place_of(where.density)};
     // No law of the tree has more than two numbers of its own, and no mechanism any.
-    for (int i = 2; i < most_own_numbers; ++i) other.insert(place_of(where.*law_inputs[i]));
-    for (auto const own : mechanism_inputs) other.insert(place_of(where.*own));
+    for (int i = 2; i < slideway::most_own_numbers; ++i) other.insert(place_of(where.*slideway::law_inputs[i]));
+    for (auto const own : slideway::mechanism_inputs) other.insert(place_of(where.*own));
     // The start of a run: a case carries its own state.
     for (double const* start : {&where.y, &where.z, &where.vy, &where.vz, &where.roll, &where.yaw, &where.pitch,
                                 &where.wx, &where.wy, &where.wz, &where.x, &where.vx})
