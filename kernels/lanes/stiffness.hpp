@@ -25,7 +25,7 @@ struct Stiffness {
     static constexpr double creep_below = 0.1;
     // It goes back where an apex comes into contact faster than that, in units of c ω: a corner has a fifth of the mass, and at this
     // speed the energy above.
-    static constexpr double impact_above = 0.3;
+    static constexpr double impact_above = 0.1;
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

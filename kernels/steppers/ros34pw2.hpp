@@ -9,8 +9,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// Source: Rang & Angermann, BIT Numer. Math. 45 (2005) 761–787, ROS34PW2.
 ///
 /// In the unknowns u_i = h Σ_j γ_ij k_j no product with A is left (Hairer & Wanner, Solving Ordinary Differential Equations II (1996),
-/// IV.7): (I − hγA) u_i = hγ f(y + Σ a_ij u_j) + γ Σ_{j<i} c_ij u_j, y' = y + Σ m_i u_i with a = α Γ⁻¹, c = diag(1/γ) − Γ⁻¹,
-/// m = b Γ⁻¹.
+/// IV.7): (I − hγA) u_i = hγ (f(t + α_i h, y + Σ a_ij u_j) + hγ_i ∂f/∂t) + γ Σ_{j<i} c_ij u_j, y' = y + Σ m_i u_i with a = α Γ⁻¹,
+/// c = diag(1/γ) − Γ⁻¹, m = b Γ⁻¹, α_i and γ_i the sums of the rows of α and Γ.
 struct Ros34pw2Tableau {
     static constexpr int stages = 4;
     double gamma = 4.3586652150845900e-01;
@@ -24,7 +24,7 @@ struct Ros34pw2Tableau {
     double b_second[4] = {3.7810903145819369e-01, -9.6042292212423178e-02, 5.0000000000000000e-01,
                           2.1793326075422950e-01};
     // What follows from them.
-    double a[4][4] = {}, c[4][4] = {}, m[4] = {}, error[4] = {}, node[4] = {}, e[4] = {};
+    double a[4][4] = {}, c[4][4] = {}, m[4] = {}, error[4] = {}, node[4] = {}, drift[4] = {}, e[4] = {};
 
     constexpr Ros34pw2Tableau() {
         double inverse[4][4] = {};  // Γ⁻¹
@@ -42,6 +42,7 @@ struct Ros34pw2Tableau {
                 m[i] += b[j] * inverse[j][i];
                 error[i] += (b[j] - b_second[j]) * inverse[j][i];
                 node[i] += alpha[i][j];
+                drift[i] += gammas[i][j];
                 c[i][j] = -inverse[i][j];
             }
             c[i][i] = 0;
