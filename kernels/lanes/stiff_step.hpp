@@ -36,8 +36,9 @@ public:
         stage<1>(pack, from, to);
         stage<2>(pack, from, to);
         stage<3>(pack, from, to);
+        Real const half_square = Real(0.5) * (to.step * to.step);
         for (int i = 0; i < size; ++i) {
-            to.end[i] = combined(from.y[i], w.m, i);
+            to.end[i] = combined(fma(half_square, bend_[i], from.y[i]), w.m, i);
             error_[i] = combined(Real(0.0), w.error, i);
         }
         auto const faults =
@@ -83,31 +84,38 @@ public:
 private:
     static constexpr int size = Model::size;
 
-    /// h²γ ∂f/∂t.  Where a drive moves a stiff contact's equilibrium, the error without it is as large as the move, whatever the step.
+    /// h²γ ∂f/∂t.  Where a drive moves a stiff contact's equilibrium, the error without it is as large as the move, whatever the step.  Stages know
+    /// that equilibrium to first order alone.  Where the model knows its acceleration a, they step z = y − ½ a (t − t_n)², whose equilibrium
+    /// moves evenly: z' = f − a (t − t_n).
     SLIDEWAY_HD Faults<Real> take_drift(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
         Real const later = fma(Real(drift_part), to.step, from.t), apart = later - from.t;
         auto const faults = pack.evaluate(later, from.y, from.memory, drift_, false, to.report);
         // Time may be too coarse for so short a part.
         auto const differs = apart > Real(0.0);
         Real const factor = select(differs, hg_ * to.step / select(differs, apart, Real(1.0)), Real(0.0));
-        for (int i = 0; i < size; ++i) drift_[i] = factor * (drift_[i] - from.rates[i]);
+        for (auto& of_state : bend_) of_state = Real(0.0);
+        if constexpr (requires { pack.model.bend(from.t, to.step, from.y, pack.state.constants.parameters, bend_); }) {
+            pack.model.bend(from.t, to.step, from.y, pack.state.constants.parameters, bend_);
+        }
+        Real const squared = hg_ * to.step;
+        for (int i = 0; i < size; ++i) drift_[i] = fms(factor, drift_[i] - from.rates[i], squared * bend_[i]);
         return faults;
     }
 
     template <int s>
     SLIDEWAY_HD void stage(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
         constexpr Ros34pw2Tableau w{};
+        Real const after = to.step * Real(w.node[s]), half_square = Real(0.5) * (after * after);
         for (int i = 0; i < size; ++i) {
-            Real sum = from.y[i];
+            Real sum = fma(half_square, bend_[i], from.y[i]);
             for (int j = 0; j < s; ++j) sum = fma(Real(w.a[s][j]), u_[j][i], sum);
             at_[i] = sum;
         }
-        Real const t = fma(to.step, Real(w.node[s]), from.t);
-        auto const faults = pack.evaluate(t, at_, from.memory, right_, from.needs.stages, to.report);
+        auto const faults = pack.evaluate(from.t + after, at_, from.memory, right_, from.needs.stages, to.report);
         to.faults = to.faults.or_else(faults);
         if (from.needs.stages) pack.add_integrands({w.b[s], w.e[s]}, to.report);
         for (int i = 0; i < size; ++i) {
-            Real sum = fma(Real(w.drift[s]), drift_[i], hg_ * right_[i]);
+            Real sum = fma(Real(w.drift[s]), drift_[i], hg_ * fnma(after, bend_[i], right_[i]));
             for (int j = 0; j < s; ++j) sum = fma(Real(w.gamma * w.c[s][j]), u_[j][i], sum);
             right_[i] = sum;
         }
@@ -129,7 +137,7 @@ private:
     typename Model::template Linearisation<Real> matrix_;
     Real u_[4][size], right_[size], error_[size], lasting_error_[size];
     Real at_[size];  // where a stage evaluates the derivative
-    Real drift_[size];
+    Real drift_[size], bend_[size];  // of an equilibrium that moves
     Real hg_, residual_;
 };
 

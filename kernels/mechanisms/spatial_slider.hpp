@@ -102,6 +102,17 @@ template <class Guide_> struct SpatialSlider : Guide_::Base, Guide_ {
         return way / (step * max(p.length_scale_y, p.length_scale_z) * p.rate_scale);
     }
 
+    /// Acceleration [m/s²] of y and z, on the mean over a step, of a slider that follows a misaligned way: dy/dx and dz/dx of its axis times x''.
+    template <class Real>
+    SLIDEWAY_NOINLINE static Translation<Real> way_bend(Real t, Real step, Real const* s, Numbers<Real> const& p) {
+        Real const half(0.5), start = Guide::along(t, s, p), middle = Guide::along(fma(half, step, t), s, p), end = Guide::along(t + step, s, p);
+        auto const goes = step > Real(0.0);
+        Real const safe = select(goes, step, Real(1.0)), bend = select(goes, Real(4.0) * ((start - middle) + (end - middle)) / (safe * safe), Real(0.0));
+        auto const& axis = p.joint.way.x;
+        Real const of_x = bend / axis.x;
+        return {of_x * axis.y, of_x * axis.z};
+    }
+
     /// Gap of an apex to the face on its side: its penetration negated [m].
     template <class Real, class Laws>
     SLIDEWAY_NOINLINE static Real gap(Real t, Real const* s, Numbers<Real> const& p,

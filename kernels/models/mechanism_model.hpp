@@ -78,6 +78,12 @@ template <class Mechanism, class Base, class Laws> struct MechanismModel : Mecha
     template <class Real> SLIDEWAY_FN Real contact_pattern(Real t, Real const* state, Parameters<Real> const& p) const {
         return Mechanism::contact_pattern(t, state, p, this->block.misaligned_way);
     }
+    /// Acceleration of the equilibrium that steps of the stiff method are to follow, of each component of the state that is a place; 0 of others.
+    template <class Real> SLIDEWAY_FN void bend(Real t, Real step, Real const* state, Parameters<Real> const& p, Real* of_state) const {
+        if (!this->block.misaligned_way) return;
+        auto const way = Mechanism::way_bend(t, step, state, p);
+        of_state[0] = way.y, of_state[1] = way.z;
+    }
     template <class Real>
     SLIDEWAY_FN Real gap(Real t, Real const* state, Parameters<Real> const& p, bool z_faces, int apex) const {
         return Mechanism::gap(t, state, p, this->block, {z_faces, apex});

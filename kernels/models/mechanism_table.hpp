@@ -25,6 +25,7 @@ template <class Real, class Base, class Signals> struct MechanismFunctions {
     void (*linearise)(Real, Real const*, Parameters const&, Memory const&, Block const&, SliderLinearisation<Real>&) = nullptr;
     Real (*contact_pattern)(Real, Real const*, Parameters const&, bool) = nullptr;
     Real (*approach_speed)(Real, Real const*, Real, Real const*, Parameters const&, bool) = nullptr;
+    Translation<Real> (*way_bend)(Real, Real, Real const*, Parameters const&) = nullptr;
 
     template <class Mechanism> static constexpr MechanismFunctions of() {
         static_assert(finds_state<Base>(Mechanism::info), SLIDEWAY_STATE_NOT_FOUND);
@@ -43,6 +44,7 @@ template <class Real, class Base, class Signals> struct MechanismFunctions {
             functions.linearise = &Mechanism::template linearise<Real, Laws>;
             functions.contact_pattern = &Mechanism::template contact_pattern<Real>;
             functions.approach_speed = &Mechanism::template approach_speed<Real>;
+            functions.way_bend = &Mechanism::template way_bend<Real>;
         }
         return functions;
     }
@@ -74,6 +76,11 @@ struct MechanismTable : Base, SignalLanes<Base, Signals>, ConditionsOfBlock<LawF
     }
     Real contact_pattern(Real t, Real const* state, Parameters<Real> const& p) const {
         return functions.contact_pattern(t, state, p, this->block.misaligned_way);
+    }
+    void bend(Real t, Real step, Real const* state, Parameters<Real> const& p, Real* of_state) const {
+        if (!this->block.misaligned_way) return;
+        auto const way = functions.way_bend(t, step, state, p);
+        of_state[0] = way.y, of_state[1] = way.z;
     }
     Real gap(Real t, Real const* state, Parameters<Real> const& p, bool z_faces, int apex) const {
         return functions.gap(t, state, p, this->block, {z_faces, apex});
