@@ -12,7 +12,7 @@ struct Stiffness {
     static constexpr double held_up_above = 0.9;
     // Contact that lasts keeps vibrating, with amplitudes that only the tolerance sees: a look counts a little.
     static constexpr double lasting_above = 0.1;
-    static constexpr double lasting_share = 1.0 / 16;
+    static constexpr double lasting_share = 1.0 / 4;
     // Every other look takes 1 off; at this sum the member changes over.
     static constexpr double enough = 3.0;
     // A corner that rattles on its face changes Ω tenfold from look to look: half the former Ω² counts too.
@@ -25,7 +25,7 @@ struct Stiffness {
     static constexpr double creep_below = 0.1;
     // It goes back where an apex comes into contact faster than that, in units of c ω: a corner has a fifth of the mass, and at this
     // speed the energy above.
-    static constexpr double impact_above = 0.1;
+    static constexpr double impact_above = 0.3;
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -48,6 +48,8 @@ struct TrackerInputs {
     double y = 0, tau = 0;
     double wall = never;            // no derivative where y > wall
     double solvable_below = never;  // the linear equations of longer hγ count as unsolved
+    double by_time = 0;             // 1: the track follows t instead of τ
+    double bends = 0;               // 1: and tells the stiff method how it bends
     static constexpr int size = 2;  // y τ
 };
 

@@ -12,13 +12,13 @@ struct TrackerModel : PlainModel<2> {
     using Inputs = testing::TrackerInputs;
     static constexpr bool has_patterns = true;
     static constexpr bool has_linearisation = true;
-    template <class Real> struct Parameters { Real rate, wall, solvable_below; };
+    template <class Real> struct Parameters { Real rate, wall, solvable_below, by_time, bends; };
     template <class Real> using Linearisation = DenseLinearisation<2, Real>;
 
     template <bool Full, class Real>
-    SLIDEWAY_FN static Faults<Real> derivative(Real, Real const* s, Parameters<Real> const& p, Memory<Real> const&,
+    SLIDEWAY_FN static Faults<Real> derivative(Real t, Real const* s, Parameters<Real> const& p, Memory<Real> const&,
                                                Real* rates, Report<Real>*) {
-        auto const track = sincos(s[1]);
+        auto const track = sincos(select(p.by_time > Real(0.5), t, s[1]));
         rates[0] = select(s[0] > p.wall, Real(follows), fma(p.rate, s[0] - track.sin, track.cos));
         rates[1] = Real(1.0);
         return Faults<Real>::none();
@@ -29,9 +29,13 @@ struct TrackerModel : PlainModel<2> {
                                       Linearisation<Real>& out) {
         auto const track = sincos(s[1]);
         out.a[0][0] = p.rate;
-        out.a[0][1] = fnma(p.rate, track.cos, negated(track.sin));
+        out.a[0][1] = select(p.by_time > Real(0.5), Real(0.0), fnma(p.rate, track.cos, negated(track.sin)));
         out.a[1][0] = out.a[1][1] = Real(0.0);
         out.solvable_below = p.solvable_below;
+    }
+
+    template <class Real> SLIDEWAY_FN static void bend(Real t, Real step, Real const*, Parameters<Real> const& p, Real* of_state) {
+        of_state[0] = negated(p.bends * sincos(fma(Real(0.5), step, t)).sin);
     }
 
     template <class Real> SLIDEWAY_FN static Real contact_pattern(Real, Real const*, Parameters<Real> const&) {
@@ -45,7 +49,7 @@ struct TrackerModel : PlainModel<2> {
         return Real(0.0);
     }
 
-    static Parameters<double> parameters(Inputs const& in) { return {in.rate, in.wall, in.solvable_below}; }
+    static Parameters<double> parameters(Inputs const& in) { return {in.rate, in.wall, in.solvable_below, in.by_time, in.bends}; }
     static void initial_state(Inputs const& in, double* s) { s[0] = in.y, s[1] = in.tau; }
 };
 
