@@ -68,7 +68,7 @@ template <class Law> double evaluate_law(Inputs const& member, double const dept
     SliderParameters<Real> parameters;
     for (int lane = 0; lane < lanes<Real>; ++lane) load_lane(parameters, lane, SliderCrank::parameters(member));
     auto const& contact = parameters.joint.contact;
-    FaceContact<Real> const face{contact.surface_stiffness_y, contact.across_y_face, contact.along};
+    FaceContact<Real> const face{contact.surface_stiffness_y, contact.across_y_face, contact.along, contact.area_y};
     auto motion = face_of(depths);
     Real total(0.0);
     for (std::size_t call = 0; call < calls; ++call) {

@@ -26,7 +26,7 @@ std::string damping_text(Parts const& parts) {
     switch (parts.damping) {
         case Damping::point:
             if (of_points) return "damping of point contacts";
-            return law.keys.empty() ? "no damping" : fmt::format("damping of the {} law", law.name);
+            return law.keys.empty() || law.has(Damping::rate) ? "no damping" : fmt::format("damping of the {} law", law.name);
         case Damping::rate:
             return fmt::format("damping of {}{} contacts", of_points ? "point, " : "", rate_damped(law));
         case Damping::restitution:

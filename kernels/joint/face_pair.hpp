@@ -124,7 +124,7 @@ template <Axis axis> struct FacePair {
 
     /// What the laws need to know of these faces.
     template <class Real> SLIDEWAY_FN static FaceContact<Real> contact(ContactParameters<Real> const& p) {
-        return {is_y ? p.surface_stiffness_y : p.surface_stiffness_z, is_y ? p.across_y_face : p.across_z_face, p.along};
+        return {is_y ? p.surface_stiffness_y : p.surface_stiffness_z, is_y ? p.across_y_face : p.across_z_face, p.along, is_y ? p.area_y : p.area_z};
     }
 };
 

@@ -177,8 +177,8 @@ private:
         };
         auto const across = line(face.is_z, of.across_z_face, of.across_y_face);
         auto const first = line(face.order.turned, of.along, across), second = line(face.order.turned, across, of.along);
-        Real const stiffness = face.choose(of.surface_stiffness_y, of.surface_stiffness_z);
-        FaceContact<Real> const contact{stiffness, first, second};
+        Real const stiffness = face.choose(of.surface_stiffness_y, of.surface_stiffness_z), area = face.choose(of.area_y, of.area_z);
+        FaceContact<Real> const contact{stiffness, first, second, area};
         if constexpr (Full) {
             return block_.law.forces(m, contact, of);
         } else {

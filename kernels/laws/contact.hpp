@@ -14,6 +14,7 @@ template <class Real> struct FaceContact {
     Real const& surface_stiffness;    // k = E_s A/l of all four apices [N/m]
     LineContact<Real> const& across;  // edges a–b and c–d
     LineContact<Real> const& along;   // edges b–c and d–a
+    Real const& area;                 // A [m²]
 };
 
 /// What a law has of its own: law_a … law_p of the inputs.
@@ -31,6 +32,8 @@ template <class Real> struct ContactParameters {
     LineContact<Real> across_z_face;  // edges of the Z faces along Y
     Real surface_stiffness_y;
     Real surface_stiffness_z;
+    Real area_y;  // A of a Y face [m²]
+    Real area_z;
     LawNumbers<Real> of_law;
 };
 

@@ -28,8 +28,9 @@ template <class Real> SLIDEWAY_FN FactorSlope<Real> clamped_factor(Real slope, R
 }
 
 /// The paper's own: C δ δ' on points (Qian et al. 2020, (18)), none on lines and surfaces.
-/// Of each kind: `point_force`, `line_factor` and `surface_factor`, the same with their derivatives (`…_slopes`), `couples`, whether
-/// the rate of one apex changes the force of another, and `remembers`, whether v0 counts.
+/// Of each kind: `point_force`, `line_factor` and `surface_factor`, the same with their derivatives (`…_slopes`), `surface_slope`, the factor's
+/// by the rate before it is clamped [s/m], `couples`, whether the rate of one apex changes the force of another, and `remembers`, whether v0
+/// counts.
 struct PointDamping {
     static constexpr bool remembers = false, couples = false;
 
@@ -62,6 +63,7 @@ struct PointDamping {
     SLIDEWAY_FN static FactorSlope<Real> surface_slopes(Real, Real, DampingParameters<Real> const&) {
         return {Real(1.0), Real(0.0)};
     }
+    template <class Real> SLIDEWAY_FN static Real surface_slope(Real, DampingParameters<Real> const&) { return Real(0.0); }
 };
 
 /// Points as above; line and surface forces times 1 + χ d(δ̄)/dt.
@@ -82,6 +84,7 @@ struct RateDamping : PointDamping {
     SLIDEWAY_FN static FactorSlope<Real> surface_slopes(Real rate, Real, DampingParameters<Real> const& d) {
         return clamped_factor(d.chi_surface, rate);
     }
+    template <class Real> SLIDEWAY_FN static Real surface_slope(Real, DampingParameters<Real> const& d) { return d.chi_surface; }
 };
 
 /// Every contact's elastic force times 1 + a h'/v0, where v0 is the rate at its last touch: an isolated impact returns the
@@ -112,12 +115,13 @@ struct RestitutionDamping {
     }
     template <class Real>
     SLIDEWAY_FN static FactorSlope<Real> line_slopes(Real rate, Real v0, DampingParameters<Real> const& d) {
-        return clamped_factor(d.restitution_slope / v0, rate);
+        return clamped_factor(surface_slope(v0, d), rate);
     }
     template <class Real>
     SLIDEWAY_FN static FactorSlope<Real> surface_slopes(Real rate, Real v0, DampingParameters<Real> const& d) {
         return line_slopes(rate, v0, d);
     }
+    template <class Real> SLIDEWAY_FN static Real surface_slope(Real v0, DampingParameters<Real> const& d) { return d.restitution_slope / v0; }
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -13,7 +13,7 @@ struct KelvinVoigt {
         {"contact.apex_stiffness", &Inputs::law_a, "N/m", Rule::positive, KeyGroup::law, "stiffness of an apex", follows, nullptr,
          "E_s A / (4 l) of its face"},
         {"contact.apex_damping", &Inputs::law_b, "N s/m", Rule::not_negative, KeyGroup::law, "damping of an apex", 0}};
-    static constexpr double face_stiffness(Inputs const& in, double surface) {
+    static constexpr double face_stiffness(Inputs const& in, double surface, double) {
         return in.law_a == in.law_a ? 4 * in.law_a : surface;
     }
     static constexpr LawInfo info{.name = "kelvin_voigt",

@@ -19,8 +19,9 @@ struct LawInfo {
     bool of_touching_alone = false;  // forces are on the apices that touch, and depend on no depth of another
     bool needs_restitution = false;  // contact.restitution must be given: it has no other damping
     std::span<Key const> keys = {};  // its own, on Inputs::law_a … law_p
-    /// Stiffness of a face [N/m] of which all apices are in contact, for predictions.  @param surface that of its surface, E_s A/l; none: it is that
-    double (*face_stiffness)(Inputs const&, double surface) = nullptr;
+    /// Stiffness of a face [N/m] of which all apices are in contact, for predictions; none: that of its surface.
+    /// @param surface that, E_s A/l  @param area A [m²]
+    double (*face_stiffness)(Inputs const&, double surface, double area) = nullptr;
 
     /// Which kinds of damping it has: χ of surfaces, a coefficient of restitution; `point` stands for what it has without these, η of points, its own or none.
     /// With `restitution` members remember the speed of each touch.

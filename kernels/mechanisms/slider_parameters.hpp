@@ -114,6 +114,8 @@ SLIDEWAY_FN SliderParameters<double> slider_parameters(Inputs const& in) {
     c.across_z_face = detail::line_contact(reduced, in.edge_radius, in.way_width);
     c.surface_stiffness_y = series * in.slider_length * in.way_depth / in.thickness_y;
     c.surface_stiffness_z = series * in.slider_length * in.way_width / in.thickness_z;
+    c.area_y = in.slider_length * in.way_depth;
+    c.area_z = in.slider_length * in.way_width;
 #define SLIDEWAY_NUMBER(letter) in.law_##letter,
     c.of_law = {SLIDEWAY_OWN_NUMBERS(SLIDEWAY_NUMBER)};
 #undef SLIDEWAY_NUMBER

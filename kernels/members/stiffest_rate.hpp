@@ -23,8 +23,8 @@ static inline double stiffest_rate(MechanismInfo const& mechanism, LawInfo const
     double const e1 = in.slider_young_modulus, e2 = in.way_young_modulus;
     double const series = 2 * e1 * e2 / (e1 + e2);
     auto const face = [&](double width, double thickness, double rocking_inertia) {
-        double const surface = series * in.slider_length * width / thickness;
-        double const stiffness = law.face_stiffness != nullptr ? law.face_stiffness(in, surface) : surface;
+        double const area = in.slider_length * width, surface = series * area / thickness;
+        double const stiffness = law.face_stiffness != nullptr ? law.face_stiffness(in, surface, area) : surface;
         auto const turning = [&](double length, double inertia) { return stiffness * length * length / (4 * inertia); };
         return std::max({stiffness / in.slider_mass, turning(in.slider_length, rocking_inertia),
                          turning(width, in.slider_inertia_x)});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bed.hpp"
 #include "kernels/laws/list.hpp"
 #include "laws.hpp"
 
@@ -109,27 +110,28 @@ void FaceLoads::load_by_kelvin_voigt() {
 }
 
 void FaceLoads::load_by_foundation() {
-    std::vector<int> touching;
-    for (int p : face_.corners)
-        if (touches(p)) touching.push_back(p);
-    Real const inner = 1 / std::sqrt(Real(5));
-    for (Real const along : {Real(-1), -inner, inner, Real(1)}) {
-        for (Real const across : {Real(-1), -inner, inner, Real(1)}) {
-            auto const shape = [&](int p) {
-                Apex const& apex = apices[p - 1];
-                return (1 + along * apex.s3) / 2 * (1 + across * (face_.axis == 1 ? apex.s2 : apex.s1)) / 2;
-            };
-            Real depth = 0, rate = 0;
-            for (int p : face_.corners) depth += shape(p) * at(p).depth, rate += shape(p) * at(p).rate;
-            if (depth <= 0) continue;
-            // Of the quadrature on [-1, 1], whose weights come to two: 1/6 at the ends, 5/6 within.
-            Real const weight = (std::abs(along) < 1 ? 5 : 1) * (std::abs(across) < 1 ? 5 : 1) / Real(6 * 6 * 4);
-            Real const elastic = surface_stiffness_ * weight * depth;
-            Real const force = damped(elastic, rate, in_.chi_surface, touching);
-            for (int p : face_.corners) add(p, shape(p) * elastic, shape(p) * force);
-            potential_ += elastic * depth / 2;
-        }
+    Real impact_speed = 0;
+    std::vector<BedPlace> square;
+    for (int p : face_.corners) {
+        Apex const& apex = apices[p - 1];
+        square.push_back({Real(apex.s3), Real(face_.axis == 1 ? apex.s2 : apex.s1), at(p).depth, at(p).rate});
+        if (touches(p)) impact_speed = std::max(impact_speed, at(p).impact_speed);
     }
+    if (impact_speed == 0) return;
+    Real slope = parts_.damping == Damping::rate ? Real(in_.chi_surface) : 0;
+    if (parts_.damping == Damping::restitution) slope = slope_ / impact_speed;
+    Real const stiffness = std::isnan(in_.law_a) ? surface_stiffness_ : Real(in_.law_a) * in_.slider_length * across_;
+    auto const places = quadrature_over_wet(square);
+    for (std::size_t i = 0; i < 4; ++i) {
+        Real elastic = 0, force = 0;
+        for (auto const& [place, area] : places) {
+            Real const share = area / 4 * stiffness * place.depth * (1 + square[i].along * place.along) * (1 + square[i].across * place.across) / 4;
+            elastic += share;
+            force += share * (1 + slope * place.rate);
+        }
+        add(face_.corners[i], elastic, std::max(force, Real(0)));
+    }
+    for (auto const& [place, area] : places) potential_ += area / 4 * stiffness * place.depth * place.depth / 2;
 }
 
 void FaceLoads::add(int p, Real elastic, Real force) const {

@@ -28,7 +28,7 @@ private:
     void load_by_paper();         // the listed contacts alone
     void load_by_conservative();  // each apex, line and surface that touches
     void load_by_kelvin_voigt();  // each apex that touches
-    void load_by_foundation();    // each spring of the bed that is pushed in
+    void load_by_foundation();    // what is wet of the face
     [[nodiscard]] Pair& at(int p) const { return pairs_[p - 1]; }
     [[nodiscard]] bool touches(int p) const { return at(p).depth > 0; }
     [[nodiscard]] Real length(Edge const& edge) const {

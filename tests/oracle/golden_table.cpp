@@ -87,12 +87,15 @@ void read_law(Table const& table, std::size_t row, Case& result) {
     result.parts.law = oracle::law_named(table.text(row, "contact.law"));
     switch (result.parts.law) {
         case slideway::Law::paper:
-        case slideway::Law::conservative:
-        case slideway::Law::foundation: {
+        case slideway::Law::conservative: {
             bool const dissipates = in.chi_line != 0 || in.chi_surface != 0;
             result.parts.damping = dissipates ? slideway::Damping::rate : slideway::Damping::point;
             return;
         }
+        case slideway::Law::foundation:
+            result.parts.damping = in.chi_surface != 0 ? slideway::Damping::rate : slideway::Damping::point;
+            in.law_a = number_or(table, row, "contact.bed_stiffness", slideway::follows);
+            return;
         case slideway::Law::kelvin_voigt:
             result.parts.damping = slideway::Damping::point;
             in.law_a = number_or(table, row, "contact.apex_stiffness", slideway::follows);

@@ -1,7 +1,7 @@
 // Writes a golden table of a law that model.md's tables do not have: the states and parameters of one of them, under
 // that law, with numbers drawn for what the law has of its own, computed by the oracle in 80 bits.
 //   golden_writer STATES.csv LAW given|follows ROWS > TABLE.csv
-// `given`: of kelvin_voigt, a stiffness in every row; `follows`: no column for it.  Rows are taken evenly from the states.
+// `given`: a stiffness of the law in every row; `follows`: no column for it.  Rows are taken evenly from the states.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -31,8 +31,10 @@ std::vector<OwnColumn> own_columns(slideway::Law law, bool stiffness_is_given) {
     switch (law) {
         case slideway::Law::paper:
         case slideway::Law::conservative:
-        case slideway::Law::foundation:
             return {};
+        case slideway::Law::foundation:
+            if (!stiffness_is_given) return {};
+            return {{"contact.bed_stiffness", [](Dice& dice) { return dice.scale(1e9, 1e14); }}};
         case slideway::Law::kelvin_voigt: {
             std::vector<OwnColumn> columns;
             if (stiffness_is_given)

@@ -49,8 +49,11 @@ void set_law(Dice& dice, Law law, Parts& parts, Inputs& in) {
     switch (law) {
         case Law::paper:
         case Law::conservative:
-        case Law::foundation:
             in.law_a = in.law_b = 0;
+            return;
+        case Law::foundation:
+            in.law_a = dice.chance(0.5) ? slideway::follows : dice.scale(1e9, 1e14);
+            in.law_b = 0;
             return;
         case Law::kelvin_voigt:
             parts.damping = Damping::point;

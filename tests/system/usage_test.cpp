@@ -87,7 +87,7 @@ TEST_F(Usage, CheckShowsThePartsOfEachLaw) {
         std::string const left = out.substr(after, out.find('\n', after) - after);
         EXPECT_EQ(in, fmt::format("parts in     slider_crank mechanism; {} law; {}", law.name,
                                   has_group(law.groups, KeyGroup::point_damping) ? std::string("damping of point contacts")
-                                  : law.keys.empty()                             ? "no damping"
+                                  : law.keys.empty() || law.has(Damping::rate)   ? "no damping"
                                                                                  : fmt::format("damping of the {} law", law.name)));
         for (LawInfo const& other : laws()) {
             EXPECT_EQ(left.find(fmt::format(" {} law;", other.name)) != left.npos, other.name != law.name) << left;
@@ -112,8 +112,9 @@ TEST_F(Usage, ListShowsWhatEachLawHas) {
              "                                 damping: its own alone\n"
              "                                 contact.apex_stiffness [N/m]: stiffness of an apex\n"
              "                                 contact.apex_damping [N s/m]: damping of an apex\n",
-             "a bed of linear springs over each face, no modes\n"
-             "                                 damping: rate, restitution\n",
+             "an elastic bed over each face, no modes\n"
+             "                                 damping: rate, restitution\n"
+             "                                 contact.bed_stiffness [N/m3]: stiffness of the bed: pressure over depth\n",
          }) {
         EXPECT_NE(list.find(lines), list.npos) << lines;
     }

@@ -187,11 +187,16 @@ TEST(Keys, EveryKeyThatCountsRefusesNanAndInfinity) {
     for (Key const& key : keys()) {
         for (Parts const& parts : testing::mechanisms_and_laws()) {
             std::string const what = testing::name_of(key, parts);
-            bool const counts = counts_for(key, parts);
+            // Laws have different keys on the same input.
+            Key const* one = nullptr;
+            for (Key const& other : keys()) {
+                if (other.member == key.member && counts_for(other, parts)) one = &other;
+            }
+            bool const counts = one != nullptr;
             Inputs in = with_presets({}, parts.law);
             key.set(in, std::numeric_limits<double>::infinity());
             EXPECT_EQ(defect(in, parts).has_value(), counts) << what;
-            bool const may_follow = std::isnan(key.preset);
+            bool const may_follow = counts && std::isnan(one->preset);
             key.set(in, std::numeric_limits<double>::quiet_NaN());
             EXPECT_EQ(defect(in, parts).has_value(), counts && !may_follow) << what;
             compared += counts ? 1 : 0;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 #include "kernels/all_laws.hpp"
 #include "kernels/laws/friction.hpp"
@@ -30,7 +32,7 @@ SliderParameters<double> parameters(double exponent = 1.5) {
 
 FaceContact<double> y_face(SliderParameters<double> const& p) {
     auto const& c = p.joint.contact;
-    return {c.surface_stiffness_y, c.across_y_face, c.along};
+    return {c.surface_stiffness_y, c.across_y_face, c.along, c.area_y};
 }
 
 Values values(Quad<double> const& q) { return {q.a, q.b, q.c, q.d}; }
@@ -56,6 +58,34 @@ Values by_apex(ApexSlopes<double> const& r, int apex) {
     }
 }
 
+/// The changes of the four apices that a law is made for: each alone; of a bed, which takes them for a plane, those that leave it one.
+template <class Law> std::vector<Values> directions() {
+    if constexpr (std::is_same_v<Law, Foundation>) return {{1, 1, 1, 1}, {1, 1, -1, -1}, {1, -1, -1, 1}};
+    return {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+}
+
+/// The part of it that these make up; they are orthogonal.
+Values projected(Values const& v, std::vector<Values> const& directions) {
+    Values sum{};
+    for (Values const& direction : directions) {
+        double share = 0, square = 0;
+        for (std::size_t i = 0; i < 4; ++i) share += v[i] * direction[i], square += direction[i] * direction[i];
+        for (std::size_t i = 0; i < 4; ++i) sum[i] += share / square * direction[i];
+    }
+    return sum;
+}
+
+/// Σ_j of the rows of the matrix times a direction.
+Values product(Quad<ApexSlopes<double>> const& matrix, Values const& direction) {
+    ApexSlopes<double> const rows[] = {matrix.a, matrix.b, matrix.c, matrix.d};
+    Values product{};
+    for (int i = 0; i < 4; ++i) {
+        auto const row = by_apex(rows[i], i);
+        for (std::size_t j = 0; j < 4; ++j) product[static_cast<std::size_t>(i)] += row[j] * direction[j];
+    }
+    return product;
+}
+
 template <class Law, class Damping> void expect_derivatives(double exponent) {
     auto const p = parameters(exponent);
     auto const face = y_face(p);
@@ -65,6 +95,7 @@ template <class Law, class Damping> void expect_derivatives(double exponent) {
     auto const forces = [&](Values const& depth, Values const& rate) {
         return values(Law::template forces<Damping>(motion(depth, rate), face, contact).normal);
     };
+    auto const ways = directions<Law>();
     for (int draw = 0; draw < 40; ++draw) {
         for (unsigned pattern = 0; pattern < 16; ++pattern) {
             Values depth, rate;
@@ -73,31 +104,32 @@ template <class Law, class Damping> void expect_derivatives(double exponent) {
                 depth[i] = size * (0.3 + unit(random)) * ((pattern >> i & 1u) != 0 ? 1 : -1);
                 rate[i] = 0.02 * (unit(random) - 0.5);
             }
+            depth = projected(depth, ways), rate = projected(rate, ways);
             auto const got = Law::template stiffness<Damping>(motion(depth, rate), face, contact);
             auto const force = forces(depth, rate), normal = values(got.normal);
             double const load = *std::max_element(force.begin(), force.end());
             std::string const where = "pattern " + std::to_string(pattern) + " draw " + std::to_string(draw);
             for (unsigned i = 0; i < 4; ++i) EXPECT_NEAR(normal[i], force[i], 1e-13 * load) << where;
-            ApexSlopes<double> const* const depth_rows[] = {&got.by_depth.a, &got.by_depth.b, &got.by_depth.c,
-                                                            &got.by_depth.d};
-            ApexSlopes<double> const* const rate_rows[] = {&got.by_rate.a, &got.by_rate.b, &got.by_rate.c,
-                                                           &got.by_rate.d};
-            for (unsigned j = 0; j < 4; ++j) {
-                auto const difference = [&](Values upper, double step, bool of_rate) {
-                    auto lower = upper;
-                    upper[j] += step, lower[j] -= step;
-                    auto const up = of_rate ? forces(depth, upper) : forces(upper, rate);
-                    auto const down = of_rate ? forces(depth, lower) : forces(lower, rate);
+            for (std::size_t j = 0; j < ways.size(); ++j) {
+                auto const difference = [&](double step, bool of_rate) {
                     Values d;
-                    for (unsigned i = 0; i < 4; ++i) d[i] = (up[i] - down[i]) / (2 * step);
+                    auto const moved = [&](double by) {
+                        Values there = of_rate ? rate : depth;
+                        for (std::size_t i = 0; i < 4; ++i) there[i] += by * ways[j][i];
+                        return of_rate ? forces(depth, there) : forces(there, rate);
+                    };
+                    auto const up = moved(step), down = moved(-step);
+                    for (std::size_t i = 0; i < 4; ++i) d[i] = (up[i] - down[i]) / (2 * step);
                     return d;
                 };
                 double const step = 1e-4 * size, rate_step = 1e-5;
-                auto const by_depth = difference(depth, step, false), by_rate = difference(rate, rate_step, true);
-                for (int i = 0; i < 4; ++i) {
-                    auto const at = static_cast<std::size_t>(i);
-                    EXPECT_NEAR(by_apex(*depth_rows[i], i)[j], by_depth[at], 2e-7 * load / size) << where << i << j;
-                    EXPECT_NEAR(by_apex(*rate_rows[i], i)[j], by_rate[at], 1e-9 * load / rate_step) << where << i << j;
+                auto const by_depth = difference(step, false), by_rate = difference(rate_step, true);
+                auto const got_depth = product(got.by_depth, ways[j]), got_rate = product(got.by_rate, ways[j]);
+                for (std::size_t i = 0; i < 4; ++i) {
+                    // A bed's load is cubic where a corner is in, and bends where another apex comes in (foundation_test has the digits).
+                    double const close = std::is_same_v<Law, Foundation> ? 1e-5 * face.surface_stiffness : 2e-7 * load / size;
+                    EXPECT_NEAR(got_depth[i], by_depth[i], close) << where << ' ' << i << j;
+                    EXPECT_NEAR(got_rate[i], by_rate[i], 1e-9 * load / rate_step) << where << ' ' << i << j;
                 }
             }
             if (::testing::Test::HasFailure()) return;

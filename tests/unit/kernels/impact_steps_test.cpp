@@ -76,8 +76,10 @@ TEST_P(ImpactStepsOf, GoWhereStepsOfTimeGoUnderEveryLaw) {
                     ASSERT_EQ(want.records[i].status, Status::finished) << what;
                     EXPECT_LT(distance(found, want, i), std::max(least, 10 * distance(usual, want, i))) << what;
                     EXPECT_EQ(found.value(i, Quantity::contact_onsets), want.value(i, Quantity::contact_onsets)) << what;
+                    // Steps do not end where a bed's load vanishes, which it does smoothly: its times of modes are as good as they are long.
+                    double const close = (law == Law::foundation ? 4e-3 : 1e-3) * end;
                     for (int mode = 0; mode < 4; ++mode) {
-                        EXPECT_NEAR(found.value(i, Quantity::mode_time, mode), want.value(i, Quantity::mode_time, mode), 1e-3 * end)
+                        EXPECT_NEAR(found.value(i, Quantity::mode_time, mode), want.value(i, Quantity::mode_time, mode), close)
                             << what << ", mode " << mode;
                     }
                     onsets += want.value(i, Quantity::contact_onsets);

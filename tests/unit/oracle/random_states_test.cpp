@@ -131,6 +131,8 @@ TEST(RandomStates, GiveALawTheSameStatesAndNumbersOfItsOwn) {
     for (Law const law : oracle::every_law()) {
         auto const cases = oracle::make_cases(seed, 480, Mechanism::slider_crank, law);
         ASSERT_EQ(cases.size(), published.size());
+        bool const of_apices = law == Law::kelvin_voigt, of_bed = law == Law::foundation;
+        double const softest = of_bed ? 1e9 : 1e5, hardest = of_bed ? 1e14 : 1e10;
         int following = 0, given = 0, undamped = 0, damped = 0;
         for (std::size_t i = 0; i < cases.size(); ++i) {
             auto const& [in, parts, t, state, speeds] = cases[i];
@@ -139,20 +141,22 @@ TEST(RandomStates, GiveALawTheSameStatesAndNumbersOfItsOwn) {
             EXPECT_EQ(t, published[i].t);
             EXPECT_EQ(parts.friction, published[i].parts.friction);
             EXPECT_EQ(parts.misaligned_way, published[i].parts.misaligned_way);
-            following += std::isnan(in.law_a), given += in.law_a >= 1e5 && in.law_a <= 1e10;
+            following += std::isnan(in.law_a), given += in.law_a >= softest && in.law_a <= hardest;
             undamped += in.law_b == 0, damped += in.law_b >= 1 && in.law_b <= 1e4;
-            if (law == Law::kelvin_voigt) {
-                EXPECT_EQ(parts.damping, slideway::Damping::point);
-            } else {
-                EXPECT_EQ(parts.damping, published[i].parts.damping);
-                EXPECT_EQ(in.law_a, 0);
+            EXPECT_EQ(parts.damping, of_apices ? slideway::Damping::point : published[i].parts.damping);
+            if (!of_apices) {
                 EXPECT_EQ(in.law_b, 0);
             }
+            if (!of_apices && !of_bed) {
+                EXPECT_EQ(in.law_a, 0);
+            }
         }
-        if (law != Law::kelvin_voigt) continue;
+        if (!of_apices && !of_bed) continue;
         EXPECT_EQ(following + given, 480);
+        for (int const count : {following, given}) EXPECT_GT(count, 100);
         EXPECT_EQ(undamped + damped, 480);
-        for (int const count : {following, given, undamped, damped}) EXPECT_GT(count, 100);
+        if (!of_apices) continue;
+        for (int const count : {undamped, damped}) EXPECT_GT(count, 100);
     }
 }
 
