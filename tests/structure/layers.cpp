@@ -51,7 +51,7 @@ constexpr std::array layers = {
 };
 
 // Plain data without code of any instruction set: every layer may share it, the host included.
-constexpr std::array<std::string_view, 14> plain_data = {
+constexpr std::array<std::string_view, 15> plain_data = {
     "kernels/key.hpp",
     "kernels/inputs.hpp",
     "kernels/status.hpp",
@@ -64,6 +64,7 @@ constexpr std::array<std::string_view, 14> plain_data = {
     "kernels/mechanisms/list.hpp",
     "kernels/mechanisms/mechanism_info.hpp",
     "kernels/observers/quantities.hpp",
+    "kernels/observers/signals.hpp",
     "kernels/rigid/list.hpp",
     "kernels/rigid/rigid_info.hpp",
 };
