@@ -36,9 +36,7 @@ template <class Model, class Real> struct MethodChoice {
         auto const held_up = squared_step * rate_squared > Real(Stiffness::held_up_above * Stiffness::held_up_above);
         auto const lasting =
             touching & (squared_step * c.rate_squared > Real(Stiffness::lasting_above * Stiffness::lasting_above));
-        // By the clocks an impact is resolved as finely, at whatever phase looks may find it.
-        Real const share(work == Work::clocked ? 0.0 : Stiffness::lasting_share);
-        Real const sign = select(held_up, Real(1.0), select(lasting, share, Real(-1.0)));
+        Real const sign = select(held_up, Real(1.0), select(lasting, Real(Stiffness::lasting_share), Real(-1.0)));
         c.stiffness = max(c.stiffness + sign, Real(0.0));
         Mask<Real> const due = touching & (c.stiffness >= Real(Stiffness::enough)), to_stiff = due & creeping;
         auto to_plain = mask_of<Real>(false), to_clocks = to_plain;

@@ -10,7 +10,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 struct Stiffness {
     // The pair is held up where hΩ stays near its limit of stability: a look counts 1.
     static constexpr double held_up_above = 0.9;
-    // Contact that lasts keeps vibrating, with amplitudes that only the tolerance sees: a look counts a little, of steps by the clocks nothing.
+    // Contact that lasts keeps vibrating, with amplitudes that only the tolerance sees: a look counts a little.
     static constexpr double lasting_above = 0.1;
     static constexpr double lasting_share = 1.0 / 4;
     // Every other look takes 1 off; at this sum the member changes over.
