@@ -137,7 +137,7 @@ TEST(StiffMethodAlone, IsFlaggedWhereAnImpactCostItEnergy) {
     testing::RunOptions o;
     o.parts = {Law::conservative, Damping::rate, true, false};
     o.settings.method = Method::ros34pw2;
-    o.settings.atol = 1e-6;      // loose enough for it to leap into the way
+    o.settings.atol = 1e-5;      // loose enough for it to leap into the way
     o.settings.end_time = 0.02;  // one to three impacts
     o.quantities = testing::all_quantities;
     auto const r = testing::run(best_isa(), o, testing::scattered_starts(64));
@@ -162,7 +162,7 @@ TEST(StiffMethodAlone, IsFlaggedUnderALawThatMakesEnergyToo) {
     testing::RunOptions o;
     o.parts = {Law::paper, Damping::point, true, false};
     o.settings.method = Method::ros34pw2;
-    o.settings.rtol = o.settings.atol = o.settings.stiff_tolerance = 1e-4;
+    o.settings.rtol = o.settings.atol = o.settings.stiff_tolerance = 1e-3;
     o.settings.end_time = 0.1;
     o.quantities = 0;
     auto const members = testing::scattered_starts(16, 1e-4, 0.1);
