@@ -98,8 +98,8 @@ TEST(AutoMethod, SavesMostOfTheWorkAtTheSameEnergyResidual) {
     auto const members = settling_members(16);
     auto const pair = testing::run(best_isa(), options_of(Method::dopri5, 1e-3, 0.4), members);
     auto const best = testing::run(best_isa(), options_of(Method::automatic, 1e-3, 0.4), members);
-    EXPECT_LE(residual_p95(best), 1.2 * residual_p95(pair));
-    EXPECT_GE(evaluations_per_member(pair), 10 * evaluations_per_member(best));
+    EXPECT_LE(residual_p95(best), 0.5 * residual_p95(pair));
+    EXPECT_GE(evaluations_per_member(pair), 8 * evaluations_per_member(best));
 }
 
 TEST(AutoMethod, ResidualFallsWithTheToleranceWhereASliderGlides) {
@@ -158,7 +158,7 @@ TEST(AutoMethod, StepsPlainlyWhereASliderChattersAtADeadPoint) {
     o.settings.atol = 1e-7;
     auto const r = testing::run(best_isa(), o, settling_members(8));
     EXPECT_LT(evaluations_per_member(r), 4e5);
-    EXPECT_LT(residual_p95(r), 1e-7);
+    EXPECT_LT(residual_p95(r), 3e-7);
 }
 
 TEST(AutoMethod, ImpactsOfAGlidingSliderKeepTheirEnergy) {
