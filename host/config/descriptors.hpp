@@ -15,6 +15,7 @@
 
 #include "host/backend/own_modules.hpp"
 #include "kernels/laws/law_info.hpp"
+#include "kernels/laws/list.hpp"
 #include "kernels/mechanisms/mechanism_info.hpp"
 #include "kernels/rigid/rigid_info.hpp"
 
@@ -69,6 +70,9 @@ std::string modules_text(Parts const& parts);
 
 MechanismInfo const& info(Mechanism mechanism);
 LawInfo const& info(Law law);
+/// The law of a scene that names none.
+inline constexpr Law default_law = Law::foundation;
+
 /// What says how contacts push: the law, or `rigid_contact` where nothing gives way.
 LawInfo const& contact_info(Parts const& parts);
 /// What contact.law may say: the laws, and "rigid" behind them.

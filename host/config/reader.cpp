@@ -177,6 +177,7 @@ Scene parse_scene(std::string const& text, std::string const& name, Overrides co
     read_variations(root, scene);
     read_study(root, scene);
     check_restitution(root, scene);
+    tell_of_contacts(root, scene);
     warn_of_idle_sources(root, scene);
     read_integrator(root, scene);
     read_recording(root, scene);

@@ -28,6 +28,8 @@ void read_modules(Node const& root, Scene& scene);
 void read_physics(Node const& root, Scene& scene);
 /// Refuses contacts that need a restitution where nothing says it.
 void check_restitution(Node const& root, Scene const& scene);
+/// Says which law a scene that names none has, and warns of contacts that take no energy.
+void tell_of_contacts(Node const& root, Scene& scene);
 /// Warns of keys from which masses would follow, where all of those are given.
 void warn_of_idle_sources(Node const& root, Scene& scene);
 /// [study.vary]; adds the kernel parts that the varied keys need.

@@ -153,6 +153,7 @@ void read_physics(Node const& root, Scene& scene) {
     read_mechanism(root, scene.parts);
     Node const* const law = root.find_path("contact.law");
     if (law != nullptr) read_text_value(*law);
+    else if (info(scene.parts.mechanism).spatial) scene.parts.law = default_law;
     scene.inputs = with_presets(scene.inputs, scene.parts);
     auto const given = given_keys(root);
     bool restitution = false;
@@ -190,6 +191,18 @@ void check_restitution(Node const& root, Scene const& scene) {
     if (!needs_restitution(scene.parts) || varied || root.find_path(name) != nullptr) return;
     std::string const what = scene.parts.rigid ? std::string("rigid contacts need") : fmt::format("{} needs", info(scene.parts.law).name);
     refuse(*root.find_path("contact.law"), {what + " contact.restitution", "give it, above 0 and at most 1"});
+}
+
+void tell_of_contacts(Node const& root, Scene& scene) {
+    if (scene.parts.rigid || !info(scene.parts.mechanism).spatial) return;
+    LawInfo const& law = info(scene.parts.law);
+    if (root.find_path("contact.law") == nullptr) {
+        scene.unsaid.push_back(fmt::format("contact.law is not given and is \"{}\": {}; name it", law.name, law.words));
+    }
+    bool const has_rates = has_group(law.groups, KeyGroup::surfaces), has_others = has_group(law.groups, KeyGroup::point_damping);
+    if (scene.parts.damping != Damping::point || !has_rates || has_others || root.find_path("contact.chi_surface") != nullptr) return;
+    scene.unsaid.push_back(fmt::format("neither contact.restitution nor contact.chi_surface is given: contacts of \"{}\" then take no energy, and what "
+                                       "touches rings for ever; give one of the two", law.name));
 }
 
 void warn_of_idle_sources(Node const& root, Scene& scene) {

@@ -119,6 +119,7 @@ struct Scene {
     /// Members that run again to check the others, whatever it costs; none: what a tenth of the study's work allows.
     std::optional<std::uint64_t> verify;
     std::vector<std::string> warnings;       // one line each: what was given and has no effect
+    std::vector<std::string> unsaid;         // one line each: what was not given and matters
 
     bool stores_members() const { return store == Store::members; }
 };
@@ -164,6 +165,8 @@ struct DerivedNumber {
 std::vector<DerivedNumber> derived_numbers(Scene const& scene);
 /// The scene's numbers, those that members vary in among the given ones, as 1.
 Inputs given_or_varied(Scene const& scene);
+/// What is told of a scene before it runs: what was not given and matters, what was given and has no effect.
+std::vector<std::string> all_warnings(Scene const& scene);
 
 /// The scene with every key written out in SI units, as TOML that reads back to the same scene.
 std::string resolved_toml(Scene const& scene);

@@ -45,7 +45,7 @@ Settings settings() {
          .what = "mechanism", .known = mechanism_names},
         {.name = "mechanism.crank", .type = Type::choice, .unit = "", .meaning = "whether a planar crank is driven, or free from its start on",
          .preset = "driven", .what = "crank", .choices = crank_names},
-        {.name = "contact.law", .type = Type::choice, .unit = "", .meaning = "contact law", .preset = "paper", .what = "contact law",
+        {.name = "contact.law", .type = Type::choice, .unit = "", .meaning = "contact law", .preset = info(default_law).name, .what = "contact law",
          .known = contact_law_names},
         {.name = "friction.enabled", .type = Type::truth, .unit = "", .meaning = "whether there is friction",
          .preset = "true where there is [friction], else false"},

@@ -89,7 +89,7 @@ TEST(ProgressOfARun, OfContinuedSweepsAndExponentsComesToItsEnd) {
                               "transient_revolutions = 1\nrevolutions = 2\n";
     Overrides const fast{{"mechanism.crank_speed", "100"}};
     for (std::string const more : {"exponents = 0\nstart = \"continue\"\n", "exponents = 1\n"}) {
-        Scene const scene = testing::scene_of("schema = 1\n[study]\n" + sweep + more, fast);
+        Scene const scene = testing::scene_of("schema = 1\n[contact]\nlaw = \"paper\"\n[study]\n" + sweep + more, fast);
         expect_gradual(shares_of(scene, best_isa()), 8);
     }
 }

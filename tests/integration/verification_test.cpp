@@ -249,7 +249,7 @@ TEST(CheckSample, DrawsEveryMemberAlikeOften) {
 
 /// A check of six members by `auto` at a hundredth of the tolerance, foreseen at four times a member's work, is more than a tenth of few members' work.
 TEST(ForeseenCheck, IsATenthOfTheWorkWhereThatIsEnough) {
-    Scene const varied = scene_of("schema = 1\n[study]\nmembers = 400\nduration = \"1 s\"\n[study.vary]\n\"initial.y\" = { dist = \"norm\", mean = 0, sd = 1e-5 }\n");
+    Scene const varied = scene_of("schema = 1\n[contact]\nlaw = \"paper\"\n[study]\nmembers = 400\nduration = \"1 s\"\n[study.vary]\n\"initial.y\" = { dist = \"norm\", mean = 0, sd = 1e-5 }\n");
     EXPECT_EQ(foreseen_check(varied, {}, 10'000), 1000);
     EXPECT_EQ(foreseen_check(varied, {}, 100), 0);
     EXPECT_EQ(foreseen_check(varied, 0u, 1000), 0);
@@ -334,7 +334,7 @@ TEST(MemberNumbers, LeaveOutTheResidualOfALawThatKeepsEnergy) {
 }
 
 TEST(MemberNumbers, OfMembersThatAreCutShortAreNone) {
-    Scene const study = scene_of("schema = 1\n[study]\nmembers = 4\nduration = \"20 ms\"\nquantities = [\"crank_work\"]\n"
+    Scene const study = scene_of("schema = 1\n[contact]\nlaw = \"paper\"\n[study]\nmembers = 4\nduration = \"20 ms\"\nquantities = [\"crank_work\"]\n"
                                  "[study.vary]\n\"initial.y\" = { dist = \"unif\", low = \"-0.05 mm\", high = \"0.05 mm\" }\n");
     auto const backend = cpu_backend(best_isa());
     MemberNumbers const whole = fresh_numbers(study, {0, 1, 2, 3}, {*backend});

@@ -13,7 +13,7 @@ protected:
     CorrelatedHypercube() {
         write(
             "s.toml",
-            "schema = 1\n[friction]\n[study]\ndesign = \"lhs\"\nmembers = 60\nduration = \"1 ms\"\nquantities = "
+            "schema = 1\n[contact]\nlaw = \"paper\"\n[friction]\n[study]\ndesign = \"lhs\"\nmembers = 60\nduration = \"1 ms\"\nquantities = "
             "[\"energy_residual\"]\n"
             "[study.correlation]\nkeys = [\"initial.z\", \"initial.y\"]\nmatrix = [[1, 0.9], [0.9, 1]]\n[study.vary]\n"
             "\"initial.y\" = { dist = \"unif\", low = -6e-5, high = 6e-5 }\n\"initial.z\" = { dist = \"unif\", low = "

@@ -11,7 +11,7 @@ class MembersOfAResult : public Program {
 protected:
     MembersOfAResult() {
         write("s.toml",
-              "schema = 1\n[study]\nmembers = 12\nduration = \"1 ms\"\n[study.vary]\n\"joint.clearance\" = { dist = \"unif\", low = 5e-5, high = 1e-4 }\n");
+              "schema = 1\n[contact]\nlaw = \"paper\"\n[study]\nmembers = 12\nduration = \"1 ms\"\n[study.vary]\n\"joint.clearance\" = { dist = \"unif\", low = 5e-5, high = 1e-4 }\n");
     }
     Json json(std::vector<std::string> const& arguments) const {
         Outcome const outcome = run(arguments);

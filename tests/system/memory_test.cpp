@@ -13,7 +13,7 @@ namespace {
 class Needs : public Program {
 protected:
     static std::string scene(std::string const& members) {
-        return "schema = 1\n[integrator]\nmethod = \"rk4\"\nstep = 1e-5\n[study]\nkind = \"tolerance\"\n" + members +
+        return "schema = 1\n[contact]\nlaw = \"paper\"\n[integrator]\nmethod = \"rk4\"\nstep = 1e-5\n[study]\nkind = \"tolerance\"\n" + members +
                "\nduration = 1e-5\nquantities = [\"peak_normal_force\", \"mode_time\"]\n[study.vary]\n"
                "\"joint.clearance\" = { dist = \"unif\", low = 1e-4, high = 2e-4 }\n"
                "\"contact.eta\" = { dist = \"unif\", low = 0.01, high = 0.02 }\n";

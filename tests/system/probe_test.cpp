@@ -16,7 +16,7 @@ std::string first_line(std::string const& text) { return text.substr(0, text.fin
 
 class Probe : public Program {
 protected:
-    Probe() { write("s.toml", "schema = 1\n[friction]\n[initial]\nz = \"0.01 mm\"\n"); }
+    Probe() { write("s.toml", "schema = 1\n[contact]\nlaw = \"paper\"\n[friction]\n[initial]\nz = \"0.01 mm\"\n"); }
 };
 
 class GoldenTable : public Program, public ::testing::WithParamInterface<std::tuple<std::string, Isa>> {};

@@ -12,7 +12,7 @@ namespace {
 class Report : public Program {
 protected:
     Report() {
-        write("s.toml", "schema = 1\n[study]\nduration = \"1 ms\"\n");
+        write("s.toml", "schema = 1\n[contact]\nlaw = \"paper\"\n[study]\nduration = \"1 ms\"\n");
         EXPECT_EQ(run({"run", "s.toml", "--no-progress"}).code, 0);
     }
     ~Report() override { unsetenv("SLIDEWAY_PYTHON"); }

@@ -33,7 +33,7 @@ class ShardedRun : public ProgramWithResults {
 protected:
     /// A run of `members` that takes little time, or about as long as `duration` says.
     void write_scene(int members, char const* duration) const {
-        write("s.toml", "schema = 1\ntitle = \"In shards\"\n[friction]\n[study]\nmembers = " + std::to_string(members) +
+        write("s.toml", "schema = 1\ntitle = \"In shards\"\n[contact]\nlaw = \"paper\"\n[friction]\n[study]\nmembers = " + std::to_string(members) +
                             "\nduration = \"" + duration +
                             "\"\nsamples = 4\nquantities = [\"energy_residual\", \"mode_time\"]\n[study.vary]\n"
                             "\"initial.y\" = { dist = \"unif\", low = \"-0.09 mm\", high = \"0.09 mm\" }\n");

@@ -11,6 +11,8 @@ namespace slideway::testing {
 inline constexpr char const* small_scene = R"(
 schema = 1
 title = "A small ensemble"
+[contact]
+law = "paper"
 [friction]
 [study]
 members = 37

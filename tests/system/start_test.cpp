@@ -57,7 +57,7 @@ TEST_F(Starts, OfDrawsThatCannotBeAreCounted) {
 }
 
 TEST_F(Starts, OfRowsAreRefusedAtTheirLine) {
-    write("table.toml", "schema = 1\n[study]\nduration = \"1 us\"\ndesign = \"table\"\ntable = \"rows.csv\"\n");
+    write("table.toml", "schema = 1\n[contact]\nlaw = \"paper\"\n[study]\nduration = \"1 us\"\ndesign = \"table\"\ntable = \"rows.csv\"\n");
     write("rows.csv", "part,initial.z [mm]\nA-001,0.05\nA-002,0.1\nA-003,0.3\n");
     for (char const* const command : {"check", "run"}) {
         expect_refusal(2, "rows.csv:4: its member starts inside the way, deeper than a tenth of the clearance: by 0.2 mm", {command, "table.toml"});

@@ -142,7 +142,7 @@ TEST_F(StatisticsRun, InfoAndCheckKnowIt) {
 
 TEST_F(StatisticsRun, AnEnsembleWithoutLimitsHasItsReport) {
     write("e.toml",
-          "schema = 1\n[friction]\n[study]\nmembers = 20\nduration = \"0.1 ms\"\nquantities = [\"crank_work\", "
+          "schema = 1\n[contact]\nlaw = \"paper\"\n[friction]\n[study]\nmembers = 20\nduration = \"0.1 ms\"\nquantities = [\"crank_work\", "
           "\"energy_residual\"]\nstore = \"statistics\"\n[study.vary]\n\"initial.y\" = { dist = \"unif\", low = "
           "\"-0.09 mm\", high = \"0.09 mm\" }\n");
     Outcome const outcome = run({"run", "e.toml", "--no-progress"});

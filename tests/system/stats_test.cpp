@@ -26,6 +26,8 @@ protected:
     void write_result() const {
         write("s.toml", R"(
 schema = 1
+[contact]
+law = "paper"
 [study]
 members = 3
 duration = "20 ms"
@@ -125,7 +127,7 @@ TEST_F(Stats, OfAResultAreThoseOfOneMember) {
 
 TEST_F(Stats, OfAFailedMemberAreRefused) {
     write("s.toml",
-          "schema = 1\n[initial]\ny = \"0.02 mm\"\n[integrator]\nmax_steps = 3\n[study]\nduration = \"20 ms\"\nsamples "
+          "schema = 1\n[contact]\nlaw = \"paper\"\n[initial]\ny = \"0.02 mm\"\n[integrator]\nmax_steps = 3\n[study]\nduration = \"20 ms\"\nsamples "
           "= 201\n");
     run({"run", "s.toml", "--no-progress", "-o", "s.nc"});
     expect_refusal(2, "samples are no finite numbers", {"stats", "s.nc"});

@@ -14,7 +14,7 @@ namespace {
 
 class Usage : public Program {
 protected:
-    Usage() { write("s.toml", "schema = 1\n[study]\nmembers = 10\nduration = \"1 ms\"\n"); }
+    Usage() { write("s.toml", "schema = 1\n[contact]\nlaw = \"paper\"\n[study]\nmembers = 10\nduration = \"1 ms\"\n"); }
 };
 
 TEST_F(Usage, OfCommands) {
@@ -39,7 +39,7 @@ TEST_F(Usage, OfCommands) {
 }
 
 TEST_F(Usage, OfCardsForOtherMechanisms) {
-    write("c.toml", "schema = 1\n[mechanism]\nkind = \"carriage\"\n");
+    write("c.toml", "schema = 1\n[mechanism]\nkind = \"carriage\"\n[contact]\nlaw = \"paper\"\n");
     for (char const* const command : {"run", "check"}) {
         expect_refusal(2,
                        "c.toml: mechanism.kind is \"carriage\" (the kernels for cards are of slider_crank alone); use "
@@ -67,8 +67,8 @@ TEST_F(Usage, CheckShowsThePartsOfEachMechanism) {
         return out.substr(from, out.find("\nasked for") - from);
     };
     EXPECT_EQ(parts("kind = \"carriage\""),
-              "parts in     carriage mechanism; paper law; damping of point contacts\n"
-              "parts out    conservative law; kelvin_voigt law; foundation law; rigid contact; damping of line and surface contacts; restitution; friction; "
+              "parts in     carriage mechanism; foundation law; no damping\n"
+              "parts out    paper law; conservative law; kelvin_voigt law; rigid contact; damping of surface contacts; restitution; friction; "
               "pose of a misaligned way; time series");
     EXPECT_EQ(parts("kind = \"planar_slider_crank\"\ncrank = \"free\"\n[contact]\nrestitution = 0.5"),
               "parts in     planar_slider_crank mechanism; free crank; contact of corners; restitution\n"
@@ -266,7 +266,7 @@ TEST_F(Usage, AnswersQuestions) {
 
 TEST_F(Usage, OfCheckTellsHowMembersAreSpread) {
     auto const design = [&](std::string const& lines) {
-        write("d.toml", "schema = 1\n[study]\nkind = \"tolerance\"\n" + lines +
+        write("d.toml", "schema = 1\n[contact]\nlaw = \"paper\"\n[study]\nkind = \"tolerance\"\n" + lines +
                             "\n[study.limits]\nfriction_loss = {max=1}\n\"mode_time[free]\" = {min=0}\n[study.vary]\n"
                             "\"initial.y\" = {dist=\"unif\", low=0, high=1e-5}\n"
                             "\"initial.z\" = {dist=\"triang\", low=0, mode=0, high=1e-5}\n");
