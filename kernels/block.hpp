@@ -17,8 +17,8 @@ inline constexpr int state_size = 10;  // of a slider-crank: y z vy vz roll yaw 
 
 struct IntegratorSettings {
     Method method = Method::automatic;
-    double rtol = 1e-5;
-    double atol = 1e-6;                     // relative to the joint's scales: c, c·ω, 2c/L_k, 2c/L_k·ω
+    double rtol = 1e-6;
+    double atol = 1e-7;                     // relative to the joint's scales: c, c·ω, 2c/L_k, 2c/L_k·ω
     double stiff_tolerance = 1e-3;          // least rtol and atol for the ringing that the stiff method damps
     double end_time = 0;                    // [s]
     double max_step = 1e-3;                 // [s], of the explicit methods; what a step may leap over in free flight
