@@ -21,6 +21,7 @@ from slideway.program import call
 scenes = Path(__file__).parents[2] / "scenes"
 small: dict[str, Any] = {
     "schema": 1,
+    "contact": {"law": "paper"},
     "study": {
         "kind": "ensemble", "members": 6, "duration": "20 ms", "quantities": ["peak_normal_force", "mode_time", "peak_tilt"],
         "vary": {"initial.y": {"dist": "unif", "low": 0, "high": "20 um"}, "joint.clearance": {"dist": "unif", "low": "50 um", "high": "0.1 mm"}},

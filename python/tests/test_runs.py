@@ -23,6 +23,7 @@ scenes = Path(__file__).resolve().parents[2] / "scenes"
 short: dict[str, Any] = {
     "schema": 1,
     "title": 'a "short" run',
+    "contact": {"law": "paper"},
     "study": {"kind": "ensemble", "members": 3, "duration": "1 ms", "quantities": ["peak_tilt"],
               "vary": {"initial.y": {"dist": "unif", "low": -1e-5, "high": "0.02 mm"}}},
 }

@@ -16,7 +16,7 @@ from nbclient import NotebookClient
 CALLS = int(os.environ.get("SLIDEWAY_THREAD_CALLS", "60"))
 
 SCENE: dict[str, Any] = {
-    "schema": 1, "study": {"kind": "ensemble", "members": 3, "duration": "0.2 ms", "samples": 9, "quantities": ["peak_tilt", "y"],
+    "schema": 1, "contact": {"law": "paper"}, "study": {"kind": "ensemble", "members": 3, "duration": "0.2 ms", "samples": 9, "quantities": ["peak_tilt", "y"],
                            "vary": {"initial.y": {"dist": "unif", "low": 0, "high": 1e-5}}}}  # fmt: skip
 
 # What all of them do: open and run, and look at the numbers.
