@@ -2,21 +2,14 @@
 
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/stiffness.hpp"
-#include "kernels/lanes/work.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// How `method = "auto"` changes members between explicit steps, by the clocks of impacts or plain ones, and the stiff method
-/// (docs/integrators.md).
+/// How `method = "auto"` changes members between the explicit pair and the stiff method (docs/integrators.md).
 template <class Model, class Real> struct MethodChoice {
-    SLIDEWAY_HD static Mask<Real> has(Pack<Model, Real> const& pack, Work work) { return pack.state.course.work == number(work); }
-
-    /// Between stints of explicit steps: who is better off with others.  Where contact lasts, that is the stiff method, and as long as a member
-    /// vibrates too much for it plain steps: clocks would resolve every touch of a chatter.  Who is found in flight at speed may have clocks.
-    /// @param touching lanes in contact  @param work the steps they made  @param clocks whether there are some
-    /// @return lanes that change
-    SLIDEWAY_HD static Mask<Real> look(Pack<Model, Real>& pack, Mask<Real> touching, Work work, bool clocks) {
+    /// Between stints of the explicit pair: who is better off with the stiff method.  @param touching lanes in contact
+    SLIDEWAY_HD static void look_for_stiffness(Pack<Model, Real>& pack, Mask<Real> touching) {
         auto& c = pack.state.course;
         auto const& s = pack.state;
         Real rate_squared(0.0);
@@ -32,40 +25,15 @@ template <class Model, class Real> struct MethodChoice {
         }
         c.rate_squared =
             select(pack.busy, max(rate_squared, Real(Stiffness::memory) * c.rate_squared), c.rate_squared);
-        Real const h = work == Work::clocked ? clocked_step(s, touching) : c.h, squared_step = h * h;
+        Real const squared_step = c.h * c.h;
         auto const held_up = squared_step * rate_squared > Real(Stiffness::held_up_above * Stiffness::held_up_above);
         auto const lasting =
             touching & (squared_step * c.rate_squared > Real(Stiffness::lasting_above * Stiffness::lasting_above));
         Real const sign = select(held_up, Real(1.0), select(lasting, Real(Stiffness::lasting_share), Real(-1.0)));
-        c.stiffness = max(c.stiffness + sign, Real(0.0));
-        Mask<Real> const due = touching & (c.stiffness >= Real(Stiffness::enough)), to_stiff = due & creeping;
-        auto to_plain = mask_of<Real>(false), to_clocks = to_plain;
-        if (work == Work::clocked) to_plain = due & !creeping;
-        else if (clocks) to_clocks = pack.busy & !touching & moves(s.course.y, s);
-        c.work = select(to_stiff, number(Work::stiff), select(to_plain, number(Work::plain), select(to_clocks, number(Work::clocked), c.work)));
-        c.stiffness = select(to_stiff | to_clocks, Real(0.0), c.stiffness);
-        c.h = select(to_stiff | to_plain, h, c.h);
-        return to_stiff | to_plain | to_clocks;
-    }
-
-    /// Has members go on without steps that hold their contacts, which touch where they are deep from here on.
-    SLIDEWAY_HD static void release_contacts(Pack<Model, Real>& pack, Mask<Real> in) {
-        Real rates[Model::size];
-        typename Model::template Report<Real> report;
-        pack.restart(in, rates, report);
-    }
-
-    /// Has members in flight go on with such steps.  Nothing touches: their derivative stays as it is.
-    SLIDEWAY_HD static void hold_contacts(Pack<Model, Real>& pack, Mask<Real> in) {
-        auto& c = pack.state.course;
-        auto& [memory, watch] = pack.state.contacts;
-        Real rates[Model::size];
-        typename Model::template Report<Real> report;
-        pack.evaluate(c.t, c.y, memory, rates, true, report);
-        pack.count_evaluations(in, 1);
-        watch.begin(in, report.contact, memory, pack.needs.watching);
-        c.impacts.step = select(in, Real(0.0), c.impacts.step);
-        c.impacts.flight_step = select(in, c.h, c.impacts.flight_step);
+        Real const looks = max(c.stiffness + sign, Real(0.0));
+        auto const change = pack.busy & creeping & (looks >= Real(Stiffness::enough));
+        c.stiff = select(change, Real(1.0), c.stiff);
+        c.stiffness = select(change, Real(0.0), looks);
     }
 
     /// Lanes whose stiff step brought an apex into contact at speed.  The stiff method would swallow the impact's energy without a
@@ -75,10 +43,13 @@ template <class Model, class Real> struct MethodChoice {
                                                Mask<Real> accepted) {
         auto const& s = pack.state;
         // At either end: a slider lifted from rest meets the other face within one long step.
-        Mask<Real> const may = accepted & (moves(s.course.y, s) | moves(to.end, s));
-        if (none(may)) return may;
-        Real const speed = pack.model.approach_speed(s.course.t, s.course.y, to.step, to.end, s.constants.parameters);
-        return may & (speed > Real(Stiffness::impact_above));
+        Real const squared_speed = max(Model::squared_speed(s.course.y, s.constants.scale),
+                                       Model::squared_speed(to.end, s.constants.scale));
+        auto const moves = squared_speed > Real(Stiffness::creep_below * Stiffness::creep_below);
+        if (none(accepted & moves)) return mask_of<Real>(false);
+        auto const& p = s.constants.parameters;
+        Real const speed = pack.model.approach_speed(s.course.t, s.course.y, to.step, to.end, p);
+        return accepted & moves & (speed > Real(Stiffness::impact_above));
     }
 
     /// Lanes that leave the stiff method: where contact is lost or an impact begins, or steps stay far below what that method is for.
@@ -94,29 +65,10 @@ template <class Model, class Real> struct MethodChoice {
         Mask<Real> const leaving = pack.busy & (free | impact | (c.stiffness >= Real(Stiffness::calm_steps)));
         if (none(leaving)) return leaving;
         c.stiffness = select(leaving, Real(0.0), c.stiffness);
-        c.work = select(leaving, number(Work::plain), c.work);
+        c.stiff = select(leaving, Real(0.0), c.stiff);
         Real const explicit_step = min(Real(1.0) / max(rate, Real(1e-9)), Real(max_step));
         c.h = select(leaving, min(c.h, explicit_step), c.h);
         return leaving;
-    }
-
-private:
-    using State = MemberState<Model, Real>;
-
-    SLIDEWAY_FN static Real number(Work work) { return Real(static_cast<double>(work)); }
-
-    /// Lanes that are faster than a creep.
-    SLIDEWAY_HD static Mask<Real> moves(Real const* y, State const& s) {
-        return Model::squared_speed(y, s.constants.scale) > Real(Stiffness::creep_below * Stiffness::creep_below);
-    }
-
-    /// The next step by the clocks, of which there is one in contact [s].
-    SLIDEWAY_HD static Real clocked_step(State const& s, Mask<Real> touching) {
-        if constexpr (has_clocks<Model>) {
-            Real const step = s.course.impacts.step, by_clock = s.contacts.watch.clock(s.contacts.memory).time_of(step);
-            return select(touching & (step > Real(0.0)), by_clock, s.course.h);
-        }
-        return s.course.h;
     }
 };
 

@@ -123,16 +123,6 @@ template <class Model, class Real> struct Pack {
         with_accelerations([&](auto& record) { record.begin_next(in, report); });
     }
 
-    /// Evaluates the derivative anew in the lanes of the mask, where more than the state has changed it.
-    /// @param rates, report room for what comes of it
-    SLIDEWAY_HD Faults<Real> restart(Mask<Real> in, Real* rates, Report& report) {
-        auto const faults = evaluate(state.course.t, state.course.y, state.contacts.memory, rates, true, report);
-        count_evaluations(in, 1);
-        if (needs.quantities) state.observation.observer.switch_over(in, report, needs.switches);
-        begin_next(in, rates, report);
-        return faults;
-    }
-
     /// Counts what an attempt costs in the lanes of the mask.
     template <class Stepper> SLIDEWAY_HD void count_attempt(Mask<Real> in) {
         count_evaluations(in, Stepper::evaluations);

@@ -12,7 +12,7 @@ struct Stiffness {
     static constexpr double held_up_above = 0.9;
     // Contact that lasts keeps vibrating, with amplitudes that only the tolerance sees: a look counts a little.
     static constexpr double lasting_above = 0.1;
-    static constexpr double lasting_share = 1.0 / 4;
+    static constexpr double lasting_share = 1.0 / 16;
     // Every other look takes 1 off; at this sum the member changes over.
     static constexpr double enough = 3.0;
     // A corner that rattles on its face changes Ω tenfold from look to look: half the former Ω² counts too.
