@@ -46,7 +46,7 @@ std::vector<Inputs> soft_members() {
 
 testing::RunOptions dense_options(Law law) {
     testing::RunOptions o;
-    bool const damps = has_group(info(law).groups, KeyGroup::point_damping) || !info(law).keys.empty();
+    bool const damps = has_group(info(law).groups, KeyGroup::point_damping) || !info(law).has(Damping::rate);
     o.parts = {law, damps ? Damping::point : Damping::rate, true, false};
     o.settings.rtol = o.settings.atol = 1e-9;
     o.settings.end_time = end_time;
@@ -93,7 +93,7 @@ protected:
         return value;
     }
     /// Whether the force jumps: where the law switches, or where a damper of its own meets the way.
-    static bool jumps() { return info(GetParam()).switches || !info(GetParam()).keys.empty(); }
+    static bool jumps() { return info(GetParam()).switches || !info(GetParam()).has(Damping::rate); }
     int mode_class(std::size_t member, std::size_t sample) const {
         if (at(Series::surfaces, member, sample) > 0) return 3;
         if (at(Series::lines, member, sample) > 0) return 2;
