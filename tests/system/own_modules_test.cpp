@@ -12,7 +12,7 @@
 
 #include "host/backend/backend.hpp"
 #include "host/backend/kernel_sources.hpp"
-#include "tests/system/results.hpp"
+#include "tests/system/own_module_fixture.hpp"
 
 namespace slideway::testing::own_modules_test {
 namespace {
@@ -51,15 +51,10 @@ verify = 0
 "contact.apex_stiffness" = { dist = "unif", low = 1e7, high = 3e7 }
 )";
 
-class OwnModules : public ProgramWithResults {
+class OwnModules : public ProgramWithOwnModules {
 protected:
-    OwnModules() {
-        setenv("XDG_CACHE_HOME", path("cache").c_str(), 1);
-        write("s.toml", scene);
-    }
-    ~OwnModules() override { unsetenv("XDG_CACHE_HOME"); }
+    OwnModules() { write("s.toml", scene); }
 
-    static std::string best() { return std::string(name_of(best_isa())); }
     std::string file(std::string const& isa) const { return fmt::format("own/slideway_law_twin_{}.so", isa); }
 
     /// For the instruction set that is compiled soonest, where nothing else is asked for; runs take what there is.

@@ -1,17 +1,13 @@
 // Signals of a mechanism of one's own: series and quantities, as all others are, and read without the module.
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
-#include <system_error>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/backend/backend.hpp"
-#include "tests/system/results.hpp"
+#include "tests/system/own_module_fixture.hpp"
 
 namespace slideway::testing::own_signals_test {
 namespace {
@@ -40,30 +36,13 @@ verify = 0
 "mechanism.stall_torque" = { dist = "unif", low = 0.4, high = 0.6 }
 )";
 
-class OwnSignals : public ProgramWithResults {
+class OwnSignals : public ProgramWithOwnModules {
 protected:
-    OwnSignals() { setenv("XDG_CACHE_HOME", path("cache").c_str(), 1); }
-    ~OwnSignals() override { unsetenv("XDG_CACHE_HOME"); }
-
-    static std::string best() { return std::string(name_of(best_isa())); }
-    static std::vector<std::string> isas() {
-        std::vector<std::string> names{best()};
-        if (best_isa() != Isa::scalar && is_built(Isa::scalar)) names.emplace_back("scalar");
-        return names;
-    }
-    /// Once for all tests, of which each has a copy.
-    void compile_motor() const {
-        static fs::path const once = fs::temp_directory_path() / fmt::format("slideway_motor_{}", getpid());
-        static Outcome const outcome =
-            run({"compile", SLIDEWAY_SOURCE "/tests/extending/motor_yoke.hpp", "-o", once.string(), "--isa", fmt::format("{}", fmt::join(isas(), ","))});
-        static struct Remover {
-            ~Remover() {
-                std::error_code none;
-                fs::remove_all(once, none);
-            }
-        } const at_exit;
+    /// For scalar code alone, which is compiled soonest, where nothing else is asked for; runs take what there is.
+    void compile_motor(std::vector<std::string> const& isas = {"scalar"}) const {
+        Outcome const outcome =
+            run({"compile", SLIDEWAY_SOURCE "/tests/extending/motor_yoke.hpp", "-o", "own", "--isa", fmt::format("{}", fmt::join(isas, ","))});
         ASSERT_EQ(outcome.code, 0) << outcome.err;
-        fs::copy(once, path("own"));
         write("s.toml", motor_scene);
     }
     Outcome run_scene(std::vector<std::string> options, std::string const& output) const {
@@ -109,9 +88,9 @@ TEST_F(OwnSignals, AreSeriesAndQuantitiesOfTheirMembers) {
 }
 
 TEST_F(OwnSignals, OfARunInPartsAreThoseOfTheWholeOnEachInstructionSet) {
-    compile_motor();
+    compile_motor(best_and_scalar());
     std::string whole;
-    for (std::string const& isa : isas()) {
+    for (std::string const& isa : best_and_scalar()) {
         ASSERT_EQ(run_scene({"--isa", isa}, isa + ".nc").code, 0);
         if (whole.empty()) whole = hash_of(isa + ".nc");
         EXPECT_EQ(hash_of(isa + ".nc"), whole);

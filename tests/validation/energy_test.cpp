@@ -84,8 +84,7 @@ std::vector<double> expect_falling_residual(Law law, std::vector<Inputs> const& 
 
 TEST_P(ConservingLaw, ResidualFallsWithTheTolerance) {
     // Friction, damping and the crank on; 0.3 s of the defaults: 2e-8 J at 1e-6, 1e-11 J at 1e-10 (model.md 8).
-    expect_falling_residual(GetParam(), testing::scattered_starts(8, 1e-4, 3.141592653589793, GetParam()), true,
-                            1);
+    expect_falling_residual(GetParam(), testing::scattered_starts(8, 1e-4, 3.141592653589793, GetParam()), true, 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, ConservingLaw, ::testing::ValuesIn([] {
