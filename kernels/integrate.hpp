@@ -24,7 +24,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 ///    `sees_contacts`: then `see(t, state, parameters, memory, contact)` fills in what the watch asks for without the forces;
 ///  - `set_tolerance(rtol)` and `tell_integrands_alone(inside)` if the model has use for them;
 ///  - `scales(parameters, scale)`: sizes of the state's components that the absolute tolerance is meant against;
-///  - `has_linearisation`: then `Linearisation<Real>` and `linearise(…)` serve the stiff method;
+///  - `has_linearisation`: then `Linearisation<Real>` and `linearise(…)` serve the stiff method; `bend(…)`, where it is there, tells how
+///    what it rests on accelerates;
 ///  - `has_shadows`: then members have shadows beside them (kernels/lanes/shadows.hpp; kernels/models/shadowed.hpp makes such a model of
 ///    another), with contacts also `remembered(speed)`, an impact speed as it may be carried on, and `prescribed()` if its drive leaves some of the
 ///    state without offsets;

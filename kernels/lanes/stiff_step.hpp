@@ -84,9 +84,9 @@ public:
 private:
     static constexpr int size = Model::size;
 
-    /// h²γ ∂f/∂t.  Where a drive moves a stiff contact's equilibrium, the error without it is as large as the move, whatever the step.  Stages know
-    /// that equilibrium to first order alone.  Where the model knows its acceleration a, they step z = y − ½ a (t − t_n)², whose equilibrium
-    /// moves evenly: z' = f − a (t − t_n).
+    /// h²γ ∂f/∂t: how a drive moves a stiff contact's equilibrium.  It would cancel with the exact Jacobian of a linear problem, which the model's is
+    /// not.  Stages know that equilibrium to first order alone.  Where the model knows its acceleration a, they step z = y − ½ a (t − t_n)², whose
+    /// equilibrium moves evenly: z' = f − a (t − t_n).
     SLIDEWAY_HD Faults<Real> take_drift(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
         Real const later = fma(Real(drift_part), to.step, from.t), apart = later - from.t;
         auto const faults = pack.evaluate(later, from.y, from.memory, drift_, false, to.report);

@@ -127,15 +127,15 @@ TEST(AutoMethod, ResidualFallsWithTheToleranceWhereASliderGlides) {
 }
 
 TEST(AutoMethod, ResidualFallsWithTheToleranceOnAPitchedWay) {
-    // The crank moves what the slider rests on, which the linearisation of its contacts does not know.  Without ∂f/∂t the first run ends with
-    // 1e-5 J and more in each; without the way's bend the second, a turn of the crank, takes twice the work.
+    // The crank moves what the slider rests on, which the linearisation of its contacts does not know.  Without ∂f/∂t the second run, a turn of
+    // the crank, is unstable at 1e-3 and takes twenty-five times the work and more; without the way's bend it takes twice.
     auto settling = settling_members(16);
     for (auto& in : settling) in.way_pitch = 6e-5;
-    auto gliding = settling_members(4);
+    auto gliding = testing::scattered_starts(4, 1e-4, pi, Law::kelvin_voigt);
     for (auto& in : gliding) in.way_pitch = 6e-5, in.law_b = 2000;
     struct {
         double tolerance, settling, gliding, work;  // [J], [J], right-hand sides
-    } const runs[] = {{1e-3, 2e-5, 1e-4, 2e4}, {1e-5, 4e-7, 1e-6, 4e4}, {1e-6, 1e-7, 4e-7, 6e4}};
+    } const runs[] = {{1e-3, 2e-5, 1e-4, 1e4}, {1e-5, 1e-7, 1e-6, 4e4}, {1e-6, 1e-7, 4e-7, 6e4}};
     for (auto const& [tolerance, settled, glided, work] : runs) {
         auto o = options_of(Method::automatic, tolerance, 0.1);
         o.settings.atol = 0.1 * tolerance;
