@@ -1,11 +1,16 @@
-// Programs that compile laws and mechanisms of one's own, each test into a folder of its own.
+// Programs that compile laws and mechanisms of one's own, each test with a folder of its own.
 #pragma once
 
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "host/backend/backend.hpp"
+#include "host/base/file_lock.hpp"
 #include "tests/system/results.hpp"
 
 namespace slideway::testing {
@@ -21,6 +26,18 @@ protected:
         std::vector<std::string> names{best()};
         if (best_isa() != Isa::scalar && is_built(Isa::scalar)) names.emplace_back("scalar");
         return names;
+    }
+
+    /// The motor of docs/extending.md in the folder `own`.  It takes long to compile: the first test that asks does it for all of a call of
+    /// scripts/test.sh, or for this version of the kernels.
+    void provide_motor() const {
+        namespace fs = std::filesystem;
+        fs::path const common = fs::path(SLIDEWAY_TEST_RESULTS) / "modules";
+        fs::create_directories(common);
+        FileLock const alone(common / "lock", FileLock::Kind::alone, FileLock::Wait::yes);
+        Outcome const outcome = run({"compile", SLIDEWAY_SOURCE "/tests/extending/motor_yoke.hpp", "-o", common, "--isa", fmt::format("{}", fmt::join(best_and_scalar(), ","))});
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        fs::copy(common, path("own"));
     }
 };
 

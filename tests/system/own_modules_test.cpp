@@ -155,7 +155,7 @@ TEST_F(OwnModules, IncludeFilesThatAreOfTheirSourceToo) {
 
 /// Crank angle and speed are states that a motor moves: its energy is balanced, its neighbours have exponents, its parts are merged.
 TEST_F(OwnModules, OfAMechanismWithStatesOfItsOwnAreStudiedAsAnyOther) {
-    ASSERT_EQ(run({"compile", SLIDEWAY_SOURCE "/tests/extending/motor_yoke.hpp", "-o", "own", "--isa", "scalar"}).code, 0);
+    provide_motor();
     write("s.toml", R"(
 schema = 1
 [modules]
