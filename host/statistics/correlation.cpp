@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include <Eigen/Dense>
+#include <Eigen/QR>
 #include "host/base/numbers.hpp"
 #include "host/sampling/distribution.hpp"
 

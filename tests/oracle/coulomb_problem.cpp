@@ -1,11 +1,12 @@
 #include "coulomb_problem.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+
+#include "linear_solve.hpp"
 
 namespace oracle::detail {
 namespace {
@@ -114,10 +115,7 @@ public:
         Table slope = Table::Identity(3 * n_, 3 * n_);
         Column residual = impulses;
         for (Index i = 0; i < n_; ++i) contact_equations(i, impulses, motion, slope, residual);
-        auto decomposition = Eigen::CompleteOrthogonalDecomposition<Table>();
-        decomposition.setThreshold(1e-13L);
-        decomposition.compute(slope);
-        impulses -= Column(decomposition.solve(residual));
+        impulses -= least_norm(slope, residual, 1e-13L);
     }
 
 private:

@@ -1,4 +1,4 @@
-// Linear equations for the oracle and for tests: compiled once, for Eigen's elimination costs a unit seconds for each size.
+// Linear equations for the oracle and for tests: compiled once, for Eigen's decompositions cost a unit seconds for each size.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,5 +10,11 @@ using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic, Eigen:
 
 /// m⁻¹ b by elimination with full pivoting; one column for each of b's.
 Matrix solution(Matrix const& m, Matrix const& b);
+
+using Table = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+using Column = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+
+/// The shortest x of those for which |m x − b| is least.  Pivots below the threshold, over the largest, are none.
+Column least_norm(Table const& m, Column const& b, long double threshold);
 
 }  // namespace oracle

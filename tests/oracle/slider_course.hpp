@@ -1,7 +1,6 @@
 // A rigid slider between its events: what holds it, and how it moves.
 #pragma once
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 
 #include "bulirsch_stoer.hpp"
 #include "coulomb_problem.hpp"
+#include "linear_solve.hpp"
 #include "rigid_slider.hpp"
 #include "slider_frame.hpp"
 
@@ -38,13 +38,6 @@ struct Held {
     bool sticks;
     Vector2 along;  // of its slip
 };
-
-[[nodiscard]] inline Column least_norm(Table const& m, Column const& right) {
-    auto decomposition = Eigen::CompleteOrthogonalDecomposition<Table>();
-    decomposition.setThreshold(1e-12L);
-    decomposition.compute(m);
-    return decomposition.solve(right);
-}
 
 [[nodiscard]] inline Numbers numbers_of(SliderPlace const& p) {
     auto const& q = p.attitude;
@@ -187,7 +180,7 @@ protected:
         for (Index i = 0; i < n; ++i) rows.middleRows(3 * i, 3) = frame_.pair(contacts[static_cast<std::size_t>(i)].pair).rows;
         // Equal springs under a rigid slider: their loads are those of one small displacement of it.
         Table const springs = equations * rows;
-        Column const displacement = least_norm(equations * p.mobility * spread * springs, -equations * p.motion);
+        Column const displacement = least_norm(equations * p.mobility * spread * springs, -equations * p.motion, 1e-12L);
         Column const forces = spread * (springs * displacement);
         return {frame_.free() + change_by(pairs, forces), Column(forces(Eigen::seq(0, Eigen::last, 3))), forces};
     }
