@@ -123,6 +123,21 @@ template <class Model, class Real> struct Pack {
         with_accelerations([&](auto& record) { record.begin_next(in, report); });
     }
 
+    /// Values of which the largest is kept: the observer's, then the accelerations'.
+    struct Peaks {
+        static constexpr int count = Observer::peaks + AccelerationsOf<Model, Real>::Type::peaks;
+        Real of[count];
+    };
+    SLIDEWAY_HD void tell_peaks(Report const& report, Real const* at, Peaks& values) const {
+        for (auto& value : values.of) value = Real(0.0);
+        Observer::tell_peaks(report, at, values.of);
+        with_accelerations([&](auto const& record) { record.tell_peaks(report, values.of + Observer::peaks); });
+    }
+    SLIDEWAY_HD void raise_peaks(Mask<Real> in, Peaks const& values) {
+        state.observation.observer.raise_peaks(in, values.of);
+        with_accelerations([&](auto& record) { record.raise_peaks(in, values.of + Observer::peaks); });
+    }
+
     /// Counts what an attempt costs in the lanes of the mask.
     template <class Stepper> SLIDEWAY_HD void count_attempt(Mask<Real> in) {
         count_evaluations(in, Stepper::evaluations);

@@ -10,11 +10,15 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// Whether an observer can do with the powers of the energy audit, where nothing else is asked for that is integrated.
 template <class Observer> inline constexpr bool integrates_powers = requires { Observer::powers; };
 
+/// Whether an observer keeps peaks that are looked for inside of steps too (PeakSearch).
+template <class Observer> inline constexpr bool keeps_peaks = requires { Observer::peaks; };
+
 /// Which of a model's reports a block needs.
 struct ReportNeeds {
     bool quantities = false;     // the observer is at work
     bool stages = false;         // at every stage, for integrals
     bool accelerations = false;  // their record is at work
+    bool peaks = false;          // inside of steps too
     bool powers_alone = false;   // which are the energy audit's alone
     bool audit = false;          // the audit's integrals meet the tolerance too
     bool switches = false;       // the law does: the audit keeps books of it
@@ -33,6 +37,10 @@ struct ReportNeeds {
             using Accelerations = typename Model::template Accelerations<Real>;
             needs.accelerations = (quantities & Accelerations::quantities) != 0;
             needs.stages = needs.stages || Accelerations::needs_stages(quantities);
+        }
+        if constexpr (keeps_peaks<Observer>) needs.peaks = Observer::needs_peaks(quantities);
+        if constexpr (has_accelerations<Model>) {
+            needs.peaks = needs.peaks || Model::template Accelerations<Real>::needs_peaks(quantities);
         }
         needs.audit = Observer::audits(quantities);
         if constexpr (integrates_powers<Observer>) {

@@ -12,6 +12,7 @@
 #include "kernels/lanes/method_choice.hpp"
 #include "kernels/lanes/moreau_jean_step.hpp"
 #include "kernels/lanes/pack.hpp"
+#include "kernels/lanes/peak_search.hpp"
 #include "kernels/lanes/results.hpp"
 #include "kernels/lanes/shadows.hpp"
 #include "kernels/real.hpp"
@@ -314,6 +315,9 @@ private:
     SLIDEWAY_HD void observe(Mask<Real> accepted) {
         if (!pack_.needs.quantities) return;
         if constexpr (has_impulses<Stepper>) pack_.state.observation.observer.take_impulses(accepted, attempt_.report);
+        if constexpr (PeakSearch<Stepper, Model, Real>::is_of_use) {
+            if (pack_.needs.peaks) PeakSearch<Stepper, Model, Real>::run(pack_, stepper_, attempt_, accepted);
+        }
         pack_.state.observation.observer.accept(accepted, attempt_.step, pack_.integral, attempt_.report, attempt_.end,
                                                 pack_.needs.switches);
         pack_.with_accelerations([&](auto& a) { a.accept(accepted, attempt_.step, attempt_.report); });

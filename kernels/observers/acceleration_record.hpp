@@ -7,7 +7,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// A model whose accelerations nobody may ask for.
 struct NoAccelerations {
-    static constexpr int integrals = 0;
+    static constexpr int integrals = 0, peaks = 0;
 };
 
 /// Peaks and integrals of the accelerations of a pack's sliders: of the centre along X, Y and Z, and of the sensors top and front.  Apart
@@ -63,6 +63,23 @@ public:
         raise(accepted, r);
     }
 
+    static constexpr int peaks = integrals;
+    template <class Report> SLIDEWAY_FN static void tell_peaks(Report const& r, Real* values) {
+        auto const& a = r.acceleration;
+        values[0] = abs(a.x);
+        values[1] = abs(a.y);
+        values[2] = abs(a.z);
+        values[3] = abs(r.top);
+        values[4] = abs(r.front);
+    }
+    SLIDEWAY_FN void raise_peaks(Mask<Real> in, Real const* values) {
+        for (int i = 0; i < peaks; ++i) peak_[i] = select(in, max(values[i], peak_[i]), peak_[i]);
+    }
+    SLIDEWAY_HD static constexpr bool needs_peaks(Selection q) {
+        constexpr Selection peaking = quantities & quantities_where([](QuantityInfo const& info) { return info.statistic == Statistic::peak; });
+        return (q & peaking) != 0;
+    }
+
     /// Writes the selected quantities of one lane.  @param time [s] the member was integrated.
     SLIDEWAY_HD void finish(int index, double time, Selection selected, double* row) const {
         auto const put = [&](Quantity q, int column, double value) {
@@ -91,9 +108,9 @@ private:
     static constexpr int count = integrals;
 
     template <class Report> SLIDEWAY_FN void raise(Mask<Real> taken, Report const& r) {
-        auto const& a = r.acceleration;
-        Real const values[count] = {abs(a.x), abs(a.y), abs(a.z), abs(r.top), abs(r.front)};
-        for (int i = 0; i < count; ++i) peak_[i] = select(taken, max(values[i], peak_[i]), peak_[i]);
+        Real values[peaks];
+        tell_peaks(r, values);
+        raise_peaks(taken, values);
     }
 
     Real peak_[count], integral_[count];

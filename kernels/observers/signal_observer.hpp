@@ -36,7 +36,8 @@ template <class Real, class Report, int count> struct SignalReport : Report {
 };
 
 /// The quantities of a mechanism's signals, beside those that its observer keeps: behind them in a member's row, in the integrals of steps and in a
-/// Selection.  Means are of the stages, with the stepper's order; the others go by the accepted steps.
+/// Selection.  Means are of the stages, with the stepper's order; the others go by the accepted steps,
+/// largest and smallest values by what is inside of them too.
 /// @tparam Observer SliderObserver
 template <class Real, class Observer, class Signals> class SignalObserver : public Observer {
 public:
@@ -59,6 +60,15 @@ private:
         for (int k = 0; k < count; ++k) set |= Signals::quantities[static_cast<std::size_t>(k)].integrates() ? bit(k) : 0;
         return set;
     }();
+    static constexpr Selection peaking = [] {
+        Selection set = 0;
+        for (int k = 0; k < count; ++k) {
+            auto const statistic = Signals::quantities[static_cast<std::size_t>(k)].statistic;
+            set |= statistic == Statistic::maximum || statistic == Statistic::minimum ? bit(k) : 0;
+        }
+        return set;
+    }();
+    template <int k> static constexpr int peak = Observer::peaks + k - integrals_before(k);
     template <int> struct Number {};
     template <class Function> SLIDEWAY_FN static void each(Function const& see) {
         [&]<int... k>(std::integer_sequence<int, k...>) { (see(Number<k>{}), ...); }(std::make_integer_sequence<int, count>{});
@@ -96,6 +106,28 @@ public:
             else if constexpr (quantity<k>.statistic == Statistic::maximum) next = max(next, kept_[k]);
             else if constexpr (quantity<k>.statistic == Statistic::minimum) next = min(next, kept_[k]);
             kept_[k] = select(accepted, next, kept_[k]);
+        });
+    }
+
+    /// Largest values, and smallest ones turned.
+    static constexpr int peaks = Observer::peaks + count - integrals_before(count);
+    SLIDEWAY_HD static constexpr bool needs_peaks(Selection q) { return Observer::needs_peaks(q) || (q & peaking) != 0; }
+    SLIDEWAY_FN static void tell_peaks(Report const& r, Real const* state, Real* values) {
+        Observer::tell_peaks(r, state, values);
+        each([&]<int k>(Number<k>) {
+            constexpr auto statistic = quantity<k>.statistic;
+            Real const x = r.signal[quantity<k>.signal];
+            if constexpr (statistic == Statistic::maximum) values[peak<k>] = x;
+            else if constexpr (statistic == Statistic::minimum) values[peak<k>] = negated(x);
+            else if constexpr (!quantity<k>.integrates()) values[peak<k>] = Real(0.0);
+        });
+    }
+    SLIDEWAY_FN void raise_peaks(Mask<Real> in, Real const* values) {
+        Observer::raise_peaks(in, values);
+        each([&]<int k>(Number<k>) {
+            constexpr auto statistic = quantity<k>.statistic;
+            if constexpr (statistic == Statistic::maximum) kept_[k] = select(in, max(values[peak<k>], kept_[k]), kept_[k]);
+            else if constexpr (statistic == Statistic::minimum) kept_[k] = select(in, min(negated(values[peak<k>]), kept_[k]), kept_[k]);
         });
     }
 

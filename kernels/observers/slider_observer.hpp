@@ -11,7 +11,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// The scalar quantities of a pack of mechanisms with one slider: those of the table whose keeper is `mechanism`.  Only the energy
 /// audit has a say in the steps: its integrals meet the tolerance too.  Integrals run over the stages with the stepper's own weights, so
-/// they have its order; peaks, mode times and onsets go by the accepted steps.
+/// they have its order; peaks, mode times and onsets go by the accepted steps, peaks of forces by
+/// what is inside of them too (PeakSearch).
 /// @tparam Report_ SliderReport or PlanarReport
 template <class Real, template <class> class Report_ = SliderReport> class SliderObserver {
 public:
@@ -62,6 +63,14 @@ public:
     /// Whether a report is needed at the accepted steps.
     SLIDEWAY_HD static constexpr bool needs_reports(Selection q) { return q != 0; }
 
+    /// Whether peaks are asked for.
+    SLIDEWAY_HD static constexpr bool needs_peaks(Selection q) {
+        constexpr Selection peaking = quantities_where([](QuantityInfo const& info) {
+            return info.keeper == Keeper::mechanism && info.statistic == Statistic::peak;
+        });
+        return (q & peaking) != 0;
+    }
+
     /// As many integrands, the first ones, are powers of the energy audit: reports may tell them alone.
     static constexpr int powers = audit_integrals + 2;
     SLIDEWAY_FN static void powers_of(Report const& r, Real* values) {
@@ -83,6 +92,33 @@ public:
                 }
             }
         });
+    }
+
+    /// As many peaks are kept, and their values at a report.
+    static constexpr int peaks = Places::peaks;
+    SLIDEWAY_FN static void tell_peaks(Report const& r, Real const* state, Real* values) {
+        for_each_quantity([&]<Quantity q>(Named<q>) {
+            if constexpr (Places::is_peak(q)) {
+                constexpr int width = Places::columns(q);
+                for (int i = 0; i < width; ++i) values[Places::template peak_of<q> + i] = abs(value<q>(r, state, i));
+            }
+        });
+    }
+    SLIDEWAY_FN void raise_peaks(Mask<Real> in, Real const* values) {
+        for (int i = 0; i < peaks; ++i) peak_[i] = select(in, max(values[i], peak_[i]), peak_[i]);
+    }
+    /// Lanes whose step of length h ends with a force that may have passed a new peak inside: half of one and more, and it changes.
+    SLIDEWAY_FN Mask<Real> comes_near_peaks(Mask<Real> accepted, Real h, Report const& r) const {
+        auto near = mask_of<Real>(false);
+        Real const two(2.0);
+        near = near | (two * r.contact.total_force() > peak_[Places::template peak_of<Quantity::peak_normal_force>]);
+        if constexpr (Places::keeps(Quantity::peak_apex_force)) {
+            for (int i = 0; i < Report::apices; ++i) {
+                Real const force = two * r.contact.apex_force(i);
+                near = near | ((force > Real(0.0)) & (force > peak_[Places::template peak_of<Quantity::peak_apex_force> + i]));
+            }
+        }
+        return accepted & near & (h * abs(r.contact.elastic_power) > Real(1e-3) * r.contact.potential);
     }
 
     /// Begins the members in the lanes of the mask.
@@ -225,16 +261,10 @@ protected:
     }
 
     SLIDEWAY_FN void take_peaks(Mask<Real> taken, Report const& r, Real const* state) {
-        auto const raise = [&](Real& peak, Real value) { peak = select(taken, max(value, peak), peak); };
-        raise(largest_potential_, r.contact.potential);
-        for_each_quantity([&]<Quantity q>(Named<q>) {
-            if constexpr (Places::is_peak(q)) {
-                constexpr int width = Places::columns(q);
-                for (int i = 0; i < width; ++i) {
-                    raise(peak_[Places::template peak_of<q> + i], abs(value<q>(r, state, i)));
-                }
-            }
-        });
+        largest_potential_ = select(taken, max(r.contact.potential, largest_potential_), largest_potential_);
+        Real values[peaks];
+        tell_peaks(r, state, values);
+        raise_peaks(taken, values);
     }
 
     Real integral_[integrals];
