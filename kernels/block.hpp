@@ -20,7 +20,6 @@ struct IntegratorSettings {
     double rtol = 1e-6;
     double atol = 1e-7;                     // relative to the joint's scales: c, c·ω, 2c/L_k, 2c/L_k·ω
     double stiff_tolerance = 1e-3;          // least rtol and atol for the ringing that the stiff method damps
-    double clock_tolerance = 10;            // rtol and atol, in them, of auto's steps by the clocks of impacts (MethodChoice)
     double end_time = 0;                    // [s]
     double max_step = 1e-3;                 // [s], of the explicit methods; what a step may leap over in free flight
     double stiff_max_step = 1e-2;           // [s], of the stiff method, which runs in lasting contact only

@@ -14,7 +14,6 @@ template <class Laws> struct Conditions {
     bool misaligned_way = false;
     bool switches = false;   // LawInfo::switches
     bool remembers = false;  // impact speeds: of a damping by restitution
-    bool damps_by_rate = false;  // χ of lines and surfaces
     bool free_crank = false;
     bool holds_contacts = false;  // steps of the block take their contacts as given (ContactMemory)
     bool in_impacts = false;      // and go by the clocks of impacts
@@ -26,7 +25,6 @@ template <class Laws> struct Conditions {
           misaligned_way(parts.misaligned_way),
           switches(law_switches),
           remembers(remembers_of(parts)),
-          damps_by_rate(parts.damping == Damping::rate),
           free_crank(parts.free_crank) {}
 
     /// A law that is known with its damping says it itself: without the speeds of its impacts, one by restitution would return what it likes.

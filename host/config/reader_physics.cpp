@@ -215,17 +215,6 @@ void warn_of_idle_sources(Node const& root, Scene& scene) {
     if (scene.chaos.parameter != nullptr) warn(*scene.chaos.parameter);
 }
 
-/// Whether the contacts of no member lose energy, so that errors of one impact are never forgotten.  Of the numbers of a law those damp that may
-/// be zero and are not.
-bool keeps_energy(Scene const& scene) {
-    if (scene.parts.damping != Damping::point) return false;
-    LawInfo const& law = info(scene.parts.law);
-    Inputs const with_varied = given_or_varied(scene);
-    auto const damps = [&](Key const& key) { return key.rule != Rule::positive && key.get(with_varied) != 0; };
-    bool const of_points = has_group(law.groups, KeyGroup::point_damping) && with_varied.eta != 0;
-    return !of_points && std::ranges::none_of(law.keys, damps);
-}
-
 void read_integrator(Node const& root, Scene& scene) {
     IntegratorSettings& settings = scene.integrator;
     read_bound(root, "integrator", scene);
@@ -236,8 +225,6 @@ void read_integrator(Node const& root, Scene& scene) {
                 scene.parts.rigid ? "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\" or \"bs32\""
                                   : "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\", \"bs32\" or \"rk4\""});
     }
-    // At ten times the tolerance the clocks of impacts err by a tenth of what other steps do.
-    if (keeps_energy(scene)) settings.clock_tolerance = 0.1;
     Node const* const step = root.find_path("integrator.step");
     if (has_fixed_step(settings.method) && step == nullptr) {
         refuse(*root.find_path("integrator.method"), {"the method has no step control", "give integrator.step"});

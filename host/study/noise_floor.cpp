@@ -12,7 +12,7 @@
 namespace slideway {
 namespace {
 
-constexpr double relative_error = 1e-6;
+constexpr double relative_error = 1e-6;  // the default rtol
 
 }  // namespace
 

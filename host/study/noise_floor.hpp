@@ -9,12 +9,12 @@
 
 namespace slideway {
 
-/// Energy below which a number is taken as none [J]: a millionth of what a fall through the clearance gives
+/// Energy below which a number is taken as none [J]: a millionth (the default tolerance) of what a fall through the clearance gives
 /// (fall_energy).  Energies are differences of ones of that size: where the true number is 0 (no friction, nothing that damps) what is
 /// left is their rounding, and has no size of its own to be compared with.
 double least_energy(Scene const& scene);
 
-/// Error of a column's numbers, in its unit: 1e-6 of the largest magnitude.  Of energies at least that share of a fall
+/// Error of a column's numbers, in its unit: 1e-6, the default tolerance, of the largest magnitude.  Of energies at least that share of a fall
 /// through the clearance.
 double error_of_column(QuantityColumn const& column, std::span<double const> values, Scene const& scene);
 

@@ -23,7 +23,9 @@ namespace {
 /// that never comes to rest long enough to change over.
 double contact_steps(IntegratorSettings const& settings) {
     double const finer = 1e-6 / std::min(settings.rtol, settings.atol);
-    return settings.method == Method::bs32 ? 15 * std::cbrt(finer) : 5 * std::pow(finer, 0.2);
+    bool const low_order =
+        settings.method == Method::bs32 || (settings.method == Method::automatic && settings.rtol >= 1e-5);
+    return low_order ? 15 * std::cbrt(finer) : 5 * std::pow(finer, 0.2);
 }
 
 /// Bytes of the statistics of so many members, in memory or in a file.

@@ -25,7 +25,7 @@ void tighten(IntegratorSettings& settings) {
     settings.stiff_tolerance = std::max(settings.rtol, check_tightening * settings.stiff_tolerance);
 }
 
-/// Whether `auto` has a method for stiff members there; without one it is dopri5.
+/// Whether `auto` has a method for stiff members there; without one it is dopri5, or bs32.
 bool may_be_stiff(Parts const& parts) { return info(parts.mechanism).spatial && !parts.rigid; }
 
 /// By which method the tolerance is tightened: the study's own; where vibrating contacts deceive an explicit one, by that which damps them.
@@ -35,11 +35,7 @@ Method tightened_method(Scene const& scene) {
 }
 
 /// An explicit one that is neither the study's nor an arm of `auto`.
-Method other_method(Scene const& scene) {
-    Method const own = scene.integrator.method;
-    bool const has_verner65 = own == Method::verner65 || (own == Method::automatic && may_be_stiff(scene.parts));
-    return has_verner65 ? Method::dop853 : Method::verner65;
-}
+Method other_method(Method own) { return own == Method::verner65 ? Method::dop853 : Method::verner65; }
 
 /// Right-hand sides of a member beside those at the study's own settings, as found for settled and rattling sliders (docs/integrators.md).
 double cost_of(Parts const& parts, Method study, Method check) {
@@ -48,7 +44,6 @@ double cost_of(Parts const& parts, Method study, Method check) {
     bool const high_order = is_dopri5 || study == Method::dopri5 || study == Method::dop853 || study == Method::verner65;
     if (study == check) return high_order ? 2.5 : 4;
     if (check == Method::automatic) return 1;  // a fifth in lasting contact, four times in impacts
-    if (study == Method::automatic && may_be_stiff(parts)) return 20;
     return high_order || !may_be_stiff(parts) ? 3 : 10;
 }
 
@@ -93,7 +88,7 @@ std::vector<CheckMethod> check_methods(Scene const& scene) {
     if (has_fixed_step(own)) methods.back().error_per_difference = error_per_difference_of_steps;
 
     Scene other = bare;
-    other.integrator.method = other_method(scene);
+    other.integrator.method = other_method(own);
     if (has_fixed_step(own)) {
         IntegratorSettings const usual;
         other.integrator.rtol = usual.rtol;

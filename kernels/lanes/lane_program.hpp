@@ -45,16 +45,8 @@ public:
         // What is observed for the status alone is not written.
         Selection const for_status =
             is_always_audited(block.settings.method) ? MemberState<Model, Real>::Observer::audit_quantities : 0;
-        auto const needs = [&](bool by_clock) {
-            return ReportNeeds::of<Model, Real>(model, block.quantities | for_status, block.settings, by_clock);
-        };
-        pack_.has_clocked_work = has_clocked_work();
-        clocked_settings_ = MethodChoice<Model, Real>::settings_of_clocks(block.settings);
-        pack_.lasting_steps = MethodChoice<Model, Real>::lasting_steps(clocked_settings_);
-        by_time_ = needs(false);
-        by_clock_ = needs(true);
-        first_ = first_work();
-        set_needs(first_);
+        pack_.needs = ReportNeeds::of<Model, Real>(model, block.quantities | for_status, block.settings);
+        if constexpr (can_hold_contacts<Model>) pack_.model.hold_contacts(pack_.needs.watching);
         if constexpr (requires { pack_.model.set_tolerance(1.0); }) pack_.model.set_tolerance(block.settings.rtol);
         start_memory(pack_.state.contacts.memory);
     }
@@ -71,7 +63,7 @@ public:
                 return;
             }
             take(chosen, members);
-            serve(roster_[chosen[0]].work);
+            serve(roster_[chosen[0]].kind);
             release(chosen, members);
         }
     }
@@ -88,6 +80,7 @@ private:
     static constexpr bool ends_early = has_impacts<Model> && !Model::has_shadows;
     // Attempts of a stint: few where lanes are regrouped by what they touch, the fewer the sooner that changes, many where all have the same work.
     static constexpr int many_attempts = 512, attempts = !regroups<Model> ? many_attempts : has_impacts<Model> ? 8 : 16;
+    using Kind = typename Roster<seats, width>::Kind;
     using Record = MemberState<Model, double>;
     struct NoRecords {};
 
@@ -97,8 +90,8 @@ private:
         std::uint64_t const place = block_.taken != nullptr ? fetch_add(*block_.taken, 1) : next_++;
         if (place >= block_.members) return;
         std::size_t const member = block_.order != nullptr ? block_.order[place] : place;
-        NewMember<Model>::begin(record(seat), pack_.model, block_, member, first_);
-        roster_[seat].work = Work::fresh;
+        NewMember<Model>::begin(record(seat), pack_.model, block_, member);
+        roster_[seat].kind = Kind::fresh;
     }
 
     /// A single lane works on its record in place.
@@ -136,7 +129,7 @@ private:
             if constexpr (width > 1) {
                 each_moving_part(records_[seat], [i](auto const& packed, auto& own) { store_lane(packed, i, own); });
             }
-            roster_[seat].work = static_cast<Work>(static_cast<int>(lane(c.work, i)));
+            roster_[seat].kind = lane(c.stiff, i) > 0.5 ? Kind::stiff : Kind::explicit_pair;
             roster_[seat].pattern = static_cast<std::uint32_t>(lane(pattern_, i));
             roster_[seat].time = lane(c.t, i);
         }
@@ -147,7 +140,7 @@ private:
         auto& s = pack_.state;
         move(s.course, r.course);
         if constexpr (Model::has_contacts) {
-            if (watches()) move(s.contacts, r.contacts);
+            if (pack_.needs.watch()) move(s.contacts, r.contacts);
         }
         if (pack_.needs.quantities) move(s.observation, r.observation);
         pack_.with_accelerations([&](auto& a) { move(a, r.accelerations); });
@@ -166,65 +159,32 @@ private:
         }
     }
 
-    SLIDEWAY_HD bool is_auto() const { return block_.settings.method == Method::automatic; }
-
-    /// Whether steps go by the clocks of impacts, of `auto` those in flight and impacts.
-    SLIDEWAY_HD bool has_clocked_work() const {
-        if constexpr (has_clocks<Model>) {
-            auto const& settings = block_.settings;
-            return settings.method == Method::verner65 || (is_auto() && !settings.locate_modes && pack_.model.clocks_pay());
-        }
-        return false;
-    }
-
-    /// Whether contacts change what members remember, by whatever steps.
-    SLIDEWAY_HD bool watches() const { return by_time_.watch() || pack_.has_clocked_work; }
-
-    /// What members begin with.  A model without linearisation is left to explicit steps.  `auto` has clocks for who is seen in flight, not for who
-    /// may lie still from the start.
-    SLIDEWAY_HD Work first_work() const {
-        if (Model::has_linearisation && block_.settings.method == Method::ros34pw2) return Work::stiff;
-        return pack_.has_clocked_work && !is_auto() ? Work::clocked : Work::plain;
-    }
-
-    SLIDEWAY_HD void set_needs(Work work) {
-        pack_.needs = work == Work::clocked ? by_clock_ : by_time_;
-        if constexpr (can_hold_contacts<Model>) pack_.model.hold_contacts(pack_.needs.watching);
-    }
-
     /// One stint.
-    SLIDEWAY_HD void serve(Work work) {
-        set_needs(work == Work::fresh ? first_ : work);
-        if (work == Work::fresh) {
-            start();
-        } else if (work == Work::stiff) {
-            if constexpr (Model::has_linearisation) make_steps<StiffStep<Model, Real>>();
-        } else if (work == Work::clocked) {
-            if constexpr (has_clocks<Model>) make_steps<ClockStep<Verner65, Model, Real>>();
-        } else {
-            make_plain_steps();
-        }
-        look(work);
-    }
-
-    SLIDEWAY_HD void make_plain_steps() {
+    SLIDEWAY_HD void serve(Kind kind) {
         auto const& settings = block_.settings;
-        if (is_time_stepping()) {
-            if constexpr (has_time_stepping<Model>) make_steps<MoreauJeanStep<Model, Real>>();
+        if (kind == Kind::fresh) {
+            start();
+        } else if (kind == Kind::stiff) {
+            if constexpr (Model::has_linearisation) work<StiffStep<Model, Real>>();
+        } else if (is_time_stepping()) {
+            if constexpr (has_time_stepping<Model>) work<MoreauJeanStep<Model, Real>>();
         } else if (settings.method == Method::rk4) {
-            make_steps<ExplicitStep<RungeKutta4, Model, Real>>();
-        } else if (is_analytic<Model> && is_auto()) {
+            work<ExplicitStep<RungeKutta4, Model, Real>>();
+        } else if (is_analytic<Model> && settings.method == Method::automatic) {
             if constexpr (is_analytic<Model>) series();
-        } else if (settings.method == Method::dop853 || (is_auto() && is_smooth)) {
+        } else if (settings.method == Method::dop853 || (settings.method == Method::automatic && is_smooth)) {
             // Where nothing breaks the smoothness of the motion, it beats the others at every tolerance (docs/integrators.md).
-            make_steps<ExplicitStep<Dop853, Model, Real>>();
+            work<ExplicitStep<Dop853, Model, Real>>();
         } else if (settings.method == Method::verner65) {
-            if constexpr (!has_clocks<Model>) make_steps<ExplicitStep<Verner65, Model, Real>>();
-        } else if (settings.method == Method::bs32) {
-            make_steps<ExplicitStep<BogackiShampine, Model, Real>>();
+            if constexpr (has_clocks<Model>) work<ClockStep<Verner65, Model, Real>>();
+            else work<ExplicitStep<Verner65, Model, Real>>();
+        } else if (settings.method == Method::bs32 ||
+                   (settings.method == Method::automatic && !has_impacts<Model> && settings.rtol >= bs32_from)) {
+            work<ExplicitStep<BogackiShampine, Model, Real>>();
         } else {
-            make_steps<std::conditional_t<ends_early, EndingStep<DormandPrince, Model, Real>, ExplicitStep<DormandPrince, Model, Real>>>();
+            work<std::conditional_t<ends_early, EndingStep<DormandPrince, Model, Real>, ExplicitStep<DormandPrince, Model, Real>>>();
         }
+        look(kind);
     }
 
     SLIDEWAY_HD bool is_time_stepping() const { return has_time_stepping<Model> && block_.settings.method == Method::moreau_jean; }
@@ -232,14 +192,14 @@ private:
     /// A stint of Taylor series of the order that suits the tolerance, −½ ln(rtol) or so.
     SLIDEWAY_HD void series() {
         double const rtol = block_.settings.rtol;
-        if (rtol > 1e-7) make_steps<TaylorStep<8, Model, Real>>();
-        else if (rtol > 1e-10) make_steps<TaylorStep<12, Model, Real>>();
-        else if (rtol > 1e-13) make_steps<TaylorStep<16, Model, Real>>();
-        else make_steps<TaylorStep<20, Model, Real>>();
+        if (rtol > 1e-7) work<TaylorStep<8, Model, Real>>();
+        else if (rtol > 1e-10) work<TaylorStep<12, Model, Real>>();
+        else if (rtol > 1e-13) work<TaylorStep<16, Model, Real>>();
+        else work<TaylorStep<20, Model, Real>>();
     }
 
-    template <class Stepper> SLIDEWAY_NOINLINE void make_steps() {
-        Stint<Stepper, Model, Real> stint(pack_, results_, Stepper::by_clock ? clocked_settings_ : block_.settings);
+    template <class Stepper> SLIDEWAY_NOINLINE void work() {
+        Stint<Stepper, Model, Real> stint(pack_, results_, block_.settings);
         // Lanes that leave the stiff method wait for the others.
         stint.work(has_impulses<Stepper> ? many_attempts : Stepper::stiff ? attempts / 4 : attempts);
     }
@@ -298,7 +258,10 @@ private:
             using Event = typename Saltation<Model, Real>::Before;
             if (any(changed)) shadows.settle(pack_, Event{c.t, constants.end, start, rates, report.contact, before}, changed, true);
         }
-        auto const faults = pack_.restart(pack_.busy, rates, report);
+        auto const faults = pack_.evaluate(c.t, c.y, memory, rates, true, report);
+        pack_.count_evaluations(pack_.busy, 1);
+        if (pack_.needs.quantities) pack_.state.observation.observer.switch_over(pack_.busy, report, pack_.needs.switches);
+        pack_.begin_next(pack_.busy, rates, report);
         if constexpr (Model::has_shadows) {
             if (any(changed)) shadows.depart(pack_, changed);
         }
@@ -306,65 +269,45 @@ private:
         return faults;
     }
 
-    /// Between stints: who touches what, and who is better off with other steps.
-    SLIDEWAY_HD void look(Work work) {
+    /// Between stints: who touches what, and who is better off with the stiff method.
+    SLIDEWAY_HD void look(Kind kind) {
         pattern_ = Real(0.0);
         if constexpr (regroups<Model> && has_impacts<Model>) {
             pattern_ = pack_.model.contact_pattern(pack_.state.contacts.memory);
         } else if constexpr (regroups<Model>) {
-            bool const switching = Model::has_linearisation && is_auto() && !block_.settings.locate_modes;
+            auto const& s = pack_.state;
+            bool const switching = Model::has_linearisation && block_.settings.method == Method::automatic &&
+                                   !block_.settings.locate_modes;
             if (width == 1 && !switching) return;
-            pattern_ = pattern();
-            if constexpr (Model::has_linearisation) {
-                if (switching) change_work(work);
-            }
-        }
-    }
-
-    SLIDEWAY_HD Real pattern() const {
-        auto const& s = pack_.state;
-        if constexpr (has_clocks<Model>) {
-            if (pack_.needs.watching == Watching::impacts) return HeldFace<Real>::pattern(s.contacts.memory);
-        }
-        return pack_.model.contact_pattern(s.course.t, s.course.y, s.constants.parameters);
-    }
-
-    /// Members that change to other steps.
-    SLIDEWAY_NOINLINE void change_work(Work work) {
-        using Choice = MethodChoice<Model, Real>;
-        auto const touching = pack_.busy & (pattern_ > Real(0.5));
-        if (work == Work::clocked) {
             if constexpr (has_clocks<Model>) {
-                auto const changed = Choice::leave_clocks(pack_, touching);
-                if (none(changed)) return;
-                set_needs(Work::plain);
-                Choice::release_contacts(pack_, changed);
+                if (pack_.needs.watching == Watching::impacts) {
+                    pattern_ = HeldFace<Real>::pattern(s.contacts.memory);
+                    return;
+                }
             }
-            return;
-        }
-        if (work != Work::stiff) Choice::leave_plain(pack_, touching, work == Work::fresh);
-        if constexpr (has_clocks<Model>) {
-            auto const clocked = pack_.busy & Choice::has(pack_, Work::clocked);
-            if (none(clocked)) return;
-            set_needs(Work::clocked);
-            Choice::hold_contacts(pack_, clocked);
+            pattern_ = pack_.model.contact_pattern(s.course.t, s.course.y, s.constants.parameters);
+            if constexpr (Model::has_linearisation) {
+                if (switching && kind == Kind::explicit_pair) {
+                    MethodChoice<Model, Real>::look_for_stiffness(pack_, pack_.busy & (pattern_ > Real(0.5)));
+                }
+            }
         }
     }
 
     /// Leaves the members under way as if they had never begun.
     SLIDEWAY_HD void abandon() {
         for (int seat = 0; seat < seats; ++seat) {
-            if (roster_[seat].work == Work::none) continue;
+            if (roster_[seat].kind == Kind::none) continue;
             results_.abandon(static_cast<std::size_t>(record(seat).course.member));
         }
     }
 
+    /// From this tolerance on Bogacki–Shampine beats Dormand–Prince (docs/integrators.md), but where steps end early (docs/rigid.md).
+    static constexpr double bs32_from = 1e-5;
+
     Block& block_;
     Results<Model> results_;
     Roster<seats, width> roster_;
-    ReportNeeds by_time_, by_clock_;  // of steps
-    IntegratorSettings clocked_settings_;
-    Work first_;                      // of members, once they have been evaluated
     std::uint64_t next_ = 0;  // of the queue, if the block is this program's alone
     double covered_ = 0;      // members, and shares of them
     [[no_unique_address]] std::conditional_t<(width > 1), Record[seats], NoRecords> records_;

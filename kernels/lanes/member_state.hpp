@@ -85,9 +85,8 @@ template <class Model, class Real> struct MemberState {
         Real y[Model::size], rates[Model::size];
         Real accepted, rejected, evaluations, jacobians, stiff_steps;
         Real rejections;    // 1 after a rejected attempt, else 0
-        Real work;          // of the next stint, a Work
-        Real stiffness;     // plain: looks that found the member stiff; clocked: steps since it flew; stiff: calm steps in a row
-        Real stiff_before;  // stiff_steps when it last became stiff
+        Real stiff;         // 1 where the next stint is the stiff method's, else 0
+        Real stiffness;     // explicit: looks that found the member stiff; stiff: calm steps in a row
         Real rate_squared;  // Ω² [1/s²] of its stiffest contacts, of late
         [[no_unique_address]] std::conditional_t<Model::has_shadows, ShadowCourse<Real>, NoShadowCourse> shadowed;
         [[no_unique_address]] std::conditional_t<has_clocks<Model>, ImpactCourse<Real>, NoImpactCourse> impacts;

@@ -4,7 +4,6 @@
 
 #include "kernels/block.hpp"
 #include "kernels/lanes/member_state.hpp"
-#include "kernels/lanes/work.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/step_control.hpp"
 
@@ -15,7 +14,7 @@ template <class Model> struct NewMember {
     using Block = BlockOf<typename Model::Inputs>;
     using Record = MemberState<Model, double>;
 
-    SLIDEWAY_HD static void begin(Record& r, Model const& model, Block const& block, std::size_t member, Work first) {
+    SLIDEWAY_HD static void begin(Record& r, Model const& model, Block const& block, std::size_t member) {
         auto const& inputs = block.inputs[member];
         r.constants.parameters = model.parameters(inputs);
         Model::scales(r.constants.parameters, r.constants.scale);
@@ -36,9 +35,10 @@ template <class Model> struct NewMember {
             place_shadows(r, block.shadows, member);
         }
         if constexpr (has_clocks<Model>) c.impacts = {0.0, c.h, 0.0, 0.0, 0.0};
-        c.accepted = c.rejected = c.evaluations = c.jacobians = c.stiff_steps = c.stiff_before = 0;
+        c.accepted = c.rejected = c.evaluations = c.jacobians = c.stiff_steps = 0;
         c.rejections = c.stiffness = c.rate_squared = 0;
-        c.work = static_cast<double>(first);
+        // A model without linearisation is left to the explicit pair.
+        c.stiff = Model::has_linearisation && block.settings.method == Method::ros34pw2 ? 1 : 0;
         start_memory(r.contacts.memory);
         if constexpr (Model::events > 0) c.resets = {-1.0, 0.0};
     }

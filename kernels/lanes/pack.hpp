@@ -28,8 +28,6 @@ template <class Model, class Real> struct Pack {
     ReportNeeds needs;
     MemberState<Model, Real> state;
     Mask<Real> busy;  // lanes with a member at work
-    bool has_clocked_work = false;  // members in flight and impacts step by the clocks of impacts
-    double lasting_steps = 0;       // of MethodChoice
 
     // Of the members' own attempt, if needs.stages.
     Real integral[room(Observer::integrals)];           // Σ b_s · integrand of the stages
@@ -123,16 +121,6 @@ template <class Model, class Real> struct Pack {
             state.observation.integrand[i] = select(in, values[i], state.observation.integrand[i]);
         });
         with_accelerations([&](auto& record) { record.begin_next(in, report); });
-    }
-
-    /// Evaluates the derivative anew in the lanes of the mask, where more than the state has changed it.
-    /// @param rates, report room for what comes of it
-    SLIDEWAY_HD Faults<Real> restart(Mask<Real> in, Real* rates, Report& report) {
-        auto const faults = evaluate(state.course.t, state.course.y, state.contacts.memory, rates, true, report);
-        count_evaluations(in, 1);
-        if (needs.quantities) state.observation.observer.switch_over(in, report, needs.switches);
-        begin_next(in, rates, report);
-        return faults;
     }
 
     /// Values of which the largest is kept: the observer's, then the accelerations'.

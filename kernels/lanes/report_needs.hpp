@@ -27,9 +27,8 @@ struct ReportNeeds {
 
     SLIDEWAY_HD bool watch() const { return watching != Watching::nothing; }
 
-    /// @param by_clock of steps by the clocks of impacts
     template <class Model, class Real>
-    SLIDEWAY_HD static ReportNeeds of(Model const& model, Selection quantities, IntegratorSettings const& settings, bool by_clock) {
+    SLIDEWAY_HD static ReportNeeds of(Model const& model, Selection quantities, IntegratorSettings const& settings) {
         using Observer = typename Model::template Observer<Real>;
         ReportNeeds needs;
         needs.quantities = quantities != 0;
@@ -48,7 +47,8 @@ struct ReportNeeds {
             needs.powers_alone = needs.stages && !needs.accelerations && !Observer::integrates_more(quantities);
         }
         if constexpr (Model::has_contacts) {
-            needs.watching = by_clock ? Watching::impacts : model.watching(settings.locate_modes, Model::has_shadows);
+            needs.watching = model.watching(settings.locate_modes, Model::has_shadows);
+            if (has_clocks<Model> && settings.method == Method::verner65) needs.watching = Watching::impacts;
             needs.switches = model.switches();
         }
         needs.ends = needs.stages || Observer::needs_reports(quantities) || needs.watch();

@@ -3,20 +3,20 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "kernels/lanes/work.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// Which of the members under way work together.  A pack runs one method, and its lanes pay for every contact that any of them has:
-/// so a stint takes members with one work, and of these such as touch alike.
+/// so a stint takes members of one kind, and of these such as touch alike.
 /// The member furthest behind leads, so that all come to their end together and no lane waits long for the last of them.
 template <int seats_, int width> class Roster {
 public:
     static constexpr int seats = seats_;
+    enum class Kind : unsigned char { none, fresh, explicit_pair, stiff };
 
     struct Seat {
-        Work work = Work::none;
+        Kind kind = Kind::none;
         std::uint32_t pattern = 0;  // apex–face pairs that touch, or of rigid ones those that last and those that stick, a bit each
         double time = 0;            // how far the member is
     };
@@ -28,12 +28,12 @@ public:
     SLIDEWAY_HD int choose(int* chosen) const {
         int const leader = choose_leader();
         if (leader < 0) return 0;
-        // The leader and those that differ from it by the fewest contacts; `far` marks those with other work.
+        // The leader and those that differ from it by the fewest contacts; `far` marks other kinds.
         constexpr unsigned char far = 33;
         unsigned char distance[seats];
         int at_distance[far + 1] = {};
         for (int i = 0; i < seats; ++i) {
-            bool const fits = seat_[i].work == seat_[leader].work;
+            bool const fits = seat_[i].kind == seat_[leader].kind;
             distance[i] = fits ? static_cast<unsigned char>(population(seat_[i].pattern ^ seat_[leader].pattern)) : far;
             ++at_distance[distance[i]];
         }
@@ -51,18 +51,18 @@ public:
     }
 
 private:
-    /// The seat furthest behind among those whose work fills a pack; if none does, of the work with most members.
+    /// The seat furthest behind among the kinds that fill a pack; if none does, of the kind with most members.
     SLIDEWAY_HD int choose_leader() const {
-        int counts[work_count] = {};
-        for (auto const& seat : seat_) ++counts[static_cast<int>(seat.work)];
+        int counts[4] = {};
+        for (auto const& seat : seat_) ++counts[static_cast<int>(seat.kind)];
         int most = 1;
-        for (int work = 2; work < work_count; ++work) {
-            if (counts[work] > counts[most]) most = work;
+        for (int kind = 2; kind < 4; ++kind) {
+            if (counts[kind] > counts[most]) most = kind;
         }
         int leader = -1;
         for (int i = 0; i < seats; ++i) {
-            auto const work = static_cast<int>(seat_[i].work);
-            if (work == 0 || (counts[work] < width && work != most)) continue;
+            auto const kind = static_cast<int>(seat_[i].kind);
+            if (kind == 0 || (counts[kind] < width && kind != most)) continue;
             if (leader < 0 || seat_[i].time < seat_[leader].time) leader = i;
         }
         return leader;

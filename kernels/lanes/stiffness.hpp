@@ -4,23 +4,17 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// When `method = "auto"` changes a member between plain steps, the stiff method and the clocks of impacts.  Ω is the rate of its stiffest motion: Ω²
-/// is the trace of M⁻¹K of the touching contacts, plus the square of that of M⁻¹D.  Looks are taken once a stint of plain steps,
+/// When `method = "auto"` changes a member between the explicit pair and the stiff method.  Ω is the rate of its stiffest motion: Ω²
+/// is the trace of M⁻¹K of the touching contacts, plus the square of that of M⁻¹D.  Looks are taken once a stint of the explicit pair,
 /// so that an impact is over before there are enough of them.
 struct Stiffness {
     // The pair is held up where hΩ stays near its limit of stability: a look counts 1.
     static constexpr double held_up_above = 0.9;
     // Contact that lasts keeps vibrating, with amplitudes that only the tolerance sees: a look counts a little.
     static constexpr double lasting_above = 0.1;
-    static constexpr double lasting_share = 1.0 / 4;
+    static constexpr double lasting_share = 1.0 / 16;
     // Every other look takes 1 off; at this sum the member changes over.
     static constexpr double enough = 3.0;
-    // By the clocks contact lasts after so many steps without a flight at speed, at their largest tolerance: an impact takes ten to thirty.
-    static constexpr double lasting_steps = 256.0;
-    // With a larger one a motion takes more of them, not fewer.
-    static constexpr double largest_clock_tolerance = 1e-4;
-    // Who leaves the stiff method with an impact lay still before if it made so many steps.
-    static constexpr double settled_steps = 12.0;
     // A corner that rattles on its face changes Ω tenfold from look to look: half the former Ω² counts too.
     static constexpr double memory = 0.5;
     // It goes back when contact is lost, or after so many steps with hΩ below that.

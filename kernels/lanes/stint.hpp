@@ -141,7 +141,6 @@ private:
             if constexpr (Model::events > 0) stuck = stuck | search_.piled_up(pack_, attempt_.step);
         }
         if constexpr (by_clock) {
-            if (is_auto()) Choice::count_contact(pack_, verdict.accepted);
             impacts_.keep(pack_.state, stepper_, busy, verdict.next, Real(max_step_));
         } else {
             c.h = select(busy, min(verdict.next, Real(max_step_)), c.h);
@@ -386,7 +385,17 @@ private:
     }
 
     /// New impact speeds or other contacts change the derivative at the same state.
-    SLIDEWAY_HD Faults<Real> restart(Mask<Real> touched) { return pack_.restart(touched, attempt_.end_rates, attempt_.report); }
+    SLIDEWAY_HD Faults<Real> restart(Mask<Real> touched) {
+        auto const& c = pack_.state.course;
+        auto const faults = pack_.evaluate(c.t, c.y, pack_.state.contacts.memory, attempt_.end_rates, true, attempt_.report);
+        pack_.count_evaluations(touched, 1);
+        if (pack_.needs.quantities) {
+            auto& observer = pack_.state.observation.observer;
+            observer.switch_over(touched, attempt_.report, pack_.needs.switches);
+        }
+        pack_.begin_next(touched, attempt_.end_rates, attempt_.report);
+        return faults;
+    }
 
     Pack<Model, Real>& pack_;
     Results<Model>& results_;

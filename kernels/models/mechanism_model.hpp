@@ -18,9 +18,6 @@ template <class Laws> struct ConditionsOfBlock {
         block.holds_contacts = holds_contacts(watching);
         block.in_impacts = watching == Watching::impacts;
     }
-    /// Whether steps by the clocks of impacts pay, so that `auto` makes them (docs/integrators.md): not on a bed that χ damps.  Its forces begin
-    /// between the apices, too, and the slider rings on it for long.
-    SLIDEWAY_HD bool clocks_pay() const { return block.law.of_touching_alone() || !block.damps_by_rate; }
     SLIDEWAY_HD void tell_powers_alone(bool alone) { block.powers_alone = alone; }
     /// At which events of the contacts steps end.  @param neighbours members have some beside them
     SLIDEWAY_HD Watching watching(bool locate_modes, bool neighbours) const {

@@ -81,7 +81,7 @@ TEST(ProgressOfARun, OfOneMemberIsTheShareOfItsTime) {
 
 TEST(ProgressOfARun, GoesOnInsideBlocksAndFromBlockToBlock) {
     std::string const spread = "[study.vary]\n\"initial.y\" = { dist = \"unif\", low = \"-0.09 mm\", high = \"0.09 mm\" }\n";
-    expect_gradual(shares_of(falling("members = 40\nduration = \"60 ms\"\n" + spread), best_isa(), 20), 40);
+    expect_gradual(shares_of(falling("members = 40\nduration = \"20 ms\"\n" + spread), best_isa(), 20), 40);
 }
 
 TEST(ProgressOfARun, OfContinuedSweepsAndExponentsComesToItsEnd) {

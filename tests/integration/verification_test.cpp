@@ -312,7 +312,7 @@ TEST(CheckMethods, TakeStepsOfTheirOwn) {
     for (std::string const& what : {std::string(), std::string("[contact]\nlaw = \"conservative\"\n"), planar, planar + rigid, rigid}) {
         for (std::string const method : {"auto", "dopri5", "bs32", "dop853", "verner65"}) {
             auto const steps = steps_of_checks("schema = 1\n" + what + "[integrator]\nmethod = \"" + method +
-                                               "\"\n[initial]\nvy = 0.1\n[study]\nmembers = 8\nduration = \"30 ms\"\n");
+                                               "\"\n[initial]\nvy = 0.1\n[study]\nmembers = 8\nduration = \"8 ms\"\n");
             ASSERT_EQ(steps.size(), 3u);
             EXPECT_NE(steps[1], steps[2]) << "the checks are two: " << what << method;
             EXPECT_NE(steps[0], steps[2]) << what << method;

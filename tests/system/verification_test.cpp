@@ -22,7 +22,7 @@ TEST_F(VerifiedRun, OfAFallInFreeFlightIsResolved) {
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("\nresolved: "), std::string::npos) << outcome.out;
     EXPECT_NE(outcome.out.find(" by auto at rtol 1e-08"), std::string::npos) << outcome.out;
-    EXPECT_NE(outcome.out.find(" by dop853 at rtol 1e-08"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find(" by verner65 at rtol 1e-08"), std::string::npos) << outcome.out;
     EXPECT_EQ(outcome.err, "");
     EXPECT_EQ(of_group("resolution"), "resolved");
     EXPECT_NE(run({"info", "o.nc"}).out.find("\nresolved: "), std::string::npos);

@@ -282,5 +282,32 @@ TEST(Quantities, OfTheAuditAreTheSameBesideAnyOther) {
     }
 }
 
+TEST(Peaks, AreThoseInsideOfSteps) {
+    // By the ends of steps alone they are off by up to some per cent, the more the longer the steps are.
+    auto const members = soft_members(32);
+    auto o = options_of(1e-11, 0.02);
+    o.quantities = one(Quantity::peak_normal_force) | one(Quantity::peak_apex_force) | one(Quantity::peak_acceleration);
+    auto const want = testing::run(best_isa(), o, members);
+    for (Method const method : {Method::automatic, Method::dopri5, Method::bs32, Method::dop853, Method::verner65}) {
+        auto loose = o;
+        loose.settings.method = method;
+        loose.settings.rtol = loose.settings.atol = 1e-6;
+        auto const found = testing::run(best_isa(), loose, members);
+        std::vector<double> errors;
+        for (std::size_t m = 0; m < members.size(); ++m) {
+            for (Quantity const q : {Quantity::peak_normal_force, Quantity::peak_apex_force, Quantity::peak_acceleration}) {
+                int const columns = q == Quantity::peak_apex_force ? 8 : q == Quantity::peak_acceleration ? 3 : 1;
+                for (int i = 0; i < columns; ++i) {
+                    double const exact = want.value(m, q, i);
+                    if (exact > 0.2 * want.value(m, q, 0)) errors.push_back(std::abs(found.value(m, q, i) / exact - 1));
+                }
+            }
+        }
+        std::sort(errors.begin(), errors.end());
+        EXPECT_LT(errors[errors.size() / 2], 2e-4) << name_of(method);
+        EXPECT_LT(errors[errors.size() * 9 / 10], 1e-3) << name_of(method);
+    }
+}
+
 }  // namespace
 }  // namespace slideway::observer_run_test
