@@ -11,8 +11,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// A `Model` states, for `Real` a number or a pack of them:
 ///  - `Inputs` (plain numbers of one member), `size` (of the state), `parameters(inputs)` and `initial_state(inputs, state)`, in double;
 ///  - `Parameters<Real>`, `Report<Real>` (what a state tells beside its derivative), `Memory<Real>` (what contacts leave behind) and
-///    `Watch<Real>` (what finds their events), which hold Reals only, and `Observer<Real>` (quantities on the way), also
-///    `Accelerations<Real>` where those may be asked for;
+///    `Watch<Real>` (what finds their events), which hold Reals only, and `Observer<Real>` (quantities on the way; with `peaks` those are
+///    looked for inside of steps), also `Accelerations<Real>` where those may be asked for;
 ///  - `derivative<Full>(t, state, parameters, memory, rates, report)`, which fills the report if Full and returns `Faults`;
 ///  - `series`: how many columns a sample may have: the state, and if there are more, those where `state_of_series(series)` says;
 ///  - `has_contacts`: the report then has a `contact`, the model `switches()` and `watching(locate_modes, neighbours)`, and the watch

@@ -6,8 +6,8 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// Peaks inside accepted steps.  A step may be a third of an impact, and at its ends forces are then some per cent below their peak.  Where the
-/// force at its end comes near the largest so far, reports at three places inside, of the continuous extension, and the parabola through a largest one
-/// and its neighbours tell the peak.
+/// force at its end comes near the largest so far, reports at its start and at three places inside, of the continuous extension, and the parabola
+/// through a largest one and its neighbours tell the peak.
 template <class Stepper, class Model, class Real> struct PeakSearch {
     /// Steps whose inside is searched: of stiff ones fast motions are damped, impacts of rigid contacts have no duration.
     static constexpr bool is_of_use = Model::has_contacts && keeps_peaks<typename Pack<Model, Real>::Observer> && !has_impacts<Model> &&

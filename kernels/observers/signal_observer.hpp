@@ -36,8 +36,8 @@ template <class Real, class Report, int count> struct SignalReport : Report {
 };
 
 /// The quantities of a mechanism's signals, beside those that its observer keeps: behind them in a member's row, in the integrals of steps and in a
-/// Selection.  Means are of the stages, with the stepper's order; the others go by the accepted steps,
-/// largest and smallest values by what is inside of them too.
+/// Selection.  Means are of the stages, with the stepper's order; the others go by the accepted steps, largest
+/// and smallest values by what is inside of them too.
 /// @tparam Observer SliderObserver
 template <class Real, class Observer, class Signals> class SignalObserver : public Observer {
 public:
@@ -109,17 +109,15 @@ public:
         });
     }
 
-    /// Largest values, and smallest ones turned.
+    /// What is no integral has a place: a smallest value turned, and one at the end, which is not raised.
     static constexpr int peaks = Observer::peaks + count - integrals_before(count);
     SLIDEWAY_HD static constexpr bool needs_peaks(Selection q) { return Observer::needs_peaks(q) || (q & peaking) != 0; }
     SLIDEWAY_FN static void tell_peaks(Report const& r, Real const* state, Real* values) {
         Observer::tell_peaks(r, state, values);
         each([&]<int k>(Number<k>) {
-            constexpr auto statistic = quantity<k>.statistic;
+            if constexpr (quantity<k>.integrates()) return;
             Real const x = r.signal[quantity<k>.signal];
-            if constexpr (statistic == Statistic::maximum) values[peak<k>] = x;
-            else if constexpr (statistic == Statistic::minimum) values[peak<k>] = negated(x);
-            else if constexpr (!quantity<k>.integrates()) values[peak<k>] = Real(0.0);
+            values[peak<k>] = quantity<k>.statistic == Statistic::minimum ? negated(x) : x;
         });
     }
     SLIDEWAY_FN void raise_peaks(Mask<Real> in, Real const* values) {

@@ -11,8 +11,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// The scalar quantities of a pack of mechanisms with one slider: those of the table whose keeper is `mechanism`.  Only the energy
 /// audit has a say in the steps: its integrals meet the tolerance too.  Integrals run over the stages with the stepper's own weights, so
-/// they have its order; peaks, mode times and onsets go by the accepted steps, peaks of forces by
-/// what is inside of them too (PeakSearch).
+/// they have its order; mode times and onsets go by the accepted steps, peaks by what is inside of them
+/// too (PeakSearch).
 /// @tparam Report_ SliderReport or PlanarReport
 template <class Real, template <class> class Report_ = SliderReport> class SliderObserver {
 public:
@@ -94,7 +94,7 @@ public:
         });
     }
 
-    /// As many peaks are kept, and their values at a report.
+    /// As many peaks are kept.
     static constexpr int peaks = Places::peaks;
     SLIDEWAY_FN static void tell_peaks(Report const& r, Real const* state, Real* values) {
         for_each_quantity([&]<Quantity q>(Named<q>) {
@@ -109,13 +109,11 @@ public:
     }
     /// Lanes whose step of length h ends with a force that may have passed a new peak inside: half of one and more, and it changes.
     SLIDEWAY_FN Mask<Real> comes_near_peaks(Mask<Real> accepted, Real h, Report const& r) const {
-        auto near = mask_of<Real>(false);
         Real const two(2.0);
-        near = near | (two * r.contact.total_force() > peak_[Places::template peak_of<Quantity::peak_normal_force>]);
+        Mask<Real> near = two * r.contact.total_force() > peak_[Places::template peak_of<Quantity::peak_normal_force>];
         if constexpr (Places::keeps(Quantity::peak_apex_force)) {
             for (int i = 0; i < Report::apices; ++i) {
-                Real const force = two * r.contact.apex_force(i);
-                near = near | ((force > Real(0.0)) & (force > peak_[Places::template peak_of<Quantity::peak_apex_force> + i]));
+                near = near | (two * r.contact.apex_force(i) > peak_[Places::template peak_of<Quantity::peak_apex_force> + i]);
             }
         }
         return accepted & near & (h * abs(r.contact.elastic_power) > Real(1e-3) * r.contact.potential);
