@@ -64,6 +64,39 @@ void read_mechanism(Node const& root, Parts& parts) {
     refuse(*law, {fmt::format("the corners of a {} have one law", info(parts.mechanism).name), fmt::format("remove it, or use \"{}\"", rigid_contact.name)});
 }
 
+/// Methods that kernels have for such a mechanism with such contacts.
+MethodSet methods_of(Parts const& parts) {
+    using enum Method;
+    if (parts.rigid) return set_of(automatic) | set_of(dopri5) | set_of(verner65) | set_of(moreau_jean);
+    MethodSet methods = method_sets::all & ~set_of(moreau_jean);
+    if (!info(parts.mechanism).spatial) methods &= ~set_of(ros34pw2);
+    if (parts.damping == Damping::restitution) methods &= ~set_of(rk4);
+    return methods;
+}
+
+/// "a", "b" or "c".
+std::string listed(MethodSet methods) {
+    std::vector<std::string> names;
+    for (int i = 0; i < method_count; ++i) {
+        auto const method = static_cast<Method>(i);
+        if ((methods & set_of(method)) != 0) names.push_back(fmt::format("\"{}\"", name_of(method)));
+    }
+    std::string const last = names.back();
+    names.pop_back();
+    return fmt::format("{} or {}", fmt::join(names, ", "), last);
+}
+
+/// Why they have not `method`.
+Problem lacking(Method method, Parts const& parts) {
+    std::string const others = "use method " + listed(methods_of(parts));
+    if (method == Method::moreau_jean)
+        return {"time stepping is of rigid contacts", fmt::format("use contact.law = \"{}\", or method = \"auto\"", rigid_contact.name)};
+    if (method == Method::rk4) return {"contact.restitution wants the speed at each touch, where the method's steps do not end", others};
+    if (method == Method::ros34pw2)
+        return {fmt::format("the method has no Jacobian of a {}{}", info(parts.mechanism).name, parts.rigid ? " with rigid contacts" : ""), others};
+    return {"rigid contacts end steps so often that a method of another order gains nothing", others};
+}
+
 /// Modes are what a law switches between; the other parts have none, or no steps that could end there.
 void check_located_modes(Node const& node, Scene const& scene) {
     if (scene.parts.rigid) refuse(node, {"rigid contacts end steps at their touches already", "remove it"});
@@ -78,7 +111,7 @@ void check_located_modes(Node const& node, Scene const& scene) {
     }
     if (scene.integrator.method == Method::ros34pw2 || has_fixed_step(scene.integrator.method)) {
         refuse(node, {fmt::format("{} cannot end its steps there", name_of(scene.integrator.method)),
-                      "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\" or \"bs32\""});
+                      "use method " + listed(method_sets::explicit_pairs)});
     }
 }
 
@@ -103,20 +136,18 @@ void read_located_modes(Node const& root, Scene& scene) {
                     can ? std::string("integrator.locate_modes is false")
                         : fmt::format("integrator.method is {}", name_of(settings.method)),
                     info(scene.parts.law).name,
-                    can ? "leave it out" : "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\" or \"bs32\""));
+                    can ? "leave it out" : "use method " + listed(method_sets::explicit_pairs)));
 }
 
 /// Impulses want bodies that do not give way, and neighbours that pass through the same impacts.
 void check_time_stepping(Node const& root, Scene& scene) {
     Node const& method = *root.find_path("integrator.method");
-    if (!scene.parts.rigid) {
-        refuse(method, {"time stepping is of rigid contacts", fmt::format("use contact.law = \"{}\", or method = \"auto\"", rigid_contact.name)});
-    }
+    std::string const others = "use method " + listed(methods_of(scene.parts) & method_sets::explicit_pairs);
     if (scene.chaos.exponents > 0 && !runs_to_end(scene.study)) {
-        refuse(method, {"time stepping takes no neighbours along, which exponents are of", "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\" or \"bs32\""});
+        refuse(method, {"time stepping takes no neighbours along, which exponents are of", others});
     }
     if (scene.chaos.section.on == SectionSurface::On::impacts) {
-        refuse(method, {"time stepping knows impulses of whole steps, and no impacts", "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\" or \"bs32\""});
+        refuse(method, {"time stepping knows impulses of whole steps, and no impacts", others});
     }
     Node const* const holding = root.find_path("friction.static");
     if (!scene.parts.friction || holding == nullptr || scene.inputs.friction_static == scene.inputs.friction_kinetic) return;
@@ -219,21 +250,12 @@ void read_integrator(Node const& root, Scene& scene) {
     IntegratorSettings& settings = scene.integrator;
     read_bound(root, "integrator", scene);
     read_given(root, "integrator.method", settings.method);
-    if (settings.method == Method::ros34pw2 && (scene.parts.rigid || !info(scene.parts.mechanism).spatial)) {
-        refuse(*root.find_path("integrator.method"),
-               {fmt::format("the method has no Jacobian of a {}{}", info(scene.parts.mechanism).name, scene.parts.rigid ? " with rigid contacts" : ""),
-                scene.parts.rigid ? "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\" or \"bs32\""
-                                  : "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\", \"bs32\" or \"rk4\""});
-    }
     Node const* const step = root.find_path("integrator.step");
     if (has_fixed_step(settings.method) && step == nullptr) {
         refuse(*root.find_path("integrator.method"), {"the method has no step control", "give integrator.step"});
     }
-    if (settings.method == Method::rk4 && scene.parts.damping == Damping::restitution) {
-        refuse(*root.find_path("integrator.method"),
-               {"contact.restitution wants the speed at each touch, where the method's steps do not end",
-                scene.parts.rigid ? "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\" or \"bs32\""
-                                  : "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\", \"bs32\" or \"ros34pw2\""});
+    if ((set_of(settings.method) & methods_of(scene.parts)) == 0) {
+        refuse(*root.find_path("integrator.method"), lacking(settings.method, scene.parts));
     }
     if (settings.method == Method::moreau_jean) check_time_stepping(root, scene);
     read_located_modes(root, scene);

@@ -34,8 +34,11 @@ Method tightened_method(Scene const& scene) {
     return is_explicit_pair(own) && may_be_stiff(scene.parts) ? Method::automatic : own;
 }
 
-/// An explicit one that is neither the study's nor an arm of `auto`.
-Method other_method(Method own) { return own == Method::verner65 ? Method::dop853 : Method::verner65; }
+/// An explicit one that is not the study's, nor an arm of its `auto`.
+Method other_method(Scene const& scene) {
+    if (scene.integrator.method != Method::verner65) return Method::verner65;
+    return scene.parts.rigid ? Method::dopri5 : Method::dop853;
+}
 
 /// Right-hand sides of a member beside those at the study's own settings, as found for settled and rattling sliders (docs/integrators.md).
 double cost_of(Parts const& parts, Method study, Method check) {
@@ -88,7 +91,7 @@ std::vector<CheckMethod> check_methods(Scene const& scene) {
     if (has_fixed_step(own)) methods.back().error_per_difference = error_per_difference_of_steps;
 
     Scene other = bare;
-    other.integrator.method = other_method(own);
+    other.integrator.method = other_method(scene);
     if (has_fixed_step(own)) {
         IntegratorSettings const usual;
         other.integrator.rtol = usual.rtol;

@@ -168,23 +168,33 @@ private:
             if constexpr (Model::has_linearisation) work<StiffStep<Model, Real>>();
         } else if (is_time_stepping()) {
             if constexpr (has_time_stepping<Model>) work<MoreauJeanStep<Model, Real>>();
-        } else if (settings.method == Method::rk4) {
-            work<ExplicitStep<RungeKutta4, Model, Real>>();
-        } else if (is_analytic<Model> && settings.method == Method::automatic) {
-            if constexpr (is_analytic<Model>) series();
-        } else if (settings.method == Method::dop853 || (settings.method == Method::automatic && is_smooth)) {
-            // Where nothing breaks the smoothness of the motion, it beats the others at every tolerance (docs/integrators.md).
-            work<ExplicitStep<Dop853, Model, Real>>();
         } else if (settings.method == Method::verner65) {
             if constexpr (has_clocks<Model>) work<ClockStep<Verner65, Model, Real>>();
             else work<ExplicitStep<Verner65, Model, Real>>();
-        } else if (settings.method == Method::bs32 ||
-                   (settings.method == Method::automatic && !has_impacts<Model> && settings.rtol >= bs32_from)) {
-            work<ExplicitStep<BogackiShampine, Model, Real>>();
-        } else {
+        } else if constexpr (has_impacts<Model>) {
             work<std::conditional_t<ends_early, EndingStep<DormandPrince, Model, Real>, ExplicitStep<DormandPrince, Model, Real>>>();
+        } else {
+            serve_without_impacts();
         }
         look(kind);
+    }
+
+    /// By methods of which impacts, whose steps are many and short, would gain nothing (docs/rigid.md).
+    SLIDEWAY_HD void serve_without_impacts() {
+        auto const& settings = block_.settings;
+        bool const is_automatic = settings.method == Method::automatic;
+        if (settings.method == Method::rk4) {
+            work<ExplicitStep<RungeKutta4, Model, Real>>();
+        } else if (is_analytic<Model> && is_automatic) {
+            if constexpr (is_analytic<Model>) series();
+        } else if (settings.method == Method::dop853 || (is_automatic && is_smooth)) {
+            // Where nothing breaks the smoothness of the motion, it beats the others at every tolerance (docs/integrators.md).
+            work<ExplicitStep<Dop853, Model, Real>>();
+        } else if (settings.method == Method::bs32 || (is_automatic && settings.rtol >= bs32_from)) {
+            work<ExplicitStep<BogackiShampine, Model, Real>>();
+        } else {
+            work<ExplicitStep<DormandPrince, Model, Real>>();
+        }
     }
 
     SLIDEWAY_HD bool is_time_stepping() const { return has_time_stepping<Model> && block_.settings.method == Method::moreau_jean; }
@@ -302,7 +312,7 @@ private:
         }
     }
 
-    /// From this tolerance on Bogacki–Shampine beats Dormand–Prince (docs/integrators.md), but where steps end early (docs/rigid.md).
+    /// From this tolerance on Bogacki–Shampine beats Dormand–Prince (docs/integrators.md).
     static constexpr double bs32_from = 1e-5;
 
     Block& block_;

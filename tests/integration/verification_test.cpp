@@ -311,6 +311,7 @@ TEST(CheckMethods, TakeStepsOfTheirOwn) {
     std::string const planar = "[mechanism]\nkind = \"planar_slider_crank\"\n", rigid = "[contact]\nlaw = \"rigid\"\nrestitution = 0.5\n";
     for (std::string const& what : {std::string(), std::string("[contact]\nlaw = \"conservative\"\n"), planar, planar + rigid, rigid}) {
         for (std::string const method : {"auto", "dopri5", "bs32", "dop853", "verner65"}) {
+            if (what.ends_with(rigid) && (method == "bs32" || method == "dop853")) continue;
             auto const steps = steps_of_checks("schema = 1\n" + what + "[integrator]\nmethod = \"" + method +
                                                "\"\n[initial]\nvy = 0.1\n[study]\nmembers = 8\nduration = \"8 ms\"\n");
             ASSERT_EQ(steps.size(), 3u);

@@ -151,7 +151,7 @@ TEST(ShadowParity, OfABallThroughItsImpacts) {
 }
 
 TEST(ShadowParity, OfARigidBallThroughItsImpactsAndItsRest) {
-    for (auto const method : {Method::dopri5, Method::bs32}) expect_one_set_of_bits<testing::RigidBallInputs>(method);
+    for (auto const method : {Method::dopri5, Method::verner65}) expect_one_set_of_bits<testing::RigidBallInputs>(method);
 }
 
 TEST(ShadowParity, OfMaps) {

@@ -69,7 +69,7 @@ TEST(SceneChaosErrors, SectionsAtImpacts) {
               "scene.toml:4: study.section.value is 1 (an impact has no level); remove it");
     EXPECT_EQ(error("poincare", "section = { on = \"impacts\" }" + rigid + "step = 1e-5\nmethod = \"moreau_jean\""),
               "scene.toml:10: integrator.method is \"moreau_jean\" (time stepping knows impulses of whole steps, and no impacts); "
-              "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\" or \"bs32\"");
+              "use method \"auto\", \"dopri5\" or \"verner65\"");
 }
 
 TEST(SceneChaosErrors, LengthsOfTime) {

@@ -197,7 +197,7 @@ TEST(SceneMechanisms, ThePlanarOneHasNoStiffMethod) {
     auto const planar = [](std::string const& lines) { return error_of(with_kind("planar_slider_crank", lines)); };
     EXPECT_EQ(planar("[integrator]\nmethod = \"ros34pw2\""),
               "scene.toml:5: integrator.method is \"ros34pw2\" (the method has no Jacobian of a planar_slider_crank); "
-              "use method \"auto\", \"dopri5\", \"dop853\", \"verner65\", \"bs32\" or \"rk4\"");
+              "use method \"auto\", \"dopri5\", \"dop853\", \"bs32\", \"rk4\" or \"verner65\"");
     for (char const* const method : {"auto", "dopri5", "dop853", "bs32", "verner65"}) {
         EXPECT_EQ(planar(fmt::format("[integrator]\nmethod = \"{}\"", method)), "");
     }

@@ -70,11 +70,23 @@ TEST(SceneMethods, TimeSteppingKnowsNoForcesOfAnInstant) {
     for (auto const* series : {"x", "rod_angular_velocity"}) EXPECT_EQ(with(series), "");
 }
 
+TEST(SceneMethods, OfRigidContactsAreFour) {
+    for (int i = 0; i < method_count; ++i) {
+        auto const method = static_cast<Method>(i);
+        std::string_view const name = name_of(method);
+        bool const has = method == Method::automatic || method == Method::dopri5 || method == Method::verner65 || method == Method::moreau_jean;
+        std::string const lines = fmt::format("method = \"{}\"\n{}", name, has_fixed_step(method) ? "step = 1e-5\n" : "");
+        std::string const refusal = refusal_of(lines + contacts_of("moreau_jean"));
+        EXPECT_EQ(refusal.empty(), has) << refusal;
+        EXPECT_TRUE(has || refusal.ends_with("); use method \"auto\", \"dopri5\", \"verner65\" or \"moreau_jean\"")) << refusal;
+    }
+}
+
 TEST(SceneMethods, FixedStepsFindNoTouchesForRestitution) {
     EXPECT_EQ(refusal_of("method = \"rk4\"\nstep = 1e-6\n[contact]\nrestitution = 0.5"),
               "scene.toml:3: integrator.method is \"rk4\" (contact.restitution wants the speed at each touch, where "
               "the method's steps do "
-              "not end); use method \"auto\", \"dopri5\", \"dop853\", \"verner65\", \"bs32\" or \"ros34pw2\"");
+              "not end); use method \"auto\", \"dopri5\", \"dop853\", \"bs32\", \"ros34pw2\" or \"verner65\"");
     EXPECT_EQ(refusal_of("method = \"dopri5\"\n[contact]\nrestitution = 0.5"), "");
 }
 
