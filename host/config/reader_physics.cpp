@@ -246,6 +246,22 @@ void warn_of_idle_sources(Node const& root, Scene& scene) {
     if (scene.chaos.parameter != nullptr) warn(*scene.chaos.parameter);
 }
 
+/// Whether nothing takes energy from the impacts of any member, so that what one errs by is never forgotten, and nothing drives it either: contact never
+/// lasts.  Of the numbers of a law those damp that may be zero and are not.
+bool bounces_for_ever(Scene const& scene) {
+    Parts const& parts = scene.parts;
+    if (info(parts.mechanism).drive != DriveKind::none || parts.rigid) return false;
+    if (parts.damping == Damping::restitution) {
+        auto const varies = [](Variation const& variation) { return variation.key->name == "contact.restitution"; };
+        return scene.inputs.restitution == 1 && std::ranges::none_of(scene.variations, varies);
+    }
+    Inputs const with_varied = given_or_varied(scene);
+    LawInfo const& law = info(parts.law);
+    auto const damps = [&](Key const& key) { return key.rule != Rule::positive && key.get(with_varied) != 0; };
+    bool const of_points = has_group(law.groups, KeyGroup::point_damping) && with_varied.eta != 0;
+    return parts.damping == Damping::point && !of_points && std::ranges::none_of(law.keys, damps);
+}
+
 void read_integrator(Node const& root, Scene& scene) {
     IntegratorSettings& settings = scene.integrator;
     read_bound(root, "integrator", scene);
@@ -253,6 +269,11 @@ void read_integrator(Node const& root, Scene& scene) {
     Node const* const step = root.find_path("integrator.step");
     if (has_fixed_step(settings.method) && step == nullptr) {
         refuse(*root.find_path("integrator.method"), {"the method has no step control", "give integrator.step"});
+    }
+    // The errors of dopri5's bounces have one sign: they would add up (docs/integrators.md).
+    if (settings.method == Method::automatic && bounces_for_ever(scene)) {
+        settings.method = Method::verner65;
+        scene.unsaid.push_back("nothing takes energy from what bounces here, and errors of impacts are never forgotten: integrator.method \"auto\" is \"verner65\"");
     }
     if ((set_of(settings.method) & methods_of(scene.parts)) == 0) {
         refuse(*root.find_path("integrator.method"), lacking(settings.method, scene.parts));

@@ -107,7 +107,7 @@ TEST_F(OwnModules, ArePartOfARunsIdentityByTheirSource) {
     // Not the same source, though it does the same.
     fs::rename(path("own"), path("moved"));
     compile(std::string(twin) + "// changed\n");
-    for (std::vector<std::string> const options : {std::vector<std::string>{"--shard", "2/2"}, {"--resume"}}) {
+    for (std::vector<std::string> const& options : {std::vector<std::string>{"--shard", "2/2"}, {"--resume"}}) {
         Outcome const other = run_scene(options);
         EXPECT_EQ(other.code, 2) << other.err;
         EXPECT_NE(other.err.find("contact.law was \"twin\"  # source "), std::string::npos) << other.err;

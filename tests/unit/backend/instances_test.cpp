@@ -41,7 +41,9 @@ TEST(Instances, OfRigidContactsHaveShadowsWhereThereAreExponents) {
         Parts const parts{.damping = Damping::restitution, .mechanism = mechanism, .rigid = true};
         for (Isa const isa : testing::supported_isas()) {
             EXPECT_NE(find_instance(isa, parts).kernels->run, nullptr);
-            if (mechanisms()[i].has_exponents) EXPECT_NE(find_instance(isa, parts, true).kernels->run_shadowed, nullptr);
+            if (mechanisms()[i].has_exponents) {
+                EXPECT_NE(find_instance(isa, parts, true).kernels->run_shadowed, nullptr);
+            }
         }
     }
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
 #include "host/config/settings.hpp"
@@ -80,6 +81,28 @@ TEST(SceneMethods, OfRigidContactsAreFour) {
         EXPECT_EQ(refusal.empty(), has) << refusal;
         EXPECT_TRUE(has || refusal.ends_with("); use method \"auto\", \"dopri5\", \"verner65\" or \"moreau_jean\"")) << refusal;
     }
+}
+
+/// Where nothing drives a slider and nothing damps it, `auto` is the method that makes no energy in impacts, and says so.
+TEST(SceneMethods, OfWhatBouncesForEverIsThatOfImpacts) {
+    auto const method = [](std::string const& kind, std::string const& contact, std::string const& more = "") {
+        return scene_of("schema = 1\n[mechanism]\nkind = \"" + kind + "\"\n[contact]\n" + contact + "\n" + more).integrator.method;
+    };
+    std::string const free = "free_slider";
+    for (auto const* contact : {"law = \"foundation\"", "law = \"conservative\"\neta = 0", "law = \"kelvin_voigt\"", "law = \"paper\"\neta = 0",
+                                "law = \"foundation\"\nrestitution = 1"}) {
+        EXPECT_EQ(method(free, contact), Method::verner65) << contact;
+        EXPECT_EQ(method("slider_crank", contact), Method::automatic) << contact;
+        EXPECT_EQ(method(free, contact, "[integrator]\nmethod = \"dopri5\""), Method::dopri5) << contact;
+    }
+    for (auto const* contact : {"law = \"foundation\"\nchi_surface = 10", "law = \"foundation\"\nrestitution = 0.9", "law = \"conservative\"",
+                                "law = \"kelvin_voigt\"\napex_damping = 10"}) {
+        EXPECT_EQ(method(free, contact), Method::automatic) << contact;
+    }
+    EXPECT_EQ(method(free, "law = \"conservative\"\neta = 0", "[study]\nmembers = 2\nduration = 1\n[study.vary]\n\"contact.eta\" = { dist = \"unif\", low = 0, high = 0.1 }"),
+              Method::automatic);
+    auto const warned = scene_of("schema = 1\n[mechanism]\nkind = \"free_slider\"\n[contact]\nlaw = \"kelvin_voigt\"");
+    EXPECT_TRUE(std::ranges::any_of(all_warnings(warned), [](auto const& line) { return contains(line, "verner65"); }));
 }
 
 TEST(SceneMethods, FixedStepsFindNoTouchesForRestitution) {
