@@ -96,6 +96,11 @@ template <class Real> struct ContactReport : ContactTotals<Real> {
         return bits;
     }
 
+    /// Depth of the pair that is deepest within its face [m], negative in flight.
+    SLIDEWAY_FN Real deepest() const {
+        return max(max(largest(penetration[0]), largest(penetration[1])), max(largest(penetration[2]), largest(penetration[3])));
+    }
+
     /// Sum of all normal forces [N].
     SLIDEWAY_FN Real total_force() const {
         return (sum(normal_force[0]) + sum(normal_force[1])) + (sum(normal_force[2]) + sum(normal_force[3]));

@@ -19,6 +19,7 @@ template <int index, class Quad> SLIDEWAY_FN auto& at(Quad& q) {
 }
 
 template <class Real> SLIDEWAY_FN Real sum(Quad<Real> const& q) { return (q.a + q.b) + (q.c + q.d); }
+template <class Real> SLIDEWAY_FN Real largest(Quad<Real> const& q) { return max(max(q.a, q.b), max(q.c, q.d)); }
 
 /// 1/a … 1/d by one division (P. Montgomery's trick), to a few units in the last place.  The product of all four must neither
 /// overflow nor vanish; who has no use for one of the four says one.

@@ -15,6 +15,8 @@ template <class Real> struct PlanarContact : ContactTotals<Real> {
     Quad<Real> rate[1];          // [m/s]
     Quad<Real> normal_force[1];  // [N]
 
+    /// Depth of the corner that is deepest within its wall [m], negative in flight.
+    SLIDEWAY_FN Real deepest() const { return largest(penetration[0]); }
     /// Sum of all normal forces [N].
     SLIDEWAY_FN Real total_force() const { return sum(normal_force[0]); }
     /// Nothing switches.

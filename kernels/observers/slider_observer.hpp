@@ -132,6 +132,7 @@ public:
         start_energy_ = select(fresh, r.energy, start_energy_);
         resume(fresh, r, switches);
         mode_ = select(fresh, mode_class(r), mode_);
+        depth_ = select(fresh, r.contact.deepest(), depth_);
         take_peaks(fresh, r, state);
     }
 
@@ -144,13 +145,17 @@ public:
         }
         audit_step(accepted, h, integral, r, switches);
         resume(accepted, r, switches);
-        Real const mode = mode_class(r);
-        // A step between two modes is shared by halves; contact ends such steps within a small part of an impact.
-        Real const share = select(accepted, half * h, zero);
+        Real const mode = mode_class(r), depth = r.contact.deepest();
+        // Contact begins or ends where the deepest pair meets its face, by the chord of its depths; other modes share their step by halves.
+        auto const crosses = (mode_ * mode == zero) & (mode_ + mode > zero) & (depth_ * depth < zero);
+        Real const part = select(crosses, depth_ / select(crosses, depth_ - depth, Real(1.0)), half);
+        Real const former = select(accepted, h * part, zero);
+        Real const latter = select(accepted, h, zero) - former;
         for (int i = 0; i < 4; ++i) {
             Real const number(static_cast<double>(i));
-            mode_time_[i] = mode_time_[i] + select(mode_ == number, share, zero) + select(mode == number, share, zero);
+            mode_time_[i] = mode_time_[i] + select(mode_ == number, former, zero) + select(mode == number, latter, zero);
         }
+        depth_ = select(accepted, depth, depth_);
         auto const onset = accepted & (mode_ == zero) & (mode > zero);
         onsets_ = onsets_ + count<Real>(onset);
         mode_ = select(accepted, mode, mode_);
@@ -269,7 +274,7 @@ protected:
     Real peak_[Places::peaks];
     Real mode_time_[4];
     Real onsets_, mode_, start_energy_, largest_potential_;
-    Real energy_, potential_, pattern_;  // where the next step starts
+    Real energy_, potential_, pattern_, depth_;  // where the next step starts
     Real made_, astray_, exchanged_;
     Real switched_;
 };

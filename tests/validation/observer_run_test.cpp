@@ -277,7 +277,7 @@ TEST(Quantities, OfTheAuditAreTheSameBesideAnyOther) {
                     EXPECT_EQ(with.jacobian_evaluations, without.jacobian_evaluations) << what;
                     std::uint64_t const search = method == Method::dop853 ? 7 : 4, more = with.rhs_evaluations - without.rhs_evaluations;
                     EXPECT_EQ(more % search, 0u) << what;
-                    if (method == Method::ros34pw2 || method == Method::rk4) EXPECT_EQ(more, 0u) << what;
+                    EXPECT_TRUE(more == 0 || (method != Method::ros34pw2 && method != Method::rk4)) << what;
                     for (Quantity const q : {Quantity::crank_work, Quantity::friction_loss, Quantity::damping_loss, Quantity::energy_residual}) {
                         EXPECT_EQ(alone.value(m, q), all.value(m, q)) << what << ", quantity " << static_cast<int>(q);
                     }
@@ -311,6 +311,40 @@ TEST(Peaks, AreThoseInsideOfSteps) {
         std::sort(errors.begin(), errors.end());
         EXPECT_LT(errors[errors.size() / 2], 2e-4) << name_of(method);
         EXPECT_LT(errors[errors.size() * 9 / 10], 1e-3) << name_of(method);
+    }
+}
+
+/// Time in contact of one impact, flat and on a corner.  By halves of the steps in which it begins and ends it was 4 to 9 % off.
+TEST(ModeTimes, OfOneImpactAreThoseOfItsContact) {
+    std::vector<Inputs> drops;
+    for (int i = 0; i < 24; ++i) {
+        auto in = testing::scattered_starts(1)[0];
+        in.y = -0.7e-4, in.z = in.vz = in.yaw = 0;
+        in.roll = i % 2 == 0 ? 0 : 8e-4, in.pitch = i % 2 == 0 ? 0 : 6e-4;
+        in.wx = in.wy = in.wz = 0;
+        in.vy = -0.05 - 0.003 * i;
+        drops.push_back(in);
+    }
+    for (Law const law : {Law::paper, Law::conservative, Law::kelvin_voigt, Law::foundation}) {
+        auto members = drops;
+        for (auto& in : members) in = testing::with_own(in, law, 0);
+        auto o = options_of(1e-11, 1.5e-3);
+        o.parts.law = law;
+        o.parts.mechanism = Mechanism::free_slider;
+        o.settings.method = Method::verner65;
+        o.quantities = one(Quantity::mode_time) | one(Quantity::contact_onsets);
+        auto const want = testing::run(best_isa(), o, members);
+        for (Method const method : {Method::automatic, Method::dopri5, Method::bs32, Method::verner65}) {
+            auto loose = o;
+            loose.settings.method = method;
+            loose.settings.rtol = 1e-6, loose.settings.atol = 1e-7;
+            auto const found = testing::run(best_isa(), loose, members);
+            for (std::size_t m = 0; m < members.size(); ++m) {
+                if (want.value(m, Quantity::contact_onsets, 0) != 1) continue;
+                double const contact = o.settings.end_time - want.value(m, Quantity::mode_time, 0);
+                EXPECT_NEAR(o.settings.end_time - found.value(m, Quantity::mode_time, 0), contact, 5e-3 * contact) << info(law).name << " " << name_of(method) << " " << m;
+            }
+        }
     }
 }
 
