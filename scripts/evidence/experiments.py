@@ -35,8 +35,8 @@ LAWS: dict[str, dict[str, Any]] = {
     "conservative, no damping": {"contact.law": "conservative", "contact.eta": 0},
     "springs at the apices": {"contact.law": "kelvin_voigt", "contact.eta": None},
     "springs and dampers at the apices": {"contact.law": "kelvin_voigt", "contact.eta": None, "contact.apex_damping": 100},
-    "a bed of springs": {"contact.law": "foundation", "contact.eta": None},
-    "a bed of springs, χ = 10 s/m": {"contact.law": "foundation", "contact.eta": None, "contact.chi_surface": 10},
+    "an elastic bed": {"contact.law": "foundation", "contact.eta": None},
+    "an elastic bed, χ = 10 s/m": {"contact.law": "foundation", "contact.eta": None, "contact.chi_surface": 10},
 }
 """Variants of the slider-crank, by what the tables call them: overrides of the standard scene (0.1 mm, π rad/s, n = 1.5, η = 0.01, radii 0.5 mm)."""
 
@@ -92,7 +92,7 @@ def fall(laboratory: Laboratory, size: Size, output: Path) -> Experiment:
         "published": {"contact.law": "paper"},
         "conservative": {"contact.law": "conservative"},
         "conservative, rtol 1e-9": {"contact.law": "conservative", "integrator.rtol": 1e-9},
-        "a bed of springs": {"contact.law": "foundation", "contact.eta": None},
+        "an elastic bed": {"contact.law": "foundation", "contact.eta": None},
     }
     runs = {}
     for name, law in variants.items():

@@ -12,7 +12,7 @@ from reproduction.sections import Table
 from .experiment import Experiment, Size
 
 SCENE = Path(__file__).resolve().parents[2] / "scenes/free_slider_drop.toml"
-LAWS = {"published": "paper", "conservative": "conservative", "springs at the apices": "kelvin_voigt", "a bed of springs": "foundation"}
+LAWS = {"published": "paper", "conservative": "conservative", "springs at the apices": "kelvin_voigt", "an elastic bed": "foundation"}
 SHARINGS = {
     "published, shared equally": lambda depths: np.ones_like(depths),
     "published, by the depth squared": lambda depths: depths**2,
@@ -34,7 +34,7 @@ def _path(depth: float, points: int) -> np.ndarray:
 
 
 def _contacts(law: str, poses: np.ndarray, output: Path) -> tuple[np.ndarray, np.ndarray]:
-    """Depths and forces [apex][pose] on the Y faces; a bed of springs pushes apices whose depth is negative, too."""
+    """Depths and forces [apex][pose] on the Y faces; an elastic bed pushes apices whose depth is negative, too."""
     table, answer = output / "loop.csv", output / "loop_forces.csv"
     states = dict.fromkeys(("t", "z", "vy", "vz", "roll", "yaw", "wx", "wy", "wz", "x", "vx"), np.zeros(len(poses)))
     states |= {"y": poses[:, 0], "pitch": poses[:, 1]}
