@@ -251,6 +251,8 @@ void warn_of_idle_sources(Node const& root, Scene& scene) {
 bool bounces_for_ever(Scene const& scene) {
     Parts const& parts = scene.parts;
     if (info(parts.mechanism).drive != DriveKind::none || parts.rigid) return false;
+    // What one brings oneself may damp without a key.
+    if (module_of(parts.law) != nullptr || module_of(parts.mechanism) != nullptr) return false;
     if (parts.damping == Damping::restitution) {
         auto const varies = [](Variation const& variation) { return variation.key->name == "contact.restitution"; };
         return scene.inputs.restitution == 1 && std::ranges::none_of(scene.variations, varies);

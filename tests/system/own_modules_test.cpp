@@ -102,6 +102,14 @@ TEST_F(OwnModules, HaveTheBitsOfTheSameLawInTheTree) {
 
 TEST_F(OwnModules, ArePartOfARunsIdentityByTheirSource) {
     compile(twin);
+    // What the tree knows of its own law, that nothing damps it, it cannot know of this one.
+    auto const bounces_for_ever = [&](std::string const& law) {
+        Outcome const checked = run({"check", "s.toml", "--set", "mechanism.kind=free_slider", "--set", "contact.apex_damping=0", "--set", "contact.law=" + law});
+        EXPECT_EQ(checked.code, 0) << checked.err;
+        return (checked.out + checked.err).find("verner65") != std::string::npos;
+    };
+    EXPECT_TRUE(bounces_for_ever("kelvin_voigt"));
+    EXPECT_FALSE(bounces_for_ever("twin"));
     ASSERT_EQ(run_scene({}, "whole.nc").code, 0);
     ASSERT_EQ(run_scene({"--shard", "1/2"}).code, 0);
     // Not the same source, though it does the same.
