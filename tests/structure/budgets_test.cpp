@@ -1,0 +1,60 @@
+// How large the layers may be.  A ceiling falls with what it holds; a commit that raises one says why in its body.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/structure/source_tree.hpp"
+
+namespace slideway::structure::budgets_test {
+namespace {
+
+/// C++ of a folder, and what is counted in it.
+struct Layer {
+    std::vector<SourceFile> files;
+
+    explicit Layer(std::string const& folder) : files(files_below({folder})) {
+        std::erase_if(files, [](SourceFile const& f) { return !f.path.ends_with(".hpp") && !f.path.ends_with(".cpp"); });
+    }
+
+    std::size_t lines() const {
+        std::size_t sum = 0;
+        for (SourceFile const& file : files) sum += lines_of(file.text).size();
+        return sum;
+    }
+    /// Lines of code, comments left aside, that a pattern matches: of all files, and of the file that has most.
+    struct Count { std::size_t in_all = 0, most = 0; };
+    Count count(Pattern const& pattern) const {
+        Count found;
+        for (SourceFile const& file : files) {
+            auto const lines = lines_of(code_only(file.text));
+            auto const here = static_cast<std::size_t>(std::ranges::count_if(lines, [&](auto const& line) { return pattern.match_in(line).has_value(); }));
+            found.in_all += here;
+            found.most = std::max(found.most, here);
+        }
+        return found;
+    }
+};
+
+TEST(Budgets, OfLines) {
+    EXPECT_LE(Layer("kernels").lines(), 17'350u);
+    EXPECT_LE(Layer("kernels/rigid").lines(), 4'050u);
+    EXPECT_LE(Layer("kernels/lanes").lines(), 3'800u);
+    EXPECT_LE(Layer("host").lines(), 29'600u);
+}
+
+TEST(Budgets, OfTypes) {
+    Layer const kernels("kernels");
+    EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?(struct|class|enum class) [A-Z]\w*( final)?\s*(:|\{))")).in_all, 350u);
+    EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?struct No[A-Z]\w*)")).in_all, 15u) << "types that stand for a part that a model has not";
+}
+
+TEST(Budgets, OfChoicesInSteps) {
+    auto const choices = Layer("kernels/lanes").count(Pattern("if constexpr"));
+    EXPECT_LE(choices.in_all, 113u);
+    EXPECT_LE(choices.most, 42u) << "in one file";
+}
+
+}  // namespace
+}  // namespace slideway::structure::budgets_test
