@@ -12,6 +12,9 @@ template <class Real> struct RigidPlanarContact : PlanarContact<Real> {
     Real pressure[2];       // of the contact held in front and behind over the force scale: it opens below 0; 1 without one
     Real grip[2];           // it slips the other way, or not at all, or does not stick any longer, below 0; 1 without one
     ImpactBooks<Real> books;  // of the last impact
+
+    /// Modes begin and end at the ends of steps.
+    SLIDEWAY_FN static Real deepest() { return Real(0.0); }
 };
 
 template <class Real> struct RigidPlanarReport : PlanarReportOf<Real, RigidPlanarContact<Real>> {};

@@ -16,6 +16,9 @@ template <class Real> struct RigidJointContact : ContactReport<Real> {
     ApexLoads<Real> loads;
     ImpactBooks<Real> books;         // of the last impact
 
+    /// Modes begin and end at the ends of steps.
+    SLIDEWAY_FN static Real deepest() { return Real(0.0); }
+
     /// How long ago the slips of pairs that have just come to rest still were slips [s]; 0 where none has.  @param flow how they change with time
     template <class Numbers> SLIDEWAY_HD Real since_slip(Numbers const& flow) const {
         Real since(0.0);
