@@ -148,8 +148,9 @@ public:
         Real const mode = mode_class(r), depth = r.contact.deepest();
         // Contact begins or ends where the deepest pair meets its face, by the chord of its depths; other modes share their step by halves.
         auto const crosses = (mode_ * mode == zero) & (mode_ + mode > zero) & (depth_ * depth < zero);
-        Real const part = select(crosses, depth_ / select(crosses, depth_ - depth, Real(1.0)), half);
-        Real const former = select(accepted, h * part, zero);
+        Real former = half * h;
+        if (any(crosses)) former = select(crosses, h * depth_ / select(crosses, depth_ - depth, Real(1.0)), former);
+        former = select(accepted, former, zero);
         Real const latter = select(accepted, h, zero) - former;
         for (int i = 0; i < 4; ++i) {
             Real const number(static_cast<double>(i));
