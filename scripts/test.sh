@@ -90,8 +90,7 @@ run_tests() {
     local code_here=0
     rm -rf "$build/gtest"
     mkdir "$build/gtest"  # also where no test writes there
-    # Browsers, ranks and disks that fail wait most of their time.
-    ctest --test-dir "$build" "$@" --parallel "$((jobs + 2))" --timeout 300 --no-tests=error \
+    ctest --test-dir "$build" "$@" --parallel "$((jobs + 1))" --timeout 300 --no-tests=error \
         --output-on-failure | tee "$log" || code_here=$?
     echo "tests: $SECONDS s on $jobs cores"
 
