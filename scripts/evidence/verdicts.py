@@ -88,7 +88,8 @@ class Study:
             return "moreau_jean", float(10 ** dice.uniform(-4.7, -3.3))
         if self.family == "planar_compliant" and dice.random() < 0.4:
             return "rk4", float(10 ** dice.uniform(-5.3, -4.6))
-        return str(dice.choice(["auto", "dopri5", "bs32", "verner65"])), float(10 ** dice.uniform(-2.5, -1))
+        loose = ["auto", "dopri5", "verner65"] if rigid else ["auto", "dopri5", "bs32", "verner65"]
+        return str(dice.choice(loose)), float(10 ** dice.uniform(-2.5, -1))
 
     @staticmethod
     def _spatial(dice: np.random.Generator) -> str:
