@@ -44,7 +44,7 @@ list(JOIN versions ", " xsimd_numbers)
 set(border host/backend/kernel_module.cpp host/backend/cpu_law.cpp host/backend/cpu_mechanism.cpp host/backend/cpu_lanes.cpp)
 file(GLOB rigid RELATIVE ${SOURCE} ${SOURCE}/kernels/rigid/*.hpp)
 closure(of_border ${border})
-closure(of_tree ${border} host/backend/cpu_rigid.cpp ${rigid})
+closure(of_tree ${border} host/backend/cpu_rigid.cpp host/backend/cpu_rigid_joint.cpp ${rigid})
 hash_of(border_hash ${of_border} cmake/isa_flags.cmake)
 hash_of(tree_hash ${of_tree} cmake/isa_flags.cmake)
 file(CONFIGURE OUTPUT ${HEADER} @ONLY CONTENT

@@ -1,13 +1,20 @@
-// A mechanism with rigid contacts: equations, impacts and lanes in one unit, compiled once per instruction set (CMakeLists.txt here); and its
-// lanes of members with shadows in another.
+// A mechanism with rigid contacts: equations and lanes in one unit, compiled once per instruction set (CMakeLists.txt here); and its lanes of
+// members with shadows in another.  The contacts of rigid joints are a third, that of all mechanisms (cpu_rigid_joint.cpp).
 #include "host/backend/kernel_tables.hpp"
 #include "kernels/integrate.hpp"
 #include "kernels/isa_real.hpp"
 #include "kernels/mechanisms/probe.hpp"
 #include "kernels/models/shadowed.hpp"
+#include "kernels/rigid/joint_offset.hpp"
+#include "kernels/rigid/rigid_joint.hpp"
 #include SLIDEWAY_HEADER
 
 namespace slideway::inline SLIDEWAY_ISA {
+
+// Of cpu_rigid_joint.cpp.
+extern template class RigidJoint<IsaReal>;
+extern template class RigidJoint<Tangent<IsaReal>>;
+extern template class JointOffset<IsaReal>;
 
 using Model = SLIDEWAY_MECHANISM;
 

@@ -2,6 +2,7 @@
 
 #include <type_traits>
 
+#include "kernels/math/exponential.hpp"
 #include "kernels/math/trigonometry.hpp"
 #include "kernels/real.hpp"
 
@@ -85,6 +86,10 @@ template <class Real> SLIDEWAY_FN Tangent<Real> sqrt(Tangent<Real> const& a) {
     return {root, a.slope / (root + root)};
 }
 
+template <class Real> SLIDEWAY_FN Tangent<Real> exp(Tangent<Real> const& a) {
+    Real const e = exp(a.value);
+    return {e, e * a.slope};
+}
 /// A step that does not change but where it jumps.
 template <class Real> SLIDEWAY_FN Tangent<Real> round_even(Tangent<Real> const& a) { return {round_even(a.value), Real(0.0)}; }
 

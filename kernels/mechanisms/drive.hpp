@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/mechanisms/faults.hpp"
-#include "kernels/mechanisms/guided_masses.hpp"
+#include "kernels/mechanisms/guided_centre.hpp"
 #include "kernels/mechanisms/slider_base.hpp"
 #include "kernels/mechanisms/slider_linearisation.hpp"
 #include "kernels/mechanisms/slider_report.hpp"
@@ -34,21 +34,19 @@ template <class Drive> struct DrivenGuide {
                     force.z * lightness};
         }
 
-        /// Change of the centre's velocity by an impulse on the slider [m/s]: M Δu' = P, of which Δx' is 0 where a drive moves it.
-        SLIDEWAY_FN Vec3<Real> response(Vec3<Real> const& impulse, SliderParameters<Real> const& p) const {
-            Real const lightness = Real(1.0) / p.slider_mass;
-            return {Drive::is_free ? Real(impulse.x * lightness) : Real(0.0), impulse.y * lightness, impulse.z * lightness};
-        }
-        /// A force as the free components of the velocity feel it, and their masses: Σ masses_ij Δu'_j = feel(P)_i.
-        SLIDEWAY_FN Vec3<Real> feel(Vec3<Real> const& force) const {
-            return {Drive::is_free ? force.x : Real(0.0), force.y, force.z};
-        }
-        SLIDEWAY_FN GuidedMasses<Real> masses(SliderParameters<Real> const& p) const {
-            return {Drive::is_free ? p.slider_mass : Real(1.0), p.slider_mass, Real(0.0), p.slider_mass};
-        }
-        /// What the drive does in it [J].
-        SLIDEWAY_FN Real impulse_work(Vec3<Real> const& impulse, Vec3<Real> const&, SliderParameters<Real> const&) const {
-            return Drive::is_free ? Real(0.0) : Real(negated(impulse.x) * vx);
+        /// M Δu' = P, of which Δx' is 0 where a drive moves it.
+        SLIDEWAY_FN GuidedCentre<Real> centre(SliderParameters<Real> const& p) const {
+            Real const zero(0.0), one(1.0), lightness = one / p.slider_mass;
+            constexpr bool free = Drive::is_free;
+            return {.free = free ? one : zero,
+                    .slope_y = zero,
+                    .slope_z = zero,
+                    .masses = {free ? p.slider_mass : one, p.slider_mass, zero, p.slider_mass},
+                    .inverse = {free ? lightness : zero, lightness, zero, lightness},
+                    .unloaded = accelerations({zero, zero, zero}, p),
+                    .drive_x = free ? zero : vx,
+                    .drive_y = zero,
+                    .driven = p.slider_mass};
         }
 
         SLIDEWAY_FN void put_rates([[maybe_unused]] Vec3<Real> const& acceleration, [[maybe_unused]] Real* rates) const {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/math/trigonometry.hpp"
-#include "kernels/mechanisms/guided_masses.hpp"
+#include "kernels/mechanisms/guided_centre.hpp"
 #include "kernels/mechanisms/mechanism_info.hpp"
 #include "kernels/mechanisms/spatial_slider.hpp"
 #include "kernels/real.hpp"
@@ -78,26 +78,19 @@ struct CrankAndRod {
             return {fma(ky_, ay, fma(kz_, az, bias_)), ay, az};
         }
 
-        /// Change of the centre's velocity by an impulse on the slider [m/s]: m Δu' − P along the rod, Δx' = κy Δy' + κz Δz'.
-        SLIDEWAY_FN Vec3<Real> response(Vec3<Real> const& impulse, SliderParameters<Real> const& p) const {
-            Real const one(1.0), fy = fma(ky_, impulse.x, impulse.y), fz = fma(kz_, impulse.x, impulse.z);
-            Real const ky2 = fma(ky_, ky_, one), kz2 = fma(kz_, kz_, one), kyz = ky_ * kz_;
+        /// m Δu' − P along the rod, Δx' = κy Δy' + κz Δz'.
+        SLIDEWAY_FN GuidedCentre<Real> centre(SliderParameters<Real> const& p) const {
+            Real const zero(0.0), one(1.0), ky2 = fma(ky_, ky_, one), kz2 = fma(kz_, kz_, one), kyz = ky_ * kz_;
             Real const scale = one / (p.mass * fma(kz_, kz_, ky2));
-            Real const y = fms(kz2, fy, kyz * fz) * scale, z = fms(ky2, fz, kyz * fy) * scale;
-            return {fma(ky_, y, kz_ * z), y, z};
-        }
-        /// A force as Δy' and Δz' feel it, and their masses.
-        SLIDEWAY_FN Vec3<Real> feel(Vec3<Real> const& force) const {
-            return {Real(0.0), fma(ky_, force.x, force.y), fma(kz_, force.x, force.z)};
-        }
-        SLIDEWAY_FN GuidedMasses<Real> masses(SliderParameters<Real> const& p) const {
-            Real const one(1.0);
-            return {one, p.mass * fma(ky_, ky_, one), p.mass * (ky_ * kz_), p.mass * fma(kz_, kz_, one)};
-        }
-        /// What the crank does in it [J]: v_A · ((m + m_AB) Δu' − P), the impulse of the pin on the rod.
-        SLIDEWAY_FN Real impulse_work(Vec3<Real> const& impulse, Vec3<Real> const& change, SliderParameters<Real> const& p) const {
-            Real const mass = p.mass + p.m_ab;
-            return fma(pin_.vx, fms(mass, change.x, impulse.x), pin_.vy * fms(mass, change.y, impulse.y));
+            return {.free = zero,
+                    .slope_y = ky_,
+                    .slope_z = kz_,
+                    .masses = {one, p.mass * ky2, p.mass * kyz, p.mass * kz2},
+                    .inverse = {zero, kz2 * scale, negated(kyz * scale), ky2 * scale},
+                    .unloaded = accelerations({zero, zero, zero}, p),
+                    .drive_x = pin_.vx,
+                    .drive_y = pin_.vy,
+                    .driven = p.mass + p.m_ab};
         }
 
         SLIDEWAY_FN void put_rates(Vec3<Real> const&, Real*) const {}

@@ -14,9 +14,8 @@ public:
     /// @param rows `count` pairs in the order of their numbers
     SLIDEWAY_HD DirectLoads(TouchingPair<Real>* rows, int count, Twist<Real> const& before) : rows_(rows), count_(count), before_(before) {}
 
-    /// @param size of the motion  @param bearable what a rate may miss its target by, or more where loads are large (`bearable_under`)
     /// @param after the motion, changed in lanes that are solved; so are the loads of the rows  @return lanes that are not
-    SLIDEWAY_NOINLINE Mask<Real> solve(Mask<Real> in, Real size, Real bearable, Twist<Real>& after) {
+    SLIDEWAY_NOINLINE Mask<Real> solve(Mask<Real> in, LoadGoal<Real> const& goal, Twist<Real>& after) {
         Real const zero(0.0);
         auto sound = in & suits();
         if (none(sound)) return in;
@@ -34,7 +33,7 @@ public:
                 motion = fma(load_[k], rows_[k].pushed, motion);
             }
         }
-        bearable = bearable_under<Real>(rows_, count_, [&](int k) { return load_[k]; }, size, bearable);
+        Real const bearable = bearable_under<Real>(rows_, count_, [&](int k) { return load_[k]; }, goal);
         for (int k = 0; k < count_; ++k) {
             auto const& row = rows_[k];
             auto const right = (load_[k] >= zero) & (abs(row.target - dot(row.pair.normal, motion)) <= bearable);

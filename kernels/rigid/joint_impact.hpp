@@ -8,16 +8,14 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// Impulses of all pairs that meet at once: (M13.11) with Newton's restitution γ⁺ ≥ −e γ⁻ of those that come nearer, and Coulomb friction
 /// against the slip that is left.
-template <class Guide, class Real> class JointImpact {
+template <class Real> class JointImpact {
 public:
-    using Pairs = JointPairs<Guide, Real>;
-    static constexpr int sweeps = 2;
+    using Pairs = JointPairs<Real>;
     static constexpr double settled = 1e-15;  // of the speeds: what counts as no change of them
     static constexpr double bearable = 1e-13;
     static constexpr double resolved = 0.1;   // of the least speed
 
-    int patience = 8192;
-    PairSolver<Guide, Real> pairs;  // `before` and `after` are velocities, `normal` and `along` impulses
+    PairSolver<Real> pairs;  // `before` and `after` are velocities, `normal` and `along` impulses
 
     /// @param coefficient μ, or nullptr without friction  @param least_speed of a pair that is not at rest [m/s]
     SLIDEWAY_HD JointImpact(Pairs const& all, Twist<Real> const& velocity, Mask<Real> const (&near)[pair_count], Real const* coefficient,
@@ -52,7 +50,7 @@ public:
             row.target = negated(restitution[row.number]) * min(dot(row.pair.normal, arrival_), Real(0.0));
             row.normal = row.along[0] = row.along[1] = Real(0.0);
         }
-        pairs.solve(in, enough_, bearable_, sweeps, patience, friction_);
+        pairs.solve(in, enough_, bearable_, friction_, false);
         return energy_made();
     }
 

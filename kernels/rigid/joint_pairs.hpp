@@ -3,6 +3,7 @@
 #include "kernels/joint/contact_memory.hpp"
 #include "kernels/joint/face_pair.hpp"
 #include "kernels/joint/way.hpp"
+#include "kernels/mechanisms/guided_centre.hpp"
 #include "kernels/mechanisms/slider_parameters.hpp"
 #include "kernels/mechanisms/slider_turning.hpp"
 #include "kernels/real.hpp"
@@ -19,28 +20,37 @@ template <class Real> struct JointPair {
     Real bias;                       // γ' of a slider that keeps its velocity [m/s²]
 };
 
-/// The pairs of a slider in one state, and how it answers to impulses there.
-template <class Guide, class Real> class JointPairs {
+/// A slider with a rigid joint in one state: its pairs, and how it answers to impulses there.  What guides it is numbers.
+template <class Real> class JointPairs {
 public:
-    using At = typename Guide::template At<Real>;
+    /// @param x, vx of the centre along the nominal way  @param s state of the slider, of which y z vy vz φ ϑ ψ ωx ωy ωz are looked at
+    SLIDEWAY_FN JointPairs(GuidedCentre<Real> const& centre, Real x, Real vx, Real const* s, SliderParameters<Real> const& p, bool misaligned)
+        : centre(centre),
+          x(x),
+          turning(SliderTurning<Real>::of(s)),
+          motion(joint_motion(misaligned, turning.axes, Vec3<Real>{x, s[0], s[1]}, Vec3<Real>{vx, s[2], s[3]}, turning.spin, p.joint.way)),
+          velocity{{vx, s[2], s[3]}, turning.omega},
+          p_(p),
+          misaligned_(misaligned) {}
 
-    SLIDEWAY_FN JointPairs(At const& guide, JointMotion<Real> const& motion, SliderTurning<Real> const& turning,
-                           SliderParameters<Real> const& p, bool misaligned)
-        : guide_(guide), motion_(motion), turning_(turning), p_(p), misaligned_(misaligned) {}
+    GuidedCentre<Real> centre;
+    Real x;  // [m]
+    SliderTurning<Real> turning;
+    JointMotion<Real> motion;
+    Twist<Real> velocity;
 
-    /// Velocity of the slider.  @param vy, vz of its centre
-    SLIDEWAY_FN Twist<Real> velocity(Real vy, Real vz) const { return {{guide_.vx, vy, vz}, turning_.omega}; }
+    SLIDEWAY_FN JointGeometry<Real> const& geometry() const { return p_.joint.geometry; }
 
     /// Change of the velocity by an impulse.
     SLIDEWAY_FN Twist<Real> response(Twist<Real> const& impulse) const {
         auto const& light = p_.inverse_inertia;
         auto const& a = impulse.angular;
-        return {guide_.response(impulse.linear, p_), {light.x * a.x, light.y * a.y, light.z * a.z}};
+        return {centre.response(impulse.linear), {light.x * a.x, light.y * a.y, light.z * a.z}};
     }
 
     /// An impulse as the free components of the velocity feel it: x, y, z of the centre, and about the slider's axes.
     SLIDEWAY_FN void feel(Twist<Real> const& impulse, Real (&felt)[6]) const {
-        auto const linear = guide_.feel(impulse.linear);
+        auto const linear = centre.feel(impulse.linear);
         felt[0] = linear.x, felt[1] = linear.y, felt[2] = linear.z;
         felt[3] = impulse.angular.x, felt[4] = impulse.angular.y, felt[5] = impulse.angular.z;
     }
@@ -49,23 +59,23 @@ public:
         for (auto& row : m) {
             for (auto& entry : row) entry = Real(0.0);
         }
-        auto const of_centre = guide_.masses(p_);
+        auto const& of_centre = centre.masses;
         m[0][0] = of_centre.xx, m[1][1] = of_centre.yy, m[1][2] = m[2][1] = of_centre.yz, m[2][2] = of_centre.zz;
         m[3][3] = p_.inertia.x, m[4][4] = p_.inertia.y, m[5][5] = p_.inertia.z;
     }
 
-    /// Acceleration under a force, weight, drive and gyroscopic moment included.
-    SLIDEWAY_FN Twist<Real> acceleration(Twist<Real> const& force) const {
-        auto const& w = turning_.omega;
+    /// Acceleration without contact: under weight, drive and gyroscopic moment.
+    SLIDEWAY_FN Twist<Real> unloaded_acceleration() const {
+        auto const& w = turning.omega;
         auto const& light = p_.inverse_inertia;
         Vec3<Real> momentum{p_.inertia.x * w.x, p_.inertia.y * w.y, p_.inertia.z * w.z};
-        auto moment = force.angular - cross(w, momentum);
-        return {guide_.accelerations(force.linear, p_), {light.x * moment.x, light.y * moment.y, light.z * moment.z}};
+        auto moment = cross(momentum, w);
+        return {centre.unloaded, {light.x * moment.x, light.y * moment.y, light.z * moment.z}};
     }
 
     /// A torque about the slider's axes in the frame of the joint.
     SLIDEWAY_FN Vec3<Real> to_joint(Vec3<Real> const& torque) const {
-        auto const& axes = motion_.axes;
+        auto const& axes = motion.axes;
         return fma(torque.x, axes.x, fma(torque.y, axes.y, torque.z * axes.z));
     }
 
@@ -93,28 +103,28 @@ private:
     template <Axis axis> SLIDEWAY_FN Vec3<Real> arm_of(Signs const& signs) const {
         using Faces = FacePair<axis>;
         auto const& g = p_.joint.geometry;
-        return {signs.along * g.half_length, fms(signs.side, Faces::half_main(g), Faces::main(motion_)),
-                fms(signs.across, Faces::half_across(g), Faces::across(motion_))};
+        return {signs.along * g.half_length, fms(signs.side, Faces::half_main(g), Faces::main(motion)),
+                fms(signs.across, Faces::half_across(g), Faces::across(motion))};
     }
     template <Axis axis> SLIDEWAY_FN Vec3<Real> second_slip() const {
         using Faces = FacePair<axis>;
-        return Faces::arranged(Faces::is_y ? motion_.axes.z : motion_.axes.y);
+        return Faces::arranged(Faces::is_y ? motion.axes.z : motion.axes.y);
     }
 
     template <Axis axis> SLIDEWAY_FN void put_pair_of(Signs const& signs, JointPair<Real>& pair) const {
         using Faces = FacePair<axis>;
         Real const zero(0.0), side = signs.side;
-        auto n = Faces::normal(motion_);
+        auto n = Faces::normal(motion);
         auto const arm = arm_of<axis>(signs);
-        auto v = Faces::arranged(motion_.velocity);
-        auto w = Faces::arranged_axial(motion_.spin);
+        auto v = Faces::arranged(motion.velocity);
+        auto w = Faces::arranged_axial(motion.spin);
         auto m = cross(w, n);
         // δ'' of constant u' and ω: s [(ω × (ω × n))·ρ − 2 (m_y v_y + m_z v_z)], m = ω × n; the gap is −δ.
         Real const turning = dot(cross(w, m), arm), moving = fma(m.y, v.y, m.z * v.z);
         pair.bias = negated(side * (turning - (moving + moving)));
         // Of the normal force the translation feels what acts across the way (model.md 4).
         pair.normal = row<axis>({zero, side * n.y, side * n.z}, arm, side * n);
-        auto const first = Faces::arranged(motion_.axes.x);
+        auto const first = Faces::arranged(motion.axes.x);
         auto const second = second_slip<axis>();
         pair.slip[0] = row<axis>(first, arm, first);
         pair.slip[1] = row<axis>(second, arm, second);
@@ -126,9 +136,9 @@ private:
     /// v = u' + ω × ρ along e: v' = e · (u'' + α × ρ) + e · (ω × ρ') + (ω × e) · v, ρ' = (0, −y', −z').
     template <Axis axis> SLIDEWAY_FN void put_slip_bias_of(Signs const& signs, Real (&bias)[2]) const {
         using Faces = FacePair<axis>;
-        auto v = Faces::arranged(motion_.velocity);
-        auto w = Faces::arranged_axial(motion_.spin);
-        auto const first = Faces::arranged(motion_.axes.x), second = second_slip<axis>();
+        auto v = Faces::arranged(motion.velocity);
+        auto w = Faces::arranged_axial(motion.spin);
+        auto const first = Faces::arranged(motion.axes.x), second = second_slip<axis>();
         auto const apex = v + cross(w, arm_of<axis>(signs));
         auto const shift = cross(w, Vec3<Real>{Real(0.0), negated(v.y), negated(v.z)});
         bias[0] = dot(first, shift) + dot(cross(w, first), apex);
@@ -140,14 +150,11 @@ private:
     SLIDEWAY_FN Twist<Real> row(Vec3<Real> const& force, Vec3<Real> const& arm, Vec3<Real> const& direction) const {
         using Faces = FacePair<axis>;
         auto const torque = Faces::arranged_axial(cross(arm, direction));
-        auto const& axes = motion_.axes;
+        auto const& axes = motion.axes;
         return {to_inertial(misaligned_, Faces::arranged(force), p_.joint.way),
                 {dot(axes.x, torque), dot(axes.y, torque), dot(axes.z, torque)}};
     }
 
-    At const& guide_;
-    JointMotion<Real> const& motion_;
-    SliderTurning<Real> const& turning_;
     SliderParameters<Real> const& p_;
     bool const misaligned_;
 };

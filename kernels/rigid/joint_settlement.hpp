@@ -14,15 +14,15 @@ namespace slideway::inline SLIDEWAY_ISA {
 ///    (M13.11).  Pairs that last take part, without restitution.
 ///  - Bounces that are about to end do so at once (M13.6), and so do impacts that follow one another in no time.
 ///  - Pairs that an impact leaves without a normal velocity last; those that nothing presses any longer and that part are let go.
-template <class Guide, class Real> class JointSettlement {
+template <class Real> class JointSettlement {
 public:
-    using Pairs = JointPairs<Guide, Real>;
+    using Pairs = JointPairs<Real>;
     using Memory = RigidJointMemory<Real>;
 
     /// @param pairs where the step has ended  @param friction nullptr without
-    SLIDEWAY_HD JointSettlement(Pairs const& pairs, typename Guide::template At<Real> const& guide, SliderParameters<Real> const& p,
-                                Real restitution, FrictionParameters<Real> const* friction, Real located, Real end, Real slip_unit)
-        : pairs_(pairs), guide_(guide), p_(p), restitution_(restitution), friction_(friction), located_(located), end_(end), slip_unit_(slip_unit) {}
+    SLIDEWAY_HD JointSettlement(Pairs const& pairs, SliderParameters<Real> const& p, Real restitution, FrictionParameters<Real> const* friction,
+                                Real located, Real end, Real slip_unit)
+        : pairs_(pairs), p_(p), restitution_(restitution), friction_(friction), located_(located), end_(end), slip_unit_(slip_unit) {}
 
     /// Which pairs meet, which are let go, and which change between slipping and sticking.  @return lanes with any of it
     SLIDEWAY_HD static Mask<Real> find(Mask<Real> in, Memory& memory, RigidJointContact<Real> const& contact, Real located,
@@ -65,7 +65,7 @@ public:
         Mask<Real> const endless = memory.quick >= Real(most_quick_events), at_once = endless | (memory.at_once >= Real(most_with_restitution));
         Real restitution[pair_count];
         for (int i = 0; i < pair_count; ++i) restitution[i] = select(held[i] | at_once, zero, restitution_);
-        JointImpact<Guide, Real> impact(pairs_, velocity, near, friction_ != nullptr ? &friction_->kinetic_coefficient : nullptr, least_speed);
+        JointImpact<Real> impact(pairs_, velocity, near, friction_ != nullptr ? &friction_->kinetic_coefficient : nullptr, least_speed);
         Real const made = impact.solve(event, restitution);
         auto& pairs = impact.pairs;
         auto const less = event & ((made > Real(1e-12) * impact.energy_moved()) | pairs.failed);
@@ -91,7 +91,7 @@ public:
         auto const taken = impact.taken();
         auto& books = memory.books;
         auto const book = [&](Real& account, Real amount) { account = select(event, amount, account); };
-        book(books.work, guide_.impulse_work(pairs.load().linear, (pairs.after - velocity).linear, p_));
+        book(books.work, pairs_.centre.impulse_work(pairs.load().linear, (pairs.after - velocity).linear));
         book(books.friction, taken.friction);
         book(books.damping, taken.damping);
         book(books.impulse, taken.impulse);
@@ -116,7 +116,7 @@ private:
 
     /// Which of the pairs that rest along their normals do so along their faces too.  In an impact the end of a slip sets others in motion, which is to be
     /// far below what bounces: there it has the least slip unit.
-    SLIDEWAY_HD void find_still(PairSolver<Guide, Real> const& pairs, Mask<Real> const (&rests)[pair_count], Mask<Real> met,
+    SLIDEWAY_HD void find_still(PairSolver<Real> const& pairs, Mask<Real> const (&rests)[pair_count], Mask<Real> met,
                                 Mask<Real> (&still)[pair_count]) const {
         Real const slow = Real(slip_stops) * select(met, slip_scale(p_), slip_unit_);
         for (auto& each : still) each = mask_of<Real>(false);
@@ -148,7 +148,7 @@ private:
         for (int turn = 0; turn < most_turns && any(go_on); ++turn) {
             LastingPairs<Real> last;
             for (int i = 0; i < pair_count; ++i) last.held[i] = rests[i], last.sticks[i] = mask_of<Real>(false);
-            LastingForces<Guide, Real> lasting;
+            LastingForces<Real> lasting;
             lasting.solve(pairs_, velocity, contact.penetration, zero, near, last, contact.loads, friction_);
             // Where none of the forces exist nothing is pressed.
             go_on = go_on & !lasting.failed;
@@ -194,7 +194,6 @@ private:
     }
 
     Pairs const& pairs_;
-    typename Guide::template At<Real> const& guide_;
     SliderParameters<Real> const& p_;
     Real restitution_;
     FrictionParameters<Real> const* friction_;

@@ -2,15 +2,15 @@
 
 #include "kernels/real.hpp"
 #include "kernels/rigid/joint_impact.hpp"
+#include "kernels/rigid/joint_pairs.hpp"
 #include "kernels/rigid/rigid_memory.hpp"
 #include "kernels/rigid/rigid_scales.hpp"
 #include "kernels/rigid/rigid_slider_report.hpp"
-#include "kernels/rigid/slider_place.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// Impulses of a step of time stepping (M13.16): of all pairs that touch in its middle, with Newton's restitution of the velocity at its start.
-template <class Guide, class Real> class JointStepImpulse {
+template <class Real> class JointStepImpulse {
 public:
     /// @param h of the step [s]  @param change of the rates in it without impulses [m/s]  @param contact of the report in its middle
     SLIDEWAY_HD JointStepImpulse(Real h, Real change, RigidJointContact<Real> const& contact, SliderParameters<Real> const& p) : p_(p) {
@@ -42,13 +42,11 @@ public:
 
     /// @param at in the middle of the step, with the velocity that it has without impulses  @param start velocity at its start
     /// @param friction nullptr without  @return the velocity at its end
-    SLIDEWAY_HD Twist<Real> solve(SliderPlace<Guide, Real> const& at, Twist<Real> const& start, Real restitution,
+    SLIDEWAY_HD Twist<Real> solve(JointPairs<Real> const& at, Twist<Real> const& start, Real restitution,
                                   FrictionParameters<Real> const* friction) {
         Real const least_speed = Real(slip_at_rest) * max(p_.length_scale_y, p_.length_scale_z) * p_.rate_scale;
-        JointImpact<Guide, Real> impact(at.pairs, at.velocity, start, near_, friction != nullptr ? &friction->kinetic_coefficient : nullptr,
+        JointImpact<Real> impact(at, at.velocity, start, near_, friction != nullptr ? &friction->kinetic_coefficient : nullptr,
                                         least_speed);
-        impact.patience = patience;
-        impact.pairs.follows_path = false;
         Real each[pair_count];
         for (auto& e : each) e = restitution;
         Real const made = impact.solve(touching_, each);
@@ -63,7 +61,7 @@ public:
         }
         rest(pairs, least_speed, friction);
         auto const taken = impact.taken();
-        books_.work = at.guide.impulse_work(pairs.load().linear, (pairs.after - at.velocity).linear, p_);
+        books_.work = at.centre.impulse_work(pairs.load().linear, (pairs.after - at.velocity).linear);
         books_.friction = taken.friction;
         books_.damping = taken.damping;
         books_.impulse = taken.impulse;
@@ -85,7 +83,7 @@ public:
 
 private:
     /// Ends what the solver leaves of the motion of pairs that rest, and of the slip of those that stick: it would add up from step to step.
-    SLIDEWAY_HD void rest(PairSolver<Guide, Real>& pairs, Real least_speed, FrictionParameters<Real> const* friction) const {
+    SLIDEWAY_HD void rest(PairSolver<Real>& pairs, Real least_speed, FrictionParameters<Real> const* friction) const {
         Mask<Real> rests[pair_count], still[pair_count];
         auto any_rests = mask_of<Real>(false);
         for (int i = 0; i < pair_count; ++i) rests[i] = still[i] = any_rests;
@@ -98,9 +96,6 @@ private:
         }
         if (any(any_rests)) pairs.rest(touching_ & any_rests, rests, still, friction != nullptr ? &friction->kinetic_coefficient : nullptr);
     }
-
-    /// Sweeps in one lot where nothing else settles, and nothing dearer than these: a step of many, and the next one has another problem.
-    static constexpr int patience = 256;
 
     SliderParameters<Real> const& p_;
     Mask<Real> near_[pair_count], touching_, failed_;

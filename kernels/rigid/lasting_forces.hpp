@@ -26,12 +26,11 @@ template <class Real> struct LastingPairs {
 ///   λ ≥ 0 ⊥ γ' + 2 β γ + β² g ≥ 0,                                                                                        (M13.10)
 /// with Coulomb friction μ λ against the slip of those that slip, and up to μ_s λ in those that stick (v' + 2 β v = 0).  The terms in β take
 /// away what the steps leave of γ, v and of the gap g.
-template <class Guide, class Real> class LastingForces {
+template <class Real> class LastingForces {
 public:
-    using Pairs = JointPairs<Guide, Real>;
+    using Pairs = JointPairs<Real>;
     /// Change of an acceleration, in units of what the slider would have without contact, that counts as none, and one that does where it cannot be made less.
     static constexpr double settled = 1e-15, bearable = 1e-13;
-    static constexpr int sweeps = 0, patience = 2048;
 
     Real normal[pair_count];            // λ [N]
     Real along[2][pair_count];          // friction of pairs that stick [N]
@@ -47,7 +46,7 @@ public:
                            Mask<Real> const (&asked)[pair_count], LastingPairs<Real> const& last, ApexLoads<Real> const& start,
                            FrictionParameters<Real> const* friction) {
         Real const zero(0.0);
-        PairSolver<Guide, Real> pairs(all, all.acceleration(Twist<Real>::zero()));
+        PairSolver<Real> pairs(all, all.unloaded_acceleration());
         Real size = zero;
         auto sticking = mask_of<Real>(false), wedged = sticking;
         for (int i = 0; i < pair_count; ++i) {
@@ -75,13 +74,13 @@ public:
             wedged = wedged | wedge;
             size = max(size, select(last.held[i], abs(row.target - dot(row.pair.normal, pairs.before)), zero));
         }
-        pairs.solve((size > zero) & !wedged, Real(settled) * size, Real(bearable) * size, sweeps, patience, any(sticking));
+        pairs.solve((size > zero) & !wedged, Real(settled) * size, Real(bearable) * size, any(sticking), true);
         failed = pairs.failed | wedged;
         take(pairs, velocity);
     }
 
 private:
-    SLIDEWAY_HD void take(PairSolver<Guide, Real> const& pairs, Twist<Real> const& velocity) {
+    SLIDEWAY_HD void take(PairSolver<Real> const& pairs, Twist<Real> const& velocity) {
         Real const zero(0.0);
         force = Twist<Real>::zero();
         friction_power = normal_power = zero;

@@ -9,9 +9,9 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// Pairs whose loads are sought, the motion under the loads of the moment, and a step of Newton's method for both: six equations for
 /// the free velocities, whatever the number of pairs.
-template <class Guide, class Real> class PairMotion {
+template <class Real> class PairMotion {
 public:
-    using Pairs = JointPairs<Guide, Real>;
+    using Pairs = JointPairs<Real>;
 
     /// @param rows `count` pairs, whose loads are overwritten  @param before motion without loads  @param friction some pair may stick
     SLIDEWAY_HD PairMotion(Pairs const& pairs, TouchingPair<Real>* rows, int count, Twist<Real> const& before, bool friction)
@@ -36,6 +36,27 @@ protected:
 
     /// 1/ε of (M13.13), of what a pair's own load makes of its motion.
     static constexpr double stiffness = 1e7;
+    /// Of springs (M13.13) under a unit of motion; 0 where no pair is.
+    SLIDEWAY_HD Real spring_stiffness() const {
+        Real const own = largest_own([&](int k) { return rows_[k].here; });
+        auto const some = own > Real(0.0);
+        return select(some, Real(stiffness) / select(some, own, Real(1.0)), Real(0.0));
+    }
+
+    /// Loads of all pairs, put aside and back.
+    SLIDEWAY_HD void keep_loads(Real (&kept)[3][pair_count], Mask<Real> in = mask_of<Real>(true)) const {
+        for (int k = 0; k < count_; ++k) {
+            kept[0][k] = select(in, rows_[k].normal, kept[0][k]);
+            for (int j = 0; j < 2; ++j) kept[1 + j][k] = select(in, rows_[k].along[j], kept[1 + j][k]);
+        }
+    }
+    SLIDEWAY_HD void put_loads(Mask<Real> in, Real const (&kept)[3][pair_count]) {
+        for (int k = 0; k < count_; ++k) {
+            rows_[k].normal = select(in, kept[0][k], rows_[k].normal);
+            for (int j = 0; j < 2; ++j) rows_[k].along[j] = select(in, kept[1 + j][k], rows_[k].along[j]);
+        }
+    }
+
     /// The most that the load along the normal of one of some pairs makes of its motion [1/kg]; 0 where none is.  @param counts lanes of row k
     template <class Counts> SLIDEWAY_HD Real largest_own(Counts const& counts) const {
         Real const zero(0.0);
@@ -68,7 +89,9 @@ protected:
             Real const change = max(abs(fms(share, wish[0], row.along[0])), abs(fms(share, wish[1], row.along[1])));
             missed = max(missed, select(here, change * row.across, zero));
         }
-        return missed;
+        // Of numbers that are none the largest may be one.
+        Real const whole = dot(after, after);
+        return missed + (whole - whole);
     }
 
     /// The balance of momentum, M du = Σ dΛ n + dT t, with what `locals` make of it.
@@ -94,6 +117,23 @@ protected:
     SLIDEWAY_FN static Real push(Local const& l, Course const& c) { return fnma(l.k, c.d_rate, l.c_n); }
     SLIDEWAY_FN static Real drag(Local const& l, Course const& c, Real push, int i) {
         return fma(l.h[i], push, fnma(l.K[i][0], c.d_slip[0], fnma(l.K[i][1], c.d_slip[1], l.c_t[i])));
+    }
+
+    /// Takes a share of the step to the loads of one pair.  @return the largest change of a motion
+    SLIDEWAY_HD Real add_step(Mask<Real> in, int k, Local const& l, Real share) {
+        auto& row = rows_[k];
+        auto const& c = course_[k];
+        auto const here = in & row.here;
+        Real const by = push(l, c);
+        Real change = select(here, abs(by) * row.own, Real(0.0));
+        row.normal = select(here, fma(share, by, row.normal), row.normal);
+        if (!friction_) return change;
+        for (int i = 0; i < 2; ++i) {
+            Real const along = drag(l, c, by, i);
+            change = max(change, select(here, abs(along) * row.across, Real(0.0)));
+            row.along[i] = select(here, fma(share, along, row.along[i]), row.along[i]);
+        }
+        return change;
     }
 
     Pairs const& pairs_;

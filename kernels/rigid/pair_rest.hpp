@@ -9,8 +9,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// still what is left of their slip: equations, whatever the sign of their loads, which are those of (M13.13).  A slip that the drive has in hand stays: the
 /// loads against it are next to nothing.  Loads that pull, or turn a slip round, have friction that drives, and equations of several pairs with friction may have
 /// next to no inverse: where all loads together would make energy, or slips run away, it is done without the friction.
-template <class Guide, class Real> class PairRest : PairMotion<Guide, Real> {
-    using Base = PairMotion<Guide, Real>;
+template <class Real> class PairRest : PairMotion<Real> {
+    using Base = PairMotion<Real>;
     using typename Base::Local;
     using Base::count_, Base::course_, Base::rows_;
 
@@ -38,12 +38,13 @@ public:
             local_[k] = spring(stiff, stiff_along, rest[k], stays[k], coefficient != nullptr);
             if (coefficient != nullptr) find_drag(rest[k] & !stays[k], *coefficient, after, rows_[k], local_[k]);
         }
-        keep();
+        Real kept[3][pair_count];
+        this->keep_loads(kept);
         auto motion = stop(rest, stays, stiff, stiff_along, coefficient != nullptr, after);
         if (coefficient == nullptr) return select(in, motion, after);
         auto const wild = in & (makes_energy(motion) | runs_away(rest, stays, after, motion));
         if (any(wild)) {
-            put_back(wild);
+            this->put_loads(wild, kept);
             for (int k = 0; k < count_; ++k) {
                 rest[k] = rest[k] & wild;
                 for (auto& drag : local_[k].h) drag = zero;
@@ -67,21 +68,12 @@ private:
                 for (int j = 0; j < 2; ++j) local_[k].c_t[j] = select(stays[k], negated(stiff_along * dot(pair.slip[j], motion)), zero);
             }
             this->step(local_);
-            for (int k = 0; k < count_; ++k) go(rest[k], friction, k);
+            for (int k = 0; k < count_; ++k) this->add_step(rest[k], k, local_[k], Real(1.0));
             motion = this->moved();
         }
         return motion;
     }
 
-    SLIDEWAY_HD void keep() {
-        for (int k = 0; k < count_; ++k) kept_[0][k] = rows_[k].normal, kept_[1][k] = rows_[k].along[0], kept_[2][k] = rows_[k].along[1];
-    }
-    SLIDEWAY_HD void put_back(Mask<Real> in) {
-        for (int k = 0; k < count_; ++k) {
-            rows_[k].normal = select(in, kept_[0][k], rows_[k].normal);
-            for (int j = 0; j < 2; ++j) rows_[k].along[j] = select(in, kept_[1 + j][k], rows_[k].along[j]);
-        }
-    }
     /// Whether all loads together make energy, ½ (u⁻ + u⁺) · P, when the motion has become `motion`.
     SLIDEWAY_HD Mask<Real> makes_energy(Twist<Real> const& motion) const {
         Real const zero(0.0);
@@ -142,18 +134,7 @@ private:
         for (int i = 0; i < 2; ++i) l.h[i] = select(tame, share * slip[i], zero);
     }
 
-    SLIDEWAY_HD void go(Mask<Real> rests, bool friction, int k) {
-        auto& row = rows_[k];
-        Real const push = Base::push(local_[k], course_[k]);
-        row.normal = select(rests, row.normal + push, row.normal);
-        if (!friction) return;
-        for (int i = 0; i < 2; ++i) {
-            row.along[i] = select(rests, row.along[i] + Base::drag(local_[k], course_[k], push, i), row.along[i]);
-        }
-    }
-
     Local local_[pair_count];
-    Real kept_[3][pair_count];  // loads
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

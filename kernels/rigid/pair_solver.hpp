@@ -1,31 +1,28 @@
 #pragma once
 
 #include "kernels/real.hpp"
+#include "kernels/rigid/arc_path.hpp"
 #include "kernels/rigid/direct_loads.hpp"
-#include "kernels/rigid/pair_barrier.hpp"
-#include "kernels/rigid/pair_newton.hpp"
-#include "kernels/rigid/pair_path.hpp"
 #include "kernels/rigid/pair_rest.hpp"
+#include "kernels/rigid/long_steps.hpp"
+#include "kernels/rigid/spring_loads.hpp"
 #include "kernels/rigid/touching_pair.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// Loads of all pairs that touch at once:
 ///   Λ ≥ 0 ⊥ γ − target ≥ 0,   T = −μ Λ v/|v| where v ≠ 0,   |T| ≤ μ Λ where v = 0,                                      (M13.11)
-/// by projected Gauss–Seidel steps from pair to pair (Jourdan, Alart & Jean 1998), which is all that one or two pairs need, and where
-/// they are slow by a PairBarrier.  Each lane takes as many as its own numbers ask for.
-template <class Guide, class Real> class PairSolver {
+/// by SpringLoads, in an impact after two sweeps from pair to pair, while contact lasts after one linear system of at most six pairs of which none sticks
+/// (DirectLoads), and where those find nothing along a path that leads to them, in LongSteps or by its arc (ArcPath).
+template <class Real> class PairSolver {
 public:
-    using Pairs = JointPairs<Guide, Real>;
-    static constexpr int most_last_sweeps = 24;
-    static constexpr int first_lot = 32;         // of sweeps where all else has failed
-    static constexpr double well_enough = 1e-4;  // of the motion: a change of it that is no failure yet
-    static constexpr double far_enough = 1e-9;   // and one with which to stop while there still is patience
-    static constexpr double eased = 0.3;         // share of a step
+    using Pairs = JointPairs<Real>;
+    using Springs = SpringLoads<Real>;
+    static constexpr int sweeps = 2;  // of an impact
+    static constexpr int turns = 10;  // of springs, from each start
 
     Twist<Real> before, after;  // motion of the slider without loads and with them
     Mask<Real> failed;
-    bool follows_path = true;  // where nothing else settles
 
     SLIDEWAY_HD PairSolver(Pairs const& pairs, Twist<Real> const& motion) : before(motion), after(motion), pairs_(pairs) {}
 
@@ -41,47 +38,52 @@ public:
 
     /// From the loads that the rows have.
     /// @param enough change of the motion that counts as none  @param bearable one that does where it cannot be made less
-    /// @param sweeps to begin with  @param patience the most in one lot where nothing else settles  @param friction some pair may stick
-    SLIDEWAY_HD void solve(Mask<Real> in, Real enough, Real bearable, int sweeps, int patience, bool friction) {
+    /// @param friction some pair may stick  @param lasts the loads are those of contact that lasts: nearly always all pairs push
+    SLIDEWAY_HD void solve(Mask<Real> in, Real enough, Real bearable, bool friction, bool lasts) {
         Real const zero(0.0);
         after = before;
         Real size = zero;
-        for (int k = 0; k < count_; ++k) {
-            auto const& row = rows_[k];
-            size = max(size, select(row.here, row.target - dot(row.pair.normal, before), zero));
-        }
+        for (int k = 0; k < count_; ++k) size = max(size, select(rows_[k].here, lack(k), zero));
         auto active = in & (size > zero);
-        // Without loads nothing comes nearer than it may: then there are none.
-        for (int k = 0; k < count_; ++k) {
-            auto& row = rows_[k];
-            for (auto* load : {&row.normal, &row.along[0], &row.along[1]}) *load = select(active, *load, zero);
-            if (sweeps > 0) after = row.answer(after);
-        }
-        // Where no sweep is to come first the loads are those of contact that lasts: nearly always all pairs push.
-        if (sweeps == 0 && any(active)) active = DirectLoads<Real>(rows_, count_, before).solve(active, size, bearable, after);
-        Real change = zero;
-        for (int sweep = 0; sweep < sweeps && any(active); ++sweep) {
-            change = this->sweep(active, friction);
-            active = active & (change > enough);
-        }
         failed = mask_of<Real>(false);
+        // Without loads nothing comes nearer than it may: then there are none.
+        clear(!active);
         if (none(active)) return;
-        active = PairNewton<Guide, Real>(pairs_, rows_, count_, before, friction).solve(active, size, enough, bearable, after);
-        if (none(active)) return;
-        after = PairBarrier<Guide, Real>(pairs_, rows_, count_, before, friction).solve(active, size, after);
-        for (int sweep = 0; sweep < most_last_sweeps && any(active); ++sweep) {
-            change = this->sweep(active, friction);
-            active = active & !(change <= enough);
+        LoadGoal<Real> const goal{size, enough, max(bearable, Real(4.0) * unevenness())};
+        if (lasts) {
+            active = DirectLoads<Real>(rows_, count_, before).solve(active, goal, after);
+        } else {
+            for (int sweep = 0; sweep < sweeps && any(active); ++sweep) active = active & (this->sweep(active, friction) > enough);
         }
-        active = active & !(change <= Real(well_enough) * size);
-        if (any(active)) active = persist(active, size, enough, bearable, patience, friction);
-        if (follows_path && any(active)) active = PairPath<Guide, Real>(pairs_, rows_, count_, before, friction).solve(active, size, Real(well_enough) * size, after);
+        for (auto const start : {Springs::Start::loads, Springs::Start::multipliers, Springs::Start::all}) {
+            if (none(active)) return;
+            active = Springs(pairs_, rows_, count_, before, friction).solve(active, start, turns, goal, after);
+        }
+        if (none(active)) return;
+        active = LongSteps<Real>(pairs_, rows_, count_, before, friction, goal).solve(active, after);
+        if (any(active)) active = ArcPath<Real>(pairs_, rows_, count_, before, friction, goal).solve(active, after);
         failed = active;
+        clear(failed);
+        after = select(failed, before, after);
+    }
+
+    /// What a pair without loads is off its target.
+    SLIDEWAY_FN Real lack(int k) const { return rows_[k].target - dot(rows_[k].pair.normal, before); }
+
+    /// The most that rounding leaves of b₀ − b₁ + b₂ − b₃ on a face all of whose apices push, b being `lack`: they lie in a plane, and no loads end that.
+    SLIDEWAY_HD Real unevenness() const {
+        Real most(0.0);
+        for (int i = 3; i < count_; ++i) {
+            if (rows_[i].number % 4 != 3 || rows_[i - 3].number != rows_[i].number - 3) continue;
+            auto const whole = (rows_[i - 3].here & rows_[i - 2].here) & (rows_[i - 1].here & rows_[i].here);
+            most = max(most, select(whole, abs((lack(i - 3) - lack(i - 2)) + (lack(i - 1) - lack(i))), Real(0.0)));
+        }
+        return most;
     }
 
     /// Ends what is left of the motion of pairs that rest, and of the slip of those that are still (PairRest).
     SLIDEWAY_HD void rest(Mask<Real> in, Mask<Real> const (&rests)[pair_count], Mask<Real> const (&still)[pair_count], Real const* coefficient) {
-        after = PairRest<Guide, Real>(pairs_, rows_, count_, before, coefficient != nullptr).solve(in, rests, still, coefficient, after);
+        after = PairRest<Real>(pairs_, rows_, count_, before, coefficient != nullptr).solve(in, rests, still, coefficient, after);
     }
 
     /// Of all pairs on the slider.
@@ -92,63 +94,37 @@ public:
     }
 
 private:
-    /// Where neither method settles: more and more sweeps, after each lot of which Newton's method begins anew where they have come to.
-    /// Every second lot goes but a part of the way, which ends the cycles that large friction makes.  @return lanes that still are not solved
-    SLIDEWAY_HD Mask<Real> persist(Mask<Real> active, Real size, Real enough, Real bearable, int patience, bool friction) {
-        bool eases = true;
-        for (int lot = first_lot; lot <= patience && any(active); lot *= 2, eases = !eases) {
-            Real change(0.0);
-            for (int sweep = 0; sweep < lot && any(active); ++sweep) {
-                change = this->sweep(active, friction, Real(eases ? eased : 1.0));
-                active = active & !(change <= enough);
-            }
-            active = active & !(change <= Real(lot < patience ? far_enough : well_enough) * size);
-            if (any(active)) active = try_newton(active, size, enough, bearable, friction);
-        }
-        return active;
-    }
-
-    /// From the loads of the moment, which stay where it does not solve them.
-    SLIDEWAY_HD Mask<Real> try_newton(Mask<Real> active, Real size, Real enough, Real bearable, bool friction) {
-        Real kept[3][pair_count];
-        for (int k = 0; k < count_; ++k) kept[0][k] = rows_[k].normal, kept[1][k] = rows_[k].along[0], kept[2][k] = rows_[k].along[1];
-        active = PairNewton<Guide, Real>(pairs_, rows_, count_, before, friction).solve(active, size, enough, bearable, after);
-        for (int k = 0; k < count_; ++k) {
-            rows_[k].normal = select(active, kept[0][k], rows_[k].normal);
-            for (int j = 0; j < 2; ++j) rows_[k].along[j] = select(active, kept[1 + j][k], rows_[k].along[j]);
-        }
-        return active;
-    }
-
-    /// From pair to pair.  @param share of the way of each step  @return the largest change of a motion
-    SLIDEWAY_HD Real sweep(Mask<Real> in, bool friction, Real share = Real(1.0)) {
-        Real change(0.0);
+    /// A step of projection from pair to pair (Jourdan, Alart & Jean 1998), which tells those that push and is all that one needs.
+    /// @return the largest change of a motion
+    SLIDEWAY_HD Real sweep(Mask<Real> in, bool friction) {
+        Real const zero(0.0);
+        Real change = zero;
         for (int k = 0; k < count_; ++k) {
             auto& row = rows_[k];
             auto const here = in & row.here;
             Real const wish = (row.target - dot(row.pair.normal, after)) * row.per_own;
-            Real const step = select(here, share * max(wish, negated(row.normal)), Real(0.0));
+            Real const step = select(here, max(wish, negated(row.normal)), zero);
             row.normal = row.normal + step;
             after = fma(step, row.pushed, after);
             change = max(change, abs(step) * row.own);
-            if (friction) change = max(change, hold(row, here, share));
+            if (!friction) continue;
+            Real drag[2];
+            for (int j = 0; j < 2; ++j) drag[j] = row.along[j] - (dot(row.pair.slip[j], after) - row.hold[j]) * row.per_across;
+            Real const share = share_within(drag, row.coefficient * row.normal);
+            for (int j = 0; j < 2; ++j) {
+                Real const by = select(here, fms(share, drag[j], row.along[j]), zero);
+                row.along[j] = row.along[j] + by;
+                after = fma(by, row.pair.dragged[j], after);
+                change = max(change, abs(by) * row.across);
+            }
         }
         return change;
     }
 
-    /// A step of the friction of one pair.  @return its largest change of a motion
-    SLIDEWAY_HD Real hold(TouchingPair<Real>& row, Mask<Real> here, Real part) {
-        Real const zero(0.0);
-        auto const& pair = row.pair;
-        Real wish[2], change[2];
-        for (int j = 0; j < 2; ++j) wish[j] = row.along[j] - (dot(pair.slip[j], after) - row.hold[j]) * row.per_across;
-        Real const share = share_within(wish, row.coefficient * row.normal);
-        for (int j = 0; j < 2; ++j) {
-            change[j] = select(here, part * fms(share, wish[j], row.along[j]), zero);
-            row.along[j] = row.along[j] + change[j];
-            after = fma(change[j], pair.dragged[j], after);
+    SLIDEWAY_HD void clear(Mask<Real> in) {
+        for (int k = 0; k < count_; ++k) {
+            for (auto* load : {&rows_[k].normal, &rows_[k].along[0], &rows_[k].along[1]}) *load = select(in, Real(0.0), *load);
         }
-        return max(abs(change[0]), abs(change[1])) * row.across;
     }
 
     Pairs const& pairs_;

@@ -60,13 +60,20 @@ template <class Real> struct TouchingPair {
     }
 };
 
+/// Of a search for loads.
+template <class Real> struct LoadGoal {
+    Real size;      // of the motion: the most that a pair without loads is off its target
+    Real enough;    // what the conditions may be missed by, as motion
+    Real bearable;  // and where it cannot be made less
+};
+
 /// What the conditions of pairs may be missed by where it cannot be made less: `bearable`, or what rounding leaves of the motion that loads large
 /// beside it make and take away again.  Loads that have run away have no such excuse.
-/// @param size of the motion  @param load of row k, a function
-template <class Real, class Load> SLIDEWAY_HD Real bearable_under(TouchingPair<Real> const* rows, int count, Load const& load, Real size, Real bearable) {
+/// @param load of row k, a function
+template <class Real, class Load> SLIDEWAY_HD Real bearable_under(TouchingPair<Real> const* rows, int count, Load const& load, LoadGoal<Real> const& goal) {
     Real moved(0.0);
     for (int k = 0; k < count; ++k) moved = max(moved, select(rows[k].here, rows[k].own * load(k), Real(0.0)));
-    return select(moved <= Real(1e6) * size, max(bearable, Real(1e-13) * moved), bearable);
+    return select(moved <= Real(1e6) * goal.size, max(goal.bearable, Real(1e-13) * moved), goal.bearable);
 }
 
 /// The share of a vector that is no longer than `bound`.

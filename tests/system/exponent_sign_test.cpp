@@ -94,7 +94,7 @@ TEST_F(ExponentSigns, OfColumnsOfASweepAreSaid) {
 // λ₁ = 72 1/s (docs/chaos.md): 29 in three turns, 3 in three tenths of one.
 TEST_F(ExponentSigns, OfChaosAreToldOnceTheRecordIsLongEnough) {
     std::string const scene = std::string(SLIDEWAY_SCENES) + "/lyapunov_rigid.toml";
-    std::vector<std::string> keys{"study.verify=0", "study.members=8", "study.revolutions=3"};
+    std::vector<std::string> keys{"study.verify=0", "study.members=8", "study.revolutions=5"};
     Json const whole = largest(scene, keys);
     EXPECT_EQ(whole["sign"], "above zero");
     EXPECT_EQ(whole["members_positive"], 8) << whole;

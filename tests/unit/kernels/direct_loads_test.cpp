@@ -47,7 +47,7 @@ struct Problem {
         double size = 0;
         for (auto const& row : rows) size = std::max(size, std::abs(row.target - dot(row.pair.normal, before)));
         bearable = 1e-13 * size;
-        bool const open = DirectLoads<double>(rows.data(), static_cast<int>(rows.size()), before).solve(true, size, bearable, motion);
+        bool const open = DirectLoads<double>(rows.data(), static_cast<int>(rows.size()), before).solve(true, {size, 0, bearable}, motion);
         found = motion;
         return !open;
     }

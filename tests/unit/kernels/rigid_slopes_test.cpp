@@ -79,12 +79,13 @@ std::array<Real, 6> motion_after(Collision const& of, State const& direction, in
     Real s[size];
     for (std::size_t i = 0; i < size; ++i) s[i] = number<Real>(of.state[i], direction[i]);
     auto faults = Faults<Real>::none();
-    SliderPlace<NoDrive, Real> const at(Real(0.0), s, p, false, faults);
+    NoDrive::At<Real> const guide(Real(0.0), s, p, faults);
+    JointPairs<Real> const at(guide.centre(p), guide.x, guide.vx, s, p, false);
     Mask<Real> near[pair_count];
     for (auto& each : near) each = false;
     for (int const pair : of.pairs) near[pair] = true;
     Real const coefficient(of.friction);
-    JointImpact<NoDrive, Real> impact(at.pairs, at.velocity, near, &coefficient, Real(1e-12));
+    JointImpact<Real> impact(at, at.velocity, near, &coefficient, Real(1e-12));
     Real restitution[pair_count];
     for (auto& e : restitution) e = Real(of.restitution);
     impact.solve(true, restitution);

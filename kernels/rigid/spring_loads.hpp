@@ -10,54 +10,66 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// first with Λ⁰ = T⁰ = 0, then with what that gave, until (M13.11) holds (the method of multipliers).  Each is solved by Newton's method with
 /// the pairs that push and stick as found so far.  Where (M13.11) leaves open which pair carries what, this is the share of equal springs
 /// under a rigid slider.
-template <class Guide, class Real> class PairNewton : PairMotion<Guide, Real> {
-    using Base = PairMotion<Guide, Real>;
+template <class Real> class SpringLoads : PairMotion<Real> {
+    using Base = PairMotion<Real>;
     using typename Base::Local;
     using Base::count_, Base::course_, Base::friction_, Base::rows_;
 
 public:
-    static constexpr int most_steps = 16;
+    /// What the search begins with: the pairs that push by the loads of the rows; all of them, sticking where they can; or these loads as Λ⁰ and T⁰.
+    enum class Start { loads, all, multipliers };
+    static constexpr double hindered = 1e-11;  // of the motion: what may be missed where no step makes it less
     static constexpr double unchanged = 1e-5;  // of the motion: Λ is that of its springs
 
     using Base::Base;
 
-    /// From the loads that the rows have.
-    /// @param size of the motion  @param enough what of it counts as none  @param bearable what does where no step makes it less
-    /// @param after the motion, changed in lanes that are solved  @return lanes that are not
-    SLIDEWAY_HD Mask<Real> solve(Mask<Real> in, Real size, Real enough, Real bearable, Twist<Real>& after) {
-        begin();
-        Real last(1e300);
-        for (int turn = 0; turn < most_steps; ++turn) {
-            auto const motion = this->moved();
-            Real const missed = this->measure(in, motion);
-            Real const borne = bearable_under<Real>(rows_, count_, [&](int k) { return rows_[k].normal; }, size, bearable);
+    /// @param after the motion, changed in lanes that are solved  @return lanes that are not, whose loads are the nearest that were found
+    SLIDEWAY_NOINLINE Mask<Real> solve(Mask<Real> in, Start start, int turns, LoadGoal<Real> const& goal, Twist<Real>& after) {
+        begin(start);
+        Real nearest[3][pair_count];
+        this->keep_loads(nearest);
+        Real last(1e300), best(1e300);
+        auto const all = in;
+        auto found = mask_of<Real>(false);
+        for (int turn = 0; turn <= turns; ++turn) {
+            Real const missed = this->measure(in, this->moved());
+            Real const borne = bearable_under<Real>(rows_, count_, [&](int k) { return rows_[k].normal; }, goal);
             // The loads at the start are never good enough: what they leave would add up over steps.
-            auto const done = in & mask_of<Real>(turn > 0) & ((missed <= enough) | ((missed <= borne) & (missed > Real(0.5) * last)));
+            auto const better = in & mask_of<Real>(turn > 0) & (missed < best);
+            if (any(better)) this->keep_loads(nearest, better);
+            best = select(better, missed, best);
+            found = found | (better & (missed <= borne));
+            // From within rounding of the loads a step may lead away from them again; where pairs hinder each other but for rounding none leads nearer.
+            auto const stalls = in & (missed > Real(0.5) * last);
+            found = found | (stalls & (best <= Real(hindered) * goal.size));
+            in = in & !(found & (stalls | (best <= goal.enough)));
             last = missed;
-            after = slideway::select(done, motion, after);
-            in = in & !done;
             if (none(in)) break;
-            Real const off = look(turn == 0);
-            take_for_start(in & (off <= Real(unchanged) * size));
+            Real const off = look(turn == 0, start == Start::all);
+            take_multipliers(in & (off <= Real(unchanged) * goal.size));
             // Without friction to find, the equations change with the pairs that push alone.
             if (friction_ || any(in & changed_)) this->factor(local_);
             this->step(local_);
-            for (int k = 0; k < count_; ++k) go(in, k);
+            for (int k = 0; k < count_; ++k) this->add_step(in, k, local_[k], Real(1.0));
         }
-        return in;
+        this->put_loads(all, nearest);
+        after = slideway::select(found, this->moved(), after);
+        return all & !found;
     }
 
 private:
-    SLIDEWAY_HD void begin() {
+    SLIDEWAY_HD void begin(Start start) {
         Real const zero(0.0);
-        for (int k = 0; k < count_; ++k) normal_[k] = along_[0][k] = along_[1][k] = zero;
-        Real const own = this->largest_own([&](int k) { return rows_[k].here; });
-        auto const some = own > zero;
-        stiff_ = select(some, Real(Base::stiffness) / select(some, own, Real(1.0)), zero);
+        bool const given = start == Start::multipliers;
+        for (int k = 0; k < count_; ++k) {
+            normal_[k] = given ? rows_[k].normal : zero;
+            for (int j = 0; j < 2; ++j) along_[j][k] = given ? rows_[k].along[j] : zero;
+        }
+        stiff_ = this->spring_stiffness();
     }
 
     /// The linear equations of all pairs.  @return the largest change of a motion that the laws ask for at once
-    SLIDEWAY_HD Real look(bool first) {
+    SLIDEWAY_HD Real look(bool first, bool all) {
         Real const zero(0.0);
         Real off = zero;
         changed_ = mask_of<Real>(first);
@@ -66,19 +78,19 @@ private:
             auto const& c = course_[k];
             auto& l = local_[k];
             Real const spring = fma(stiff_, row.target - c.rate, normal_[k]);
-            auto const pushes = row.here & ((first ? row.normal : spring) > zero);
+            auto const pushes = row.here & (mask_of<Real>(first && all) | ((first ? row.normal : spring) > zero));
             Real const stiff = select(pushes, stiff_, zero);
             if (!first) changed_ = changed_ | (stiff != l.k);
             l.k = stiff;
             l.c_n = select(pushes, spring - row.normal, select(row.here, negated(row.normal), zero));
             off = max(off, select(row.here, abs(l.c_n) * row.own, zero));
-            if (friction_) off = max(off, look_along(k, pushes));
+            if (friction_) off = max(off, look_along(k, pushes, first && all));
         }
         return off;
     }
 
     /// Of friction, as Alart & Curnier 1991: what T − (v − hold)/own tells sticks, or slips that way.
-    SLIDEWAY_HD Real look_along(int k, Mask<Real> pushes) {
+    SLIDEWAY_HD Real look_along(int k, Mask<Real> pushes, bool all_stick) {
         Real const zero(0.0), one(1.0);
         auto const& row = rows_[k];
         auto const& c = course_[k];
@@ -90,7 +102,7 @@ private:
         }
         Real const bound = row.coefficient * max(row.normal, zero), length = sqrt(fma(pull[0], pull[0], pull[1] * pull[1]));
         auto const holds = pushes & (row.coefficient > zero);
-        auto const sticks = holds & (length <= bound), slips = holds & !sticks;
+        auto const sticks = holds & ((length <= bound) | mask_of<Real>(all_stick)), slips = holds & !sticks;
         Real const inverse = select(slips, one / select(slips, length, one), zero), share = bound * inverse;
         Real const rest = one / max(one - share, Real(1.0 / Base::stiffness)), damping = share * rest * row.per_across;
         Real const unit[2] = {pull[0] * inverse, pull[1] * inverse};
@@ -108,7 +120,7 @@ private:
     }
 
     /// From here on Λ⁰ and T⁰ are the loads of the moment, and their springs are as they are.
-    SLIDEWAY_HD void take_for_start(Mask<Real> in) {
+    SLIDEWAY_HD void take_multipliers(Mask<Real> in) {
         if (none(in)) return;
         Real const zero(0.0);
         for (int k = 0; k < count_; ++k) {
@@ -126,18 +138,6 @@ private:
                 l.c_t[j] = select(sticks, negated(stiff_ * c.v[j]), l.c_t[j]);
             }
         }
-    }
-
-    SLIDEWAY_HD void go(Mask<Real> in, int k) {
-        auto& row = rows_[k];
-        auto const& c = course_[k];
-        auto const& l = local_[k];
-        auto const here = in & row.here;
-        Real const push = Base::push(l, c);
-        if (friction_) {
-            for (int i = 0; i < 2; ++i) row.along[i] = select(here, row.along[i] + Base::drag(l, c, push, i), row.along[i]);
-        }
-        row.normal = select(here, row.normal + push, row.normal);
     }
 
     Real stiff_;
