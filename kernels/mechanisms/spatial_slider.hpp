@@ -16,7 +16,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// those are the Conditions's.
 /// @tparam Guide what moves the slider along the way.  It has `Base` (SliderBase, or what extends it), `info`, and
 ///  - `At<Real>`, made of (t, state, parameters, faults): position and velocity along the way `x`, `vx`; `accelerations(force, p)`, of the
-///    slider's centre, `put_rates(acceleration, rates)` of what the state has beyond ten numbers, and `tell(…)` of the report;
+///    slider's centre, `put_rates(acceleration, rates)` of what the state has beyond ten numbers, `tell(…)` of the report, and, for rigid joints,
+///    `centre(p)`, the same as numbers;
 ///  - `Constraint<Real>`, made of (t, state, parameters): `x`, `vx`, `masses(p, out)` of (vy, vz), and `project(force)`, what a force does to
 ///    vy and vz.
 ///  - `along(t, state, parameters)`: x alone, for a pose.

@@ -11,21 +11,21 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// it (Allgower & Georg 1990, Numerical Continuation Methods).
 template <class Real> class ArcPath : LoadPath<Real> {
     using Base = LoadPath<Real>;
-    using typename Base::Local;
     using Base::count_, Base::course_, Base::goal_, Base::local_, Base::rows_, Base::slack_;
 
 public:
     using Base::Base;
 
-    /// As of LongSteps.
+    /// As of LongSteps.  A turn solves one system for every lane: a lane whose point is on the path predicts the next one, the others' points are corrected,
+    /// or go back to where their step began, for a shorter one.
     SLIDEWAY_NOINLINE Mask<Real> solve(Mask<Real> in, Twist<Real>& after) {
         begin(in);
         auto open = in;
         auto on_path = in;  // lanes whose point is on the path, to go on from; the others' is being corrected
         for (int turn = 0; turn < most_turns && any(in); ++turn) {
             auto const sound = look(in);
-            auto const lost = in & (!on_path) & ((!sound) | (corrections_ >= Real(most_corrections)));
-            on_path = on_path & in;
+            auto const lost = in & ((!sound) | ((!on_path) & (corrections_ >= Real(most_corrections))));
+            on_path = on_path & in & !lost;
             this->factor(local_);
             solve_for_residual();
             solve_for_parameter();
@@ -42,7 +42,7 @@ public:
                 auto const solved = due & !this->polish(due, after);
                 open = open & !solved;
             }
-            in = in & open & (tau_ > Real(last)) & (length_ > Real(shortest));
+            in = in & open & !(tau_ <= Real(last)) & (length_ > Real(shortest));
             on_path = on_path & in;
         }
         return this->take_nearest(open, after);
@@ -50,9 +50,10 @@ public:
 
 private:
     static constexpr int most_turns = 1000;
-    static constexpr double most_corrections = 5, few = 2, many = 4;
+    static constexpr double most_corrections = 5, few = 2, many = 4;  // of a step; for a longer and a shorter next one
     static constexpr double near = 0.1;  // a correction, of s and of the width of the friction, after which a point is on the path
-    static constexpr double first_length = 1.5, longest = 3, shortest = 1e-6, between_polishes = 4, last = -60;
+    static constexpr double first_length = 1.5, longest = 3, shortest = 1e-6;  // of a step, in units of the motion's scale and of τ
+    static constexpr double between_polishes = 4, last = -60;                  // in τ
 
     /// A change of the loads, and what it makes of the motion.
     struct Change { Real load[3], rate, slip[2]; };
@@ -101,12 +102,12 @@ private:
             Real const width = slack_[k] / select(row.coefficient > zero, row.coefficient, one);
             Real const drag = row.coefficient * normal / sqrt(fma(v[0], v[0], fma(v[1], v[1], width * width)));
             for (int j = 0; j < 2; ++j) along[j] = negated(drag * v[j]);
-            auto const cone = this->put_cone(k, v, slack_[k], normal, along, l);
+            Real const narrows = this->put_cone(k, v, slack_[k], normal, along, l);
             widths_[k] = width;
             for (int i = 0; i < 2; ++i) {
                 wanted_[k].load[1 + i] = along[i];
                 Real const shifted = fma(l.K[i][0], shift_[1][k], l.K[i][1] * shift_[2][k]) * left;
-                along_tau_[k].load[1 + i] = negated(fma(along[i], cone.narrows, shifted));
+                along_tau_[k].load[1 + i] = negated(fma(along[i], narrows, shifted));
             }
         }
         return sound & (missed == missed);
@@ -165,7 +166,7 @@ private:
     SLIDEWAY_HD Mask<Real> correct(Mask<Real> in) {
         if (none(in)) return in;
         Real const by = negated(product(ahead_, wanted_)) / (product(ahead_, along_tau_) + ahead_tau_), left = exp(tau_);
-        Real off = abs(by);
+        Real off = abs(by) + (by - by);
         for (int k = 0; k < count_; ++k) {
             auto const& row = rows_[k];
             auto const relative = [&](Real change, Real width) { off = max(off, select(row.here, abs(change) / width, Real(0.0))); };
@@ -224,8 +225,10 @@ private:
     Real tau_, start_, polished_;        // ln ν/ν₀: of the moment, where the step began, at the last polish
     Real length_, corrections_;          // of the step along the arc; how often it was corrected
     Real ahead_tau_;                     // the tangent
-    Change ahead_[pair_count], wanted_[pair_count], along_tau_[pair_count];
-    Real widths_[pair_count], kept_[3][pair_count];
+    Change ahead_[pair_count], along_tau_[pair_count];  // along the tangent by a unit of the arc, and of τ
+    Change wanted_[pair_count];                          // the loads that the motion asks for, then what leads to them
+    Real widths_[pair_count];                            // s/μ
+    Real kept_[3][pair_count] = {};                      // loads where the step began
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

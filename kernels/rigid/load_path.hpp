@@ -24,10 +24,10 @@ protected:
     using Base::count_, Base::rows_;
     using typename Base::Local;
 
-    /// Springs from where the path is: without the pairs that are about to be let go, of the loads that they have alone, or of what they are now.
-    /// @return lanes that these do not solve, whose loads stay as they are
+    /// SpringLoads from the point of the path, whose pairs with own Λ < s are about to part and lose their loads first: at first the loads tell no more than
+    /// which pairs push, then they are Λ⁰ and T⁰.  s is that of the last step, before it.  @return lanes that these do not solve, whose loads stay as they are
     SLIDEWAY_HD Mask<Real> polish(Mask<Real> in, Twist<Real>& after) {
-        Real kept[3][pair_count];
+        Real kept[3][pair_count] = {};
         this->keep_loads(kept);
         for (auto const start : {SpringLoads<Real>::Start::loads, SpringLoads<Real>::Start::multipliers}) {
             if (none(in)) break;
@@ -74,8 +74,8 @@ protected:
     }
 
     /// Friction of T √(|v|² + (s/μ)²) = −μ Λ v about a slip v and a width s/μ > 0, of which s changes as Λ s = ν has it.
-    struct Cone { Real damping, inverse_square, narrows; };
-    SLIDEWAY_HD Cone put_cone(int k, Real const (&v)[2], Real slack, Real normal, Real const (&along)[2], Local& l) const {
+    /// @return (s/μ)²/(|v|² + (s/μ)²)
+    SLIDEWAY_HD Real put_cone(int k, Real const (&v)[2], Real slack, Real normal, Real const (&along)[2], Local& l) const {
         Real const zero(0.0), one(1.0);
         auto const& row = rows_[k];
         auto const holds = row.here & (row.coefficient > zero);
@@ -87,7 +87,7 @@ protected:
             l.h[i] = fma(along[i], narrows / select(holds, normal, one), negated(drag) * v[i]);
             for (int j = 0; j < 2; ++j) l.K[i][j] = fma(along[i] * inverse_square, v[j], i == j ? damping : zero);
         }
-        return {damping, inverse_square, narrows};
+        return narrows;
     }
 
     LoadGoal<Real> const goal_;
@@ -97,7 +97,7 @@ protected:
 private:
     Real best_;                 // by how much the nearest loads so far miss (M13.11)
     Mask<Real> found_;          // lanes with such loads
-    Real near_[3][pair_count];  // these
+    Real near_[3][pair_count] = {};  // these
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

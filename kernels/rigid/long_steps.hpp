@@ -8,7 +8,6 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// The path (M13.14) in long steps beside it, a primal-dual interior-point method: some fifteen of them, whatever the pairs share.
 template <class Real> class LongSteps : LoadPath<Real> {
     using Base = LoadPath<Real>;
-    using typename Base::Local;
     using Base::count_, Base::course_, Base::goal_, Base::local_, Base::rows_, Base::slack_;
 
 public:
@@ -32,6 +31,7 @@ public:
 
 private:
     static constexpr int most_steps = 30;
+    // ν falls to a twentieth of the mean after a long step, and by less after a short one.
     static constexpr double least_product = 1e-15;  // of Λ s at the start: below it rounding is all that moves
 
     SLIDEWAY_HD void begin(Mask<Real> in) {
@@ -47,7 +47,7 @@ private:
         barrier_ = Real(0.3) * first_;
     }
 
-    /// The mean of Λ s, as motion.
+    /// The mean of own Λ s, motion squared.
     SLIDEWAY_HD Real mean_product(Mask<Real> in) const {
         Real sum(0.0);
         for (int k = 0; k < count_; ++k) sum = sum + select(in & rows_[k].here, rows_[k].own * rows_[k].normal * slack_[k], Real(0.0));
@@ -64,10 +64,10 @@ private:
         Real const wanted = fms(barrier_ * row.per_own, inverse, row.normal);
         l.c_n = select(row.here, fnma(l.k, (c.rate - row.target) - slack_[k], wanted), zero);
         if (!this->friction_) return;
-        auto const cone = this->put_cone(k, c.v, slack_[k], row.normal, row.along, l);
-        // What the width changes by is not a matter of dΛ alone: s is not yet γ − target.
+        Real const narrows = this->put_cone(k, c.v, slack_[k], row.normal, row.along, l);
+        // The width follows s, which here is a number of its own: of dΛ it follows what is beyond the change that ν asks for.
         for (int i = 0; i < 2; ++i) {
-            Real const by_width = row.along[i] * cone.narrows, slips = fms(l.h[i], row.normal, by_width);
+            Real const by_width = row.along[i] * narrows, slips = fms(l.h[i], row.normal, by_width);
             l.c_t[i] = select(row.here, fnma(by_width, wanted / select(row.here, row.normal, one), slips - row.along[i]), zero);
         }
     }

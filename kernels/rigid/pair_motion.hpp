@@ -119,21 +119,15 @@ protected:
         return fma(l.h[i], push, fnma(l.K[i][0], c.d_slip[0], fnma(l.K[i][1], c.d_slip[1], l.c_t[i])));
     }
 
-    /// Takes a share of the step to the loads of one pair.  @return the largest change of a motion
-    SLIDEWAY_HD Real add_step(Mask<Real> in, int k, Local const& l, Real share) {
+    /// Takes a share of the step to the loads of one pair.
+    SLIDEWAY_HD void add_step(Mask<Real> in, int k, Local const& l, Real share) {
         auto& row = rows_[k];
         auto const& c = course_[k];
         auto const here = in & row.here;
         Real const by = push(l, c);
-        Real change = select(here, abs(by) * row.own, Real(0.0));
         row.normal = select(here, fma(share, by, row.normal), row.normal);
-        if (!friction_) return change;
-        for (int i = 0; i < 2; ++i) {
-            Real const along = drag(l, c, by, i);
-            change = max(change, select(here, abs(along) * row.across, Real(0.0)));
-            row.along[i] = select(here, fma(share, along, row.along[i]), row.along[i]);
-        }
-        return change;
+        if (!friction_) return;
+        for (int i = 0; i < 2; ++i) row.along[i] = select(here, fma(share, drag(l, c, by, i), row.along[i]), row.along[i]);
     }
 
     Pairs const& pairs_;

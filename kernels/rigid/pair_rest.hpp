@@ -38,7 +38,7 @@ public:
             local_[k] = spring(stiff, stiff_along, rest[k], stays[k], coefficient != nullptr);
             if (coefficient != nullptr) find_drag(rest[k] & !stays[k], *coefficient, after, rows_[k], local_[k]);
         }
-        Real kept[3][pair_count];
+        Real kept[3][pair_count] = {};
         this->keep_loads(kept);
         auto motion = stop(rest, stays, stiff, stiff_along, coefficient != nullptr, after);
         if (coefficient == nullptr) return select(in, motion, after);

@@ -3,8 +3,8 @@
 #include "kernels/real.hpp"
 #include "kernels/rigid/arc_path.hpp"
 #include "kernels/rigid/direct_loads.hpp"
-#include "kernels/rigid/pair_rest.hpp"
 #include "kernels/rigid/long_steps.hpp"
+#include "kernels/rigid/pair_rest.hpp"
 #include "kernels/rigid/spring_loads.hpp"
 #include "kernels/rigid/touching_pair.hpp"
 
@@ -49,11 +49,11 @@ public:
         // Without loads nothing comes nearer than it may: then there are none.
         clear(!active);
         if (none(active)) return;
-        LoadGoal<Real> const goal{size, enough, max(bearable, Real(4.0) * unevenness())};
+        LoadGoal<Real> const goal{size, enough, lasts ? max(bearable, Real(4.0) * unevenness(size)) : bearable};
         if (lasts) {
             active = DirectLoads<Real>(rows_, count_, before).solve(active, goal, after);
         } else {
-            for (int sweep = 0; sweep < sweeps && any(active); ++sweep) active = active & (this->sweep(active, friction) > enough);
+            for (int sweep = 0; sweep < sweeps && any(active); ++sweep) active = active & !(take_sweep(active, friction) <= enough);
         }
         for (auto const start : {Springs::Start::loads, Springs::Start::multipliers, Springs::Start::all}) {
             if (none(active)) return;
@@ -70,15 +70,16 @@ public:
     /// What a pair without loads is off its target.
     SLIDEWAY_FN Real lack(int k) const { return rows_[k].target - dot(rows_[k].pair.normal, before); }
 
-    /// The most that rounding leaves of b₀ − b₁ + b₂ − b₃ on a face all of whose apices push, b being `lack`: they lie in a plane, and no loads end that.
-    SLIDEWAY_HD Real unevenness() const {
+    /// The most that rounding leaves of b₀ − b₁ + b₂ − b₃ on a face all of whose apices push while contact lasts, b being `lack`: they lie in a plane, and no
+    /// loads end that.
+    SLIDEWAY_HD Real unevenness(Real size) const {
         Real most(0.0);
         for (int i = 3; i < count_; ++i) {
             if (rows_[i].number % 4 != 3 || rows_[i - 3].number != rows_[i].number - 3) continue;
             auto const whole = (rows_[i - 3].here & rows_[i - 2].here) & (rows_[i - 1].here & rows_[i].here);
             most = max(most, select(whole, abs((lack(i - 3) - lack(i - 2)) + (lack(i - 1) - lack(i))), Real(0.0)));
         }
-        return most;
+        return select(most <= Real(1e-9) * size, most, Real(0.0));
     }
 
     /// Ends what is left of the motion of pairs that rest, and of the slip of those that are still (PairRest).
@@ -96,7 +97,7 @@ public:
 private:
     /// A step of projection from pair to pair (Jourdan, Alart & Jean 1998), which tells those that push and is all that one needs.
     /// @return the largest change of a motion
-    SLIDEWAY_HD Real sweep(Mask<Real> in, bool friction) {
+    SLIDEWAY_HD Real take_sweep(Mask<Real> in, bool friction) {
         Real const zero(0.0);
         Real change = zero;
         for (int k = 0; k < count_; ++k) {
@@ -118,7 +119,9 @@ private:
                 change = max(change, abs(by) * row.across);
             }
         }
-        return change;
+        // Of numbers that are none the largest may be one.
+        Real const whole = dot(after, after);
+        return change + (whole - whole);
     }
 
     SLIDEWAY_HD void clear(Mask<Real> in) {

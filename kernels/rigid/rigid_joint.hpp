@@ -111,7 +111,7 @@ private:
     SLIDEWAY_FN void tell_slip(int pair, LastingPairs<Real> const& last, Real const (&slip)[2], Real per_unit, Contact& contact) const {
         Real const zero(0.0), one(1.0), minus(-1.0);
         number_of(contact.slides, pair) = select(last.held[pair], select(last.sticks[pair], minus, one), zero);
-        for (int j = 0; j < 2; ++j) number_of(contact.slip[j], pair) = slip[j] * per_unit;
+        for (int j = 0; j < 2; ++j) number_of(contact.slip[j], pair) = select(last.held[pair], slip[j] * per_unit, zero);
     }
     SLIDEWAY_HD void tell_loads(LastingForces<Real> const& lasting, Contact& contact) const {
         for (int face = 0; face < face_count; ++face) {

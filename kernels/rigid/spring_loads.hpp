@@ -7,7 +7,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// Loads of pairs as of equal, very stiff springs, whose compliance ε is then made up for:
 ///   Λ = max(0, Λ⁰ + (target − γ)/ε),   T = the part within μ Λ of T⁰ − (v − hold)/ε,                                        (M13.13)
-/// first with Λ⁰ = T⁰ = 0, then with what that gave, until (M13.11) holds (the method of multipliers).  Each is solved by Newton's method with
+/// first with Λ⁰ = T⁰ = 0 (but for Start::multipliers), then with what that gave, until (M13.11) holds (the method of multipliers).  Each is solved by Newton's method with
 /// the pairs that push and stick as found so far.  Where (M13.11) leaves open which pair carries what, this is the share of equal springs
 /// under a rigid slider.
 template <class Real> class SpringLoads : PairMotion<Real> {
@@ -26,7 +26,7 @@ public:
     /// @param after the motion, changed in lanes that are solved  @return lanes that are not, whose loads are the nearest that were found
     SLIDEWAY_NOINLINE Mask<Real> solve(Mask<Real> in, Start start, int turns, LoadGoal<Real> const& goal, Twist<Real>& after) {
         begin(start);
-        Real nearest[3][pair_count];
+        Real nearest[3][pair_count] = {};
         this->keep_loads(nearest);
         Real last(1e300), best(1e300);
         auto const all = in;

@@ -37,7 +37,7 @@ protected:
     }
 };
 
-/// Conditions that sweeps from pair to pair settle, while Newton's method and the interior points do not.
+/// Impacts whose loads no search of an earlier version found but thousands of sweeps from pair to pair.
 using RigidFoundImpacts = RigidFound;
 TEST_P(RigidFoundImpacts, AreSolved) { expect_balance(); }
 INSTANTIATE_TEST_SUITE_P(Sliders, RigidFoundImpacts,
