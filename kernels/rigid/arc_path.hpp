@@ -60,11 +60,7 @@ private:
 
     SLIDEWAY_HD void begin(Mask<Real> in) {
         Real const zero(0.0), scale = this->largest_slip(goal_.size), part = scale / this->number_of_pairs();
-        for (int k = 0; k < count_; ++k) {
-            auto& row = rows_[k];
-            row.normal = select(in, select(row.here, part * row.per_own, zero), row.normal);
-            for (auto& along : row.along) along = select(in, zero, along);
-        }
+        this->push_equally(in, part);
         this->measure(in, this->moved());
         for (int k = 0; k < count_; ++k) {
             auto const& c = course_[k];

@@ -42,6 +42,16 @@ protected:
         return in;
     }
 
+    /// Loads to begin with: without friction, and each makes as much of its own pair's motion.
+    SLIDEWAY_HD void push_equally(Mask<Real> in, Real motion) {
+        Real const zero(0.0);
+        for (int k = 0; k < count_; ++k) {
+            auto& row = rows_[k];
+            row.normal = select(in, select(row.here, motion * row.per_own, zero), row.normal);
+            for (auto& along : row.along) along = select(in, zero, along);
+        }
+    }
+
     /// What is nearest to (M13.11) so far, if it is near enough.  @param missed by how much
     SLIDEWAY_HD void note(Mask<Real> in, Real missed) {
         auto const better = in & (missed < best_);
@@ -95,8 +105,8 @@ protected:
     Local local_[pair_count];
 
 private:
-    Real best_;                 // by how much the nearest loads so far miss (M13.11)
-    Mask<Real> found_;          // lanes with such loads
+    Real best_;                      // by how much the nearest loads so far miss (M13.11)
+    Mask<Real> found_;               // lanes with such loads
     Real near_[3][pair_count] = {};  // these
 };
 

@@ -35,12 +35,8 @@ private:
     static constexpr double least_product = 1e-15;  // of Λ s at the start: below it rounding is all that moves
 
     SLIDEWAY_HD void begin(Mask<Real> in) {
-        Real const zero(0.0), size = goal_.size, part = size / this->number_of_pairs();
-        for (int k = 0; k < count_; ++k) {
-            auto& row = rows_[k];
-            row.normal = select(in, select(row.here, part * row.per_own, zero), row.normal);
-            for (auto& along : row.along) along = select(in, zero, along);
-        }
+        Real const size = goal_.size, part = size / this->number_of_pairs();
+        this->push_equally(in, part);
         auto const after = this->moved();
         for (int k = 0; k < count_; ++k) slack_[k] = max(dot(rows_[k].pair.normal, after) - rows_[k].target, size);
         first_ = part * size;

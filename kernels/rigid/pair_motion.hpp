@@ -36,12 +36,6 @@ protected:
 
     /// 1/ε of (M13.13), of what a pair's own load makes of its motion.
     static constexpr double stiffness = 1e7;
-    /// Of springs (M13.13) under a unit of motion; 0 where no pair is.
-    SLIDEWAY_HD Real spring_stiffness() const {
-        Real const own = largest_own([&](int k) { return rows_[k].here; });
-        auto const some = own > Real(0.0);
-        return select(some, Real(stiffness) / select(some, own, Real(1.0)), Real(0.0));
-    }
 
     /// Loads of all pairs, put aside and back.
     SLIDEWAY_HD void keep_loads(Real (&kept)[3][pair_count], Mask<Real> in = mask_of<Real>(true)) const {

@@ -7,9 +7,9 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// Loads of pairs as of equal, very stiff springs, whose compliance ε is then made up for:
 ///   Λ = max(0, Λ⁰ + (target − γ)/ε),   T = the part within μ Λ of T⁰ − (v − hold)/ε,                                        (M13.13)
-/// first with Λ⁰ = T⁰ = 0 (but for Start::multipliers), then with what that gave, until (M13.11) holds (the method of multipliers).  Each is solved by Newton's method with
-/// the pairs that push and stick as found so far.  Where (M13.11) leaves open which pair carries what, this is the share of equal springs
-/// under a rigid slider.
+/// first with Λ⁰ = T⁰ = 0 (but for Start::multipliers), then with what that gave, until (M13.11) holds (the method of multipliers).  Each is solved by
+/// Newton's method with the pairs that push and stick as found so far.  Where (M13.11) leaves open which pair carries what, this is the share of equal
+/// springs under a rigid slider.
 template <class Real> class SpringLoads : PairMotion<Real> {
     using Base = PairMotion<Real>;
     using typename Base::Local;
@@ -65,7 +65,9 @@ private:
             normal_[k] = given ? rows_[k].normal : zero;
             for (int j = 0; j < 2; ++j) along_[j][k] = given ? rows_[k].along[j] : zero;
         }
-        stiff_ = this->spring_stiffness();
+        Real const own = this->largest_own([&](int k) { return rows_[k].here; });
+        auto const some = own > zero;
+        stiff_ = select(some, Real(Base::stiffness) / select(some, own, Real(1.0)), zero);
     }
 
     /// The linear equations of all pairs.  @return the largest change of a motion that the laws ask for at once

@@ -2,12 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <random>
 
-#include "kernels/members/complete_inputs.hpp"
-#include "kernels/rigid/free_slider.hpp"
+#include "kernels/rigid/spring_loads.hpp"
+#include "tests/support/unit_slider.hpp"
 
 namespace slideway::spring_loads_test {
 namespace {
@@ -20,24 +19,9 @@ Motion random_motion(std::mt19937_64& draw) {
     return {{next(), next(), next()}, {next(), next(), next()}};
 }
 
-/// A slider of unit mass and inertia, at rest in the middle of its way.
-struct UnitSlider {
-    RigidSliderParameters<double> p = RigidFreeSlider::parameters(inputs());
-    std::array<double, 12> state{};
-    Faults<double> faults = Faults<double>::none();
-    NoDrive::At<double> guide{0.0, state.data(), p, faults};
-    JointPairs<double> at{guide.centre(p), guide.x, guide.vx, state.data(), p, false};
-
-    static Inputs inputs() {
-        Inputs in;
-        in.slider_mass = in.slider_inertia_x = in.slider_inertia_y = in.slider_inertia_z = 1;
-        return complete_inputs(in);
-    }
-};
-
 TEST(SpringLoads, MayMissByWhatRoundingLeavesOfLargeLoads) {
     // Two pairs that press against each other hundreds of times as hard as what they bring about asks for.
-    UnitSlider const slider;
+    testing::UnitSlider const slider;
     int solved = 0, to_a_hair = 0;
     for (unsigned seed = 0; seed < 100; ++seed) {
         std::mt19937_64 draw(seed);
@@ -67,7 +51,7 @@ TEST(SpringLoads, MayMissByWhatRoundingLeavesOfLargeLoads) {
         to_a_hair += missed <= 1e-13 * size;
     }
     EXPECT_GE(solved, 95);
-    EXPECT_LT(to_a_hair, solved) << "as exactly as where loads are small";
+    EXPECT_LE(to_a_hair, 90) << "as exactly as where loads are small";
 }
 
 }  // namespace
