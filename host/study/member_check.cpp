@@ -110,6 +110,7 @@ void MemberCheck::run() {
 }
 
 void MemberCheck::take_samples(std::vector<std::size_t> const& rows) {
+    for (std::size_t const row : rows) typical_work_ += v_.study.work[row] / static_cast<double>(rows.size());
     auto const both = std::make_shared<CheckSample>(rows, v_.groups, v_.study.work, scene_.seed);
     for (CheckMethod const& method : methods_)
         samples_.push_back(method.of_exponents
@@ -130,8 +131,7 @@ std::size_t MemberCheck::affordable(std::size_t method, std::size_t wanted) cons
     // Methods that come later have their share, for one alone may err as the study does.
     bool const is_first =
         std::ranges::none_of(v_.pairs, [&](CheckPair const& pair) { return pair.method == method; });
-    double const of_a_member =
-        (is_first ? 0.5 : 1) * at_hand * methods_[method].cost * total_ / static_cast<double>(all_);
+    double const of_a_member = (is_first ? 0.5 : 1) * at_hand * methods_[method].cost * typical_work_;
     double const least = is_first ? least_members : 1, room = left_ / of_a_member,
                  share = room / static_cast<double>(methods_left);
     if (room < least) return 0;
@@ -220,7 +220,7 @@ void MemberCheck::compare() {
 
 bool MemberCheck::is_decided() const {
     return std::ranges::all_of(v_.numbers, [&](CheckedNumber const& n) {
-        return n.verdict == Verdict::resolved || n.verdict == Verdict::not_resolved ||
+        return n.verdict == Verdict::resolved || n.verdict == Verdict::not_resolved || n.is_unseen() ||
                v_.study.columns[n.column].kind == MemberNumbers::Kind::contacts;
     });
 }

@@ -72,6 +72,7 @@ private:
     ToleranceMembers const* stored_ = nullptr;
     std::uint64_t all_ = 0;
     double total_ = 0, left_ = 0, spent_ = 0;
+    double typical_work_ = 0;  // mean of the members that may run again: those that failed took less
     std::vector<std::shared_ptr<CheckSample>> samples_;  // [methods]
     std::vector<double> residuals_;
     StopRequest const nobody_;

@@ -2,6 +2,7 @@
 // and by another one, and what they differ by bounds the error of what the study says.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -69,6 +70,9 @@ struct CheckedNumber {
     std::size_t cut = 0;       // members that ran again and did not come to their end
     bool refutes_sign = false;  // of an exponent: certain in the study, and not so, or the other, here
     Verdict verdict = Verdict::undecided;
+
+    /// Nothing but rounding, in all members and in all that ran again.
+    bool is_unseen() const { return spread == 0 && error.bound <= margin && std::abs(value) <= margin; }
 };
 
 /// What is compared: a study's numbers, and those of its members that ran again.
@@ -144,7 +148,8 @@ double foreseen_check(Scene const& scene, std::optional<std::uint64_t> asked, st
 ///   resolved      x <= m
 ///   not_resolved  the mean difference is beyond chance (2 % of studies, Holm), larger than m and than 1e-4 of that scale
 ///   bounded       else: the error is at most x
-///   undecided     members were cut short, fewer than two ran again, or x is above their standard deviation and says nothing
+///   undecided     members were cut short, fewer than two ran again, x is above their standard deviation and says nothing, or the number is 0 in
+///                 all members and all that ran again, which is told and speaks against no study
 /// The energy residual of a law that keeps energy is the integration's own error, and is not compared.
 Verification verify(ResultView const& results, Scene const& scene, Backend const& backend,
                     VerificationRequest const& request);

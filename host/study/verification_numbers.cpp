@@ -149,7 +149,8 @@ Verdict verdict_of(CheckedNumber const& n) {
     return n.spread > 0 && n.error.bound > n.spread ? Verdict::undecided : Verdict::bounded;
 }
 
-/// A number in which all members are alike tells nothing by itself: those that would show it may be missing.  It is worth what the others are.
+/// A number in which all members are alike tells nothing by itself: those that would show it may be missing.  It is worth what the others are,
+/// and nothing where it is 0: what nobody has seen was not compared.
 void follow_others(std::vector<CheckedNumber>& numbers, Comparison const& c) {
     auto const is_alike = [](CheckedNumber const& n) { return n.spread == 0 && n.verdict == Verdict::resolved; };
     std::vector<Verdict> worst(c.groups.size(), Verdict::resolved);
@@ -157,7 +158,7 @@ void follow_others(std::vector<CheckedNumber>& numbers, Comparison const& c) {
         if (c.study.columns[n.column].kind != Kind::contacts && !is_alike(n)) worst[n.group] = std::max(worst[n.group], n.verdict);
     }
     for (CheckedNumber& n : numbers) {
-        if (is_alike(n)) n.verdict = std::min(worst[n.group], Verdict::undecided);
+        if (is_alike(n)) n.verdict = n.is_unseen() ? Verdict::undecided : std::min(worst[n.group], Verdict::undecided);
     }
 }
 

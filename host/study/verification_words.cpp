@@ -1,6 +1,7 @@
 // What a check comes to, and how the program says it.
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,8 +14,7 @@ namespace {
 constexpr std::size_t most_named = 5;  // members that were cut short
 
 std::size_t pairs_by(Verification const& v, std::size_t method) {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(v.pairs, [&](CheckPair const& pair) { return pair.method == method && pair.finished; }));
+    return static_cast<std::size_t>(std::ranges::count_if(v.pairs, [&](CheckPair const& pair) { return pair.method == method && pair.finished; }));
 }
 
 /// "41 members again, 24 by auto at rtol 1e-08 and 17 by verner65 at rtol 1e-08 (8.1 % of the study's work)"
@@ -26,9 +26,7 @@ std::string who_ran(Verification const& v) {
         if (method < 2 || v.orbit) ran += count;
         if (count > 0) by.push_back(fmt::format("{} by {}", count, v.methods[method]));
     }
-    std::string const again = ran == 0   ? "no member again to its end"
-                              : ran == 1 ? "1 member again"
-                                         : fmt::format("{} members again", ran);
+    std::string const again = ran == 0 ? "no member again to its end" : ran == 1 ? "1 member again" : fmt::format("{} members again", ran);
     by.insert(by.begin(), again);
     return fmt::format("{} ({:.2g} % of the study's work)", fmt::join(by, ", "), 100 * v.share);
 }
@@ -44,8 +42,7 @@ std::string who_was_cut(Verification const& v) {
         std::ranges::sort(cut);
         cut.erase(std::unique(cut.begin(), cut.end()), cut.end());
         std::size_t const named = std::min(cut.size(), most_named);
-        text += fmt::format("\n  cut short: member{} {}{}", cut.size() == 1 ? "" : "s",
-                            fmt::join(cut.begin(), cut.begin() + static_cast<std::ptrdiff_t>(named), ", "),
+        text += fmt::format("\n  cut short: member{} {}{}", cut.size() == 1 ? "" : "s", fmt::join(cut.begin(), cut.begin() + static_cast<std::ptrdiff_t>(named), ", "),
                             cut.size() > named ? fmt::format(" and {} more", cut.size() - named) : "");
     }
     for (std::size_t method = 0; method < v.cut.size(); ++method) {
@@ -55,13 +52,13 @@ std::string who_was_cut(Verification const& v) {
     return text;
 }
 
+/// A number that is not resolved because others are not, or because nobody has seen it (follow_others).
+bool follows(CheckedNumber const& n) { return n.verdict != Verdict::resolved && n.spread == 0 && n.error.bound <= n.margin; }
+
 /// How contacts end is said of nobody: it counts where it tells that something differs.
 bool counts(Verification const& v, CheckedNumber const& n) {
-    return v.study.columns[n.column].kind != MemberNumbers::Kind::contacts || n.verdict == Verdict::not_resolved;
+    return !follows(n) && (v.study.columns[n.column].kind != MemberNumbers::Kind::contacts || n.verdict == Verdict::not_resolved);
 }
-
-/// A number that is not resolved because others are not (follow_others).
-bool follows(CheckedNumber const& n) { return n.spread == 0 && n.error.bound <= n.margin; }
 
 std::string name_of(Verification const& v, CheckedNumber const& n) {
     auto const& column = v.study.columns[n.column];
@@ -88,8 +85,7 @@ std::string line_of(Verification const& v, CheckedNumber const& n) {
     } else {
         text += fmt::format(", error at most {:.2g}{}", n.error.bound, shown);
         if (n.verdict == Verdict::bounded && n.error.bound <= n.margin) text += " by one method alone";
-        if (n.verdict == Verdict::undecided)
-            text += v.orbit ? ": undecided" : ": undecided, for its members scatter by no more";
+        if (n.verdict == Verdict::undecided) text += v.orbit ? ": undecided" : ": undecided, for its members scatter by no more";
     }
     return text;
 }
@@ -99,7 +95,7 @@ std::string lines_of(Verification const& v, Verdict verdict) {
     constexpr std::size_t most = 12;
     std::vector<CheckedNumber const*> found;
     for (CheckedNumber const& n : v.numbers) {
-        if (n.verdict == verdict && counts(v, n) && !(verdict != Verdict::resolved && follows(n))) found.push_back(&n);
+        if (n.verdict == verdict && counts(v, n)) found.push_back(&n);
     }
     std::ranges::stable_sort(found, [](auto const* a, auto const* b) {
         double const x = a->error.bound / a->margin, y = b->error.bound / b->margin;
@@ -107,40 +103,43 @@ std::string lines_of(Verification const& v, Verdict verdict) {
     });
     std::string text;
     for (std::size_t i = 0; i < std::min(found.size(), most); ++i) text += line_of(v, *found[i]);
-    if (found.size() > most)
-        text += fmt::format("\n  and {} more, which the group verification of the file has", found.size() - most);
+    if (found.size() > most) text += fmt::format("\n  and {} more, which the group verification of the file has", found.size() - most);
     return text;
 }
 
-/// "resolved: crank_work, friction_loss"
-std::string names_of(Verification const& v, Verdict verdict) {
+/// "\n  resolved: crank_work; friction_loss", of the numbers that are so; nothing where none is.
+template <class IsSo> std::string names_of(Verification const& v, std::string_view what, IsSo is_so) {
     constexpr std::size_t most = 24;
     std::vector<std::string> names;
     for (CheckedNumber const& n : v.numbers) {
-        if (n.verdict == verdict && counts(v, n))
-            names.push_back(name_of(v, n));
+        if (is_so(n)) names.push_back(name_of(v, n));
     }
     if (names.empty()) return "";
     std::size_t const shown = std::min(names.size(), most);
-    return fmt::format("\n  resolved: {}{}",
-                       fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), "; "),
+    return fmt::format("\n  {}: {}{}", what, fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), "; "),
                        names.size() > shown ? fmt::format(" and {} more", names.size() - shown) : "");
+}
+
+/// Of numbers that no line of their own tells of.
+std::string rest_of(Verification const& v) {
+    std::string const resolved = names_of(v, "resolved", [&](CheckedNumber const& n) { return n.verdict == Verdict::resolved && counts(v, n); });
+    return (v.resolution == Resolution::resolved ? "" : resolved) +
+           names_of(v, "0 in all members, and in those that ran again", [&](CheckedNumber const& n) {
+               return follows(n) && n.is_unseen() && v.study.columns[n.column].kind != MemberNumbers::Kind::contacts;
+           });
 }
 
 std::string remedy(Verification const& v, Scene const& scene) {
     if (has_fixed_step(scene.integrator.method)) return "use a smaller integrator.step, or method = \"auto\"";
     double const rtol = std::min(check_tightening * scene.integrator.rtol, coarsest_check);
     std::string const tighter = fmt::format("integrator.rtol = {:.0e} and atol likewise", rtol);
-    bool const own =
-        scene.integrator.method == Method::automatic || v.methods.front().starts_with(name_of(scene.integrator.method));
+    bool const own = scene.integrator.method == Method::automatic || v.methods.front().starts_with(name_of(scene.integrator.method));
     return own ? "use " + tighter : fmt::format("use {}, or method = \"auto\"", tighter);
 }
 
 std::string energy_of(Verification const& v) {
     if (!v.energy) return "";
-    return fmt::format(
-        "\n  energy audit: the integration makes {:.2g} % of the energy of the slider's fall through its clearance in "
-        "a period of the drive{}",
+    return fmt::format("\n  energy audit: the integration makes {:.2g} % of the energy of the slider's fall through its clearance in a period of the drive{}",
         100 * v.energy->share, v.energy->is_too_much ? ": too much for exponents" : "");
 }
 
@@ -155,10 +154,8 @@ std::string orbit_words(Verification const& v) {
                     "later numbers are one orbit's of many, "
                     "so run many members",
                     orbit.parting, orbit.end)
-              : fmt::format("\n  its orbit is the same within a hundredth of the clearance over all of {:.4g} s",
-                            orbit.end);
-    if (orbit.sections > 0)
-        text += fmt::format("; {} of {} sections are the same", orbit.sections_before, orbit.sections);
+              : fmt::format("\n  its orbit is the same within a hundredth of the clearance over all of {:.4g} s", orbit.end);
+    if (orbit.sections > 0) text += fmt::format("; {} of {} sections are the same", orbit.sections_before, orbit.sections);
     return text;
 }
 
@@ -166,35 +163,29 @@ std::string orbit_words(Verification const& v) {
 std::string reach_of(Verification const& v, VerificationRequest const& request) {
     double of_spread = 0, of_interval = 0;
     for (CheckedNumber const& n : v.numbers) {
-        if (n.verdict == Verdict::resolved || !(n.spread > 0) || !(n.half_width > 0) || std::isnan(n.error.bound))
-            continue;
+        if (n.verdict == Verdict::resolved || !(n.spread > 0) || !(n.half_width > 0) || std::isnan(n.error.bound)) continue;
         of_spread = std::max(of_spread, n.error.bound / n.spread);
         of_interval = std::max(of_interval, n.error.bound / n.half_width);
     }
     if (!(of_spread > 0)) return "";
-    std::string text =
-        fmt::format("\n  the largest bound is {:.2g} of its members' standard deviation, {:.2g} of its interval",
-                    of_spread, of_interval);
+    std::string text = fmt::format("\n  the largest bound is {:.2g} of its members' standard deviation, {:.2g} of its interval", of_spread, of_interval);
     // Where orbits part, pairs are as good as independent, and a repeat of all comes to 2.58 √2/1.96 of a mean's interval.
-    if (!request.members)
-        text += "; run --verify repeats all members if need be: where orbits part, some 1.9 intervals";
+    if (!request.members) text += "; run --verify repeats all members if need be: where orbits part, some 1.9 intervals";
     return text;
 }
 
 std::string summarise(Verification const& v, Scene const& scene, VerificationRequest const& request) {
     std::string const again = who_ran(v), cut = who_was_cut(v), tail = orbit_words(v) + energy_of(v);
-    std::string const rest = names_of(v, Verdict::resolved);
+    std::string const rest = rest_of(v);
     switch (v.resolution) {
         case Resolution::resolved:
             return fmt::format("resolved: {}: the integration error of each number is below {}", again,
                                v.orbit ? "a thousandth of it" : "half its 95 % interval, or a thousandth of it") +
-                   tail;
+                   rest + tail;
         case Resolution::not_resolved:
-            return fmt::format("NOT RESOLVED by {}: {}", v.settings, again) + lines_of(v, Verdict::not_resolved) +
-                   rest + cut + tail + "\n  " + remedy(v, scene);
+            return fmt::format("NOT RESOLVED by {}: {}", v.settings, again) + lines_of(v, Verdict::not_resolved) + rest + cut + tail + "\n  " + remedy(v, scene);
         case Resolution::undecided:
-            return "undecided: " + again + lines_of(v, Verdict::undecided) + lines_of(v, Verdict::bounded) + rest +
-                   cut + reach_of(v, request) + tail;
+            return "undecided: " + again + lines_of(v, Verdict::undecided) + lines_of(v, Verdict::bounded) + rest + cut + reach_of(v, request) + tail;
         case Resolution::bounded:
         case Resolution::not_checked:
             break;
@@ -213,8 +204,10 @@ void conclude(Verification& v, Scene const& scene, VerificationRequest const& re
         v.resolution = Resolution::not_resolved;
     else if (any(Verdict::undecided) || parts)
         v.resolution = Resolution::undecided;
-    else
-        v.resolution = any(Verdict::bounded) ? Resolution::bounded : Resolution::resolved;
+    else if (any(Verdict::bounded))
+        v.resolution = Resolution::bounded;
+    else  // of numbers that are all 0 nothing was compared
+        v.resolution = any(Verdict::resolved) ? Resolution::resolved : Resolution::undecided;
     v.summary = summarise(v, scene, request);
 }
 

@@ -1,5 +1,6 @@
 """slideway.compile(): a law of one's own, in scenes of the program and of Python's process."""
 
+import fcntl
 from pathlib import Path
 
 import numpy as np
@@ -67,47 +68,39 @@ def test_a_key_that_became_another_one_is_refused_in_the_same_process(modules):
         slideway.Ensemble(scene)
 
 
-def test_signals_of_a_mechanism_are_drawn_and_summed_up_without_it(modules, program, monkeypatch):
-    yoke = SPRING.split("namespace")[0].replace("laws/kelvin_voigt", "mechanisms/scotch_yoke") + """
-namespace slideway::inline SLIDEWAY_ISA {
-struct SeenDrive : ScotchYokeDrive {
-    static constexpr Signal signals[] = {{"travel", "m", "way of the slider", statistics_of(Statistic::maximum, Statistic::mean)}};
-    static constexpr MechanismInfo info = [] {
-        auto info = ScotchYokeDrive::info;
-        info.name = "seen_yoke";
-        info.signals = signals;
-        info.has_exponents = false;
-        return info;
-    }();
-    template <class Real, class Report>
-    SLIDEWAY_FN static void put_signals(Real, Real const*, SliderParameters<Real> const&, Report const& report, Real* values) {
-        values[0] = report.x;
-    }
-};
-using SeenYoke = SpatialSlider<SeenDrive>;
-}
-#define SLIDEWAY_MECHANISM SeenYoke
-"""
-    slideway.compile(yoke, modules, isa="scalar", program=program)
-    study = {"members": 8, "duration": "5 ms", "quantities": ["max_travel", "mean_travel"], "vary": {"mechanism.crank_length": {"dist": "unif", "low": 0.04, "high": 0.06}}}
-    scene = {"schema": 1, "mechanism": {"kind": "seen_yoke"}, "contact": {"law": "conservative"}, "study": {**study, "samples": 5, "quantities": ["max_travel", "travel"]}}
-    series = slideway.run(scene, modules / "series.nc", program=program, progress=False)
+@pytest.fixture
+def motor(program, tmp_path, monkeypatch):
+    """The motor of docs/extending.md, which takes long to compile: once for all tests of a build (tests/system/own_module_fixture.hpp)."""
+    results = Path(program).resolve().parents[1] / "gtest"
+    cache = results / "cache" if results.is_dir() else tmp_path / "cache"
+    monkeypatch.setenv("XDG_CACHE_HOME", str(cache))
+    modules = cache / "slideway" / "modules"
+    modules.mkdir(parents=True, exist_ok=True)
+    with (modules / "lock").open("w") as alone:
+        fcntl.flock(alone, fcntl.LOCK_EX)
+        slideway.compile(Path(__file__).parents[2] / "tests/extending/motor_yoke.hpp", isa="scalar", program=program)
+
+
+@pytest.mark.usefixtures("motor")
+def test_signals_of_a_mechanism_are_drawn_and_summed_up_without_it(program, tmp_path, monkeypatch):
+    study = {"members": 8, "duration": "5 ms", "quantities": ["max_motor_torque", "mean_motor_power"], "vary": {"mechanism.stall_torque": {"dist": "unif", "low": 0.4, "high": 0.6}}}
+    mechanism = {"kind": "motor_yoke", "crank_speed": 0, "no_load_speed": "60 rad/s"}
+    scene = {"schema": 1, "mechanism": mechanism, "contact": {"law": "conservative"}, "study": {**study, "samples": 5, "quantities": ["max_motor_torque", "motor_torque"]}}
+    series = slideway.run(scene, tmp_path / "series.nc", program=program, progress=False)
     in_memory = slideway.Ensemble(scene).run()
     tolerance = {**scene, "study": {**study, "kind": "tolerance", "design": "lhs"}}
-    slideway.run(tolerance, modules / "tolerance.nc", program=program, progress=False)
-    np.testing.assert_array_equal(in_memory.travel.values, series.travel.values)
-    # The crank starts at its dead centre.
-    np.testing.assert_array_equal(series.max_travel.values, series.mechanism_crank_length.values)
-    for module in modules.glob("*.so"):
-        module.unlink()
-    monkeypatch.delenv("SLIDEWAY_MODULES")
-    series, spread = slideway.open(modules / "series.nc"), slideway.open(modules / "tolerance.nc")
-    assert (series.travel.dims, series.travel.units, series.travel.long_name) == (("member", "sample"), "m", "way of the slider")
-    assert (spread.max_travel.units, spread.mean_travel.long_name) == ("m", "way of the slider: time mean")
-    assert slideway.plot.time_series(series, "travel").get_ylabel().startswith("travel [")
-    assert slideway.plot.quantiles(spread, "max_travel").get_xlabel().startswith("max travel [")
-    assert spread.slideway.statistics.max_travel_mean.item() == pytest.approx(spread.max_travel.values.mean())
-    assert spread.slideway.sensitivity.max_travel_rank_correlation.item() == pytest.approx(1)
+    slideway.run(tolerance, tmp_path / "tolerance.nc", program=program, progress=False)
+    np.testing.assert_array_equal(in_memory.motor_torque.values, series.motor_torque.values)
+    # It turns from rest.
+    np.testing.assert_array_equal(series.max_motor_torque.values, series.mechanism_stall_torque.values)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "empty"))
+    series, spread = slideway.open(tmp_path / "series.nc"), slideway.open(tmp_path / "tolerance.nc")
+    assert (series.motor_torque.dims, series.motor_torque.units, series.motor_torque.long_name) == (("member", "sample"), "N m", "torque of the motor")
+    assert (spread.max_motor_torque.units, spread.mean_motor_power.long_name) == ("N m", "power of the motor: time mean")
+    assert slideway.plot.time_series(series, "motor_torque").get_ylabel().startswith("motor torque [")
+    assert slideway.plot.quantiles(spread, "max_motor_torque").get_xlabel().startswith("max motor torque [")
+    assert spread.slideway.statistics.max_motor_torque_mean.item() == pytest.approx(spread.max_motor_torque.values.mean())
+    assert spread.slideway.sensitivity.max_motor_torque_rank_correlation.item() == pytest.approx(1)
 
 
 def test_what_the_compiler_says_is_there(modules):

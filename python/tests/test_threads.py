@@ -13,7 +13,7 @@ import pytest
 import slideway
 from nbclient import NotebookClient
 
-CALLS = int(os.environ.get("SLIDEWAY_THREAD_CALLS", "60"))
+CALLS = int(os.environ.get("SLIDEWAY_THREAD_CALLS", "24"))
 
 SCENE: dict[str, Any] = {
     "schema": 1, "contact": {"law": "paper"}, "study": {"kind": "ensemble", "members": 3, "duration": "0.2 ms", "samples": 9, "quantities": ["peak_tilt", "y"],

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# example.sh CXX ROOT WORK PROGRAM NAME: what docs/extending.md shows of an example is the file here; built outside the tree by the commands of
-# the page, it prints what the page says.
+# example.sh CXX ROOT WORK PROGRAM RESULTS NAME: what docs/extending.md shows of an example is the file here; built outside the tree by the commands of
+# the page, it prints what the page says.  Modules go where other tests of this run look for them (ProgramWithOwnModules::provide_motor).
 set -euo pipefail
-cxx=$1 root=$2 work=$3/$5 program=$4 name=$5
+cxx=$1 root=$2 work=$3/$6 program=$4 results=$5 name=$6
 page=$root/docs/extending.md
 
 # The fenced block of the page that is named "<language> <name>".
@@ -22,7 +22,9 @@ for scene in $(sed -n 's/^```toml \(.*\.toml\)$/\1/p' "$page"); do block "toml $
 block "sh $name" > commands
 [ -s commands ] || { echo "docs/extending.md says no commands for $name"; exit 1; }
 g++() { "$cxx" "$@"; }
-slideway() { "$program" "$@"; }
-export SLIDEWAY=$root XDG_CACHE_HOME=$work/cache
+export SLIDEWAY=$root XDG_CACHE_HOME=$results/cache
+modules=$XDG_CACHE_HOME/slideway/modules
+mkdir -p "$modules"
+slideway() { if [ "$1" = compile ]; then flock "$modules/lock" "$program" "$@"; else "$program" "$@"; fi; }
 . ./commands | tee printed
 diff -u <(block "text $name") printed || { echo "docs/extending.md shows other output"; exit 1; }

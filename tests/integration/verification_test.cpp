@@ -186,10 +186,32 @@ TEST(Verdict, OfAYieldThatNobodyMissesKnowsThatTheNextMight) {
     EXPECT_NE(MadeUp({all, missed, Kind::limit, "1"}).checked().verdict, Verdict::resolved);
 }
 
-TEST(Verdict, OfNumbersThatAreZeroButForRoundingIsResolved) {
+/// Those that would show it may be missing, as pairs that see nothing: 0 is told, not called resolved, and speaks against no other number.
+TEST(Verdict, OfANumberThatIsZeroInAllMembersIsNone) {
     auto const own = draws(0, 1e-19, 4);
-    EXPECT_EQ(MadeUp({.own = own, .again = first(own, 40, 3e-19, 1e-19), .unit = "J"}).checked().verdict, Verdict::resolved);
+    CheckedNumber const noise = MadeUp{.own = own, .again = first(own, 40, 3e-19, 1e-19), .unit = "J"}.checked();
+    EXPECT_TRUE(noise.is_unseen()) << "but for rounding";
+    EXPECT_EQ(noise.verdict, Verdict::undecided);
     EXPECT_EQ(MadeUp({.own = own, .again = first(own, 40, 3e-8, 1e-9), .unit = "J"}).checked().verdict, Verdict::not_resolved);
+    std::vector<double> const zeros(400), ones(400, 1.0);
+    CheckedNumber const unseen = MadeUp{.own = zeros, .again = first(zeros, 40, 0, 0), .unit = "s"}.checked();
+    EXPECT_TRUE(unseen.is_unseen());
+    EXPECT_EQ(unseen.verdict, Verdict::undecided);
+    EXPECT_EQ(MadeUp({ones, first(ones, 40, 0, 0)}).checked().verdict, Verdict::resolved) << "all have it";
+
+    Verification v;
+    v.study.columns = {{"surface_time", "s", Kind::quantity, zeros}, {"loss", "J", Kind::quantity, own}};
+    v.methods = {"auto", "verner65"};
+    v.groups = {{"", std::vector<char>(400, 1)}};
+    CheckedNumber loss = MadeUp({draws(100, 10, 1), first(draws(100, 10, 1), 40)}).checked();
+    loss.column = 1;
+    v.numbers = {unseen, loss};
+    conclude(v, scene(), {});
+    EXPECT_EQ(v.resolution, Resolution::resolved);
+    EXPECT_NE(v.summary.find("0 in all members, and in those that ran again: surface_time"), std::string::npos) << v.summary;
+    v.numbers = {unseen};
+    conclude(v, scene(), {});
+    EXPECT_EQ(v.resolution, Resolution::undecided) << "nothing was compared";
 }
 
 TEST(Verdict, RefutesASignThatOnlyTheStudyIsCertainOf) {

@@ -3,7 +3,7 @@
 namespace slideway::testing::kill_test {
 namespace {
 
-TEST_F(KilledRun, GoesOnWhereItWas) { kill_and_resume(12, {"--threads", "2", "--block-members", "8"}); }
+TEST_F(KilledRun, GoesOnWhereItWas) { kill_and_resume(6, {"--threads", "2", "--block-members", "8"}); }
 
 TEST_F(KilledRun, KeepsWhatItFinishedWhenItIsAskedToStop) {
     std::string const hash = undisturbed_hash();

@@ -29,15 +29,19 @@ protected:
     }
 
     /// The motor of docs/extending.md in the folder `own`.  It takes long to compile: the first test that asks does it for all of a call of
-    /// scripts/test.sh, or for this version of the kernels.
+    /// scripts/test.sh, or for this version of the kernels; example.sh and Python's test_modules.py among them.
     void provide_motor() const {
         namespace fs = std::filesystem;
-        fs::path const common = fs::path(SLIDEWAY_TEST_RESULTS) / "modules";
+        fs::path const common = fs::path(SLIDEWAY_TEST_RESULTS) / "cache/slideway/modules";
         fs::create_directories(common);
         FileLock const alone(common / "lock", FileLock::Kind::alone, FileLock::Wait::yes);
         Outcome const outcome = run({"compile", SLIDEWAY_SOURCE "/tests/extending/motor_yoke.hpp", "-o", common, "--isa", fmt::format("{}", fmt::join(best_and_scalar(), ","))});
         ASSERT_EQ(outcome.code, 0) << outcome.err;
-        fs::copy(common, path("own"));
+        fs::create_directory(path("own"));
+        for (std::string const& isa : best_and_scalar()) {
+            std::string const name = fmt::format("slideway_mechanism_motor_yoke_{}.so", isa);
+            fs::copy(common / name, path("own") / name);
+        }
     }
 };
 
