@@ -231,7 +231,7 @@ TEST(Scenes, AreNeverAccused) {
                 testing::RunOptions o;
                 o.parts = scene.parts;
                 o.settings = scene.integrator;
-                o.settings.end_time = std::min(o.settings.end_time, 0.1);
+                o.settings.end_time = std::min(o.settings.end_time, 0.05);
                 o.quantities = scene.quantities | audit;
                 std::vector<Inputs> members;
                 for (std::uint64_t i = 0; i < std::min<std::uint64_t>(scene.members, 16); ++i) {

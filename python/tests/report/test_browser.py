@@ -10,11 +10,13 @@ import xarray as xr
 from slideway import report
 
 from .browser import Browser, Seen
+from .conftest import slow
 from .test_page import SUITED, hostile
 
 Looks = Callable[..., Seen]
 
-@pytest.mark.parametrize("name", ["ensemble", "lyapunov", "poincare", "sweep", "tolerance", "stored", "failing"])
+
+@pytest.mark.parametrize("name", ["ensemble", "sweep", "tolerance", "stored", *slow("lyapunov", "poincare", "failing")])
 def test_a_page_draws_all_its_plots_and_fetches_nothing(name: str, seen_of: Looks) -> None:
     seen = seen_of(name)
     assert seen.complaints == []
@@ -60,7 +62,7 @@ def test_a_page_follows_the_readers_colours(dark: bool, seen_of: Looks) -> None:
     assert (found["label"] > 0.7) == dark
 
 
-@pytest.mark.parametrize("name", ["ensemble", "failing"])
+@pytest.mark.parametrize("name", ["ensemble", *slow("failing")])
 def test_a_page_fits_a_phone(name: str, seen_of: Looks) -> None:
     found = seen_of(name, width=390).found["plots"]
     assert found["overflow"] <= 0
