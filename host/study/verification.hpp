@@ -72,7 +72,9 @@ struct CheckedNumber {
     Verdict verdict = Verdict::undecided;
 
     /// Nothing but rounding, in all members and in all that ran again.
-    bool is_unseen() const { return spread == 0 && error.bound <= margin && std::abs(value) <= margin; }
+    bool is_unseen() const { return agrees_as_all_do() && std::abs(value) <= margin; }
+    /// All members are alike, and those that ran again, by each method, are so too.
+    bool agrees_as_all_do() const { return spread == 0 && two_methods && cut == 0 && error.bound <= margin; }
 };
 
 /// What is compared: a study's numbers, and those of its members that ran again.

@@ -53,7 +53,7 @@ std::string who_was_cut(Verification const& v) {
 }
 
 /// A number that is not resolved because others are not, or because nobody has seen it (follow_others).
-bool follows(CheckedNumber const& n) { return n.verdict != Verdict::resolved && n.spread == 0 && n.error.bound <= n.margin; }
+bool follows(CheckedNumber const& n) { return n.verdict != Verdict::resolved && n.agrees_as_all_do(); }
 
 /// How contacts end is said of nobody: it counts where it tells that something differs.
 bool counts(Verification const& v, CheckedNumber const& n) {
@@ -124,7 +124,7 @@ template <class IsSo> std::string names_of(Verification const& v, std::string_vi
 std::string rest_of(Verification const& v) {
     std::string const resolved = names_of(v, "resolved", [&](CheckedNumber const& n) { return n.verdict == Verdict::resolved && counts(v, n); });
     return (v.resolution == Resolution::resolved ? "" : resolved) +
-           names_of(v, "0 in all members, and in those that ran again", [&](CheckedNumber const& n) {
+           names_of(v, "0 in all members that were looked at, and in those that ran again", [&](CheckedNumber const& n) {
                return follows(n) && n.is_unseen() && v.study.columns[n.column].kind != MemberNumbers::Kind::contacts;
            });
 }
@@ -186,9 +186,7 @@ std::string summarise(Verification const& v, Scene const& scene, VerificationReq
             return fmt::format("NOT RESOLVED by {}: {}", v.settings, again) + lines_of(v, Verdict::not_resolved) + rest + cut + tail + "\n  " + remedy(v, scene);
         case Resolution::undecided:
             return "undecided: " + again + lines_of(v, Verdict::undecided) + lines_of(v, Verdict::bounded) + rest + cut + reach_of(v, request) + tail;
-        case Resolution::bounded:
-        case Resolution::not_checked:
-            break;
+        case Resolution::bounded: case Resolution::not_checked: break;
     }
     return "error bounded, not resolved: " + again + lines_of(v, Verdict::bounded) + rest + cut + reach_of(v, request) + tail;
 }
@@ -206,8 +204,8 @@ void conclude(Verification& v, Scene const& scene, VerificationRequest const& re
         v.resolution = Resolution::undecided;
     else if (any(Verdict::bounded))
         v.resolution = Resolution::bounded;
-    else  // of numbers that are all 0 nothing was compared
-        v.resolution = any(Verdict::resolved) ? Resolution::resolved : Resolution::undecided;
+    else  // of numbers that are all 0 nothing was compared, but of one orbit its course
+        v.resolution = v.orbit || any(Verdict::resolved) ? Resolution::resolved : Resolution::undecided;
     v.summary = summarise(v, scene, request);
 }
 

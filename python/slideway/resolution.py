@@ -31,7 +31,7 @@ class Resolution:
     numbers: xr.Dataset = field(default_factory=xr.Dataset, repr=False)
 
     def __bool__(self) -> bool:
-        """Whether every number is resolved."""
+        """Whether every number is resolved, but those that are 0 in all members."""
         return self.verdict == "resolved"
 
 

@@ -208,10 +208,19 @@ TEST(Verdict, OfANumberThatIsZeroInAllMembersIsNone) {
     v.numbers = {unseen, loss};
     conclude(v, scene(), {});
     EXPECT_EQ(v.resolution, Resolution::resolved);
-    EXPECT_NE(v.summary.find("0 in all members, and in those that ran again: surface_time"), std::string::npos) << v.summary;
+    EXPECT_NE(v.summary.find("0 in all members that were looked at, and in those that ran again: surface_time"), std::string::npos) << v.summary;
     v.numbers = {unseen};
     conclude(v, scene(), {});
     EXPECT_EQ(v.resolution, Resolution::undecided) << "nothing was compared";
+    v.orbit = OrbitCheck{1, std::numeric_limits<double>::infinity()};
+    conclude(v, scene(), {});
+    EXPECT_EQ(v.resolution, Resolution::resolved) << "its orbit was";
+    // What one method alone has seen, or not to its end, is neither.
+    MadeUp alone{.own = zeros, .again = first(zeros, 40, 0, 0), .unit = "s"};
+    alone.cut = {3};
+    EXPECT_FALSE(alone.checked().is_unseen());
+    for (std::size_t odd = 1; odd < 40; odd += 2) alone.cut.push_back(odd);
+    EXPECT_FALSE(alone.checked().is_unseen());
 }
 
 TEST(Verdict, RefutesASignThatOnlyTheStudyIsCertainOf) {

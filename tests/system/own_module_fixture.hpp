@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "host/backend/backend.hpp"
+#include "host/backend/module_files.hpp"
 #include "host/base/file_lock.hpp"
 #include "tests/system/results.hpp"
 
@@ -32,15 +33,18 @@ protected:
     /// scripts/test.sh, or for this version of the kernels; example.sh and Python's test_modules.py among them.
     void provide_motor() const {
         namespace fs = std::filesystem;
-        fs::path const common = fs::path(SLIDEWAY_TEST_RESULTS) / "cache/slideway/modules";
+        fs::path const cache = fs::path(SLIDEWAY_TEST_RESULTS) / "cache", common = cache / "slideway/modules";
         fs::create_directories(common);
         FileLock const alone(common / "lock", FileLock::Kind::alone, FileLock::Wait::yes);
-        Outcome const outcome = run({"compile", SLIDEWAY_SOURCE "/tests/extending/motor_yoke.hpp", "-o", common, "--isa", fmt::format("{}", fmt::join(best_and_scalar(), ","))});
+        setenv("XDG_CACHE_HOME", cache.c_str(), 1);
+        Outcome const outcome = run({"compile", SLIDEWAY_SOURCE "/tests/extending/motor_yoke.hpp", "--isa", fmt::format("{}", fmt::join(best_and_scalar(), ","))});
+        fs::path const modules = user_module_folder();
+        setenv("XDG_CACHE_HOME", path("cache").c_str(), 1);
         ASSERT_EQ(outcome.code, 0) << outcome.err;
         fs::create_directory(path("own"));
         for (std::string const& isa : best_and_scalar()) {
             std::string const name = fmt::format("slideway_mechanism_motor_yoke_{}.so", isa);
-            fs::copy(common / name, path("own") / name);
+            fs::copy(modules / name, path("own") / name);
         }
     }
 };

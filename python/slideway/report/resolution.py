@@ -12,7 +12,7 @@ GRADES = {"resolved": "good", "error_bounded": "none", "undecided": "none", "not
 HEADLINES = {
     "resolved": "Resolved: the integration error is below the study's own intervals",
     "error_bounded": "Integration error bounded: larger than the study's own intervals may be",
-    "undecided": "Resolution undecided: too few members ran again, or some of them did not come to their end",
+    "undecided": "Resolution undecided: too few members ran again, some did not come to their end, or all numbers are 0",
     "not_resolved": "Not resolved: tighter tolerances say something else",
     "not_checked": "Not checked against tighter tolerances",
 }
