@@ -68,7 +68,7 @@ def _bound(number: xr.Dataset) -> str:
     verdict, bound, value = (number[name].item() for name in ("verdict", "error_bound", "number"))
     if verdict == "resolved":
         return "resolved"
-    if verdict == "undecided" and value == number["number_sd"].item() == bound == 0:
+    if verdict == "undecided" and value == bound == 0:
         return "0 in all members"
     share = 100 * bound / abs(value) if value else np.inf
     words = f"{share:.{0 if share >= 10 else 1}f} %" if np.isfinite(share) else "unknown"

@@ -59,14 +59,14 @@ def test_a_loop_of_poses_gives_work_under_the_published_law_alone(made: dict[str
 
 
 def test_errors_are_told_as_shares_of_their_numbers_with_the_verdict_where_it_is_another(monkeypatch: pytest.MonkeyPatch) -> None:
-    names = ["landings [1]", "loss [J]", "flight [s]", "rest [s]"]
-    verdicts = ["error_bounded", "resolved", "undecided", "not_resolved"]
-    values = {"number": [40.0, 1.0, -2.0, 0.5], "error_bound": [2.0, 0.001, 3.0, 0.1]}
+    names = ["landings [1]", "loss [J]", "flight [s]", "rest [s]", "lines [s]"]
+    verdicts = ["error_bounded", "resolved", "undecided", "not_resolved", "undecided"]
+    values = {"number": [40.0, 1.0, -2.0, 0.5, 0.0], "error_bound": [2.0, 0.001, 3.0, 0.1, 0.0]}
     numbers = xr.Dataset(
         {name: (("members_of", "checked"), [row]) for name, row in {**values, "verdict": verdicts}.items()},
         {"members_of": ["all members"], "checked": names},
     )
     said = slideway.Resolution("not_resolved", "", numbers)
     monkeypatch.setattr(slideway, "resolution", lambda path: said)
-    assert resolution(Path("any"), "landings", "loss", "flight", "rest") == "5.0 %; resolved; 150 % (undecided); 20 % (not resolved)"
+    assert resolution(Path("any"), "landings", "loss", "flight", "rest", "lines") == "5.0 %; resolved; 150 % (undecided); 20 % (not resolved); 0 in all members"
     assert resolution(Path("any")) == "not resolved"
