@@ -152,7 +152,7 @@ Verdict verdict_of(CheckedNumber const& n) {
 /// A number in which all members are alike tells nothing by itself: those that would show it may be missing.  It is worth what the others are,
 /// and nothing where it is 0: what nobody has seen was not compared.
 void follow_others(std::vector<CheckedNumber>& numbers, Comparison const& c) {
-    auto const is_alike = [](CheckedNumber const& n) { return n.spread == 0 && n.verdict == Verdict::resolved; };
+    auto const is_alike = [](CheckedNumber const& n) { return n.verdict == Verdict::resolved && n.agrees_as_all_do(); };
     std::vector<Verdict> worst(c.groups.size(), Verdict::resolved);
     for (CheckedNumber const& n : numbers) {
         if (c.study.columns[n.column].kind != Kind::contacts && !is_alike(n)) worst[n.group] = std::max(worst[n.group], n.verdict);
