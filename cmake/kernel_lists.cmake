@@ -1,12 +1,10 @@
 # The lists that say which contact laws and mechanisms there are: kernels/laws/list.hpp and kernels/mechanisms/list.hpp.  From them:
 #   SLIDEWAY_LAW_NAMES, SLIDEWAY_MECHANISM_NAMES   as in the scene; the header of each is kernels/<kind>/<name>.hpp
 #   SLIDEWAY_LAW_TYPE_<name>, SLIDEWAY_MECHANISM_TYPE_<name>, SLIDEWAY_MECHANISM_BASE_<name>
-#   SLIDEWAY_RIGID_NAMES, SLIDEWAY_RIGID_TYPE_<name>   likewise, of kernels/rigid/list.hpp: mechanisms whose contacts may be rigid;
-#   SLIDEWAY_RIGID_BASE_<name>                     Shadowed where their members may have shadows
 #   SLIDEWAY_MECHANISM_BASES                       each once
 #   generated/kernels/all_laws.hpp, generated/kernels/all_mechanisms.hpp   which include them all
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/kernels/laws/list.hpp
-    ${PROJECT_SOURCE_DIR}/kernels/mechanisms/list.hpp ${PROJECT_SOURCE_DIR}/kernels/rigid/list.hpp)
+    ${PROJECT_SOURCE_DIR}/kernels/mechanisms/list.hpp)
 
 # slideway_read_list(<folder> <prefix>): the rows of kernels/<folder>/list.hpp.
 function(slideway_read_list folder prefix)
@@ -41,4 +39,3 @@ endfunction()
 
 slideway_read_list(laws SLIDEWAY_LAW)
 slideway_read_list(mechanisms SLIDEWAY_MECHANISM)
-slideway_read_list(rigid SLIDEWAY_RIGID)

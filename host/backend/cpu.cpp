@@ -9,7 +9,6 @@
 #include "host/backend/own_modules.hpp"
 #include "kernels/laws/list.hpp"
 #include "kernels/mechanisms/list.hpp"
-#include "kernels/rigid/list.hpp"
 
 namespace slideway {
 
@@ -113,14 +112,14 @@ std::span<Isa const> built_isas() {
 
 namespace {
 
-/// Of rigid contacts every mechanism is a module, and its members with shadows are another: nothing else takes as long to compile.
+/// Of rigid contacts the mechanisms of a base are a module, and their members with shadows are another: nothing else takes as long to compile.
 MechanismKernels const& rigid_kernels(Isa isa, Mechanism mechanism, bool shadows) {
-    std::string name;
-#define SLIDEWAY_MODULE(of, ...) if (mechanism == Mechanism::of) name = #of;
-    SLIDEWAY_RIGID(SLIDEWAY_MODULE)
-#undef SLIDEWAY_MODULE
-    if (name.empty()) throw std::invalid_argument("find_instance: the mechanism of these parts has no rigid contacts");
-    return module_kernels("rigid_" + name + (shadows ? "_shadowed_" : "_") + std::string(name_of(isa)));
+    std::string base;
+#define SLIDEWAY_BASE_OF(name, Type, Base) if (mechanism == Mechanism::name) base = #Base;
+    SLIDEWAY_MECHANISMS(SLIDEWAY_BASE_OF)
+#undef SLIDEWAY_BASE_OF
+    if (base.empty()) throw std::invalid_argument("find_instance: the mechanism of these parts has no rigid contacts");
+    return module_kernels("rigid_" + base + (shadows ? "_shadowed_" : "_") + std::string(name_of(isa)));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 namespace slideway {
 
-/// The kernels of a module, by the name of its file without `slideway_` and `.so`: `rigid_slider_crank_avx512`.  Opened once; from several threads.
+/// The kernels of a module, by the name of its file without `slideway_` and `.so`: `rigid_SliderBase_avx512`.  Opened once; from several threads.
 /// @throws DeviceError if there is none of the program's own sources
 MechanismKernels const& module_kernels(std::string const& name);
 

@@ -8,10 +8,7 @@
 #include "kernels/all_mechanisms.hpp"
 #include "kernels/laws/list.hpp"
 #include "kernels/mechanisms/list.hpp"
-#include "kernels/laws/list.hpp"
-#include "kernels/mechanisms/list.hpp"
 #include "kernels/members/start.hpp"
-#include "kernels/rigid/list.hpp"
 
 namespace slideway {
 namespace {
@@ -139,12 +136,7 @@ std::span<std::string_view const> contact_law_names() {
     return names();
 }
 
-bool may_be_rigid(Mechanism mechanism) {
-#define SLIDEWAY_IS(name, ...) if (mechanism == Mechanism::name) return true;
-    SLIDEWAY_RIGID(SLIDEWAY_IS)
-#undef SLIDEWAY_IS
-    return false;
-}
+bool may_be_rigid(Mechanism mechanism) { return static_cast<std::size_t>(mechanism) < std::size(mechanism_infos); }
 
 bool has_contact_law(Mechanism mechanism) { return info(mechanism).spatial || may_be_rigid(mechanism); }
 

@@ -1,11 +1,14 @@
 #pragma once
 
+#include "kernels/block.hpp"
 #include "kernels/inputs.hpp"
 #include "kernels/joint/apex.hpp"
 #include "kernels/joint/joint_gaps.hpp"
+#include "kernels/math/tangent.hpp"
 #include "kernels/mechanisms/faults.hpp"
 #include "kernels/observers/energy_audit.hpp"
 #include "kernels/real.hpp"
+#include "kernels/rigid/guide_functions.hpp"
 #include "kernels/rigid/joint_offset.hpp"
 #include "kernels/rigid/joint_pairs.hpp"
 #include "kernels/rigid/joint_watch.hpp"
@@ -17,13 +20,11 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-template <class Real> struct RigidSliderParameters : SliderParameters<Real> { Real restitution; };
-
 /// A slider whose hole and way are rigid (docs/model.md 13), as the lanes integrate it: apices fly, meet their faces in impacts without duration (`settle`), and
-/// push as long as they last.
-/// @tparam Guide what moves the slider along the way (kernels/mechanisms/spatial_slider.hpp)
-template <class Guide> struct RigidSlider : Guide::Base {
-    using Base = typename Guide::Base;
+/// push as long as they last.  What guides it along the way is looked up: the lanes are compiled once for all mechanisms of a base.
+/// @tparam Base_ of the mechanism's row in mechanisms/list.hpp
+template <class Number, class Base_> struct RigidSlider : Base_ {
+    using Base = Base_;
     template <class Real> using Parameters = RigidSliderParameters<Real>;
     template <class Real> using Report = RigidSliderReport<Real>;
     template <class Real> using Memory = RigidJointMemory<Real>;
@@ -39,24 +40,17 @@ template <class Guide> struct RigidSlider : Guide::Base {
     static constexpr bool has_patterns = true;
     static constexpr bool has_linearisation = false;
 
-    bool friction = false, misaligned_way = false;
-    double slip_units = 1;          // slip scales
-    bool integrands_alone = false;  // reports tell what is integrated, and nothing else
+    RigidConditions block;
+    GuideFunctions<Number> const* guide;
+    GuideFunctions<Tangent<Number>> const* sloped_guide;  // of members with shadows, else nullptr
 
-    explicit constexpr RigidSlider(Parts const& parts) : friction(parts.friction), misaligned_way(parts.misaligned_way) {}
+    constexpr RigidSlider(Parts const& parts, GuideFunctions<Number> const& guide, GuideFunctions<Tangent<Number>> const* sloped_guide = nullptr)
+        : block{parts.friction, parts.misaligned_way}, guide(&guide), sloped_guide(sloped_guide) {}
 
-    /// Of a member; what a law needs of its restitution is not worked out.
-    SLIDEWAY_FN static RigidSliderParameters<double> parameters(Inputs in) {
-        RigidSliderParameters<double> p;
-        p.restitution = in.restitution;
-        in.restitution = 1;
-        static_cast<SliderParameters<double>&>(p) = Base::parameters(in);
-        return p;
-    }
-
+    RigidSliderParameters<double> parameters(Inputs const& in) const { return guide->parameters(in); }
     /// A slider without a drive has no speed that slips are to be seen against.
-    SLIDEWAY_HD void set_tolerance(double rtol) { slip_units = Base::size > state_size ? 1.0 : slip_unit(rtol); }
-    SLIDEWAY_HD void tell_integrands_alone(bool alone) { integrands_alone = alone; }
+    SLIDEWAY_HD void set_tolerance(double rtol) { block.slip_units = Base::size > state_size ? 1.0 : slip_unit(rtol); }
+    SLIDEWAY_HD void tell_integrands_alone(bool alone) { block.integrands_alone = alone; }
     static constexpr bool switches() { return false; }
     static constexpr Watching watching(bool, bool) { return Watching::touches; }
 
@@ -79,8 +73,8 @@ template <class Guide> struct RigidSlider : Guide::Base {
     SLIDEWAY_FN Real gap(Real t, Real const* s, RigidSliderParameters<Real> const& p, bool z_faces, int apex) const {
         Real const zero(0.0);
         Vec3<Real> const still{zero, zero, zero};
-        auto const pose = joint_motion(misaligned_way, axes(attitude(s[4], s[5], s[6])), Vec3<Real>{Guide::along(t, s, p), s[0], s[1]}, still,
-                                       still, p.joint.way);
+        auto const pose = joint_motion(block.misaligned_way, axes(attitude(s[4], s[5], s[6])), Vec3<Real>{guide_of<Real>().along(t, s, p), s[0], s[1]},
+                                       still, still, p.joint.way);
         return negated(penetration(pose, p.joint.geometry, Apex{z_faces, apex}));
     }
     /// The bit of an apex and its Y or Z face among those that an impact `met`.
@@ -95,31 +89,10 @@ template <class Guide> struct RigidSlider : Guide::Base {
         return slideway::left_stable_range(audit, Base::energy_scale(p));
     }
 
-    /// Time derivative of the state.  @param report filled if Full; the derivative has the same bits without.
     template <bool Full, class Real>
-    SLIDEWAY_NOINLINE Faults<Real> derivative(Real t, Real const* s, RigidSliderParameters<Real> const& p, RigidJointMemory<Real> const& memory,
-                                              Real* rates, RigidSliderReport<Real>* report) const {
-        auto faults = Faults<Real>::none();
-        typename Guide::template At<Real> const guide(t, s, p, faults);
-        JointPairs<Real> const at(guide.centre(p), guide.x, guide.vx, s, p, misaligned_way);
-        RigidJointContact<Real>* contact = nullptr;
-        if constexpr (Full) contact = &report->contact;
-        auto const on = joint(at, p).forces(memory, contact, integrands_alone);
-        auto acceleration = guide.accelerations(on.force, p);
-        rates[0] = s[2];
-        rates[1] = s[3];
-        rates[2] = acceleration.y;
-        rates[3] = acceleration.z;
-        at.turning.put_rates(on.torque, at.motion.axes, p.inertia, p.inverse_inertia, rates);
-        guide.put_rates(acceleration, rates);
-        rates[9] = select(on.jammed, Real(not_a_number), rates[9]);
-        if constexpr (Full) {
-            Vec3<Real> const centre{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
-            guide.tell({centre, velocity, acceleration}, at.turning, on.force, p, false, *report);
-        }
-        faults.contact_domain = on.jammed;
-        faults.geometry = faults.geometry | ((memory.begun == Real(0.0)) & (on.deepest > Real(1e-6) * p.length_scale_y));
-        return faults;
+    Faults<Real> derivative(Real t, Real const* s, RigidSliderParameters<Real> const& p, RigidJointMemory<Real> const& memory,
+                            Real* rates, RigidSliderReport<Real>* report) const {
+        return (Full ? guide_of<Real>().full : guide_of<Real>().lean)(t, s, p, memory, block, rates, report);
     }
 
     /// What the watch sees of a state, without its forces.  @param contact its depths, rates and slips are filled in
@@ -127,7 +100,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
     SLIDEWAY_NOINLINE void see(Real t, Real const* s, RigidSliderParameters<Real> const& p, RigidJointMemory<Real> const& memory,
                                RigidJointContact<Real>& contact) const {
         auto const at = place(t, s, p);
-        joint(at, p).see(memory, contact);
+        block.joint(at, p).see(memory, contact);
     }
 
     /// What follows from where a step has ended: impacts, and pairs that begin or cease to last.
@@ -139,11 +112,11 @@ template <class Guide> struct RigidSlider : Guide::Base {
         keep_loads(in, contact.loads, memory.loads);
         Real const where = located(p, end);
         Mask<Real> event;
-        auto const changed = RigidJoint<Real>::find(in, memory, contact, where, RigidJoint<Real>::least_speed(p), friction, event);
+        auto const changed = RigidJoint<Real>::find(in, memory, contact, where, RigidJoint<Real>::least_speed(p), block.friction, event);
         if (none(event)) return changed;
         auto const at = place(t, s, p);
         auto velocity = at.velocity;
-        joint(at, p).settle(event, t, end, where, p.restitution, memory, contact, velocity);
+        block.joint(at, p).settle(event, t, end, where, p.restitution, memory, contact, velocity);
         put_velocity(event, velocity, s);
         return changed;
     }
@@ -173,7 +146,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
         auto const at = place(t, free, p);
         auto velocity = at.velocity;
         Mask<Real> touching;
-        auto const failed = joint(at, p).push(h, (changed(2) + changed(3)) + of_apices, place(t, s, p).velocity, p.restitution, contact, velocity, touching);
+        auto const failed = block.joint(at, p).push(h, (changed(2) + changed(3)) + of_apices, place(t, s, p).velocity, p.restitution, contact, velocity, touching);
         put_velocity(touching, velocity, free);
         return failed;
     }
@@ -182,7 +155,7 @@ template <class Guide> struct RigidSlider : Guide::Base {
     template <class Real>
     SLIDEWAY_NOINLINE void keep_offset(Mask<Real> in, Tangent<Real> const& t, Tangent<Real>* s, RigidSliderParameters<Tangent<Real>> const& p,
                                        RigidJointMemory<Tangent<Real>> const& memory) const {
-        JointOffset<Real> const offset(in, memory, p, friction);
+        JointOffset<Real> const offset(in, memory, p, block.friction);
         if (none(offset.any())) return;
         offset.keep_place(place(t, s, p), s);
         offset.keep_velocity(place(t, s, p), s);
@@ -195,13 +168,12 @@ template <class Guide> struct RigidSlider : Guide::Base {
     }
 
 private:
-    template <class Real> SLIDEWAY_FN JointPairs<Real> place(Real t, Real const* s, RigidSliderParameters<Real> const& p) const {
-        auto faults = Faults<Real>::none();
-        typename Guide::template At<Real> const guide(t, s, p, faults);
-        return {guide.centre(p), guide.x, guide.vx, s, p, misaligned_way};
+    template <class Real> constexpr GuideFunctions<Real> const& guide_of() const {
+        if constexpr (is_tangent<Real>) return *sloped_guide;
+        else return *guide;
     }
-    template <class Real> SLIDEWAY_FN RigidJoint<Real> joint(JointPairs<Real> const& at, RigidSliderParameters<Real> const& p) const {
-        return {at, p, friction, Real(slip_units) * slip_scale(p)};
+    template <class Real> JointPairs<Real> place(Real t, Real const* s, RigidSliderParameters<Real> const& p) const {
+        return guide_of<Real>().place(t, s, p, block.misaligned_way);
     }
 
     template <class Real> SLIDEWAY_FN static void put_velocity(Mask<Real> in, Twist<Real> const& velocity, Real* s) {

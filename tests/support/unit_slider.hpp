@@ -4,7 +4,7 @@
 #include <array>
 
 #include "kernels/members/complete_inputs.hpp"
-#include "kernels/rigid/free_slider.hpp"
+#include "tests/support/rigid_free_slider.hpp"
 
 namespace slideway::testing {
 

@@ -8,8 +8,8 @@
 
 #include "kernels/mechanisms/list.hpp"
 #include "kernels/members/complete_inputs.hpp"
-#include "kernels/rigid/free_slider.hpp"
 #include "kernels/rigid/planar_slider_crank.hpp"
+#include "tests/support/rigid_free_slider.hpp"
 
 namespace slideway::impact_books_test {
 namespace {

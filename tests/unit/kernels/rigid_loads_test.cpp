@@ -7,7 +7,7 @@
 
 #include "kernels/mechanisms/list.hpp"
 #include "kernels/members/complete_inputs.hpp"
-#include "kernels/rigid/free_slider.hpp"
+#include "tests/support/rigid_free_slider.hpp"
 
 namespace slideway::rigid_loads_test {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "kernels/rigid/free_slider.hpp"
+#include "tests/support/rigid_free_slider.hpp"
 #include "tests/support/rigid_joint.hpp"
 
 namespace slideway::rigid_settlement_test {

@@ -9,7 +9,7 @@
 
 #include "kernels/math/tangent.hpp"
 #include "kernels/members/complete_inputs.hpp"
-#include "kernels/rigid/free_slider.hpp"
+#include "tests/support/rigid_free_slider.hpp"
 
 namespace slideway::rigid_slopes_test {
 namespace {

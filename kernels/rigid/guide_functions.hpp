@@ -1,0 +1,90 @@
+#pragma once
+
+#include "kernels/inputs.hpp"
+#include "kernels/mechanisms/faults.hpp"
+#include "kernels/mechanisms/slider_parameters.hpp"
+#include "kernels/real.hpp"
+#include "kernels/rigid/joint_pairs.hpp"
+#include "kernels/rigid/rigid_joint.hpp"
+#include "kernels/rigid/rigid_memory.hpp"
+#include "kernels/rigid/rigid_scales.hpp"
+#include "kernels/rigid/rigid_slider_report.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+template <class Real> struct RigidSliderParameters : SliderParameters<Real> { Real restitution; };
+
+/// What a scene chooses of rigid contacts.
+struct RigidConditions {
+    bool friction = false, misaligned_way = false;
+    double slip_units = 1;          // slip scales
+    bool integrands_alone = false;  // reports tell what is integrated, and nothing else
+
+    template <class Real> SLIDEWAY_FN RigidJoint<Real> joint(JointPairs<Real> const& at, RigidSliderParameters<Real> const& p) const {
+        return {at, p, friction, Real(slip_units) * slip_scale(p)};
+    }
+};
+
+/// What of a slider with rigid contacts depends on what guides it along the way, behind pointers.
+template <class Real> struct GuideFunctions {
+    using Parameters = RigidSliderParameters<Real>;
+    using Derivative = Faults<Real>(Real, Real const*, Parameters const&, RigidJointMemory<Real> const&, RigidConditions const&, Real*, RigidSliderReport<Real>*);
+
+    RigidSliderParameters<double> (*parameters)(Inputs);
+    Derivative* lean;
+    Derivative* full;
+    JointPairs<Real> (*place)(Real, Real const*, Parameters const&, bool misaligned_way);
+    Real (*along)(Real, Real const*, Parameters const&);
+};
+
+/// @tparam Guide what moves the slider along the way (kernels/mechanisms/spatial_slider.hpp)
+template <class Guide> struct RigidGuide {
+    /// Of a member; what a law needs of its restitution is not worked out.
+    SLIDEWAY_FN static RigidSliderParameters<double> parameters(Inputs in) {
+        RigidSliderParameters<double> p;
+        p.restitution = in.restitution;
+        in.restitution = 1;
+        static_cast<SliderParameters<double>&>(p) = Guide::Base::parameters(in);
+        return p;
+    }
+
+    template <class Real> static JointPairs<Real> place(Real t, Real const* s, RigidSliderParameters<Real> const& p, bool misaligned_way) {
+        auto faults = Faults<Real>::none();
+        typename Guide::template At<Real> const guide(t, s, p, faults);
+        return {guide.centre(p), guide.x, guide.vx, s, p, misaligned_way};
+    }
+
+    /// Time derivative of the state.  @param report filled if Full; the derivative has the same bits without.
+    template <bool Full, class Real>
+    static Faults<Real> derivative(Real t, Real const* s, RigidSliderParameters<Real> const& p, RigidJointMemory<Real> const& memory,
+                                   RigidConditions const& block, Real* rates, RigidSliderReport<Real>* report) {
+        auto faults = Faults<Real>::none();
+        typename Guide::template At<Real> const guide(t, s, p, faults);
+        JointPairs<Real> const at(guide.centre(p), guide.x, guide.vx, s, p, block.misaligned_way);
+        RigidJointContact<Real>* contact = nullptr;
+        if constexpr (Full) contact = &report->contact;
+        auto const on = block.joint(at, p).forces(memory, contact, block.integrands_alone);
+        auto acceleration = guide.accelerations(on.force, p);
+        rates[0] = s[2];
+        rates[1] = s[3];
+        rates[2] = acceleration.y;
+        rates[3] = acceleration.z;
+        at.turning.put_rates(on.torque, at.motion.axes, p.inertia, p.inverse_inertia, rates);
+        guide.put_rates(acceleration, rates);
+        rates[9] = select(on.jammed, Real(not_a_number), rates[9]);
+        if constexpr (Full) {
+            Vec3<Real> const centre{guide.x, s[0], s[1]}, velocity{guide.vx, s[2], s[3]};
+            guide.tell({centre, velocity, acceleration}, at.turning, on.force, p, false, *report);
+        }
+        faults.contact_domain = on.jammed;
+        faults.geometry = faults.geometry | ((memory.begun == Real(0.0)) & (on.deepest > Real(1e-6) * p.length_scale_y));
+        return faults;
+    }
+
+    template <class Real> static Real along(Real t, Real const* s, RigidSliderParameters<Real> const& p) { return Guide::along(t, s, p); }
+
+    template <class Real>
+    static constexpr GuideFunctions<Real> functions{&parameters, &derivative<false, Real>, &derivative<true, Real>, &place<Real>, &along<Real>};
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA
