@@ -34,10 +34,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 ///    (kernels/lanes/impact_rows.hpp);
 ///  - `has_patterns`: then `contact_pattern(…)`, of a state or with `has_impacts` of a memory, says which lanes have like work to do, and with a
 ///    linearisation `squared_speed(…)`, `approach_speed(…)` and `energy_scale(…)` what is a creep and what an impact;
-///  - `is_analytic`: its derivative decides by nothing that changes within a step, so that `auto` may call it with series
-///    (kernels/math/jet.hpp) instead of numbers; at most 48 operations, and no contacts;
-///  - `events`: then `event_table`, `event_values(…)`, whose values follow from the state alone, and `reset(…)`
-///    (kernels/mechanisms/event_info.hpp, kernels/lanes/event_search.hpp).
+///  - `has_own_stepper`: then `with_stepper(rtol, work)` says what `auto` steps by (tests/models/taylor_step.hpp);
+///  - `events`, if it has more than none of its own: then `Search<Model, Real>` finds them and resets the state (tests/models/event_search.hpp).
 template <class Model, class Real>
 SLIDEWAY_HD void integrate(BlockOf<typename Model::Inputs>& block, Model const& model) {
     LaneProgram<Model, Real> program(block, model);

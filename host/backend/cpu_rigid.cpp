@@ -1,5 +1,5 @@
-// Mechanisms of a base with rigid contacts, SLIDEWAY_BASE: equations and lanes in one unit, compiled once per instruction set (CMakeLists.txt
-// here); and their lanes of members with shadows in another.  The contacts of rigid joints are a third, that of all mechanisms (cpu_rigid_joint.cpp).
+// The mechanisms of a base with rigid contacts, equations and lanes, of members without shadows or with them: a unit each per instruction set
+// (CMakeLists.txt here).  The contacts of rigid joints are another, that of all mechanisms (cpu_rigid_joint.cpp).
 #include <type_traits>
 
 #include "host/backend/kernel_tables.hpp"
@@ -23,45 +23,32 @@ extern template class JointOffset<IsaReal>;
 
 namespace {
 
-template <class Mechanism> concept IsGuided = requires { typename Mechanism::Guide; };
-
-/// Nothing of mechanisms of another base.
+/// Of what guides a mechanism of this base; nullptr of others.
 template <class Real, class Mechanism, class Base> constexpr GuideFunctions<Real> const* guide_functions() {
-    if constexpr (std::is_same_v<Base, SLIDEWAY_BASE>) {
-        static_assert(IsGuided<Mechanism>, "a mechanism of this base is a SpatialSlider<Guide>: rigid contacts ask its guide (kernels/rigid/guide_functions.hpp)");
-        return &RigidGuide<typename Mechanism::Guide>::template functions<Real>;
-    } else {
-        return nullptr;
-    }
+    if constexpr (!std::is_same_v<Base, SLIDEWAY_BASE>) return nullptr;
+    else return &RigidGuide<typename Mechanism::Guide>::template functions<Real>;
 }
-/// @param mechanism of this base
-template <class Real> GuideFunctions<Real> const& guide_of(Mechanism mechanism) {
 #define SLIDEWAY_GUIDE(name, Type, Base) guide_functions<Real, Type, Base>(),
-    static constexpr GuideFunctions<Real> const* of[] = {SLIDEWAY_MECHANISMS(SLIDEWAY_GUIDE)};
+template <class Real> constexpr GuideFunctions<Real> const* guides[] = {SLIDEWAY_MECHANISMS(SLIDEWAY_GUIDE)};  // by Mechanism
 #undef SLIDEWAY_GUIDE
-    return *of[static_cast<int>(mechanism)];
-}
 
 template <class Base> auto model_of(Parts const& parts) {
+    [[maybe_unused]] auto const place = static_cast<int>(parts.mechanism);
     if constexpr (std::is_same_v<Base, PlanarBase>) return RigidPlanarSliderCrank(parts);
-    else if constexpr (SLIDEWAY_SHADOWED) return RigidSlider<IsaReal, Base>(parts, guide_of<IsaReal>(parts.mechanism), &guide_of<Tangent<IsaReal>>(parts.mechanism));
-    else return RigidSlider<IsaReal, Base>(parts, guide_of<IsaReal>(parts.mechanism));
+    else if constexpr (SLIDEWAY_SHADOWED) return RigidSlider<IsaReal, Base>(parts, guides<IsaReal>[place], guides<Tangent<IsaReal>>[place]);
+    else return RigidSlider<IsaReal, Base>(parts, guides<IsaReal>[place]);
 }
 using Model = decltype(model_of<SLIDEWAY_BASE>(Parts{}));
 
-#if SLIDEWAY_SHADOWED
-void run_shadowed(Block& block, Parts const& parts, LawKernels const*) { integrate<Shadowed<Model>, IsaReal>(block, Shadowed<Model>{model_of<SLIDEWAY_BASE>(parts)}); }
-#else
-void run(Block& block, Parts const& parts, LawKernels const*) { integrate<Model, IsaReal>(block, model_of<SLIDEWAY_BASE>(parts)); }
-void probe_states(ProbeTable const& states, Parts const& parts, LawKernels const*) { probe<Model, IsaReal>(states, model_of<SLIDEWAY_BASE>(parts)); }
-#endif
-
 }  // namespace
 
+extern constinit MechanismKernels const SLIDEWAY_TABLE = {
 #if SLIDEWAY_SHADOWED
-extern constinit MechanismKernels const SLIDEWAY_TABLE = {.run_shadowed = &run_shadowed};
+    .run_shadowed = [](Block& block, Parts const& parts, LawKernels const*) { integrate<Shadowed<Model>, IsaReal>(block, {model_of<SLIDEWAY_BASE>(parts)}); },
 #else
-extern constinit MechanismKernels const SLIDEWAY_TABLE = {.run = &run, .probe = &probe_states};
+    .run = [](Block& block, Parts const& parts, LawKernels const*) { integrate<Model, IsaReal>(block, model_of<SLIDEWAY_BASE>(parts)); },
+    .probe = [](ProbeTable const& states, Parts const& parts, LawKernels const*) { probe<Model, IsaReal>(states, model_of<SLIDEWAY_BASE>(parts)); },
 #endif
+};
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -138,8 +138,6 @@ std::span<std::string_view const> contact_law_names() {
 
 bool may_be_rigid(Mechanism mechanism) { return static_cast<std::size_t>(mechanism) < std::size(mechanism_infos); }
 
-bool has_contact_law(Mechanism mechanism) { return info(mechanism).spatial || may_be_rigid(mechanism); }
-
 bool makes_energy(Parts const& parts) { return info(parts.mechanism).spatial && contact_info(parts).switches; }
 
 bool is_prescribed(Parts const& parts, int component) {

@@ -77,8 +77,6 @@ inline constexpr Law default_law = Law::foundation;
 LawInfo const& contact_info(Parts const& parts);
 /// What contact.law may say: the laws, and "rigid" behind them.
 std::span<std::string_view const> contact_law_names();
-/// Whether contact.law means anything to a mechanism.
-bool has_contact_law(Mechanism mechanism);
 /// Whether a mechanism has kernels for rigid contacts.
 bool may_be_rigid(Mechanism mechanism);
 

@@ -33,7 +33,7 @@ KeyReference reference_of(Setting const& row) {
     key.methods = owners(setting("integrator.method").choices, [&](std::size_t i) { return (row.methods & set_of(static_cast<Method>(i))) != 0; });
     bool const of_free_cranks = row.name == "mechanism.crank", of_laws = row.name == "contact.law";
     key.mechanisms = owners(mechanism_names(), [&](std::size_t i) {
-        if (of_laws) return has_contact_law(static_cast<Mechanism>(i));
+        if (of_laws) return mechanisms()[i].spatial || may_be_rigid(static_cast<Mechanism>(i));
         return (!row.of_faces || mechanisms()[i].spatial) && (!of_free_cranks || mechanisms()[i].free_crank);
     });
     return key;

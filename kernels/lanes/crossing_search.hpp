@@ -100,22 +100,21 @@ private:
 
     /// The crossing of lanes whose step starts on the surface.  @param side that they go to
     SLIDEWAY_HD static void record_start(Pack<Model, Real>& pack, Results<Model>& results, Mask<Real> at, Real side) {
-        using Way = CrossingPlan::Direction;
         auto const& c = pack.state.course;
         Mask<Real> const rises = side > Real(0.0);
-        if (!results.crossings().wants(Way::rising)) at = at & !rises;
-        if (!results.crossings().wants(Way::falling)) at = at & rises;
+        if (!results.crossings().wants(Direction::rising)) at = at & !rises;
+        if (!results.crossings().wants(Direction::falling)) at = at & rises;
         results.take_crossing(pack, at, c.t, c.y);
     }
 
     SLIDEWAY_NOINLINE static void record(Pack<Model, Real>& pack, Results<Model>& results, Mask<Real> candidates,
                                          Surface const& surface, Span const& span) {
-        auto const zeros = cubic_zeros(candidates, span.v0, span.s0, span.v1, span.s1, direction_of(surface.plan));
+        auto const zeros = cubic_zeros(candidates, span.v0, span.s0, span.v1, span.s1, surface.plan.direction);
         if (none(zeros.any)) return;
         auto const starts_below = span.v0 < Real(0.0), ends_below = span.v1 < Real(0.0);
         auto sides = mask_of<Real>(false);  // of those that are looked for
-        if (surface.plan.wants(CrossingPlan::Direction::rising)) sides = sides | (starts_below & !ends_below);
-        if (surface.plan.wants(CrossingPlan::Direction::falling)) sides = sides | ((!starts_below) & ends_below);
+        if (surface.plan.wants(Direction::rising)) sides = sides | (starts_below & !ends_below);
+        if (surface.plan.wants(Direction::falling)) sides = sides | ((!starts_below) & ends_below);
         Real const found = present(zeros.at[0]) + present(zeros.at[1]) + present(zeros.at[2]);
         Mask<Real> const single = sides & (found == Real(1.0));
         // The members' attempt stays as it is: another stepper makes its own.
@@ -188,12 +187,6 @@ private:
     }
 
     SLIDEWAY_FN static Real present(CubicZero<Real> const& zero) { return count<Real>(zero.theta <= Real(1.0)); }
-
-    SLIDEWAY_HD static Direction direction_of(CrossingPlan const& plan) {
-        return plan.direction == CrossingPlan::Direction::rising    ? Direction::rising
-               : plan.direction == CrossingPlan::Direction::falling ? Direction::falling
-                                                                    : Direction::both;
-    }
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

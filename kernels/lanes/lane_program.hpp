@@ -17,7 +17,6 @@
 #include "kernels/lanes/roster.hpp"
 #include "kernels/lanes/stiff_step.hpp"
 #include "kernels/lanes/stint.hpp"
-#include "kernels/lanes/taylor_step.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/bogacki_shampine.hpp"
 #include "kernels/steppers/dop853.hpp"
@@ -27,6 +26,9 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
+/// Whether a model brings the stepper that `auto` takes.
+template <class Model> inline constexpr bool has_own_stepper = requires { requires Model::has_own_stepper; };
+
 /// Works through a block of members with one pack of lanes.  Some eight members per lane are under way at once; the roster picks
 /// those that work together for a stint, a fixed number of a member's own attempts, so that whatever is decided between
 /// stints depends on the member alone.  A member that ends gives its seat to the next of the block's queue.
@@ -35,10 +37,10 @@ public:
     using Block = BlockOf<typename Model::Inputs>;
     static_assert(holds_reals_only<Model>);
     static_assert(
-        Model::events == 0 || (MemberState<Model, Real>::Observer::integrals == 0 && !Model::has_linearisation),
+        !has_events<Model> || (MemberState<Model, Real>::Observer::integrals == 0 && !Model::has_linearisation),
         "an event ends its step early: integrals over the step and the stiff method's straight line do not know");
 
-    static_assert(Model::events == 0 || !(Model::has_shadows || Model::has_crossings),
+    static_assert(!has_events<Model> || !(Model::has_shadows || Model::has_crossings),
                   "an event ends its step early, which neither shadows nor sections know of");
 
     SLIDEWAY_HD LaneProgram(Block& block, Model const& model) : block_(block), results_(block), pack_(model) {
@@ -185,8 +187,9 @@ private:
         bool const is_automatic = settings.method == Method::automatic;
         if (settings.method == Method::rk4) {
             work<ExplicitStep<RungeKutta4, Model, Real>>();
-        } else if (is_analytic<Model> && is_automatic) {
-            if constexpr (is_analytic<Model>) series();
+        } else if (has_own_stepper<Model> && is_automatic) {
+            if constexpr (has_own_stepper<Model>)
+                Model::template with_stepper<Model, Real>(settings.rtol, [&]<class Stepper>(Stepper*) { work<Stepper>(); });
         } else if (settings.method == Method::dop853 || (is_automatic && is_smooth)) {
             // Where nothing breaks the smoothness of the motion, it beats the others at every tolerance (docs/integrators.md).
             work<ExplicitStep<Dop853, Model, Real>>();
@@ -198,15 +201,6 @@ private:
     }
 
     SLIDEWAY_HD bool is_time_stepping() const { return has_time_stepping<Model> && block_.settings.method == Method::moreau_jean; }
-
-    /// A stint of Taylor series of the order that suits the tolerance, −½ ln(rtol) or so.
-    SLIDEWAY_HD void series() {
-        double const rtol = block_.settings.rtol;
-        if (rtol > 1e-7) work<TaylorStep<8, Model, Real>>();
-        else if (rtol > 1e-10) work<TaylorStep<12, Model, Real>>();
-        else if (rtol > 1e-13) work<TaylorStep<16, Model, Real>>();
-        else work<TaylorStep<20, Model, Real>>();
-    }
 
     template <class Stepper> SLIDEWAY_NOINLINE void work() {
         Stint<Stepper, Model, Real> stint(pack_, results_, block_.settings);

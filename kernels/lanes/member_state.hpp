@@ -45,6 +45,9 @@ template <class Model> inline constexpr bool can_hold_contacts = requires(Model&
 template <class Model>
 inline constexpr bool has_clocks = can_hold_contacts<Model> && Model::has_patterns && !Model::has_shadows;
 
+/// Whether a model has events of its own, and brings their search.
+template <class Model> inline constexpr bool has_events = requires { requires Model::events > 0; };
+
 /// Whether impacts of a model have no duration: where a step ends its `settle` says what follows.
 template <class Model> inline constexpr bool has_impacts = requires { requires Model::has_impacts; };
 
@@ -90,7 +93,7 @@ template <class Model, class Real> struct MemberState {
         Real rate_squared;  // Ω² [1/s²] of its stiffest contacts, of late
         [[no_unique_address]] std::conditional_t<Model::has_shadows, ShadowCourse<Real>, NoShadowCourse> shadowed;
         [[no_unique_address]] std::conditional_t<has_clocks<Model>, ImpactCourse<Real>, NoImpactCourse> impacts;
-        [[no_unique_address]] std::conditional_t<(Model::events > 0), ResetHistory<Real>, NoResets> resets;
+        [[no_unique_address]] std::conditional_t<(has_events<Model>), ResetHistory<Real>, NoResets> resets;
     };
 
     /// What is remembered of the contacts, and where steps end because of them.  Moves only where steps do: elsewhere it stays as it

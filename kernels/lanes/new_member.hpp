@@ -40,7 +40,7 @@ template <class Model> struct NewMember {
         // A model without linearisation is left to the explicit pair.
         c.stiff = Model::has_linearisation && block.settings.method == Method::ros34pw2 ? 1 : 0;
         start_memory(r.contacts.memory);
-        if constexpr (Model::events > 0) c.resets = {-1.0, 0.0};
+        if constexpr (has_events<Model>) c.resets = {-1.0, 0.0};
     }
 
 private:

@@ -5,7 +5,6 @@
 #include "kernels/lanes/crossing_search.hpp"
 #include "kernels/lanes/error_norm.hpp"
 #include "kernels/lanes/event_end.hpp"
-#include "kernels/lanes/event_search.hpp"
 #include "kernels/lanes/fine_time.hpp"
 #include "kernels/lanes/impact_rows.hpp"
 #include "kernels/lanes/impact_steps.hpp"
@@ -20,7 +19,9 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-struct NoSearch {};
+template <class Model, class Real> struct SearchOf { struct Type {}; };
+template <class Model, class Real> requires has_events<Model>
+struct SearchOf<Model, Real> { using Type = typename Model::template Search<Model, Real>; };
 struct NoImpactSteps {};
 /// What a stepper that ends early needs to know of its last attempt.
 template <class Real> struct EarlyEnds {
@@ -138,7 +139,7 @@ private:
         auto finished = mask_of<Real>(false);
         if (any(verdict.accepted)) {
             finished = advance(verdict.accepted, landing);
-            if constexpr (Model::events > 0) stuck = stuck | search_.piled_up(pack_, attempt_.step);
+            if constexpr (has_events<Model>) stuck = stuck | search_.piled_up(pack_, attempt_.step);
         }
         if constexpr (by_clock) {
             impacts_.keep(pack_.state, stepper_, busy, verdict.next, Real(max_step_));
@@ -273,7 +274,7 @@ private:
         if constexpr (by_clock) landed = landed & !impacts_.ended_early();
         if constexpr (Stepper::ends_early) landed = landed & !early_.lanes;
         Real t_end = select(landed, landing.time, fine_time().after(c.t, attempt_.step, c.fine_time, accepted, landed));
-        if constexpr (Model::events > 0) {
+        if constexpr (has_events<Model>) {
             search_.run(pack_, stepper_, attempt_, accepted);
             t_end = select(search_.ended(), fma(attempt_.step, search_.fraction(), c.t), t_end);
             c.fine_time = select(search_.ended(), Real(0.0), c.fine_time);
@@ -285,7 +286,7 @@ private:
             }
         }
         if (results_.samples() > 0) results_.take_samples(pack_, stepper_, attempt_, accepted, t_end);
-        if constexpr (Model::events > 0) search_.reset(pack_, attempt_);
+        if constexpr (has_events<Model>) search_.reset(pack_, attempt_);
         observe(accepted);
         for (int i = 0; i < size; ++i) c.y[i] = select(accepted, attempt_.end[i], c.y[i]);
         c.t = select(accepted, t_end, c.t);
@@ -302,7 +303,7 @@ private:
         }
         if (results_.stops() > 0) stop(landed);
         auto finished = landed & (c.t >= pack_.state.constants.end);
-        if constexpr (Model::events > 0) {
+        if constexpr (has_events<Model>) {
             if (pack_.needs.quantities) {
                 auto& observer = pack_.state.observation.observer;
                 observer.settle(accepted & Model::at_rest(c.rates), c.y);
@@ -401,7 +402,7 @@ private:
     Results<Model>& results_;
     IntegratorSettings const& settings_;
     Stepper stepper_;
-    [[no_unique_address]] std::conditional_t<(Model::events > 0), EventSearch<Model, Real>, NoSearch> search_;
+    [[no_unique_address]] typename SearchOf<Model, Real>::Type search_;
     [[no_unique_address]] std::conditional_t<Model::has_shadows, Shadows<Model, Real>, NoShadowSteps> shadows_;
     [[no_unique_address]] std::conditional_t<by_clock, Impacts, NoImpactSteps> impacts_;
     [[no_unique_address]] std::conditional_t<Stepper::ends_early, EarlyEnds<Real>, NoEarlyEnds> early_;

@@ -16,7 +16,6 @@ template <class Base> struct LanesOf;
 /// What is alike in the lanes of all mechanisms with a slider.  @tparam Base has an `energy_scale`
 template <class Base> struct ContactLanes {
     static constexpr int series = series_count;
-    static constexpr int events = 0;
     static constexpr bool has_contacts = true;
     static constexpr bool has_shadows = false;
     static constexpr bool has_crossings = true;

@@ -26,7 +26,6 @@ struct RigidPlanarSliderCrank : PlanarBase {
     template <class Real> using Watch = RigidWatch<Real>;
     template <class Real> using Observer = RigidObserver<Real, RigidPlanarReport>;
     static constexpr int series = series_count;
-    static constexpr int events = 0;
     static constexpr bool has_contacts = true;
     static constexpr bool has_impacts = true;
     static constexpr bool sees_contacts = false;  // its watch asks for forces

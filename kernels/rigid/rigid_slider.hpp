@@ -31,7 +31,6 @@ template <class Number, class Base_> struct RigidSlider : Base_ {
     template <class Real> using Watch = JointWatch<Real>;
     template <class Real> using Observer = RigidObserver<Real, RigidSliderReport>;
     static constexpr int series = series_count;
-    static constexpr int events = 0;
     static constexpr bool has_contacts = true;
     static constexpr bool has_impacts = true;
     static constexpr bool sees_contacts = true;
@@ -44,8 +43,8 @@ template <class Number, class Base_> struct RigidSlider : Base_ {
     GuideFunctions<Number> const* guide;
     GuideFunctions<Tangent<Number>> const* sloped_guide;  // of members with shadows, else nullptr
 
-    constexpr RigidSlider(Parts const& parts, GuideFunctions<Number> const& guide, GuideFunctions<Tangent<Number>> const* sloped_guide = nullptr)
-        : block{parts.friction, parts.misaligned_way}, guide(&guide), sloped_guide(sloped_guide) {}
+    constexpr RigidSlider(Parts const& parts, GuideFunctions<Number> const* guide, GuideFunctions<Tangent<Number>> const* sloped_guide = nullptr)
+        : block{parts.friction, parts.misaligned_way}, guide(guide), sloped_guide(sloped_guide) {}
 
     RigidSliderParameters<double> parameters(Inputs const& in) const { return guide->parameters(in); }
     /// A slider without a drive has no speed that slips are to be seen against.

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "kernels/laws/face.hpp"
-#include "kernels/mechanisms/event_info.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/contact_watch.hpp"
 #include "kernels/steppers/cubic_roots.hpp"

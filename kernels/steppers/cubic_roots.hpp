@@ -1,9 +1,11 @@
 #pragma once
 
-#include "kernels/mechanisms/event_info.hpp"
+#include "kernels/block.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
+
+using Direction = CrossingPlan::Direction;  // of zeros that count: rising from below zero, falling from above
 
 /// A zero of a cubic on [0, 1]; θ = 2 where there is none.
 template <class Real> struct CubicZero {

@@ -4,9 +4,9 @@
 set -euo pipefail
 cxx=$1 cmake=$2 root=$3 work=$4 source=$5 list=$6 row=$7 header=${8-}
 rm -rf "$work"
-mkdir -p "$work/tree/cmake" "$work"/tree/kernels/{laws,mechanisms,rigid}
+mkdir -p "$work/tree/cmake" "$work"/tree/kernels/{laws,mechanisms}
 cd "$work"
-for folder in laws mechanisms rigid; do cp "$root/kernels/$folder/list.hpp" "tree/kernels/$folder"; done
+for folder in laws mechanisms; do cp "$root/kernels/$folder/list.hpp" "tree/kernels/$folder"; done
 cp "$root/cmake/kernel_lists.cmake" tree/cmake
 # The last row has no backslash behind it.
 last=$(grep -n '^ *row(' "tree/kernels/$list/list.hpp" | tail -1 | cut -d: -f1)

@@ -1,14 +1,14 @@
 #pragma once
 
 #include "tests/models/plain_model.hpp"
+#include "tests/models/taylor_step.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// The Lorenz equations, a small smooth model that tests and benchmarks of the steppers share:
 ///   x' = σ (y − x),   y' = x (ρ − z) − y,   z' = x y − β z.
 /// Source: Lorenz, J. Atmos. Sci. 20 (1963) 130–141, equations 25–27.  Dimensionless; every state has a derivative.
-struct Lorenz : PlainModel<3> {  // x y z
-    static constexpr bool is_analytic = true;
+struct Lorenz : PlainModel<3>, Analytic {  // x y z
     struct Inputs {
         double sigma = 10;
         double rho = 28;

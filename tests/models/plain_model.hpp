@@ -1,11 +1,11 @@
 #pragma once
 
-#include "kernels/mechanisms/event_info.hpp"
 #include "kernels/mechanisms/faults.hpp"
 #include "kernels/mechanisms/no_memory.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/no_watch.hpp"
 #include "tests/models/event_recorder.hpp"
+#include "tests/models/event_search.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -13,7 +13,6 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <int components> struct PlainModel {
     static constexpr int size = components;
     static constexpr int series = components;
-    static constexpr int events = 0;
     static constexpr bool has_contacts = false;
     static constexpr bool has_patterns = false;
     static constexpr bool has_shadows = false;
@@ -23,6 +22,7 @@ template <int components> struct PlainModel {
     template <class Real> using Memory = NoMemory<Real>;
     template <class Real> using Observer = EventRecorder<Real, 0, 0>;
     template <class Real> using Watch = NoWatch<Real>;
+    template <class Model, class Real> using Search = EventSearch<Model, Real>;  // of models that state `events`
 
     /// Sizes against which the absolute tolerance is meant.
     template <class Parameters, class Real> SLIDEWAY_FN static void scales(Parameters const&, Real* scale) {

@@ -38,21 +38,21 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 17'560u);
-    EXPECT_LE(Layer("kernels/rigid").lines(), 4'225u);
-    EXPECT_LE(Layer("kernels/lanes").lines(), 3'800u);
+    EXPECT_LE(Layer("kernels").lines(), 17'070u);
+    EXPECT_LE(Layer("kernels/rigid").lines(), 4'230u);
+    EXPECT_LE(Layer("kernels/lanes").lines(), 3'490u);
     EXPECT_LE(Layer("host").lines(), 29'620u);
 }
 
 TEST(Budgets, OfTypes) {
     Layer const kernels("kernels");
-    EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?(struct|class|enum class) [A-Z]\w*( final)?\s*(:|\{))")).in_all, 356u);
-    EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?struct No[A-Z]\w*)")).in_all, 15u) << "types that stand for a part that a model has not";
+    EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?(struct|class|enum class) [A-Z]\w*( final)?\s*(:|\{))")).in_all, 350u);
+    EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?struct No[A-Z]\w*)")).in_all, 14u) << "types that stand for a part that a model has not";
 }
 
 TEST(Budgets, OfChoicesInSteps) {
     auto const choices = Layer("kernels/lanes").count(Pattern("if constexpr"));
-    EXPECT_LE(choices.in_all, 113u);
+    EXPECT_LE(choices.in_all, 111u);
     EXPECT_LE(choices.most, 42u) << "in one file";
 }
 

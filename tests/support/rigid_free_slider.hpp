@@ -8,7 +8,7 @@
 namespace slideway::inline SLIDEWAY_ISA {
 
 struct RigidFreeSlider : RigidSlider<double, FreeSliderBase> {
-    explicit RigidFreeSlider(Parts const& parts) : RigidSlider(parts, RigidGuide<NoDrive>::functions<double>) {}
+    explicit RigidFreeSlider(Parts const& parts) : RigidSlider(parts, &RigidGuide<NoDrive>::functions<double>) {}
     static RigidSliderParameters<double> parameters(Inputs const& in) { return RigidGuide<NoDrive>::parameters(in); }
 };
 

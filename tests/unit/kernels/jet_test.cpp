@@ -1,5 +1,5 @@
 // Taylor coefficients of operations against series known in closed form.
-#include "kernels/math/jet.hpp"
+#include "tests/models/jet.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Steps of Taylor series on a problem in closed form, alone and through the lanes.
-#include "kernels/lanes/taylor_step.hpp"
+#include "tests/models/taylor_step.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,7 @@ namespace slideway::taylor_step_test {
 namespace {
 
 /// y' = r (y (1 − y) + b cos t), τ' = 1: the logistic equation where b is 0.
-struct Growth : PlainModel<2> {
-    static constexpr bool is_analytic = true;
+struct Growth : PlainModel<2>, Analytic {
     struct Inputs { double start = 0.2, rate = 1, force = 0; };
     template <class Real> struct Parameters { Real rate, force; };
 
@@ -30,8 +29,7 @@ struct Growth : PlainModel<2> {
 };
 
 /// x'' = −x, a sine, of whose coefficients at x = 0 every other one is 0.
-struct Swing : PlainModel<2> {
-    static constexpr bool is_analytic = true;
+struct Swing : PlainModel<2>, Analytic {
     struct Inputs { double x = 0, v = 1; };
     template <class Real> struct Parameters { Real stiffness; };
     template <bool Full, class Real>

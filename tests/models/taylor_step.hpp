@@ -2,14 +2,10 @@
 
 #include "kernels/lanes/attempt.hpp"
 #include "kernels/lanes/pack.hpp"
-#include "kernels/math/jet.hpp"
 #include "kernels/real.hpp"
+#include "tests/models/jet.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
-
-/// Whether a model's derivative is analytic between its events, so that it may be called with series: it says `is_analytic`, and decides by
-/// nothing that changes within a step.
-template <class Model> inline constexpr bool is_analytic = requires { requires Model::is_analytic; };
 
 /// Attempts steps of a Taylor series of a given order in the lanes of a pack: x(t + h) = Σ x_k hᵏ, (k + 1) x_{k+1} the k-th coefficient of
 /// the derivative, which `Jet` finds.  The error estimate is the last term, that of the series one order lower: half the order's
@@ -105,6 +101,18 @@ private:
 
     Real c_[size][length];  // of the states
     Real last_power_;
+};
+
+/// A model whose derivative is analytic between its events: it decides by nothing that changes within a step, so that it may be called with series.
+struct Analytic {
+    static constexpr bool has_own_stepper = true;
+    /// What `auto` steps by: the series whose order suits the tolerance, −½ ln(rtol) or so.  @param work is called with a null pointer to the stepper
+    template <class Model, class Real, class Work> SLIDEWAY_HD static void with_stepper(double rtol, Work const& work) {
+        if (rtol > 1e-7) work(static_cast<TaylorStep<8, Model, Real>*>(nullptr));
+        else if (rtol > 1e-10) work(static_cast<TaylorStep<12, Model, Real>*>(nullptr));
+        else if (rtol > 1e-13) work(static_cast<TaylorStep<16, Model, Real>*>(nullptr));
+        else work(static_cast<TaylorStep<20, Model, Real>*>(nullptr));
+    }
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -4,11 +4,16 @@
 #include <utility>
 
 #include "kernels/lanes/pack.hpp"
-#include "kernels/mechanisms/event_info.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/cubic_roots.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
+
+/// What a model says of one of its events.
+struct EventInfo {
+    Direction direction;
+    bool resets;  // the model's `reset` changes the state there; else the event is only located
+};
 
 /// Finds and applies a model's events inside the accepted steps, in the order of their times.  The cubic through the event
 /// function's values and slopes at both ends tells where its zeros are: all of them, up to three in a step, a pair or none where it
