@@ -44,7 +44,7 @@ while (($# > 0)); do
     esac
     shift
 done
-bash scripts/setup.sh tests || stop "the set-up failed, no test ran"
+bash scripts/setup.sh || stop "the set-up failed, no test ran"
 
 if nvidia-smi -L >/dev/null 2>&1; then
     [[ ${CI:-false} == true ]] || cuda=ON
@@ -67,13 +67,14 @@ isas=${isas:-native}
 options=("-DSLIDEWAY_CUDA=$cuda" "-DSLIDEWAY_ISAS=$isas" "-DSLIDEWAY_UNITY=$unity")
 
 SECONDS=0
-# A new Python environment waits for its packages most of the time: the program is compiled meanwhile.
+# What the tests need besides, and a new Python environment, wait for packages most of the time: the program is compiled meanwhile.
 if [[ ! -e build/python/requirements.txt ]]; then
-    bash scripts/python_environment.sh --without-package >/dev/null &
+    { bash scripts/setup.sh tests && bash scripts/python_environment.sh --without-package; } >/dev/null &
     cmake --preset release --log-level=WARNING "${options[@]}" -DSLIDEWAY_PYTHON=OFF || stop "the configuration failed, no test ran"
     cmake --build "$build" --parallel "$jobs" --target slideway || stop "the build failed, no test ran"
-    wait $! || stop "no Python environment, no test ran"
+    wait $! || stop "no packages or no Python environment for the tests, no test ran"
 fi
+bash scripts/setup.sh tests || stop "the set-up failed, no test ran"
 environment=$(bash scripts/python_environment.sh --without-package) || stop "no Python environment, no test ran"
 options+=(-DSLIDEWAY_PYTHON=ON "-DPython_EXECUTABLE=$environment/bin/python")
 cmake --preset release --log-level=WARNING "${options[@]}" || stop "the configuration failed, no test ran"
