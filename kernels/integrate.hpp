@@ -34,8 +34,10 @@ namespace slideway::inline SLIDEWAY_ISA {
 ///    (kernels/lanes/impact_rows.hpp);
 ///  - `has_patterns`: then `contact_pattern(…)`, of a state or with `has_impacts` of a memory, says which lanes have like work to do, and with a
 ///    linearisation `squared_speed(…)`, `approach_speed(…)` and `energy_scale(…)` what is a creep and what an impact;
-///  - `has_own_stepper`: then `with_stepper(rtol, work)` says what `auto` steps by (tests/models/taylor_step.hpp);
-///  - `events`, if it has more than none of its own: then `Search<Model, Real>` finds them and resets the state (tests/models/event_search.hpp).
+///  - `has_own_stepper`: then `with_stepper<Model, Real>(rtol, work)` calls `work` with a null pointer to the stepper that `auto` takes, made like
+///    ExplicitStep (tests/models/taylor_step.hpp in the sources);
+///  - `events`, if it has any of its own: then `Search<Model, Real>` finds them and resets the state, with `run`, `ended`, `fraction`, `reset` and
+///    `piled_up` as that of the sources has them (tests/models/event_search.hpp), and the model has `at_rest(rates)`.
 template <class Model, class Real>
 SLIDEWAY_HD void integrate(BlockOf<typename Model::Inputs>& block, Model const& model) {
     LaneProgram<Model, Real> program(block, model);

@@ -24,6 +24,7 @@ fi
 
 # A failure before the first test counts as one failed test, so that the last line is always right.
 stop() {
+    wait  # for packages that are still being installed
     echo "test.sh: $1"
     echo "0 passed, 1 failed"
     exit 1
@@ -69,10 +70,11 @@ options=("-DSLIDEWAY_CUDA=$cuda" "-DSLIDEWAY_ISAS=$isas" "-DSLIDEWAY_UNITY=$unit
 SECONDS=0
 # What the tests need besides, and a new Python environment, wait for packages most of the time: the program is compiled meanwhile.
 if [[ ! -e build/python/requirements.txt ]]; then
-    { bash scripts/setup.sh tests && bash scripts/python_environment.sh --without-package; } >/dev/null &
+    mkdir -p build
+    { bash scripts/setup.sh tests && bash scripts/python_environment.sh --without-package; } &>build/packages.log &
     cmake --preset release --log-level=WARNING "${options[@]}" -DSLIDEWAY_PYTHON=OFF || stop "the configuration failed, no test ran"
     cmake --build "$build" --parallel "$jobs" --target slideway || stop "the build failed, no test ran"
-    wait $! || stop "no packages or no Python environment for the tests, no test ran"
+    wait $! || { cat build/packages.log && stop "no packages or no Python environment for the tests (see above), no test ran"; }
 fi
 bash scripts/setup.sh tests || stop "the set-up failed, no test ran"
 environment=$(bash scripts/python_environment.sh --without-package) || stop "no Python environment, no test ran"

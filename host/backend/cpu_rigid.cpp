@@ -22,11 +22,15 @@ extern template class RigidJoint<Tangent<IsaReal>>;
 extern template class JointOffset<IsaReal>;
 
 namespace {
-
-/// Of what guides a mechanism of this base; nullptr of others.
+/// Of what guides a mechanism of this base; nullptr of others, and of the planar one, which has a model of its own.
 template <class Real, class Mechanism, class Base> constexpr GuideFunctions<Real> const* guide_functions() {
-    if constexpr (!std::is_same_v<Base, SLIDEWAY_BASE>) return nullptr;
-    else return &RigidGuide<typename Mechanism::Guide>::template functions<Real>;
+    if constexpr (!std::is_same_v<Base, SLIDEWAY_BASE> || std::is_same_v<Base, PlanarBase>) {
+        return nullptr;
+    } else {
+        static_assert(requires { typename Mechanism::Guide; },
+                      "a mechanism of the tree has rigid contacts: a SpatialSlider<Guide> from its guide, another from a model that model_of names");
+        return &RigidGuide<typename Mechanism::Guide>::template functions<Real>;
+    }
 }
 #define SLIDEWAY_GUIDE(name, Type, Base) guide_functions<Real, Type, Base>(),
 template <class Real> constexpr GuideFunctions<Real> const* guides[] = {SLIDEWAY_MECHANISMS(SLIDEWAY_GUIDE)};  // by Mechanism
@@ -39,7 +43,6 @@ template <class Base> auto model_of(Parts const& parts) {
     else return RigidSlider<IsaReal, Base>(parts, guides<IsaReal>[place]);
 }
 using Model = decltype(model_of<SLIDEWAY_BASE>(Parts{}));
-
 }  // namespace
 
 extern constinit MechanismKernels const SLIDEWAY_TABLE = {

@@ -93,7 +93,7 @@ template <class Model, class Real> struct MemberState {
         Real rate_squared;  // Ω² [1/s²] of its stiffest contacts, of late
         [[no_unique_address]] std::conditional_t<Model::has_shadows, ShadowCourse<Real>, NoShadowCourse> shadowed;
         [[no_unique_address]] std::conditional_t<has_clocks<Model>, ImpactCourse<Real>, NoImpactCourse> impacts;
-        [[no_unique_address]] std::conditional_t<(has_events<Model>), ResetHistory<Real>, NoResets> resets;
+        [[no_unique_address]] std::conditional_t<has_events<Model>, ResetHistory<Real>, NoResets> resets;
     };
 
     /// What is remembered of the contacts, and where steps end because of them.  Moves only where steps do: elsewhere it stays as it

@@ -19,6 +19,7 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
+/// What finds a model's own events, if it has any.
 template <class Model, class Real> struct SearchOf { struct Type {}; };
 template <class Model, class Real> requires has_events<Model>
 struct SearchOf<Model, Real> { using Type = typename Model::template Search<Model, Real>; };

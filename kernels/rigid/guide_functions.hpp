@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "kernels/inputs.hpp"
 #include "kernels/mechanisms/faults.hpp"
 #include "kernels/mechanisms/slider_parameters.hpp"
@@ -39,6 +41,9 @@ template <class Real> struct GuideFunctions {
 
 /// @tparam Guide what moves the slider along the way (kernels/mechanisms/spatial_slider.hpp)
 template <class Guide> struct RigidGuide {
+    static_assert(std::is_same_v<typename Guide::Base::template Parameters<double>, SliderParameters<double>>,
+                  "rigid contacts know the numbers of a slider alone, and this guide's base has more");
+
     /// Of a member; what a law needs of its restitution is not worked out.
     SLIDEWAY_FN static RigidSliderParameters<double> parameters(Inputs in) {
         RigidSliderParameters<double> p;
@@ -54,7 +59,6 @@ template <class Guide> struct RigidGuide {
         return {guide.centre(p), guide.x, guide.vx, s, p, misaligned_way};
     }
 
-    /// Time derivative of the state.  @param report filled if Full; the derivative has the same bits without.
     template <bool Full, class Real>
     static Faults<Real> derivative(Real t, Real const* s, RigidSliderParameters<Real> const& p, RigidJointMemory<Real> const& memory,
                                    RigidConditions const& block, Real* rates, RigidSliderReport<Real>* report) {

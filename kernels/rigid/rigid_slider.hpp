@@ -22,7 +22,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// A slider whose hole and way are rigid (docs/model.md 13), as the lanes integrate it: apices fly, meet their faces in impacts without duration (`settle`), and
 /// push as long as they last.  What guides it along the way is looked up: the lanes are compiled once for all mechanisms of a base.
-/// @tparam Base_ of the mechanism's row in mechanisms/list.hpp
+/// @tparam Number a number or a pack of them, of which and of whose Tangent the functions below are called  @tparam Base_ of the mechanism's row in
+/// mechanisms/list.hpp
 template <class Number, class Base_> struct RigidSlider : Base_ {
     using Base = Base_;
     template <class Real> using Parameters = RigidSliderParameters<Real>;
@@ -88,6 +89,7 @@ template <class Number, class Base_> struct RigidSlider : Base_ {
         return slideway::left_stable_range(audit, Base::energy_scale(p));
     }
 
+    /// Time derivative of the state.  @param report filled if Full; the derivative has the same bits without.
     template <bool Full, class Real>
     Faults<Real> derivative(Real t, Real const* s, RigidSliderParameters<Real> const& p, RigidJointMemory<Real> const& memory,
                             Real* rates, RigidSliderReport<Real>* report) const {

@@ -18,6 +18,8 @@ struct EventInfo {
 /// Finds and applies a model's events inside the accepted steps, in the order of their times.  The cubic through the event
 /// function's values and slopes at both ends tells where its zeros are: all of them, up to three in a step, a pair or none where it
 /// grazes zero.  The stepper's dense output then places them.  An event that resets the state ends its step.
+/// @tparam Model states `events`, how many; `event_table`, an EventInfo each; `event_values(t, state, rates, parameters, values, slopes)`, which follow from
+/// the state alone; `reset(event, lanes, state, parameters)`; and `at_rest(rates)`
 template <class Model, class Real> class EventSearch {
 public:
     static constexpr int size = Model::size;

@@ -38,8 +38,8 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 17'070u);
-    EXPECT_LE(Layer("kernels/rigid").lines(), 4'230u);
+    EXPECT_LE(Layer("kernels").lines(), 17'080u);
+    EXPECT_LE(Layer("kernels/rigid").lines(), 4'235u);
     EXPECT_LE(Layer("kernels/lanes").lines(), 3'490u);
     EXPECT_LE(Layer("host").lines(), 29'620u);
 }
