@@ -32,7 +32,12 @@ bool read_rigid(Node const& root, Mechanism mechanism) {
     Node const* const law = root.find_path("contact.law");
     if (law == nullptr || law->type != Node::Type::text || law->text != rigid_contact.name) return false;
     if (may_be_rigid(mechanism)) return true;
-    refuse(*law, {fmt::format("the contacts of a {} give way", info(mechanism).name), "use another law, or a mechanism of slideway's own"});
+    std::vector<std::string_view> may;
+    for (std::size_t i = 0; i < mechanisms().size(); ++i) {
+        if (may_be_rigid(static_cast<Mechanism>(i))) may.push_back(mechanism_names()[i]);
+    }
+    refuse(*law, {fmt::format("the contacts of a {} give way", info(mechanism).name),
+                  fmt::format("use another law, or mechanism.kind = {}", fmt::join(may, " or "))});
 }
 
 /// Whether contact.restitution has to say how much contacts take.
