@@ -31,7 +31,8 @@ with open("pyproject.toml", "rb") as file:
     project = tomli.load(file)
 print(*project["build-system"]["requires"], *project["project"]["dependencies"], *project["project"]["optional-dependencies"]["test"], sep="\n")
 END
-    "${pip[@]}" install -r "$environment/needs.txt" >&2 || stop "pip could not install what the package needs (see above)"
+    # What is imported is compiled when it is, which is a part of it.
+    "${pip[@]}" install --no-compile -r "$environment/needs.txt" >&2 || stop "pip could not install what the package needs (see above)"
     echo "$needs" >"$stamp"
 fi
 if [[ ${1:-} != --without-package ]]; then

@@ -23,8 +23,8 @@ environment=$(bash scripts/python_environment.sh "$build") || stop "no Python en
 report=$(mktemp)
 trap 'rm -f "$report"' EXIT
 code=0
-# Neither caches nor byte code: the sources are those of the repository.
-(cd python && SLIDEWAY_PROGRAM=$program PYTHONDONTWRITEBYTECODE=1 "$environment/bin/pytest" -q -rs -p no:cacheprovider \
+# Neither caches nor byte code beside the sources, which are those of the repository.
+(cd python && SLIDEWAY_PROGRAM=$program PYTHONPYCACHEPREFIX=$root/build/pycache "$environment/bin/pytest" -q -rs -p no:cacheprovider \
     --junitxml="$report" "$@") || code=$?
 
 count() { sed -n "s/.*<testsuite [^>]*\b$1=\"\([0-9]*\)\".*/\1/p" "$report" 2>/dev/null | head -n 1; }

@@ -29,6 +29,6 @@ environment=$(bash scripts/python_environment.sh) || stop "no Python environment
 
 SECONDS=0
 code=0
-PYTHONPATH=$root/scripts PYTHONDONTWRITEBYTECODE=1 "$environment/bin/python" -m "$study" "$output" "$@" || code=$?
+PYTHONPATH=$root/scripts PYTHONPYCACHEPREFIX=$root/build/pycache "$environment/bin/python" -m "$study" "$output" "$@" || code=$?
 echo "time         $SECONDS s"
 exit "$code"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "kernels/lanes/pack.hpp"
-#include "kernels/lanes/pair_stages.hpp"
 #include "kernels/lanes/step_integrals.hpp"
 #include "kernels/lanes/stepped_numbers.hpp"
 #include "kernels/real.hpp"
@@ -13,15 +12,14 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// components more: y' = 2u f, t' = 2u, u' = δ'.  A step that was made may end early, at any place inside.
 template <class Pair, class Model, class Real> class ClockStep {
 public:
-    static constexpr int order = Pair::order;
     static constexpr bool adaptive = true;
     static constexpr bool stiff = false;
     static constexpr bool by_clock = true;
     static constexpr bool ends_early = false;  // but as its clocks say (ImpactSteps)
-    static constexpr int evaluations = Pair::stages - 1;  // per attempt
-    static constexpr bool has_two_estimates = false;
     static constexpr int jacobians = 0;
-    static_assert(Pair::adaptive && !Pair::has_two_estimates && Pair::dense_stages == 0);
+    SLIDEWAY_HD static int order(Pack<Model, Real> const&) { return Pair::order; }
+    SLIDEWAY_HD static int evaluations(Pack<Model, Real> const&) { return Pair::stages - 1; }  // per attempt
+    static_assert(!Pair::has_two_estimates && Pair::dense_stages == 0);
 
     /// Says by what clock the next attempt goes, and how far.  @param deep lanes deep within an impact
     SLIDEWAY_HD void go_by(ContactClock<Real> const& clock, Real own, Mask<Real> deep) {
@@ -34,7 +32,7 @@ public:
     SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
         begin(pack, from);
         to.faults = Faults<Real>::none();
-        Stages::run([&](auto s) { stage<s>(pack, from, to); });
+        Pair::each_stage([&](auto s) { stage<s>(pack, from, to); });
         for (int i = 0; i < components; ++i) numbers_.end[i] = at_[i];
         share_ = Real(1.0);
         whole_ = step_.own;
@@ -69,10 +67,10 @@ public:
     /// The last step by its clock.
     SLIDEWAY_HD ClockedStep<Real> const& step() const { return step_; }
 
-    /// Error estimate of one component at the time of the step's end: that of the time counts with the rate there.
-    SLIDEWAY_HD Real error(Attempt<Model, Real> const& to, int i) const {
+    /// Error estimates of the components at the time of the step's end: that of the time counts with the rates there.
+    SLIDEWAY_HD void errors(Attempt<Model, Real> const& to, Real* of_state) const {
         Real const of_time = select(step_.start.runs(), Pair::error_slope(numbers_.k, time), Real(0.0));
-        return step_.own * fnma(to.end_rates[i], of_time, Pair::error_slope(numbers_.k, i));
+        for (int i = 0; i < size; ++i) of_state[i] = step_.own * fnma(to.end_rates[i], of_time, Pair::error_slope(numbers_.k, i));
     }
 
     SLIDEWAY_HD void prepare_dense(Pack<Model, Real>&, Attempt<Model, Real> const&, Mask<Real>) {}
@@ -86,7 +84,6 @@ public:
 private:
     static constexpr int size = Model::size;
     static constexpr int time = size, root = size + 1, components = size + 2;
-    using Stages = PairStages<Pair>;
 
     /// Derivatives by the clock.
     struct Slopes { Real of[components]; };

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "kernels/lanes/pack.hpp"
-#include "kernels/lanes/pair_stages.hpp"
 #include "kernels/lanes/step_integrals.hpp"
 #include "kernels/lanes/stepped_numbers.hpp"
 #include "kernels/real.hpp"
@@ -12,15 +11,14 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// the integrals too.
 template <class Pair, class Model, class Real> class EndingStep {
 public:
-    static constexpr int order = Pair::order;
     static constexpr bool adaptive = true;
     static constexpr bool stiff = false;
     static constexpr bool by_clock = false;
     static constexpr bool ends_early = true;
-    static constexpr int evaluations = Pair::stages - 1;  // per attempt
-    static constexpr bool has_two_estimates = false;
     static constexpr int jacobians = 0;
-    static_assert(Pair::adaptive && !Pair::has_two_estimates && Pair::dense_stages == 0);
+    SLIDEWAY_HD static int order(Pack<Model, Real> const&) { return Pair::order; }
+    SLIDEWAY_HD static int evaluations(Pack<Model, Real> const&) { return Pair::stages - 1; }  // per attempt
+    static_assert(!Pair::has_two_estimates && Pair::dense_stages == 0);
 
     /// Idle lanes step in place.
     SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
@@ -33,7 +31,7 @@ public:
         numbers_.forget_middle();
         to.faults = Faults<Real>::none();
         if (from.needs.stages) integrals_.begin(pack, Real(1.0));
-        Stages::run([&](auto s) { stage<s>(pack, from, to); });
+        Pair::each_stage([&](auto s) { stage<s>(pack, from, to); });
         for (int i = 0; i < size; ++i) {
             numbers_.end[i] = to.end[i];
             to.end_rates[i] = numbers_.k[Pair::stages - 1][i];
@@ -60,8 +58,10 @@ public:
         for (int i = 0; i < size; ++i) state[i] = select(inside, numbers_.at(i, whole_, share), numbers_.end[i]);
     }
 
-    /// Error estimate of one component over the whole step.
-    SLIDEWAY_HD Real error(Attempt<Model, Real> const&, int i) const { return whole_ * Pair::error_slope(numbers_.k, i); }
+    /// Error estimates of the components over the whole step.
+    SLIDEWAY_HD void errors(Attempt<Model, Real> const&, Real* of_state) const {
+        for (int i = 0; i < size; ++i) of_state[i] = whole_ * Pair::error_slope(numbers_.k, i);
+    }
 
     SLIDEWAY_HD void prepare_dense(Pack<Model, Real>&, Attempt<Model, Real> const&, Mask<Real>) {}
 
@@ -72,11 +72,17 @@ public:
 
 private:
     static constexpr int size = Model::size;
-    using Stages = PairStages<Pair>;
 
     template <int s>
     SLIDEWAY_HD void stage(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
-        Stages::template evaluate<s>(pack, from, to, numbers_.k, at_);
+        constexpr typename Pair::Tableau w{};
+        constexpr bool last = s + 1 == Pair::stages;
+        Real* const at = last ? to.end : at_;
+        Pair::template stage_state<s>(from.y, numbers_.k, to.step, at);
+        Real const t = fma(to.step, Real(w.c[s]), from.t);
+        pack.tell_stages(!last);
+        // A fault of one stage is NaN in those after it, whose own faults say nothing.
+        to.faults = to.faults.or_else(pack.evaluate(t, at, from.memory, numbers_.k[s], last ? from.needs.ends : from.needs.stages, to.report));
         if (from.needs.stages) integrals_.template stage<s>(pack, to.report, Real(1.0));
     }
 

@@ -1,78 +1,91 @@
 #pragma once
 
 #include "kernels/lanes/pack.hpp"
-#include "kernels/lanes/pair_stages.hpp"
 #include "kernels/real.hpp"
+#include "kernels/steppers/pair_numbers.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Attempts steps of an explicit pair in the lanes of a pack; what it knows of the last one serves its error and dense output.
-template <class Pair, class Model, class Real> class ExplicitStep {
+/// Attempts steps of the pack's explicit method in its lanes; what it knows of the last one serves its error and dense output.
+template <class Model, class Real> class ExplicitStep {
 public:
-    static constexpr int order = Pair::order;
-    static constexpr bool adaptive = Pair::adaptive;
+    static constexpr bool adaptive = true;  // but for methods of a fixed step
     static constexpr bool stiff = false;
     static constexpr bool by_clock = false;
     static constexpr bool ends_early = false;
-    static constexpr int evaluations = Pair::stages - 1;  // per attempt
-    static constexpr bool has_two_estimates = Pair::has_two_estimates;
     static constexpr int jacobians = 0;
+
+    /// Order, and evaluations of an attempt.
+    SLIDEWAY_HD static int order(Pack<Model, Real> const& pack) { return pack.pair->order; }
+    SLIDEWAY_HD static int evaluations(Pack<Model, Real> const& pack) { return pack.pair->stages - 1; }
 
     /// Idle lanes step in place.
     SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
+        pair_ = pack.pair;
         for (int i = 0; i < size; ++i) k_[0][i] = from.rates[i];
         to.faults = Faults<Real>::none();
-        if (from.needs.stages) pack.begin_integrals(Stages::template weights<0>());
+        if (from.needs.stages) pack.begin_integrals(weights(0));
         prepared_ = mask_of<Real>(false);
-        Stages::run([&](auto s) { stage<s>(pack, from, to); });
-        for (int i = 0; i < size; ++i) to.end_rates[i] = k_[Pair::stages - 1][i];
+        int const last = pair_->stages - 1;
+        for (int s = 1; s < last; ++s) stage(pack, from, to, s, at_, from.needs.stages);
+        stage(pack, from, to, last, to.end, from.needs.ends);
+        for (int i = 0; i < size; ++i) to.end_rates[i] = k_[last][i];
     }
 
-    /// Error estimate of one component.
-    SLIDEWAY_HD Real error(Attempt<Model, Real> const& to, int i) const { return to.step * Pair::error_slope(k_, i); }
+    /// Error estimates of the components.
+    SLIDEWAY_HD void errors(Attempt<Model, Real> const& to, Real* of_state) const { estimate(pair_->e, to, of_state); }
 
-    /// The second estimate, of a pair that has two.
-    SLIDEWAY_HD Real coarse_error(Attempt<Model, Real> const& to, int i) const {
-        return to.step * Pair::coarse_error_slope(k_, i);
-    }
+    /// The second ones, of a pair that has two.
+    SLIDEWAY_HD bool has_two_estimates() const { return pair_->has_two_estimates; }
+    SLIDEWAY_HD void coarse_errors(Attempt<Model, Real> const& to, Real* of_state) const { estimate(pair_->coarse, to, of_state); }
 
     /// Evaluates what the continuous extension needs beyond the step; to be called before `dense` with the lanes that ask for it.
     SLIDEWAY_HD void prepare_dense(Pack<Model, Real>& pack, Attempt<Model, Real> const& to, Mask<Real> wanted) {
-        if constexpr (Pair::dense_stages > 0) {
-            Mask<Real> const missing = wanted & !prepared_;
-            if (none(missing)) return;
-            extension(pack, to);
-            pack.count_evaluations(missing, Pair::dense_stages);
-            prepared_ = prepared_ | missing;
-        }
+        if (pair_->dense_stages == 0) return;
+        Mask<Real> const missing = wanted & !prepared_;
+        if (none(missing)) return;
+        extend(pack, to);
+        pack.count_evaluations(missing, pair_->dense_stages);
+        prepared_ = prepared_ | missing;
     }
 
     /// The state inside the step, at fraction θ of it.
-    SLIDEWAY_FN void dense(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to, Real theta, Real* state) const {
-        for (int i = 0; i < size; ++i) state[i] = Pair::dense(k_, i, from.y[i], to.end[i], to.step, theta);
+    SLIDEWAY_HD void dense(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to, Real theta, Real* state) const {
+        pair_->dense(k_, from.y, to.end, to.step, theta, state);
     }
 
 private:
     static constexpr int size = Model::size;
-    using Stages = PairStages<Pair>;
 
-    template <int s>
-    SLIDEWAY_HD void stage(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
-        Stages::template evaluate<s>(pack, from, to, k_, at_);
-        if (from.needs.stages) pack.add_integrands(Stages::template weights<s>(), to.report);
+    SLIDEWAY_HD void stage(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to, int s, Real* at,
+                           bool report_wanted) {
+        pair_->stage_state(s, from.y, k_, to.step, at);
+        pack.tell_stages(s + 1 < pair_->stages);
+        Real const t = fma(to.step, Real(pair_->c[s]), from.t);
+        // A fault of one stage is NaN in those after it, whose own faults say nothing.
+        to.faults = to.faults.or_else(pack.evaluate(t, at, from.memory, k_[s], report_wanted, to.report));
+        if (from.needs.stages) pack.add_integrands(weights(s), to.report);
     }
 
-    SLIDEWAY_NOINLINE void extension(Pack<Model, Real> const& pack, Attempt<Model, Real> const& to) {
+    SLIDEWAY_HD void estimate(double const* weights, Attempt<Model, Real> const& to, Real* of_state) const {
+        PairNumbers::combine(weights, pair_->stages, k_, of_state);
+        for (int i = 0; i < size; ++i) of_state[i] = to.step * of_state[i];
+    }
+
+    /// Of a stage in the integrals over the step.
+    SLIDEWAY_HD StageWeights weights(int s) const { return {pair_->b[s], pair_->e[s], pair_->coarse[s]}; }
+
+    SLIDEWAY_NOINLINE void extend(Pack<Model, Real> const& pack, Attempt<Model, Real> const& to) {
         auto const from = pack.start();
         typename Model::template Report<Real> report;
-        Stages::extend([&](auto s) {
-            constexpr typename Pair::Tableau w{};
-            Pair::template stage_state<s>(from.y, k_, to.step, at_);
-            pack.evaluate(fma(to.step, Real(w.c[s]), from.t), at_, from.memory, k_[s], false, report);
-        });
+        for (int s = pair_->stages; s < pair_->stages + pair_->dense_stages; ++s) {
+            pair_->stage_state(s, from.y, k_, to.step, at_);
+            pack.evaluate(fma(to.step, Real(pair_->c[s]), from.t), at_, from.memory, k_[s], false, report);
+        }
     }
 
-    Real k_[Pair::stages + Pair::dense_stages][size];
+    PairNumbers const* pair_ = nullptr;
+    Real k_[PairNumbers::most_stages][size];
     Real at_[size];        // where a stage evaluates the derivative
     Mask<Real> prepared_;  // lanes whose continuous extension is complete
 };

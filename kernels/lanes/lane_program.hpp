@@ -51,6 +51,7 @@ public:
         if constexpr (can_hold_contacts<Model>) pack_.model.hold_contacts(pack_.needs.watching);
         if constexpr (requires { pack_.model.set_tolerance(1.0); }) pack_.model.set_tolerance(block.settings.rtol);
         start_memory(pack_.state.contacts.memory);
+        pack_.pair = &pair_of(block.settings);
     }
 
     SLIDEWAY_HD void run() {
@@ -172,32 +173,29 @@ private:
             if constexpr (has_time_stepping<Model>) work<MoreauJeanStep<Model, Real>>();
         } else if (settings.method == Method::verner65) {
             if constexpr (has_clocks<Model>) work<ClockStep<Verner65, Model, Real>>();
-            else work<ExplicitStep<Verner65, Model, Real>>();
-        } else if constexpr (has_impacts<Model>) {
-            work<std::conditional_t<ends_early, EndingStep<DormandPrince, Model, Real>, ExplicitStep<DormandPrince, Model, Real>>>();
+            else work<ExplicitStep<Model, Real>>();
+        } else if constexpr (ends_early) {
+            work<EndingStep<DormandPrince, Model, Real>>();
+        } else if (has_own_stepper<Model> && settings.method == Method::automatic) {
+            if constexpr (has_own_stepper<Model>)
+                Model::template with_stepper<Model, Real>(settings.rtol, [&]<class Stepper>(Stepper*) { work<Stepper>(); });
         } else {
-            serve_without_impacts();
+            work<ExplicitStep<Model, Real>>();
         }
         look(kind);
     }
 
-    /// By methods of which impacts, whose steps are many and short, would gain nothing (docs/rigid.md).
-    SLIDEWAY_HD void serve_without_impacts() {
-        auto const& settings = block_.settings;
+    /// The explicit method of a block.
+    SLIDEWAY_HD static PairNumbers const& pair_of(IntegratorSettings const& settings) {
         bool const is_automatic = settings.method == Method::automatic;
-        if (settings.method == Method::rk4) {
-            work<ExplicitStep<RungeKutta4, Model, Real>>();
-        } else if (has_own_stepper<Model> && is_automatic) {
-            if constexpr (has_own_stepper<Model>)
-                Model::template with_stepper<Model, Real>(settings.rtol, [&]<class Stepper>(Stepper*) { work<Stepper>(); });
-        } else if (settings.method == Method::dop853 || (is_automatic && is_smooth)) {
-            // Where nothing breaks the smoothness of the motion, it beats the others at every tolerance (docs/integrators.md).
-            work<ExplicitStep<Dop853, Model, Real>>();
-        } else if (settings.method == Method::bs32 || (is_automatic && settings.rtol >= bs32_from)) {
-            work<ExplicitStep<BogackiShampine, Model, Real>>();
-        } else {
-            work<ExplicitStep<DormandPrince, Model, Real>>();
-        }
+        if (settings.method == Method::verner65) return pair_numbers<Verner65>();
+        // Impacts, whose steps are many and short, would gain nothing by the others (docs/rigid.md).
+        if (has_impacts<Model>) return pair_numbers<DormandPrince>();
+        if (settings.method == Method::rk4) return pair_numbers<RungeKutta4>();
+        // Where nothing breaks the smoothness of the motion, it beats the others at every tolerance (docs/integrators.md).
+        if (settings.method == Method::dop853 || (is_automatic && is_smooth)) return pair_numbers<Dop853>();
+        if (settings.method == Method::bs32 || (is_automatic && settings.rtol >= bs32_from)) return pair_numbers<BogackiShampine>();
+        return pair_numbers<DormandPrince>();
     }
 
     SLIDEWAY_HD bool is_time_stepping() const { return has_time_stepping<Model> && block_.settings.method == Method::moreau_jean; }

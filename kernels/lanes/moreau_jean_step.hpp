@@ -17,14 +17,14 @@ template <class Stepper> inline constexpr bool has_impulses = requires { require
 /// Source: J. J. Moreau, Unilateral contact and dry friction in finite freedom dynamics (1988); M. Jean, The non-smooth contact dynamics method (1999).
 template <class Model, class Real> class MoreauJeanStep {
 public:
-    static constexpr int order = 2;  // in flight
     static constexpr bool adaptive = false;
     static constexpr bool stiff = false;
     static constexpr bool by_clock = false;
     static constexpr bool ends_early = false;
     static constexpr bool has_impulses = true;
-    static constexpr int evaluations = 2;  // per attempt
     static constexpr int jacobians = 0;
+    SLIDEWAY_HD static int order(Pack<Model, Real> const&) { return 2; }        // in flight
+    SLIDEWAY_HD static int evaluations(Pack<Model, Real> const&) { return 2; }  // per attempt
 
     /// Idle lanes step in place.
     SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {

@@ -6,6 +6,7 @@
 #include "kernels/lanes/report_needs.hpp"
 #include "kernels/mechanisms/faults.hpp"
 #include "kernels/real.hpp"
+#include "kernels/steppers/pair_numbers.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -25,6 +26,7 @@ template <class Model, class Real> struct Pack {
     }
 
     [[no_unique_address]] Model model;
+    PairNumbers const* pair = nullptr;  // of the block's explicit method (ExplicitStep)
     ReportNeeds needs;
     MemberState<Model, Real> state;
     Mask<Real> busy;  // lanes with a member at work
@@ -140,7 +142,7 @@ template <class Model, class Real> struct Pack {
 
     /// Counts what an attempt costs in the lanes of the mask.
     template <class Stepper> SLIDEWAY_HD void count_attempt(Mask<Real> in) {
-        count_evaluations(in, Stepper::evaluations);
+        count_evaluations(in, Stepper::evaluations(*this));
         if constexpr (Stepper::jacobians > 0) state.course.jacobians = state.course.jacobians + count<Real>(in);
     }
 

@@ -40,9 +40,9 @@ public:
         return broken;
     }
 
-    /// All attempt a step.  @param squared_norm of the error of an attempt from a start
+    /// All attempt a step.  @param adapts whether by error control  @param squared_norm of the error of an attempt from a start
     template <class Stepper, class Norm>
-    SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, Stepper& stepper, Real step, Norm const& squared_norm) {
+    SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, Stepper& stepper, Real step, bool adapts, Norm const& squared_norm) {
         squared_norm_ = Real(0.0);
         faults_ = Faults<Real>::none();
         finite_ = mask_of<Real>(true);
@@ -53,7 +53,7 @@ public:
             auto& end = ends_[s];
             end.step = step;
             stepper.attempt(pack, from, end);
-            if constexpr (Stepper::adaptive) {
+            if (adapts) {
                 squared_norm_ = larger_norm(squared_norm(from, end), squared_norm_);
             } else {
                 finite_ = finite_ & is_finite(end.end, end.end_rates);

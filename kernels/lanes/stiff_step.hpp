@@ -10,14 +10,14 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// leaves out what is not stiff, which a W-method forgives.
 template <class Model, class Real> class StiffStep {
 public:
-    static constexpr int order = 3;
     static constexpr bool adaptive = true;
     static constexpr bool stiff = true;
     static constexpr bool by_clock = false;
     static constexpr bool ends_early = false;
-    static constexpr bool has_two_estimates = false;
-    static constexpr int evaluations = Ros34pw2Tableau::stages + 1;  // per attempt, the end's and that of ∂f/∂t included
     static constexpr int jacobians = 1;
+    SLIDEWAY_HD static int order(Pack<Model, Real> const&) { return 3; }
+    /// Per attempt, the end's and that of ∂f/∂t included.
+    SLIDEWAY_HD static int evaluations(Pack<Model, Real> const&) { return Ros34pw2Tableau::stages + 1; }
     /// Largest sum of the relative residuals of the linear solves; without pivoting a bad matrix shows here.
     static constexpr double largest_residual = 1e-8;
     /// Part of a step over which a difference of f stands for ∂f/∂t.
@@ -48,10 +48,10 @@ public:
         for (int i = 0; i < size; ++i) residual_ = fma(to.end_rates[i], Real(0.0), residual_);
     }
 
-    /// Error estimate of one component; NaN where the linear equations were not solved or the end has no derivative.
-    SLIDEWAY_HD Real error(Attempt<Model, Real> const&, int i) const {
+    /// Error estimates of the components; NaN where the linear equations were not solved or the end has no derivative.
+    SLIDEWAY_HD void errors(Attempt<Model, Real> const&, Real* of_state) const {
         auto const solved = residual_ <= Real(largest_residual);
-        return select(solved, error_[i], Real(follows));
+        for (int i = 0; i < size; ++i) of_state[i] = select(solved, error_[i], Real(follows));
     }
 
     /// Reduces the estimate to what of it is left after a time τ: (I − τA)⁻¹ error, an implicit Euler step of the linearised motion.
@@ -63,10 +63,9 @@ public:
         matrix_.solve(error_, lasting_error_);
     }
 
-    /// One component of that, where it is the smaller one: the matrix may be near a singular one.
-    SLIDEWAY_HD Real lasting_error(Attempt<Model, Real> const& to, int i) const {
-        Real const whole = error(to, i);
-        return select(abs(lasting_error_[i]) < abs(whole), lasting_error_[i], whole);
+    /// That, of components where it is smaller than the whole: the matrix may be near a singular one.
+    SLIDEWAY_HD void lasting_errors(Real const* whole, Real* lasting) const {
+        for (int i = 0; i < size; ++i) lasting[i] = select(abs(lasting_error_[i]) < abs(whole[i]), lasting_error_[i], whole[i]);
     }
 
     SLIDEWAY_HD void prepare_dense(Pack<Model, Real>&, Attempt<Model, Real> const&, Mask<Real>) {}

@@ -38,7 +38,7 @@ struct NoShadowSteps {
 template <class Stepper, class Model, class Real> class Stint {
 public:
     SLIDEWAY_HD Stint(Pack<Model, Real>& pack, Results<Model>& results, IntegratorSettings const& settings)
-        : pack_(pack), results_(results), settings_(settings), shadows_(results.shadows()) {
+        : pack_(pack), results_(results), settings_(settings), control_(Stepper::order(pack), by_clock ? 25 : 20), shadows_(results.shadows()) {
         max_step_ = Stepper::stiff ? settings.stiff_max_step : settings.max_step;
     }
 
@@ -53,9 +53,8 @@ public:
             auto const landing = begin();
             // Before the member: what the stepper knows of the step is then the member's.
             if constexpr (Model::has_shadows) {
-                shadows_.attempt(pack_, stepper_, attempt_.step, [&](auto const& from, auto const& attempt) {
-                    if constexpr (Stepper::adaptive) return squared_error_norm(from, attempt);
-                });
+                shadows_.attempt(pack_, stepper_, attempt_.step, adapts(),
+                                 [&](auto const& from, auto const& attempt) { return squared_error_norm(from, attempt); });
             }
             stepper_.attempt(pack_, pack_.start(), attempt_);
             settle(landing);
@@ -73,8 +72,6 @@ private:
     static constexpr double hair = 1.000001;  // how much longer than it may be a step gets to land
     using Impacts = ImpactSteps<Stepper, Model, Real>;
     using Choice = MethodChoice<Model, Real>;
-    // Within an impact errors differ much from step to step.
-    using Control = StepControl<Stepper::order, by_clock ? 25 : 20>;
 
     /// A known time at which the step ends at the latest, and the lanes where it ends there.
     struct Landing {
@@ -105,7 +102,7 @@ private:
         if constexpr (by_clock) {
             lands = impacts_.choose(pack_, stepper_, remaining);
         } else {
-            Real const h = Stepper::adaptive ? c.h : Real(settings_.fixed_step);
+            Real const h = adapts() ? c.h : Real(settings_.fixed_step);
             // A last step a hair short of the end would leave a crumb below the resolution of time.
             lands = remaining <= h * Real(hair);
             attempt_.step = select(pack_.busy, select(lands, remaining, h), Real(0.0));
@@ -134,7 +131,7 @@ private:
         }
         c.rejections = select(busy, count<Real>(failed), c.rejections);
         Mask<Real> const still = verdict.rejected & (next_time <= resolution());
-        Mask<Real> stuck = Stepper::adaptive ? still : verdict.rejected;
+        Mask<Real> stuck = adapts() ? still : verdict.rejected;
         if constexpr (Model::has_shadows) attempt_.faults = attempt_.faults.or_else(shadows_.faults());
 
         auto finished = mask_of<Real>(false);
@@ -159,6 +156,7 @@ private:
         }
     }
 
+    SLIDEWAY_HD bool adapts() const { return Stepper::adaptive && !has_fixed_step(settings_.method); }
     SLIDEWAY_HD bool is_auto() const { return settings_.method == Method::automatic; }
 
     SLIDEWAY_HD void leave_stiffness(Verdict const& verdict) {
@@ -175,9 +173,9 @@ private:
         Verdict verdict;
         verdict.cut = verdict.impact = verdict.divergent = mask_of<Real>(false);
         Real const former_memory = pack_.state.course.error_memory;
-        auto allowed = Stepper::adaptive ? allowed_by_error(landing, verdict.divergent) : allowed_if_finite(verdict.divergent);
+        auto allowed = adapts() ? allowed_by_error(landing, verdict.divergent) : allowed_if_finite(verdict.divergent);
         if constexpr (Model::has_contacts && Stepper::adaptive) {
-            if (pack_.needs.watch()) {
+            if (pack_.needs.watch() && adapts()) {
                 auto const by_contacts = allowed_by_contacts(allowed);
                 verdict.cut = allowed.accepted & !by_contacts.accepted;
                 // A step that an event cuts short says nothing of its error.
@@ -209,7 +207,7 @@ private:
         divergent = !(squared_norm < Real(1e300));
         // Whether what is beyond all bounds came out infinite or NaN may be the neighbours' doing.
         squared_norm = select(divergent, Real(not_a_number), squared_norm);
-        Real const factor = Control::factor(squared_norm, accepted, c.rejections > Real(0.5), c.error_memory);
+        Real const factor = control_.factor(squared_norm, accepted, c.rejections > Real(0.5), c.error_memory);
         Real next = attempt_.step * factor;
         if constexpr (by_clock) next = impacts_.next(pack_.state, stepper_, accepted, factor);
         // A step that was shortened to land says little of what the next may be.
@@ -318,7 +316,7 @@ private:
         if (!pack_.needs.quantities) return;
         if constexpr (has_impulses<Stepper>) pack_.state.observation.observer.take_impulses(accepted, attempt_.report);
         if constexpr (PeakSearch<Stepper, Model, Real>::is_of_use) {
-            if (pack_.needs.peaks) PeakSearch<Stepper, Model, Real>::run(pack_, stepper_, attempt_, accepted);
+            if (pack_.needs.peaks && adapts()) PeakSearch<Stepper, Model, Real>::run(pack_, stepper_, attempt_, accepted);
         }
         pack_.state.observation.observer.accept(accepted, attempt_.step, pack_.integral, attempt_.report, attempt_.end,
                                                 pack_.needs.switches);
@@ -402,6 +400,7 @@ private:
     Pack<Model, Real>& pack_;
     Results<Model>& results_;
     IntegratorSettings const& settings_;
+    StepControl control_;  // within an impact errors differ much from step to step
     Stepper stepper_;
     [[no_unique_address]] typename SearchOf<Model, Real>::Type search_;
     [[no_unique_address]] std::conditional_t<Model::has_shadows, Shadows<Model, Real>, NoShadowSteps> shadows_;

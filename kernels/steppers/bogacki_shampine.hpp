@@ -2,7 +2,6 @@
 
 #include "kernels/real.hpp"
 #include "kernels/steppers/explicit_pair.hpp"
-#include "kernels/steppers/hermite.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -19,12 +18,6 @@ struct BogackiShampineTableau {
 /// cubic through both states and derivatives.  Source: Bogacki & Shampine, Appl. Math. Lett. 2 (1989) 321–325.
 struct BogackiShampine : ExplicitPair<BogackiShampineTableau, 4> {
     static constexpr int order = 3;
-
-    /// One component inside the step, at fraction θ of it.  @param y0, y1 the component at both ends of the step.
-    template <int size, class Real>
-    SLIDEWAY_FN static Real dense(Real const (*k)[size], int i, Real y0, Real y1, Real h, Real theta) {
-        return hermite(y0, h * k[0][i], y1, h * k[3][i], theta);
-    }
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

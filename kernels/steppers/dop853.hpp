@@ -70,35 +70,6 @@ struct Dop853Tableau {
 struct Dop853 : ExplicitPair<Dop853Tableau, 13> {
     static constexpr int order = 8;
     static constexpr int dense_stages = 3;
-
-    /// One component inside the step, at fraction θ of it.  @param k slopes of all sixteen stages  @param y0, y1 the component at both
-    /// ends of the step.
-    template <int size, class Real>
-    SLIDEWAY_FN static Real dense(Real const (*k)[size], int i, Real y0, Real y1, Real h, Real theta) {
-        Real const rest = Real(1.0) - theta, change = y1 - y0;
-        Real const start = fms(h, k[0][i], change);
-        Real const end = fnma(h, k[12][i], change) - start;
-        Real sum = h * bend<3>(k, i);
-        sum = fma(theta, sum, h * bend<2>(k, i));
-        sum = fma(rest, sum, h * bend<1>(k, i));
-        sum = fma(theta, sum, h * bend<0>(k, i));
-        sum = fma(rest, sum, end);
-        sum = fma(theta, sum, start);
-        return fma(theta, fma(rest, sum, change), y0);
-    }
-
-private:
-    template <int row, int size, class Real> SLIDEWAY_FN static Real bend(Real const (*k)[size], int i) {
-        return bend<row, 5>(k, i, Real(Tableau{}.d[row][0]) * k[0][i]);
-    }
-    template <int row, int j, int size, class Real>
-    SLIDEWAY_FN static Real bend(Real const (*k)[size], int i, Real sum) {
-        if constexpr (j == 16) {
-            return sum;
-        } else {
-            return bend<row, j + 1>(k, i, fma(Real(Tableau{}.d[row][j]), k[j][i], sum));
-        }
-    }
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -1,18 +1,26 @@
 #pragma once
 
+#include <type_traits>
+#include <utility>
+
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// What all explicit Runge–Kutta pairs share.  @tparam Tableau holds the nodes c, stage weights a, weights b, and the error's
-/// weights e; of two estimates of the error the second's are `coarse`; d is for `dense` below, where a pair has no other of its own.
+/// What all explicit Runge–Kutta methods share, and what lanes are compiled for that go by clocks or end steps inside; others choose PairNumbers.
+/// @tparam Tableau holds the nodes c, stage weights a, weights b, and the error's weights e; of two estimates of the error the second's are `coarse`;
+/// d is for `dense`, in four rows where the extension has stages of its own, and without it the cubic through both ends is all there is.
 /// @tparam count the number of stages, of which the last is the first of the next step.
 template <class Tableau_, int count> struct ExplicitPair {
     using Tableau = Tableau_;
-    static constexpr bool adaptive = true;
     static constexpr int stages = count;
     static constexpr int dense_stages = 0;  // beyond those, of the continuous extension
     static constexpr bool has_two_estimates = requires(Tableau w) { w.coarse; };
+
+    /// Calls a function with the number of each stage but the first, which the last step has left; a constant, for the tableau.
+    template <class Stage> SLIDEWAY_FN static void each_stage(Stage const& stage) {
+        [&]<int... s>(std::integer_sequence<int, s...>) { (stage(std::integral_constant<int, s + 1>{}), ...); }(std::make_integer_sequence<int, count - 1>{});
+    }
 
     /// State at which stage `s` evaluates the derivative: y + h Σ_j a_sj k_j.
     template <int s, int size, class Real>
@@ -27,9 +35,6 @@ template <class Tableau_, int count> struct ExplicitPair {
     /// Σ_j e_j k_j of one component: the error estimate is h times this.
     template <int size, class Real> SLIDEWAY_FN static Real error_slope(Real const (*k)[size], int i) {
         return combined<&Tableau::e>(k, i);
-    }
-    template <int size, class Real> SLIDEWAY_FN static Real coarse_error_slope(Real const (*k)[size], int i) {
-        return combined<&Tableau::coarse>(k, i);
     }
 
     /// One component inside the step, at fraction θ of it: the cubic through both ends, and what Σ_j d_j k_j adds with θ²(1 − θ)².

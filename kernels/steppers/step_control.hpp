@@ -11,16 +11,19 @@ inline constexpr double step_control_start = -26.575424759098897;
 /// Proportional–integral step control for a method whose local error falls with h^order.  Source: Hairer & Wanner, Solving Ordinary
 /// Differential Equations II (1996), IV.2 (Gustafsson).  Works on the logarithm of the squared norm, so that one exponential and
 /// one logarithm serve each attempt; four digits of them do, for the error is an estimate.
-/// @tparam percent of the exponent 1/order that the former error has
-template <int order, int percent = 20> struct StepControl {
+struct StepControl {
     static constexpr double safety = 0.9, shrink = 0.2, grow = 10.0;
-    static constexpr double integral = percent / 100.0 / order, proportional = 1.0 / order - 0.75 * integral;
+    double integral, proportional;
+
+    /// @param percent of the exponent 1/order that the former error has
+    explicit constexpr SLIDEWAY_HD StepControl(int order, int percent = 20)
+        : integral(percent / 100.0 / order), proportional(1.0 / order - 0.75 * integral) {}
 
     /// Factor for the next step, and the controller's memory: log₂ of the squared norm of the last accepted error.
     /// @param squared_norm mean square of error/tolerance; NaN or infinity shrinks the step most.
     /// @param after_rejection lanes whose last attempt failed: they do not grow at once.
     template <class Real>
-    SLIDEWAY_FN static Real factor(Real squared_norm, Mask<Real> accepted, Mask<Real> after_rejection, Real& memory) {
+    SLIDEWAY_FN Real factor(Real squared_norm, Mask<Real> accepted, Mask<Real> after_rejection, Real& memory) const {
         auto const finite = squared_norm < Real(1e300);
         Real const level = rough_log2(max(squared_norm, Real(1e-20)));
         Real const reaction = Real(-0.5 * proportional) * level;

@@ -59,6 +59,7 @@ def test_a_law_is_compiled_changed_and_compared(modules, program):
     assert changed.source in slideway.Ensemble(SCENE).resolved
 
 
+@pytest.mark.slow
 def test_a_key_that_became_another_one_is_refused_in_the_same_process(modules):
     slideway.compile(SPRING.replace("spring", "spring_of_units"), modules, isa="scalar")
     scene = {**SCENE, "contact": {"law": "spring_of_units"}}

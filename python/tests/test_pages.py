@@ -62,7 +62,8 @@ def runnable(command: str) -> list[str]:
     return [command]
 
 
-PAGES = ["README.md", "docs/chaos.md", "docs/command_line.md", "docs/gpu.md", "docs/json.md", "docs/report.md", "docs/rigid.md", "docs/tolerance.md"]
+PAGES = ["README.md", "docs/chaos.md", "docs/gpu.md", "docs/json.md", "docs/tolerance.md",
+         *(pytest.param(page, marks=pytest.mark.slow) for page in ("docs/command_line.md", "docs/report.md", "docs/rigid.md"))]
 
 
 @pytest.fixture

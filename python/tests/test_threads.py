@@ -67,7 +67,7 @@ with ThreadPoolExecutor(number) as pool:
 """
 
 
-@pytest.mark.parametrize(("threads", "limits"), [(8, WITHIN_LIMITS), (8, BEYOND_LIMITS)], ids=["eight", "lazily"])
+@pytest.mark.parametrize(("threads", "limits"), [(8, WITHIN_LIMITS), pytest.param(8, BEYOND_LIMITS, marks=pytest.mark.slow)], ids=["eight", "lazily"])
 def test_results_are_opened_and_scenes_run_in_threads(stored: str, threads: int, limits: str) -> None:
     survive(limits + IN_THREADS, stored, threads)
 

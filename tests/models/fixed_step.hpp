@@ -6,7 +6,6 @@
 
 #include "kernels/lane_copy.hpp"
 #include "kernels/real.hpp"
-#include "kernels/steppers/runge_kutta4.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -134,7 +133,7 @@ private:
         if constexpr (s == 0) {
             ((sum[i] = k[i]), ...);
         } else {
-            ((sum[i] = RungeKutta4::accumulate<s>(sum[i], k[i])), ...);
+            ((sum[i] = s < 3 ? fma(Real(2.0), k[i], sum[i]) : sum[i] + k[i]), ...);
         }
         if constexpr (s < 3) {
             ((at[i] = fma(reach, k[i], y[i])), ...);

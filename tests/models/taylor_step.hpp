@@ -11,27 +11,28 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// the derivative, which `Jet` finds.  The error estimate is the last term, that of the series one order lower: half the order's
 /// multiplications buy nothing but length of step, which falls with 1/e² of the radius of convergence at the best order
 /// −½ ln(tolerance) (Jorba & Zou, Experimental Mathematics 14 (2005) 99).
-template <int order_, class Model, class Real> class TaylorStep {
+template <int terms, class Model, class Real> class TaylorStep {
 public:
-    static constexpr int order = order_;
     static constexpr bool adaptive = true;
     static constexpr bool stiff = false;
     static constexpr bool by_clock = false;
     static constexpr bool ends_early = false;
-    static constexpr int evaluations = order + 1;  // per attempt: its coefficients, and the end
-    static constexpr bool has_two_estimates = false;
     static constexpr int jacobians = 0;
+    SLIDEWAY_HD static int order(Pack<Model, Real> const&) { return terms; }
+    /// Per attempt: its coefficients, and the end.
+    SLIDEWAY_HD static int evaluations(Pack<Model, Real> const&) { return terms + 1; }
 
     SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {
         expand(pack, from);
         at(to.step, to.end);
-        last_power_ = power<order - 1>(to.step);
+        last_power_ = power<terms - 1>(to.step);
         to.faults = pack.evaluate(from.t + to.step, to.end, from.memory, to.end_rates, from.needs.ends, to.report);
     }
 
-    /// Error estimate of one component: its last term, or a part e⁻² of the one before where symmetry makes that the larger.
-    SLIDEWAY_HD Real error(Attempt<Model, Real> const& to, int i) const {
-        return last_power_ * max(abs(c_[i][order] * to.step), Real(0.1353352832366127) * abs(c_[i][order - 1]));
+    /// Error estimates of the components: their last terms, or a part e⁻² of those before where symmetry makes that the larger.
+    SLIDEWAY_HD void errors(Attempt<Model, Real> const& to, Real* of_state) const {
+        for (int i = 0; i < size; ++i)
+            of_state[i] = last_power_ * max(abs(c_[i][terms] * to.step), Real(0.1353352832366127) * abs(c_[i][terms - 1]));
     }
 
     SLIDEWAY_HD void prepare_dense(Pack<Model, Real>&, Attempt<Model, Real> const&, Mask<Real>) {}
@@ -45,7 +46,7 @@ private:
     static_assert(!Model::has_contacts, "contacts have kinks");
     static_assert(Pack<Model, Real>::Observer::integrals == 0, "there are no stages to add up integrands of");
     static constexpr int size = Model::size;
-    static constexpr int length = order + 1;
+    static constexpr int length = terms + 1;
     using Rows = JetRows<Real, length>;
     using Parameters = typename Model::template Parameters<Real>;
     static constexpr int parameters = sizeof(Parameters) / sizeof(Real);
@@ -75,14 +76,14 @@ private:
         rows.used = 0;
         pack.model.template derivative<false>(Number(time, &rows), y, constants, memory, rates, &report);
         for (int i = 0; i < size; ++i) c_[i][k + 1] = Real(1.0 / (k + 1)) * rates[i].last();
-        if constexpr (k + 1 < order) append<k + 1>(pack, rows, time);
+        if constexpr (k + 1 < terms) append<k + 1>(pack, rows, time);
     }
 
     /// The state after a time, by Horner's scheme of the even and of the odd terms.
     SLIDEWAY_FN void at(Real time, Real* state) const {
         Real const square = time * time;
         for (int i = 0; i < size; ++i) {
-            constexpr int last_even = order - order % 2, last_odd = order - 1 + order % 2;
+            constexpr int last_even = terms - terms % 2, last_odd = terms - 1 + terms % 2;
             Real even = c_[i][last_even], odd = c_[i][last_odd];
             for (int k = last_even - 2; k >= 0; k -= 2) even = fma(even, square, c_[i][k]);
             for (int k = last_odd - 2; k > 0; k -= 2) odd = fma(odd, square, c_[i][k]);
@@ -106,7 +107,7 @@ private:
 /// A model whose derivative is analytic between its events: it decides by nothing that changes within a step, so that it may be called with series.
 struct Analytic {
     static constexpr bool has_own_stepper = true;
-    /// What `auto` steps by: the series whose order suits the tolerance, −½ ln(rtol) or so.  @param work is called with a null pointer to the stepper
+    /// What `auto` steps by: the series whose terms suits the tolerance, −½ ln(rtol) or so.  @param work is called with a null pointer to the stepper
     template <class Model, class Real, class Work> SLIDEWAY_HD static void with_stepper(double rtol, Work const& work) {
         if (rtol > 1e-7) work(static_cast<TaylorStep<8, Model, Real>*>(nullptr));
         else if (rtol > 1e-10) work(static_cast<TaylorStep<12, Model, Real>*>(nullptr));

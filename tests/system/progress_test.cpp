@@ -34,7 +34,7 @@ TEST_F(ProgressLines, OfOneMemberTellHowFarItIs) {
 /// One of them takes a minute, all others milliseconds: all threads work on one block, which ends with the last member.
 TEST_F(ProgressLines, CountMembersThatEndedBesideOneThatGoesOn) {
     write("table.csv", "initial.y [mm],mechanism.crank_speed [rad/s]\n0.01,300\n0,0.001\n0,0.001\n0,0.001\n0,0.001\n0,0.001\n");
-    write("s.toml", "schema = 1\n[contact]\nlaw = \"paper\"\n[study]\nkind = \"tolerance\"\ndesign = \"table\"\ntable = \"table.csv\"\nduration = 100\n"
+    write("s.toml", "schema = 1\n[contact]\nlaw = \"paper\"\n[study]\nkind = \"tolerance\"\ndesign = \"table\"\ntable = \"table.csv\"\nduration = 25\n"
                     "quantities = [\"mean_normal_force\"]\n");
     for (char const* const threads : {"1", "2"}) {
         std::filesystem::remove(path("err"));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "kernels/steppers/pair_numbers.hpp"
 #include "kernels/steppers/runge_kutta4.hpp"
 #include "tests/models/relief_valve.hpp"
 #include "tests/support/valve_golden.hpp"
@@ -61,10 +62,10 @@ private:
             for (int i = 0; i < 3; ++i) k[s][i] = dy[static_cast<std::size_t>(i)];
         };
         slope(0);
-        RungeKutta4::stage_state<1>(y.data(), k, h, at.data()), slope(1);
-        RungeKutta4::stage_state<2>(y.data(), k, h, at.data()), slope(2);
-        RungeKutta4::stage_state<3>(y.data(), k, h, at.data()), slope(3);
-        RungeKutta4::stage_state<4>(y.data(), k, h, at.data());
+        for (int s = 1; s < 5; ++s) {
+            pair_numbers<RungeKutta4>().stage_state(s, y.data(), k, h, at.data());
+            if (s < 4) slope(s);
+        }
         return at;
     }
 

@@ -109,7 +109,10 @@ TEST_P(RigidSlider, MovesAsTheReferenceWithFriction) {
     EXPECT_LE(seen.parted, GetParam() > 0 ? 0 : 1);
 }
 
-TEST_P(RigidSlider, OfADriveMovesAsTheReference) {
+/// Mechanisms and ways, at fewer coefficients: the reference takes long.
+class RigidSliderOn : public RigidSlider {};
+
+TEST_P(RigidSliderOn, ADriveMovesAsTheReference) {
     for (Mechanism const mechanism : {Mechanism::carriage, Mechanism::scotch_yoke, Mechanism::slider_crank}) {
         for (bool const friction : {false, true}) {
             auto const members = drifting_sliders(2, 9, GetParam(), friction ? 0.1 : 0);
@@ -120,7 +123,7 @@ TEST_P(RigidSlider, OfADriveMovesAsTheReference) {
     }
 }
 
-TEST_P(RigidSlider, OfAMisalignedWayMovesAsTheReference) {
+TEST_P(RigidSliderOn, AMisalignedWayMovesAsTheReference) {
     for (bool const friction : {false, true}) {
         auto members = drifting_sliders(3, 10, GetParam(), friction ? 0.1 : 0);
         for (auto& in : members) {
@@ -135,6 +138,7 @@ TEST_P(RigidSlider, OfAMisalignedWayMovesAsTheReference) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Restitution, RigidSlider, ::testing::Values(0.0, 0.3, 0.6, 1.0));
+INSTANTIATE_TEST_SUITE_P(Restitution, RigidSliderOn, ::testing::Values(0.0, 0.3, 1.0));
 
 }  // namespace
 }  // namespace slideway::rigid_slider_test

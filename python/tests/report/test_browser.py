@@ -16,7 +16,7 @@ from .test_page import SUITED, hostile
 Looks = Callable[..., Seen]
 
 
-@pytest.mark.parametrize("name", ["ensemble", "sweep", "tolerance", "stored", *slow("lyapunov", "poincare", "failing")])
+@pytest.mark.parametrize("name", ["ensemble", "stored", *slow("sweep", "tolerance", "lyapunov", "poincare", "failing")])
 def test_a_page_draws_all_its_plots_and_fetches_nothing(name: str, seen_of: Looks) -> None:
     seen = seen_of(name)
     assert seen.complaints == []
@@ -54,7 +54,7 @@ def test_what_is_lit_touches_in_the_drawing(seen_of: Looks) -> None:
     assert sum(clear) / len(clear) > 0.5
 
 
-@pytest.mark.parametrize("dark", [False, True])
+@pytest.mark.parametrize("dark", [True, *slow(False)])
 def test_a_page_follows_the_readers_colours(dark: bool, seen_of: Looks) -> None:
     found = seen_of("stored", dark=dark).found["colours"]
     assert (found["paper"] < 0.3) == dark

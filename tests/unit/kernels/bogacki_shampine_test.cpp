@@ -28,57 +28,24 @@ TEST(BogackiShampine, SatisfiesEveryOrderConditionUpToThree) {
     for (int j = 0; j < 3; ++j) EXPECT_EQ(w.a[3][j], w.b[j]) << "the last stage is the first of the next step";
 }
 
-/// x'' = −x as a system; one step of h with its stage derivatives.
-struct Oscillator {
-    double y[2] = {1, 0}, end[2], k[4][2];
-
-    void step(double h) {
-        auto const f = [](double const* s, double* d) { d[0] = s[1], d[1] = -s[0]; };
-        double at[2];
-        f(y, k[0]);
-        BogackiShampine::stage_state<1>(y, k, h, at), f(at, k[1]);
-        BogackiShampine::stage_state<2>(y, k, h, at), f(at, k[2]);
-        BogackiShampine::stage_state<3>(y, k, h, end), f(end, k[3]);
-    }
-};
-
 double order(auto const& error) { return std::log2(error(0.02) / error(0.01)); }
 
-TEST(BogackiShampine, HasOrderThreeOnAnOscillator) {
-    EXPECT_NEAR(order([](double h) {
-                    Oscillator o;
-                    for (int i = 0; i < static_cast<int>(std::lround(4 / h)); ++i) {
-                        o.step(h);
-                        o.y[0] = o.end[0], o.y[1] = o.end[1];
-                    }
-                    return std::hypot(o.y[0] - std::cos(4.0), o.y[1] + std::sin(4.0));
-                }),
-                3, 0.1);
-}
+TEST(BogackiShampine, HasOrderThreeOnAnOscillator) { EXPECT_NEAR(order(testing::oscillator_error<BogackiShampine>), 3, 0.1); }
 
 TEST(BogackiShampine, EstimatesTheErrorOfItsOrderTwoCompanion) {
     // A local error of order 2 falls with h³.
     EXPECT_NEAR(order([](double h) {
-                    Oscillator o;
+                    testing::Logistic<BogackiShampine> o;
                     o.step(h);
-                    return std::hypot(h * BogackiShampine::error_slope(o.k, 0), h * BogackiShampine::error_slope(o.k, 1));
+                    return o.estimate(h);
                 }),
                 3, 0.1);
 }
 
 TEST(BogackiShampine, DenseOutputHasOrderThreeInsideTheStepAndMeetsBothEnds) {
-    for (double const theta : {0.2, 0.5, 0.9}) {
-        EXPECT_NEAR(order([theta](double h) {
-                        Oscillator o;
-                        o.step(h);
-                        double const x = BogackiShampine::dense(o.k, 0, o.y[0], o.end[0], h, theta);
-                        double const v = BogackiShampine::dense(o.k, 1, o.y[1], o.end[1], h, theta);
-                        return std::hypot(x - std::cos(theta * h), v + std::sin(theta * h));
-                    }),
-                    4, 0.2)
-            << theta;
-    }
-    Oscillator o;
+    for (double const theta : {0.2, 0.5, 0.9})
+        EXPECT_NEAR(order([theta](double h) { return testing::inner_oscillator_error<BogackiShampine>(h, theta); }), 4, 0.2) << theta;
+    testing::Oscillator<BogackiShampine> o;
     o.step(0.3);
     testing::expect_dense_meets_ends<BogackiShampine>(o, 0.3, 1e-16);
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kernels/steppers/dormand_prince.hpp"
+#include "kernels/steppers/verner65.hpp"
 #include "tests/unit/kernels/logistic.hpp"
 
 namespace slideway::dormand_prince_test {
@@ -62,52 +63,45 @@ TEST(DormandPrince, MeetsTheOrderConditions) {
     check(w.e, 4, 0.0);
 }
 
-/// x'' = −x as a system; one fixed step of h from (x, v) with stage derivatives kept.
-struct Oscillator {
-    double y[2] = {1.0, 0.0}, end[2], k[7][2];
-
-    void step(double h) {
-        auto const f = [](double const* s, double* d) { d[0] = s[1], d[1] = -s[0]; };
-        f(y, k[0]);
-        double at[2];
-        DormandPrince::stage_state<1>(y, k, h, at), f(at, k[1]);
-        DormandPrince::stage_state<2>(y, k, h, at), f(at, k[2]);
-        DormandPrince::stage_state<3>(y, k, h, at), f(at, k[3]);
-        DormandPrince::stage_state<4>(y, k, h, at), f(at, k[4]);
-        DormandPrince::stage_state<5>(y, k, h, at), f(at, k[5]);
-        DormandPrince::stage_state<6>(y, k, h, end), f(end, k[6]);
-    }
-    void advance() { y[0] = end[0], y[1] = end[1]; }
-};
-
 double observed_order(auto const& error) { return std::log2(error(0.2) / error(0.1)); }
 
-TEST(DormandPrince, HasOrderFiveOnAnOscillator) {
-    auto const error = [](double h) {
-        Oscillator o;
-        for (int i = 0; i < static_cast<int>(std::lround(4 / h)); ++i) o.step(h), o.advance();
-        return std::hypot(o.y[0] - std::cos(4.0), o.y[1] + std::sin(4.0));
-    };
-    EXPECT_NEAR(observed_order(error), 5.0, 0.2);
-}
+TEST(DormandPrince, HasOrderFiveOnAnOscillator) { EXPECT_NEAR(observed_order(testing::oscillator_error<DormandPrince>), 5.0, 0.2); }
 
 TEST(DormandPrince, DenseOutputHasOrderFourInsideTheStep) {
     for (double const theta : {0.1, 0.37, 0.5, 0.8}) {
-        auto const local = [theta](double h) {
-            Oscillator o;
-            o.step(h);
-            double const x = DormandPrince::dense(o.k, 0, o.y[0], o.end[0], h, theta);
-            double const v = DormandPrince::dense(o.k, 1, o.y[1], o.end[1], h, theta);
-            return std::hypot(x - std::cos(theta * h), v + std::sin(theta * h));
-        };
+        auto const local = [theta](double h) { return testing::inner_oscillator_error<DormandPrince>(h, theta); };
         EXPECT_NEAR(observed_order(local), 5.0, 0.3) << "local error of order h^5 at " << theta;
     }
 }
 
 TEST(DormandPrince, DenseOutputMeetsBothEnds) {
-    Oscillator o;
+    testing::Oscillator<DormandPrince> o;
     o.step(0.3);
     testing::expect_dense_meets_ends<DormandPrince>(o, 0.3, 1e-16);
+}
+
+/// What lanes with clocks or with ends inside of steps are compiled for has the bits of the numbers that others choose.
+template <class Pair> void expect_same_bits() {
+    auto const& pair = pair_numbers<Pair>();
+    testing::Oscillator<Pair> o;
+    o.step(0.7);
+    double slope[2], inside[2];
+    PairNumbers::combine(pair.e, pair.stages, o.k, slope);
+    pair.dense(o.k, o.y, o.end, 0.7, 0.3, inside);
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_EQ(Pair::error_slope(o.k, i), slope[i]);
+        EXPECT_EQ(Pair::dense(o.k, i, o.y[i], o.end[i], 0.7, 0.3), inside[i]);
+    }
+    double want[2], got[2];
+    Pair::template stage_state<3>(o.y, o.k, 0.7, want), pair.stage_state(3, o.y, o.k, 0.7, got);
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(want[i], got[i]);
+    Pair::template stage_state<Pair::stages - 1>(o.y, o.k, 0.7, want);
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(want[i], o.end[i]);
+}
+
+TEST(PairNumbers, HaveTheBitsOfTheirMethods) {
+    expect_same_bits<DormandPrince>();
+    expect_same_bits<Verner65>();
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ using Model = SliderCrank;
 double wished(double error, double last) { return 0.9 * std::pow(error, -0.17) * std::pow(last, 0.04); }
 
 double factor(double error, bool accepted, bool after_rejection, double& memory) {
-    return StepControl<5>::factor(error * error, accepted, after_rejection, memory);
+    return StepControl(5).factor(error * error, accepted, after_rejection, memory);
 }
 
 constexpr double slack = 1.5e-4;  // logarithm and exponential are rough

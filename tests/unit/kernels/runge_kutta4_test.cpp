@@ -43,49 +43,19 @@ TEST(RungeKutta4, MeetsTheOrderConditions) {
     EXPECT_EQ(w.c[4], 1.0);
 }
 
-/// x'' = −x as a system; one step of h from (x, v) with the slopes kept.
-struct Oscillator {
-    double y[2] = {1.0, 0.0}, end[2], k[5][2];
-
-    static void rates(double const* s, double* d) { d[0] = s[1], d[1] = -s[0]; }
-
-    void step(double h) {
-        double at[2];
-        rates(y, k[0]);
-        RungeKutta4::stage_state<1>(y, k, h, at), rates(at, k[1]);
-        RungeKutta4::stage_state<2>(y, k, h, at), rates(at, k[2]);
-        RungeKutta4::stage_state<3>(y, k, h, at), rates(at, k[3]);
-        RungeKutta4::stage_state<4>(y, k, h, end), rates(end, k[4]);
-    }
-    void advance() { y[0] = end[0], y[1] = end[1]; }
-};
-
 double observed_order(auto const& error) { return std::log2(error(0.1) / error(0.05)); }
 
-TEST(RungeKutta4, HasOrderFourOnAnOscillator) {
-    auto const error = [](double h) {
-        Oscillator o;
-        for (int i = 0; i < static_cast<int>(std::lround(4 / h)); ++i) o.step(h), o.advance();
-        return std::hypot(o.y[0] - std::cos(4.0), o.y[1] + std::sin(4.0));
-    };
-    EXPECT_NEAR(observed_order(error), 4.0, 0.2);
-}
+TEST(RungeKutta4, HasOrderFourOnAnOscillator) { EXPECT_NEAR(observed_order(testing::oscillator_error<RungeKutta4>), 4.0, 0.2); }
 
 TEST(RungeKutta4, CubicInsideTheStepIsOffByTheFourthPower) {
     for (double const theta : {0.1, 0.37, 0.5, 0.8}) {
-        auto const local = [theta](double h) {
-            Oscillator o;
-            o.step(h);
-            double const x = RungeKutta4::dense(o.k, 0, o.y[0], o.end[0], h, theta);
-            double const v = RungeKutta4::dense(o.k, 1, o.y[1], o.end[1], h, theta);
-            return std::hypot(x - std::cos(theta * h), v + std::sin(theta * h));
-        };
+        auto const local = [theta](double h) { return testing::inner_oscillator_error<RungeKutta4>(h, theta); };
         EXPECT_NEAR(observed_order(local), 4.0, 0.3) << "at " << theta;
     }
 }
 
 TEST(RungeKutta4, CubicInsideTheStepMeetsBothEnds) {
-    Oscillator o;
+    testing::Oscillator<RungeKutta4> o;
     o.step(0.3);
     testing::expect_dense_meets_ends<RungeKutta4>(o, 0.3, 1e-16);
 }
@@ -142,14 +112,12 @@ TEST(FixedStep, TakesTheStepsOfTheStepper) {
     auto const p = Lorenz::parameters(in);
     Lorenz::Report<double> report;
     auto const rates = [&](double const* s, double* d) { Lorenz::derivative<false>(0.0, s, p, {}, d, &report); };
+    auto const& pair = pair_numbers<RungeKutta4>();
     double y[3], at[3], k[5][3];
     Lorenz::initial_state(in, y);
     for (int n = 0; n < 50; ++n) {
         rates(y, k[0]);
-        RungeKutta4::stage_state<1>(y, k, 0.01, at), rates(at, k[1]);
-        RungeKutta4::stage_state<2>(y, k, 0.01, at), rates(at, k[2]);
-        RungeKutta4::stage_state<3>(y, k, 0.01, at), rates(at, k[3]);
-        RungeKutta4::stage_state<4>(y, k, 0.01, at);
+        for (int s = 1; s < 5; ++s) pair.stage_state(s, y, k, 0.01, at), rates(at, k[s]);
         for (int i = 0; i < 3; ++i) y[i] = at[i];
     }
     for (int i = 0; i < 3; ++i) EXPECT_EQ(got[i], y[i]) << "component " << i;

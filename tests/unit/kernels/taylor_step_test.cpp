@@ -59,8 +59,9 @@ template <int order> struct OneStep {
         attempt.step = h;
         stepper.attempt(pack, pack.start(), attempt);
         end = attempt.end[0];
-        error = stepper.error(attempt, 0);
-        double state[2];
+        double state[2], errors[2];
+        stepper.errors(attempt, errors);
+        error = errors[0];
         stepper.dense(pack.start(), attempt, theta, state);
         inside = std::abs(state[0] - exact(theta * h));
     }
