@@ -72,7 +72,7 @@ struct StopPlan {
         return count > growth_from() ? (count - growth_from() - 1) / growth_every : 0;
     }
     /// How many growths a stop has behind it if it ends one, 0 where the first begins; else `nowhere`.
-    constexpr std::size_t growths_at(std::size_t stop) const { return place(stop, growth_from(), growth_every); }
+    [[gnu::always_inline]] constexpr std::size_t growths_at(std::size_t stop) const { return place(stop, growth_from(), growth_every); }
 
 private:
     static constexpr std::size_t place(std::size_t stop, std::size_t from, std::size_t every) {

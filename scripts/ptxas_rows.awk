@@ -21,8 +21,8 @@ function function_of(name, plain, fullness, stepper) {
     if (plain == "SpatialSlider::linearise") return "linearisation"
     if (plain == "JointLinearisation::add_face") return "linearised faces"
     if (plain ~ /Law::stiffness$/) return "linearised law"
-    # The stepper is the first argument, or the first of an explicit one's.
-    stepper = match_of(name, "(::work<|CrossingSearch<)(ExplicitStep<)?[A-Za-z0-9]+")
+    # The stepper is the first argument.
+    stepper = match_of(name, "(::work<|CrossingSearch<)[A-Za-z0-9]+")
     sub(/.*</, "", stepper)
     return plain (stepper == "" ? "" : " " stepper)
 }

@@ -44,7 +44,7 @@ if [[ ${1:-} != --without-package ]]; then
         # Only then: another script may be at work in it.
         rm -rf build/wheel
         "${pip[@]}" wheel --no-deps --no-build-isolation -C build-dir="$build" -w build/wheel . >&2 || stop "pip could not make the wheel (see above)"
-        "${pip[@]}" install --no-deps --force-reinstall build/wheel/*.whl >&2 || stop "pip could not install the package (see above)"
+        "${pip[@]}" install --no-compile --no-deps --force-reinstall build/wheel/*.whl >&2 || stop "pip could not install the package (see above)"
         echo "$package" >"$stamp.package"
     fi
 fi

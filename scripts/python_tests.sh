@@ -24,6 +24,7 @@ report=$(mktemp)
 trap 'rm -f "$report"' EXIT
 code=0
 # Neither caches nor byte code beside the sources, which are those of the repository.
+unset PYTHONDONTWRITEBYTECODE
 (cd python && SLIDEWAY_PROGRAM=$program PYTHONPYCACHEPREFIX=$root/build/pycache "$environment/bin/pytest" -q -rs -p no:cacheprovider \
     --junitxml="$report" "$@") || code=$?
 

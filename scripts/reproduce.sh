@@ -29,6 +29,7 @@ environment=$(bash scripts/python_environment.sh) || stop "no Python environment
 
 SECONDS=0
 code=0
+unset PYTHONDONTWRITEBYTECODE
 PYTHONPATH=$root/scripts PYTHONPYCACHEPREFIX=$root/build/pycache "$environment/bin/python" -m "$study" "$output" "$@" || code=$?
 echo "time         $SECONDS s"
 exit "$code"

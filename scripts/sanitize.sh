@@ -54,7 +54,8 @@ check_module() {
     printf '#include <Python.h>\nint main(int argc, char** argv) { return Py_BytesMain(argc, argv); }\n' >"$main.c"
     clang-14 -fsanitize=thread "-I$(says 'sysconfig.get_path("include")')" "$main.c" -o "$main" "-L$libraries" "-Wl,-rpath,$libraries" \
         "-lpython$(says 'sysconfig.get_config_var("LDVERSION")')" || stop "the build of a Python for the sanitizer failed"
-    PYTHONHOME=$(says sys.base_prefix) PYTHONPATH=build/tsan/package:$(says 'sysconfig.get_path("purelib")') PYTHONDONTWRITEBYTECODE=1 \
+    unset PYTHONDONTWRITEBYTECODE
+    PYTHONHOME=$(says sys.base_prefix) PYTHONPATH=build/tsan/package:$(says 'sysconfig.get_path("purelib")') PYTHONPYCACHEPREFIX=build/tsan/pycache \
         "$main" python/tests/threads_in_one_process.py || failed=$((failed + 1))
 }
 [[ ${1:-asan} != asan ]] || check asan '-*Kernel*:*Parity*' unit_tests integration_tests

@@ -19,7 +19,6 @@ public:
     static constexpr int jacobians = 0;
     SLIDEWAY_HD static int order(Pack<Model, Real> const&) { return Pair::order; }
     SLIDEWAY_HD static int evaluations(Pack<Model, Real> const&) { return Pair::stages - 1; }  // per attempt
-    static_assert(!Pair::has_two_estimates && Pair::dense_stages == 0);
 
     /// Says by what clock the next attempt goes, and how far.  @param deep lanes deep within an impact
     SLIDEWAY_HD void go_by(ContactClock<Real> const& clock, Real own, Mask<Real> deep) {

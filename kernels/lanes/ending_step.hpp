@@ -18,7 +18,6 @@ public:
     static constexpr int jacobians = 0;
     SLIDEWAY_HD static int order(Pack<Model, Real> const&) { return Pair::order; }
     SLIDEWAY_HD static int evaluations(Pack<Model, Real> const&) { return Pair::stages - 1; }  // per attempt
-    static_assert(!Pair::has_two_estimates && Pair::dense_stages == 0);
 
     /// Idle lanes step in place.
     SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, StepStart<Model, Real> const& from, Attempt<Model, Real>& to) {

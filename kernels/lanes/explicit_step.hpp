@@ -9,13 +9,14 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// Attempts steps of the pack's explicit method in its lanes; what it knows of the last one serves its error and dense output.
 template <class Model, class Real> class ExplicitStep {
 public:
-    static constexpr bool adaptive = true;  // but for methods of a fixed step
+    static constexpr bool adaptive = true;  // as a rule
     static constexpr bool stiff = false;
     static constexpr bool by_clock = false;
     static constexpr bool ends_early = false;
     static constexpr int jacobians = 0;
 
-    /// Order, and evaluations of an attempt.
+    /// Whether by error control, order, and evaluations of an attempt.
+    SLIDEWAY_HD static bool adapts(Pack<Model, Real> const& pack) { return pack.pair->adaptive; }
     SLIDEWAY_HD static int order(Pack<Model, Real> const& pack) { return pack.pair->order; }
     SLIDEWAY_HD static int evaluations(Pack<Model, Real> const& pack) { return pack.pair->stages - 1; }
 

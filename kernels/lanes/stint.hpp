@@ -38,7 +38,8 @@ struct NoShadowSteps {
 template <class Stepper, class Model, class Real> class Stint {
 public:
     SLIDEWAY_HD Stint(Pack<Model, Real>& pack, Results<Model>& results, IntegratorSettings const& settings)
-        : pack_(pack), results_(results), settings_(settings), control_(Stepper::order(pack), by_clock ? 25 : 20), shadows_(results.shadows()) {
+        : pack_(pack), results_(results), settings_(settings), control_(Stepper::order(pack), by_clock ? 25 : 20),  // within an impact errors differ much
+          shadows_(results.shadows()) {
         max_step_ = Stepper::stiff ? settings.stiff_max_step : settings.max_step;
     }
 
@@ -156,7 +157,10 @@ private:
         }
     }
 
-    SLIDEWAY_HD bool adapts() const { return Stepper::adaptive && !has_fixed_step(settings_.method); }
+    SLIDEWAY_HD bool adapts() const {
+        if constexpr (requires { Stepper::adapts(pack_); }) return Stepper::adapts(pack_);
+        else return Stepper::adaptive;
+    }
     SLIDEWAY_HD bool is_auto() const { return settings_.method == Method::automatic; }
 
     SLIDEWAY_HD void leave_stiffness(Verdict const& verdict) {
@@ -400,7 +404,7 @@ private:
     Pack<Model, Real>& pack_;
     Results<Model>& results_;
     IntegratorSettings const& settings_;
-    StepControl control_;  // within an impact errors differ much from step to step
+    StepControl control_;
     Stepper stepper_;
     [[no_unique_address]] typename SearchOf<Model, Real>::Type search_;
     [[no_unique_address]] std::conditional_t<Model::has_shadows, Shadows<Model, Real>, NoShadowSteps> shadows_;

@@ -1,12 +1,16 @@
 #pragma once
 
 #include "kernels/real.hpp"
-#include "kernels/steppers/explicit_pair.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Coefficients of the method below.  Stage 12 is the step's end, stages 13 to 15 are the continuous extension's.
-struct Dop853Tableau {
+/// Explicit Runge–Kutta method of order 8 with thirteen stages, the last of which is the first of the next step, two estimates of the
+/// error, of orders 5 and 3, and a continuous extension of order 7 with three stages more.  For smooth motion and tight tolerances; where
+/// forces have kinks it gains nothing.  Source: Dormand & Prince (1981) in the form of Hairer, Nørsett & Wanner, Solving Ordinary
+/// Differential Equations I (1993), II.5, II.6 and II.10 (DOP853).
+struct Dop853 {
+    static constexpr int order = 8;
+    // Stage 12 is the step's end, stages 13 to 15 are the continuous extension's.
     double c[16] = {
         0, 0.05260015195876773, 0.0789002279381516, 0.1183503419072274, 0.2816496580927726, 0.3333333333333333, 0.25,
         0.3076923076923077, 0.6512820512820513, 0.6, 0.8571428571428571, 1.0, 1.0, 0.1, 0.2, 0.7777777777777778};
@@ -62,14 +66,5 @@ struct Dop853Tableau {
          -37.45832313645163, 104.0996495089623, 29.8402934266605, -43.53345659001114, 96.32455395918828, -39.17726167561544,
          -149.72683625798564},
     };};
-
-/// Explicit Runge–Kutta method of order 8 with thirteen stages, the last of which is the first of the next step, two estimates of the
-/// error, of orders 5 and 3, and a continuous extension of order 7 with three stages more.  For smooth motion and tight tolerances; where
-/// forces have kinks it gains nothing.  Source: Dormand & Prince (1981) in the form of Hairer, Nørsett & Wanner, Solving Ordinary
-/// Differential Equations I (1993), II.5, II.6 and II.10 (DOP853).
-struct Dop853 : ExplicitPair<Dop853Tableau, 13> {
-    static constexpr int order = 8;
-    static constexpr int dense_stages = 3;
-};
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -7,15 +7,11 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// What all explicit Runge–Kutta methods share, and what lanes are compiled for that go by clocks or end steps inside; others choose PairNumbers.
-/// @tparam Tableau holds the nodes c, stage weights a, weights b, and the error's weights e; of two estimates of the error the second's are `coarse`;
-/// d is for `dense`, in four rows where the extension has stages of its own, and without it the cubic through both ends is all there is.
-/// @tparam count the number of stages, of which the last is the first of the next step.
+/// What explicit Runge–Kutta pairs share that lanes are compiled for, those that go by clocks or end steps inside; all others are PairNumbers.
+/// @tparam Tableau with one row of d  @tparam count the number of stages, of which the last is the first of the next step.
 template <class Tableau_, int count> struct ExplicitPair {
     using Tableau = Tableau_;
     static constexpr int stages = count;
-    static constexpr int dense_stages = 0;  // beyond those, of the continuous extension
-    static constexpr bool has_two_estimates = requires(Tableau w) { w.coarse; };
 
     /// Calls a function with the number of each stage but the first, which the last step has left; a constant, for the tableau.
     template <class Stage> SLIDEWAY_FN static void each_stage(Stage const& stage) {

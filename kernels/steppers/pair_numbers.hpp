@@ -1,7 +1,8 @@
 #pragma once
 
+#include <iterator>
+
 #include "kernels/real.hpp"
-#include "kernels/steppers/explicit_pair.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
@@ -10,33 +11,36 @@ struct PairNumbers {
     static constexpr int most_stages = 16;
 
     int order;
-    int stages, dense_stages;  // as of an ExplicitPair
+    bool adaptive;  // has an estimate of its error
+    int stages, dense_stages;  // the last stage is the first of the next step; those that the continuous extension needs beyond
     bool has_two_estimates;
     int bends;  // rows of d; 0: the cubic through both ends is all that is known inside of a step
     double c[most_stages], a[most_stages][most_stages - 1];
     double reach[most_stages];  // factor of the step, of the sum that a row of `a` weights
     double b[most_stages], e[most_stages], coarse[most_stages], d[4][most_stages];
 
-    template <class Pair> static constexpr PairNumbers of() {
-        constexpr typename Pair::Tableau w{};
-        constexpr int rows = Pair::stages + Pair::dense_stages;
+    /// Of a method's tableau: nodes c, stage weights a, weights b and the error's e; of two estimates of the error the second's are `coarse`; d is what
+    /// the continuous extension adds to the cubic through both ends, in four rows where that has stages of its own, beyond those of b.
+    template <class Tableau> static constexpr PairNumbers of(int order) {
+        constexpr Tableau w{};
+        constexpr int stages = std::size(Tableau{}.b), rows = std::size(Tableau{}.c);
         static_assert(rows <= most_stages);
         auto const copy = [](double* to, double const* from, int count) {
             for (int i = 0; i < count; ++i) to[i] = from[i];
         };
         PairNumbers p{};
-        p.order = Pair::order;
-        p.stages = Pair::stages, p.dense_stages = Pair::dense_stages;
-        p.has_two_estimates = Pair::has_two_estimates;
+        p.order = order, p.adaptive = w.e[0] != 0;
+        p.stages = stages, p.dense_stages = rows - stages;
+        p.has_two_estimates = requires { w.coarse; };
         copy(p.c, w.c, rows);
         for (int s = 0; s < rows; ++s) copy(p.a[s], w.a[s], s), p.reach[s] = 1;
-        if constexpr (requires { Pair::whole; }) {
-            p.reach[Pair::stages - 1] = 1.0 / Pair::whole;
-            for (double& weight : p.a[Pair::stages - 1]) weight = weight * Pair::whole;
+        if constexpr (requires { Tableau::whole; }) {
+            p.reach[stages - 1] = 1.0 / Tableau::whole;
+            for (double& weight : p.a[stages - 1]) weight = weight * Tableau::whole;
         }
-        copy(p.b, w.b, Pair::stages);
-        copy(p.e, w.e, Pair::stages);
-        if constexpr (Pair::has_two_estimates) copy(p.coarse, w.coarse, Pair::stages);
+        copy(p.b, w.b, stages);
+        copy(p.e, w.e, stages);
+        if constexpr (requires { w.coarse; }) copy(p.coarse, w.coarse, stages);
         if constexpr (requires { w.d[0][0]; }) {
             for (p.bends = 0; p.bends < 4; ++p.bends) copy(p.d[p.bends], w.d[p.bends], rows);
         } else if constexpr (requires { w.d[0]; }) {
@@ -89,9 +93,12 @@ struct PairNumbers {
     }
 };
 
-/// Those of a method, in memory.
-template <class Pair> SLIDEWAY_HD PairNumbers const& pair_numbers() {
-    static constexpr PairNumbers numbers = PairNumbers::of<Pair>();
+/// Those of a method, a tableau or what has one, in memory.
+template <class Method> SLIDEWAY_HD PairNumbers const& pair_numbers() {
+    static constexpr PairNumbers numbers = [] {
+        if constexpr (requires { typename Method::Tableau; }) return PairNumbers::of<typename Method::Tableau>(Method::order);
+        else return PairNumbers::of<Method>(Method::order);
+    }();
     return numbers;
 }
 

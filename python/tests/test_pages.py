@@ -62,8 +62,8 @@ def runnable(command: str) -> list[str]:
     return [command]
 
 
-PAGES = ["README.md", "docs/chaos.md", "docs/gpu.md", "docs/json.md", "docs/tolerance.md",
-         *(pytest.param(page, marks=pytest.mark.slow) for page in ("docs/command_line.md", "docs/report.md", "docs/rigid.md"))]
+SLOW_PAGES = ["docs/command_line.md", "docs/report.md", "docs/rigid.md"]
+PAGES = ["README.md", "docs/chaos.md", "docs/gpu.md", "docs/json.md", "docs/tolerance.md", *SLOW_PAGES]
 
 
 @pytest.fixture
@@ -84,7 +84,7 @@ def run(line: str, folder: Path) -> subprocess.CompletedProcess[str]:
                           capture_output=True, text=True, check=False)  # fmt: skip
 
 
-@pytest.mark.parametrize("document", PAGES)
+@pytest.mark.parametrize("document", [pytest.param(page, marks=pytest.mark.slow) if page in SLOW_PAGES else page for page in PAGES])
 def test_commands_of_a_page_run(document: str, shell: Path, program: str) -> None:
     if document in ("docs/chaos.md", "docs/report.md"):  # which begin with a result that is there
         subprocess.run([program, "run", "scenes/planar_rigid.toml", "--set", "study.members=4", "--set", "study.duration=1 s", "--set", "study.samples=4001",

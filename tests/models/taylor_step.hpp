@@ -107,7 +107,7 @@ private:
 /// A model whose derivative is analytic between its events: it decides by nothing that changes within a step, so that it may be called with series.
 struct Analytic {
     static constexpr bool has_own_stepper = true;
-    /// What `auto` steps by: the series whose terms suits the tolerance, −½ ln(rtol) or so.  @param work is called with a null pointer to the stepper
+    /// What `auto` steps by: the series whose order suits the tolerance, −½ ln(rtol) or so.  @param work is called with a null pointer to the stepper
     template <class Model, class Real, class Work> SLIDEWAY_HD static void with_stepper(double rtol, Work const& work) {
         if (rtol > 1e-7) work(static_cast<TaylorStep<8, Model, Real>*>(nullptr));
         else if (rtol > 1e-10) work(static_cast<TaylorStep<12, Model, Real>*>(nullptr));

@@ -38,10 +38,10 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 17'076u);
+    EXPECT_LE(Layer("kernels").lines(), 17'067u);
     EXPECT_LE(Layer("kernels/rigid").lines(), 4'235u);
-    EXPECT_LE(Layer("kernels/lanes").lines(), 3'473u);
-    EXPECT_LE(Layer("host").lines(), 29'625u);
+    EXPECT_LE(Layer("kernels/lanes").lines(), 3'476u);
+    EXPECT_LE(Layer("host").lines(), 29'637u);
 }
 
 TEST(Budgets, OfTypes) {

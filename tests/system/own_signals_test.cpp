@@ -1,7 +1,6 @@
 // Signals of a mechanism of one's own: series and quantities, as all others are, and read without the module.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numeric>
 
 #include <fmt/format.h>

@@ -43,7 +43,7 @@ TEST_F(Terminal, HasRoomForHelpAndTheList) {
     EXPECT_NE(on_terminal({"list"}, 80), run({"list"}).out);
 }
 
-/// One of each kind of study with each mechanism: `check` says no more of others.
+/// Each kind of study and each mechanism once.
 TEST_F(Terminal, HasRoomForScenes) {
     namespace fs = std::filesystem;
     std::set<fs::path> scenes;

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <string_view>
 #include <thread>
 #include <variant>
@@ -42,6 +43,19 @@ TEST(Units, PowersOfTenMoveTheDecimalPoint) {
     EXPECT_EQ(value_of("-5e-3 mm", "m"), -5e-6);
     EXPECT_EQ(value_of("+1 m", "m"), 1);
     EXPECT_EQ(value_of("  7 m ", "m"), 7);
+}
+
+TEST(Units, ThatNeedNoDatabaseAreThoseOfIt) {
+    // The long names are in it alone.
+    constexpr struct { std::string_view usual, name, unit; } units[] = {
+        {" mm", " millimeter", "m"}, {" um", " micrometer", "m"},        {" ms", " millisecond", "s"},    {" us", " microsecond", "s"},
+        {" g", " gram", "kg"},       {" mm/s", " millimeter/s", "m/s"}, {" MPa", " megapascal", "Pa"}, {" GPa", " gigapascal", "Pa"},
+        {" N s/m", " newton second/meter", "N s/m"}};
+    for (auto const& [usual, name, unit] : units) {
+        for (std::string const number : {"0.37", "-142.2", "7e-3", "1e290"})
+            EXPECT_EQ(value_of(number + std::string(usual), unit), value_of(number + std::string(name), unit)) << number << usual;
+        EXPECT_TRUE(is_refused("1" + std::string(usual), "rad")) << usual;
+    }
 }
 
 TEST(Units, OtherFactorsMultiply) {

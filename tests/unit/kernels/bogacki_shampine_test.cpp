@@ -10,7 +10,7 @@ namespace slideway::bogacki_shampine_test {
 namespace {
 
 TEST(BogackiShampine, SatisfiesEveryOrderConditionUpToThree) {
-    BogackiShampineTableau const w;
+    BogackiShampine const w;
     double sum[2][4] = {};  // of b and e: Σ w, Σ w c, Σ w c², Σ w A c
     for (int i = 0; i < 4; ++i) {
         double row = 0, ac = 0;

@@ -10,7 +10,7 @@
 namespace slideway::dop853_test {
 namespace {
 
-constexpr Dop853Tableau w{};
+constexpr Dop853 w{};
 
 double dot_b(double const* b, int power, int stages = 13) {
     double sum = 0;

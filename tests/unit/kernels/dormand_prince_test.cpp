@@ -92,11 +92,12 @@ template <class Pair> void expect_same_bits() {
         EXPECT_EQ(Pair::error_slope(o.k, i), slope[i]);
         EXPECT_EQ(Pair::dense(o.k, i, o.y[i], o.end[i], 0.7, 0.3), inside[i]);
     }
-    double want[2], got[2];
-    Pair::template stage_state<3>(o.y, o.k, 0.7, want), pair.stage_state(3, o.y, o.k, 0.7, got);
-    for (int i = 0; i < 2; ++i) EXPECT_EQ(want[i], got[i]);
-    Pair::template stage_state<Pair::stages - 1>(o.y, o.k, 0.7, want);
-    for (int i = 0; i < 2; ++i) EXPECT_EQ(want[i], o.end[i]);
+    Pair::each_stage([&](auto s) {
+        double want[2], got[2];
+        Pair::template stage_state<s>(o.y, o.k, 0.7, want);
+        pair.stage_state(s, o.y, o.k, 0.7, got);
+        for (int i = 0; i < 2; ++i) EXPECT_EQ(want[i], got[i]) << "stage " << s;
+    });
 }
 
 TEST(PairNumbers, HaveTheBitsOfTheirMethods) {

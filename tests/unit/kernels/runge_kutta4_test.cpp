@@ -13,7 +13,7 @@
 namespace slideway::runge_kutta4_test {
 namespace {
 
-constexpr RungeKutta4Tableau w{};
+constexpr RungeKutta4 w{};
 
 TEST(RungeKutta4, MeetsTheOrderConditions) {
     auto const dot_b = [](auto const& f) {
