@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import matplotlib
 import matplotlib.pyplot as plt
@@ -16,6 +17,12 @@ matplotlib.use("Agg")
 
 root = Path(__file__).resolve().parents[2]
 scenes = root / "scenes"
+
+
+def slow(*values: Any) -> list[Any]:
+    """Values of a test that CI leaves out, for what they take."""
+    return [pytest.param(*(value if isinstance(value, tuple) else (value,)), marks=pytest.mark.slow) for value in values]
+
 
 # name: scene file and what makes it small
 recipes: dict[str, tuple[str, dict[str, object]]] = {

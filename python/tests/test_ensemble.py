@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 import slideway
 import xarray as xr
+from conftest import slow
 from slideway.program import call
 
 scenes = Path(__file__).parents[2] / "scenes"
@@ -64,7 +65,7 @@ def stored_of(program: str, tmp_path_factory: pytest.TempPathFactory) -> Callabl
     return of
 
 
-@pytest.mark.parametrize("threads", [2, pytest.param(1, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("threads", [2, *slow(1)])
 @pytest.mark.parametrize("name", studies)
 def test_results_in_memory_are_those_of_the_program(name: str, threads: int, stored_of: Callable[[str], xr.Dataset]) -> None:
     stored = stored_of(name)

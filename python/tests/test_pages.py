@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from conftest import slow
 
 root = Path(__file__).resolve().parents[2]
 
@@ -63,7 +64,7 @@ def runnable(command: str) -> list[str]:
 
 
 SLOW_PAGES = ["docs/command_line.md", "docs/report.md", "docs/rigid.md"]
-PAGES = ["README.md", "docs/chaos.md", "docs/gpu.md", "docs/json.md", "docs/tolerance.md", *SLOW_PAGES]
+PAGES = ["README.md", "docs/chaos.md", "docs/gpu.md", "docs/json.md", "docs/tolerance.md"]
 
 
 @pytest.fixture
@@ -84,7 +85,7 @@ def run(line: str, folder: Path) -> subprocess.CompletedProcess[str]:
                           capture_output=True, text=True, check=False)  # fmt: skip
 
 
-@pytest.mark.parametrize("document", [pytest.param(page, marks=pytest.mark.slow) if page in SLOW_PAGES else page for page in PAGES])
+@pytest.mark.parametrize("document", [*PAGES, *slow(*SLOW_PAGES)])
 def test_commands_of_a_page_run(document: str, shell: Path, program: str) -> None:
     if document in ("docs/chaos.md", "docs/report.md"):  # which begin with a result that is there
         subprocess.run([program, "run", "scenes/planar_rigid.toml", "--set", "study.members=4", "--set", "study.duration=1 s", "--set", "study.samples=4001",
@@ -103,7 +104,7 @@ def test_commands_of_a_page_run(document: str, shell: Path, program: str) -> Non
 
 def test_every_page_with_commands_is_among_them() -> None:
     found = {f"docs/{page.name}" for page in (root / "docs").glob("*.md") if commands(f"docs/{page.name}")} | {"README.md"}
-    assert found == {*PAGES, "docs/tutorial.md"}  # whose commands test_package.py runs
+    assert found == {*PAGES, *SLOW_PAGES, "docs/tutorial.md"}  # whose commands test_package.py runs
 
 
 # What depends on the machine or its clock.

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import slideway
 import xarray as xr
+from conftest import slow
 from matplotlib.axes import Axes
 from matplotlib.colors import to_hex
 from matplotlib.transforms import Bbox
@@ -190,7 +191,7 @@ def hidden(ax: Axes) -> float:
     return float((pixels[rows, int(inside.x0) : int(inside.x1)].min(axis=-1) < 0xD0).mean())
 
 
-@pytest.mark.parametrize("place", ["one of three", *(pytest.param(place, marks=pytest.mark.slow) for place in ("own figure", "given axis"))])
+@pytest.mark.parametrize("place", ["one of three", *slow("own figure", "given axis")])
 @pytest.mark.parametrize("name", DRAWN)
 def test_legends_hide_nothing(name: str, place: str, result_of: Result) -> None:
     recipe, function, given = DRAWN[name]

@@ -10,6 +10,7 @@ from typing import Any
 
 import nbformat
 import pytest
+from conftest import slow
 import slideway
 from nbclient import NotebookClient
 
@@ -67,7 +68,7 @@ with ThreadPoolExecutor(number) as pool:
 """
 
 
-@pytest.mark.parametrize(("threads", "limits"), [(8, WITHIN_LIMITS), pytest.param(8, BEYOND_LIMITS, marks=pytest.mark.slow)], ids=["eight", "lazily"])
+@pytest.mark.parametrize(("threads", "limits"), [(8, WITHIN_LIMITS), *slow((8, BEYOND_LIMITS))], ids=["eight", "lazily"])
 def test_results_are_opened_and_scenes_run_in_threads(stored: str, threads: int, limits: str) -> None:
     survive(limits + IN_THREADS, stored, threads)
 
@@ -160,7 +161,7 @@ if __name__ == "__main__":
     subprocess.run([sys.executable, str(script), stored, "4", "1000"], env=environment, check=True, timeout=300)
 
 
-@pytest.mark.parametrize("calls", [40, pytest.param(1000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("calls", [40, *slow(1000)])
 def test_a_notebook_opens_and_runs_in_its_loop_and_in_threads(stored: str, calls: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("SLIDEWAY_PROGRAM")
     cells = [

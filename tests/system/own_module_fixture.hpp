@@ -21,6 +21,11 @@ protected:
     ProgramWithOwnModules() { setenv("XDG_CACHE_HOME", path("cache").c_str(), 1); }
     ~ProgramWithOwnModules() override { unsetenv("XDG_CACHE_HOME"); }
 
+    Outcome run_scene(std::vector<std::string> options, std::string const& output = "s.nc") const {
+        options.insert(options.begin(), {"run", "s.toml", "--no-progress", "--quiet", "-o", output});
+        return run(options);
+    }
+
     static std::string best() { return std::string(name_of(best_isa())); }
     /// The widest instruction set, and scalar code where that is another.
     static std::vector<std::string> best_and_scalar() {

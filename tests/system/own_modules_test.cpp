@@ -75,10 +75,6 @@ protected:
         EXPECT_TRUE(!fs::exists(path("bad")) || fs::is_empty(path("bad"))) << "nothing is left";
         return outcome;
     }
-    Outcome run_scene(std::vector<std::string> options, std::string const& output = "s.nc") const {
-        options.insert(options.begin(), {"run", "s.toml", "--no-progress", "--quiet", "-o", output});
-        return run(options);
-    }
     std::string text_of(std::string const& name) const {
         std::ifstream in(path(name), std::ios::binary);
         return {std::istreambuf_iterator<char>(in), {}};

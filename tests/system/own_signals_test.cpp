@@ -37,11 +37,6 @@ verify = 0
 class OwnSignals : public ProgramWithOwnModules {
 protected:
     OwnSignals() { write("s.toml", motor_scene); }
-
-    Outcome run_scene(std::vector<std::string> options, std::string const& output) const {
-        options.insert(options.begin(), {"run", "s.toml", "--no-progress", "--quiet", "-o", output});
-        return run(options);
-    }
 };
 
 /// What they are follows from T = T0 (1 − ω/ω0): from the angle and speed of the crank, and from the work of the drive.

@@ -20,11 +20,6 @@ from slideway import report
 from . import surveys
 from .browser import Browser, Seen
 
-def slow(*values: Any) -> list[Any]:
-    """Values of a test that CI leaves out: a browser takes seconds for a page."""
-    return [pytest.param(*(value if isinstance(value, tuple) else (value,)), marks=pytest.mark.slow) for value in values]
-
-
 kinds = {"f4": "<f4", "f8": "<f8", "u1": "<u1", "u2": "<u2"}
 
 

@@ -6,11 +6,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from conftest import slow
 import xarray as xr
 from slideway import report
 
 from .browser import Browser, Seen
-from .conftest import slow
 from .test_page import SUITED, hostile
 
 Looks = Callable[..., Seen]

@@ -10,11 +10,12 @@ import numpy as np
 import pytest
 import slideway
 import xarray as xr
+from conftest import slow
 from slideway import palette
 from slideway.report.numbers import amount, number, scaled
 
 from .browser import Seen
-from .conftest import Page, slow, unpacked
+from .conftest import Page, unpacked
 
 Pages = Callable[[str], Page]
 Looks = Callable[..., Seen]

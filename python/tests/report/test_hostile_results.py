@@ -13,7 +13,9 @@ import pytest
 import slideway
 import xarray as xr
 
-from .conftest import Reader, slow
+from conftest import slow
+
+from .conftest import Reader
 
 Result = Callable[[str], xr.Dataset]
 RECIPES = ["ensemble", "lyapunov", "poincare", "sweep", "correlations", "stored", "failing"]

@@ -8,13 +8,7 @@
 namespace slideway::testing::own_signals_bits_test {
 namespace {
 
-class OwnSignalsBits : public ProgramWithOwnModules {
-protected:
-    Outcome run_scene(std::vector<std::string> options, std::string const& output) const {
-        options.insert(options.begin(), {"run", "s.toml", "--no-progress", "--quiet", "-o", output});
-        return run(options);
-    }
-};
+class OwnSignalsBits : public ProgramWithOwnModules {};
 
 /// A yoke of the tree that tells again what the tables have.
 constexpr char const* twin = R"(
