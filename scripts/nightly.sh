@@ -20,7 +20,9 @@ slow_python() {
     "$environment/bin/python" -m pip --disable-pip-version-check --quiet install -r build/python_slow.txt
     bash scripts/python_tests.sh build/release/bin/slideway -m slow tests
 }
+step bash scripts/setup.sh nightly
 step bash scripts/test.sh --all-isas
+step cmake --build build/release --parallel --target slow_programs
 step slow_python
 step ctest --test-dir build/release --label-regex '^slow$' --output-on-failure
 step bash scripts/kills.sh 1000 build/release/bin/slideway

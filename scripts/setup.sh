@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that slideway's build and tests need, only those that are missing.
-# Usage: scripts/setup.sh [tests|python|clang].  With `tests` also what only the tests compare with, and what the Python package is tested with;
+# Usage: scripts/setup.sh [tests|nightly|python|clang].  With `tests` also what the Python package and the costs are tested with; with `nightly` besides
+# what slow tests compare with and open pages in;
 # with `python` what scripts/reproduce.sh makes its Python environment of; with `clang` what fuzz.sh, sanitize.sh and tidy.sh build with.
 # Run by scripts/test.sh, scripts/demo.sh and scripts/reproduce.sh; needs root or sudo only when something is missing.
 set -euo pipefail
@@ -13,7 +14,8 @@ packages=(
     libopenmpi-dev openmpi-bin
 )
 python=(python3 python3-dev python3-pip python3-venv)
-[[ ${1:-} == tests ]] && packages+=(libopenturns-dev "${python[@]}" chromium valgrind)
+[[ ${1:-} == tests || ${1:-} == nightly ]] && packages+=("${python[@]}" valgrind)
+[[ ${1:-} == nightly ]] && packages+=(libopenturns-dev chromium)
 [[ ${1:-} == python ]] && packages+=("${python[@]}")
 [[ ${1:-} == clang ]] && packages+=(clang-14 clang-tidy-14 libclang-rt-14-dev libomp-14-dev)
 

@@ -37,6 +37,7 @@ def shares(random: np.random.Generator, count: int) -> tuple[np.ndarray, np.ndar
     return (y < 1) - 0.8413447460685429, (x < 1.02).astype(float)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("draw", "powers", "costly", "cheap", "low", "high"),
     [

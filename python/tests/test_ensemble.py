@@ -252,6 +252,7 @@ def test_ensembles_in_several_threads_give_what_they_give_alone() -> None:
         xr.testing.assert_identical(found[place].assign_attrs(created=""), alone[place // 2].assign_attrs(created=""))
 
 
+@pytest.mark.slow
 def test_memory_stays_flat_over_many_runs() -> None:
     ensemble = slideway.Ensemble(small)
 

@@ -104,6 +104,7 @@ def test_signals_of_a_mechanism_are_drawn_and_summed_up_without_it(program, tmp_
     assert spread.slideway.sensitivity.max_motor_torque_rank_correlation.item() == pytest.approx(1)
 
 
+@pytest.mark.slow
 def test_what_the_compiler_says_is_there(modules):
     with pytest.raises(slideway.SceneError, match="does not compile it") as caught:
         slideway.compile(SPRING.replace("2e7", "2e7 +"), modules)

@@ -12,11 +12,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
-import nbformat
 import numpy as np
 import pytest
 import slideway
-from nbclient import NotebookClient
 
 root = Path(__file__).resolve().parents[2]
 
@@ -93,11 +91,13 @@ def ends_of_documents(program: str, tmp_path_factory: pytest.TempPathFactory) ->
     return ends
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("document", DOCUMENTS)
 def test_examples_of_documents_run(document: str, ends_of_documents: dict[str, str]) -> None:
     assert ends_of_documents[document] == ""
 
 
+@pytest.mark.slow
 def test_the_sampled_posterior_is_that_of_the_linearised_model(monkeypatch: pytest.MonkeyPatch) -> None:
     """Noise so small leaves a Gaussian: its covariance is that of least squares, noise² (JᵀJ)⁻¹, with J by central differences."""
     (block,) = [block for block in python_blocks("docs/python.md") if "import emcee" in block]
@@ -112,6 +112,7 @@ def test_the_sampled_posterior_is_that_of_the_linearised_model(monkeypatch: pyte
     assert np.all(np.abs(drawn.mean(axis=0) - truth) < 3 * expected)
 
 
+@pytest.mark.slow
 def test_commands_of_the_tutorial_run(program: str, tmp_path: Path) -> None:
     """With fewer members and shorter runs: each is accepted, and reads what those before it wrote."""
     text = (root / "docs" / "tutorial.md").read_text(encoding="utf-8")
@@ -129,7 +130,11 @@ def test_commands_of_the_tutorial_run(program: str, tmp_path: Path) -> None:
     assert (tmp_path / "one.html").exists()
 
 
+@pytest.mark.slow
 def test_the_notebook_runs(program: str, tmp_path: Path) -> None:
+    import nbformat
+    from nbclient import NotebookClient
+
     notebook = nbformat.read(root / "python" / "examples" / "first_study.ipynb", as_version=4)
     assert not any(cell.get("outputs") for cell in notebook.cells)
     NotebookClient(notebook, timeout=60, kernel_name="python3", resources={"metadata": {"path": str(tmp_path)}}).execute()

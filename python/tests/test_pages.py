@@ -85,6 +85,7 @@ def run(line: str, folder: Path) -> subprocess.CompletedProcess[str]:
                           capture_output=True, text=True, check=False)  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("document", [*PAGES, *slow(*SLOW_PAGES)])
 def test_commands_of_a_page_run(document: str, shell: Path, program: str) -> None:
     if document in ("docs/chaos.md", "docs/report.md"):  # which begin with a result that is there

@@ -71,6 +71,7 @@ def test_function_of_statistics_alone_is_a_band_between_what_is_known(result_of:
     assert not any(line.get_linestyle() == "-" and len(line.get_xdata()) > 2 for line in ax.lines)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["stored", "correlations", "tolerance"])
 def test_bars_have_no_caps(name: str, result_of: Result) -> None:
     with result_of(name) as result:
@@ -191,6 +192,7 @@ def hidden(ax: Axes) -> float:
     return float((pixels[rows, int(inside.x0) : int(inside.x1)].min(axis=-1) < 0xD0).mean())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("place", ["one of three", *slow("own figure", "given axis")])
 @pytest.mark.parametrize("name", DRAWN)
 def test_legends_hide_nothing(name: str, place: str, result_of: Result) -> None:

@@ -83,6 +83,7 @@ def spread(way: str) -> str:
     return done.stdout
 
 
+@pytest.mark.slow
 def test_a_study_spread_by_joblib_has_the_payload_hash_of_one_process() -> None:
     pytest.importorskip("joblib")
     alone = spread("serial")

@@ -38,6 +38,7 @@ def test_a_thousand_million_members_say_their_size_before_they_are_read(vast: Pa
         slideway.open(vast, check=False)
 
 
+@pytest.mark.slow
 def test_a_large_file_says_its_size_before_it_is_searched_for_damage(result_of: Result, monkeypatch: pytest.MonkeyPatch) -> None:
     path = result_of("single").slideway.path
     slideway.results._checked.pop(path, None)
@@ -93,6 +94,7 @@ def beyond_limits(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("slideway.netcdf._small_column", 0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["poincare", "failing", *slow("ensemble", "tolerance", "stored")])
 def test_what_is_read_when_it_is_used_is_the_same(result_of: Result, name: str, beyond_limits: None, tmp_path: Path) -> None:
     path = result_of(name).slideway.path

@@ -104,6 +104,7 @@ def test_results_of_errors_live_as_long_as_they(left: Callable[[], list[str]]) -
     assert left() == []
 
 
+@pytest.mark.slow
 def test_nothing_is_left_open(program: str, tmp_path: Path) -> None:
     script = f"""
 import slideway

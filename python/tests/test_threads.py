@@ -8,11 +8,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
-import nbformat
 import pytest
 from conftest import slow
 import slideway
-from nbclient import NotebookClient
 
 CALLS = int(os.environ.get("SLIDEWAY_THREAD_CALLS", "24"))
 
@@ -98,6 +96,7 @@ two_threads()  # OpenMP has them now, which no child has; fewer members would ta
 """
 
 
+@pytest.mark.slow
 def test_pools_of_forked_processes_open_and_run_after_their_parent_has(stored: str) -> None:
     survive(FORKED + """
 with multiprocessing.get_context("fork").Pool(number) as pool:
@@ -105,6 +104,7 @@ with multiprocessing.get_context("fork").Pool(number) as pool:
 """, stored, 2, 20)  # fmt: skip
 
 
+@pytest.mark.slow
 def test_processes_are_forked_while_threads_read_and_run(stored: str) -> None:
     survive(BEYOND_LIMITS + FORKED + """
 ended = threading.Event()
@@ -161,6 +161,7 @@ if __name__ == "__main__":
     subprocess.run([sys.executable, str(script), stored, "4", "1000"], env=environment, check=True, timeout=300)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("calls", [40, *slow(1000)])
 def test_a_notebook_opens_and_runs_in_its_loop_and_in_threads(stored: str, calls: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("SLIDEWAY_PROGRAM")
@@ -169,6 +170,9 @@ def test_a_notebook_opens_and_runs_in_its_loop_and_in_threads(stored: str, calls
         "all(opens(call) and runs(call) for call in range(calls // 4))",
         "all(await asyncio.gather(*(asyncio.to_thread(runs if call % 2 else opens, call) for call in range(calls))))",
     ]
+    import nbformat
+    from nbclient import NotebookClient
+
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
     NotebookClient(notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": str(tmp_path)}}).execute()
     assert [cell.outputs[0].data["text/plain"] for cell in notebook.cells[1:]] == ["True", "True"]

@@ -105,12 +105,20 @@ def page_of(result_of: Callable[[str], xr.Dataset], tmp_path_factory: pytest.Tem
     return of
 
 
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Tests that open a page are slow ones: a browser is a quarter of what CI would have to install."""
+    for item in items:
+        if "browser" in getattr(item, "fixturenames", ()):
+            item.add_marker(pytest.mark.slow)
+
+
 @pytest.fixture(scope="session")
 def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
     """Headless Chromium; tests that need it are skipped where there is none."""
     program = shutil.which("chromium") or shutil.which("chromium-browser")
     if program is None:
-        pytest.skip("there is no chromium to open pages with; scripts/setup.sh tests installs it")
+        pytest.skip("there is no chromium to open pages with; scripts/setup.sh nightly installs it")
     opened = Browser(program, tmp_path_factory.mktemp("profile"))
     yield opened
     opened.close()

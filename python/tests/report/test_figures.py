@@ -43,6 +43,7 @@ def test_distribution_says_at_a_limit_what_the_file_says(page_of: Pages, result_
     assert "of 64 members that ran meet all limits" in page_of("correlations").read.text
 
 
+@pytest.mark.slow
 def test_distribution_of_a_radial_design_is_that_of_its_draws(page_of: Pages, result_of: Results) -> None:
     with result_of("tolerance") as result, result.slideway.yields as yields, result.slideway.statistics as statistics:
         count, share = int(statistics["peak_normal_force_count"]), 100 * float(yields["share"][0])
@@ -81,6 +82,7 @@ def test_function_of_statistics_alone_is_a_band(page_of: Pages, result_of: Resul
     np.testing.assert_allclose(unpacked(high["y"])[:4], [below[0], below[0], below[1], below[1]], rtol=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["correlations", "tolerance", "stored", "sweep", "columns"])
 def test_error_bars_have_no_caps(name: str, page_of: Pages) -> None:
     bars = [

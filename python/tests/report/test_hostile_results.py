@@ -72,6 +72,7 @@ def pages_hold_together(result: xr.Dataset, path: Path, seeds: range) -> int:
     return pages
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")  # of numbers that overflow
 @pytest.mark.parametrize("recipe", ["lyapunov", "correlations", "failing", *slow("ensemble", "poincare", "sweep", "stored")])
 def test_results_that_no_run_makes_have_a_page_or_one_line(recipe: str, result_of: Result, tmp_path: Path) -> None:
