@@ -96,7 +96,6 @@ def test_a_planar_block_lights_its_corners(browser: Browser, tmp_path: Path) -> 
     assert "Z up" not in Reader(page.read_text(encoding="utf-8")).text
 
 
-@pytest.mark.slow
 def test_a_carriage_runs_as_prescribed_where_its_place_is_not_stored(browser: Browser, tmp_path: Path) -> None:
     time = np.array([0.0, 1.0, 2.5])
     zero = np.zeros(3)
