@@ -160,6 +160,7 @@ struct ProbeResult {
     int surfaces, lines, points;
     double energy, contact_potential;  // [J]
     double crank_torque;               // [N m], without the crank's own weight
+    double signals[most_signals];      // of the mechanism's own, as many as it has
     Status status;                     // finished, or why the state cannot be evaluated
 };
 

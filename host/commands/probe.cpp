@@ -17,10 +17,6 @@
 namespace slideway::cli {
 namespace {
 
-StateTable load_table(std::string const& path, Scene const& scene) {
-    return read_state_table(*input_stream(path), path, scene);
-}
-
 OutputTarget table_target(ProbeArguments const& arguments, Scene const& scene) {
     std::vector<std::string> inputs = inputs_of(scene);
     if (!arguments.table.empty()) inputs.push_back(arguments.table);
@@ -77,10 +73,11 @@ void print_listing(Scene const& scene, StateTable const& table, ProbeResult cons
                 fmt::format("{:.10g} J, of it {:.10g} J in the contacts", result.energy, result.contact_potential));
     print_field("power", fmt::format("{:.10g} W drive, {:.10g} W friction, {:.10g} W damping", result.power_crank,
                                      result.power_friction, result.power_damping));
-    if (!selects(has.series, Series::crank_torque)) return;
-    print_field("crank torque",
-                fmt::format("{:.10g} N m, {}", result.crank_torque,
-                            has.spatial ? "without the crank's own weight" : "the crank's own weight included"));
+    if (selects(has.series, Series::crank_torque)) {
+        std::string_view const weight = has.spatial ? "without the crank's own weight" : "the crank's own weight included";
+        print_field("crank torque", fmt::format("{:.10g} N m, {}", result.crank_torque, weight));
+    }
+    for (std::size_t i = 0; i < has.signals.size(); ++i) print_field(has.signals[i].name, fmt::format("{:.10g} {}", result.signals[i], has.signals[i].unit));
 }
 
 }  // namespace
@@ -91,7 +88,8 @@ int execute(ProbeArguments const& arguments) {
     Isa const isa = arguments.scene.isa == "auto" ? best_isa(scene.parts) : asked;
     std::optional<OutputTarget> const target =
         arguments.output.empty() ? std::nullopt : std::optional(table_target(arguments, scene));
-    StateTable const table = arguments.table.empty() ? start_state(scene) : load_table(arguments.table, scene);
+    StateTable const table =
+        arguments.table.empty() ? start_state(scene) : read_state_table(*input_stream(arguments.table), arguments.table, scene);
     std::vector<ProbeResult> const results = slideway::probe(table, isa);
     if (target) target->write(probed_text(table, results));
     if (arguments.json)

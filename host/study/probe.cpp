@@ -69,6 +69,7 @@ std::vector<std::pair<std::string, double>> result_columns(Mechanism mechanism, 
     columns.emplace_back("energy", result.energy);
     columns.emplace_back("contact_potential", result.contact_potential);
     if (selects(has.series, Series::crank_torque)) columns.emplace_back("crank_torque", result.crank_torque);
+    for (std::size_t i = 0; i < has.signals.size(); ++i) columns.emplace_back(has.signals[i].name, result.signals[i]);
     return columns;
 }
 

@@ -30,10 +30,7 @@ template <class Real> SLIDEWAY_HD void put_contact(ContactReport<Real> const& c,
 template <class Real> SLIDEWAY_HD void put_contact(PlanarContact<Real> const& c, int index, ProbeResult& result) {
     auto const put = [&](double* to, double* unused, Quad<Real> const& q) {
         double const corners[8] = {lane(q.a, index), lane(q.b, index), lane(q.c, index), lane(q.d, index)};
-        for (int i = 0; i < 8; ++i) {
-            to[i] = i < 4 ? corners[i] : not_a_number;
-            unused[i] = not_a_number;
-        }
+        for (int i = 0; i < 8; ++i) to[i] = i < 4 ? corners[i] : not_a_number, unused[i] = not_a_number;
     };
     put(result.penetration_y, result.penetration_z, c.penetration[0]);
     put(result.normal_force_y, result.normal_force_z, c.normal_force[0]);
@@ -78,6 +75,8 @@ template <class Model, class Real> SLIDEWAY_HD void probe(ProbeTable const& tabl
             result.energy = lane(report.energy, i);
             result.contact_potential = lane(c.potential, i);
             result.crank_torque = lane(report.crank_torque, i);
+            double* signal = result.signals;
+            if constexpr (requires { report.signal; }) for (Real const& value : report.signal) *signal++ = lane(value, i);
             result.status = holds(faults.geometry, i)         ? Status::geometry
                             : holds(faults.contact_domain, i) ? Status::contact_domain
                             : finite                          ? Status::finished

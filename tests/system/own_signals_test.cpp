@@ -75,6 +75,25 @@ TEST_F(OwnSignals, AreSeriesAndQuantitiesOfTheirMembers) {
     }
 }
 
+/// Of a motor that turns at half of its no-load speed: half of 0.5 N m, and 30 rad/s times that.
+TEST_F(OwnSignals, OfAStateAreProbed) {
+    provide_motor();
+    for (std::string const& isa : best_and_scalar()) {
+        auto const json = run({"probe", "s.toml", "--set", "mechanism.crank_speed=30 rad/s", "--isa", isa, "--json"});
+        ASSERT_EQ(json.code, 0) << json.err;
+        EXPECT_NE(json.out.find(R"("motor_torque": 0.25)"), std::string::npos) << json.out;
+        EXPECT_NE(json.out.find(R"("motor_power": 7.5)"), std::string::npos) << json.out;
+    }
+    auto const listing = run({"probe", "s.toml", "--set", "mechanism.crank_speed=30 rad/s"}).out;
+    EXPECT_NE(listing.find("7.5 W"), std::string::npos) << listing;
+    write("states.csv", "t,y,z,vy,vz,roll,yaw,pitch,wx,wy,wz,crank_angle,crank_angular_velocity\n0,0,0,0,0,0,0,0,0,0,0,0,0\n0,0,0,0,0,0,0,0,0,0,0,1,30\n");
+    auto const table = run({"probe", "s.toml", "--csv", "states.csv"});
+    ASSERT_EQ(table.code, 0) << table.err;
+    EXPECT_NE(table.out.find(",motor_torque,motor_power,status\n"), std::string::npos) << table.out;
+    EXPECT_NE(table.out.find(",0.5,0,finished\n"), std::string::npos) << table.out;
+    EXPECT_NE(table.out.find(",0.25,7.5,finished\n"), std::string::npos) << table.out;
+}
+
 TEST_F(OwnSignals, OfARunInPartsAreThoseOfTheWholeOnEachInstructionSet) {
     provide_motor();
     std::string whole;
