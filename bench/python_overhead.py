@@ -1,7 +1,7 @@
 """What a call of slideway.Ensemble costs beside the integration, and what slideway.run costs by way of the program.
 
 Usage: python bench/python_overhead.py, with the package installed; SLIDEWAY_PROGRAM or the package's own program is the other way.
-64 members of the slider-crank for 5 ms, one thread and all of them; medians. The last lines: scipy.optimize over the clearance.
+64 members of the slider-crank for 5 ms, one thread and all of them; medians. The last lines: scipy.optimize (pip install scipy) over the clearance.
 Beside other work one thread is faster: a team waits for the thread that the machine runs last.
 """
 

@@ -69,15 +69,15 @@ void print_listing(Scene const& scene, StateTable const& table, ProbeResult cons
     print_table([&](int) { return rows; }, 3, 2, 8);
     print_contacts(has, result);
     print_field("mode", fmt::format("{} surfaces, {} lines, {} points", result.surfaces, result.lines, result.points));
-    print_field("energy",
-                fmt::format("{:.10g} J, of it {:.10g} J in the contacts", result.energy, result.contact_potential));
+    print_field("energy", fmt::format("{:.10g} J, of it {:.10g} J in the contacts", result.energy, result.contact_potential));
     print_field("power", fmt::format("{:.10g} W drive, {:.10g} W friction, {:.10g} W damping", result.power_crank,
                                      result.power_friction, result.power_damping));
     if (selects(has.series, Series::crank_torque)) {
         std::string_view const weight = has.spatial ? "without the crank's own weight" : "the crank's own weight included";
         print_field("crank torque", fmt::format("{:.10g} N m, {}", result.crank_torque, weight));
     }
-    for (std::size_t i = 0; i < has.signals.size(); ++i) print_field(has.signals[i].name, fmt::format("{:.10g} {}", result.signals[i], has.signals[i].unit));
+    for (std::size_t i = 0; i < has.signals.size(); ++i)
+        print_field(has.signals[i].name, fmt::format("{:.10g} {}", result.signals[i], has.signals[i].unit));
 }
 
 }  // namespace
@@ -86,8 +86,7 @@ int execute(ProbeArguments const& arguments) {
     Isa const asked = parse_isa(arguments.scene.isa);
     Scene const scene = load_scene(arguments.scene);
     Isa const isa = arguments.scene.isa == "auto" ? best_isa(scene.parts) : asked;
-    std::optional<OutputTarget> const target =
-        arguments.output.empty() ? std::nullopt : std::optional(table_target(arguments, scene));
+    std::optional<OutputTarget> const target = arguments.output.empty() ? std::nullopt : std::optional(table_target(arguments, scene));
     StateTable const table =
         arguments.table.empty() ? start_state(scene) : read_state_table(*input_stream(arguments.table), arguments.table, scene);
     std::vector<ProbeResult> const results = slideway::probe(table, isa);

@@ -13,9 +13,10 @@
 namespace slideway {
 namespace {
 
-/// What every result may have, beside keys, quantities and series.
-constexpr char const* of_results[] = {"member", "member_label", "sample", "status", "time", "end_time", "steps_accepted", "steps_rejected",
-                                      "rhs_evaluations", "jacobian_evaluations", "stiff_steps"};
+/// What every result or table of `probe` may have, beside keys, quantities and series.
+constexpr char const* of_results[] = {
+    "member", "member_label", "sample", "status", "time", "end_time", "steps_accepted", "steps_rejected", "rhs_evaluations",
+    "jacobian_evaluations", "stiff_steps", "t", "power_crank", "power_friction", "power_damping", "energy", "contact_potential"};
 
 /// What results call a key that varies.
 std::string parameter_name(Key const& key) {
@@ -62,8 +63,9 @@ Outputs const& outputs_of(Mechanism mechanism) {
 
 std::string objection_to_signals(MechanismInfo const& mechanism) {
     for (Signal const& signal : mechanism.signals) {
-        if (!is_module_name(signal.name) || std::string_view(signal.name).starts_with("final_"))
-            return fmt::format("its signal \"{}\" has no name of at most 60 small letters, digits and '_', a letter first, and no final_", signal.name);
+        std::string_view const name = signal.name;
+        if (!is_module_name(name) || name.starts_with("final_") || name.starts_with("d_"))
+            return fmt::format("its signal \"{}\" has no name of at most 60 small letters, digits and '_', a letter first, and no final_ or d_", name);
         if (!is_plain_si(signal.unit)) return fmt::format("its signal {} has the unit \"{}\", which is none of SI without a prefix", signal.name, signal.unit);
     }
     std::vector<std::string> names(std::begin(of_results), std::end(of_results));

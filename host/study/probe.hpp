@@ -20,8 +20,8 @@ std::vector<ProbeResult> probe(Isa isa, Parts const& parts, std::vector<Inputs> 
 /// One result per row.
 std::vector<ProbeResult> probe(StateTable const& table, Isa isa);
 
-/// The result columns of tests/golden/rhs_*.csv, in their order: the derivatives d_*, powers, penetrations, normal
-/// forces, mode triple, energies, the crank torque of a mechanism that has a crank, and its own signals.  Of the planar mechanism
+/// The result columns of tests/golden/rhs_*.csv, in their order, and signals: the derivatives d_*, powers, penetrations, normal
+/// forces, mode triple, energies, the crank torque of a mechanism that has a crank, its own signals.  Of the planar mechanism
 /// penetrations and forces are those of its corners, pen_C1 … fn_C4.
 std::vector<std::pair<std::string, double>> result_columns(Mechanism mechanism, ProbeResult const& result);
 

@@ -199,7 +199,8 @@ class Ensemble:
 
         Returns:
             Arrays [rows]: derivatives ``d_y`` …, powers [W], penetrations [m] and normal forces [N] of the apices, numbers of surfaces,
-            lines and points in contact, energies [J], ``crank_torque`` [N m], and ``status``, 0 where the state can be evaluated.
+            lines and points in contact, energies [J], ``crank_torque`` [N m], signals of a mechanism of one's own, and ``status``, 0 where
+            the state can be evaluated.
 
         >>> forces = slideway.Ensemble({"schema": 1}).probe({"y": [0.0, 1.001e-4]})
         >>> forces["surfaces"]

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 import slideway
+from conftest import slow
 
 root = Path(__file__).resolve().parents[2]
 
@@ -53,7 +54,7 @@ def test_every_plot_takes_an_axis(function: object) -> None:
     assert inspect.signature(function).parameters["ax"].default is None  # type: ignore[arg-type]
 
 
-DOCUMENTS = ["README.md", "docs/python.md", "docs/quantities.md", "docs/tolerance.md", "python/README.md"]
+DOCUMENTS = ["README.md", "docs/quantities.md", "docs/tolerance.md", "python/README.md", *slow("docs/python.md")]  # that one goes with other packages
 # Runs each script that is given on stdin, in a folder and with names of its own, and tells what came of it: libraries are loaded once.
 EACH = """
 import json, os, sys, traceback
@@ -74,10 +75,10 @@ json.dump(ends, open(sys.argv[1], "w"))
 
 
 @pytest.fixture(scope="module")
-def ends_of_documents(program: str, tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
-    """What the examples of each document were ended by: nothing where they came to their end."""
+def ends_of_documents(request: pytest.FixtureRequest, program: str, tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """What the examples of each document that is asked for were ended by: nothing where they came to their end."""
     scripts = {}
-    for document in DOCUMENTS:
+    for document in [item.callspec.params["document"] for item in request.session.items if "ends_of_documents" in getattr(item, "fixturenames", ())]:
         blocks = python_blocks(document)
         assert blocks
         # The blocks of a page follow each other, in the root of the repository.
@@ -91,7 +92,6 @@ def ends_of_documents(program: str, tmp_path_factory: pytest.TempPathFactory) ->
     return ends
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("document", DOCUMENTS)
 def test_examples_of_documents_run(document: str, ends_of_documents: dict[str, str]) -> None:
     assert ends_of_documents[document] == ""
@@ -132,12 +132,10 @@ def test_commands_of_the_tutorial_run(program: str, tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_the_notebook_runs(program: str, tmp_path: Path) -> None:
-    import nbformat
-    from nbclient import NotebookClient
-
+    nbclient, nbformat = pytest.importorskip("nbclient"), pytest.importorskip("nbformat")
     notebook = nbformat.read(root / "python" / "examples" / "first_study.ipynb", as_version=4)
     assert not any(cell.get("outputs") for cell in notebook.cells)
-    NotebookClient(notebook, timeout=60, kernel_name="python3", resources={"metadata": {"path": str(tmp_path)}}).execute()
+    nbclient.NotebookClient(notebook, timeout=60, kernel_name="python3", resources={"metadata": {"path": str(tmp_path)}}).execute()
     outputs = [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
     (printed,) = [output.text for output in outputs if output.output_type == "stream" and output.name == "stdout"]
     shares = {law: float(share) for law, share in (line.split() for line in printed.splitlines())}

@@ -63,8 +63,7 @@ def runnable(command: str) -> list[str]:
     return [command]
 
 
-SLOW_PAGES = ["docs/command_line.md", "docs/report.md", "docs/rigid.md"]
-PAGES = ["README.md", "docs/chaos.md", "docs/gpu.md", "docs/json.md", "docs/tolerance.md"]
+PAGES = ["docs/chaos.md", "docs/command_line.md", "docs/gpu.md", "docs/json.md", "docs/report.md", "docs/rigid.md", "docs/tolerance.md"]
 
 
 @pytest.fixture
@@ -85,8 +84,7 @@ def run(line: str, folder: Path) -> subprocess.CompletedProcess[str]:
                           capture_output=True, text=True, check=False)  # fmt: skip
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("document", [*PAGES, *slow(*SLOW_PAGES)])
+@pytest.mark.parametrize("document", ["README.md", *slow(*PAGES)])
 def test_commands_of_a_page_run(document: str, shell: Path, program: str) -> None:
     if document in ("docs/chaos.md", "docs/report.md"):  # which begin with a result that is there
         subprocess.run([program, "run", "scenes/planar_rigid.toml", "--set", "study.members=4", "--set", "study.duration=1 s", "--set", "study.samples=4001",
@@ -105,7 +103,7 @@ def test_commands_of_a_page_run(document: str, shell: Path, program: str) -> Non
 
 def test_every_page_with_commands_is_among_them() -> None:
     found = {f"docs/{page.name}" for page in (root / "docs").glob("*.md") if commands(f"docs/{page.name}")} | {"README.md"}
-    assert found == {*PAGES, *SLOW_PAGES, "docs/tutorial.md"}  # whose commands test_package.py runs
+    assert found == {"README.md", *PAGES, "docs/tutorial.md"}  # whose commands test_package.py runs
 
 
 # What depends on the machine or its clock.

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 import slideway
 import xarray as xr
-from conftest import slow
 from matplotlib.axes import Axes
 from matplotlib.colors import to_hex
 from matplotlib.transforms import Bbox
@@ -193,7 +192,7 @@ def hidden(ax: Axes) -> float:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("place", ["one of three", *slow("own figure", "given axis")])
+@pytest.mark.parametrize("place", ["one of three", "own figure", "given axis"])
 @pytest.mark.parametrize("name", DRAWN)
 def test_legends_hide_nothing(name: str, place: str, result_of: Result) -> None:
     recipe, function, given = DRAWN[name]

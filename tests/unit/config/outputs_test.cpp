@@ -53,9 +53,10 @@ TEST(Outputs, OfSignalsHaveNamesThatResultsDoNotHave) {
     EXPECT_EQ(objection("push", "N m/s2"), "");
     EXPECT_NE(objection("Push", "N").find("its signal \"Push\" has no name"), std::string::npos);
     EXPECT_NE(objection("final_y", "N").find("no final_"), std::string::npos);
+    EXPECT_NE(objection("d_y", "N").find("no final_ or d_"), std::string::npos) << "probe has derivatives of these names";
     EXPECT_NE(objection("push", "kgf").find("its signal push has the unit \"kgf\""), std::string::npos);
     for (auto const& [name, taken] : {std::pair{"normal_force", "mean_normal_force"}, {"y", "y"}, {"apex_force", "mean_apex_force"}, {"travel", "max_travel"},
-                                      {"status", "status"}, {"mechanism_gauge", "mechanism_gauge"}, {"joint_clearance_y", "joint_clearance_y"}})
+                                      {"status", "status"}, {"energy", "energy"}, {"power_crank", "power_crank"}, {"mechanism_gauge", "mechanism_gauge"}, {"joint_clearance_y", "joint_clearance_y"}})
         EXPECT_EQ(objection(name, "N", keys), fmt::format("results have a {} already, which is of a signal too; give the signal another name", taken));
 }
 
