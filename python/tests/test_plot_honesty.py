@@ -192,7 +192,7 @@ def hidden(ax: Axes) -> float:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("place", ["one of three", "own figure", "given axis"])
+@pytest.mark.parametrize("place", ["own figure", "given axis", "one of three"])
 @pytest.mark.parametrize("name", DRAWN)
 def test_legends_hide_nothing(name: str, place: str, result_of: Result) -> None:
     recipe, function, given = DRAWN[name]

@@ -54,7 +54,7 @@ def alone() -> dict[object, list[np.ndarray]]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("selection", ["by place", "one of a list", "by number", "loaded"])
+@pytest.mark.parametrize("selection", SELECTIONS)
 @pytest.mark.parametrize(("recipe", "function", "given"), PLOTS, ids=[f"{recipe}-{function.__name__}" for recipe, function, _ in PLOTS])
 def test_one_member_is_drawn_alone(recipe: str, function: Callable[..., Any], given: dict[str, Any], selection: str, result_of: Result,
                                       alone: dict[object, list[np.ndarray]]) -> None:

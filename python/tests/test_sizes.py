@@ -94,7 +94,7 @@ def beyond_limits(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["poincare", "failing", "ensemble", "tolerance", "stored"])
+@pytest.mark.parametrize("name", ["ensemble", "poincare", "tolerance", "stored", "failing"])
 def test_what_is_read_when_it_is_used_is_the_same(result_of: Result, name: str, beyond_limits: None, tmp_path: Path) -> None:
     path = result_of(name).slideway.path
     lazily = slideway.open(path)

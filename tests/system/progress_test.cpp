@@ -31,10 +31,10 @@ TEST_F(ProgressLines, OfOneMemberTellHowFarItIs) {
     EXPECT_LT(std::stod(line[1]), 100);
 }
 
-/// One of them takes a quarter of a minute, all others milliseconds: all threads work on one block, which ends with the last member.
+/// One of them takes a minute, all others milliseconds: all threads work on one block, which ends with the last member.
 TEST_F(ProgressLines, CountMembersThatEndedBesideOneThatGoesOn) {
     write("table.csv", "initial.y [mm],mechanism.crank_speed [rad/s]\n0.01,300\n0,0.001\n0,0.001\n0,0.001\n0,0.001\n0,0.001\n");
-    write("s.toml", "schema = 1\n[contact]\nlaw = \"paper\"\n[study]\nkind = \"tolerance\"\ndesign = \"table\"\ntable = \"table.csv\"\nduration = 25\n"
+    write("s.toml", "schema = 1\n[contact]\nlaw = \"paper\"\n[study]\nkind = \"tolerance\"\ndesign = \"table\"\ntable = \"table.csv\"\nduration = 100\n"
                     "quantities = [\"mean_normal_force\"]\n");
     for (char const* const threads : {"1", "2"}) {
         std::filesystem::remove(path("err"));

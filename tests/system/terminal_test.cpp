@@ -43,7 +43,7 @@ TEST_F(Terminal, HasRoomForHelpAndTheList) {
     EXPECT_NE(on_terminal({"list"}, 80), run({"list"}).out);
 }
 
-/// Each kind of study and each mechanism once.
+/// One of each kind of study with each mechanism: `check` says no more of others.
 TEST_F(Terminal, HasRoomForScenes) {
     namespace fs = std::filesystem;
     std::set<fs::path> scenes;
@@ -51,17 +51,14 @@ TEST_F(Terminal, HasRoomForScenes) {
         if (entry.path().extension() == ".toml") scenes.insert(entry.path());
     }
     fs::copy(fs::path(SLIDEWAY_SCENES) / "tolerance_table.csv", path("tolerance_table.csv"));
-    std::set<StudyKind> studies;
-    std::set<std::string> mechanisms;
+    std::set<std::pair<StudyKind, std::string>> seen;
     for (fs::path const& scene : scenes) {
         Scene const read = read_scene(scene.string());
-        bool const is_new = int{studies.insert(read.study).second} + int{mechanisms.insert(info(read.parts.mechanism).name).second} > 0;
-        if (!is_new && scene.filename() != "tolerance_table.toml") continue;
+        if (!seen.insert({read.study, info(read.parts.mechanism).name}).second && scene.filename() != "tolerance_table.toml") continue;
         fs::copy_file(scene, path("s.toml"), fs::copy_options::overwrite_existing);
         expect_fit(on_terminal({"check", path("s.toml").string()}, 80), 80, scene.filename());
     }
-    EXPECT_EQ(studies.size(), 5u);
-    EXPECT_EQ(mechanisms.size(), 5u);
+    EXPECT_GT(seen.size(), 10u);
 }
 
 TEST_F(Terminal, HasRoomForResults) {

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from conftest import slow
 import xarray as xr
 from slideway import report
 
@@ -16,7 +15,7 @@ from .test_page import SUITED, hostile
 Looks = Callable[..., Seen]
 
 
-@pytest.mark.parametrize("name", ["ensemble", "stored", *slow("sweep", "tolerance", "lyapunov", "poincare", "failing")])
+@pytest.mark.parametrize("name", ["ensemble", "sweep", "tolerance", "stored", "lyapunov", "poincare", "failing"])
 def test_a_page_draws_all_its_plots_and_fetches_nothing(name: str, seen_of: Looks) -> None:
     seen = seen_of(name)
     assert seen.complaints == []
@@ -54,7 +53,7 @@ def test_what_is_lit_touches_in_the_drawing(seen_of: Looks) -> None:
     assert sum(clear) / len(clear) > 0.5
 
 
-@pytest.mark.parametrize("dark", [True, *slow(False)])
+@pytest.mark.parametrize("dark", [False, True])
 def test_a_page_follows_the_readers_colours(dark: bool, seen_of: Looks) -> None:
     found = seen_of("stored", dark=dark).found["colours"]
     assert (found["paper"] < 0.3) == dark
@@ -62,7 +61,7 @@ def test_a_page_follows_the_readers_colours(dark: bool, seen_of: Looks) -> None:
     assert (found["label"] > 0.7) == dark
 
 
-@pytest.mark.parametrize("name", ["ensemble", *slow("failing")])
+@pytest.mark.parametrize("name", ["ensemble", "failing"])
 def test_a_page_fits_a_phone(name: str, seen_of: Looks) -> None:
     found = seen_of(name, width=390).found["plots"]
     assert found["overflow"] <= 0

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 import slideway
 import xarray as xr
-from conftest import slow
 from slideway import palette
 from slideway.report.numbers import amount, number, scaled
 
@@ -150,7 +149,7 @@ def test_colours_of_the_page_are_those_of_the_plots(page_of: Pages) -> None:
     assert with_total[:2] == palette.colours[:2]
 
 
-@pytest.mark.parametrize("name", ["ensemble", "columns", *slow("tolerance", "stored", "correlations")])
+@pytest.mark.parametrize("name", ["ensemble", "columns", "tolerance", "stored", "correlations"])
 def test_the_summary_is_read_on_a_phone_without_scrolling(name: str, seen_of: Looks) -> None:
     found = seen_of(name, width=390).found["phone"]
     assert found["tables"] > 0
@@ -162,8 +161,8 @@ def test_the_summary_is_read_on_a_phone_without_scrolling(name: str, seen_of: Lo
 
 @pytest.mark.parametrize(
     ("name", "width"),
-    [("ensemble", 1200), ("ensemble", 390), ("columns", 390),
-     *slow(("single", 390), ("sweep", 1200), ("tolerance", 1200), ("lyapunov", 1200), ("poincare", 390), ("coarse", 390))],
+    [("single", 390), ("ensemble", 1200), ("ensemble", 390), ("sweep", 1200), ("columns", 390), ("tolerance", 1200),
+     ("lyapunov", 1200), ("poincare", 390), ("coarse", 390)],
 )
 def test_legends_stand_outside_the_axes(name: str, width: int, seen_of: Looks) -> None:
     assert seen_of(name, width=width).found["legends"] == []

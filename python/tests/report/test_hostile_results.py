@@ -13,7 +13,6 @@ import pytest
 import slideway
 import xarray as xr
 
-
 from .conftest import Reader
 
 Result = Callable[[str], xr.Dataset]
@@ -73,7 +72,7 @@ def pages_hold_together(result: xr.Dataset, path: Path, seeds: range) -> int:
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")  # of numbers that overflow
-@pytest.mark.parametrize("recipe", ["lyapunov", "correlations", "failing", "ensemble", "poincare", "sweep", "stored"])
+@pytest.mark.parametrize("recipe", RECIPES)
 def test_results_that_no_run_makes_have_a_page_or_one_line(recipe: str, result_of: Result, tmp_path: Path) -> None:
     assert pages_hold_together(result_of(recipe), tmp_path / "p.html", range(PAGES)) >= 0
 
