@@ -151,7 +151,8 @@ std::string kept(std::string_view failure, StudyOptions const& options) {
 }
 
 /// What is thrown at the moment, with what becomes of the members that are finished.
-[[noreturn]] void throw_kept(StudyOptions const& options) {
+[[noreturn]] void throw_kept(StudyOptions const& options, StudyRun const& run) {
+    if (!run.has_folder()) throw;
     try {
         throw;
     } catch (SceneError const&) {
@@ -193,7 +194,7 @@ int lead(RunArguments const& arguments, Scene const& scene, StudyOptions const& 
         done = totals;
         if (!run.merge(stop, report)) return end_unmerged(options);
     } catch (...) {
-        throw_kept(options);
+        throw_kept(options, run);
     }
     remove_shards(options, run);
     return conclude(arguments, scene, options, run.target().replaces(), std::move(report), &done);
@@ -256,6 +257,7 @@ int execute(RunArguments const& arguments) {
         // Of a card that lacks the memory this is the last word: nothing is on the disk yet.
         Prediction const prediction = predict(scene, *options.backend, options.threads, options.block_members);
         require_memory(prediction.memory() + memory_of_work(options.threads));
+        options.shared = ranks->count() > 1;
         StudyRun study(scene, options);
         warn_of_losses(options, study);
         if (arguments.shows_progress() && !study.is_complete()) announce(scene, options, choice.reason, prediction, study);

@@ -206,6 +206,10 @@ void remove_merge_lock(std::string const& path) {
     if (is_there(lock_file_of(path))) lock_on(path).remove();
 }
 
+void merge_shards(std::vector<MergedShard> const& shards, ResultMerge merge, std::string const& path) {
+    write_result(path, merge.completeness, [&](NetcdfFile& file) { write_merged(file, shards, merge); }, merge.existing);
+}
+
 void merge_shards(ShardFolder const& folder, std::vector<Shard> const& shards, ResultMerge merge,
                   std::string const& path) {
     std::vector<MergedShard> merged;
@@ -216,7 +220,7 @@ void merge_shards(ShardFolder const& folder, std::vector<Shard> const& shards, R
                               use(NetcdfFile::open_in_memory(shard.name, bytes));
                           }});
     }
-    write_result(path, merge.completeness, [&](NetcdfFile& file) { write_merged(file, merged, merge); }, merge.existing);
+    merge_shards(merged, std::move(merge), path);
 }
 
 }  // namespace slideway

@@ -40,9 +40,12 @@ struct MergedShard {
 /// The members of the shards, in order, into an empty file.
 void write_merged(DataFile& file, std::vector<MergedShard> const& shards, ResultMerge& merge);
 
-/// Writes `path`.part, which becomes `path` when it is whole: a former file stays until then.  One shard at a time is in memory.
+/// Writes `path`.part, which becomes `path` when it is whole: a former file stays until then.
 /// @throws FileError, also if another process writes the same file, or somebody else's `path`.part is there; if only the renaming failed,
 /// `path`.part stays.
+void merge_shards(std::vector<MergedShard> const& shards, ResultMerge merge, std::string const& path);
+
+/// The same of shards in a folder, of which one at a time is in memory.
 void merge_shards(ShardFolder const& folder, std::vector<Shard> const& shards, ResultMerge merge,
                   std::string const& path);
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "host/base/bytes.hpp"
+#include "host/store/memory_file.hpp"
 #include "host/store/netcdf_file.hpp"
 #include "host/store/result_definition.hpp"
 #include "host/store/result_seal.hpp"
@@ -112,8 +113,7 @@ private:
     std::vector<std::size_t> const& rows_;
 };
 
-}  // namespace
-
+/// The rows of those members that have ended, into an empty file.  @return the members
 MemberSet write_block(DataFile& file, ResultLayout layout, BlockResult const& block, StudyValues const& study) {
     std::vector<std::size_t> rows;
     MemberSet members;
@@ -130,6 +130,14 @@ MemberSet write_block(DataFile& file, ResultLayout layout, BlockResult const& bl
     ResultVariables const ids = define_variables(file, layout);
     BlockRows(file, layout, ids, block, rows).write(study);
     return members;
+}
+
+}  // namespace
+
+MergedShard memory_shard(std::string const& name, ResultLayout layout, BlockResult const& block, StudyValues const& study) {
+    MemoryFile shard(name);
+    MemberSet const members = write_block(shard, std::move(layout), block, study);
+    return {members, [shard](MergedShard::Use const& use) { use(shard); }};
 }
 
 ShardImage shard_image(std::string const& name, ResultLayout layout, Provenance const& provenance,

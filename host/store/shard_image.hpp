@@ -8,9 +8,9 @@
 
 #include "host/run/block_buffers.hpp"
 #include "host/store/block_statistics.hpp"
-#include "host/store/data_file.hpp"
 #include "host/store/provenance.hpp"
 #include "host/store/result_layout.hpp"
+#include "host/store/result_merge.hpp"
 #include "host/store/shard_folder.hpp"
 
 namespace slideway {
@@ -21,14 +21,12 @@ struct ShardImage {
     std::vector<std::byte> bytes;  // empty if none have ended
 };
 
-/// The rows of those members of a block that have ended, into an empty file.
-/// @param layout of the run; its members do not count.  @param study the study's columns of the block's members.  @return the members
-MemberSet write_block(DataFile& file, ResultLayout layout, BlockResult const& block, StudyValues const& study);
-
 /// @param layout of the run; its members do not count.  @param study the study's columns of the block's members.
 /// @param name of the file, for messages.  @throws FileError
 ShardImage shard_image(std::string const& name, ResultLayout layout, Provenance const& provenance,
                        BlockResult const& block, StudyValues const& study);
+/// The same in memory, without provenance.
+MergedShard memory_shard(std::string const& name, ResultLayout layout, BlockResult const& block, StudyValues const& study);
 
 /// Statistics and who made them.
 struct StatisticsShard {

@@ -57,8 +57,8 @@ void ShardStore::put(MemberSet const& members, std::vector<std::byte> const& byt
     }
 }
 
-ShardWriter::ShardWriter(std::string folder, std::function<ShardImage(BlockResult const&)> form, ShardJoin join)
-    : form_(std::move(form)), store_(std::move(folder), std::move(join)), thread_([this] { put_all(); }) {}
+ShardWriter::ShardWriter(std::string folder, std::function<ShardImage(BlockResult const&)> form, ShardJoin join, ShortRun* brief)
+    : form_(std::move(form)), store_(std::move(folder), std::move(join)), brief_(brief), thread_([this] { put_all(); }) {}
 
 ShardWriter::~ShardWriter() { stop(); }
 
@@ -87,36 +87,55 @@ void ShardWriter::write(BlockResult const& block) {
     changed_.notify_all();
 }
 
-void ShardWriter::finish() {
+void ShardWriter::finish(bool whole) {
+    {
+        std::lock_guard const lock(mutex_);
+        whole_ = whole;
+    }
     stop();
     if (failure_) std::rethrow_exception(failure_);
 }
 
+/// Waits until a short run has ended, with its block put into `brief_`, or is none.
+bool ShardWriter::stays_short(std::unique_lock<std::mutex>& lock) {
+    if (brief_ == nullptr) return false;
+    changed_.wait_for(lock, ShortRun::longest, [this] { return ended_ || waiting_.size() > 1; });
+    if (!whole_ || waiting_.size() != 1) return false;
+    brief_->block = std::move(waiting_.front());
+    return true;
+}
+
 void ShardWriter::put_all() {
     std::unique_lock lock(mutex_);
-    for (;;) {
-        changed_.wait(lock, [this] { return ended_ || !waiting_.empty(); });
-        if (waiting_.empty()) return;
-        std::optional<BlockCopy> block(std::move(waiting_.front()));
-        waiting_.pop_front();
+    if (stays_short(lock)) return;
+    try {
+        if (brief_ != nullptr) {
+            lock.unlock();
+            brief_->claim();
+            lock.lock();
+        }
+        for (;;) {
+            changed_.wait(lock, [this] { return ended_ || !waiting_.empty(); });
+            if (waiting_.empty()) return;
+            put_next(lock);
+        }
+    } catch (...) {
+        if (!lock.owns_lock()) lock.lock();
+        failure_ = std::current_exception();
+        waiting_.clear();
         changed_.notify_all();
-        lock.unlock();
-        std::exception_ptr failure;
-        try {
-            ShardImage const image = form_(block->view());
-            block.reset();
-            if (!image.members.empty()) store_.put(image.members, image.bytes);
-        } catch (...) {
-            failure = std::current_exception();
-        }
-        lock.lock();
-        if (failure) {
-            failure_ = failure;
-            waiting_.clear();
-            changed_.notify_all();
-            return;
-        }
     }
+}
+
+void ShardWriter::put_next(std::unique_lock<std::mutex>& lock) {
+    std::optional<BlockCopy> block(std::move(waiting_.front()));
+    waiting_.pop_front();
+    changed_.notify_all();
+    lock.unlock();
+    ShardImage const image = form_(block->view());
+    block.reset();
+    if (!image.members.empty()) store_.put(image.members, image.bytes);
+    lock.lock();
 }
 
 }  // namespace slideway

@@ -1,6 +1,7 @@
 // Brings finished blocks to the disk while the next ones are computed.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -8,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <thread>
@@ -76,6 +78,13 @@ private:
     std::vector<double> final_states_, quantities_, series_, sections_, growths_;
 };
 
+/// A run that may end before it needs a shard: of one block that is there within `longest`.
+struct ShortRun {
+    static constexpr std::chrono::milliseconds longest{1000};  // of computing is lost with the process
+    std::function<void()> claim;     // the folder, before the first shard; called once, by the writer's thread
+    std::optional<BlockCopy> block;  // of a run that came to none
+};
+
 /// A thread of its own makes the images of blocks and waits for the disk; computing waits only where that is slower.
 /// At most `most_waiting` blocks wait, beside the one that the thread works on: what does is lost with the process.
 class ShardWriter {
@@ -84,8 +93,8 @@ public:
 
     /// @param form what a block becomes; of no members if none have ended; called by the
     /// thread, and while it runs nobody else may use netCDF.  @param join of the store; empty: shards
-    /// stay as they are.
-    ShardWriter(std::string folder, std::function<ShardImage(BlockResult const&)> form, ShardJoin join = {});
+    /// stay as they are.  @param brief nullptr of a run whose folder is claimed
+    ShardWriter(std::string folder, std::function<ShardImage(BlockResult const&)> form, ShardJoin join = {}, ShortRun* brief = nullptr);
     /// Waits for what `write` was given; an error then has nobody to hear it: call `finish`.
     ~ShardWriter();
     ShardWriter(ShardWriter const&) = delete;
@@ -93,18 +102,21 @@ public:
 
     /// Takes a copy.  One call at a time.  @throws FileError, also of an earlier block.
     void write(BlockResult const& block);
-    /// Waits until everything is on the disk.  @throws FileError
-    void finish();
+    /// Waits until everything is on the disk, or the only block of a short run in `brief`.  @param whole nothing is left to compute  @throws FileError
+    void finish(bool whole = true);
 
 private:
     void put_all();
+    void put_next(std::unique_lock<std::mutex>& lock);
+    bool stays_short(std::unique_lock<std::mutex>& lock);
     void stop();
 
     std::function<ShardImage(BlockResult const&)> const form_;
-    ShardStore store_;  // the thread's
-    std::mutex mutex_;  // guards the three below
+    ShardStore store_;      // the thread's
+    ShortRun* const brief_;
+    std::mutex mutex_;  // guards what follows
     std::deque<BlockCopy> waiting_;
-    bool ended_ = false;
+    bool ended_ = false, whole_ = false;
     std::exception_ptr failure_;
     std::condition_variable changed_;
     std::thread thread_;

@@ -20,9 +20,8 @@ public:
 
     void take(BlockResult const& block) {
         if (!scene_.stores_members()) return statistics_.add(block, plan_);
-        MemoryFile shard(scene_.path);
-        MemberSet const members = write_block(shard, merge_.layout, block, exponents_.values(block));
-        if (!members.empty()) shards_.push_back({members, [shard](MergedShard::Use const& use) { use(shard); }});
+        shards_.push_back(memory_shard(scene_.path, merge_.layout, block, exponents_.values(block)));
+        if (shards_.back().members.empty()) shards_.pop_back();
     }
     MemoryFile file(std::uint64_t left) {
         MemoryFile file(scene_.path);

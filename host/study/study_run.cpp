@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include <unistd.h>
+
 #include <fmt/format.h>
 
 #include "host/base/bytes.hpp"
@@ -11,8 +13,10 @@
 #include "host/store/finished_result.hpp"
 #include "host/store/result_merge.hpp"
 #include "host/store/result_view.hpp"
+#include "host/store/shard_image.hpp"
 #include "host/store/statistics_merge.hpp"
 #include "host/study/continued_sweep.hpp"
+#include "host/study/exponent_table.hpp"
 #include "host/study/prediction.hpp"
 #include "host/study/verification.hpp"
 
@@ -65,6 +69,17 @@ Maker stored_maker(DataFile const& file) {
     double threads = 1;
     file.number(DataFile::global, "threads", threads);
     return {text("backend"), text("isa"), text("flags"), static_cast<int>(threads)};
+}
+
+/// What a merge needs beside the shards.  What it refers to must outlive it.  @param left members without one
+ResultMerge study_merge(Scene const& scene, MemberSet const& members, std::uint64_t left, Provenance const& provenance, OutputTarget const& output,
+                               std::optional<ToleranceReport>& report, ReportSettings const& settings, std::function<void(DataFile&)> const& verify) {
+    std::string const completeness = left == 0 ? "complete" : fmt::format("{} of {} members not run", left, members.count());
+    auto const conclude = [&scene, &report, &settings, &verify, left](DataFile& file) {
+        conclude_study(scene, file, report, settings);
+        if (verify && left == 0) verify(file);
+    };
+    return {result_layout(scene, members), provenance, completeness, conclude, settings.pause, output.existing()};
 }
 
 }  // namespace
@@ -125,10 +140,25 @@ StudyRun::StudyRun(Scene const& scene, StudyOptions const& options)
         }
     }
     if (options.force && !options.resume && !options.part.of_array && target_.replaces()) remove_shards_of_finished(target_.path(), folder);
-    claim_ = std::make_unique<ShardClaim>(
-        folder, ShardClaim::Wanted{identity, mine_, options.part.name(), options.resume, table_copy_of(scene)});
-    work_ = {mine_.without(claim_->done()), claim_->done().count()};
+    ShardClaim::Wanted const wanted{identity, mine_, options.part.name(), options.resume, table_copy_of(scene)};
+    brief_.claim = [this, wanted] { claim(wanted); };
+    if (may_be_short())
+        work_ = {mine_, 0, &brief_};
+    else
+        claim(wanted);
     require_room();
+}
+
+/// Who resumes, shares or meets a folder wants its shards; what cannot be made there is to be told now.
+bool StudyRun::may_be_short() const {
+    bool const alone = !options_.part.of_array && !options_.resume && !options_.shared;
+    std::string const folder = folder_of(options_.output);
+    return alone && scene_.stores_members() && !is_there(shard_folder_of(options_.output)) && ::access(folder.c_str(), W_OK | X_OK) == 0;
+}
+
+void StudyRun::claim(ShardClaim::Wanted const& wanted) {
+    claim_ = std::make_unique<ShardClaim>(shard_folder_of(options_.output), wanted);
+    work_ = {mine_.without(claim_->done()), claim_->done().count()};
 }
 
 std::vector<DamagedShard> StudyRun::damaged() const { return claim_ ? claim_->damaged() : std::vector<DamagedShard>(); }
@@ -147,7 +177,7 @@ void StudyRun::require_room() const {
 }
 
 std::uint64_t StudyRun::left() const {
-    if (is_complete_) return 0;
+    if (is_complete_ || brief_.block) return 0;
     ShardFolder const folder(shard_folder_of(options_.output));
     return mine_.without(members_of(folder.listed())).count();
 }
@@ -159,18 +189,36 @@ std::function<void()> pause_of(StopRequest const& stop) {
 }
 
 bool StudyRun::merge(StopRequest const& stop, std::optional<ToleranceReport>& report) {
-    ShardFolder const folder(shard_folder_of(options_.output));
     try {
-        ReportSettings settings;
-        settings.threads = options_.threads;
-        settings.pause = pause_of(stop);
-        auto const check = resolution_check(scene_, *options_.backend, options_.threads, stop, options_.progress);
-        merge_study(scene_, folder, folder.listed(), provenance(scene_, *options_.backend, options_.threads),
-                    target_, report, settings, check);
+        merge_all(stop, report);
+        return true;
     } catch (MergeStopped const&) {
+        put_into_shards(scene_, options_, brief_);
         return false;
+    } catch (...) {
+        // The first failure is the one to be told; without shards nobody says that they are kept.
+        try {
+            put_into_shards(scene_, options_, brief_);
+        } catch (std::exception const&) {
+        }
+        throw;
     }
-    return true;
+}
+
+void StudyRun::merge_all(StopRequest const& stop, std::optional<ToleranceReport>& report) {
+    ReportSettings settings;
+    settings.threads = options_.threads;
+    settings.pause = pause_of(stop);
+    auto const check = resolution_check(scene_, *options_.backend, options_.threads, stop, options_.progress);
+    auto const origin = provenance(scene_, *options_.backend, options_.threads);
+    if (!brief_.block) {
+        ShardFolder const folder(shard_folder_of(options_.output));
+        merge_study(scene_, folder, folder.listed(), origin, target_, report, settings, check);
+        return;
+    }
+    BlockResult const block = brief_.block->view();
+    merge_shards({memory_shard(options_.output, result_layout(scene_, members_), block, ExponentTable(scene_).values(block))},
+                 study_merge(scene_, members_, 0, origin, target_, report, settings, check), target_.path());
 }
 
 std::function<void(DataFile&)> resolution_check(Scene const& scene, Backend const& backend, int threads, StopRequest const& stop, Progress::Style progress) {
@@ -196,12 +244,7 @@ std::uint64_t merge_study(Scene const& scene, ShardFolder const& folder, std::ve
                           std::function<void(DataFile&)> const& verify) {
     MemberSet const& members = folder.identity().members;
     std::uint64_t const left = members.without(members_of(shards)).count();
-    std::string const completeness = left == 0 ? "complete" : fmt::format("{} of {} members not run", left, members.count());
-    auto const conclude = [&](DataFile& file) {
-        conclude_study(scene, file, report, settings);
-        if (verify && left == 0) verify(file);
-    };
-    ResultMerge merge{result_layout(scene, members), provenance, completeness, conclude, settings.pause, output.existing()};
+    ResultMerge merge = study_merge(scene, members, left, provenance, output, report, settings, verify);
     if (scene.stores_members())
         merge_shards(folder, shards, std::move(merge), output.path());
     else

@@ -17,6 +17,7 @@
 #include "host/store/memory_file.hpp"
 #include "host/store/output_target.hpp"
 #include "host/store/shard_claim.hpp"
+#include "host/store/shard_writer.hpp"
 #include "host/study/ensemble_plan.hpp"
 #include "host/study/tolerance_report.hpp"
 
@@ -44,6 +45,7 @@ struct StudyOptions {
     int threads = 1;
     std::size_t block_members = 0;  // 0: as many as suit the run
     bool resume = false;
+    bool shared = false;  // with other ranks
     Progress::Style progress = Progress::Style::none;
 };
 
@@ -56,7 +58,8 @@ std::vector<std::string> inputs_of(Scene const& scene);
 /// What the ranks compute together.
 struct StudyWork {
     MemberSet todo;
-    std::uint64_t before = 0;  // members that earlier runs have finished
+    std::uint64_t before = 0;    // members that earlier runs have finished
+    ShortRun* brief = nullptr;  // of a run that has no folder yet
 };
 
 /// Integrates the members of `work.todo` with the threads of all ranks; at every rank.  Finished shards stay, whatever happens.
@@ -81,23 +84,32 @@ public:
 
     /// Members that have not run, of the part that is this run's.
     std::uint64_t left() const;
-    /// Makes the result file of all shards.  @param report where that of a scene that `asks_for_report` goes
-    /// @return false if a signal came: there is no file then, and the shards are still there.
+    /// Whether there is a folder that holds what has run.
+    bool has_folder() const { return claim_ != nullptr && !brief_.block; }
+    /// Makes the result file of all shards, or of the block of a run too short for any.  @param report where that of a scene that `asks_for_report` goes
+    /// @return false if a signal came.  Without a file all that has run is in shards.
     bool merge(StopRequest const& stop, std::optional<ToleranceReport>& report);
     /// Removes the shards of a result that is there.  @return names of what is not of the run, and stays with the folder  @throws FileError
-    std::vector<std::string> remove_shards() { return claim_->remove_folder(); }
+    std::vector<std::string> remove_shards() { return claim_ ? claim_->remove_folder() : std::vector<std::string>(); }
 
 private:
     void require_room() const;
+    bool may_be_short() const;
+    void claim(ShardClaim::Wanted const& wanted);
+    void merge_all(StopRequest const& stop, std::optional<ToleranceReport>& report);
 
     Scene const& scene_;
     StudyOptions const& options_;
     OutputTarget const target_;
     MemberSet const members_, mine_;
     bool is_complete_ = false;
-    std::unique_ptr<ShardClaim> claim_;
+    std::unique_ptr<ShardClaim> claim_;  // made by the writer's thread where `brief_` may do without
+    ShortRun brief_;
     StudyWork work_;
 };
+
+/// Writes the block of a short run into shards after all.  @throws FileError
+void put_into_shards(Scene const& scene, StudyOptions const& options, ShortRun& brief);
 
 /// Whether a result of the scene has a report in its groups: a tolerance study, an ensemble with limits, and any that
 /// keeps statistics in place of members.

@@ -43,7 +43,9 @@ MemberEnds recalled_ends(std::string const& path, Mechanism mechanism, MemberSet
 }
 
 /// Result files of a scene's blocks, or their statistics.
-std::unique_ptr<ShardWriter> shard_writer(Scene const& scene, std::string const& folder, Provenance const& origin) {
+std::unique_ptr<ShardWriter> shard_writer(Scene const& scene, StudyOptions const& options, ShortRun* brief = nullptr) {
+    std::string const folder = shard_folder_of(options.output);
+    Provenance const origin = provenance(scene, *options.backend, options.threads);
     if (!scene.stores_members()) {
         auto form = [plan = statistics_plan(scene), maker = origin.maker](BlockResult const& block) { return statistics_image(plan, maker, block); };
         return std::make_unique<ShardWriter>(folder, std::move(form), joined_statistics);
@@ -51,7 +53,7 @@ std::unique_ptr<ShardWriter> shard_writer(Scene const& scene, std::string const&
     auto form = [folder, origin, layout = result_layout(scene, {}), exponents = ExponentTable(scene)](BlockResult const& block) {
         return shard_image(folder, layout, origin, block, exponents.values(block));
     };
-    return std::make_unique<ShardWriter>(folder, std::move(form));
+    return std::make_unique<ShardWriter>(folder, std::move(form), ShardJoin(), brief);
 }
 
 /// This rank's share of the work.
@@ -67,10 +69,10 @@ EnsembleTotals compute(Scene const& scene, StudyOptions const& options, StudyWor
                                     : MemberEnds{};
         continue_columns(scene, plan, work.todo, kernel, ends, stop);
     }
-    auto const writer = shard_writer(scene, folder, provenance(scene, *options.backend, options.threads));
+    auto const writer = shard_writer(scene, options, work.brief);
     BlockSink const sink = [&](BlockResult const& block) { writer->write(block); };
     EnsembleTotals const totals = run_ensemble(plan, queue, kernel, sink, stop, &progress);
-    writer->finish();
+    writer->finish(totals.stopped == StopReason::none);
     return totals;
 }
 
@@ -91,6 +93,15 @@ ProgressTask progress_task(Scene const& scene, StudyOptions const& options, Stud
 }
 
 }  // namespace
+
+void put_into_shards(Scene const& scene, StudyOptions const& options, ShortRun& brief) {
+    if (!brief.block) return;
+    brief.claim();
+    auto const writer = shard_writer(scene, options);
+    writer->write(brief.block->view());
+    writer->finish();
+    brief.block.reset();
+}
 
 EnsembleTotals run_work(Scene const& scene, StudyOptions const& options, StudyWork const& work, Ranks& ranks,
                         StopRequest const& stop) {

@@ -22,7 +22,7 @@ protected:
                                  (failure.is_short ? " after half" : "") + " " + failure.calls;
         SCOPED_TRACE(what);
         clean();
-        std::string const words = run_text("--threads 1 --block-members 8");
+        std::string const words = run_text(options_);
         auto const failing =
             on_disk(with_failing_calls(path("disk"), path("count"), at, failure) + "timeout 30 " + words);
         std::uint64_t const failed = call_counts(path("count")).failed;
@@ -47,7 +47,7 @@ protected:
     }
 
     std::string whole_hash() const {
-        EXPECT_EQ(on_disk(run_text("", "../whole.nc")).code, 0);
+        EXPECT_EQ(on_disk(run_text("--force", "../whole.nc")).code, 0);
         return hash_of("whole.nc");
     }
 
@@ -64,6 +64,8 @@ protected:
         EXPECT_LE(absorbed_, 1);
         return runs;
     }
+
+    char const* options_ = "--threads 1 --block-members 8";
 
 private:
     ShellOutcome on_disk(std::string const& command) const {

@@ -46,6 +46,8 @@ protected:
         options.insert(options.end(), {"--threads", "1", "--block-members", "8"});
         return run_words(options, "w/o.nc");
     }
+    /// Of one block.
+    static std::vector<std::string> short_words() { return run_words({"--threads", "1"}, "w/o.nc"); }
     static std::string line(std::string const& options, std::string const& folder = "w") {
         return run_text("--threads 1 --block-members 8 " + options, folder + "/o.nc");
     }
@@ -112,9 +114,9 @@ protected:
     }
 
     /// A run that gets a signal once a stage is reached, or ends before.
-    Outcome signalled(int signal, Stage const& stage) const {
+    Outcome signalled(int signal, Stage const& stage, std::vector<std::string> const& words = Exits::words()) const {
         clean();
-        pid_t const child = start(words());
+        pid_t const child = start(words);
         for (int i = 0; i < 60000 && !stage.is_reached(path("w")); ++i) {
             siginfo_t ended{};
             if (waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == child) break;
@@ -148,6 +150,36 @@ TEST_F(Exits, ByTermAndByKillAtEveryStage) {
             expect_recovery(signal != SIGKILL);
         }
     }
+}
+
+TEST_F(Exits, OfAShortRunThatIsMergingPutItIntoShards) {
+    for (int const signal : {SIGTERM, SIGHUP}) {
+        Outcome const ended = signalled(signal, stages[2], short_words());
+        EXPECT_TRUE(ended.code == 0 || ended.code == 5) << ended.code << ended.err;
+        expect_recovery();
+    }
+}
+
+TEST_F(Exits, OfAShortRunSyncTheResultAndItsFolder) {
+    auto const calls = [this](char const* family, std::string const& command) {
+        clean();
+        fs::remove(path("count"));
+        EXPECT_EQ(shell(with_failing_calls(path("w"), path("count"), 0, {.calls = family}) + command).code, 0);
+        expect_only_the_result();
+        return call_counts(path("count")).counted;
+    };
+    EXPECT_EQ(calls("sync", run_text("--threads 1", "w/o.nc")), 2u);
+    EXPECT_EQ(calls("mkdir", run_text("--threads 1", "w/o.nc")), 0u);
+    EXPECT_EQ(calls("mkdir", line("")), 1u);
+}
+
+/// So that no other run takes its name, and a signal finds where to put what has run.
+TEST_F(Exits, OfOneLongBlockHaveAFolderFromASecondOn) {
+    auto long_words = short_words();
+    long_words.insert(long_words.end(), {"--block-members", "400", "--set", "study.members=400", "--set", "study.duration=2"});
+    Outcome const ended = signalled(SIGTERM, stages[0], long_words);
+    EXPECT_EQ(ended.code, 5) << ended.err;
+    EXPECT_TRUE(has_shards());
 }
 
 /// As a shell's nohup, and what it starts in the background.

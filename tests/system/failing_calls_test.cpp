@@ -27,5 +27,13 @@ TEST_F(FailingDisk, GoesOnAfterAWriteThatWasShort) {
     EXPECT_GT(sweep({.once = true, .is_short = true, .calls = "write"}, 2, 5), 10);
 }
 
+/// Of one block, which goes into shards where no result can be made of it.
+TEST_F(FailingDisk, AtAnyCallCostsNoShortRun) {
+    options_ = "--threads 1";
+    EXPECT_GT(sweep({.calls = rare_calls}, 1, 1), 5);
+    EXPECT_GT(sweep({.error = "EIO", .once = true, .calls = rare_calls}, 1, 1), 5);
+    EXPECT_GT(sweep({.error = "EIO", .once = true, .calls = "write"}, 1, 11), 3);
+}
+
 }  // namespace
 }  // namespace slideway::testing::failing_calls_test

@@ -195,7 +195,7 @@ TEST_F(OutputTargets, OnAFullDiskStayAsTheyWere) {
         std::string const name = std::string("o_") + command.name + command.ending;
         expect_written(command, name);
         std::string const before = file_text(path(name));
-        ShellOutcome const outcome = run_shell(path(""), "( ( ulimit -f 0; exec " + forced(command, name) + " ); echo code $? ) 2>&1 | cat");
+        ShellOutcome const outcome = run_shell(path(""), "( ( ulimit -f 0; exec " + forced(command, name) + " >/dev/null ); echo code $? ) 2>&1 | cat");
         EXPECT_TRUE(outcome.out.ends_with("\ncode 4\n")) << command.name << ": " << outcome.out;
         EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 2) << command.name << ": " << outcome.out;
         EXPECT_TRUE(file_text(path(name)) == before) << command.name;
@@ -204,7 +204,7 @@ TEST_F(OutputTargets, OnAFullDiskStayAsTheyWere) {
 
 TEST_F(OutputTargets, ThatComeUpWhileItRunsAreKept) {
     std::string const seconds = "study.duration=200 ms";
-    pid_t const child = start({"run", "s.toml", "--no-progress", "-o", "late.nc", "--set", seconds, "study.members=500", "study.verify=0"});
+    pid_t const child = start({"run", "s.toml", "--no-progress", "-o", "late.nc", "--block-members", "8", "--set", seconds, "study.members=500", "study.verify=0"});
     ASSERT_TRUE(comes_true([&] { return fs::exists(path("late.nc.shards/run.toml")); }));
     write("late.nc", "of somebody else");
     Outcome const outcome = wait(child);
