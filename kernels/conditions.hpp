@@ -14,6 +14,7 @@ template <class Laws> struct Conditions {
     bool misaligned_way = false;
     bool switches = false;   // LawInfo::switches
     bool remembers = false;  // impact speeds: of a damping by restitution
+    bool continuous = false;  // LawInfo::continuous, with this damping
     bool free_crank = false;
     bool holds_contacts = false;  // steps of the block take their contacts as given (ContactMemory)
     bool in_impacts = false;      // and go by the clocks of impacts
@@ -25,6 +26,7 @@ template <class Laws> struct Conditions {
           misaligned_way(parts.misaligned_way),
           switches(law_switches),
           remembers(remembers_of(parts)),
+          continuous(of_law.continuous() && !remembers_of(parts)),
           free_crank(parts.free_crank) {}
 
     /// A law that is known with its damping says it itself: without the speeds of its impacts, one by restitution would return what it likes.

@@ -14,7 +14,7 @@ inline constexpr MethodInfo method_table[] = {
     {"auto", "explicit pair in flight and impacts, ros34pw2 where lasting contact makes a member stiff"},
     {"dopri5", "Dormand-Prince 5(4); the explicit pair of auto for rtol below 1e-5, and for rigid contacts"},
     {"dop853", "Dormand-Prince 8(5,3): for smooth motion at tight tolerances; contacts gain nothing"},
-    {"bs32", "Bogacki-Shampine 3(2); the explicit pair of auto from rtol 1e-5 on with compliant contacts"},
+    {"bs32", "Bogacki-Shampine 3(2); the explicit pair of auto from rtol 1e-5 on where forces jump, or with restitution"},
     {"ros34pw2", "Rosenbrock W-method 3(2) alone: for lasting contact, it loses energy in impacts"},
     {"rk4", "classical Runge-Kutta with the fixed step integrator.step"},
     {"verner65", "Verner 6(5) with steps that end where contacts begin and end, and a clock within them: for impacts"},

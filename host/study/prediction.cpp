@@ -21,10 +21,10 @@ namespace {
 /// Tried steps per time 1/Ω where a slider rings in contact: measured in settling, gaps down to 10 µs and strong
 /// damping included, at tolerances from 1e-3 to 1e-8, rounded up.  Of `auto` they are its explicit pair's, for a member
 /// that never comes to rest long enough to change over.
-double contact_steps(IntegratorSettings const& settings) {
+double contact_steps(Parts const& parts, IntegratorSettings const& settings) {
     double const finer = 1e-6 / std::min(settings.rtol, settings.atol);
-    bool const low_order =
-        settings.method == Method::bs32 || (settings.method == Method::automatic && settings.rtol >= 1e-5);
+    bool const ends_at_changes = contact_info(parts).continuous && parts.damping != Damping::restitution;
+    bool const low_order = settings.method == Method::bs32 || (settings.method == Method::automatic && settings.rtol >= 1e-5 && !ends_at_changes);
     return low_order ? 15 * std::cbrt(finer) : 5 * std::pow(finer, 0.2);
 }
 
@@ -82,7 +82,7 @@ StepRange steps_of_member(Scene const& scene) {
     if (scene.parts.rigid) return {least, rigid_steps * least};
     MechanismInfo const& mechanism = info(scene.parts.mechanism);
     double const rate = stiffest_rate(mechanism, info(scene.parts.law), complete_inputs(scene.inputs, mechanism));
-    return {least, least + end * rate * contact_steps(scene.integrator)};
+    return {least, least + end * rate * contact_steps(scene.parts, scene.integrator)};
 }
 
 /// How many shards members become at most: their blocks, of the dearest members that are foreseen.

@@ -79,7 +79,7 @@ private:
         auto depths = Faces::depths(motion_, p_.geometry);
         bool const holding = block_.holds_contacts && any(memory_.holding > Real(0.5));
         auto touched = sides<axis>(depths, holding);
-        bool const rates_reported = Full && !block_.powers_alone && (block_.remembers || holding);
+        bool const rates_reported = Full && !block_.powers_alone && (block_.remembers || block_.continuous || holding);
         if constexpr (Full) {
             if (!block_.powers_alone) {
                 report_->penetration[Faces::first_face] = depths.on(Real(1.0));

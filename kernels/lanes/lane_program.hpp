@@ -51,7 +51,7 @@ public:
         if constexpr (can_hold_contacts<Model>) pack_.model.hold_contacts(pack_.needs.watching);
         if constexpr (requires { pack_.model.set_tolerance(1.0); }) pack_.model.set_tolerance(block.settings.rtol);
         start_memory(pack_.state.contacts.memory);
-        pack_.pair = &pair_of(block.settings);
+        pack_.pair = &pair_of(block.settings, pack_.needs.watching);
     }
 
     SLIDEWAY_HD void run() {
@@ -143,7 +143,7 @@ private:
         auto& s = pack_.state;
         move(s.course, r.course);
         if constexpr (Model::has_contacts) {
-            if (pack_.needs.watch()) move(s.contacts, r.contacts);
+            if (pack_.needs.cuts()) move(s.contacts, r.contacts);
         }
         if (pack_.needs.quantities) move(s.observation, r.observation);
         pack_.with_accelerations([&](auto& a) { move(a, r.accelerations); });
@@ -186,7 +186,7 @@ private:
     }
 
     /// The explicit method of a block.
-    SLIDEWAY_HD static PairNumbers const& pair_of(IntegratorSettings const& settings) {
+    SLIDEWAY_HD static PairNumbers const& pair_of(IntegratorSettings const& settings, Watching watching) {
         bool const is_automatic = settings.method == Method::automatic;
         if (settings.method == Method::verner65) return pair_numbers<Verner65>();
         // Impacts, whose steps are many and short, would gain nothing by the others (docs/rigid.md).
@@ -194,7 +194,9 @@ private:
         if (settings.method == Method::rk4) return pair_numbers<RungeKutta4>();
         // Where nothing breaks the smoothness of the motion, it beats the others at every tolerance (docs/integrators.md).
         if (settings.method == Method::dop853 || (is_automatic && is_smooth)) return pair_numbers<Dop853>();
-        if (settings.method == Method::bs32 || (is_automatic && settings.rtol >= bs32_from)) return pair_numbers<BogackiShampine>();
+        // It crosses kinks in short steps, which are not needed where steps end at them.
+        bool const is_loose = settings.rtol >= bs32_from && watching != Watching::gaps;
+        if (settings.method == Method::bs32 || (is_automatic && is_loose)) return pair_numbers<BogackiShampine>();
         return pair_numbers<DormandPrince>();
     }
 
@@ -224,7 +226,7 @@ private:
         } else if constexpr (has_impacts<Model>) {
             faults = faults.or_else(settle_start(rates, report));
         } else if constexpr (Model::has_contacts) {
-            if (pack_.needs.watch()) contacts.watch.begin(pack_.busy, report.contact, contacts.memory, pack_.needs.watching);
+            if (pack_.needs.cuts()) contacts.watch.begin(pack_.busy, report.contact, contacts.memory, pack_.needs.watching);
             if (holds_contacts(pack_.needs.watching)) {
                 // Rates are reported only once contacts are held, and the first step is searched too.
                 pack_.evaluate(c.t, c.y, contacts.memory, rates, true, report);

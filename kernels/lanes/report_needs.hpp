@@ -26,6 +26,8 @@ struct ReportNeeds {
     bool ends = false;  // at the accepted steps
 
     SLIDEWAY_HD bool watch() const { return watching != Watching::nothing; }
+    /// Whether an event ends a step that has been made.
+    SLIDEWAY_HD bool cuts() const { return watch() && watching != Watching::gaps; }
 
     template <class Model, class Real>
     SLIDEWAY_HD static ReportNeeds of(Model const& model, Selection quantities, IntegratorSettings const& settings) {
@@ -59,7 +61,7 @@ struct ReportNeeds {
     template <class Model> SLIDEWAY_HD ReportNeeds of_shadows() const {
         ReportNeeds needs;
         needs.watching = watching;
-        needs.ends = watch() && !has_impacts<Model>;
+        needs.ends = cuts() && !has_impacts<Model>;
         return needs;
     }
 };

@@ -99,7 +99,7 @@ public:
                 shadow.rates[i] = select(accepted, end.end_rates[i], shadow.rates[i]);
             }
             if constexpr (Model::has_contacts && !has_impacts<Model>) {
-                if (!pack.needs.watch()) continue;
+                if (!pack.needs.cuts()) continue;
                 auto& [memory, watch] = shadow.contacts;
                 auto const touched = watch.update(accepted, end.report.contact, memory, shadow.y, pack.needs.watching);
                 if (any(touched)) evaluate(pack, shadow, touched);
@@ -148,7 +148,7 @@ public:
     /// left alone within its bounds; several are made orthogonal, so that the j-th shows the j-th largest rate (Benettin et al. 1980).
     SLIDEWAY_NOINLINE void rescale(Pack<Model, Real>& pack, Mask<Real> at) {
         // Impact speeds differ between member and shadow as the states do, and are rescaled with them.
-        bool const speeds = pack.needs.watch() && pack.needs.watching != Watching::modes;
+        bool const speeds = pack.needs.cuts() && pack.needs.watching != Watching::modes;
         constexpr int width = has_impacts<Model> ? size : size + Memory::speeds;
         speeds ? rescale_numbers<width>(pack, at) : rescale_numbers<size>(pack, at);
     }
@@ -221,7 +221,7 @@ private:
         auto faults = evaluate(pack, shadow, in);
         if constexpr (Model::has_contacts && !has_impacts<Model>) {
             auto& [memory, watch] = shadow.contacts;
-            if (pack.needs.watch()) watch.begin(in, report_.contact, memory, pack.needs.watching);
+            if (pack.needs.cuts()) watch.begin(in, report_.contact, memory, pack.needs.watching);
             if (pack.needs.watching == Watching::modes) {
                 // Other contacts are held now, and another derivative.
                 faults = evaluate(pack, shadow, in);
@@ -234,7 +234,7 @@ private:
     SLIDEWAY_HD Faults<Real> evaluate(Pack<Model, Real>& pack, Shadow& shadow, Mask<Real> in) {
         Real rates[size];
         auto const faults = pack.evaluate(pack.state.course.t, shadow.y, memory_of(pack, shadow), rates,
-                                          pack.needs.watch() && !has_impacts<Model>, report_);
+                                          pack.needs.cuts() && !has_impacts<Model>, report_);
         pack.count_evaluations(in, 1);
         for (int i = 0; i < size; ++i) shadow.rates[i] = select(in, rates[i], shadow.rates[i]);
         return faults.within(in);

@@ -45,7 +45,7 @@ public:
 
     /// Every lane attempts `attempts` steps, unless its member ends or leaves the stiff method before.
     SLIDEWAY_HD void work(int attempts) {
-        left_ = mask_of<Real>(false);
+        left_ = known_ = mask_of<Real>(false);
         auto const members = pack_.busy;
         int const members_at_start = held_lanes(members);
         for (int i = 0; i < attempts && any(pack_.busy); ++i) {
@@ -125,7 +125,7 @@ private:
         c.accepted = c.accepted + count<Real>(verdict.accepted);
         c.rejected = c.rejected + count<Real>(verdict.rejected);
         auto failed = verdict.rejected & !verdict.cut;
-        Real next_time = verdict.next;
+        Real next_time = verdict.next, next = min(verdict.next, Real(max_step_));
         if constexpr (by_clock) {
             failed = failed | (verdict.rejected & impacts_.landed_in_contact(landing.lands));
             next_time = Impacts::time_of(stepper_, verdict.next);
@@ -137,13 +137,13 @@ private:
 
         auto finished = mask_of<Real>(false);
         if (any(verdict.accepted)) {
-            finished = advance(verdict.accepted, landing);
+            finished = advance(verdict.accepted, landing, next);
             if constexpr (has_events<Model>) stuck = stuck | search_.piled_up(pack_, attempt_.step);
         }
         if constexpr (by_clock) {
             impacts_.keep(pack_.state, stepper_, busy, verdict.next, Real(max_step_));
         } else {
-            c.h = select(busy, min(verdict.next, Real(max_step_)), c.h);
+            c.h = select(busy, next, c.h);
         }
         auto const spent =
             busy & !finished & (c.accepted + c.rejected >= Real(static_cast<double>(settings_.max_steps)));
@@ -179,7 +179,7 @@ private:
         Real const former_memory = pack_.state.course.error_memory;
         auto allowed = adapts() ? allowed_by_error(landing, verdict.divergent) : allowed_if_finite(verdict.divergent);
         if constexpr (Model::has_contacts && Stepper::adaptive) {
-            if (pack_.needs.watch() && adapts()) {
+            if (pack_.needs.cuts() && adapts()) {
                 auto const by_contacts = allowed_by_contacts(allowed);
                 verdict.cut = allowed.accepted & !by_contacts.accepted;
                 // A step that an event cuts short says nothing of its error.
@@ -270,8 +270,8 @@ private:
         }
     }
 
-    /// Moves the accepted lanes to the end of their step.  @return those that reached the end time.
-    SLIDEWAY_HD Mask<Real> advance(Mask<Real> accepted, Landing const& landing) {
+    /// Moves the accepted lanes to the end of their step.  @param next step, which may become shorter  @return those that reached the end time.
+    SLIDEWAY_HD Mask<Real> advance(Mask<Real> accepted, Landing const& landing, Real& next) {
         auto& c = pack_.state.course;
         auto landed = accepted & landing.lands;
         if constexpr (by_clock) landed = landed & !impacts_.ended_early();
@@ -301,7 +301,7 @@ private:
             if constexpr (Model::has_shadows) shadows_.advance(pack_, accepted);
             settle_contacts(accepted);
         } else {
-            remember_contacts(accepted);
+            remember_contacts(accepted, next);
             if constexpr (Model::has_shadows) shadows_.advance(pack_, accepted);
         }
         if (results_.stops() > 0) stop(landed);
@@ -328,7 +328,7 @@ private:
     }
 
     /// What an accepted step leaves of its contacts.
-    SLIDEWAY_HD void remember_contacts([[maybe_unused]] Mask<Real> accepted) {
+    SLIDEWAY_HD void remember_contacts([[maybe_unused]] Mask<Real> accepted, [[maybe_unused]] Real& next) {
         if constexpr (Model::has_contacts) {
             if (!pack_.needs.watch()) return;
             auto touched = mask_of<Real>(false);
@@ -338,8 +338,10 @@ private:
                 turn_modes(turned.lanes);
             } else {
                 auto& [memory, watch] = pack_.state.contacts;
-                touched =
-                    watch.update(accepted, attempt_.report.contact, memory, pack_.state.course.y, pack_.needs.watching);
+                bool const may_shorten = !Stepper::stiff && adapts();
+                touched = watch.update(accepted, attempt_.report.contact, memory, pack_.state.course.y, pack_.needs.watching, select(known_, attempt_.step, Real(0.0)),
+                                       may_shorten ? &next : nullptr);
+                known_ = known_ | accepted;
             }
             if (any(touched)) restart(touched);
         }
@@ -412,7 +414,7 @@ private:
     [[no_unique_address]] std::conditional_t<Stepper::ends_early, EarlyEnds<Real>, NoEarlyEnds> early_;
     Attempt<Model, Real> attempt_;  // the members' own
     double max_step_;
-    Mask<Real> left_;
+    Mask<Real> left_, known_;  // lanes that leave the stiff method; whose watch knows their last step
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -15,6 +15,7 @@ struct ConservativeLaw {
     static constexpr LawInfo info{.name = "conservative",
                                   .words = "one potential of all contacts, no switching",
                                   .switches = false,
+                                  .continuous = true,
                                   .groups = contact_groups,
                                   .of_touching_alone = true};
 

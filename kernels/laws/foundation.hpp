@@ -21,6 +21,7 @@ struct Foundation {
     static constexpr LawInfo info{.name = "foundation",
                                   .words = "an elastic bed over each face, no modes",
                                   .switches = false,
+                                  .continuous = true,
                                   .groups = groups_of(KeyGroup::elastic, KeyGroup::surfaces, KeyGroup::restitution),
                                   .keys = keys,
                                   .face_stiffness = &face_stiffness};

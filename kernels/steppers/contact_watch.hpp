@@ -11,6 +11,7 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// At which events of the contacts steps end, the same for a whole block.
 enum class Watching {
     nothing,
+    gaps,              // no event ends a step that has been made, but steps are tried that end just beyond the next one
     touches,           // pairs meet: what restitution needs, v0 changing only at accepted touch events (model.md 4)
     touches_and_parts, // pairs part too: for a law that switches there, between shadows and their member
     impacts,           // touches and parts alike, held within a step as with `modes`; √δ of the shallowest pair is the step's clock
@@ -164,11 +165,16 @@ public:
         return fraction;
     }
 
-    /// After an accepted step: remembers what has just happened.  @return lanes where it changes the derivative.
+    /// After an accepted step: remembers what has just happened.  @param step that has been made [s]  @param next step, of a method that may shorten it; else
+    /// nullptr  @return lanes where it changes the derivative.
     template <class Contact>
-    SLIDEWAY_FN Mask<Real> update(Mask<Real> accepted, Contact const& end, Memory& memory, Real*, Watching watching) {
-        auto const changed =
-            watching == Watching::modes ? turn_pairs(accepted, end, memory) : take_speeds(accepted, end, memory);
+    SLIDEWAY_FN Mask<Real> update(Mask<Real> accepted, Contact const& end, Memory& memory, Real*, Watching watching, Real step = Real(0.0),
+                                  Real* next = nullptr) {
+        auto changed = mask_of<Real>(false);
+        if (watching != Watching::gaps)
+            changed = watching == Watching::modes ? turn_pairs(accepted, end, memory) : take_speeds(accepted, end, memory);
+        else if (next != nullptr)
+            *next = select(accepted, this->next_step(end, step, *next), *next);
         this->keep(accepted, end);
         return changed;
     }

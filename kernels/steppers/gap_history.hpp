@@ -19,6 +19,33 @@ public:
         }
     }
 
+    /// The next step, ended just beyond the first change of a pair that meets its face or leaves it, with the acceleration of the step that has been made.
+    /// Changes within a fiftieth of it are crossed.
+    /// @param step that has been made [s]; 0 where its start is not known  @param next step without changes [s]
+    template <class Contact> SLIDEWAY_FN Real next_step(Contact const& end, Real step, Real next) const {
+        constexpr double beyond = 1.001, shortest = 0.02;
+        Real const zero(0.0), half = Real(0.5) * next, per_step = Real(1.0) / select(step > zero, step, Real(1.0));
+        auto const is_known = step > zero;
+        Real first = next;
+        auto const look = [&](Real before, Real depth, Real rate) {
+            Real const acceleration = select(is_known, (rate - before) * per_step, zero);
+            auto const touches = depth > zero;
+            Mask<Real> const changes = touches ^ (fma(next, fma(half, acceleration, rate), depth) > zero);
+            if (none(changes)) return;
+            // 0 = gap − v τ − ½ a τ².
+            Real const gap = abs(depth), v = select(touches, negated(rate), rate), a = select(touches, negated(acceleration), acceleration);
+            Real const denominator = v + sqrt(max(fma(v, v, (a + a) * gap), zero));
+            Mask<Real> const comes = changes & (denominator > zero);
+            Real const time = (gap + gap) / select(comes, denominator, Real(1.0));
+            first = select(comes & (time > Real(shortest) * next), min(first, Real(beyond) * time), first);
+        };
+        for (int face = 0; face < quads; ++face) {
+            auto const &before = start_rate_[face], &depth = end.penetration[face], &rate = end.rate[face];
+            look(before.a, depth.a, rate.a), look(before.b, depth.b, rate.b), look(before.c, depth.c, rate.c), look(before.d, depth.d, rate.d);
+        }
+        return first;
+    }
+
 protected:
     /// Where in (0, 1) pairs first pass to the other side of zero depth, by half of `located` so that they lie there for certain, and
     /// whether they come back before the end.  From the cubic through both ends' depths and rates: a pair that changes twice inside

@@ -40,7 +40,7 @@ public:
         return select(zeros.any, min(first, Real(0.999)), Real(1.0));
     }
 
-    SLIDEWAY_HD Mask<Real> update(Mask<Real> accepted, Contact const& end, Memory& memory, Real* y, Watching) {
+    SLIDEWAY_HD Mask<Real> update(Mask<Real> accepted, Contact const& end, Memory& memory, Real* y, Watching, Real = Real(0.0), Real* = nullptr) {
         auto const touched = accepted & (end.gap < Real(0.0)) & (end.rate < Real(0.0));
         Real const speed = abs(end.rate);
         memory.speed = select(touched, speed, memory.speed);

@@ -1,6 +1,8 @@
 // What steps by the clocks of impacts leave of their contacts, and how far it is to the next: of single pairs, from what a step did to them.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "kernels/steppers/contact_watch.hpp"
 
 namespace slideway::contact_watch_test {
@@ -107,6 +109,39 @@ TEST(ContactWatch, CountsTheWayOfAPairThatHasJustPartedFromWhereItIs) {
     pairs.memory.held[0].a = 0;
     Contact const end{{{within + 1e-9, -1e-3, -1e-3, -1e-3}}, {{0.1, 0, 0, 0}}};
     EXPECT_NEAR(pairs.watch.way_to_turn(pairs.memory, end, step_of_time(), located), (located / 2 - 1e-9) / 0.1, 1e-18);
+}
+
+/// The next step of four pairs whose depths and rates change as they did in the last one.
+double next_step(Contact const& start, Contact const& end, double step, double next) {
+    Watch watch;
+    watch.keep(true, start);
+    return watch.next_step(end, step, next);
+}
+
+TEST(NextStep, EndsJustBeyondTheFirstTouchOrParting) {
+    // From here on a falls 5 µm into its face, at 0.02 m/s and 30 m/s²; b rises 8 µm out of its own, at 0.05 m/s, slower by 20 m/s².
+    constexpr double last = 1e-4;
+    Contact const start{{{-1e-5, 2e-5, -1e-3, -1e-3}}, {{0.02 - 30 * last, -0.05 - 20 * last, 0, 0}}};
+    Contact const end{{{-5e-6, 8e-6, -1e-3, -1e-3}}, {{0.02, -0.05, 0, 0}}};
+    double const parts = (0.05 - std::sqrt(0.05 * 0.05 - 2 * 20 * 8e-6)) / 20, touches = (std::sqrt(0.02 * 0.02 + 2 * 30 * 5e-6) - 0.02) / 30;
+    ASSERT_LT(parts, touches);
+    EXPECT_NEAR(next_step(start, end, last, 1e-3), 1.001 * parts, 1e-15);
+    EXPECT_EQ(next_step(start, end, last, 0.9 * parts), 0.9 * parts) << "nothing comes within it";
+    // Without b, a is the first.
+    Contact const apart{{{-5e-6, -1e-3, -1e-3, -1e-3}}, {{0.02, 0, 0, 0}}};
+    EXPECT_NEAR(next_step(start, apart, last, 1e-3), 1.001 * touches, 1e-15);
+}
+
+TEST(NextStep, CrossesWhatIsNoFartherThanAFiftiethOfIt) {
+    Contact const start{{{-1e-6, -1e-3, -1e-3, -1e-3}}, {{0.1, 0, 0, 0}}}, end{{{-1e-7, -1e-3, -1e-3, -1e-3}}, {{0.1, 0, 0, 0}}};
+    EXPECT_EQ(next_step(start, end, 1e-5, 1e-4), 1e-4);
+    EXPECT_NEAR(next_step(start, end, 1e-5, 4e-5), 1.001e-6, 1e-18);
+}
+
+TEST(NextStep, KnowsNothingOfPairsThatTurnBackOrStay) {
+    // a comes within 1 µm of its face and is gone again at the end of the step; b rests on zero depth.
+    Contact const start{{{-5e-6, 0, -1e-3, -1e-3}}, {{0.3, 0, 0, 0}}}, end{{{-4e-6, 0, -1e-3, -1e-3}}, {{0.1, 0, 0, 0}}};
+    EXPECT_EQ(next_step(start, end, 1e-4, 1e-3), 1e-3);
 }
 
 }  // namespace

@@ -229,5 +229,39 @@ TEST(FrictionStiffness, IsIsotropicAtRest) {
     EXPECT_EQ(at.xz, 0);
 }
 
+/// The largest jump of a face's forces where a plane of apices meets it or leaves it: all four, and one end beside another that is deep.
+template <class Law, class Damping> double largest_jump(SliderParameters<double> const& p) {
+    auto const at = [&](Values const& depth, double rate) {
+        return values(Law::template forces<Damping>(motion(depth, {rate, rate, rate, rate}), y_face(p), p.joint.contact).normal);
+    };
+    constexpr double little = 1e-16, deep = 1e-7;
+    double largest = 0;
+    for (double const rate : {-0.1, 0.1}) {
+        for (Values const& from : {Values{0, 0, 0, 0}, Values{0, 0, deep, deep}, Values{0, deep, deep, 0}, Values{0, deep, 2 * deep, deep}}) {
+            auto const change = [&](double by) {
+                Values depth = from;
+                for (double& d : depth) d += d == 0 ? by : 0;
+                return at(depth, rate);
+            };
+            Values const outside = change(-little), inside = change(little);
+            for (std::size_t i = 0; i < 4; ++i) largest = std::max(largest, std::abs(inside[i] - outside[i]));
+        }
+    }
+    return largest;
+}
+
+TEST(Laws, ThatAreContinuousHaveNoJumpsWhereApicesMeetOrLeave) {
+    auto const p = parameters();
+    auto const expect = [&]<class Law>(Law) {
+        double jump = largest_jump<Law, PointDamping>(p);
+        if constexpr (Law::info.has(Damping::rate)) jump = std::max(jump, largest_jump<Law, RateDamping>(p));
+        // Of forces of some hundred newtons, where 1e-16 m are 1e-6 N and more.
+        EXPECT_EQ(jump < 1e-3, Law::info.continuous) << Law::info.name << ": " << jump;
+    };
+#define SLIDEWAY_EXPECT_CONTINUOUS(name, Type) expect(Type{});
+    SLIDEWAY_LAWS(SLIDEWAY_EXPECT_CONTINUOUS)
+#undef SLIDEWAY_EXPECT_CONTINUOUS
+}
+
 }  // namespace
 }  // namespace slideway::face_stiffness_test

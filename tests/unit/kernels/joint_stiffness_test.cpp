@@ -30,6 +30,7 @@ struct Forceless {
         return {{Real(0.0), Real(0.0), Real(0.0), Real(0.0)}, mask_of<Real>(false)};
     }
     static bool of_touching_alone() { return true; }
+    static constexpr bool continuous() { return false; }
 };
 
 /// The slider-crank of a case, with and without its contacts' forces.
