@@ -26,7 +26,7 @@ template <class Laws> struct Conditions {
           misaligned_way(parts.misaligned_way),
           switches(law_switches),
           remembers(remembers_of(parts)),
-          continuous(of_law.continuous() && !remembers_of(parts)),
+          continuous(of_law.continuous() && !remembers),
           free_crank(parts.free_crank) {}
 
     /// A law that is known with its damping says it itself: without the speeds of its impacts, one by restitution would return what it likes.

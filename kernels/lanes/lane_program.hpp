@@ -194,9 +194,8 @@ private:
         if (settings.method == Method::rk4) return pair_numbers<RungeKutta4>();
         // Where nothing breaks the smoothness of the motion, it beats the others at every tolerance (docs/integrators.md).
         if (settings.method == Method::dop853 || (is_automatic && is_smooth)) return pair_numbers<Dop853>();
-        // It crosses kinks in short steps, which are not needed where steps end at them.
-        bool const is_loose = settings.rtol >= bs32_from && watching != Watching::gaps;
-        if (settings.method == Method::bs32 || (is_automatic && is_loose)) return pair_numbers<BogackiShampine>();
+        bool const is_loose = is_automatic && auto_takes_bs32(settings.rtol, watching == Watching::gaps);
+        if (settings.method == Method::bs32 || is_loose) return pair_numbers<BogackiShampine>();
         return pair_numbers<DormandPrince>();
     }
 
@@ -305,9 +304,6 @@ private:
             results_.abandon(static_cast<std::size_t>(record(seat).course.member));
         }
     }
-
-    /// From this tolerance on Bogacki–Shampine beats Dormand–Prince (docs/integrators.md).
-    static constexpr double bs32_from = 1e-5;
 
     Block& block_;
     Results<Model> results_;

@@ -339,7 +339,8 @@ private:
             } else {
                 auto& [memory, watch] = pack_.state.contacts;
                 bool const may_shorten = !Stepper::stiff && adapts();
-                touched = watch.update(accepted, attempt_.report.contact, memory, pack_.state.course.y, pack_.needs.watching, select(known_, attempt_.step, Real(0.0)),
+                Real const known_step = select(known_, attempt_.step, Real(0.0));
+                touched = watch.update(accepted, attempt_.report.contact, memory, pack_.state.course.y, pack_.needs.watching, known_step,
                                        may_shorten ? &next : nullptr);
                 known_ = known_ | accepted;
             }

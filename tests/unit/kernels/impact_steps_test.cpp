@@ -54,9 +54,11 @@ class ImpactStepsOf : public ::testing::TestWithParam<Mechanism> {};
 
 TEST_P(ImpactStepsOf, GoWhereStepsOfTimeGoUnderEveryLaw) {
     // A slider that nothing drives meets more edges in the same time, and errors grow with each.
-    double const least = GetParam() == Mechanism::free_slider ? 2e-5 : 1e-5;
     for (Law const law : testing::every_law()) {
         for (Damping const damping : testing::dampings_of(info(law))) {
+            // Steps of time that end at changes of the contacts are the better ones: they are no measure.
+            double const driven = info(law).continuous && damping != Damping::restitution ? 1e-5 : 1e-6;
+            double const least = GetParam() == Mechanism::free_slider ? 2e-5 : driven;
             for (bool const friction : {false, true}) {
                 Parts const parts{law, damping, friction, friction, GetParam()};
                 // The first impact or two; the law that switches needs its switches located by the other method too.
