@@ -144,5 +144,29 @@ TEST(NextStep, KnowsNothingOfPairsThatTurnBackOrStay) {
     EXPECT_EQ(next_step(start, end, 1e-4, 1e-3), 1e-3);
 }
 
+TEST(NextStep, SeesApproachesThatSlowDown) {
+    // 5 µm at 0.1 m/s and −800 m/s²: there after 69 µs, and out of the face again after 181 µs.
+    constexpr double last = 1e-5;
+    Contact const start{{{-6e-6, -1e-3, -1e-3, -1e-3}}, {{0.1 + 800 * last, 0, 0, 0}}}, end{{{-5e-6, -1e-3, -1e-3, -1e-3}}, {{0.1, 0, 0, 0}}};
+    EXPECT_NEAR(next_step(start, end, last, 1.5e-4), 1.001 * (0.1 - std::sqrt(0.01 - 2 * 800 * 5e-6)) / 800, 1e-15);
+}
+
+TEST(NextStep, IsByRatesAloneWhereTheLastStepIsNotKnown) {
+    double const none = std::nan("");
+    Contact const start{{{none, none, none, none}}, {{none, none, none, none}}}, end{{{-5e-6, -1e-3, -1e-3, -1e-3}}, {{0.1, 0, 0, 0}}};
+    EXPECT_NEAR(next_step(start, end, 0, 1e-3), 1.001 * 5e-5, 1e-18);
+}
+
+TEST(NextStep, IsForMethodsThatMayShortenIt) {
+    Contact const start{{{-1e-5, -1e-3, -1e-3, -1e-3}}, {{0.1, 0, 0, 0}}}, end{{{-5e-6, -1e-3, -1e-3, -1e-3}}, {{0.1, 0, 0, 0}}};
+    for (bool const accepted : {true, false}) {
+        Pairs pairs(start);
+        double next = 1e-3;
+        EXPECT_FALSE(pairs.watch.update(accepted, end, pairs.memory, nullptr, Watching::gaps, 5e-5, &next)) << "it changes no derivative";
+        EXPECT_NEAR(next, accepted ? 1.001 * 5e-5 : 1e-3, 1e-18);
+        EXPECT_FALSE(pairs.watch.update(accepted, end, pairs.memory, nullptr, Watching::gaps, 5e-5, nullptr));
+    }
+}
+
 }  // namespace
 }  // namespace slideway::contact_watch_test
