@@ -11,6 +11,11 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Model, class Real> struct ImpactRows {
     /// @param changed lanes whose contacts have been settled at the members' time and state  @param before their state before that
     SLIDEWAY_HD static void take(Pack<Model, Real>& pack, Results<Model>& results, Mask<Real> changed, Real const* before) {
+        if constexpr (Model::has_crossings) record(pack, results, changed, before);
+    }
+
+private:
+    SLIDEWAY_HD static void record(Pack<Model, Real>& pack, Results<Model>& results, Mask<Real> changed, Real const* before) {
         using Way = CrossingPlan::Direction;
         CrossingPlan const& plan = results.crossings();
         if (plan.room == 0 || !plan.of_impacts()) return;
@@ -23,7 +28,6 @@ template <class Model, class Real> struct ImpactRows {
         if (plan.wants(Way::rising)) results.take_crossing(pack, at, c.t, c.y);
     }
 
-private:
     /// Lanes whose number has a bit.
     SLIDEWAY_HD static Mask<Real> met(Real const& bits, int bit) {
         Real has(0.0);

@@ -1,23 +1,25 @@
 #pragma once
 
-#include "kernels/lanes/pack.hpp"
+#include "kernels/lanes/free_steps.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/contact_clock.hpp"
 #include "kernels/steppers/contact_watch.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// The lengths of steps by the clocks of impacts (ClockStep), beside those by time: a member remembers its step in flight while it is in
-/// contact, and the first one of an impact until the next.
-template <class Stepper, class Model, class Real> class ImpactSteps {
-public:
+/// Steps by the clocks of impacts (ClockStep), beside those by time: a member remembers its step in flight while it is in contact, and the first one of an
+/// impact until the next.  A touch or a parting ends its step.
+template <class Stepper, class Model, class Real> class ImpactSteps : public FreeSteps<Stepper, Model, Real> {
+    using Base = FreeSteps<Stepper, Model, Real>;
     using State = MemberState<Model, Real>;
 
-    /// Chooses the clocks and how far to go.  A step that lands goes by time; within an impact that may fail, and then, or where it would
-    /// nearly land, half of the way goes by the clock.
-    /// @param remaining time until the lanes must land [s]  @return lanes that land
-    SLIDEWAY_HD Mask<Real> choose(Pack<Model, Real> const& pack, Stepper& stepper, Real remaining) {
-        auto const& s = pack.state;
+public:
+    using typename Base::Step;
+    static constexpr int control_percent = 25;  // within an impact errors differ much
+
+    /// A step that lands goes by time; within an impact that may fail, and then, or where it would nearly land, half of the way goes by the clock.
+    SLIDEWAY_HD Mask<Real> choose(Step& step, Real remaining) {
+        auto const& s = step.pack.state;
         auto clock = s.contacts.watch.clock(s.contacts.memory);
         in_contact_ = clock.runs();
         beside_ = s.contacts.watch.touching(s.contacts.memory) > Real(1.5);
@@ -27,72 +29,69 @@ public:
         Real const by_clock = min(select(known > Real(0.0), known, clock.own_of(by_time)), clock.way_out());
         Real const h = select(in_contact_, Real(1.02) * clock.time_of(by_clock), by_time);
         auto const failed = in_contact_ & (s.course.rejections > Real(0.5));
-        Mask<Real> const lands = (remaining <= h * Real(1.000001)) & !failed;
+        Mask<Real> const lands = (remaining <= h * Real(Base::hair)) & !failed;
         auto const halves = in_contact_ & !lands & (remaining < Real(2.0) * h);
-        clock.pair = select(pack.busy & !lands, clock.pair, Real(-1.0));
+        clock.pair = select(step.pack.busy & !lands, clock.pair, Real(-1.0));
         Real const half = clock.own_of(Real(0.5) * remaining);
         Real const own = select(clock.runs(), select(halves, min(half, by_clock), by_clock), select(lands, remaining, h));
-        stepper.go_by(clock, select(pack.busy, own, Real(0.0)), is_deep(clock, own));
+        step.stepper.go_by(clock, select(step.pack.busy, own, Real(0.0)), is_deep(clock, own));
         return lands;
     }
 
-    /// Lanes that tried to land within an impact: a step that goes past what the clock is for.
-    SLIDEWAY_HD Mask<Real> landed_in_contact(Mask<Real> lands) const { return in_contact_ & lands; }
-
-    /// A touch or a parting must end its step.  The inside of a step is known: it ends there early.
-    /// @param to what the attempt comes to, at the end of what is left of it  @param resolution least step that moves time [s]
-    SLIDEWAY_HD Allowance<Real> allowed(Pack<Model, Real>& pack, Stepper& stepper, Attempt<Model, Real>& to,
-                                        Allowance<Real> const& before, double rtol, Real resolution) {
-        auto const& step = stepper.step();
-        Real const own = step.own;
-        // A clock has steps of any size; what it does to time may round to nothing.
-        Mask<Real> const long_enough = before.accepted & (step.start.runs() | (own > resolution * Real(64.0)));
-        Real const depth = Real(located(rtol, pack.needs.switches)) * Model::touch_scale(pack.state.constants.parameters);
-        Real share = pack.state.contacts.watch.earliest(long_enough, pack.state.contacts.memory, to.report.contact, step, depth);
-        auto cut = share < Real(1.0);
-        if (any(cut)) cut = end_early(pack, stepper, to, cut, depth, share);
-        ended_early_ = before.accepted & (share < Real(1.0)) & !cut;
-        Real const least = select(step.start.runs(), Real(0.0), resolution * Real(32.0));
-        return {Mask<Real>(before.accepted & !cut), select(cut, max(own * share, least), before.next)};
-    }
-
-    /// Lanes whose last step did.
-    SLIDEWAY_HD Mask<Real> ended_early() const { return ended_early_; }
-
-    /// The step that is to follow if the last one is to grow by a factor, by the clock that it went by.
-    SLIDEWAY_HD Real next(State& s, Stepper const& stepper, Mask<Real> accepted, Real factor) const {
-        auto const& step = stepper.step();
-        Real const own = step.own * factor;
-        auto& impacts = s.course.impacts;
+    /// By the clock that the last one went by.
+    SLIDEWAY_HD Real next(Step& step, Mask<Real> accepted, Real factor) const {
+        auto const& last = step.stepper.step();
+        Real const own = last.own * factor;
+        auto& impacts = step.pack.state.course.impacts;
         // Not of what an event has left over of a step.
-        auto const whole = (own > impacts.flight_step) | (step.own > Real(0.1) * impacts.flight_step);
+        auto const whole = (own > impacts.flight_step) | (last.own > Real(0.1) * impacts.flight_step);
         impacts.flight_step = select(accepted & !in_contact_ & whole, own, impacts.flight_step);
-        auto const begins = step.start.runs() & (step.start.rate > Real(0.0)) & (step.start.root < Real(0.1) * step.end.root);
-        Real const first = own * sqrt(max(step.start.rate, Real(0.0)));
+        auto const begins = last.start.runs() & (last.start.rate > Real(0.0)) & (last.start.root < Real(0.1) * last.end.root);
+        Real const first = own * sqrt(max(last.start.rate, Real(0.0)));
         impacts.alone = select(accepted & begins & !beside_, first, impacts.alone);
         impacts.beside = select(accepted & begins & beside_, first, impacts.beside);
-        return select(accepted, step.end.ending(own), own);
+        return select(accepted, last.end.ending(own), own);
     }
 
-    /// What such a step takes of time, at least where it is tried again [s].
-    SLIDEWAY_HD static Real time_of(Stepper const& stepper, Real next) { return stepper.step().start.time_of(next); }
+    /// At least, where it is tried again.
+    SLIDEWAY_HD Real time_of(Step const& step, Real next) const { return step.stepper.step().start.time_of(next); }
 
-    /// What an accepted step leaves of its contacts.  @param remembers impact speeds are asked for
-    /// @return lanes whose step ended at a touch or a parting
-    template <class Contact>
-    SLIDEWAY_HD auto update(State& s, Stepper const& stepper, Mask<Real> accepted, Contact const& end, bool remembers) {
-        auto& [memory, watch] = s.contacts;
-        auto const turned = watch.update(accepted, end, memory, stepper.step(), remembers);
+    /// The inside of a step is known: it ends there early.
+    template <class Neighbours> SLIDEWAY_HD Mask<Real> cut(Step& step, Neighbours&, Allowance<Real>& allowed, Real former_memory) {
+        auto& pack = step.pack;
+        auto const& last = step.stepper.step();
+        Real const own = last.own, resolution = step.resolution();
+        // A clock has steps of any size; what it does to time may round to nothing.
+        Mask<Real> const long_enough = allowed.accepted & (last.start.runs() | (own > resolution * Real(64.0)));
+        Real const depth = Real(located(step.settings.rtol, pack.needs.switches)) * Model::touch_scale(pack.state.constants.parameters);
+        Real share = pack.state.contacts.watch.earliest(long_enough, pack.state.contacts.memory, step.attempt.report.contact, last, depth);
+        auto cut = share < Real(1.0);
+        if (any(cut)) cut = end_early(pack, step.stepper, step.attempt, cut, depth, share);
+        ended_early_ = allowed.accepted & (share < Real(1.0)) & !cut;
+        Real const least = select(last.start.runs(), Real(0.0), resolution * Real(32.0));
+        Allowance<Real> const by_events{Mask<Real>(allowed.accepted & !cut), select(cut, max(own * share, least), allowed.next)};
+        return Base::take(step, by_events, allowed, former_memory);
+    }
+    SLIDEWAY_HD Mask<Real> ended_early() const { return ended_early_; }
+    /// Those within an impact: a step that goes past what the clock is for.
+    SLIDEWAY_HD Mask<Real> failed_landings(Step const& step) const { return in_contact_ & step.lands; }
+
+    template <class Neighbours> SLIDEWAY_HD void advance(Step& step, Neighbours&, Mask<Real> accepted, Real& /*next*/) {
+        auto& pack = step.pack;
+        auto& [memory, watch] = pack.state.contacts;
+        auto const turned = watch.update(accepted, step.attempt.report.contact, memory, step.stepper.step(), pack.model.remembers());
         turned_ = turned.lanes;
-        return turned;
+        turn_modes(step);
+        auto const touched = pack.needs.switches ? turned.lanes : turned.by_depth;
+        if (any(touched)) step.restart(touched);
     }
 
-    /// Keeps the step that is to follow for the next attempt; after a touch or a parting another one.
-    SLIDEWAY_HD void keep(State& s, Stepper const& stepper, Mask<Real> busy, Real next, Real longest) const {
-        auto& c = s.course;
-        c.h = select(busy & !in_contact_, min(next, longest), c.h);
-        c.impacts.step = select(busy & stepper.step().start.runs(), next, c.impacts.step);
-        if (any(turned_)) turn(s, stepper, next, longest);
+    /// After a touch or a parting another one.
+    SLIDEWAY_HD void keep(Step& step, Mask<Real> busy, Real wish, Real /*next*/, Real longest) const {
+        auto& c = step.pack.state.course;
+        c.h = select(busy & !in_contact_, min(wish, longest), c.h);
+        c.impacts.step = select(busy & step.stepper.step().start.runs(), wish, c.impacts.step);
+        if (any(turned_)) turn(step.pack.state, step.stepper, wish, longest);
     }
 
 private:
@@ -115,6 +114,14 @@ private:
             share = select(beyond, share * again, select(before, min(share + on, Real(0.9999)), share));
         }
         return open;
+    }
+
+    /// Where other contacts are held from here on.
+    SLIDEWAY_HD void turn_modes(Step& step) const {
+        auto& pack = step.pack;
+        if (!pack.needs.quantities || none(turned_)) return;
+        step.attempt.report.contact.take_modes(pack.state.contacts.memory.held);
+        pack.state.observation.observer.turn_mode(turned_, step.attempt.report);
     }
 
     /// Depth [clearances] up to which a touch counts as located: it errs by the impulse up to there, which goes with δ^2.5, or by that of
@@ -148,9 +155,8 @@ private:
 
     Mask<Real> in_contact_ = mask_of<Real>(false);  // lanes whose step is within an impact, by whatever clock
     Mask<Real> beside_ = mask_of<Real>(false);      // lanes where several pairs touch
-    Mask<Real> ended_early_ =
-        mask_of<Real>(false);                   // lanes whose step ended where a pair touched or parted inside of it
-    Mask<Real> turned_ = mask_of<Real>(false);  // lanes whose step ended at a touch or a parting
+    Mask<Real> ended_early_ = mask_of<Real>(false);  // lanes whose step ended where a pair touched or parted inside of it
+    Mask<Real> turned_ = mask_of<Real>(false);       // lanes whose step ended at a touch or a parting
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

@@ -13,6 +13,7 @@
 #include "kernels/lanes/moreau_jean_step.hpp"
 #include "kernels/lanes/new_member.hpp"
 #include "kernels/lanes/pack.hpp"
+#include "kernels/lanes/part_if.hpp"
 #include "kernels/lanes/results.hpp"
 #include "kernels/lanes/roster.hpp"
 #include "kernels/lanes/stiff_step.hpp"
@@ -26,9 +27,6 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Whether a model brings the stepper that `auto` takes.
-template <class Model> inline constexpr bool has_own_stepper = requires { requires Model::has_own_stepper; };
-
 /// Works through a block of members with one pack of lanes.  Some eight members per lane are under way at once; the roster picks
 /// those that work together for a stint, a fixed number of a member's own attempts, so that whatever is decided between
 /// stints depends on the member alone.  A member that ends gives its seat to the next of the block's queue.
@@ -36,19 +34,14 @@ template <class Model, class Real> class LaneProgram {
 public:
     using Block = BlockOf<typename Model::Inputs>;
     static_assert(holds_reals_only<Model>);
-    static_assert(
-        !has_events<Model> || (MemberState<Model, Real>::Observer::integrals == 0 && !Model::has_linearisation),
-        "an event ends its step early: integrals over the step and the stiff method's straight line do not know");
-
-    static_assert(!has_events<Model> || !(Model::has_shadows || Model::has_crossings),
-                  "an event ends its step early, which neither shadows nor sections know of");
+    static_assert(ModelParts<Model, Real>::are_there);
 
     SLIDEWAY_HD LaneProgram(Block& block, Model const& model) : block_(block), results_(block), pack_(model) {
         // What is observed for the status alone is not written.
         Selection const for_status =
             is_always_audited(block.settings.method) ? MemberState<Model, Real>::Observer::audit_quantities : 0;
         pack_.needs = ReportNeeds::of<Model, Real>(model, block.quantities | for_status, block.settings);
-        if constexpr (can_hold_contacts<Model>) pack_.model.hold_contacts(pack_.needs.watching);
+        if constexpr (CanHoldContacts<Model>) pack_.model.hold_contacts(pack_.needs.watching);
         if constexpr (requires { pack_.model.set_tolerance(1.0); }) pack_.model.set_tolerance(block.settings.rtol);
         start_memory(pack_.state.contacts.memory);
         pack_.pair = &pair_of(block.settings, pack_.needs.watching);
@@ -80,12 +73,11 @@ private:
     static constexpr int width = lanes<Real>;
     static constexpr int seats = width == 1 ? 1 : 8 * width;
     static constexpr bool is_smooth = !Model::has_contacts && !Model::has_linearisation;
-    static constexpr bool ends_early = has_impacts<Model> && !Model::has_shadows;
+    static constexpr bool ends_early = HasImpacts<Model> && !Model::has_shadows;
     // Attempts of a stint: few where lanes are regrouped by what they touch, the fewer the sooner that changes, many where all have the same work.
-    static constexpr int many_attempts = 512, attempts = !regroups<Model> ? many_attempts : has_impacts<Model> ? 8 : 16;
+    static constexpr int many_attempts = 512, attempts = !Regroups<Model> ? many_attempts : HasImpacts<Model> ? 8 : 16;
     using Kind = typename Roster<seats, width>::Kind;
     using Record = MemberState<Model, double>;
-    struct NoRecords {};
 
     /// Seats the next member of the queue, if there is one.
     SLIDEWAY_HD void admit(int seat) {
@@ -170,17 +162,14 @@ private:
         } else if (kind == Kind::stiff) {
             if constexpr (Model::has_linearisation) work<StiffStep<Model, Real>>();
         } else if (is_time_stepping()) {
-            if constexpr (has_time_stepping<Model>) work<MoreauJeanStep<Model, Real>>();
+            if constexpr (HasTimeStepping<Model>) work<MoreauJeanStep<Model, Real>>();
         } else if (settings.method == Method::verner65) {
-            if constexpr (has_clocks<Model>) work<ClockStep<Verner65, Model, Real>>();
-            else work<ExplicitStep<Model, Real>>();
-        } else if constexpr (ends_early) {
-            work<EndingStep<DormandPrince, Model, Real>>();
-        } else if (has_own_stepper<Model> && settings.method == Method::automatic) {
-            if constexpr (has_own_stepper<Model>)
+            work<std::conditional_t<HasClocks<Model>, ClockStep<Verner65, Model, Real>, ExplicitStep<Model, Real>>>();
+        } else if (HasOwnStepper<Model> && settings.method == Method::automatic) {
+            if constexpr (HasOwnStepper<Model>)
                 Model::template with_stepper<Model, Real>(settings.rtol, [&]<class Stepper>(Stepper*) { work<Stepper>(); });
         } else {
-            work<ExplicitStep<Model, Real>>();
+            work<std::conditional_t<ends_early, EndingStep<DormandPrince, Model, Real>, ExplicitStep<Model, Real>>>();
         }
         look(kind);
     }
@@ -190,7 +179,7 @@ private:
         bool const is_automatic = settings.method == Method::automatic;
         if (settings.method == Method::verner65) return pair_numbers<Verner65>();
         // Impacts, whose steps are many and short, would gain nothing by the others (docs/rigid.md).
-        if (has_impacts<Model>) return pair_numbers<DormandPrince>();
+        if (HasImpacts<Model>) return pair_numbers<DormandPrince>();
         if (settings.method == Method::rk4) return pair_numbers<RungeKutta4>();
         // Where nothing breaks the smoothness of the motion, it beats the others at every tolerance (docs/integrators.md).
         if (settings.method == Method::dop853 || (is_automatic && is_smooth)) return pair_numbers<Dop853>();
@@ -199,7 +188,7 @@ private:
         return pair_numbers<DormandPrince>();
     }
 
-    SLIDEWAY_HD bool is_time_stepping() const { return has_time_stepping<Model> && block_.settings.method == Method::moreau_jean; }
+    SLIDEWAY_HD bool is_time_stepping() const { return HasTimeStepping<Model> && block_.settings.method == Method::moreau_jean; }
 
     template <class Stepper> SLIDEWAY_NOINLINE void work() {
         Stint<Stepper, Model, Real> stint(pack_, results_, block_.settings);
@@ -220,69 +209,27 @@ private:
         if (pack_.needs.quantities) pack_.state.observation.observer.start(pack_.busy, report, c.y, pack_.needs.switches);
         pack_.with_accelerations([&](auto& a) { a.start(pack_.busy, report); });
         pack_.begin_next(pack_.busy, rates, report);
-        if (is_time_stepping()) {
-            if constexpr (has_time_stepping<Model>) contacts.memory.begun = select(pack_.busy, Real(1.0), contacts.memory.begun);
-        } else if constexpr (has_impacts<Model>) {
-            faults = faults.or_else(settle_start(rates, report));
-        } else if constexpr (Model::has_contacts) {
-            if (pack_.needs.cuts()) contacts.watch.begin(pack_.busy, report.contact, contacts.memory, pack_.needs.watching);
-            if (holds_contacts(pack_.needs.watching)) {
-                // Rates are reported only once contacts are held, and the first step is searched too.
-                pack_.evaluate(c.t, c.y, contacts.memory, rates, true, report);
-                pack_.count_evaluations(pack_.busy, 1);
-                contacts.watch.begin(pack_.busy, report.contact, contacts.memory, pack_.needs.watching);
-            }
-        }
+        Neighbours<Model, Real> neighbours(block_.shadows);
+        faults = ContactSteps<ExplicitStep<Model, Real>, Model, Real>::start(pack_, results_, neighbours, block_.settings, rates, report, faults);
         Mask<Real> broken = pack_.busy & !whole;
-        if constexpr (Model::has_shadows) {
-            Shadows<Model, Real> shadows(block_.shadows);
-            broken = broken | shadows.start(pack_, pack_.busy & whole);
-            faults = faults.or_else(shadows.faults());
-        }
+        broken = broken | neighbours.start(pack_, pack_.busy & whole, faults);
         Mask<Real> const failed = broken | (pack_.busy & (faults.geometry | faults.contact_domain));
         if (none(failed)) return;
         results_.retire(pack_, {failed, mask_of<Real>(false), failed, broken}, faults);
         pack_.busy = pack_.busy & !failed;
     }
 
-    /// Impacts and lasting contacts of new members at their start.
-    template <class Report> SLIDEWAY_HD Faults<Real> settle_start(Real (&rates)[size], Report& report) {
-        auto& c = pack_.state.course;
-        auto& [memory, watch] = pack_.state.contacts;
-        auto const& constants = pack_.state.constants;
-        [[maybe_unused]] std::conditional_t<Model::has_shadows, Shadows<Model, Real>, NoShadowSteps> shadows(block_.shadows);
-        [[maybe_unused]] auto const before = memory;
-        Real start[size];
-        for (int i = 0; i < size; ++i) start[i] = c.y[i];
-        [[maybe_unused]] auto const changed =
-            pack_.model.settle(pack_.busy, c.t, constants.end, c.y, constants.parameters, memory, report.contact);
-        if constexpr (Model::has_crossings) ImpactRows<Model, Real>::take(pack_, results_, changed, start);
-        if constexpr (Model::has_shadows) {
-            using Event = typename Saltation<Model, Real>::Before;
-            if (any(changed)) shadows.settle(pack_, Event{c.t, constants.end, start, rates, report.contact, before}, changed, true);
-        }
-        auto const faults = pack_.evaluate(c.t, c.y, memory, rates, true, report);
-        pack_.count_evaluations(pack_.busy, 1);
-        if (pack_.needs.quantities) pack_.state.observation.observer.switch_over(pack_.busy, report, pack_.needs.switches);
-        pack_.begin_next(pack_.busy, rates, report);
-        if constexpr (Model::has_shadows) {
-            if (any(changed)) shadows.depart(pack_, changed);
-        }
-        watch.keep(pack_.busy, report.contact);
-        return faults;
-    }
-
     /// Between stints: who touches what, and who is better off with the stiff method.
     SLIDEWAY_HD void look(Kind kind) {
         pattern_ = Real(0.0);
-        if constexpr (regroups<Model> && has_impacts<Model>) {
+        if constexpr (Regroups<Model> && HasImpacts<Model>) {
             pattern_ = pack_.model.contact_pattern(pack_.state.contacts.memory);
-        } else if constexpr (regroups<Model>) {
+        } else if constexpr (Regroups<Model>) {
             auto const& s = pack_.state;
             bool const switching = Model::has_linearisation && block_.settings.method == Method::automatic &&
                                    !block_.settings.locate_modes;
             if (width == 1 && !switching) return;
-            if constexpr (has_clocks<Model>) {
+            if constexpr (HasClocks<Model>) {
                 if (pack_.needs.watching == Watching::impacts) {
                     pattern_ = HeldFace<Real>::pattern(s.contacts.memory);
                     return;
@@ -310,7 +257,7 @@ private:
     Roster<seats, width> roster_;
     std::uint64_t next_ = 0;  // of the queue, if the block is this program's alone
     double covered_ = 0;      // members, and shares of them
-    [[no_unique_address]] std::conditional_t<(width > 1), Record[seats], NoRecords> records_;
+    [[no_unique_address]] PartIf<(width > 1), Record[seats]> records_;
     Pack<Model, Real> pack_;
     Real pattern_;
 };

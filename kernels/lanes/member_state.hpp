@@ -1,9 +1,9 @@
 #pragma once
 
-#include <type_traits>
-
 #include "kernels/block.hpp"
 #include "kernels/lane_copy.hpp"
+#include "kernels/lanes/model.hpp"
+#include "kernels/lanes/part_if.hpp"
 #include "kernels/observers/acceleration_record.hpp"
 #include "kernels/real.hpp"
 
@@ -17,20 +17,9 @@ template <class Real> struct ResetHistory {
     Real time;    // of the last one [s]
     Real in_row;  // how many followed one another at once
 };
-struct NoResets {};
 
-/// Whether a model's accelerations may be asked for: it names an `Accelerations<Real>`.
-template <class Model> inline constexpr bool has_accelerations = requires {
-    typename Model::template Accelerations<double>;
-};
 template <class Model, class Real> struct AccelerationsOf { using Type = NoAccelerations; };
-template <class Model, class Real>
-requires has_accelerations<Model>
-struct AccelerationsOf<Model, Real> {
-    using Type = typename Model::template Accelerations<Real>;
-};
-struct NoShadows {};
-struct NoShadowContacts {};
+template <HasAccelerations Model, class Real> struct AccelerationsOf<Model, Real> { using Type = typename Model::template Accelerations<Real>; };
 
 /// What a member has on account of its shadows.
 template <class Real> struct ShadowCourse {
@@ -38,21 +27,6 @@ template <class Real> struct ShadowCourse {
     Real lost;   // times that an offset had shrunk into rounding
     Real grown;  // times that one had grown to the size of the joint
 };
-struct NoShadowCourse {};
-
-/// Whether the steps of a model may take its contacts as given, and go by the clock of one (ContactClock).
-template <class Model> inline constexpr bool can_hold_contacts = requires(Model& model) { model.hold_contacts({}); };
-template <class Model>
-inline constexpr bool has_clocks = can_hold_contacts<Model> && Model::has_patterns && !Model::has_shadows;
-
-/// Whether a model has events of its own, and brings their search.
-template <class Model> inline constexpr bool has_events = requires { requires Model::events > 0; };
-
-/// Whether impacts of a model have no duration: where a step ends its `settle` says what follows.
-template <class Model> inline constexpr bool has_impacts = requires { requires Model::has_impacts; };
-
-/// Whether members take turns in the lanes with those that touch alike.  Those with shadows are too much to move for the little that impacts last.
-template <class Model> inline constexpr bool regroups = Model::has_patterns && !(has_impacts<Model> && Model::has_shadows);
 
 /// What a member remembers for its next impact, of a method with clocks.
 template <class Real> struct ImpactCourse {
@@ -61,7 +35,6 @@ template <class Real> struct ImpactCourse {
     Real alone, beside; // first step by the clock times √δ': of the last impact of a pair alone, and beside other pairs
     Real outer;         // by the clock, of the contact that a further pair has interrupted
 };
-struct NoImpactCourse {};
 
 /// All that a member takes along from one stint in the lanes to the next.  `Real = double` is one member's record, a pack is the
 /// transpose of its lanes' records; both hold nothing but Reals, so that a record moves in and out number by number.
@@ -91,9 +64,9 @@ template <class Model, class Real> struct MemberState {
         Real stiff;         // 1 where the next stint is the stiff method's, else 0
         Real stiffness;     // explicit: looks that found the member stiff; stiff: calm steps in a row
         Real rate_squared;  // Ω² [1/s²] of its stiffest contacts, of late
-        [[no_unique_address]] std::conditional_t<Model::has_shadows, ShadowCourse<Real>, NoShadowCourse> shadowed;
-        [[no_unique_address]] std::conditional_t<has_clocks<Model>, ImpactCourse<Real>, NoImpactCourse> impacts;
-        [[no_unique_address]] std::conditional_t<has_events<Model>, ResetHistory<Real>, NoResets> resets;
+        [[no_unique_address]] PartIf<Model::has_shadows, ShadowCourse<Real>> shadowed;
+        [[no_unique_address]] PartIf<HasClocks<Model>, ImpactCourse<Real>> impacts;
+        [[no_unique_address]] PartIf<HasEvents<Model>, ResetHistory<Real>> resets;
     };
 
     /// What is remembered of the contacts, and where steps end because of them.  Moves only where steps do: elsewhere it stays as it
@@ -117,7 +90,7 @@ template <class Model, class Real> struct MemberState {
         Real y[Model::size], rates[Model::size];
         Real distance;  // from the member, after the last stop; dimensionless
         Real growth;    // ln of it since the last record
-        [[no_unique_address]] std::conditional_t<has_impacts<Model>, NoShadowContacts, Contacts> contacts;
+        [[no_unique_address]] PartIf<!HasImpacts<Model>, Contacts> contacts;
     };
 
     Constants constants;
@@ -125,7 +98,7 @@ template <class Model, class Real> struct MemberState {
     [[no_unique_address]] Contacts contacts;
     Observation observation;
     [[no_unique_address]] Accelerations accelerations;
-    [[no_unique_address]] std::conditional_t<Model::has_shadows, Shadow[most_shadows], NoShadows> shadows;
+    [[no_unique_address]] PartIf<Model::has_shadows, Shadow[most_shadows]> shadows;
 };
 
 /// Whether a member's record holds Reals only, so that it may be moved number by number.

@@ -5,9 +5,6 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Whether a model with impacts may be integrated by time stepping: the rule takes no shadows along.
-template <class Model> inline constexpr bool has_time_stepping = has_impacts<Model> && !Model::has_shadows;
-
 /// Whether impulses are a part of the steps, so that nothing happens between them.
 template <class Stepper> inline constexpr bool has_impulses = requires { requires Stepper::has_impulses; };
 

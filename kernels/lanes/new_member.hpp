@@ -34,13 +34,13 @@ template <class Model> struct NewMember {
             c.shadowed.uncut = c.shadowed.lost = c.shadowed.grown = 0;
             place_shadows(r, block.shadows, member);
         }
-        if constexpr (has_clocks<Model>) c.impacts = {0.0, c.h, 0.0, 0.0, 0.0};
+        if constexpr (HasClocks<Model>) c.impacts = {0.0, c.h, 0.0, 0.0, 0.0};
         c.accepted = c.rejected = c.evaluations = c.jacobians = c.stiff_steps = 0;
         c.rejections = c.stiffness = c.rate_squared = 0;
         // A model without linearisation is left to the explicit pair.
         c.stiff = Model::has_linearisation && block.settings.method == Method::ros34pw2 ? 1 : 0;
         start_memory(r.contacts.memory);
-        if constexpr (has_events<Model>) c.resets = {-1.0, 0.0};
+        if constexpr (HasEvents<Model>) c.resets = {-1.0, 0.0};
     }
 
 private:
@@ -55,7 +55,7 @@ private:
             }
             shadow.distance = plan.d0;
             shadow.growth = 0;
-            if constexpr (!has_impacts<Model>) start_memory(shadow.contacts.memory);
+            if constexpr (!HasImpacts<Model>) start_memory(shadow.contacts.memory);
         }
     }
 };

@@ -50,12 +50,12 @@ template <class Model, class Real> struct Pack {
 
     /// Has the function see the accelerations' record, where it is at work.
     template <class Function> SLIDEWAY_HD void with_accelerations(Function const& function) {
-        if constexpr (has_accelerations<Model>) {
+        if constexpr (HasAccelerations<Model>) {
             if (needs.accelerations) function(state.accelerations);
         }
     }
     template <class Function> SLIDEWAY_HD void with_accelerations(Function const& function) const {
-        if constexpr (has_accelerations<Model>) {
+        if constexpr (HasAccelerations<Model>) {
             if (needs.accelerations) function(state.accelerations);
         }
     }

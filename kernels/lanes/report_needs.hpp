@@ -35,13 +35,13 @@ struct ReportNeeds {
         ReportNeeds needs;
         needs.quantities = quantities != 0;
         needs.stages = Observer::needs_stages(quantities);
-        if constexpr (has_accelerations<Model>) {
+        if constexpr (HasAccelerations<Model>) {
             using Accelerations = typename Model::template Accelerations<Real>;
             needs.accelerations = (quantities & Accelerations::quantities) != 0;
             needs.stages = needs.stages || Accelerations::needs_stages(quantities);
         }
         if constexpr (keeps_peaks<Observer>) needs.peaks = Observer::needs_peaks(quantities);
-        if constexpr (has_accelerations<Model>) {
+        if constexpr (HasAccelerations<Model>) {
             needs.peaks = needs.peaks || Model::template Accelerations<Real>::needs_peaks(quantities);
         }
         needs.audit = Observer::audits(quantities);
@@ -50,7 +50,7 @@ struct ReportNeeds {
         }
         if constexpr (Model::has_contacts) {
             needs.watching = model.watching(settings.locate_modes, Model::has_shadows);
-            if (has_clocks<Model> && settings.method == Method::verner65) needs.watching = Watching::impacts;
+            if (HasClocks<Model> && settings.method == Method::verner65) needs.watching = Watching::impacts;
             needs.switches = model.switches();
         }
         needs.ends = needs.stages || Observer::needs_reports(quantities) || needs.watch();
@@ -61,7 +61,7 @@ struct ReportNeeds {
     template <class Model> SLIDEWAY_HD ReportNeeds of_shadows() const {
         ReportNeeds needs;
         needs.watching = watching;
-        needs.ends = cuts() && !has_impacts<Model>;
+        needs.ends = cuts() && !HasImpacts<Model>;
         return needs;
     }
 };

@@ -47,7 +47,7 @@ template <class Model, class Real> struct ShadowOffset {
     /// What rounding makes of an offset.  The numbers of a member with rigid contacts may be far longer than what they are measured in.
     SLIDEWAY_HD static Real rounding(Pack<Model, Real> const& pack) {
         Real least(least_distance);
-        if constexpr (has_impacts<Model>) {
+        if constexpr (HasImpacts<Model>) {
             auto const& s = pack.state;
             for (int i = 0; i < size; ++i) {
                 if ((prescribed(pack.model) >> i & 1u) != 0) continue;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/lanes/pack.hpp"
+#include "kernels/lanes/results.hpp"
 #include "kernels/lanes/saltation.hpp"
 #include "kernels/lanes/shadow_offset.hpp"
 #include "kernels/math/gram_schmidt.hpp"
@@ -21,20 +22,21 @@ template <class Model, class Real> class Shadows {
 public:
     static constexpr int size = Model::size;
     using Shadow = typename MemberState<Model, Real>::Shadow;
+    using Memory = typename Model::template Memory<Real>;
+    static constexpr bool have_events = Model::has_contacts && !HasImpacts<Model>;  // of their own
 
     /// Depth [clearances] up to which an event counts as located.  The offset's part in the positions is some 1e-5 of its length, for in
     /// an impact it is nearly all velocity; this is to be little of that, and rounding is 1e-16.
-    static constexpr double located = 1e-15;
+    SLIDEWAY_HD static double located(double /*alone*/) { return 1e-15; }
 
     explicit SLIDEWAY_HD Shadows(ShadowPlan const& plan) : plan_(plan) {}
 
-    /// First evaluation of new members' shadows; `faults` then has theirs.  @return lanes where one has no derivative.
-    SLIDEWAY_HD Mask<Real> start(Pack<Model, Real>& pack, Mask<Real> fresh) {
+    /// First evaluation of new members' shadows.  @param faults of the members, then with theirs  @return lanes where one has no derivative.
+    SLIDEWAY_HD Mask<Real> start(Pack<Model, Real>& pack, Mask<Real> fresh, Faults<Real>& faults) {
         auto broken = mask_of<Real>(false);
-        faults_ = Faults<Real>::none();
         for (int s = 0; s < plan_.count; ++s) {
             auto& shadow = pack.state.shadows[s];
-            faults_ = faults_.or_else(refresh(pack, shadow, fresh));
+            faults = faults.or_else(refresh(pack, shadow, fresh));
             broken = broken | (fresh & !is_finite(shadow.y, shadow.rates));
         }
         return broken;
@@ -63,15 +65,14 @@ public:
         }
     }
 
-    /// Largest of the shadows' squared errors; NaN where any is.
-    SLIDEWAY_HD Real squared_norm() const { return squared_norm_; }
-    SLIDEWAY_HD Mask<Real> finite() const { return finite_; }
-    SLIDEWAY_HD Faults<Real> faults() const { return faults_; }
+    /// Largest of the squared errors, the member's own among them; NaN where any is.
+    SLIDEWAY_HD Real larger_norm_than(Real own) const { return larger_norm(own, squared_norm_); }
+    SLIDEWAY_HD Mask<Real> finite_beside(Mask<Real> own) const { return own & finite_; }
+    SLIDEWAY_HD Faults<Real> faults_beside(Faults<Real> const& own) const { return own.or_else(faults_); }
 
-    /// Least fraction of the step at which a shadow has an event that ends it.
-    SLIDEWAY_HD Real earliest(Pack<Model, Real> const& pack, Mask<Real> candidates, Real located_depth) const {
-        Real fraction(1.0);
-        if constexpr (Model::has_contacts && !has_impacts<Model>) {
+    /// Least fraction of the step at which the member or a shadow has an event that ends it.
+    SLIDEWAY_HD Real first_event(Pack<Model, Real> const& pack, Mask<Real> candidates, Real located_depth, Real fraction) const {
+        if constexpr (have_events) {
             for (int s = 0; s < plan_.count; ++s) {
                 auto const& watch = pack.state.shadows[s].contacts.watch;
                 fraction = min(fraction, watch.earliest(candidates, ends_[s].report.contact, ends_[s].step,
@@ -84,6 +85,7 @@ public:
     /// Lanes without a cut go on with the step that one has shortened before: events of member and shadow are next to each other, and
     /// after the second nothing would be left of the step.
     SLIDEWAY_HD void go_on(Pack<Model, Real>& pack, Real step, Mask<Real> cut, Allowance<Real>& allowed) const {
+        if (!have_events) return;
         Real& uncut = pack.state.course.shadowed.uncut;
         allowed.next = select(allowed.accepted, max(allowed.next, uncut), allowed.next);
         uncut = select(allowed.accepted, Real(0.0), select(cut, max(uncut, step), uncut));
@@ -98,7 +100,7 @@ public:
                 shadow.y[i] = select(accepted, end.end[i], shadow.y[i]);
                 shadow.rates[i] = select(accepted, end.end_rates[i], shadow.rates[i]);
             }
-            if constexpr (Model::has_contacts && !has_impacts<Model>) {
+            if constexpr (have_events) {
                 if (!pack.needs.cuts()) continue;
                 auto& [memory, watch] = shadow.contacts;
                 auto const touched = watch.update(accepted, end.report.contact, memory, shadow.y, pack.needs.watching);
@@ -108,12 +110,14 @@ public:
     }
 
     /// Carries all through what `settle` does to their members in some lanes.  Members then go on with another derivative, from which
-    /// `depart` leads.  @param event of a Saltation
-    template <class Event>
-    SLIDEWAY_NOINLINE void settle(Pack<Model, Real> const& pack, Event const& event, Mask<Real> in, bool at_start) {
+    /// `depart` leads.  @param y,rates,contact,memory of the members before that
+    template <class Contact>
+    SLIDEWAY_NOINLINE void settle(Pack<Model, Real> const& pack, Real const* y, Real const* rates, Contact const& contact, Memory const& memory,
+                                  Mask<Real> in, bool at_start) {
+        typename Saltation<Model, Real>::Before const event{pack.state.course.t, pack.state.constants.end, y, rates, contact, memory};
         Saltation<Model, Real> const saltation(pack.model, pack.state.constants.parameters, event, in, at_start);
         for (int s = 0; s < plan_.count; ++s) {
-            for (int i = 0; i < size; ++i) carried_[s].offset[i] = pack.state.shadows[s].y[i] - event.y[i];
+            for (int i = 0; i < size; ++i) carried_[s].offset[i] = pack.state.shadows[s].y[i] - y[i];
             auto const [delay, apart] = saltation.carry(carried_[s].offset);
             carried_[s].delay = delay;
             carried_[s].apart = apart;
@@ -144,16 +148,20 @@ public:
         }
     }
 
-    /// At a stop: how the offsets have grown since the last one, and the shadows put back to d0 in the directions they went.  One is
-    /// left alone within its bounds; several are made orthogonal, so that the j-th shows the j-th largest rate (Benettin et al. 1980).
-    SLIDEWAY_NOINLINE void rescale(Pack<Model, Real>& pack, Mask<Real> at) {
-        // Impact speeds differ between member and shadow as the states do, and are rescaled with them.
-        bool const speeds = pack.needs.cuts() && pack.needs.watching != Watching::modes;
-        constexpr int width = has_impacts<Model> ? size : size + Memory::speeds;
-        speeds ? rescale_numbers<width>(pack, at) : rescale_numbers<size>(pack, at);
+    /// At a stop: how the offsets have grown since the last one, and the shadows put back to d0 in the directions they went.
+    SLIDEWAY_HD void stop(Pack<Model, Real>& pack, Results<Model>& results, Mask<Real> at) {
+        rescale(pack, at);
+        results.take_growth(pack, at);
     }
 
 private:
+    /// One is left alone within its bounds; several are made orthogonal, so that the j-th shows the j-th largest rate (Benettin et al. 1980).
+    SLIDEWAY_NOINLINE void rescale(Pack<Model, Real>& pack, Mask<Real> at) {
+        // Impact speeds differ between member and shadow as the states do, and are rescaled with them.
+        bool const speeds = pack.needs.cuts() && pack.needs.watching != Watching::modes;
+        constexpr int width = HasImpacts<Model> ? size : size + Memory::speeds;
+        speeds ? rescale_numbers<width>(pack, at) : rescale_numbers<size>(pack, at);
+    }
     /// @tparam width numbers of an offset: the state's, and the impact speeds
     template <int width> SLIDEWAY_HD void rescale_numbers(Pack<Model, Real>& pack, Mask<Real> at) {
         Real w[most_shadows][width], length[most_shadows];
@@ -178,7 +186,7 @@ private:
             Offset::template write<width>(pack, found.moved, w[s], d0, shadow);
             refresh(pack, shadow, found.moved);
         }
-        if constexpr (has_impacts<Model>) {
+        if constexpr (HasImpacts<Model>) {
             if (any(lost)) hold(pack, lost);
         }
     }
@@ -193,10 +201,8 @@ private:
         Real rates[size];
         pack.evaluate(c.t, c.y, memory, rates, true, report_);
         pack.count_evaluations(in, 1);
-        typename Saltation<Model, Real>::Before const event{c.t,     pack.state.constants.end, c.y,
-                                                            c.rates, report_.contact,          memory};
         for (int round = 0; round < 2; ++round) {
-            settle(pack, event, in, true);
+            settle(pack, c.y, c.rates, report_.contact, memory, in, true);
             for (int s = 0; s < plan_.count; ++s) {
                 Real* const y = pack.state.shadows[s].y;
                 for (int i = 0; i < size; ++i) y[i] = select(in, c.y[i] + carried_[s].offset[i], y[i]);
@@ -205,12 +211,11 @@ private:
         for (int s = 0; s < plan_.count; ++s) evaluate(pack, pack.state.shadows[s], in);
     }
 
-    using Memory = typename Model::template Memory<Real>;
     using Offset = ShadowOffset<Model, Real>;
 
     /// What the contacts have left behind that hold it.
     SLIDEWAY_FN static Memory const& memory_of(Pack<Model, Real> const& pack, [[maybe_unused]] Shadow const& shadow) {
-        if constexpr (has_impacts<Model>)
+        if constexpr (HasImpacts<Model>)
             return pack.state.contacts.memory;
         else
             return shadow.contacts.memory;
@@ -219,7 +224,7 @@ private:
     /// All that follows from a state that was put somewhere.
     SLIDEWAY_HD Faults<Real> refresh(Pack<Model, Real>& pack, Shadow& shadow, Mask<Real> in) {
         auto faults = evaluate(pack, shadow, in);
-        if constexpr (Model::has_contacts && !has_impacts<Model>) {
+        if constexpr (have_events) {
             auto& [memory, watch] = shadow.contacts;
             if (pack.needs.cuts()) watch.begin(in, report_.contact, memory, pack.needs.watching);
             if (pack.needs.watching == Watching::modes) {
@@ -234,7 +239,7 @@ private:
     SLIDEWAY_HD Faults<Real> evaluate(Pack<Model, Real>& pack, Shadow& shadow, Mask<Real> in) {
         Real rates[size];
         auto const faults = pack.evaluate(pack.state.course.t, shadow.y, memory_of(pack, shadow), rates,
-                                          pack.needs.cuts() && !has_impacts<Model>, report_);
+                                          pack.needs.cuts() && !HasImpacts<Model>, report_);
         pack.count_evaluations(in, 1);
         for (int i = 0; i < size; ++i) shadow.rates[i] = select(in, rates[i], shadow.rates[i]);
         return faults.within(in);
@@ -245,11 +250,10 @@ private:
         Real offset[size], delay;
         Mask<Real> apart;
     };
-    struct NothingCarried {};
 
     ShadowPlan const plan_;
     Attempt<Model, Real> ends_[most_shadows];
-    [[no_unique_address]] std::conditional_t<has_impacts<Model>, Carried[most_shadows], NothingCarried> carried_;
+    [[no_unique_address]] PartIf<HasImpacts<Model>, Carried[most_shadows]> carried_;
     typename Model::template Report<Real> report_;
     Real squared_norm_;
     Faults<Real> faults_;

@@ -25,19 +25,16 @@ public:
     static constexpr int size = Model::size;
     static constexpr int events = Model::events;
 
-    /// Finds the events; `fraction()` then tells where the steps end.  @param accepted lanes with an accepted step.
+    /// Ends the accepted steps where an event resets the state.
+    /// @param accepted lanes with an accepted step  @param t_end time of its end, then of the reset [s]  @param landed lanes that end where they were to
     template <class Stepper>
-    SLIDEWAY_HD void run(Pack<Model, Real>& pack, Stepper& stepper, Attempt<Model, Real> const& attempt,
-                         Mask<Real> accepted) {
-        ended_ = mask_of<Real>(false);
-        fraction_ = Real(1.0);
-        auto const start = at_start(pack), end = at_end(pack, attempt);
-        auto candidates = mask_of<Real>(false);
-        for (int event = 0; event < events; ++event) candidates = candidates | may_cross(attempt.step, start, end, event);
-        candidates = candidates & accepted;
-        if (none(candidates)) return;
-        stepper.prepare_dense(pack, attempt, candidates);
-        search(pack, Step<Stepper>{stepper, attempt}, candidates, Each{});
+    SLIDEWAY_HD void run(Pack<Model, Real>& pack, Stepper& stepper, Attempt<Model, Real> const& attempt, Mask<Real> accepted, Real& t_end,
+                         Mask<Real>& landed) {
+        find_all(pack, stepper, attempt, accepted);
+        auto& c = pack.state.course;
+        t_end = select(ended_, fma(attempt.step, fraction_, c.t), t_end);
+        c.fine_time = select(ended_, Real(0.0), c.fine_time);
+        landed = landed & !ended_;
     }
 
     /// Puts lanes whose step an event ended into the state after its reset: the attempt's `end` and `end_rates` hold it.  Before that
@@ -58,9 +55,14 @@ public:
         return ended_ & (c.resets.in_row >= Real(most_at_once));
     }
 
-    /// Lanes whose step an event ended, and the fraction of the step at which.
-    SLIDEWAY_HD Mask<Real> ended() const { return ended_; }
-    SLIDEWAY_HD Real fraction() const { return fraction_; }
+    /// Lanes of which all is known that is asked for.
+    SLIDEWAY_HD Mask<Real> complete(Pack<Model, Real>& pack, Mask<Real> accepted) const {
+        if (!pack.needs.quantities) return mask_of<Real>(false);
+        auto const& c = pack.state.course;
+        auto& observer = pack.state.observation.observer;
+        observer.settle(accepted & Model::at_rest(c.rates), c.y);
+        return accepted & observer.complete();
+    }
 
 private:
     static constexpr double absent = 2.0;         // beyond every step
@@ -95,6 +97,19 @@ private:
     SLIDEWAY_FN static Mask<Real> may_cross(Real step, Values const& start, Values const& end, int event) {
         return slideway::may_cross(start.value[event], step * start.slope[event], end.value[event],
                                    step * end.slope[event]);
+    }
+
+    template <class Stepper>
+    SLIDEWAY_HD void find_all(Pack<Model, Real>& pack, Stepper& stepper, Attempt<Model, Real> const& attempt, Mask<Real> accepted) {
+        ended_ = mask_of<Real>(false);
+        fraction_ = Real(1.0);
+        auto const start = at_start(pack), end = at_end(pack, attempt);
+        auto candidates = mask_of<Real>(false);
+        for (int event = 0; event < events; ++event) candidates = candidates | may_cross(attempt.step, start, end, event);
+        candidates = candidates & accepted;
+        if (none(candidates)) return;
+        stepper.prepare_dense(pack, attempt, candidates);
+        search(pack, Step<Stepper>{stepper, attempt}, candidates, Each{});
     }
 
     template <class Stepper, int... event>

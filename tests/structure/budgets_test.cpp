@@ -38,22 +38,22 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 17'119u);
+    EXPECT_LE(Layer("kernels").lines(), 17'290u);
     EXPECT_LE(Layer("kernels/rigid").lines(), 4'235u);
-    EXPECT_LE(Layer("kernels/lanes").lines(), 3'479u);
+    EXPECT_LE(Layer("kernels/lanes").lines(), 3'672u);
     EXPECT_LE(Layer("host").lines(), 29'749u);
 }
 
 TEST(Budgets, OfTypes) {
     Layer const kernels("kernels");
-    EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?(struct|class|enum class) [A-Z]\w*( final)?\s*(:|\{))")).in_all, 350u);
-    EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?struct No[A-Z]\w*)")).in_all, 14u) << "types that stand for a part that a model has not";
+    EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?(struct|class|enum class) [A-Z]\w*( final)?\s*(:|\{))")).in_all, 346u);
+    EXPECT_LE(kernels.count(Pattern(R"(^\s*(template <.*> )?struct No[A-Z]\w*)")).in_all, 5u) << "types that stand for a part that a model has not";
 }
 
 TEST(Budgets, OfChoicesInSteps) {
     auto const choices = Layer("kernels/lanes").count(Pattern("if constexpr"));
-    EXPECT_LE(choices.in_all, 111u);
-    EXPECT_LE(choices.most, 42u) << "in one file";
+    EXPECT_LE(choices.in_all, 64u);
+    EXPECT_LE(choices.most, 14u) << "in one file";
 }
 
 }  // namespace

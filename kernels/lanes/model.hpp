@@ -1,0 +1,85 @@
+#pragma once
+
+#include "kernels/mechanisms/faults.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Whether a model's accelerations may be asked for: it names an `Accelerations<Real>`.
+template <class Model> concept HasAccelerations = requires { typename Model::template Accelerations<double>; };
+/// Whether the steps of a model may take its contacts as given, and go by the clock of one (ContactClock).
+template <class Model> concept CanHoldContacts = requires(Model& model) { model.hold_contacts({}); };
+template <class Model> concept HasClocks = CanHoldContacts<Model> && Model::has_patterns && !Model::has_shadows;
+/// Whether a model has events of its own, and brings their search.
+template <class Model> concept HasEvents = requires { requires Model::events > 0; };
+/// Whether impacts of a model have no duration: where a step ends its `settle` says what follows.
+template <class Model> concept HasImpacts = requires { requires Model::has_impacts; };
+/// Whether a model with impacts may be integrated by time stepping: the rule takes no shadows along.
+template <class Model> concept HasTimeStepping = HasImpacts<Model> && !Model::has_shadows;
+/// Whether a model brings the stepper that `auto` takes.
+template <class Model> concept HasOwnStepper = requires { requires Model::has_own_stepper; };
+/// Whether members take turns in the lanes with those that touch alike.  Those with shadows are too much to move for the little that impacts last.
+template <class Model> concept Regroups = Model::has_patterns && !(HasImpacts<Model> && Model::has_shadows);
+
+/// What lanes ask of a model, a line each; what is missing is named by the compiler.  All of it is static but for the equations, which may be members: a model
+/// can look them up (kernels/models/mechanism_table.hpp).  Its parameters, memory and watch hold Reals only.
+/// @tparam Real a number or a pack of them
+template <class Model, class Real> class ModelParts {
+    template <class Number> using Parameters = typename Model::template Parameters<Number>;
+    template <class Number> using Memory = typename Model::template Memory<Number>;
+    template <class Number> using Report = typename Model::template Report<Number>;
+
+    static_assert(requires { typename Model::Inputs; }, "Inputs: plain numbers of one member");
+    static_assert(requires { int{Model::size}; }, "size: of the state");
+    static_assert(requires { int{Model::series}; },
+                  "series: how many columns a sample may have, which are the state, and if there are more those where state_of_series(series) says");
+    static_assert(requires { typename Model::template Parameters<double>; }, "Parameters<Real>: of a member");
+    static_assert(requires { typename Model::template Memory<Real>; }, "Memory<Real>: what contacts leave behind");
+    static_assert(requires { typename Model::template Watch<Real>; }, "Watch<Real>: what finds the events of contacts");
+    static_assert(requires { typename Model::template Report<Real>; }, "Report<Real>: what a state tells beside its derivative");
+    static_assert(requires { typename Model::template Observer<Real>; },
+                  "Observer<Real>: quantities on the way; with `peaks` those are looked for inside of steps");
+    static_assert(requires { bool{Model::has_contacts}; bool{Model::has_patterns}; bool{Model::has_shadows}; },
+                  "has_contacts, has_patterns and has_shadows: true or false");
+    static_assert(requires { bool{Model::has_crossings}; bool{Model::has_linearisation}; }, "has_crossings and has_linearisation: true or false");
+    static_assert(requires(Model const& m, typename Model::Inputs const& inputs) { Parameters<double>{m.parameters(inputs)}; },
+                  "parameters(inputs): of a member, in double");
+    static_assert(requires(typename Model::Inputs const& inputs, double* state) { Model::initial_state(inputs, state); },
+                  "initial_state(inputs, state): where a member starts, in double");
+    static_assert(requires(Parameters<double> const& p, double* scale) { Model::scales(p, scale); },
+                  "scales(parameters, scale): sizes of the state's components that the absolute tolerance is meant against");
+    static_assert(requires(Model const& m, Real t, Real const* y, Parameters<Real> const& p, Memory<Real> const& memory, Real* rates, Report<Real>* report) {
+        Faults<Real>{m.template derivative<true>(t, y, p, memory, rates, report)};
+        Faults<Real>{m.template derivative<false>(t, y, p, memory, rates, report)};
+    }, "derivative<Full>(t, state, parameters, memory, rates, report): Faults; it fills the report if Full");
+
+    // Of contacts.
+    static_assert(!Model::has_contacts || requires(Model const& m, Report<Real> const& report) { m.switches(); m.watching(true, true); report.contact; },
+                  "has_contacts: the model says switches() and watching(locate_modes, neighbours), its report has a contact");
+    static_assert(!Model::has_contacts || HasImpacts<Model> || requires(Parameters<Real> const& p) { Model::touch_scale(p); },
+                  "has_contacts: touch_scale(parameters), length of what the watch locates (kernels/steppers/contact_watch.hpp)");
+    static_assert(!HasImpacts<Model> || requires(Parameters<Real> const& p, Real end) { Model::located(p, end); },
+                  "has_impacts: located(parameters, end), depth up to which an event counts as found; settle(...), what follows where a step has ended "
+                  "(kernels/rigid), with shadows also of Tangents (kernels/lanes/saltation.hpp)");
+    static_assert(!Model::has_linearisation || requires { typename Model::template Linearisation<Real>; },
+                  "has_linearisation: Linearisation<Real> and linearise(...) serve the stiff method; bend(...), where it is there, tells how what it "
+                  "rests on accelerates");
+    static_assert(!(Model::has_patterns && Model::has_linearisation) || requires(Parameters<Real> const& p, Real const* y) {
+        Model::energy_scale(p);
+        Model::squared_speed(y, y);
+    }, "has_patterns with a linearisation: energy_scale(parameters), squared_speed(state, scale) and approach_speed(...) say what is a creep and what an impact; "
+       "contact_pattern(...) which lanes have like work to do");
+
+    // Of what ends a step early.
+    static_assert(!HasEvents<Model> || requires { typename Model::template Search<Model, Real>; },
+                  "events: Search<Model, Real> finds them and resets the state, as tests/models/event_search.hpp does; the model says at_rest(rates)");
+    static_assert(!HasEvents<Model> || (Model::template Observer<Real>::integrals == 0 && !Model::has_linearisation),
+                  "an event ends its step early: integrals over the step and the stiff method's straight line do not know");
+    static_assert(!HasEvents<Model> || !(Model::has_shadows || Model::has_crossings),
+                  "an event ends its step early, which neither shadows nor sections know of");
+
+public:
+    static constexpr bool are_there = true;
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA

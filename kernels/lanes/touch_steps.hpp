@@ -1,0 +1,60 @@
+#pragma once
+
+#include "kernels/lanes/free_steps.hpp"
+#include "kernels/real.hpp"
+
+namespace slideway::inline SLIDEWAY_ISA {
+
+/// Steps of a model whose contacts have forces.  A touch, or a change of mode, must end its step where it sets the impact speed of what follows, or the law
+/// that holds (Watching).
+template <class Stepper, class Model, class Real> class TouchSteps : public FreeSteps<Stepper, Model, Real> {
+    using Base = FreeSteps<Stepper, Model, Real>;
+
+public:
+    using typename Base::Report, typename Base::Step;
+
+    /// Which contacts are held, where steps hold any.
+    template <class Neighbours>
+    SLIDEWAY_HD static Faults<Real> start(Pack<Model, Real>& pack, Results<Model>&, Neighbours&, IntegratorSettings const&, Real* rates, Report& report,
+                                          Faults<Real> const& faults) {
+        auto const& c = pack.state.course;
+        auto& [memory, watch] = pack.state.contacts;
+        if (pack.needs.cuts()) watch.begin(pack.busy, report.contact, memory, pack.needs.watching);
+        if (holds_contacts(pack.needs.watching)) {
+            // Rates are reported only once contacts are held, and the first step is searched too.
+            pack.evaluate(c.t, c.y, memory, rates, true, report);
+            pack.count_evaluations(pack.busy, 1);
+            watch.begin(pack.busy, report.contact, memory, pack.needs.watching);
+        }
+        return faults;
+    }
+
+    template <class Neighbours> SLIDEWAY_HD Mask<Real> cut(Step& step, Neighbours& neighbours, Allowance<Real>& allowed, Real former_memory) {
+        auto const& pack = step.pack;
+        if (!pack.needs.cuts() || !step.adapts()) return mask_of<Real>(false);
+        auto const watching = pack.needs.watching;
+        auto const early = allowed.accepted & (step.attempt.step > step.resolution() * Real(64.0));
+        Real const located = Real(neighbours.located(Model::template Watch<Real>::tolerance(watching))) * Model::touch_scale(pack.state.constants.parameters);
+        Real fraction = pack.state.contacts.watch.earliest(early, step.attempt.report.contact, step.attempt.step, located, watching);
+        fraction = neighbours.first_event(pack, early, located, fraction);
+        return Base::try_again(step, neighbours, fraction < Real(1.0), fraction, allowed, former_memory);
+    }
+
+    template <class Neighbours> SLIDEWAY_HD void advance(Step& step, Neighbours& neighbours, Mask<Real> accepted, Real& next) {
+        if (step.pack.needs.watch()) {
+            auto& [memory, watch] = step.pack.state.contacts;
+            bool const may_shorten = !Stepper::stiff && step.adapts();
+            Real const known_step = select(known_, step.attempt.step, Real(0.0));
+            auto const touched = watch.update(accepted, step.attempt.report.contact, memory, step.pack.state.course.y, step.pack.needs.watching,
+                                              known_step, may_shorten ? &next : nullptr);
+            known_ = known_ | accepted;
+            if (any(touched)) step.restart(touched);
+        }
+        neighbours.advance(step.pack, accepted);
+    }
+
+private:
+    Mask<Real> known_ = mask_of<Real>(false);  // lanes whose watch knows their last step
+};
+
+}  // namespace slideway::inline SLIDEWAY_ISA
