@@ -3,6 +3,7 @@
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/step_integrals.hpp"
 #include "kernels/lanes/stepped_numbers.hpp"
+#include "kernels/lanes/stepper_traits.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/contact_clock.hpp"
 
@@ -10,13 +11,9 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// Attempts steps of an explicit pair by the clocks of impacts (ContactClock), in lanes without one by time.  Time t and u = √δ are two
 /// components more: y' = 2u f, t' = 2u, u' = δ'.  A step that was made may end early, at any place inside.
-template <class Pair, class Model, class Real> class ClockStep {
+template <class Pair, class Model, class Real> class ClockStep : public StepperTraits {
 public:
-    static constexpr bool adaptive = true;
-    static constexpr bool stiff = false;
     static constexpr bool by_clock = true;
-    static constexpr bool ends_early = false;  // but as its clocks say (ImpactSteps)
-    static constexpr int jacobians = 0;
     SLIDEWAY_HD static int order(Pack<Model, Real> const&) { return Pair::order; }
     SLIDEWAY_HD static int evaluations(Pack<Model, Real> const&) { return Pair::stages - 1; }  // per attempt
 

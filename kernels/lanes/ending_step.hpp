@@ -3,19 +3,16 @@
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/step_integrals.hpp"
 #include "kernels/lanes/stepped_numbers.hpp"
+#include "kernels/lanes/stepper_traits.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// Attempts steps of an explicit pair that may end early, at any place inside, by the pair's continuous extension: its stages are kept, those of
 /// the integrals too.
-template <class Pair, class Model, class Real> class EndingStep {
+template <class Pair, class Model, class Real> class EndingStep : public StepperTraits {
 public:
-    static constexpr bool adaptive = true;
-    static constexpr bool stiff = false;
-    static constexpr bool by_clock = false;
     static constexpr bool ends_early = true;
-    static constexpr int jacobians = 0;
     SLIDEWAY_HD static int order(Pack<Model, Real> const&) { return Pair::order; }
     SLIDEWAY_HD static int evaluations(Pack<Model, Real> const&) { return Pair::stages - 1; }  // per attempt
 

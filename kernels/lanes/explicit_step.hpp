@@ -1,20 +1,15 @@
 #pragma once
 
 #include "kernels/lanes/pack.hpp"
+#include "kernels/lanes/stepper_traits.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/pair_numbers.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
 /// Attempts steps of the pack's explicit method in its lanes; what it knows of the last one serves its error and dense output.
-template <class Model, class Real> class ExplicitStep {
+template <class Model, class Real> class ExplicitStep : public StepperTraits {
 public:
-    static constexpr bool adaptive = true;  // as a rule
-    static constexpr bool stiff = false;
-    static constexpr bool by_clock = false;
-    static constexpr bool ends_early = false;
-    static constexpr int jacobians = 0;
-
     /// Whether by error control, order, and evaluations of an attempt.
     SLIDEWAY_HD static bool adapts(Pack<Model, Real> const& pack) { return pack.pair->adaptive; }
     SLIDEWAY_HD static int order(Pack<Model, Real> const& pack) { return pack.pair->order; }

@@ -11,23 +11,21 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Model, class Real> struct ImpactRows {
     /// @param changed lanes whose contacts have been settled at the members' time and state  @param before their state before that
     SLIDEWAY_HD static void take(Pack<Model, Real>& pack, Results<Model>& results, Mask<Real> changed, Real const* before) {
-        if constexpr (Model::has_crossings) record(pack, results, changed, before);
+        if constexpr (Model::has_crossings) {
+            using Way = CrossingPlan::Direction;
+            CrossingPlan const& plan = results.crossings();
+            if (plan.room == 0 || !plan.of_impacts()) return;
+            auto const& c = pack.state.course;
+            auto const& books = pack.state.contacts.memory.books;
+            Mask<Real> at = changed & (books.count > Real(0.0)) & (c.t >= pack.state.constants.first_stop);
+            if (none(at)) return;
+            if (plan.on != CrossingPlan::On::impacts) at = at & met(books.met, Model::met_bit(plan.on == CrossingPlan::On::impacts_z, plan.index));
+            if (plan.wants(Way::falling)) results.take_crossing(pack, at, c.t, before);
+            if (plan.wants(Way::rising)) results.take_crossing(pack, at, c.t, c.y);
+        }
     }
 
 private:
-    SLIDEWAY_HD static void record(Pack<Model, Real>& pack, Results<Model>& results, Mask<Real> changed, Real const* before) {
-        using Way = CrossingPlan::Direction;
-        CrossingPlan const& plan = results.crossings();
-        if (plan.room == 0 || !plan.of_impacts()) return;
-        auto const& c = pack.state.course;
-        auto const& books = pack.state.contacts.memory.books;
-        Mask<Real> at = changed & (books.count > Real(0.0)) & (c.t >= pack.state.constants.first_stop);
-        if (none(at)) return;
-        if (plan.on != CrossingPlan::On::impacts) at = at & met(books.met, Model::met_bit(plan.on == CrossingPlan::On::impacts_z, plan.index));
-        if (plan.wants(Way::falling)) results.take_crossing(pack, at, c.t, before);
-        if (plan.wants(Way::rising)) results.take_crossing(pack, at, c.t, c.y);
-    }
-
     /// Lanes whose number has a bit.
     SLIDEWAY_HD static Mask<Real> met(Real const& bits, int bit) {
         Real has(0.0);

@@ -7,7 +7,7 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Steps by the clocks of impacts (ClockStep), beside those by time: a member remembers its step in flight while it is in contact, and the first one of an
+/// How contacts with forces limit steps by the clocks of impacts (ClockStep), beside those by time: a member remembers its step in flight while it is in contact, and the first one of an
 /// impact until the next.  A touch or a parting ends its step.
 template <class Stepper, class Model, class Real> class ImpactSteps : public FreeSteps<Stepper, Model, Real> {
     using Base = FreeSteps<Stepper, Model, Real>;
@@ -38,7 +38,7 @@ public:
         return lands;
     }
 
-    /// By the clock that the last one went by.
+    /// By the clock of the last one.
     SLIDEWAY_HD Real next(Step& step, Mask<Real> accepted, Real factor) const {
         auto const& last = step.stepper.step();
         Real const own = last.own * factor;
@@ -53,11 +53,11 @@ public:
         return select(accepted, last.end.ending(own), own);
     }
 
-    /// At least, where it is tried again.
+    /// Least time of it, if it is tried again.
     SLIDEWAY_HD Real time_of(Step const& step, Real next) const { return step.stepper.step().start.time_of(next); }
 
-    /// The inside of a step is known: it ends there early.
-    template <class Neighbours> SLIDEWAY_HD Mask<Real> cut(Step& step, Neighbours&, Allowance<Real>& allowed, Real former_memory) {
+    /// Ends the step early at its first touch or parting.
+    SLIDEWAY_HD Mask<Real> cut(Step& step, Allowance<Real>& allowed) {
         auto& pack = step.pack;
         auto const& last = step.stepper.step();
         Real const own = last.own, resolution = step.resolution();
@@ -69,14 +69,14 @@ public:
         if (any(cut)) cut = end_early(pack, step.stepper, step.attempt, cut, depth, share);
         ended_early_ = allowed.accepted & (share < Real(1.0)) & !cut;
         Real const least = select(last.start.runs(), Real(0.0), resolution * Real(32.0));
-        Allowance<Real> const by_events{Mask<Real>(allowed.accepted & !cut), select(cut, max(own * share, least), allowed.next)};
-        return Base::take(step, by_events, allowed, former_memory);
+        Base::reject(step, cut, max(own * share, least), allowed);
+        return cut;
     }
     SLIDEWAY_HD Mask<Real> ended_early() const { return ended_early_; }
-    /// Those within an impact: a step that goes past what the clock is for.
+    /// Those within an impact: their step went past what the clock is for.
     SLIDEWAY_HD Mask<Real> failed_landings(Step const& step) const { return in_contact_ & step.lands; }
 
-    template <class Neighbours> SLIDEWAY_HD void advance(Step& step, Neighbours&, Mask<Real> accepted, Real& /*next*/) {
+    SLIDEWAY_HD void advance(Step& step, Mask<Real> accepted, Real& /*next*/) {
         auto& pack = step.pack;
         auto& [memory, watch] = pack.state.contacts;
         auto const turned = watch.update(accepted, step.attempt.report.contact, memory, step.stepper.step(), pack.model.remembers());
@@ -86,9 +86,11 @@ public:
         if (any(touched)) step.restart(touched);
     }
 
-    /// After a touch or a parting another one.
-    SLIDEWAY_HD void keep(Step& step, Mask<Real> busy, Real wish, Real /*next*/, Real longest) const {
+    /// After a touch or a parting that which `turn` chooses.
+    SLIDEWAY_HD void store_next(Step& step, Real wish, Real /*next*/) const {
         auto& c = step.pack.state.course;
+        auto const busy = step.pack.busy;
+        Real const longest = step.longest();
         c.h = select(busy & !in_contact_, min(wish, longest), c.h);
         c.impacts.step = select(busy & step.stepper.step().start.runs(), wish, c.impacts.step);
         if (any(turned_)) turn(step.pack.state, step.stepper, wish, longest);

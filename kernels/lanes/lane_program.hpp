@@ -7,13 +7,11 @@
 #include "kernels/lanes/clock_step.hpp"
 #include "kernels/lanes/ending_step.hpp"
 #include "kernels/lanes/explicit_step.hpp"
-#include "kernels/lanes/impact_rows.hpp"
 #include "kernels/lanes/member_state.hpp"
 #include "kernels/lanes/method_choice.hpp"
 #include "kernels/lanes/moreau_jean_step.hpp"
 #include "kernels/lanes/new_member.hpp"
 #include "kernels/lanes/pack.hpp"
-#include "kernels/lanes/part_if.hpp"
 #include "kernels/lanes/results.hpp"
 #include "kernels/lanes/roster.hpp"
 #include "kernels/lanes/stiff_step.hpp"
@@ -33,8 +31,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 template <class Model, class Real> class LaneProgram {
 public:
     using Block = BlockOf<typename Model::Inputs>;
-    static_assert(holds_reals_only<Model>);
     static_assert(ModelParts<Model, Real>::are_there);
+    static_assert(holds_reals_only<Model>);
 
     SLIDEWAY_HD LaneProgram(Block& block, Model const& model) : block_(block), results_(block), pack_(model) {
         // What is observed for the status alone is not written.
@@ -160,9 +158,9 @@ private:
         if (kind == Kind::fresh) {
             start();
         } else if (kind == Kind::stiff) {
-            if constexpr (Model::has_linearisation) work<StiffStep<Model, Real>>();
+            work<std::conditional_t<Model::has_linearisation, StiffStep<Model, Real>, ExplicitStep<Model, Real>>>();
         } else if (is_time_stepping()) {
-            if constexpr (HasTimeStepping<Model>) work<MoreauJeanStep<Model, Real>>();
+            work<std::conditional_t<HasTimeStepping<Model>, MoreauJeanStep<Model, Real>, ExplicitStep<Model, Real>>>();
         } else if (settings.method == Method::verner65) {
             work<std::conditional_t<HasClocks<Model>, ClockStep<Verner65, Model, Real>, ExplicitStep<Model, Real>>>();
         } else if (HasOwnStepper<Model> && settings.method == Method::automatic) {
@@ -193,7 +191,7 @@ private:
     template <class Stepper> SLIDEWAY_NOINLINE void work() {
         Stint<Stepper, Model, Real> stint(pack_, results_, block_.settings);
         // Lanes that leave the stiff method wait for the others.
-        stint.work(has_impulses<Stepper> ? many_attempts : Stepper::stiff ? attempts / 4 : attempts);
+        stint.work(Stepper::has_impulses ? many_attempts : Stepper::stiff ? attempts / 4 : attempts);
     }
 
     /// First evaluation of new members.  A start that cannot be evaluated ends its member before the first step.
@@ -210,7 +208,9 @@ private:
         pack_.with_accelerations([&](auto& a) { a.start(pack_.busy, report); });
         pack_.begin_next(pack_.busy, rates, report);
         Neighbours<Model, Real> neighbours(block_.shadows);
-        faults = ContactSteps<ExplicitStep<Model, Real>, Model, Real>::start(pack_, results_, neighbours, block_.settings, rates, report, faults);
+        // By whatever stepper they go on.
+        using Contacts = ContactSteps<ExplicitStep<Model, Real>, Model, Real>;
+        faults = faults.or_else(Contacts::start(pack_, results_, neighbours, block_.settings, rates, report));
         Mask<Real> broken = pack_.busy & !whole;
         broken = broken | neighbours.start(pack_, pack_.busy & whole, faults);
         Mask<Real> const failed = broken | (pack_.busy & (faults.geometry | faults.contact_domain));

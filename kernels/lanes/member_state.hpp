@@ -1,9 +1,10 @@
 #pragma once
 
+#include <type_traits>
+
 #include "kernels/block.hpp"
 #include "kernels/lane_copy.hpp"
 #include "kernels/lanes/model.hpp"
-#include "kernels/lanes/part_if.hpp"
 #include "kernels/observers/acceleration_record.hpp"
 #include "kernels/real.hpp"
 
@@ -11,6 +12,12 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// Length of an array that may be empty, which C++ does not allow.
 constexpr int room(int length) { return length > 0 ? length : 1; }
+
+/// Empty, in the place of a part that is not there: a type of its own for each, for two members of one type have two places.
+template <class Part> struct Nothing {};
+
+/// A part that is there on a condition, to be declared with [[no_unique_address]].
+template <bool is_there, class Part> using PartIf = std::conditional_t<is_there, Part, Nothing<Part>>;
 
 /// The resets of a model with events, of late.
 template <class Real> struct ResetHistory {

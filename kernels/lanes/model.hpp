@@ -7,8 +7,9 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// Whether a model's accelerations may be asked for: it names an `Accelerations<Real>`.
 template <class Model> concept HasAccelerations = requires { typename Model::template Accelerations<double>; };
-/// Whether the steps of a model may take its contacts as given, and go by the clock of one (ContactClock).
+/// Whether the steps of a model may take its contacts as given.
 template <class Model> concept CanHoldContacts = requires(Model& model) { model.hold_contacts({}); };
+/// Whether they may then go by the clock of a contact (ContactClock).
 template <class Model> concept HasClocks = CanHoldContacts<Model> && Model::has_patterns && !Model::has_shadows;
 /// Whether a model has events of its own, and brings their search.
 template <class Model> concept HasEvents = requires { requires Model::events > 0; };
@@ -21,7 +22,7 @@ template <class Model> concept HasOwnStepper = requires { requires Model::has_ow
 /// Whether members take turns in the lanes with those that touch alike.  Those with shadows are too much to move for the little that impacts last.
 template <class Model> concept Regroups = Model::has_patterns && !(HasImpacts<Model> && Model::has_shadows);
 
-/// What lanes ask of a model, a line each; what is missing is named by the compiler.  All of it is static but for the equations, which may be members: a model
+/// What lanes ask of a model.  The assertions name what is missing of what all models have, and for each part that a model may have the rest of it.  All of it is static but for the equations, which may be members: a model
 /// can look them up (kernels/models/mechanism_table.hpp).  Its parameters, memory and watch hold Reals only.
 /// @tparam Real a number or a pack of them
 template <class Model, class Real> class ModelParts {
@@ -54,10 +55,14 @@ template <class Model, class Real> class ModelParts {
     }, "derivative<Full>(t, state, parameters, memory, rates, report): Faults; it fills the report if Full");
 
     // Of contacts.
+    static_assert(!(HasImpacts<Model> || HasClocks<Model>) || Model::has_contacts, "has_impacts, or contacts that steps hold: has_contacts");
+    static_assert(requires(Memory<Real>& memory) { start_memory(memory); }, "start_memory(memory): what it holds before the first step");
+    static_assert(!HasTimeStepping<Model> || requires { bool{Model::sees_contacts}; },
+                  "has_impacts: sees_contacts, whether see(t, state, parameters, memory, contact) tells what the watch asks for without the forces");
     static_assert(!Model::has_contacts || requires(Model const& m, Report<Real> const& report) { m.switches(); m.watching(true, true); report.contact; },
                   "has_contacts: the model says switches() and watching(locate_modes, neighbours), its report has a contact");
     static_assert(!Model::has_contacts || HasImpacts<Model> || requires(Parameters<Real> const& p) { Model::touch_scale(p); },
-                  "has_contacts: touch_scale(parameters), length of what the watch locates (kernels/steppers/contact_watch.hpp)");
+                  "has_contacts: touch_scale(parameters), length that the watch's tolerance is relative to (kernels/steppers/contact_watch.hpp)");
     static_assert(!HasImpacts<Model> || requires(Parameters<Real> const& p, Real end) { Model::located(p, end); },
                   "has_impacts: located(parameters, end), depth up to which an event counts as found; settle(...), what follows where a step has ended "
                   "(kernels/rigid), with shadows also of Tangents (kernels/lanes/saltation.hpp)");

@@ -1,25 +1,19 @@
 #pragma once
 
 #include "kernels/lanes/pack.hpp"
+#include "kernels/lanes/stepper_traits.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
-
-/// Whether impulses are a part of the steps, so that nothing happens between them.
-template <class Stepper> inline constexpr bool has_impulses = requires { requires Stepper::has_impulses; };
 
 /// Time stepping by the midpoint rule of Moreau and Jean (M13.15): places go half a step with the rates of the start, what touches there has
 /// impulses against the rates that the step would end with, and places go on with the rates that it does end with.  Without events; of first order, and of
 /// second in flight.
 /// Source: J. J. Moreau, Unilateral contact and dry friction in finite freedom dynamics (1988); M. Jean, The non-smooth contact dynamics method (1999).
-template <class Model, class Real> class MoreauJeanStep {
+template <class Model, class Real> class MoreauJeanStep : public StepperTraits {
 public:
     static constexpr bool adaptive = false;
-    static constexpr bool stiff = false;
-    static constexpr bool by_clock = false;
-    static constexpr bool ends_early = false;
     static constexpr bool has_impulses = true;
-    static constexpr int jacobians = 0;
     SLIDEWAY_HD static int order(Pack<Model, Real> const&) { return 2; }        // in flight
     SLIDEWAY_HD static int evaluations(Pack<Model, Real> const&) { return 2; }  // per attempt
 

@@ -7,13 +7,13 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Members without others beside them: what Shadows do for those that have some is nothing here.
+/// Members without others beside them: all that Shadows do for those that have some is nothing here.
 template <class Model, class Real> class Alone {
 public:
     explicit SLIDEWAY_HD Alone(ShadowPlan const&) {}
 
     SLIDEWAY_HD Mask<Real> start(Pack<Model, Real>&, Mask<Real>, Faults<Real>&) { return mask_of<Real>(false); }
-    template <class Stepper, class Norm> SLIDEWAY_HD void attempt(Pack<Model, Real>&, Stepper&, Real, bool, Norm const&) {}
+    template <class Step> SLIDEWAY_HD void attempt(Step&) {}
     SLIDEWAY_HD Real larger_norm_than(Real own) const { return own; }
     SLIDEWAY_HD Mask<Real> finite_beside(Mask<Real> own) const { return own; }
     SLIDEWAY_HD Faults<Real> faults_beside(Faults<Real> const& own) const { return own; }
@@ -29,7 +29,7 @@ public:
     SLIDEWAY_HD void stop(Pack<Model, Real>&, Results<Model>&, Mask<Real>) {}
 };
 
-/// What goes along with the members of a model.
+/// What goes along with the members of a model: Shadows where it has them.
 template <class Model, class Real> using Neighbours = std::conditional_t<Model::has_shadows, Shadows<Model, Real>, Alone<Model, Real>>;
 
 }  // namespace slideway::inline SLIDEWAY_ISA

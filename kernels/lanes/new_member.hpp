@@ -18,25 +18,17 @@ template <class Model> struct NewMember {
         auto const& inputs = block.inputs[member];
         r.constants.parameters = model.parameters(inputs);
         Model::scales(r.constants.parameters, r.constants.scale);
-        auto& c = r.course;
+        auto& c = r.course = {};
         c.member = static_cast<double>(member);
-        c.sample = 0;
-        c.t = c.fine_time = 0;
         c.h = 1e-3 * block.settings.max_step;
         c.error_memory = step_control_start;
         Model::initial_state(inputs, c.y);
-        c.stop = c.crossings = c.side = 0;
         MemberClock const clock = block.clocks != nullptr ? block.clocks[member] : MemberClock{block.settings.end_time};
         r.constants.end = clock.end;
         r.constants.first_stop = clock.first_stop;
         r.constants.stop_period = clock.period;
-        if constexpr (Model::has_shadows) {
-            c.shadowed.uncut = c.shadowed.lost = c.shadowed.grown = 0;
-            place_shadows(r, block.shadows, member);
-        }
+        if constexpr (Model::has_shadows) place_shadows(r, block.shadows, member);
         if constexpr (HasClocks<Model>) c.impacts = {0.0, c.h, 0.0, 0.0, 0.0};
-        c.accepted = c.rejected = c.evaluations = c.jacobians = c.stiff_steps = 0;
-        c.rejections = c.stiffness = c.rate_squared = 0;
         // A model without linearisation is left to the explicit pair.
         c.stiff = Model::has_linearisation && block.settings.method == Method::ros34pw2 ? 1 : 0;
         start_memory(r.contacts.memory);

@@ -49,16 +49,8 @@ template <class Model, class Real> struct Pack {
     }
 
     /// Has the function see the accelerations' record, where it is at work.
-    template <class Function> SLIDEWAY_HD void with_accelerations(Function const& function) {
-        if constexpr (HasAccelerations<Model>) {
-            if (needs.accelerations) function(state.accelerations);
-        }
-    }
-    template <class Function> SLIDEWAY_HD void with_accelerations(Function const& function) const {
-        if constexpr (HasAccelerations<Model>) {
-            if (needs.accelerations) function(state.accelerations);
-        }
-    }
+    template <class Function> SLIDEWAY_HD void with_accelerations(Function const& function) { with_accelerations_of(*this, function); }
+    template <class Function> SLIDEWAY_HD void with_accelerations(Function const& function) const { with_accelerations_of(*this, function); }
 
     /// Says whether reports, from here on, are of stages inside a step: they tell of a state what is integrated and nothing else, which may be what
     /// the energy audit integrates.
@@ -125,6 +117,15 @@ template <class Model, class Real> struct Pack {
         with_accelerations([&](auto& record) { record.begin_next(in, report); });
     }
 
+    /// Evaluates derivative and report again where members are, in lanes whose impact speeds or contacts have changed.
+    SLIDEWAY_HD Faults<Real> restart(Mask<Real> in, Real* rates, Report& report) {
+        auto const faults = evaluate(state.course.t, state.course.y, state.contacts.memory, rates, true, report);
+        count_evaluations(in, 1);
+        if (needs.quantities) state.observation.observer.switch_over(in, report, needs.switches);
+        begin_next(in, rates, report);
+        return faults;
+    }
+
     /// Values of which the largest is kept: the observer's, then the accelerations'.
     struct Peaks {
         static constexpr int count = Observer::peaks + AccelerationsOf<Model, Real>::Type::peaks;
@@ -143,7 +144,7 @@ template <class Model, class Real> struct Pack {
     /// Counts what an attempt costs in the lanes of the mask.
     template <class Stepper> SLIDEWAY_HD void count_attempt(Mask<Real> in) {
         count_evaluations(in, Stepper::evaluations(*this));
-        if constexpr (Stepper::jacobians > 0) state.course.jacobians = state.course.jacobians + count<Real>(in);
+        if (Stepper::jacobians > 0) state.course.jacobians = state.course.jacobians + count<Real>(in);
     }
 
     /// Counts evaluations of the right-hand side in the lanes of the mask.
@@ -153,6 +154,11 @@ template <class Model, class Real> struct Pack {
     }
 
 private:
+    template <class Self, class Function> SLIDEWAY_HD static void with_accelerations_of(Self& self, Function const& function) {
+        if constexpr (HasAccelerations<Model>) {
+            if (self.needs.accelerations) function(self.state.accelerations);
+        }
+    }
     /// How many of the observer's integrals are asked for, and their integrands at a report.
     SLIDEWAY_HD int observed() const {
         if constexpr (integrates_powers<Observer>) {

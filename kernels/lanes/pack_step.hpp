@@ -1,27 +1,29 @@
 #pragma once
 
-#include "kernels/lanes/attempt.hpp"
+#include "kernels/lanes/error_norm.hpp"
 #include "kernels/lanes/fine_time.hpp"
+#include "kernels/lanes/neighbours.hpp"
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/results.hpp"
 #include "kernels/real.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// A step that a pack tries with one stepper, as all see it who have a say in it.
-template <class Stepper, class Model, class Real> class PackStep {
-public:
+/// A step that a pack attempts with one stepper: its length, its end and its error, shared by all who limit it.
+template <class Stepper, class Model, class Real> struct PackStep {
     Pack<Model, Real>& pack;
     Results<Model>& results;
     IntegratorSettings const& settings;
     Stepper stepper;
     Attempt<Model, Real> attempt;  // the members' own
-    Real landing;                  // known time at which it ends at the latest [s]
-    Mask<Real> lands;              // lanes where it ends there
-    Real squared_norm;             // of its error, where that is controlled
+    [[no_unique_address]] Neighbours<Model, Real> neighbours;
+    Real landing;        // known time at which it ends at the latest [s]
+    Mask<Real> lands;    // lanes that are to end there
+    Real squared_norm;   // largest squared error of member and neighbours, where error control is at work
+    Real former_memory;  // of error control, before the attempt
 
     SLIDEWAY_HD PackStep(Pack<Model, Real>& of_members, Results<Model>& of_block, IntegratorSettings const& of_method)
-        : pack(of_members), results(of_block), settings(of_method) {}
+        : pack(of_members), results(of_block), settings(of_method), neighbours(of_block.shadows()) {}
 
     /// Whether error control sets its length.
     SLIDEWAY_HD bool adapts() const {
@@ -29,23 +31,19 @@ public:
         else return Stepper::adaptive;
     }
     SLIDEWAY_HD bool is_auto() const { return settings.method == Method::automatic; }
+    /// The longest that it may be [s].
+    SLIDEWAY_HD Real longest() const { return Real(Stepper::stiff ? settings.stiff_max_step : settings.max_step); }
 
     SLIDEWAY_HD FineTime<Real> fine_time() const { return {pack.state.constants.end, Model::has_shadows && !HasImpacts<Model>}; }
     /// Least step that moves time [s].
     SLIDEWAY_HD Real resolution() const { return fine_time().resolution(); }
 
-    /// The derivative at the end, where impact speeds or contacts are others than those that the step had.
-    SLIDEWAY_HD Faults<Real> restart(Mask<Real> touched) {
-        auto const& c = pack.state.course;
-        auto const faults = pack.evaluate(c.t, c.y, pack.state.contacts.memory, attempt.end_rates, true, attempt.report);
-        pack.count_evaluations(touched, 1);
-        if (pack.needs.quantities) {
-            auto& observer = pack.state.observation.observer;
-            observer.switch_over(touched, attempt.report, pack.needs.switches);
-        }
-        pack.begin_next(touched, attempt.end_rates, attempt.report);
-        return faults;
+    /// Of an attempt, the members' own or a neighbour's.
+    SLIDEWAY_HD Real squared_error(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to) {
+        return ErrorNorm<Stepper, Model, Real>::squared(pack, stepper, settings, from, to);
     }
+    /// Goes on from the end in lanes whose impact speeds or contacts have changed there.
+    SLIDEWAY_HD Faults<Real> restart(Mask<Real> in) { return pack.restart(in, attempt.end_rates, attempt.report); }
 };
 
 }  // namespace slideway::inline SLIDEWAY_ISA

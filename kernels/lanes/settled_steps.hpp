@@ -7,7 +7,7 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Steps of a model whose impacts have no duration: they end where a pair meets, parts, or changes between slipping and sticking, and there `settle`
+/// How contacts limit steps where impacts have no duration: these end where a pair meets, parts, or changes between slipping and sticking, and there `settle`
 /// says what follows.
 template <class Stepper, class Model, class Real> class SettledSteps : public FreeSteps<Stepper, Model, Real> {
     using Base = FreeSteps<Stepper, Model, Real>;
@@ -16,32 +16,28 @@ public:
     using typename Base::Report, typename Base::Step;
 
     /// Impacts and lasting contacts are settled.
-    template <class Neighbours>
-    SLIDEWAY_HD static Faults<Real> start(Pack<Model, Real>& pack, Results<Model>& results, Neighbours& neighbours, IntegratorSettings const& settings,
-                                          Real* rates, Report& report, Faults<Real> const& faults) {
+    SLIDEWAY_HD static Faults<Real> start(Pack<Model, Real>& pack, Results<Model>& results, Neighbours<Model, Real>& neighbours,
+                                          IntegratorSettings const& settings, Real* rates, Report& report) {
         auto& c = pack.state.course;
         auto& [memory, watch] = pack.state.contacts;
         if (HasTimeStepping<Model> && settings.method == Method::moreau_jean) {
             memory.begun = select(pack.busy, Real(1.0), memory.begun);
-            return faults;
+            return Faults<Real>::none();
         }
         auto const& constants = pack.state.constants;
-        [[maybe_unused]] auto const before = memory;
+        auto const before = memory;
         Real start[Model::size];
         for (int i = 0; i < Model::size; ++i) start[i] = c.y[i];
         auto const changed = pack.model.settle(pack.busy, c.t, constants.end, c.y, constants.parameters, memory, report.contact);
         ImpactRows<Model, Real>::take(pack, results, changed, start);
         if (any(changed)) neighbours.settle(pack, start, rates, report.contact, before, changed, true);
-        auto const settled = pack.evaluate(c.t, c.y, memory, rates, true, report);
-        pack.count_evaluations(pack.busy, 1);
-        if (pack.needs.quantities) pack.state.observation.observer.switch_over(pack.busy, report, pack.needs.switches);
-        pack.begin_next(pack.busy, rates, report);
+        auto const faults = pack.restart(pack.busy, rates, report);
         if (any(changed)) neighbours.depart(pack, changed);
         watch.keep(pack.busy, report.contact);
-        return faults.or_else(settled);
+        return faults;
     }
 
-    template <class Neighbours> SLIDEWAY_HD Mask<Real> cut(Step& step, Neighbours& neighbours, Allowance<Real>& allowed, Real former_memory) {
+    SLIDEWAY_HD Mask<Real> cut(Step& step, Allowance<Real>& allowed) {
         auto const& pack = step.pack;
         if (!pack.needs.cuts() || !step.adapts()) return mask_of<Real>(false);
         Real const least = step.resolution() * Real(64.0), located = Model::located(pack.state.constants.parameters, pack.state.constants.end);
@@ -57,28 +53,28 @@ public:
             // A shorter attempt knows its inside better, near its end above all.
             fraction = select(fraction < Real(0.6), Real(1.02) * fraction, fraction);
         }
-        return Base::try_again(step, neighbours, cut, fraction, allowed, former_memory);
+        return Base::try_again(step, cut, fraction, allowed);
     }
     SLIDEWAY_HD Mask<Real> ended_early() const { return ended_early_; }
 
     /// Impacts at the end of an accepted step, and contacts that begin or end there.
-    template <class Neighbours> SLIDEWAY_HD void advance(Step& step, Neighbours& neighbours, Mask<Real> accepted, Real& /*next*/) {
+    SLIDEWAY_HD void advance(Step& step, Mask<Real> accepted, Real& /*next*/) {
         auto& pack = step.pack;
-        neighbours.advance(pack, accepted);
+        step.neighbours.advance(pack, accepted);
         auto& c = pack.state.course;
         auto& [memory, watch] = pack.state.contacts;
         auto const& constants = pack.state.constants;
-        [[maybe_unused]] auto const before = memory;
+        auto const before = memory;
         auto& attempt = step.attempt;
         auto const changed = pack.model.settle(accepted, c.t, constants.end, c.y, constants.parameters, memory, attempt.report.contact);
         if (any(changed)) {
             ImpactRows<Model, Real>::take(pack, step.results, changed, attempt.end);
-            neighbours.settle(pack, attempt.end, attempt.end_rates, attempt.report.contact, before, changed, false);
+            step.neighbours.settle(pack, attempt.end, attempt.end_rates, attempt.report.contact, before, changed, false);
             auto const faults = step.restart(changed);
             // No step leads out of where contacts have no forces.
             auto const jams = changed & faults.contact_domain & !is_finite(c.y, attempt.end_rates);
             memory.jammed = select(jams, Real(1.0), memory.jammed);
-            neighbours.depart(pack, changed);
+            step.neighbours.depart(pack, changed);
         }
         watch.keep(accepted, attempt.report.contact);
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "kernels/lanes/pack.hpp"
 #include "kernels/lanes/results.hpp"
 #include "kernels/lanes/saltation.hpp"
@@ -42,9 +44,9 @@ public:
         return broken;
     }
 
-    /// All attempt a step.  @param adapts whether by error control  @param squared_norm of the error of an attempt from a start
-    template <class Stepper, class Norm>
-    SLIDEWAY_HD void attempt(Pack<Model, Real>& pack, Stepper& stepper, Real step, bool adapts, Norm const& squared_norm) {
+    /// All attempt their members' step.  @param step PackStep
+    template <class Step> SLIDEWAY_HD void attempt(Step& step) {
+        auto& pack = step.pack;
         squared_norm_ = Real(0.0);
         faults_ = Faults<Real>::none();
         finite_ = mask_of<Real>(true);
@@ -53,15 +55,15 @@ public:
             StepStart<Model, Real> const from{pack.state.course.t, shadow.y, shadow.rates, memory_of(pack, shadow),
                                               pack.needs.template of_shadows<Model>()};
             auto& end = ends_[s];
-            end.step = step;
-            stepper.attempt(pack, from, end);
-            if (adapts) {
-                squared_norm_ = larger_norm(squared_norm(from, end), squared_norm_);
+            end.step = step.attempt.step;
+            step.stepper.attempt(pack, from, end);
+            if (step.adapts()) {
+                squared_norm_ = larger_norm(step.squared_error(from, end), squared_norm_);
             } else {
                 finite_ = finite_ & is_finite(end.end, end.end_rates);
             }
             faults_ = faults_.or_else(end.faults);
-            pack.template count_attempt<Stepper>(pack.busy);
+            pack.template count_attempt<std::remove_cvref_t<decltype(step.stepper)>>(pack.busy);
         }
     }
 
@@ -148,20 +150,17 @@ public:
         }
     }
 
-    /// At a stop: how the offsets have grown since the last one, and the shadows put back to d0 in the directions they went.
-    SLIDEWAY_HD void stop(Pack<Model, Real>& pack, Results<Model>& results, Mask<Real> at) {
-        rescale(pack, at);
-        results.take_growth(pack, at);
-    }
-
-private:
-    /// One is left alone within its bounds; several are made orthogonal, so that the j-th shows the j-th largest rate (Benettin et al. 1980).
-    SLIDEWAY_NOINLINE void rescale(Pack<Model, Real>& pack, Mask<Real> at) {
+    /// At a stop: how the offsets have grown since the last one, and the shadows put back to d0 in the directions they went.  One is
+    /// left alone within its bounds; several are made orthogonal, so that the j-th shows the j-th largest rate (Benettin et al. 1980).
+    SLIDEWAY_NOINLINE void stop(Pack<Model, Real>& pack, Results<Model>& results, Mask<Real> at) {
         // Impact speeds differ between member and shadow as the states do, and are rescaled with them.
         bool const speeds = pack.needs.cuts() && pack.needs.watching != Watching::modes;
         constexpr int width = HasImpacts<Model> ? size : size + Memory::speeds;
         speeds ? rescale_numbers<width>(pack, at) : rescale_numbers<size>(pack, at);
+        results.take_growth(pack, at);
     }
+
+private:
     /// @tparam width numbers of an offset: the state's, and the impact speeds
     template <int width> SLIDEWAY_HD void rescale_numbers(Pack<Model, Real>& pack, Mask<Real> at) {
         Real w[most_shadows][width], length[most_shadows];

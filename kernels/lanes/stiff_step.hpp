@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/lanes/pack.hpp"
+#include "kernels/lanes/stepper_traits.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/ros34pw2.hpp"
 
@@ -8,12 +9,9 @@ namespace slideway::inline SLIDEWAY_ISA {
 
 /// Attempts steps of the linearly implicit method in the lanes of a pack.  The model's linearisation stands for the Jacobian; it
 /// leaves out what is not stiff, which a W-method forgives.
-template <class Model, class Real> class StiffStep {
+template <class Model, class Real> class StiffStep : public StepperTraits {
 public:
-    static constexpr bool adaptive = true;
     static constexpr bool stiff = true;
-    static constexpr bool by_clock = false;
-    static constexpr bool ends_early = false;
     static constexpr int jacobians = 1;
     SLIDEWAY_HD static int order(Pack<Model, Real> const&) { return 3; }
     /// Per attempt, the end's and that of ∂f/∂t included.

@@ -3,28 +3,35 @@
 #include <type_traits>
 
 #include "kernels/lanes/crossing_search.hpp"
-#include "kernels/lanes/error_norm.hpp"
 #include "kernels/lanes/free_steps.hpp"
 #include "kernels/lanes/impact_steps.hpp"
 #include "kernels/lanes/method_choice.hpp"
-#include "kernels/lanes/moreau_jean_step.hpp"
-#include "kernels/lanes/neighbours.hpp"
 #include "kernels/lanes/pack_step.hpp"
 #include "kernels/lanes/peak_search.hpp"
 #include "kernels/lanes/settled_steps.hpp"
 #include "kernels/lanes/touch_steps.hpp"
-#include "kernels/lanes/uneventful.hpp"
 #include "kernels/real.hpp"
 #include "kernels/steppers/step_control.hpp"
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// How contacts limit the steps of a model by a stepper.
+/// The class that says how contacts limit the steps of a model by a stepper.
 template <class Stepper, class Model, class Real>
 using ContactSteps = std::conditional_t<
     Stepper::by_clock, ImpactSteps<Stepper, Model, Real>,
-    std::conditional_t<!Model::has_contacts || has_impulses<Stepper>, FreeSteps<Stepper, Model, Real>,
+    std::conditional_t<!Model::has_contacts || Stepper::has_impulses, FreeSteps<Stepper, Model, Real>,
                        std::conditional_t<HasImpacts<Model>, SettledSteps<Stepper, Model, Real>, TouchSteps<Stepper, Model, Real>>>>;
+
+/// A model without events of its own.  One that states `events` brings what finds them (tests/models/event_search.hpp).
+template <class Model, class Real> struct Uneventful {
+    template <class Stepper>
+    SLIDEWAY_HD void run(Pack<Model, Real>&, Stepper&, Attempt<Model, Real> const&, Mask<Real> /*accepted*/, Real& /*t_end*/, Mask<Real>& /*landed*/) {}
+    SLIDEWAY_HD void reset(Pack<Model, Real>&, Attempt<Model, Real>&) {}
+    SLIDEWAY_HD Mask<Real> piled_up(Pack<Model, Real>&, Real /*step*/) const { return mask_of<Real>(false); }
+    SLIDEWAY_HD Mask<Real> complete(Pack<Model, Real>&, Mask<Real> /*accepted*/) const { return mask_of<Real>(false); }
+};
+template <class Model, class Real> struct SearchFor { using Type = Uneventful<Model, Real>; };
+template <HasEvents Model, class Real> struct SearchFor<Model, Real> { using Type = typename Model::template Search<Model, Real>; };
 
 /// A pack of members at work with one stepper for a number of attempts.  Nothing that happens in one lane reaches another.
 /// A step is chosen (`begin`), tried, judged by all who may shorten it (`judge`: its error and that of the neighbours, the contacts, the stiff method), and
@@ -32,9 +39,7 @@ using ContactSteps = std::conditional_t<
 template <class Stepper, class Model, class Real> class Stint {
 public:
     SLIDEWAY_HD Stint(Pack<Model, Real>& pack, Results<Model>& results, IntegratorSettings const& settings)
-        : step_(pack, results, settings), control_(Stepper::order(pack), Contacts::control_percent), neighbours_(results.shadows()) {
-        max_step_ = Stepper::stiff ? settings.stiff_max_step : settings.max_step;
-    }
+        : step_(pack, results, settings), control_(Stepper::order(pack), Contacts::control_percent) {}
 
     /// Every lane attempts `attempts` steps, unless its member ends or leaves the stiff method before.
     SLIDEWAY_HD void work(int attempts) {
@@ -43,13 +48,12 @@ public:
         int const members_at_start = held_lanes(members);
         for (int i = 0; i < attempts && any(pack.busy); ++i) {
             // Where nothing is decided between stints, a lane that falls free ends the stint and is filled at once.
-            if ((!Regroups<Model> || has_impulses<Stepper>) && held_lanes(pack.busy) < members_at_start) break;
+            if ((!Regroups<Model> || Stepper::has_impulses) && held_lanes(pack.busy) < members_at_start) break;
             begin();
             // Before the member: what the stepper knows of the step is then the member's.
-            neighbours_.attempt(pack, step_.stepper, step_.attempt.step, step_.adapts(),
-                                [&](auto const& from, auto const& attempt) { return squared_error_norm(from, attempt); });
+            step_.neighbours.attempt(step_);
             step_.stepper.attempt(pack, pack.start(), step_.attempt);
-            settle();
+            decide();
         }
         pack.busy = members & (pack.busy | left_);
     }
@@ -59,13 +63,11 @@ private:
     using Choice = MethodChoice<Model, Real>;
 
     /// What is decided of an attempt.
-    struct Verdict {
-        Mask<Real> accepted;
+    struct Verdict : Allowance<Real> {
         Mask<Real> rejected;
         Mask<Real> cut;        // rejected because an event must end the step
-        Mask<Real> divergent;  // the error is beyond all bounds
+        Mask<Real> divergent;  // the error is beyond all bounds, or the end not finite
         Mask<Real> impact;     // rejected because the stiff method would swallow an impact
-        Real next;             // as of an Allowance
     };
 
     /// Chooses the step.
@@ -82,75 +84,66 @@ private:
         results.count_attempt(lanes<Real>, held_lanes(pack.busy));
     }
 
-    SLIDEWAY_HD Real squared_error_norm(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to) {
-        return ErrorNorm<Stepper, Model, Real>::squared(step_.pack, step_.stepper, step_.settings, from, to);
-    }
-
     /// Accepts or rejects per lane.
-    SLIDEWAY_HD void settle() {
+    SLIDEWAY_HD void decide() {
         auto& pack = step_.pack;
         auto& c = pack.state.course;
-        auto const busy = pack.busy;
         auto const verdict = judge();
         c.accepted = c.accepted + count<Real>(verdict.accepted);
         c.rejected = c.rejected + count<Real>(verdict.rejected);
-        Real next = min(verdict.next, Real(max_step_));
+        Real next = min(verdict.next, step_.longest());
         Mask<Real> const failed = verdict.rejected & (negation(verdict.cut) | contacts_.failed_landings(step_));
-        c.rejections = select(busy, count<Real>(failed), c.rejections);
+        c.rejections = select(pack.busy, count<Real>(failed), c.rejections);
         Mask<Real> const still = verdict.rejected & (contacts_.time_of(step_, verdict.next) <= step_.resolution());
         Mask<Real> stuck = step_.adapts() ? still : verdict.rejected;
-        step_.attempt.faults = neighbours_.faults_beside(step_.attempt.faults);
+        step_.attempt.faults = step_.neighbours.faults_beside(step_.attempt.faults);
 
         auto finished = mask_of<Real>(false);
         if (any(verdict.accepted)) {
             finished = advance(verdict.accepted, next);
             stuck = stuck | search_.piled_up(pack, step_.attempt.step);
         }
-        contacts_.keep(step_, busy, verdict.next, next, Real(max_step_));
-        auto const spent = busy & !finished & (c.accepted + c.rejected >= Real(static_cast<double>(step_.settings.max_steps)));
+        contacts_.store_next(step_, verdict.next, next);
+        auto const spent = pack.busy & !finished & (c.accepted + c.rejected >= Real(static_cast<double>(step_.settings.max_steps)));
         Mask<Real> const ended = finished | stuck | spent, divergent = stuck & verdict.divergent;
         if (any(ended)) {
             step_.results.retire(pack, {ended, finished, stuck, divergent}, step_.attempt.faults.within(stuck));
             pack.busy = pack.busy & !ended;
         }
         if constexpr (Stepper::stiff) {
-            if (step_.is_auto()) leave_stiffness(verdict);
+            if (!step_.is_auto()) return;
+            auto const leaving = Choice::leave_stiffness(pack, step_.stepper, step_.attempt.step, verdict.accepted, verdict.impact, step_.settings.max_step);
+            left_ = left_ | leaving;
+            pack.busy = pack.busy & !leaving;
         }
     }
 
-    SLIDEWAY_HD void leave_stiffness(Verdict const& verdict) {
-        auto& pack = step_.pack;
-        auto const leaving = Choice::leave_stiffness(pack, step_.stepper, step_.attempt.step, verdict.accepted, verdict.impact, step_.settings.max_step);
-        left_ = left_ | leaving;
-        pack.busy = pack.busy & !leaving;
-    }
-
-    /// Folds what all who may shorten the step allow: its error first, then the events of what it may still be.
+    /// Accepts or rejects by the error, then by the contacts, then by impacts in stiff steps.
     SLIDEWAY_HD Verdict judge() {
         auto& pack = step_.pack;
         Verdict verdict;
         verdict.impact = verdict.divergent = mask_of<Real>(false);
-        Real const former_memory = pack.state.course.error_memory;
-        auto allowed = step_.adapts() ? allowed_by_error(verdict.divergent) : allowed_if_finite(verdict.divergent);
-        verdict.cut = contacts_.cut(step_, neighbours_, allowed, former_memory);
+        step_.former_memory = pack.state.course.error_memory;
+        auto& allowed = static_cast<Allowance<Real>&>(verdict);
+        allowed = step_.adapts() ? allowed_by_error(verdict.divergent) : allowed_if_finite(verdict.divergent);
+        verdict.cut = contacts_.cut(step_, allowed);
         if constexpr (Stepper::stiff && Model::has_patterns) {
             if (step_.is_auto()) verdict.impact = Choice::find_impacts(pack, step_.attempt, allowed.accepted);
         }
-        verdict.accepted = allowed.accepted & !verdict.impact;
+        verdict.accepted = verdict.accepted & !verdict.impact;
         verdict.rejected = pack.busy & !verdict.accepted;
-        verdict.next = allowed.next;
         return verdict;
     }
 
     SLIDEWAY_HD Allowance<Real> allowed_by_error(Mask<Real>& divergent) {
         auto& c = step_.pack.state.course;
         Real squared_norm(0.0);
-        if constexpr (Stepper::adaptive) squared_norm = squared_error_norm(step_.pack.start(), step_.attempt);
-        squared_norm = neighbours_.larger_norm_than(squared_norm);
+        if constexpr (Stepper::adaptive) squared_norm = step_.squared_error(step_.pack.start(), step_.attempt);
+        squared_norm = step_.neighbours.larger_norm_than(squared_norm);
         Mask<Real> const accepted = step_.pack.busy & (squared_norm <= Real(1.0));
         step_.squared_norm = squared_norm;
         divergent = !(squared_norm < Real(1e300));
-        // Whether what is beyond all bounds came out infinite or NaN may be the neighbours' doing.
+        // Whether what is beyond all bounds came out infinite or NaN may be the other lanes' doing.
         squared_norm = select(divergent, Real(not_a_number), squared_norm);
         Real const factor = control_.factor(squared_norm, accepted, c.rejections > Real(0.5), c.error_memory);
         Real const next = contacts_.next(step_, accepted, factor);
@@ -160,7 +153,7 @@ private:
 
     SLIDEWAY_HD Allowance<Real> allowed_if_finite(Mask<Real>& divergent) {
         auto const busy = step_.pack.busy;
-        Mask<Real> const accepted = neighbours_.finite_beside(busy & is_finite(step_.attempt.end, step_.attempt.end_rates));
+        Mask<Real> const accepted = step_.neighbours.finite_beside(busy & is_finite(step_.attempt.end, step_.attempt.end_rates));
         divergent = busy & !accepted;
         return {accepted, step_.attempt.step};
     }
@@ -178,9 +171,9 @@ private:
         observe(accepted);
         for (int i = 0; i < Model::size; ++i) c.y[i] = select(accepted, attempt.end[i], c.y[i]);
         c.t = select(accepted, t_end, c.t);
-        if constexpr (Stepper::stiff) c.stiff_steps = c.stiff_steps + count<Real>(accepted);
+        if (Stepper::stiff) c.stiff_steps = c.stiff_steps + count<Real>(accepted);
         pack.begin_next(accepted, attempt.end_rates, attempt.report);
-        contacts_.advance(step_, neighbours_, accepted, next);
+        contacts_.advance(step_, accepted, next);
         if (step_.results.stops() > 0) stop(landed);
         return (landed & (c.t >= pack.state.constants.end)) | search_.complete(pack, accepted);
     }
@@ -200,7 +193,7 @@ private:
         auto& pack = step_.pack;
         auto& attempt = step_.attempt;
         if (!pack.needs.quantities) return;
-        if constexpr (has_impulses<Stepper>) pack.state.observation.observer.take_impulses(accepted, attempt.report);
+        if constexpr (Stepper::has_impulses) pack.state.observation.observer.take_impulses(accepted, attempt.report);
         if constexpr (PeakSearch<Stepper, Model, Real>::is_of_use) {
             if (pack.needs.peaks && step_.adapts()) PeakSearch<Stepper, Model, Real>::run(pack, step_.stepper, attempt, accepted);
         }
@@ -214,16 +207,14 @@ private:
         auto const at = landed & (c.t >= step_.results.next_stop(step_.pack.state));
         if (none(at)) return;
         step_.results.take_section(step_.pack, at);
-        neighbours_.stop(step_.pack, step_.results, at);
+        step_.neighbours.stop(step_.pack, step_.results, at);
         c.stop = c.stop + count<Real>(at);
     }
 
     PackStep<Stepper, Model, Real> step_;
     StepControl control_;
-    [[no_unique_address]] SearchOf<Model, Real> search_;
-    [[no_unique_address]] Neighbours<Model, Real> neighbours_;
+    [[no_unique_address]] typename SearchFor<Model, Real>::Type search_;
     [[no_unique_address]] Contacts contacts_;
-    double max_step_;
     Mask<Real> left_ = mask_of<Real>(false);  // lanes that leave the stiff method
 };
 

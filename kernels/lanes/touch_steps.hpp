@@ -5,7 +5,7 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// Steps of a model whose contacts have forces.  A touch, or a change of mode, must end its step where it sets the impact speed of what follows, or the law
+/// How contacts with forces limit steps that go by time.  A touch, or a change of mode, must end its step where it sets the impact speed of what follows, or the law
 /// that holds (Watching).
 template <class Stepper, class Model, class Real> class TouchSteps : public FreeSteps<Stepper, Model, Real> {
     using Base = FreeSteps<Stepper, Model, Real>;
@@ -13,10 +13,9 @@ template <class Stepper, class Model, class Real> class TouchSteps : public Free
 public:
     using typename Base::Report, typename Base::Step;
 
-    /// Which contacts are held, where steps hold any.
-    template <class Neighbours>
-    SLIDEWAY_HD static Faults<Real> start(Pack<Model, Real>& pack, Results<Model>&, Neighbours&, IntegratorSettings const&, Real* rates, Report& report,
-                                          Faults<Real> const& faults) {
+    /// Starts the watch; where steps hold contacts, evaluates again with those held.
+    SLIDEWAY_HD static Faults<Real> start(Pack<Model, Real>& pack, Results<Model>&, Neighbours<Model, Real>&, IntegratorSettings const&, Real* rates,
+                                          Report& report) {
         auto const& c = pack.state.course;
         auto& [memory, watch] = pack.state.contacts;
         if (pack.needs.cuts()) watch.begin(pack.busy, report.contact, memory, pack.needs.watching);
@@ -26,21 +25,21 @@ public:
             pack.count_evaluations(pack.busy, 1);
             watch.begin(pack.busy, report.contact, memory, pack.needs.watching);
         }
-        return faults;
+        return Faults<Real>::none();
     }
 
-    template <class Neighbours> SLIDEWAY_HD Mask<Real> cut(Step& step, Neighbours& neighbours, Allowance<Real>& allowed, Real former_memory) {
+    SLIDEWAY_HD Mask<Real> cut(Step& step, Allowance<Real>& allowed) {
         auto const& pack = step.pack;
         if (!pack.needs.cuts() || !step.adapts()) return mask_of<Real>(false);
         auto const watching = pack.needs.watching;
         auto const early = allowed.accepted & (step.attempt.step > step.resolution() * Real(64.0));
-        Real const located = Real(neighbours.located(Model::template Watch<Real>::tolerance(watching))) * Model::touch_scale(pack.state.constants.parameters);
+        Real const located = Real(step.neighbours.located(Model::template Watch<Real>::tolerance(watching))) * Model::touch_scale(pack.state.constants.parameters);
         Real fraction = pack.state.contacts.watch.earliest(early, step.attempt.report.contact, step.attempt.step, located, watching);
-        fraction = neighbours.first_event(pack, early, located, fraction);
-        return Base::try_again(step, neighbours, fraction < Real(1.0), fraction, allowed, former_memory);
+        fraction = step.neighbours.first_event(pack, early, located, fraction);
+        return Base::try_again(step, fraction < Real(1.0), fraction, allowed);
     }
 
-    template <class Neighbours> SLIDEWAY_HD void advance(Step& step, Neighbours& neighbours, Mask<Real> accepted, Real& next) {
+    SLIDEWAY_HD void advance(Step& step, Mask<Real> accepted, Real& next) {
         if (step.pack.needs.watch()) {
             auto& [memory, watch] = step.pack.state.contacts;
             bool const may_shorten = !Stepper::stiff && step.adapts();
@@ -50,7 +49,7 @@ public:
             known_ = known_ | accepted;
             if (any(touched)) step.restart(touched);
         }
-        neighbours.advance(step.pack, accepted);
+        step.neighbours.advance(step.pack, accepted);
     }
 
 private:

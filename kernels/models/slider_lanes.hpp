@@ -10,7 +10,7 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// What the lanes need of a mechanism beside its equations (kernels/integrate.hpp): of all that share a base.
+/// What the lanes need of a mechanism beside its equations (kernels/lanes/model.hpp): of all that share a base.
 template <class Base> struct LanesOf;
 
 /// What is alike in the lanes of all mechanisms with a slider.  @tparam Base has an `energy_scale`

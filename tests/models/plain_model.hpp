@@ -9,7 +9,7 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// What a small model of `components` states leaves at its plainest (kernels/integrate.hpp).
+/// What a small model of `components` states leaves at its plainest (kernels/lanes/model.hpp).
 template <int components> struct PlainModel {
     static constexpr int size = components;
     static constexpr int series = components;

@@ -2,6 +2,7 @@
 
 #include "kernels/lanes/attempt.hpp"
 #include "kernels/lanes/pack.hpp"
+#include "kernels/lanes/stepper_traits.hpp"
 #include "kernels/real.hpp"
 #include "tests/models/jet.hpp"
 
@@ -11,13 +12,8 @@ namespace slideway::inline SLIDEWAY_ISA {
 /// the derivative, which `Jet` finds.  The error estimate is the last term, that of the series one order lower: half the order's
 /// multiplications buy nothing but length of step, which falls with 1/e² of the radius of convergence at the best order
 /// −½ ln(tolerance) (Jorba & Zou, Experimental Mathematics 14 (2005) 99).
-template <int terms, class Model, class Real> class TaylorStep {
+template <int terms, class Model, class Real> class TaylorStep : public StepperTraits {
 public:
-    static constexpr bool adaptive = true;
-    static constexpr bool stiff = false;
-    static constexpr bool by_clock = false;
-    static constexpr bool ends_early = false;
-    static constexpr int jacobians = 0;
     SLIDEWAY_HD static int order(Pack<Model, Real> const&) { return terms; }
     /// Per attempt: its coefficients, and the end.
     SLIDEWAY_HD static int evaluations(Pack<Model, Real> const&) { return terms + 1; }
