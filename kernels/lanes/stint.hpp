@@ -92,7 +92,7 @@ private:
         c.accepted = c.accepted + count<Real>(verdict.accepted);
         c.rejected = c.rejected + count<Real>(verdict.rejected);
         Real next = min(verdict.next, step_.longest());
-        Mask<Real> const failed = verdict.rejected & (negation(verdict.cut) | contacts_.failed_landings(step_));
+        Mask<Real> const overshot = contacts_.failed_landings(step_), failed = verdict.rejected & (negation(verdict.cut) | overshot);
         c.rejections = select(pack.busy, count<Real>(failed), c.rejections);
         Mask<Real> const still = verdict.rejected & (contacts_.time_of(step_, verdict.next) <= step_.resolution());
         Mask<Real> stuck = step_.adapts() ? still : verdict.rejected;
