@@ -53,6 +53,18 @@ public:
 protected:
     static constexpr double hair = 1.000001;  // how much longer than it may be a step gets to land
 
+    /// Whether events of the contacts end steps that have been made.
+    SLIDEWAY_HD static bool may_cut(Step const& step) { return step.pack.needs.cuts() && step.adapts(); }
+
+    /// Fraction of the step at which the first of them is, of a member or a neighbour; 1 where none must end it.  @param located depth of one that is found [m]
+    SLIDEWAY_HD static Real first_event(Step const& step, Mask<Real> accepted, Real located) {
+        auto const& pack = step.pack;
+        auto const& attempt = step.attempt;
+        auto const early = accepted & (attempt.step > step.least_cut());
+        Real const fraction = pack.state.contacts.watch.earliest(early, attempt.report.contact, attempt.step, located, pack.needs.watching);
+        return step.neighbours.first_event(pack, early, located, fraction);
+    }
+
     /// Has lanes, of those that are accepted so far, try again with a fraction of their step.
     SLIDEWAY_HD static Mask<Real> try_again(Step& step, Mask<Real> cut, Real fraction, Allowance<Real>& allowed) {
         Real const whole = step.attempt.step;

@@ -7,8 +7,8 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// How contacts with forces limit steps by the clocks of impacts (ClockStep), beside those by time: a member remembers its step in flight while it is in contact, and the first one of an
-/// impact until the next.  A touch or a parting ends its step.
+/// How contacts with forces limit steps by the clocks of impacts (ClockStep), beside those by time: a member remembers its step in flight while it is
+/// in contact, and the first one of an impact until the next.  A touch or a parting ends its step.
 template <class Stepper, class Model, class Real> class ImpactSteps : public FreeSteps<Stepper, Model, Real> {
     using Base = FreeSteps<Stepper, Model, Real>;
     using State = MemberState<Model, Real>;
@@ -60,15 +60,15 @@ public:
     SLIDEWAY_HD Mask<Real> cut(Step& step, Allowance<Real>& allowed) {
         auto& pack = step.pack;
         auto const& last = step.stepper.step();
-        Real const own = last.own, resolution = step.resolution();
+        Real const own = last.own;
         // A clock has steps of any size; what it does to time may round to nothing.
-        Mask<Real> const long_enough = allowed.accepted & (last.start.runs() | (own > resolution * Real(64.0)));
+        Mask<Real> const long_enough = allowed.accepted & (last.start.runs() | (own > step.least_cut()));
         Real const depth = Real(located(step.settings.rtol, pack.needs.switches)) * Model::touch_scale(pack.state.constants.parameters);
         Real share = pack.state.contacts.watch.earliest(long_enough, pack.state.contacts.memory, step.attempt.report.contact, last, depth);
         auto cut = share < Real(1.0);
         if (any(cut)) cut = end_early(pack, step.stepper, step.attempt, cut, depth, share);
         ended_early_ = allowed.accepted & (share < Real(1.0)) & !cut;
-        Real const least = select(last.start.runs(), Real(0.0), resolution * Real(32.0));
+        Real const least = select(last.start.runs(), Real(0.0), step.resolution() * Real(32.0));
         Base::reject(step, cut, max(own * share, least), allowed);
         return cut;
     }

@@ -22,8 +22,9 @@ template <class Model> concept HasOwnStepper = requires { requires Model::has_ow
 /// Whether members take turns in the lanes with those that touch alike.  Those with shadows are too much to move for the little that impacts last.
 template <class Model> concept Regroups = Model::has_patterns && !(HasImpacts<Model> && Model::has_shadows);
 
-/// What lanes ask of a model.  The assertions name what is missing of what all models have, and for each part that a model may have the rest of it.  All of it is static but for the equations, which may be members: a model
-/// can look them up (kernels/models/mechanism_table.hpp).  Its parameters, memory and watch hold Reals only.
+/// What lanes ask of a model.  The assertions name what is missing of what all models have, and for each part that a model may have the rest of it.
+/// All of it is static but for the equations, which may be members: a model can look them up (kernels/models/mechanism_table.hpp).  Its parameters,
+/// memory and watch hold Reals only.
 /// @tparam Real a number or a pack of them
 template <class Model, class Real> class ModelParts {
     template <class Number> using Parameters = typename Model::template Parameters<Number>;

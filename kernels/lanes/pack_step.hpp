@@ -37,6 +37,8 @@ template <class Stepper, class Model, class Real> struct PackStep {
     SLIDEWAY_HD FineTime<Real> fine_time() const { return {pack.state.constants.end, Model::has_shadows && !HasImpacts<Model>}; }
     /// Least step that moves time [s].
     SLIDEWAY_HD Real resolution() const { return fine_time().resolution(); }
+    /// Least step that an event may cut [s].
+    SLIDEWAY_HD Real least_cut() const { return resolution() * Real(64.0); }
 
     /// Of an attempt, the members' own or a neighbour's.
     SLIDEWAY_HD Real squared_error(StepStart<Model, Real> const& from, Attempt<Model, Real> const& to) {

@@ -7,8 +7,8 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// How contacts limit steps where impacts have no duration: these end where a pair meets, parts, or changes between slipping and sticking, and there `settle`
-/// says what follows.
+/// How contacts limit steps where impacts have no duration: these end where a pair meets, parts, or changes between slipping and sticking, and there
+/// `settle` says what follows.
 template <class Stepper, class Model, class Real> class SettledSteps : public FreeSteps<Stepper, Model, Real> {
     using Base = FreeSteps<Stepper, Model, Real>;
 
@@ -38,14 +38,13 @@ public:
     }
 
     SLIDEWAY_HD Mask<Real> cut(Step& step, Allowance<Real>& allowed) {
-        auto const& pack = step.pack;
-        if (!pack.needs.cuts() || !step.adapts()) return mask_of<Real>(false);
-        Real const least = step.resolution() * Real(64.0), located = Model::located(pack.state.constants.parameters, pack.state.constants.end);
-        auto const early = allowed.accepted & (step.attempt.step > least);
-        Real fraction = pack.state.contacts.watch.earliest(early, step.attempt.report.contact, step.attempt.step, located, pack.needs.watching);
+        if (!Base::may_cut(step)) return mask_of<Real>(false);
+        auto const& constants = step.pack.state.constants;
+        Real const located = Model::located(constants.parameters, constants.end);
+        Real fraction = Base::first_event(step, allowed.accepted, located);
         auto cut = fraction < Real(1.0);
         if constexpr (Stepper::ends_early) {
-            ended_early_ = cut & knows_inside(step, fraction) & (step.attempt.step * fraction > least);
+            ended_early_ = cut & knows_inside(step, fraction) & (step.attempt.step * fraction > step.least_cut());
             if (any(ended_early_)) {
                 ended_early_ = EventEnd<Stepper, Model, Real>(step.pack, step.stepper, step.attempt, located).run(ended_early_, fraction);
                 cut = cut & !ended_early_;

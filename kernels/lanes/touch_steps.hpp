@@ -5,8 +5,8 @@
 
 namespace slideway::inline SLIDEWAY_ISA {
 
-/// How contacts with forces limit steps that go by time.  A touch, or a change of mode, must end its step where it sets the impact speed of what follows, or the law
-/// that holds (Watching).
+/// How contacts with forces limit steps that go by time.  A touch, or a change of mode, must end its step where it sets the impact speed of what
+/// follows, or the law that holds (Watching).
 template <class Stepper, class Model, class Real> class TouchSteps : public FreeSteps<Stepper, Model, Real> {
     using Base = FreeSteps<Stepper, Model, Real>;
 
@@ -29,13 +29,10 @@ public:
     }
 
     SLIDEWAY_HD Mask<Real> cut(Step& step, Allowance<Real>& allowed) {
-        auto const& pack = step.pack;
-        if (!pack.needs.cuts() || !step.adapts()) return mask_of<Real>(false);
-        auto const watching = pack.needs.watching;
-        auto const early = allowed.accepted & (step.attempt.step > step.resolution() * Real(64.0));
-        Real const located = Real(step.neighbours.located(Model::template Watch<Real>::tolerance(watching))) * Model::touch_scale(pack.state.constants.parameters);
-        Real fraction = pack.state.contacts.watch.earliest(early, step.attempt.report.contact, step.attempt.step, located, watching);
-        fraction = step.neighbours.first_event(pack, early, located, fraction);
+        if (!Base::may_cut(step)) return mask_of<Real>(false);
+        double const tolerance = step.neighbours.located(Model::template Watch<Real>::tolerance(step.pack.needs.watching));
+        Real const located = Real(tolerance) * Model::touch_scale(step.pack.state.constants.parameters);
+        Real const fraction = Base::first_event(step, allowed.accepted, located);
         return Base::try_again(step, fraction < Real(1.0), fraction, allowed);
     }
 

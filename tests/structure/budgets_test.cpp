@@ -38,9 +38,9 @@ struct Layer {
 };
 
 TEST(Budgets, OfLines) {
-    EXPECT_LE(Layer("kernels").lines(), 17'233u);
+    EXPECT_LE(Layer("kernels").lines(), 17'244u);
     EXPECT_LE(Layer("kernels/rigid").lines(), 4'235u);
-    EXPECT_LE(Layer("kernels/lanes").lines(), 3'615u);
+    EXPECT_LE(Layer("kernels/lanes").lines(), 3'626u);
     EXPECT_LE(Layer("host").lines(), 29'749u);
 }
 
