@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "kernels/steppers/dop853.hpp"
-#include "tests/unit/kernels/logistic.hpp"
+#include "tests/unit/steppers/logistic.hpp"
 
 namespace slideway::dop853_test {
 namespace {

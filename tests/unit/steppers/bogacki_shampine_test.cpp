@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/unit/kernels/logistic.hpp"
+#include "tests/unit/steppers/logistic.hpp"
 
 namespace slideway::bogacki_shampine_test {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "kernels/lanes/stepped_numbers.hpp"
-#include "tests/unit/kernels/logistic.hpp"
+#include "tests/unit/steppers/logistic.hpp"
 
 namespace slideway::verner65_test {
 namespace {

@@ -7,7 +7,7 @@
 #include "kernels/laws/list.hpp"
 #include "tests/oracle/oracle.hpp"
 
-namespace slideway::observer_probe_test {
+namespace slideway::misaligned_way_test {
 namespace {
 
 TEST(MisalignedWay, GivesThePenetrationsOfASliderUpsideDown) {
@@ -37,4 +37,4 @@ TEST(MisalignedWay, GivesThePenetrationsOfASliderUpsideDown) {
 }
 
 }  // namespace
-}  // namespace slideway::observer_probe_test
+}  // namespace slideway::misaligned_way_test

@@ -13,7 +13,7 @@
 #include "tests/oracle/names.hpp"
 #include "tests/oracle/planar.hpp"
 #include "tests/oracle/random_states.hpp"
-#include "tests/unit/kernels/oracle_comparison.hpp"
+#include "tests/unit/mechanisms/oracle_comparison.hpp"
 
 namespace slideway::mechanism_oracle_test {
 namespace {

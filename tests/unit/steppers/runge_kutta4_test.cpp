@@ -8,7 +8,7 @@
 #include "kernels/steppers/runge_kutta4.hpp"
 #include "tests/models/fixed_step.hpp"
 #include "tests/models/lorenz.hpp"
-#include "tests/unit/kernels/logistic.hpp"
+#include "tests/unit/steppers/logistic.hpp"
 
 namespace slideway::runge_kutta4_test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "kernels/steppers/dormand_prince.hpp"
 #include "kernels/steppers/verner65.hpp"
-#include "tests/unit/kernels/logistic.hpp"
+#include "tests/unit/steppers/logistic.hpp"
 
 namespace slideway::dormand_prince_test {
 namespace {

@@ -19,7 +19,7 @@
 #include "tests/oracle/planar.hpp"
 #include "tests/oracle/random_states.hpp"
 #include "tests/support/compiled_laws.hpp"
-#include "tests/unit/kernels/oracle_comparison.hpp"
+#include "tests/unit/mechanisms/oracle_comparison.hpp"
 
 namespace slideway::report_oracle_test {
 namespace {

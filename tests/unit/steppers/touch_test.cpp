@@ -7,7 +7,7 @@
 #include "kernels/joint/contact_report.hpp"
 #include "kernels/steppers/contact_watch.hpp"
 
-namespace slideway::observer_touch_test {
+namespace slideway::touch_test {
 namespace {
 
 using Watch = ContactWatch<double>;
@@ -296,4 +296,4 @@ TEST(ImpactWatch, FindsTheTouchOfAnotherPairByTheClock) {
 }
 
 }  // namespace
-}  // namespace slideway::observer_touch_test
+}  // namespace slideway::touch_test

@@ -8,7 +8,7 @@
 
 #include "kernels/integrate.hpp"
 #include "tests/models/plain_model.hpp"
-#include "tests/unit/kernels/logistic.hpp"
+#include "tests/unit/steppers/logistic.hpp"
 
 namespace slideway::taylor_step_test {
 namespace {

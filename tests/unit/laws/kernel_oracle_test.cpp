@@ -9,7 +9,7 @@
 #include "kernels/mechanisms/list.hpp"
 #include "tests/oracle/names.hpp"
 #include "tests/oracle/random_states.hpp"
-#include "tests/unit/kernels/oracle_comparison.hpp"
+#include "tests/unit/mechanisms/oracle_comparison.hpp"
 
 namespace slideway::kernel_oracle_test {
 namespace {
