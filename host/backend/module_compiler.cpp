@@ -67,6 +67,7 @@ struct Toolchain {
     std::vector<fs::path> includes;
     Words compiler;
     Words options;  // that CXX gives it
+    bool copies_wide = true;  // whether it has what g++ 12 added for copies: clang and older g++ make the same bits without
 };
 
 /// Where headers of the system and of compilers lie, which are no part of a source.
@@ -75,6 +76,13 @@ bool is_of_system(std::string const& path) {
 }
 
 constexpr char const* border = "host/backend/kernel_module.cpp";
+
+/// Whether the compiler has the flags of an instruction set for copies of structures.
+bool copies_wide(Words const& compiler, fs::path const& log) {
+    Words words = compiler;
+    words.insert(words.end(), {"-mmove-max=256", "-mstore-max=256", "-fsyntax-only", "-x", "c++", "/dev/null"});
+    return run_child(words, log.string(), CtrlC::ends_it).status == 0;
+}
 
 /// The value of a variable in a build's cache.
 std::string cached(fs::path const& build, std::string_view variable) {
@@ -112,7 +120,15 @@ Toolchain toolchain(fs::path const& work) {
     std::string const header = text_of(tools.includes.back() / "host/backend/kernel_sources.hpp");
     if (header.find("\"" SLIDEWAY_KERNEL_BORDER "\"") == header.npos)
         throw DeviceError(fmt::format("the headers in {} are of other sources than this program; build it again", tools.includes.front().string()));
+    tools.copies_wide = copies_wide(tools.compiler, work / "copies.log");
     return tools;
+}
+
+/// The flags of an instruction set that this compiler has.
+Words flags_for(Toolchain const& tools, Isa isa) {
+    Words flags = words_of(flags_of(isa));
+    if (!tools.copies_wide) std::erase_if(flags, [](std::string const& flag) { return flag.starts_with("-mmove-max=") || flag.starts_with("-mstore-max="); });
+    return flags;
 }
 
 /// Runs the compiler.  @throws CompileError with its words
@@ -189,7 +205,7 @@ std::string hash_of(Toolchain const& tools, std::vector<fs::path> const& parts) 
 /// As an instruction set's compiler sees the header.
 Offer offer_of(Toolchain const& tools, Isa isa, std::string const& header, fs::path const& file, fs::path const& work) {
     fs::path const rule = work / "rule", macros = work / "macros";
-    Words arguments = words_of(flags_of(isa));
+    Words arguments = flags_for(tools, isa);
     arguments.insert(arguments.end(), {"-std=c++20", "-x", "c++", "-E", "-dM", "-MD", "-MF", rule.string(), "-DSLIDEWAY_NO_SIMD",
                                        fmt::format("-DSLIDEWAY_ISA={}", name_of(isa)), "-w", "-o", macros.string()});
     Words const includes = include_words(tools);
@@ -225,7 +241,7 @@ struct Task {
 Task task_of(Toolchain const& tools, ModuleKind kind, Isa isa, Offer const& offer, fs::path const& file, fs::path const& work) {
     std::string const stem = fmt::format("{}_{}", name_of(kind), name_of(isa));
     auto const is_law = kind == ModuleKind::law;
-    Words flags = words_of(flags_of(isa));
+    Words flags = flags_for(tools, isa);
     Words const more = words_of(SLIDEWAY_MODULE_FLAGS), includes = include_words(tools);
     flags.insert(flags.end(), more.begin(), more.end());
     flags.insert(flags.end(), includes.begin(), includes.end());
